@@ -1,0 +1,1 @@
+//! Benchmarks: side by side with hand-written floors and with peers.

@@ -1,0 +1,1 @@
+//! Measured data: observations, fit, noise, diagnosis, effects, amendment, report data.

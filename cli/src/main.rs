@@ -1,0 +1,3 @@
+//! The `trueaxis` command.
+
+fn main() {}

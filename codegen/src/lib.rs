@@ -1,0 +1,1 @@
+//! Straight-line programs from derived forms, their interpreter and one writer per language.

@@ -1,0 +1,184 @@
+//! The checked chain: what a declaration means, once every rule of the language holds.
+//!
+//! It has no places in a source text; those stay in [`crate::syntax`].
+
+use crate::algebra::Poly;
+use crate::symbol::{Symbol, SymbolId, SymbolKind};
+
+/// A body of one chain: an index into [`Chain::bodies`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct BodyId(pub u16);
+
+/// An observable of one chain: an index into [`Chain::observables`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ObservableId(pub u16);
+
+/// An instrument: bodies hung on each other from the ground up, and what it shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chain {
+    /// The declared name: `MobileLidar`.
+    pub name: String,
+    /// Documentation from the `///` lines above the declaration.
+    pub documentation: String,
+    /// Every symbol in order of declaration or first use; the first is π.
+    pub symbols: Vec<Symbol>,
+    /// Bodies, each after its lower body.
+    pub bodies: Vec<Body>,
+    /// Observables in order of declaration.
+    pub observables: Vec<Observable>,
+    /// Where down is, in the ground frame; need not be of length one. −z unless declared.
+    pub gravity: [Poly; 3],
+}
+
+/// A rigid part of the instrument.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Body {
+    /// The declared name: `middle`.
+    pub name: String,
+    /// Documentation from the `///` lines above the body.
+    pub documentation: String,
+    /// The body it hangs on; `None` is the ground.
+    pub lower: Option<BodyId>,
+    /// Its elementary transforms, multiplied left to right.
+    pub factors: Vec<Factor>,
+}
+
+/// One elementary transform of a body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Factor {
+    /// What it is for.
+    pub role: Role,
+    /// Rotation or shift.
+    pub motion: Motion,
+    /// About or along which axis.
+    pub axis: Axis,
+    /// By how much: rad for rotations, m for shifts.
+    pub amount: Poly,
+    /// Documentation of the factor, or of its group.
+    pub documentation: String,
+}
+
+/// What a factor is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Role {
+    /// Where the body sits on its lower body, by design.
+    Position,
+    /// How it was assembled otherwise.
+    PositionError,
+    /// How a joint moves it.
+    Motion,
+    /// How the motion differs from that.
+    MotionError,
+}
+
+/// The two kinds of elementary transform.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Motion {
+    /// `Rx Ry Rz`: rotation about an axis, right-handed, rad.
+    Rotation,
+    /// `Tx Ty Tz`: shift along an axis, m.
+    Translation,
+}
+
+/// A coordinate axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Axis {
+    /// The x axis.
+    X,
+    /// The y axis.
+    Y,
+    /// The z axis.
+    Z,
+}
+
+impl Axis {
+    /// 0, 1 or 2.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self as usize
+    }
+}
+
+/// What an instrument shows, in the ground frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Observable {
+    /// The declared name: `pointing`.
+    pub name: String,
+    /// Documentation from the `///` lines above it.
+    pub documentation: String,
+    /// A direction or a point.
+    pub kind: ObservableKind,
+    /// Its components in the frame of `body`; amounts of constants and inputs.
+    pub components: [Poly; 3],
+    /// The body that carries it.
+    pub body: BodyId,
+}
+
+/// Whether an observable is moved by shifts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum ObservableKind {
+    /// A direction (homogeneous 0): rotations alone move it; no unit.
+    Direction,
+    /// A point (homogeneous 1): in metres. A point at a measured range is a point with an input in it.
+    Point,
+}
+
+impl Chain {
+    /// The symbol behind an id.
+    #[must_use]
+    pub fn symbol(&self, id: SymbolId) -> &Symbol {
+        &self.symbols[id.index()]
+    }
+
+    /// The id of a declared name.
+    #[must_use]
+    pub fn find_symbol(&self, name: &str) -> Option<SymbolId> {
+        let index = self.symbols.iter().position(|symbol| symbol.name == name)?;
+        u16::try_from(index).ok().map(SymbolId)
+    }
+
+    /// Every symbol of one kind, in order.
+    pub fn symbols_of(&self, kind: SymbolKind) -> impl Iterator<Item = SymbolId> + '_ {
+        (0u16..)
+            .zip(&self.symbols)
+            .filter(move |(_, symbol)| symbol.kind == kind)
+            .map(|(index, _)| SymbolId(index))
+    }
+
+    /// The body behind an id.
+    #[must_use]
+    pub fn body(&self, id: BodyId) -> &Body {
+        &self.bodies[usize::from(id.0)]
+    }
+
+    /// The observable behind an id.
+    #[must_use]
+    pub fn observable(&self, id: ObservableId) -> &Observable {
+        &self.observables[usize::from(id.0)]
+    }
+
+    /// The id of a declared observable.
+    #[must_use]
+    pub fn find_observable(&self, name: &str) -> Option<ObservableId> {
+        let index = self.observables.iter().position(|observable| observable.name == name)?;
+        u16::try_from(index).ok().map(ObservableId)
+    }
+
+    /// The bodies from the ground up to `body`, that one included.
+    #[must_use]
+    pub fn path(&self, body: BodyId) -> Vec<BodyId> {
+        let mut path: Vec<BodyId> =
+            std::iter::successors(Some(body), |&id| self.body(id).lower).collect();
+        path.reverse();
+        path
+    }
+
+    /// Every factor on the way from the ground to an observable, in the order they multiply.
+    #[must_use]
+    pub fn factors_to(&self, observable: ObservableId) -> Vec<&Factor> {
+        self.path(self.observable(observable).body)
+            .into_iter()
+            .flat_map(|body| &self.body(body).factors)
+            .collect()
+    }
+}

@@ -1,0 +1,11 @@
+//! The declaration of an instrument as a chain of bodies, and everything that follows from it by algebra.
+//!
+//! The pipeline reads: text → [`syntax`] → [`chain`] → [`forms`] (over [`algebra`]) → verdicts, bounds and
+//! null spaces. Nothing here reads a file, prints, or knows a clock.
+
+pub mod chain;
+pub mod expr;
+pub mod symbol;
+
+pub use chain::{Axis, Body, BodyId, Chain, Factor, Motion, Observable, ObservableId, ObservableKind, Role};
+pub use symbol::{Quantity, Symbol, SymbolId, SymbolKind};

@@ -1,0 +1,1 @@
+//! `chain!` and `chain_file!`: thin macros that parse with `model-core` and expand with `codegen`.

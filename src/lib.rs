@@ -1,0 +1,2 @@
+//! The facade of trueaxis: re-exports, no logic.
+#![no_std]

@@ -167,8 +167,7 @@ impl Chain {
     /// The bodies from the ground up to `body`, that one included.
     #[must_use]
     pub fn path(&self, body: BodyId) -> Vec<BodyId> {
-        let mut path: Vec<BodyId> =
-            std::iter::successors(Some(body), |&id| self.body(id).lower).collect();
+        let mut path: Vec<BodyId> = std::iter::successors(Some(body), |&id| self.body(id).lower).collect();
         path.reverse();
         path
     }

@@ -5,6 +5,7 @@
 
 pub mod chain;
 pub mod expr;
+pub mod names;
 pub mod symbol;
 
 pub use chain::{Axis, Body, BodyId, Chain, Factor, Motion, Observable, ObservableId, ObservableKind, Role};

@@ -1,3 +1,32 @@
-//! The `trueaxis` command.
+//! The `trueaxis` command: arguments in, exit code out. What a command does stands in [`commands`].
 
-fn main() {}
+mod commands;
+mod failure;
+mod output;
+mod source;
+mod terminal;
+
+use std::process::ExitCode;
+
+use clap::Parser as _;
+
+/// Declare an instrument as a chain of bodies with small errors; get everything that follows from it.
+///
+/// Exit code: 0 done (for `check`: every claim holds); 1 the answer is no; 2 bad input or usage.
+#[derive(Debug, clap::Parser)]
+#[command(name = "trueaxis", version, max_term_width = 100)]
+struct Arguments {
+    #[command(subcommand)]
+    command: commands::Command,
+}
+
+fn main() -> ExitCode {
+    match Arguments::parse().command.run() {
+        Ok(commands::Answer::Done) => ExitCode::SUCCESS,
+        Ok(commands::Answer::No) => ExitCode::from(1),
+        Err(failure) => {
+            terminal::report_failure(&failure);
+            ExitCode::from(2)
+        }
+    }
+}

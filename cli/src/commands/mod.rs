@@ -1,0 +1,40 @@
+//! The registry of commands: one file each, one line each in the table below.
+
+mod derive;
+
+use crate::failure::Failure;
+
+/// What a command that ran through has to say.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Answer {
+    /// Done; for a question: yes.
+    Done,
+    /// The question was answered, and the answer is no.
+    No,
+}
+
+macro_rules! commands {
+    ($($(#[$attribute:meta])* $name:ident => $module:ident,)*) => {
+        /// Every command with its arguments.
+        #[derive(Debug, clap::Subcommand)]
+        pub enum Command {
+            $($(#[$attribute])* $name($module::Arguments),)*
+        }
+
+        impl Command {
+            /// Runs the command.
+            ///
+            /// # Errors
+            /// What the user must mend, as it is to be shown to him.
+            pub fn run(self) -> Result<Answer, Failure> {
+                match self {
+                    $(Self::$name(arguments) => $module::run(&arguments),)*
+                }
+            }
+        }
+    };
+}
+
+commands! {
+    Derive => derive,
+}

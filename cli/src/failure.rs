@@ -1,0 +1,54 @@
+//! Why a command could not do its work: always something that the user can mend, and exit code 2.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Why a command could not do its work. `Display` is what the user reads, without the leading `error: `.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    /// A file could not be read.
+    #[error("cannot read `{}`: {why}", path.display())]
+    Read {
+        /// The file as the user named it.
+        path: PathBuf,
+        /// What stood in the way, with what to do instead.
+        why: String,
+    },
+    /// A file could not be written.
+    #[error("cannot write `{}`: {why}", path.display())]
+    Write {
+        /// The file as the user named it.
+        path: PathBuf,
+        /// What stood in the way.
+        why: String,
+    },
+    /// Mistakes in a text, already rendered with their places and the lines they stand on.
+    #[error("{0}")]
+    Mistakes(String),
+    /// Anything else, in words that say what to write instead.
+    #[error("{0}")]
+    Input(String),
+}
+
+impl Failure {
+    /// A file that could not be read, with the reason in plain words.
+    pub fn read(path: &Path, error: &io::Error) -> Self {
+        Self::Read { path: path.to_owned(), why: reason(error) }
+    }
+
+    /// A file that could not be written, with the reason in plain words.
+    pub fn write(path: &Path, error: &io::Error) -> Self {
+        Self::Write { path: path.to_owned(), why: reason(error) }
+    }
+}
+
+/// The reason in words that are the same on every system.
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file or folder".to_owned(),
+        io::ErrorKind::IsADirectory => "it is a folder; name a file in it".to_owned(),
+        io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        io::ErrorKind::InvalidData => "it is not UTF-8 text".to_owned(),
+        _ => error.to_string(),
+    }
+}

@@ -1,0 +1,90 @@
+//! Ranges of joints and inputs on the command line: `--range "elevation=10 deg..80 deg"`.
+
+use calibration::units;
+use model_core::{Chain, SymbolId, SymbolKind, names};
+
+use crate::failure::Failure;
+use crate::source::listed;
+
+/// One `--range` as typed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RangeArgument {
+    name: String,
+    low: String,
+    high: String,
+}
+
+impl std::str::FromStr for RangeArgument {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let usage = "write joint=lo..hi, for example \"elevation=10 deg..80 deg\"";
+        let (name, bounds) = text.split_once('=').ok_or(usage)?;
+        let (low, high) = bounds.split_once("..").ok_or(usage)?;
+        let [name, low, high] = [name, low, high].map(|part| part.trim().to_owned());
+        if [&name, &low, &high].iter().any(|part| part.is_empty()) {
+            return Err(usage);
+        }
+        Ok(Self { name, low, high })
+    }
+}
+
+/// The range of one joint or input, in SI; `low <= high`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    /// The joint or input.
+    pub symbol: SymbolId,
+    /// The smallest value, SI.
+    pub low: f64,
+    /// The largest value, SI.
+    pub high: f64,
+}
+
+/// The ranges that were typed, for the joints and inputs of a chain.
+///
+/// # Errors
+/// A name that is no joint or input, a bound that is no quantity of its unit, bounds the wrong way round, a
+/// name given twice.
+pub fn of_chain(chain: &Chain, arguments: &[RangeArgument]) -> Result<Vec<Range>, Failure> {
+    let mut ranges: Vec<Range> = Vec::new();
+    for argument in arguments {
+        let range = of_symbol(chain, argument)?;
+        if ranges.iter().any(|earlier| earlier.symbol == range.symbol) {
+            return Err(Failure::Input(format!("`--range {}=…` is given twice", argument.name)));
+        }
+        ranges.push(range);
+    }
+    Ok(ranges)
+}
+
+/// One range of a chain's joint or input.
+fn of_symbol(chain: &Chain, argument: &RangeArgument) -> Result<Range, Failure> {
+    let RangeArgument { name, low, high } = argument;
+    let symbol = movable(chain).find(|&id| chain.symbol(id).name == *name).ok_or_else(|| {
+        let declared = || movable(chain).map(|id| chain.symbol(id).name.as_str());
+        let instead = names::nearest(name, declared()).map_or_else(
+            || format!("it has {}", listed(declared())),
+            |near| format!("did you mean `{near}`?"),
+        );
+        Failure::Input(format!("--range: chain {} has no joint or input `{name}`; {instead}", chain.name))
+    })?;
+    let quantity = chain.symbol(symbol).quantity;
+    // `-30..30 deg`: the unit of the upper bound holds for a lower bound without one.
+    let unit = high.trim_start_matches(|letter: char| letter.is_ascii_digit() || "+-.".contains(letter));
+    let low = if low.parse::<f64>().is_ok() { format!("{low} {unit}") } else { low.clone() };
+    let bound = |text: &str| {
+        units::parse(text, quantity)
+            .map_err(|error| Failure::Input(format!("--range {name}: `{}`: {error}", text.trim())))
+    };
+    let (low, high) = (bound(&low)?, bound(high)?);
+    if low > high {
+        let message = format!("--range {name}: the lower bound is above the upper one; swap them");
+        return Err(Failure::Input(message));
+    }
+    Ok(Range { symbol, low, high })
+}
+
+/// Joints and inputs: what has a value at each pose.
+fn movable(chain: &Chain) -> impl Iterator<Item = SymbolId> + '_ {
+    chain.symbols_of(SymbolKind::Joint).chain(chain.symbols_of(SymbolKind::Input))
+}

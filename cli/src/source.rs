@@ -1,0 +1,150 @@
+//! Texts that the user wrote (declarations, TOML files) with their names, so that a mistake can be shown
+//! where it stands.
+
+use std::fs;
+use std::io::{self, Read as _};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use model_core::syntax::Mistakes;
+use model_core::{Chain, ObservableId, names};
+use serde::de::DeserializeOwned;
+
+use crate::failure::Failure;
+
+/// A text and where it came from.
+#[derive(Debug, Clone)]
+pub struct Source {
+    /// The file as the user named it.
+    pub path: PathBuf,
+    /// What it says, without a byte-order mark.
+    pub text: String,
+}
+
+impl Source {
+    /// Reads a file; `-` is standard input.
+    ///
+    /// # Errors
+    /// The file cannot be read or is not UTF-8; a name that is not there comes with the nearest that is.
+    pub fn read(path: &Path) -> Result<Self, Failure> {
+        let text = if path == Path::new("-") {
+            let mut text = String::new();
+            io::stdin().read_to_string(&mut text).map(|_| text)
+        } else {
+            fs::read_to_string(path)
+        };
+        match text {
+            Ok(text) => Ok(Self {
+                path: path.to_owned(),
+                text: text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text),
+            }),
+            Err(error) => Err(not_readable(path, &error)),
+        }
+    }
+
+    /// Reads a file that another file names: relative to that one's folder.
+    ///
+    /// # Errors
+    /// As [`Source::read`].
+    pub fn read_beside(&self, path: &Path) -> Result<Self, Failure> {
+        Self::read(&self.beside(path))
+    }
+
+    /// Where a path that stands in this file leads.
+    #[must_use]
+    pub fn beside(&self, path: &Path) -> PathBuf {
+        self.path.parent().unwrap_or(Path::new("")).join(path)
+    }
+
+    /// The text read as a declaration.
+    ///
+    /// # Errors
+    /// Every mistake of the declaration, each with its place.
+    pub fn chain(&self) -> Result<Chain, Failure> {
+        Chain::from_text(&self.text).map_err(|mistakes| self.mistakes(&mistakes))
+    }
+
+    /// The text read as TOML.
+    ///
+    /// # Errors
+    /// The first mistake, with its place.
+    pub fn toml<T: DeserializeOwned>(&self) -> Result<T, Failure> {
+        toml::from_str(&self.text).map_err(|error| {
+            let place = error.span().unwrap_or(0..0);
+            self.mistake(place, error.message(), "")
+        })
+    }
+
+    /// Mistakes in this text, shown where they stand.
+    #[must_use]
+    pub fn mistakes(&self, mistakes: &Mistakes) -> Failure {
+        Failure::Mistakes(mistakes.render(&self.path.display().to_string(), &self.text))
+    }
+
+    /// One mistake in this text: where (bytes), what is wrong, and what to write instead (may be empty).
+    #[must_use]
+    pub fn mistake(
+        &self,
+        place: Range<usize>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Failure {
+        self.mistakes(&Mistakes::one(&self.text, place, message, help))
+    }
+}
+
+/// Why a file cannot be read, with the nearest name in its folder if it is not there.
+pub fn not_readable(path: &Path, error: &io::Error) -> Failure {
+    let mut failure = Failure::read(path, error);
+    if let Failure::Read { why, .. } = &mut failure
+        && error.kind() == io::ErrorKind::NotFound
+        && let Some(near) = nearest_file(path)
+    {
+        *why = format!("{why}; did you mean `{}`?", near.display());
+    }
+    failure
+}
+
+/// The file in the same folder whose name is nearest to the one asked for.
+fn nearest_file(path: &Path) -> Option<PathBuf> {
+    let folder = match path.parent()? {
+        parent if parent == Path::new("") => Path::new("."),
+        parent => parent,
+    };
+    let mut there: Vec<String> =
+        fs::read_dir(folder).ok()?.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
+    there.sort();
+    let near = names::nearest(path.file_name()?.to_str()?, there.iter().map(String::as_str))?;
+    Some(path.with_file_name(near))
+}
+
+/// The observables that the user asked for by name; all of the chain's if he named none.
+///
+/// # Errors
+/// A name that the chain does not declare.
+pub fn observables(chain: &Chain, names: &[String]) -> Result<Vec<ObservableId>, Failure> {
+    if names.is_empty() {
+        return Ok((0u16..).zip(&chain.observables).map(|(index, _)| ObservableId(index)).collect());
+    }
+    names.iter().map(|name| observable(chain, name)).collect()
+}
+
+/// The observable of a name.
+///
+/// # Errors
+/// A name that the chain does not declare; the message names the nearest, or all.
+pub fn observable(chain: &Chain, name: &str) -> Result<ObservableId, Failure> {
+    chain.find_observable(name).ok_or_else(|| {
+        let declared = || chain.observables.iter().map(|observable| observable.name.as_str());
+        let instead = names::nearest(name, declared()).map_or_else(
+            || format!("it declares {}", listed(declared())),
+            |near| format!("did you mean `{near}`?"),
+        );
+        Failure::Input(format!("chain {} has no observable `{name}`; {instead}", chain.name))
+    })
+}
+
+/// Names in backquotes, separated by commas.
+pub fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}

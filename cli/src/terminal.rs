@@ -1,0 +1,51 @@
+//! What goes to the terminal: results to standard output, everything else to standard error, with colours
+//! only where a person looks.
+
+use std::fmt::Display;
+use std::io::{self, Write as _};
+
+use anstyle::{AnsiColor, Style};
+
+use crate::failure::Failure;
+
+/// Style of the word `error`.
+pub const BAD: Style = AnsiColor::Red.on_default().bold();
+/// Style of the word `warning`.
+pub const CAREFUL: Style = AnsiColor::Yellow.on_default().bold();
+/// Style of a good answer.
+pub const GOOD: Style = AnsiColor::Green.on_default().bold();
+/// Style of headings.
+pub const HEADING: Style = Style::new().bold();
+
+/// Writes a result to standard output. A reader that has gone away (`| head`) is no failure.
+///
+/// # Errors
+/// Standard output cannot be written, a full disk say.
+pub fn print(text: &str) -> Result<(), Failure> {
+    let mut out = anstream::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Failure::write("standard output".as_ref(), &error))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Says on standard error what the user should know although the command goes on.
+pub fn warn(message: impl Display) {
+    note(format_args!("{CAREFUL}warning{CAREFUL:#}: {message}"));
+}
+
+/// Says on standard error what the command is doing.
+pub fn note(message: impl Display) {
+    // Where standard error is closed there is nobody to tell.
+    let _ = writeln!(anstream::stderr(), "{message}");
+}
+
+/// Says on standard error why the command stopped.
+pub fn report_failure(failure: &Failure) {
+    match failure {
+        Failure::Mistakes(rendered) => note(rendered.trim_end()),
+        _ => note(format_args!("{BAD}error{BAD:#}: {failure}")),
+    }
+}

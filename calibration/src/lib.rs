@@ -1,1 +1,6 @@
 //! Measured data: observations, fit, noise, diagnosis, effects, amendment, report data.
+
+pub mod fit;
+pub mod noise;
+pub mod observations;
+pub mod units;

@@ -3,6 +3,7 @@
 //! The pipeline reads: text → [`syntax`] → [`chain`] → [`forms`] (over [`algebra`]) → verdicts, bounds and
 //! null spaces. Nothing here reads a file, prints, or knows a clock.
 
+pub mod algebra;
 pub mod chain;
 pub mod expr;
 pub mod names;

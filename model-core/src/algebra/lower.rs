@@ -1,0 +1,182 @@
+//! From an expression as written to the canonical form.
+
+use super::AlgebraError;
+use super::angle::AngleSum;
+use super::poly::Poly;
+use crate::expr::{Expr, Function, Node};
+use crate::symbol::SymbolId;
+
+/// Why an expression as written has no canonical form, and where.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum LowerError<S> {
+    /// A name that nothing declares.
+    #[error("unknown name `{name}`")]
+    UnknownSymbol {
+        /// The name as written.
+        name: String,
+        /// Where it stands.
+        place: S,
+    },
+    /// The sine or cosine of a symbol that is no angle by its nature: an error, or a measured number.
+    #[error("`{name}` cannot stand inside a sine or cosine: only joints and constant or measured angles can")]
+    SineOf {
+        /// The name as written.
+        name: String,
+        /// Where the argument of the sine or cosine stands.
+        place: S,
+    },
+    /// A division by zero.
+    #[error("division by zero")]
+    DivisionByZero {
+        /// Where the divisor stands.
+        place: S,
+    },
+    /// What the algebra refuses.
+    #[error("{error}")]
+    Algebra {
+        /// Why.
+        error: AlgebraError,
+        /// Where.
+        place: S,
+    },
+}
+
+impl<S> LowerError<S> {
+    /// Where the mistake stands.
+    pub fn place(&self) -> &S {
+        match self {
+            Self::UnknownSymbol { place, .. }
+            | Self::SineOf { place, .. }
+            | Self::DivisionByZero { place }
+            | Self::Algebra { place, .. } => place,
+        }
+    }
+}
+
+impl Poly {
+    /// The canonical form of an expression. `resolve` finds a name, `is_angle` says what may stand in a sine.
+    ///
+    /// # Errors
+    /// The first [`LowerError`] from the left.
+    pub fn from_expr<S: Clone>(
+        expression: &Expr<S>,
+        resolve: impl Fn(&str) -> Option<SymbolId>,
+        is_angle: impl Fn(SymbolId) -> bool,
+    ) -> Result<Self, LowerError<S>> {
+        Lowering { resolve, is_angle }.value(expression)
+    }
+}
+
+struct Lowering<R, A> {
+    resolve: R,
+    is_angle: A,
+}
+
+impl<R: Fn(&str) -> Option<SymbolId>, A: Fn(SymbolId) -> bool> Lowering<R, A> {
+    fn value<S: Clone>(&self, expression: &Expr<S>) -> Result<Poly, LowerError<S>> {
+        let refuse = |error| LowerError::Algebra { error, place: expression.place.clone() };
+        match &expression.node {
+            Node::Number(value) => Ok(Poly::constant(value.clone())),
+            Node::Pi => Ok(Poly::symbol(SymbolId::PI)),
+            Node::Symbol(name) => (self.resolve)(name).map(Poly::symbol).ok_or_else(|| {
+                LowerError::UnknownSymbol { name: name.clone(), place: expression.place.clone() }
+            }),
+            Node::Neg(inner) => Ok(-&self.value(inner)?),
+            Node::Add(_, _) => self.sum(expression),
+            Node::Mul(left, right) => self.value(left)?.checked_mul(&self.value(right)?).map_err(refuse),
+            Node::Div(left, right) => self.value(left)?.checked_mul(&self.reciprocal(right)?).map_err(refuse),
+            Node::Pow(base, exponent) => {
+                let base = if *exponent < 0 { self.reciprocal(base)? } else { self.value(base)? };
+                base.pow(exponent.unsigned_abs()).map_err(refuse)
+            }
+            Node::Call(function, argument) => self.call(*function, argument, expression),
+        }
+    }
+
+    /// A sum; typed sums are deep on the left, so the left spine is walked, not recursed into.
+    fn sum<S: Clone>(&self, expression: &Expr<S>) -> Result<Poly, LowerError<S>> {
+        let mut addends = Vec::new();
+        let mut spine = expression;
+        while let Node::Add(left, right) = &spine.node {
+            addends.push(&**right);
+            spine = left;
+        }
+        addends.push(spine);
+        let mut result = Poly::zero();
+        for addend in addends.into_iter().rev() {
+            for (coefficient, atoms) in self.value(addend)?.iter() {
+                result.push(coefficient.clone(), atoms);
+            }
+        }
+        Ok(result.normalised())
+    }
+
+    /// One over an expression. Products and powers are taken apart as written, because multiplied out they are sums.
+    fn reciprocal<S: Clone>(&self, expression: &Expr<S>) -> Result<Poly, LowerError<S>> {
+        let refuse = |error| LowerError::Algebra { error, place: expression.place.clone() };
+        match &expression.node {
+            Node::Neg(inner) => Ok(-&self.reciprocal(inner)?),
+            Node::Mul(left, right) => {
+                self.reciprocal(left)?.checked_mul(&self.reciprocal(right)?).map_err(refuse)
+            }
+            Node::Div(left, right) => self.reciprocal(left)?.checked_mul(&self.value(right)?).map_err(refuse),
+            Node::Pow(base, exponent) if *exponent >= 0 => {
+                self.reciprocal(base)?.pow(exponent.unsigned_abs()).map_err(refuse)
+            }
+            Node::Pow(base, exponent) => self.value(base)?.pow(exponent.unsigned_abs()).map_err(refuse),
+            _ => {
+                let value = self.value(expression)?;
+                if value.is_zero() {
+                    return Err(LowerError::DivisionByZero { place: expression.place.clone() });
+                }
+                value.recip().ok_or_else(|| refuse(AlgebraError::NotDivisible))
+            }
+        }
+    }
+
+    fn call<S: Clone>(
+        &self,
+        function: Function,
+        argument: &Expr<S>,
+        whole: &Expr<S>,
+    ) -> Result<Poly, LowerError<S>> {
+        let place = || argument.place.clone();
+        let angle = self.value(argument)?;
+        let angle =
+            AngleSum::from_poly(&angle).map_err(|error| LowerError::Algebra { error, place: place() })?;
+        for &(symbol, _) in angle.multiples() {
+            if !(self.is_angle)(symbol) {
+                let name = self.name_of(symbol, argument).unwrap_or_default();
+                return Err(LowerError::SineOf { name, place: place() });
+            }
+        }
+        let (cosine, sine) = angle.cos_sin();
+        let over = |divisor: &Poly| {
+            if divisor.is_zero() {
+                return Err(LowerError::DivisionByZero { place: place() });
+            }
+            let error = AlgebraError::NotDivisible;
+            divisor.recip().ok_or_else(|| LowerError::Algebra { error, place: whole.place.clone() })
+        };
+        Ok(match function {
+            Function::Sin => sine,
+            Function::Cos => cosine,
+            Function::Tan => &sine * &over(&cosine)?,
+            Function::Cot => &cosine * &over(&sine)?,
+            Function::Sec => over(&cosine)?,
+            Function::Csc => over(&sine)?,
+        })
+    }
+
+    /// The name by which an expression calls a symbol.
+    fn name_of<S>(&self, symbol: SymbolId, expression: &Expr<S>) -> Option<String> {
+        match &expression.node {
+            Node::Symbol(name) => ((self.resolve)(name) == Some(symbol)).then(|| name.clone()),
+            Node::Number(_) | Node::Pi => None,
+            Node::Neg(a) | Node::Pow(a, _) | Node::Call(_, a) => self.name_of(symbol, a),
+            Node::Add(a, b) | Node::Mul(a, b) | Node::Div(a, b) => {
+                self.name_of(symbol, a).or_else(|| self.name_of(symbol, b))
+            }
+        }
+    }
+}

@@ -3,15 +3,23 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use calibration::units;
-use model_core::{Chain, SymbolId, SymbolKind, names};
-use toml::{Spanned, Value};
+use calibration::units::Amount;
+use model_core::mistake::Mistake;
+use model_core::{Chain, Quantity, SymbolId, SymbolKind, names};
+use toml::Spanned;
 
 use crate::failure::Failure;
 use crate::source::Source;
+use crate::terminal;
 
 /// Names as written, with their quantities, each with its place.
-type Entries = BTreeMap<Spanned<String>, Spanned<Value>>;
+type Entries = BTreeMap<Spanned<String>, Spanned<Amount>>;
+
+/// An angular error above this, without a unit, was hardly meant in radians.
+const LARGE_RAD: f64 = 0.2;
+
+/// What the file sets: values in SI, each with the place of its quantity.
+type Settings = BTreeMap<SymbolId, (f64, Range<usize>)>;
 
 /// The values of all symbols in SI, indexed by [`SymbolId`]: constants at their nominal value unless the file
 /// sets them (a calibration may have freed them), errors at the file's value or zero.
@@ -21,8 +29,8 @@ type Entries = BTreeMap<Spanned<String>, Spanned<Value>>;
 /// read or that has another unit; each with its place.
 pub fn values(source: &Source, chain: &Chain) -> Result<Vec<f64>, Failure> {
     let mut values = chain.nominal_values();
-    for (id, value) in read(source, chain, &[SymbolKind::Error, SymbolKind::Constant])? {
-        values[id.index()] = value.0;
+    for (id, (value, _)) in read(source, chain, &[SymbolKind::Error, SymbolKind::Constant])? {
+        values[id.index()] = value;
     }
     Ok(values)
 }
@@ -35,36 +43,60 @@ pub fn largest_sizes(source: &Source, chain: &Chain) -> Result<Vec<f64>, Failure
     let mut sizes = vec![0.0; chain.symbols.len()];
     for (id, (size, place)) in read(source, chain, &[SymbolKind::Error])? {
         if size < 0.0 {
-            return Err(source.mistake(place, "a largest size cannot be negative", "write its absolute value"));
+            let mistake = Mistake::new(place, "a largest size cannot be negative");
+            return Err(source.mistake(mistake.with_help("write its absolute value")));
         }
         sizes[id.index()] = size;
     }
     Ok(sizes)
 }
 
-/// What the file sets, each with the place of its quantity; a plain name wins over a pattern, and a pattern
-/// with more letters over one with fewer.
-fn read(
-    source: &Source,
-    chain: &Chain,
-    kinds: &[SymbolKind],
-) -> Result<BTreeMap<SymbolId, (f64, Range<usize>)>, Failure> {
+/// A plain name wins over a pattern, and a pattern with more letters over one with fewer.
+fn read(source: &Source, chain: &Chain, kinds: &[SymbolKind]) -> Result<Settings, Failure> {
     let entries: Entries = source.toml()?;
-    let mut entries: Vec<_> = entries.iter().collect();
-    entries.sort_by_key(|(name, _)| {
-        let name = name.get_ref();
-        (!names::is_pattern(name), name.chars().filter(|&letter| letter != '*').count(), name.clone())
-    });
-    let mut set = BTreeMap::new();
-    for (name, quantity) in entries {
+    let mut ranked: Vec<_> = entries.iter().map(|(name, amount)| (rank(name.get_ref()), name, amount)).collect();
+    ranked.sort_by_key(|&(rank, ..)| rank);
+    let mut settings = Settings::new();
+    let mut set_by: BTreeMap<SymbolId, (usize, &str)> = BTreeMap::new();
+    for (rank, name, amount) in ranked {
         for id in named(source, chain, kinds, name)? {
             let symbol = chain.symbol(id);
-            let value = amount(quantity.get_ref(), symbol.quantity)
-                .map_err(|why| source.mistake(quantity.span(), why, ""))?;
-            set.insert(id, (value, quantity.span()));
+            let place = amount.span();
+            if let Some((_, other)) = set_by.insert(id, (rank, name.get_ref())).filter(|&(other, _)| other == rank)
+            {
+                let message = format!("`{}` and `{other}` both set `{}`", name.get_ref(), symbol.name);
+                let help = format!("write `{} = …` as well: a plain name wins", symbol.name);
+                return Err(source.mistake(Mistake::new(name.span(), message).with_help(help)));
+            }
+            let value = amount
+                .get_ref()
+                .to_si(symbol.quantity)
+                .map_err(|why| source.mistake(Mistake::new(place.clone(), format!("{}: {why}", symbol.name))))?;
+            settings.insert(id, (value, place));
         }
     }
-    Ok(set)
+    warn_of_missing_units(chain, &entries, &settings);
+    Ok(settings)
+}
+
+/// How much a name says: more letters beside its stars say more, and a plain name says everything.
+fn rank(name: &str) -> usize {
+    if names::is_pattern(name) { name.chars().filter(|&letter| letter != '*').count() } else { usize::MAX }
+}
+
+/// Warns of angles without a unit that are no small errors in radians: arcseconds were meant, most likely.
+fn warn_of_missing_units(chain: &Chain, entries: &Entries, settings: &Settings) {
+    for (&id, (value, place)) in settings {
+        let symbol = chain.symbol(id);
+        let bare = entries.values().any(|amount| amount.span() == *place && amount.get_ref().unit.is_none());
+        let is_error = symbol.kind == SymbolKind::Error && symbol.quantity == Quantity::Angle;
+        if bare && is_error && value.abs() > LARGE_RAD {
+            let name = &symbol.name;
+            terminal::warn(format_args!(
+                "{name} = {value} has no unit and is taken as {value} rad; did you mean {name} = \"{value} arcsec\"?"
+            ));
+        }
+    }
 }
 
 /// The symbols that a name or pattern of the file means.
@@ -75,14 +107,16 @@ fn named(
     name: &Spanned<String>,
 ) -> Result<Vec<SymbolId>, Failure> {
     let text = name.get_ref().as_str();
+    let wrong = |message: String, help: String| {
+        Err(source.mistake(Mistake::new(name.span(), message).with_help(help)))
+    };
     if names::is_pattern(text) {
-        let matching: Vec<SymbolId> = chain
-            .symbols_of(SymbolKind::Error)
-            .filter(|&id| names::matches(text, &chain.symbol(id).name))
-            .collect();
+        let errors = chain.symbols_of(SymbolKind::Error);
+        let matching: Vec<SymbolId> =
+            errors.filter(|&id| names::matches(text, &chain.symbol(id).name)).collect();
         if matching.is_empty() {
             let message = format!("the pattern `{text}` matches no error of chain {}", chain.name);
-            return Err(source.mistake(name.span(), message, "`*` stands for any letters: `da*`, `*_x2`"));
+            return wrong(message, "`*` stands for any letters, as in `da*` or `*_x2`".to_owned());
         }
         return Ok(matching);
     }
@@ -90,14 +124,16 @@ fn named(
         Some(id) if kinds.contains(&chain.symbol(id).kind) => Ok(vec![id]),
         Some(id) => {
             let message = format!("`{text}` is {}, not an error", kind_in_words(chain.symbol(id).kind));
-            Err(source.mistake(name.span(), message, "name errors of the chain here"))
+            wrong(message, "name errors of the chain here".to_owned())
         }
         None => {
-            let declared =
-                kinds.iter().flat_map(|&kind| chain.symbols_of(kind)).map(|id| chain.symbol(id).name.as_str());
-            let help = names::nearest(text, declared).map(|near| format!("did you mean `{near}`?"));
-            let message = format!("chain {} has no error `{text}`", chain.name);
-            Err(source.mistake(name.span(), message, help.unwrap_or_default()))
+            let settable = kinds.iter().flat_map(|&kind| chain.symbols_of(kind));
+            let near = names::nearest(text, settable.map(|id| chain.symbol(id).name.as_str()));
+            let help = near.map_or_else(
+                || format!("`trueaxis derive` shows the errors of {}", chain.name),
+                |near| format!("did you mean `{near}`?"),
+            );
+            wrong(format!("chain {} has no error `{text}`", chain.name), help)
         }
     }
 }
@@ -111,21 +147,4 @@ fn kind_in_words(kind: SymbolKind) -> &'static str {
         SymbolKind::Constant => "a constant",
         SymbolKind::Input => "an input",
     }
-}
-
-/// A quantity in SI: a text with a unit, or a number that is SI already.
-fn amount(value: &Value, quantity: model_core::Quantity) -> Result<f64, String> {
-    let si = match value {
-        Value::String(text) => units::parse(text, quantity).map_err(|error| error.to_string())?,
-        Value::Integer(number) => *number as f64,
-        Value::Float(number) => *number,
-        other => {
-            return Err(format!(
-                "expected a quantity such as {}, found {}",
-                units::example(quantity),
-                other.type_str()
-            ));
-        }
-    };
-    if si.is_finite() { Ok(si) } else { Err("a quantity must be a finite number".to_owned()) }
 }

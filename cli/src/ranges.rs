@@ -1,6 +1,6 @@
 //! Ranges of joints and inputs on the command line: `--range "elevation=10 deg..80 deg"`.
 
-use calibration::units;
+use calibration::units::Amount;
 use model_core::{Chain, SymbolId, SymbolKind, names};
 
 use crate::failure::Failure;
@@ -69,14 +69,13 @@ fn of_symbol(chain: &Chain, argument: &RangeArgument) -> Result<Range, Failure> 
         Failure::Input(format!("--range: chain {} has no joint or input `{name}`; {instead}", chain.name))
     })?;
     let quantity = chain.symbol(symbol).quantity;
-    // `-30..30 deg`: the unit of the upper bound holds for a lower bound without one.
-    let unit = high.trim_start_matches(|letter: char| letter.is_ascii_digit() || "+-.".contains(letter));
-    let low = if low.parse::<f64>().is_ok() { format!("{low} {unit}") } else { low.clone() };
-    let bound = |text: &str| {
-        units::parse(text, quantity)
-            .map_err(|error| Failure::Input(format!("--range {name}: `{}`: {error}", text.trim())))
-    };
-    let (low, high) = (bound(&low)?, bound(high)?);
+    let wrong = |text: &str, why| Failure::Input(format!("--range {name}: `{text}`: {why}"));
+    let upper = Amount::parse(high).map_err(|why| wrong(high, why))?;
+    let mut lower = Amount::parse(low).map_err(|why| wrong(low, why))?;
+    // `-30..30 deg`: the unit of the upper bound holds for both.
+    lower.unit = lower.unit.or(upper.unit);
+    let high = upper.to_si(quantity).map_err(|why| wrong(high, why))?;
+    let low = lower.to_si(quantity).map_err(|why| wrong(low, why))?;
     if low > high {
         let message = format!("--range {name}: the lower bound is above the upper one; swap them");
         return Err(Failure::Input(message));

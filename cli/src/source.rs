@@ -6,7 +6,7 @@ use std::io::{self, Read as _};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use model_core::syntax::Mistakes;
+use model_core::mistake::{Mistake, Mistakes};
 use model_core::{Chain, ObservableId, names};
 use serde::de::DeserializeOwned;
 
@@ -70,8 +70,7 @@ impl Source {
     /// The first mistake, with its place.
     pub fn toml<T: DeserializeOwned>(&self) -> Result<T, Failure> {
         toml::from_str(&self.text).map_err(|error| {
-            let place = error.span().unwrap_or(0..0);
-            self.mistake(place, error.message(), "")
+            self.mistake(Mistake::new(error.span().unwrap_or_default(), error.message()))
         })
     }
 
@@ -81,15 +80,10 @@ impl Source {
         Failure::Mistakes(mistakes.render(&self.path.display().to_string(), &self.text))
     }
 
-    /// One mistake in this text: where (bytes), what is wrong, and what to write instead (may be empty).
+    /// One mistake in this text, shown where it stands.
     #[must_use]
-    pub fn mistake(
-        &self,
-        place: Range<usize>,
-        message: impl Into<String>,
-        help: impl Into<String>,
-    ) -> Failure {
-        self.mistakes(&Mistakes::one(&self.text, place, message, help))
+    pub fn mistake(&self, mistake: Mistake<Range<usize>>) -> Failure {
+        self.mistakes(&Mistakes::locate(&self.text, [mistake]))
     }
 }
 

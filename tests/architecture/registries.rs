@@ -1,0 +1,24 @@
+//! Registries: a plural folder with one file an entry and one table in its `mod.rs`.
+
+use crate::sources::below;
+
+/// The registries of the project.
+const REGISTRIES: &[&str] =
+    &["cli/src/commands", "codegen/src/backends", "calibration/src/effects", "calibration/src/formats"];
+
+#[test]
+fn every_entry_of_a_registry_stands_in_its_table() {
+    for registry in REGISTRIES {
+        let files = below(registry);
+        let table_path = format!("{registry}/mod.rs");
+        let table = files.iter().find(|file| file.path == table_path).expect("a registry has a table");
+        for file in &files {
+            let entry = file.path.trim_start_matches(registry).trim_start_matches('/');
+            let name = entry.split(['/', '.']).next().unwrap_or_default();
+            if name != "mod" {
+                let uses = table.text.matches(name).count();
+                assert!(uses >= 2, "{registry}: `{name}` has a file but no line in the table");
+            }
+        }
+    }
+}

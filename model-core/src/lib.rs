@@ -5,8 +5,11 @@
 
 pub mod algebra;
 pub mod chain;
+pub mod exact;
 pub mod expr;
+pub mod forms;
 pub mod names;
+pub mod print;
 pub mod symbol;
 
 pub use chain::{Axis, Body, BodyId, Chain, Factor, Motion, Observable, ObservableId, ObservableKind, Role};

@@ -1,0 +1,116 @@
+//! Truncating while multiplying: the observable's vector is carried from the device to the ground, sorted by degree
+//! in the errors, and no product beyond the order is ever formed.
+
+use super::{FormError, error_table};
+use crate::algebra::{AngleSum, Poly, Rational};
+use crate::chain::{Axis, Chain, Motion, ObservableId, ObservableKind};
+
+type Vector = [Poly; 3];
+
+/// The parts of degree 1 to `order` of an observable, added up.
+pub(super) fn error_up_to(chain: &Chain, id: ObservableId, order: u32) -> Result<Vector, FormError> {
+    let is_error = error_table(chain);
+    let grade = |poly: &Poly, degree| poly.graded_part(|symbol| is_error[symbol.index()], degree);
+    let observable = chain.observable(id);
+    let mut parts: Vec<Vector> =
+        (0..=order).map(|degree| observable.components.each_ref().map(|poly| grade(poly, degree))).collect();
+    for body in chain.path(observable.body).into_iter().rev().map(|id| chain.body(id)) {
+        for factor in body.factors.iter().rev() {
+            let amount: Vec<Poly> = (0..=order).map(|degree| grade(&factor.amount, degree)).collect();
+            match factor.motion {
+                Motion::Translation if observable.kind == ObservableKind::Direction => {}
+                Motion::Translation => {
+                    for (part, shift) in parts.iter_mut().zip(&amount) {
+                        if !shift.is_zero() {
+                            let component = &mut part[factor.axis.index()];
+                            *component = &*component + shift;
+                        }
+                    }
+                }
+                Motion::Rotation => {
+                    rotate_by_error(&mut parts, factor.axis, &amount);
+                    let angle = AngleSum::from_poly(&amount[0])
+                        .map_err(|error| FormError::new(&body.name, factor.axis, error))?;
+                    if !angle.is_zero() {
+                        let (cosine, sine) = angle.cos_sin();
+                        for part in &mut parts {
+                            rotate(part, factor.axis, &cosine, &sine);
+                        }
+                    }
+                }
+            }
+        }
+    }
+    let mut sum = Vector::default();
+    for part in parts.iter().skip(1) {
+        for (total, component) in sum.iter_mut().zip(part) {
+            *total = &*total + component;
+        }
+    }
+    Ok(sum)
+}
+
+/// The two axes that a rotation mixes, in right-handed order.
+fn others(axis: Axis) -> (usize, usize) {
+    ((axis.index() + 1) % 3, (axis.index() + 2) % 3)
+}
+
+/// The exact rotation of a vector.
+pub(super) fn rotate(vector: &mut Vector, axis: Axis, cosine: &Poly, sine: &Poly) {
+    let (a, b) = others(axis);
+    let rotated_a = &(&vector[a] * cosine) - &(&vector[b] * sine);
+    let rotated_b = &(&vector[a] * sine) + &(&vector[b] * cosine);
+    vector[a] = rotated_a;
+    vector[b] = rotated_b;
+}
+
+/// The rotation by a small amount, given by degrees, of a vector given by degrees:
+/// R(e) = 1 + sin e · (axis ×) + (cos e − 1) · (projection on the plane across the axis).
+fn rotate_by_error(parts: &mut [Vector], axis: Axis, amount: &[Poly]) {
+    let order = parts.len() - 1;
+    if amount.iter().skip(1).all(Poly::is_zero) {
+        return;
+    }
+    let (sine, cosine_less_one) = expand(amount);
+    let (a, b) = others(axis);
+    // From the highest degree down: what is added to a part comes from lower parts only.
+    for degree in (1..=order).rev() {
+        let (lower, this) = parts.split_at_mut(degree);
+        let this = &mut this[0];
+        for (factor_degree, from) in (1..=degree).map(|m| (m, &lower[degree - m])) {
+            let (s, c) = (&sine[factor_degree], &cosine_less_one[factor_degree]);
+            if !s.is_zero() {
+                this[a] = &this[a] - &(&from[b] * s);
+                this[b] = &this[b] + &(&from[a] * s);
+            }
+            if !c.is_zero() {
+                this[a] = &this[a] + &(&from[a] * c);
+                this[b] = &this[b] + &(&from[b] * c);
+            }
+        }
+    }
+}
+
+/// sin e and cos e − 1 by degree, for an amount `e` given by degree (its degree 0 is not looked at).
+fn expand(amount: &[Poly]) -> (Vec<Poly>, Vec<Poly>) {
+    let order = amount.len() - 1;
+    let mut sine = vec![Poly::zero(); order + 1];
+    let mut cosine_less_one = vec![Poly::zero(); order + 1];
+    // eⁿ/n! by degree
+    let mut power = amount.to_vec();
+    power[0] = Poly::zero();
+    let mut inverse = Rational::ONE;
+    for n in 1..=order {
+        let negative = n % 4 >= 2;
+        let target = if n % 2 == 1 { &mut sine } else { &mut cosine_less_one };
+        for (sum, term) in target.iter_mut().zip(&power) {
+            *sum = if negative { &*sum - term } else { &*sum + term };
+        }
+        inverse = i64::try_from(n + 1).ok().and_then(|n| Rational::new(1, n)).unwrap_or(inverse);
+        power = (0..=order)
+            .map(|degree| (1..degree).fold(Poly::zero(), |sum, m| &sum + &(&power[degree - m] * &amount[m])))
+            .map(|term| term.scale(&inverse))
+            .collect();
+    }
+    (sine, cosine_less_one)
+}

@@ -1,6 +1,7 @@
 //! Measured data: observations, fit, noise, diagnosis, effects, amendment, report data.
 
 pub mod fit;
+pub mod formats;
 pub mod noise;
 pub mod observations;
 pub mod units;

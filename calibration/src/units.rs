@@ -20,7 +20,7 @@ pub struct Unit {
     pub in_si: f64,
 }
 
-/// Every unit that is read. Other spellings of the one before it follow a unit with the same size.
+/// Every unit that is read.
 const UNITS: &[Unit] = &[
     angle("rad", 1.0),
     angle("mrad", 1e-3),
@@ -176,6 +176,24 @@ impl Amount {
     }
 }
 
+/// Reads a quantity into rad, m or 1: `2 arcsec`, or a bare number in SI.
+///
+/// # Errors
+/// No number, an unknown unit, or a unit of something else.
+pub fn parse(text: &str, quantity: Quantity) -> Result<f64, UnitError> {
+    Amount::parse(text)?.to_si(quantity)
+}
+
+/// How such a quantity is written, for messages.
+#[must_use]
+pub fn example(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Angle => "\"2 arcsec\"",
+        Quantity::Length => "\"0.1 mm\"",
+        Quantity::Number => "\"3 ppm\" or 0.5",
+    }
+}
+
 /// Length of the number at the start of a text, its exponent included.
 fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
@@ -251,10 +269,6 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    fn si(text: &str, quantity: Quantity) -> Result<f64, UnitError> {
-        Amount::parse(text).and_then(|amount| amount.to_si(quantity))
-    }
-
     #[test]
     fn quantities_become_si() -> Result<(), UnitError> {
         for (text, quantity, expected) in [
@@ -268,14 +282,14 @@ mod tests {
             ("3 ppm", Quantity::Number, 3e-6),
             (".25", Quantity::Length, 0.25),
         ] {
-            assert_relative_eq!(si(text, quantity)?, expected, max_relative = 1e-15);
+            assert_relative_eq!(parse(text, quantity)?, expected, max_relative = 1e-15);
         }
         Ok(())
     }
 
     #[test]
     fn what_is_no_quantity_is_refused_with_what_to_write() {
-        let message = |text, quantity| si(text, quantity).map_err(|error| error.to_string());
+        let message = |text, quantity| parse(text, quantity).map_err(|error| error.to_string());
         insta::assert_debug_snapshot!([
             message("arcsec", Quantity::Angle),
             message("2 arcsecs", Quantity::Angle),

@@ -1,0 +1,166 @@
+//! What can be wrong with a data file, and where: file, line, row and column by name.
+
+use std::fmt;
+
+use thiserror::Error;
+
+/// The place of one cell.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Cell {
+    /// Name of the file.
+    pub file: String,
+    /// Line in the file, from 1.
+    pub line: u64,
+    /// Row, from 1, without the header.
+    pub row: u64,
+    /// Name of the column as in the header.
+    pub column: String,
+}
+
+impl fmt::Display for Cell {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: line {}, row {}, column `{}`", self.file, self.line, self.row, self.column)
+    }
+}
+
+/// What is wrong with a data file.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum DataError {
+    /// It cannot be read.
+    #[error("{file}: {why}")]
+    Unreadable {
+        /// Name of the file.
+        file: String,
+        /// What the system or the format says.
+        why: String,
+    },
+    /// Nothing in it.
+    #[error("{file}: the file is empty: a header line with the names of the columns was expected")]
+    Empty {
+        /// Name of the file.
+        file: String,
+    },
+    /// A header and nothing else.
+    #[error("{file}: there are no rows below the header")]
+    NoRows {
+        /// Name of the file.
+        file: String,
+    },
+    /// Bytes that are no text.
+    #[error("{file}: line {line}: not UTF-8: save the file as UTF-8 text")]
+    NotUtf8 {
+        /// Name of the file.
+        file: String,
+        /// Line in the file, from 1.
+        line: u64,
+    },
+    /// Two columns of one name.
+    #[error("{file}: column `{column}` is there twice: rename one of them")]
+    DuplicateColumn {
+        /// Name of the file.
+        file: String,
+        /// Name of the column.
+        column: String,
+    },
+    /// A column that is not there.
+    #[error("{file}: no column `{column}`: {help}")]
+    MissingColumn {
+        /// Name of the file.
+        file: String,
+        /// Name of the column that was looked for.
+        column: String,
+        /// The nearest name, or all of them.
+        help: String,
+    },
+    /// More or fewer cells than the header has.
+    #[error("{file}: line {line}, row {row}: {found} cells where the header has {expected}")]
+    RaggedRow {
+        /// Name of the file.
+        file: String,
+        /// Line in the file, from 1.
+        line: u64,
+        /// Row, from 1, without the header.
+        row: u64,
+        /// Cells of the header.
+        expected: usize,
+        /// Cells of this row.
+        found: usize,
+    },
+    /// A cell that is no number.
+    #[error("{cell}: `{text}` is no number")]
+    NotANumber {
+        /// Where.
+        cell: Cell,
+        /// What stands there.
+        text: String,
+    },
+    /// A cell without anything in it.
+    #[error("{cell}: the cell is empty: fill in a number, or leave the row out")]
+    EmptyCell {
+        /// Where.
+        cell: Cell,
+    },
+    /// NaN or an infinity.
+    #[error("{cell}: `{text}` is not finite: fill in a number, or leave the row out")]
+    NotFinite {
+        /// Where.
+        cell: Cell,
+        /// What stands there.
+        text: String,
+    },
+    /// An angle whose unit nothing says.
+    #[error(
+        "{file}: column `{column}` is an angle without a unit: write the unit in the header, `{column} [deg]`, \
+         or in the study, {{ column = \"{column}\", unit = \"deg\" }}"
+    )]
+    NoUnit {
+        /// Name of the file.
+        file: String,
+        /// Name of the column.
+        column: String,
+    },
+    /// The header says one unit, the study another.
+    #[error(
+        "{file}: the header of column `{column}` says {header}, the study says {study}: correct one of them"
+    )]
+    UnitConflict {
+        /// Name of the file.
+        file: String,
+        /// Name of the column.
+        column: String,
+        /// Unit in the header.
+        header: &'static str,
+        /// Unit in the study.
+        study: &'static str,
+    },
+    /// A unit of something else.
+    #[error("{file}: column `{column}`: {why}")]
+    WrongUnit {
+        /// Name of the file.
+        file: String,
+        /// Name of the column.
+        column: String,
+        /// What the unit measures, and what is wanted.
+        why: String,
+    },
+    /// A row whose numbers cannot be what they are said to be.
+    #[error("{file}: row {row}: {why}")]
+    Impossible {
+        /// Name of the file.
+        file: String,
+        /// Row, from 1, without the header.
+        row: u64,
+        /// Why it cannot be, and what was expected.
+        why: String,
+    },
+    /// A line that the format does not allow.
+    #[error("{file}: line {line}: {why}")]
+    BadLine {
+        /// Name of the file.
+        file: String,
+        /// Line in the file, from 1.
+        line: u64,
+        /// What is wrong and what was expected.
+        why: String,
+    },
+}

@@ -91,7 +91,7 @@ impl Rational {
             .and_then(|count| exponent.checked_sub(count))
             .ok_or_else(too_long)?;
         let long = usize::try_from(MAX_DIGITS).is_ok_and(|limit| digits.len() > limit);
-        if long || shift.abs() > MAX_DIGITS {
+        if long || shift.unsigned_abs() > MAX_DIGITS.unsigned_abs() {
             return Err(too_long());
         }
         let mut numerator = IBig::from_str_radix(&digits, 10).map_err(|_| malformed())?;

@@ -69,9 +69,8 @@ impl Source {
     /// # Errors
     /// The first mistake, with its place.
     pub fn toml<T: DeserializeOwned>(&self) -> Result<T, Failure> {
-        toml::from_str(&self.text).map_err(|error| {
-            self.mistake(Mistake::new(error.span().unwrap_or_default(), error.message()))
-        })
+        toml::from_str(&self.text)
+            .map_err(|error| self.mistake(Mistake::new(error.span().unwrap_or_default(), error.message())))
     }
 
     /// Mistakes in this text, shown where they stand.

@@ -53,3 +53,49 @@ pub enum Function {
     /// Cosecant: one over sine.
     Csc,
 }
+
+impl<S> Expr<S> {
+    /// The same expression with its places translated.
+    #[must_use]
+    pub fn map_place<T>(&self, translate: &impl Fn(&S) -> T) -> Expr<T> {
+        let inner = |inner: &Self| Box::new(inner.map_place(translate));
+        let node = match &self.node {
+            Node::Number(value) => Node::Number(value.clone()),
+            Node::Pi => Node::Pi,
+            Node::Symbol(name) => Node::Symbol(name.clone()),
+            Node::Neg(a) => Node::Neg(inner(a)),
+            Node::Add(a, b) => Node::Add(inner(a), inner(b)),
+            Node::Mul(a, b) => Node::Mul(inner(a), inner(b)),
+            Node::Div(a, b) => Node::Div(inner(a), inner(b)),
+            Node::Pow(a, power) => Node::Pow(inner(a), *power),
+            Node::Call(function, a) => Node::Call(*function, inner(a)),
+        };
+        Expr { node, place: translate(&self.place) }
+    }
+
+    /// The value in floating point; `None` if `resolve` knows no value of a name.
+    #[must_use]
+    pub fn eval(&self, resolve: &impl Fn(&str) -> Option<f64>) -> Option<f64> {
+        Some(match &self.node {
+            Node::Number(value) => value.to_f64(),
+            Node::Pi => std::f64::consts::PI,
+            Node::Symbol(name) => resolve(name)?,
+            Node::Neg(a) => -a.eval(resolve)?,
+            Node::Add(a, b) => a.eval(resolve)? + b.eval(resolve)?,
+            Node::Mul(a, b) => a.eval(resolve)? * b.eval(resolve)?,
+            Node::Div(a, b) => a.eval(resolve)? / b.eval(resolve)?,
+            Node::Pow(a, power) => a.eval(resolve)?.powi(*power),
+            Node::Call(function, a) => {
+                let (sine, cosine) = a.eval(resolve)?.sin_cos();
+                match function {
+                    Function::Sin => sine,
+                    Function::Cos => cosine,
+                    Function::Tan => sine / cosine,
+                    Function::Cot => cosine / sine,
+                    Function::Sec => 1.0 / cosine,
+                    Function::Csc => 1.0 / sine,
+                }
+            }
+        })
+    }
+}

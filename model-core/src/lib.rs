@@ -1,16 +1,20 @@
 //! The declaration of an instrument as a chain of bodies, and everything that follows from it by algebra.
 //!
-//! The pipeline reads: text → [`syntax`] → [`chain`] → [`forms`] (over [`algebra`]) → verdicts, bounds and
+//! The pipeline reads: text → [`syntax`] → [`check`] → [`chain`] → [`forms`] (over [`algebra`]) → verdicts, bounds and
 //! null spaces. Nothing here reads a file, prints, or knows a clock.
 
 pub mod algebra;
 pub mod chain;
+pub mod check;
 pub mod exact;
 pub mod expr;
 pub mod forms;
+pub mod mistake;
 pub mod names;
 pub mod print;
 pub mod symbol;
+pub mod syntax;
 
 pub use chain::{Axis, Body, BodyId, Chain, Factor, Motion, Observable, ObservableId, ObservableKind, Role};
+pub use mistake::{Mistake, Mistakes};
 pub use symbol::{Quantity, Symbol, SymbolId, SymbolKind};

@@ -43,7 +43,10 @@ fn packages_depend_only_on_what_the_architecture_allows() {
             let used = dependency["name"].as_str().expect("a dependency has a name");
             let in_build = dependency["kind"] != "dev";
             if in_build && ours.contains(&used) {
-                assert!(allowed.contains(&used), "{name} depends on {used}; ARCHITECTURE.md does not allow it");
+                assert!(
+                    allowed.contains(&used),
+                    "{name} depends on {used}; ARCHITECTURE.md does not allow it"
+                );
             }
         }
     }
@@ -54,7 +57,11 @@ fn nothing_depends_on_the_command_or_the_benchmarks() {
     for package in packages() {
         for dependency in package["dependencies"].as_array().expect("a list of dependencies") {
             let used = dependency["name"].as_str().expect("a dependency has a name");
-            assert!(!["trueaxis-cli", "trueaxis-benches"].contains(&used), "{} depends on {used}", package["name"]);
+            assert!(
+                !["trueaxis-cli", "trueaxis-benches"].contains(&used),
+                "{} depends on {used}",
+                package["name"]
+            );
         }
     }
 }

@@ -65,6 +65,10 @@ fn every_file_is_one_concept_and_says_which() {
     for file in libraries().into_iter().chain(below("cli/src")) {
         let lines = file.text.lines().count();
         assert!(lines <= MOST_LINES, "{}: {lines} lines; split it by concept", file.path);
-        assert!(file.text.starts_with("//!"), "{}: the first line must say what concept lives here", file.path);
+        assert!(
+            file.text.starts_with("//!"),
+            "{}: the first line must say what concept lives here",
+            file.path
+        );
     }
 }

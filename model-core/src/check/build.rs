@@ -1,0 +1,152 @@
+//! From a declaration that keeps every rule to the chain that it stands for.
+
+use std::collections::BTreeMap;
+
+use super::Subject;
+use super::amounts::Purpose;
+use super::printed_form;
+use super::quantity::inferred;
+use super::scope::documentation;
+use super::words::{OBSERVABLE_KINDS, meaning};
+use crate::algebra::{Poly, Rational};
+use crate::chain::{Body, BodyId, Chain, Factor, Observable, ObservableKind};
+use crate::symbol::{Quantity, Symbol, SymbolId, SymbolKind};
+use crate::syntax::declaration::{BodyStatement, ObserveStatement};
+
+/// The chain. The rules have seen to it that nothing is missing; what were missing all the same is left out.
+pub fn chain(subject: &Subject<'_>) -> Chain {
+    let bodies = in_order(subject.declaration.bodies().collect());
+    let ids: BTreeMap<String, BodyId> =
+        (0u16..).zip(&bodies).map(|(index, body)| (body.name.to_string(), BodyId(index))).collect();
+    Chain {
+        name: subject.declaration.name.to_string(),
+        documentation: subject.declaration.documentation.clone(),
+        symbols: symbols(subject),
+        bodies: bodies
+            .iter()
+            .map(|body| Body {
+                name: body.name.to_string(),
+                documentation: body.documentation.clone(),
+                lower: ids.get(&body.lower.to_string()).copied(),
+                factors: factors(subject, body),
+            })
+            .collect(),
+        observables: subject
+            .declaration
+            .observables()
+            .filter_map(|observe| {
+                Some(Observable {
+                    name: observe.name.to_string(),
+                    documentation: observe.documentation.clone(),
+                    kind: meaning(&OBSERVABLE_KINDS, &observe.kind).unwrap_or(ObservableKind::Point),
+                    components: components(subject, observe),
+                    body: ids.get(&observe.body.to_string()).copied()?,
+                })
+            })
+            .collect(),
+        gravity: gravity(subject),
+    }
+}
+
+/// The bodies, each after its lower body, otherwise in the order of the text.
+fn in_order(mut waiting: Vec<&BodyStatement>) -> Vec<&BodyStatement> {
+    let mut ordered: Vec<&BodyStatement> = Vec::with_capacity(waiting.len());
+    while !waiting.is_empty() {
+        let before = ordered.len();
+        waiting.retain(|body| {
+            let is_ready =
+                body.lower == super::words::GROUND || ordered.iter().any(|other| other.name == body.lower);
+            if is_ready {
+                ordered.push(body);
+            }
+            !is_ready
+        });
+        if ordered.len() == before {
+            break;
+        }
+    }
+    ordered
+}
+
+fn factors(subject: &Subject<'_>, body: &BodyStatement) -> Vec<Factor> {
+    subject
+        .amounts
+        .iter()
+        .filter_map(|amount| match amount.purpose {
+            Purpose::Factor { body: owner, group, factor, role, motion, axis }
+                if std::ptr::eq(owner, body) =>
+            {
+                Some(Factor {
+                    role,
+                    motion,
+                    axis,
+                    amount: amount.value.clone()?,
+                    documentation: documentation(group, factor).to_owned(),
+                })
+            }
+            _ => None,
+        })
+        .collect()
+}
+
+fn components(subject: &Subject<'_>, observe: &ObserveStatement) -> [Poly; 3] {
+    let values = subject
+        .amounts
+        .iter()
+        .filter(|amount| matches!(amount.purpose, Purpose::Component(owner) if std::ptr::eq(owner, observe)));
+    three(values.filter_map(|amount| amount.value.clone()), [0, 0, 0])
+}
+
+/// Down is −z, unless declared.
+fn gravity(subject: &Subject<'_>) -> [Poly; 3] {
+    let values = subject.amounts.iter().filter(|amount| matches!(amount.purpose, Purpose::Gravity));
+    three(values.filter_map(|amount| amount.value.clone()), [0, 0, -1])
+}
+
+fn three(mut values: impl Iterator<Item = Poly>, otherwise: [i64; 3]) -> [Poly; 3] {
+    otherwise.map(|number| values.next().unwrap_or_else(|| Poly::constant(Rational::from(number))))
+}
+
+fn symbols(subject: &Subject<'_>) -> Vec<Symbol> {
+    let scope = &subject.scope;
+    let quantities = error_quantities(subject);
+    let printed: BTreeMap<String, &str> = subject
+        .declaration
+        .printed_symbols()
+        .map(|symbol| (symbol.name.to_string(), symbol.latex.as_str()))
+        .collect();
+    let values: BTreeMap<String, f64> = subject
+        .declaration
+        .constants()
+        .filter_map(|constant| Some((constant.name.to_string(), constant.value.as_ref()?.eval(&|_| None)?)))
+        .collect();
+    (0u16..)
+        .map(SymbolId)
+        .zip(scope.entries())
+        .map(|(id, entry)| Symbol {
+            name: entry.name.clone(),
+            kind: entry.kind,
+            quantity: entry.quantity.or_else(|| quantities.get(&id).copied()).unwrap_or(Quantity::Number),
+            documentation: entry.documentation.clone(),
+            latex: printed
+                .get(&entry.name)
+                .map_or_else(|| printed_form::latex(&entry.name), |latex| (*latex).to_owned()),
+            value: match entry.kind {
+                SymbolKind::Pi => Some(std::f64::consts::PI),
+                _ => values.get(&entry.name).copied(),
+            },
+        })
+        .collect()
+}
+
+/// What errors measure: an angle or a length where any use says so, a number otherwise.
+fn error_quantities(subject: &Subject<'_>) -> BTreeMap<SymbolId, Quantity> {
+    let mut quantities = BTreeMap::new();
+    for (id, quantity) in subject.amounts.iter().flat_map(|amount| inferred(&subject.scope, amount)) {
+        let known = quantities.entry(id).or_insert(quantity);
+        if *known == Quantity::Number {
+            *known = quantity;
+        }
+    }
+    quantities
+}

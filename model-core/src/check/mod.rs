@@ -1,0 +1,86 @@
+//! What a declaration means: the rules of the language, and the chain that a declaration without mistakes stands
+//! for.
+//!
+//! declaration → `scope` (what each name is) → `amounts` (canonical forms) → `rules` → `build`. Every
+//! rule is one function in `rules/`, with one line in `rules::RULES`; each looks at the whole declaration, so
+//! that all mistakes are reported at once.
+
+mod amounts;
+mod build;
+mod printed_form;
+mod quantity;
+mod rules;
+mod scope;
+mod words;
+
+use proc_macro2::{Span, TokenStream};
+
+use crate::chain::Chain;
+use crate::mistake::{Mistake, Mistakes};
+use crate::syntax::{self, Declaration};
+use amounts::Amount;
+use scope::Scope;
+
+/// What the rules look at.
+struct Subject<'a> {
+    declaration: &'a Declaration,
+    scope: Scope,
+    amounts: Vec<Amount<'a>>,
+}
+
+impl Chain {
+    /// Reads and checks the text of a `.chain` file.
+    ///
+    /// # Errors
+    ///
+    /// Every mistake in it, sorted by place.
+    pub fn from_text(text: &str) -> Result<Self, Mistakes> {
+        let tokens = match syntax::tokens_of(text) {
+            Ok(tokens) => tokens,
+            Err(mistake) => return Err(syntax::located(text, vec![mistake])),
+        };
+        match read(tokens) {
+            Ok((_, chain)) => Ok(chain),
+            Err(mistakes) => Err(syntax::located(text, mistakes)),
+        }
+    }
+}
+
+/// Reads and checks a declaration: all mistakes of form and of meaning, sorted by place.
+///
+/// # Errors
+///
+/// Every mistake, at the token at fault.
+pub fn read(tokens: TokenStream) -> Result<(Declaration, Chain), Vec<Mistake<Span>>> {
+    let mut mistakes = Vec::new();
+    let declaration = syntax::read(tokens, &mut mistakes);
+    let chain = declaration.as_ref().map(check);
+    match (declaration, chain) {
+        (Some(declaration), Some(Ok(chain))) if mistakes.is_empty() => Ok((declaration, chain)),
+        (_, chain) => {
+            mistakes.extend(chain.and_then(Result::err).unwrap_or_default());
+            Err(sorted(mistakes))
+        }
+    }
+}
+
+/// The chain that a declaration stands for.
+///
+/// # Errors
+///
+/// Every rule that it breaks, sorted by place.
+pub fn check(declaration: &Declaration) -> Result<Chain, Vec<Mistake<Span>>> {
+    let scope = Scope::collect(declaration);
+    let mut mistakes = Vec::new();
+    let amounts = amounts::collect(declaration, &scope, &mut mistakes);
+    let subject = Subject { declaration, scope, amounts };
+    for (_, rule) in rules::RULES {
+        rule(&subject, &mut mistakes);
+    }
+    if mistakes.is_empty() { Ok(build::chain(&subject)) } else { Err(sorted(mistakes)) }
+}
+
+fn sorted(mut mistakes: Vec<Mistake<Span>>) -> Vec<Mistake<Span>> {
+    mistakes.sort_by_key(|mistake| (mistake.place.start(), mistake.place.end()));
+    mistakes
+}

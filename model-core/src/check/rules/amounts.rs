@@ -1,0 +1,222 @@
+//! Rules about the amounts of factors.
+
+use proc_macro2::Span;
+
+use super::super::Subject;
+use super::super::amounts::{Amount, Purpose};
+use super::super::scope::names_in;
+use super::names::unknown_name;
+use crate::algebra::{AngleSum, Poly};
+use crate::chain::{Motion, Role};
+use crate::expr::{Expr, Node};
+use crate::mistake::Mistake;
+use crate::names::nearest;
+use crate::symbol::{Quantity, SymbolId, SymbolKind};
+
+pub fn names_are_declared(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
+    for amount in &subject.amounts {
+        for (name, place) in names_in(amount.written) {
+            if subject.scope.find(name).is_none() && !super::super::words::is_reserved(name) {
+                let otherwise = format!("declare it: `const {name}: length = 0.25;` or `input {name};`");
+                mistakes.push(unknown_name(subject, name, place, &otherwise));
+            }
+        }
+    }
+}
+
+pub fn functions_of_angles(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
+    for amount in &subject.amounts {
+        let mut arguments = Vec::new();
+        arguments_in(amount.written, &mut arguments);
+        for argument in arguments {
+            for (name, place) in names_in(argument) {
+                let Some(id) = subject.scope.find(name) else { continue };
+                if !subject.scope.is_angle(id) {
+                    mistakes.push(no_angle(subject, id, place));
+                }
+            }
+        }
+    }
+}
+
+fn no_angle(subject: &Subject<'_>, id: SymbolId, place: Span) -> Mistake<Span> {
+    let entry = subject.scope.entry(id);
+    let name = &entry.name;
+    let angles = subject
+        .scope
+        .entries()
+        .iter()
+        .filter(|other| other.kind != SymbolKind::Error && other.quantity == Some(Quantity::Angle));
+    match entry.kind {
+        SymbolKind::Error => {
+            let help = match nearest(name, angles.map(|angle| angle.name.as_str())) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => "write a phase as two errors: `a*cos(q) + b*sin(q)`".to_owned(),
+            };
+            Mistake::new(place, format!("the error `{name}` stands inside a sine or cosine")).with_help(help)
+        }
+        SymbolKind::Joint => {
+            Mistake::new(place, format!("the joint `{name}` is a length, and stands inside a sine or cosine"))
+                .with_help("take sines and cosines of angles")
+        }
+        SymbolKind::Constant => {
+            Mistake::new(place, format!("`{name}` is no angle, and stands inside a sine or cosine"))
+                .with_help(format!("declare it as an angle: `const {name}: angle = …;`"))
+        }
+        SymbolKind::Pi | SymbolKind::Input => {
+            Mistake::new(place, format!("`{name}` is no angle, and stands inside a sine or cosine"))
+                .with_help(format!("declare it as an angle: `input {name}: angle;`"))
+        }
+    }
+}
+
+fn arguments_in<'a>(amount: &'a Expr<Span>, arguments: &mut Vec<&'a Expr<Span>>) {
+    match &amount.node {
+        Node::Number(_) | Node::Pi | Node::Symbol(_) => {}
+        Node::Call(_, argument) => arguments.push(argument),
+        Node::Neg(inner) | Node::Pow(inner, _) => arguments_in(inner, arguments),
+        Node::Add(left, right) | Node::Mul(left, right) | Node::Div(left, right) => {
+            arguments_in(left, arguments);
+            arguments_in(right, arguments);
+        }
+    }
+}
+
+/// The amounts of factors of one role.
+fn factors_of<'a, 's>(
+    subject: &'s Subject<'a>,
+    wanted: impl Fn(Role) -> bool,
+) -> impl Iterator<Item = (&'s Amount<'a>, Motion)> {
+    subject.amounts.iter().filter_map(move |amount| match amount.purpose {
+        Purpose::Factor { role, motion, .. } if wanted(role) => Some((amount, motion)),
+        _ => None,
+    })
+}
+
+pub fn position_is_constant(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
+    for (amount, motion) in factors_of(subject, |role| role == Role::Position) {
+        for (name, place) in names_in(amount.written) {
+            let Some(entry) = subject.scope.lookup(name) else { continue };
+            let (what, help) = match entry.kind {
+                SymbolKind::Pi | SymbolKind::Constant => continue,
+                SymbolKind::Joint => {
+                    ("joint", "write factors with joints in `motion`, or in `motion_error`".to_owned())
+                }
+                SymbolKind::Input => {
+                    ("input", "write factors with inputs in `position_error` or `motion_error`".to_owned())
+                }
+                SymbolKind::Error => {
+                    let quantity = match motion {
+                        Motion::Rotation => "angle",
+                        Motion::Translation => "length",
+                    };
+                    (
+                        "error",
+                        format!(
+                            "write the factor in `position_error`, or declare `const {name}: {quantity} = …;`"
+                        ),
+                    )
+                }
+            };
+            mistakes.push(
+                Mistake::new(place, format!("the {what} `{name}` stands in a position")).with_help(help),
+            );
+        }
+    }
+}
+
+pub fn position_turns_by_angles(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
+    for (amount, _) in
+        factors_of(subject, |role| role == Role::Position).filter(|(_, motion)| *motion == Motion::Rotation)
+    {
+        let Some(value) = &amount.value else { continue };
+        let is_constant = value
+            .symbols()
+            .iter()
+            .all(|&id| matches!(subject.scope.entry(id).kind, SymbolKind::Pi | SymbolKind::Constant));
+        if is_constant && !is_angle_sum(subject, value) {
+            mistakes.push(
+                Mistake::new(
+                    amount.written.place,
+                    "a position turns by whole multiples of constant angles and of pi/2 only",
+                )
+                .with_help("declare any other angle: `const tilt: angle = pi/6;`, and write `tilt` here"),
+            );
+        }
+    }
+}
+
+/// Whether a sine can be taken of an amount.
+fn is_angle_sum(subject: &Subject<'_>, value: &Poly) -> bool {
+    AngleSum::from_poly(value)
+        .is_ok_and(|sum| sum.multiples().iter().all(|&(id, _)| subject.scope.is_angle(id)))
+}
+
+pub fn motion_is_linear(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
+    for (amount, motion) in factors_of(subject, |role| role == Role::Motion) {
+        let mut is_moved = false;
+        let mut has_input = false;
+        for (name, place) in names_in(amount.written) {
+            match subject.scope.lookup(name).map(|entry| entry.kind) {
+                Some(SymbolKind::Joint) => is_moved = true,
+                Some(SymbolKind::Input) => {
+                    has_input = true;
+                    mistakes.push(
+                        Mistake::new(place, format!("the input `{name}` stands in a motion")).with_help(format!(
+                            "a motion makes a joint of the names in it: remove `input {name};`, or write the factor in `motion_error`"
+                        )),
+                    );
+                }
+                _ => {}
+            }
+        }
+        let place = amount.written.place;
+        if has_input {
+            continue;
+        }
+        if !is_moved {
+            mistakes.push(
+                Mistake::new(place, "nothing moves this motion")
+                    .with_help("write a joint in it: `Rz(alpha)`; or write the factor in `position`"),
+            );
+            continue;
+        }
+        let Some(value) = &amount.value else { continue };
+        let is_joint = |id: SymbolId| subject.scope.entry(id).kind == SymbolKind::Joint;
+        let is_linear = match motion {
+            Motion::Rotation => is_angle_sum(subject, value),
+            Motion::Translation => {
+                let joints = value.symbols().into_iter().filter(|&id| is_joint(id));
+                value.degree_in(is_joint) <= 1
+                    && joints.into_iter().all(|joint| value.derivative(joint).as_constant().is_some())
+            }
+        };
+        if !is_linear {
+            let (what, help) = match motion {
+                Motion::Rotation => (
+                    "a motion turns by whole multiples of joints, constant angles and pi/2 only",
+                    "write `Rz(alpha)`, `Rz(-alpha)` or `Rx(alpha - pi/2)`; what depends on a joint otherwise belongs in `motion_error`",
+                ),
+                Motion::Translation => (
+                    "a motion shifts by numbers times joints, and constants, only",
+                    "write `Tx(travel)` or `Tx(travel + offset)`; what depends on a joint otherwise belongs in `motion_error`",
+                ),
+            };
+            mistakes.push(Mistake::new(place, what).with_help(help));
+        }
+    }
+}
+
+pub fn error_vanishes(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
+    let is_error_role = |role| matches!(role, Role::PositionError | Role::MotionError);
+    for (amount, _) in factors_of(subject, is_error_role) {
+        let Some(value) = &amount.value else { continue };
+        let without_errors = value.graded_part(|id| subject.scope.is_error(id), 0);
+        if !without_errors.is_zero() {
+            mistakes.push(
+                Mistake::new(amount.written.place, "this amount does not vanish when every error is zero")
+                    .with_help("multiply every term by an error: `sag*cos(beta)`; write what is there by design in `position` or `motion`"),
+            );
+        }
+    }
+}

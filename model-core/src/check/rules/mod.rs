@@ -1,0 +1,41 @@
+//! The rules of the language: one function each, one line each in [`RULES`].
+
+mod amounts;
+mod bodies;
+mod factors;
+mod names;
+mod observables;
+mod quantities;
+
+use proc_macro2::Span;
+
+use super::Subject;
+use crate::mistake::Mistake;
+
+/// A rule looks at the whole declaration and reports every place that breaks it.
+pub type Rule = fn(&Subject<'_>, &mut Vec<Mistake<Span>>);
+
+/// Every rule of the language, with the sentence that it enforces.
+pub const RULES: &[(&str, Rule)] = &[
+    ("a name is not a word that means something else", names::not_reserved),
+    ("a name is declared once", names::declared_once),
+    ("a printed form is given to a name that exists", names::printed_names_exist),
+    ("a body hangs on a body that exists", bodies::lower_body_exists),
+    ("no body hangs on itself", bodies::hangs_on_ground),
+    ("a list of factors has one of the four roles", factors::role_is_known),
+    ("a factor is one of the six elementary transforms", factors::axis_is_known),
+    ("an amount uses declared names", amounts::names_are_declared),
+    ("sines and cosines are taken of angles", amounts::functions_of_angles),
+    ("a position is made of constants", amounts::position_is_constant),
+    ("a position turns by angles", amounts::position_turns_by_angles),
+    ("a motion is moved by joints, linearly", amounts::motion_is_linear),
+    ("an error vanishes with its symbols", amounts::error_vanishes),
+    ("a quantity is an angle or a length", quantities::quantity_is_known),
+    ("a constant has a finite value", quantities::constant_has_a_value),
+    ("a symbol measures one thing", quantities::one_quantity_each),
+    ("an observable is a direction or a point", observables::kind_is_known),
+    ("an observable belongs to a body that exists", observables::body_exists),
+    ("an observable is made of constants and inputs", observables::components_are_known),
+    ("a direction has a length", observables::direction_is_not_zero),
+    ("gravity is declared once, as a direction", observables::gravity_is_a_direction),
+];

@@ -1,0 +1,206 @@
+//! What each name of a declaration stands for: joint, error, constant or input, in order of declaration or
+//! first use.
+//!
+//! The scope is made of any declaration, wrong ones too: it takes the likeliest meaning, and the rules say what
+//! is wrong. A misspelt role counts as the nearest one, so that one mistake does not bring on others.
+
+use std::collections::BTreeMap;
+
+use proc_macro2::Span;
+
+use super::words;
+use crate::chain::Role;
+use crate::expr::{Expr, Node};
+use crate::symbol::{Quantity, SymbolId, SymbolKind};
+use crate::syntax::Declaration;
+use crate::syntax::declaration::{BodyStatement, FactorGroup, FactorTerm, Statement};
+
+/// One name of the scope.
+pub struct Entry {
+    /// The name.
+    pub name: String,
+    /// What it is for.
+    pub kind: SymbolKind,
+    /// What it measures, as far as its statement or motion says.
+    pub quantity: Option<Quantity>,
+    /// Documentation of its statement, else of the factor or list where it is first used.
+    pub documentation: String,
+}
+
+/// Every name that amounts may use.
+pub struct Scope {
+    entries: Vec<Entry>,
+    ids: BTreeMap<String, SymbolId>,
+    /// Whether every amount and role could be read, so that a name which is missing here is really missing.
+    pub is_complete: bool,
+}
+
+impl Scope {
+    /// Collects the names of a declaration.
+    pub fn collect(declaration: &Declaration) -> Self {
+        let mut scope = Self { entries: Vec::new(), ids: BTreeMap::new(), is_complete: true };
+        scope.declare(Entry {
+            name: "pi".to_owned(),
+            kind: SymbolKind::Pi,
+            quantity: Some(Quantity::Number),
+            documentation: "The ratio of a circle's circumference to its diameter.".to_owned(),
+        });
+        let fixed = fixed_kinds(declaration);
+        for statement in &declaration.statements {
+            match statement {
+                Statement::Constant(constant) => scope.declare(Entry {
+                    name: constant.name.to_string(),
+                    kind: SymbolKind::Constant,
+                    quantity: Some(words::stated_quantity(constant.quantity.as_ref())),
+                    documentation: constant.documentation.clone(),
+                }),
+                Statement::Input(input) => scope.declare(Entry {
+                    name: input.name.to_string(),
+                    kind: SymbolKind::Input,
+                    quantity: Some(words::stated_quantity(input.quantity.as_ref())),
+                    documentation: input.documentation.clone(),
+                }),
+                Statement::Body(body) => scope.declare_used(body, &fixed),
+                Statement::Symbol(_) | Statement::Observe(_) | Statement::Gravity(_) => {}
+            }
+        }
+        for symbol in declaration.printed_symbols().filter(|symbol| !symbol.documentation.is_empty()) {
+            if let Some(id) = scope.find(&symbol.name.to_string()) {
+                scope.entries[id.index()].documentation.clone_from(&symbol.documentation);
+            }
+        }
+        scope
+    }
+
+    /// The joints and errors that a body's factors use first.
+    fn declare_used(&mut self, body: &BodyStatement, fixed: &BTreeMap<String, SymbolKind>) {
+        for group in &body.groups {
+            let role = words::likely_role(&group.role);
+            self.is_complete &= role.is_some();
+            for factor in &group.factors {
+                self.is_complete &= factor.amount.is_some();
+                let (Some(role), Some(amount)) = (role, &factor.amount) else {
+                    continue;
+                };
+                for (name, _) in names_in(amount) {
+                    let kind = match fixed.get(name) {
+                        Some(SymbolKind::Joint) => SymbolKind::Joint,
+                        None if matches!(role, Role::PositionError | Role::MotionError) => SymbolKind::Error,
+                        _ => continue,
+                    };
+                    let documentation = documentation(group, factor);
+                    self.declare(Entry {
+                        name: name.to_owned(),
+                        kind,
+                        quantity: None,
+                        documentation: documentation.to_owned(),
+                    });
+                    if role == Role::Motion {
+                        self.moved_by(name, factor, documentation);
+                    }
+                }
+            }
+        }
+    }
+
+    /// A joint's quantity and documentation come from the first motion that it drives.
+    fn moved_by(&mut self, name: &str, factor: &FactorTerm, documentation: &str) {
+        let Some(id) = self.find(name) else { return };
+        let entry = &mut self.entries[id.index()];
+        if entry.kind == SymbolKind::Joint && entry.quantity.is_none() {
+            entry.quantity = words::transform(&factor.axis).map(|(motion, _)| words::quantity_moved(motion));
+            documentation.clone_into(&mut entry.documentation);
+        }
+    }
+
+    /// Adds a name, unless it is there already.
+    fn declare(&mut self, entry: Entry) {
+        if self.ids.contains_key(&entry.name) {
+            return;
+        }
+        match u16::try_from(self.entries.len()) {
+            Ok(index) => {
+                self.ids.insert(entry.name.clone(), SymbolId(index));
+                self.entries.push(entry);
+            }
+            Err(_) => self.is_complete = false,
+        }
+    }
+
+    /// The id of a name.
+    pub fn find(&self, name: &str) -> Option<SymbolId> {
+        self.ids.get(name).copied()
+    }
+
+    /// The entry behind an id of this scope.
+    pub fn entry(&self, id: SymbolId) -> &Entry {
+        &self.entries[id.index()]
+    }
+
+    /// The entry of a name.
+    pub fn lookup(&self, name: &str) -> Option<&Entry> {
+        self.find(name).map(|id| self.entry(id))
+    }
+
+    /// Every entry, by id.
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
+    /// Whether an id is an error's.
+    pub fn is_error(&self, id: SymbolId) -> bool {
+        self.entry(id).kind == SymbolKind::Error
+    }
+
+    /// Whether sines and cosines may be taken of it.
+    pub fn is_angle(&self, id: SymbolId) -> bool {
+        let entry = self.entry(id);
+        entry.kind != SymbolKind::Error && entry.quantity == Some(Quantity::Angle)
+    }
+}
+
+/// The documentation of a factor: its own, else that of its list.
+pub fn documentation<'a>(group: &'a FactorGroup, factor: &'a FactorTerm) -> &'a str {
+    if factor.documentation.is_empty() { &group.documentation } else { &factor.documentation }
+}
+
+/// Every use of a name in an amount, from left to right.
+pub fn names_in(amount: &Expr<Span>) -> Vec<(&str, Span)> {
+    let mut names = Vec::new();
+    collect_names(amount, &mut names);
+    names
+}
+
+fn collect_names<'a>(amount: &'a Expr<Span>, names: &mut Vec<(&'a str, Span)>) {
+    match &amount.node {
+        Node::Number(_) | Node::Pi => {}
+        Node::Symbol(name) => names.push((name, amount.place)),
+        Node::Neg(inner) | Node::Pow(inner, _) | Node::Call(_, inner) => collect_names(inner, names),
+        Node::Add(left, right) | Node::Mul(left, right) | Node::Div(left, right) => {
+            collect_names(left, names);
+            collect_names(right, names);
+        }
+    }
+}
+
+/// The kinds that do not depend on the order of statements: constants and inputs by their statements, joints by
+/// the motions that they drive.
+fn fixed_kinds(declaration: &Declaration) -> BTreeMap<String, SymbolKind> {
+    let mut kinds = BTreeMap::new();
+    for constant in declaration.constants() {
+        kinds.entry(constant.name.to_string()).or_insert(SymbolKind::Constant);
+    }
+    for input in declaration.inputs() {
+        kinds.entry(input.name.to_string()).or_insert(SymbolKind::Input);
+    }
+    let motions = declaration
+        .bodies()
+        .flat_map(|body| &body.groups)
+        .filter(|group| words::likely_role(&group.role) == Some(Role::Motion));
+    for amount in motions.flat_map(|group| &group.factors).filter_map(|factor| factor.amount.as_ref()) {
+        for (name, _) in names_in(amount) {
+            kinds.entry(name.to_owned()).or_insert(SymbolKind::Joint);
+        }
+    }
+    kinds
+}

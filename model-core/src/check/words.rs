@@ -1,0 +1,91 @@
+//! The words of the language, and what each stands for.
+
+use proc_macro2::Ident;
+
+use crate::chain::{Axis, Motion, ObservableKind, Role};
+use crate::names::nearest;
+use crate::symbol::Quantity;
+
+/// The body that is not declared: what the instrument stands on.
+pub const GROUND: &str = "ground";
+
+/// The roles of factors.
+pub const ROLES: [(&str, Role); 4] = [
+    ("position", Role::Position),
+    ("position_error", Role::PositionError),
+    ("motion", Role::Motion),
+    ("motion_error", Role::MotionError),
+];
+
+/// The elementary transforms.
+pub const TRANSFORMS: [(&str, (Motion, Axis)); 6] = [
+    ("Rx", (Motion::Rotation, Axis::X)),
+    ("Ry", (Motion::Rotation, Axis::Y)),
+    ("Rz", (Motion::Rotation, Axis::Z)),
+    ("Tx", (Motion::Translation, Axis::X)),
+    ("Ty", (Motion::Translation, Axis::Y)),
+    ("Tz", (Motion::Translation, Axis::Z)),
+];
+
+/// The kinds of observables.
+pub const OBSERVABLE_KINDS: [(&str, ObservableKind); 2] =
+    [("direction", ObservableKind::Direction), ("point", ObservableKind::Point)];
+
+/// The quantities that constants and inputs may state.
+pub const QUANTITIES: [(&str, Quantity); 2] = [("angle", Quantity::Angle), ("length", Quantity::Length)];
+
+/// What a word stands for.
+pub fn meaning<T: Copy>(words: &[(&str, T)], word: &Ident) -> Option<T> {
+    words.iter().find(|(known, _)| word == known).map(|(_, meaning)| *meaning)
+}
+
+/// The role that a word stands for, or most likely should.
+pub fn likely_role(word: &Ident) -> Option<Role> {
+    meaning(&ROLES, word).or_else(|| {
+        let near = nearest(&word.to_string(), ROLES.map(|(known, _)| known))?;
+        ROLES.iter().find(|(known, _)| *known == near).map(|(_, role)| *role)
+    })
+}
+
+/// The elementary transform that a word stands for.
+pub fn transform(word: &Ident) -> Option<(Motion, Axis)> {
+    meaning(&TRANSFORMS, word)
+}
+
+/// What the amount of a transform measures.
+pub fn quantity_moved(motion: Motion) -> Quantity {
+    match motion {
+        Motion::Rotation => Quantity::Angle,
+        Motion::Translation => Quantity::Length,
+    }
+}
+
+/// What a constant or input measures: as stated, and a number otherwise.
+pub fn stated_quantity(word: Option<&Ident>) -> Quantity {
+    word.and_then(|word| meaning(&QUANTITIES, word)).unwrap_or(Quantity::Number)
+}
+
+/// Advice on a word that is not one of those known: the nearest, or all of them.
+pub fn advice<T>(words: &[(&str, T)], word: &Ident) -> String {
+    let known = || words.iter().map(|(known, _)| *known);
+    match nearest(&word.to_string(), known()) {
+        Some(near) if words.len() > 1 && word.to_string().len() > 2 => format!("did you mean `{near}`?"),
+        _ => format!("write one of {}", known().collect::<Vec<_>>().join(", ")),
+    }
+}
+
+/// Whether a word cannot be a name: it means something in an amount, or in Rust, into which chains are expanded.
+pub fn is_reserved(word: &str) -> bool {
+    const RUST: [&str; 52] = [
+        "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do",
+        "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let",
+        "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "self",
+        "Self", "static", "struct", "super", "trait", "true", "try", "type", "typeof", "unsafe", "unsized",
+        "use", "virtual", "where", "while", "yield",
+    ];
+    word == "_"
+        || word == "pi"
+        || word == GROUND
+        || crate::syntax::FUNCTIONS.iter().any(|(function, _)| *function == word)
+        || RUST.contains(&word)
+}

@@ -1,0 +1,195 @@
+//! The declaration as written: every statement in its order, every name with its place. What it means is the
+//! business of [`crate::check`].
+
+use proc_macro2::{Ident, Span};
+
+use crate::expr::Expr;
+
+/// `chain Name { … }`.
+#[derive(Debug, Clone)]
+pub struct Declaration {
+    /// The `///` lines above it.
+    pub documentation: String,
+    /// The name.
+    pub name: Ident,
+    /// What stands between the braces, in order.
+    pub statements: Vec<Statement>,
+    /// The braces around the statements.
+    pub braces: Braces,
+}
+
+/// A pair of braces.
+#[derive(Debug, Clone, Copy)]
+pub struct Braces {
+    /// `{`
+    pub open: Span,
+    /// `}`
+    pub close: Span,
+}
+
+/// One statement of a chain.
+#[derive(Debug, Clone)]
+pub enum Statement {
+    /// `body middle on outer { … }`
+    Body(BodyStatement),
+    /// `const arm: length = 0.25;`
+    Constant(ConstantStatement),
+    /// `input range: length;`
+    Input(InputStatement),
+    /// `symbol dg2 = r"\Delta\gamma_2";`
+    Symbol(SymbolStatement),
+    /// `observe pointing: direction(0, 0, 1) of device;`
+    Observe(ObserveStatement),
+    /// `gravity: (0, 0, -1);`
+    Gravity(GravityStatement),
+}
+
+/// `body middle on outer { … }`
+#[derive(Debug, Clone)]
+pub struct BodyStatement {
+    /// The `///` lines above it.
+    pub documentation: String,
+    /// The name of the body.
+    pub name: Ident,
+    /// The name of its lower body, or `ground`.
+    pub lower: Ident,
+    /// The lists of factors, in order.
+    pub groups: Vec<FactorGroup>,
+    /// The braces around the groups.
+    pub braces: Braces,
+}
+
+/// `motion_error: Tx(dx2), Ry(db2);`
+#[derive(Debug, Clone)]
+pub struct FactorGroup {
+    /// The `///` lines above it.
+    pub documentation: String,
+    /// `position`, `position_error`, `motion` or `motion_error`, as written.
+    pub role: Ident,
+    /// The factors, in order.
+    pub factors: Vec<FactorTerm>,
+    /// The `;` that ends the list.
+    pub semicolon: Span,
+}
+
+/// `Ry(db2)`
+#[derive(Debug, Clone)]
+pub struct FactorTerm {
+    /// The `///` lines above it.
+    pub documentation: String,
+    /// `Rx` to `Tz`, as written.
+    pub axis: Ident,
+    /// The amount; `None` if it could not be read.
+    pub amount: Option<Expr<Span>>,
+    /// The parenthesis that ends the factor.
+    pub close: Span,
+}
+
+/// `const arm: length = 0.25;`
+#[derive(Debug, Clone)]
+pub struct ConstantStatement {
+    /// The `///` lines above it.
+    pub documentation: String,
+    /// The name.
+    pub name: Ident,
+    /// `angle` or `length`, as written.
+    pub quantity: Option<Ident>,
+    /// The value in SI; `None` if it could not be read.
+    pub value: Option<Expr<Span>>,
+}
+
+/// `input range: length;`
+#[derive(Debug, Clone)]
+pub struct InputStatement {
+    /// The `///` lines above it.
+    pub documentation: String,
+    /// The name.
+    pub name: Ident,
+    /// `angle` or `length`, as written.
+    pub quantity: Option<Ident>,
+}
+
+/// `symbol dg2 = r"\Delta\gamma_2";`
+#[derive(Debug, Clone)]
+pub struct SymbolStatement {
+    /// The `///` lines above it.
+    pub documentation: String,
+    /// The name that gets a printed form.
+    pub name: Ident,
+    /// The printed form, in LaTeX.
+    pub latex: String,
+}
+
+/// `observe pointing: direction(0, 0, 1) of device;`
+#[derive(Debug, Clone)]
+pub struct ObserveStatement {
+    /// The `///` lines above it.
+    pub documentation: String,
+    /// The name.
+    pub name: Ident,
+    /// `direction` or `point`, as written.
+    pub kind: Ident,
+    /// The components; `None` for one that could not be read.
+    pub components: [Option<Expr<Span>>; 3],
+    /// The name of the body that carries it.
+    pub body: Ident,
+}
+
+/// `gravity: (0, 0, -1);`
+#[derive(Debug, Clone)]
+pub struct GravityStatement {
+    /// The word itself.
+    pub keyword: Span,
+    /// The components; `None` for one that could not be read.
+    pub components: [Option<Expr<Span>>; 3],
+}
+
+impl Declaration {
+    /// The statements of bodies, in order.
+    pub fn bodies(&self) -> impl Iterator<Item = &BodyStatement> {
+        self.statements.iter().filter_map(|statement| match statement {
+            Statement::Body(body) => Some(body),
+            _ => None,
+        })
+    }
+
+    /// The `const` statements, in order.
+    pub fn constants(&self) -> impl Iterator<Item = &ConstantStatement> {
+        self.statements.iter().filter_map(|statement| match statement {
+            Statement::Constant(constant) => Some(constant),
+            _ => None,
+        })
+    }
+
+    /// The `input` statements, in order.
+    pub fn inputs(&self) -> impl Iterator<Item = &InputStatement> {
+        self.statements.iter().filter_map(|statement| match statement {
+            Statement::Input(input) => Some(input),
+            _ => None,
+        })
+    }
+
+    /// The `symbol` statements, in order.
+    pub fn printed_symbols(&self) -> impl Iterator<Item = &SymbolStatement> {
+        self.statements.iter().filter_map(|statement| match statement {
+            Statement::Symbol(symbol) => Some(symbol),
+            _ => None,
+        })
+    }
+
+    /// The `observe` statements, in order.
+    pub fn observables(&self) -> impl Iterator<Item = &ObserveStatement> {
+        self.statements.iter().filter_map(|statement| match statement {
+            Statement::Observe(observe) => Some(observe),
+            _ => None,
+        })
+    }
+
+    /// The `gravity` statements, in order; the rules allow one.
+    pub fn gravities(&self) -> impl Iterator<Item = &GravityStatement> {
+        self.statements.iter().filter_map(|statement| match statement {
+            Statement::Gravity(gravity) => Some(gravity),
+            _ => None,
+        })
+    }
+}

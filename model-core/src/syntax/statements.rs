@@ -1,0 +1,263 @@
+//! Reading statements. A statement that cannot be read is reported and skipped, so that the ones behind it
+//! are read all the same.
+
+use proc_macro2::{Delimiter, Span, TokenTree};
+use syn::buffer::Cursor;
+
+use super::amount;
+use super::declaration::{
+    BodyStatement, ConstantStatement, Declaration, FactorGroup, FactorTerm, GravityStatement, InputStatement,
+    ObserveStatement, Statement, SymbolStatement,
+};
+use super::tokens::Reader;
+use crate::expr::Expr;
+use crate::mistake::Mistake;
+use crate::names::nearest;
+
+/// The words that begin a statement of a chain.
+const STATEMENT_WORDS: [&str; 6] = ["body", "const", "input", "symbol", "observe", "gravity"];
+
+const CHAIN_HELP: &str = "write `chain Name { … }`";
+const BODY_HELP: &str = "write `body name on ground { … }`, or the lower body's name in place of `ground`";
+const CONSTANT_HELP: &str = "write `const name: length = 0.25;` or `const name: angle = pi/6;`";
+const INPUT_HELP: &str = "write `input name;`, `input name: length;` or `input name: angle;`";
+const SYMBOL_HELP: &str = r#"write `symbol name = r"\delta_1";`"#;
+const OBSERVE_HELP: &str =
+    "write `observe name: direction(0, 0, 1) of body;` or `observe name: point(0, 0, 0) of body;`";
+const GRAVITY_HELP: &str = "write `gravity: (0, 0, -1);`";
+const FACTORS_HELP: &str = "write `motion: Rz(alpha);`, and so on";
+const FACTOR_HELP: &str = "write a factor as `Rx(amount)`, with Rx, Ry, Rz, Tx, Ty or Tz";
+
+type Read<T> = Result<T, Mistake<Span>>;
+
+/// A whole declaration; `None` if not even its outline could be read.
+pub fn declaration(reader: &mut Reader<'_, '_>) -> Option<Declaration> {
+    let declaration = match outline(reader) {
+        Ok(declaration) => Some(declaration),
+        Err(mistake) => {
+            reader.mistakes.push(mistake);
+            None
+        }
+    };
+    if declaration.is_some() && !reader.is_at_end() {
+        let mistake = reader
+            .expected("nothing after the chain")
+            .with_help("write one chain in a file, or in one `chain!`");
+        reader.mistakes.push(mistake);
+    }
+    declaration
+}
+
+fn outline(reader: &mut Reader<'_, '_>) -> Read<Declaration> {
+    if reader.is_at_end() {
+        return Err(Mistake::new(reader.here(), "no chain is declared here").with_help(CHAIN_HELP));
+    }
+    let documentation = documentation(reader);
+    reader.keyword("chain", CHAIN_HELP)?;
+    let name = reader.name("the name of the chain").map_err(|m| m.with_help(CHAIN_HELP))?;
+    let Some((inside, braces)) = reader.group(Delimiter::Brace) else {
+        return Err(reader.expected("`{`").with_help(CHAIN_HELP));
+    };
+    let statements = reader.inside(inside, braces.close, |reader| {
+        let mut statements = Vec::new();
+        while !reader.is_at_end() {
+            match statement(reader) {
+                Ok(statement) => statements.push(statement),
+                Err(mistake) => {
+                    reader.mistakes.push(mistake);
+                    reader.skip_statement();
+                }
+            }
+        }
+        statements
+    });
+    Ok(Declaration { documentation, name, statements, braces })
+}
+
+fn statement(reader: &mut Reader<'_, '_>) -> Read<Statement> {
+    let documentation = documentation(reader);
+    let word = reader.peek_word().map(|word| word.to_string()).unwrap_or_default();
+    match word.as_str() {
+        "body" => body(reader, documentation).map(Statement::Body),
+        "const" => constant(reader, documentation).map(Statement::Constant),
+        "input" => input(reader, documentation).map(Statement::Input),
+        "symbol" => symbol(reader, documentation).map(Statement::Symbol),
+        "observe" => observe(reader, documentation).map(Statement::Observe),
+        "gravity" => gravity(reader).map(Statement::Gravity),
+        other => Err(reader.expected("a statement").with_help(match nearest(other, STATEMENT_WORDS) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => "a statement begins with `body`, `const`, `input`, `symbol`, `observe` or `gravity`"
+                .to_owned(),
+        })),
+    }
+}
+
+/// The `///` lines here, which the lexer has turned into `#[doc = "…"]`.
+fn documentation(reader: &mut Reader<'_, '_>) -> String {
+    let mut lines = Vec::new();
+    while let Some(hash) = reader.mark('#') {
+        reader.mark('!');
+        let line = reader.group(Delimiter::Bracket).and_then(|(inside, _)| documentation_line(inside));
+        match line {
+            Some(line) => lines.push(line),
+            None => reader.mistakes.push(
+                Mistake::new(hash, "an attribute cannot stand here")
+                    .with_help("write documentation as `/// …`, and comments as `// …`"),
+            ),
+        }
+    }
+    lines.join("\n")
+}
+
+/// The text in `doc = "…"`, without the blank that follows `///`.
+fn documentation_line(inside: Cursor<'_>) -> Option<String> {
+    let (word, rest) = inside.ident()?;
+    let (equals, rest) = rest.punct()?;
+    let (literal, rest) = rest.literal()?;
+    if word != "doc" || equals.as_char() != '=' || !rest.eof() {
+        return None;
+    }
+    let line = string_value(&TokenTree::Literal(literal))?;
+    Some(line.strip_prefix(' ').unwrap_or(&line).trim_end().to_owned())
+}
+
+/// The text that a string literal stands for.
+fn string_value(literal: &TokenTree) -> Option<String> {
+    syn::parse2::<syn::LitStr>(literal.clone().into()).ok().map(|string| string.value())
+}
+
+fn body(reader: &mut Reader<'_, '_>, documentation: String) -> Read<BodyStatement> {
+    reader.keyword("body", BODY_HELP)?;
+    let name = reader.name("the name of the body").map_err(|m| m.with_help(BODY_HELP))?;
+    reader.keyword("on", BODY_HELP)?;
+    let lower = reader.name("the name of the lower body").map_err(|m| m.with_help(BODY_HELP))?;
+    let Some((inside, braces)) = reader.group(Delimiter::Brace) else {
+        return Err(reader.expected("`{`").with_help(BODY_HELP));
+    };
+    let groups = reader.inside(inside, braces.close, |reader| {
+        let mut groups = Vec::new();
+        while !reader.is_at_end() {
+            match factor_group(reader) {
+                Ok(group) => groups.push(group),
+                Err(mistake) => {
+                    reader.mistakes.push(mistake);
+                    reader.skip_statement();
+                }
+            }
+        }
+        groups
+    });
+    Ok(BodyStatement { documentation, name, lower, groups, braces })
+}
+
+fn factor_group(reader: &mut Reader<'_, '_>) -> Read<FactorGroup> {
+    let documentation = documentation(reader);
+    let role = reader.name("a list of factors").map_err(|m| m.with_help(FACTORS_HELP))?;
+    reader.expect_mark(':', FACTORS_HELP)?;
+    let mut factors = vec![factor(reader)?];
+    while reader.mark(',').is_some() && !reader.is_mark(';') {
+        factors.push(factor(reader)?);
+    }
+    let semicolon = reader.end_of_statement()?;
+    Ok(FactorGroup { documentation, role, factors, semicolon })
+}
+
+fn factor(reader: &mut Reader<'_, '_>) -> Read<FactorTerm> {
+    let documentation = documentation(reader);
+    let axis = reader.name("a factor").map_err(|m| m.with_help(FACTOR_HELP))?;
+    let Some((inside, parentheses)) = reader.group(Delimiter::Parenthesis) else {
+        return Err(reader.expected("`(`").with_help(FACTOR_HELP));
+    };
+    let amount = reader.inside(inside, parentheses.close, amount::whole);
+    Ok(FactorTerm { documentation, axis, amount, close: parentheses.close })
+}
+
+fn constant(reader: &mut Reader<'_, '_>, documentation: String) -> Read<ConstantStatement> {
+    reader.keyword("const", CONSTANT_HELP)?;
+    let name = reader.name("the name of the constant").map_err(|m| m.with_help(CONSTANT_HELP))?;
+    let quantity = quantity(reader, CONSTANT_HELP)?;
+    reader.expect_mark('=', CONSTANT_HELP)?;
+    let value = amount::part(reader);
+    if value.is_none() {
+        reader.skip_statement();
+    } else {
+        reader.end_of_statement()?;
+    }
+    Ok(ConstantStatement { documentation, name, quantity, value })
+}
+
+fn input(reader: &mut Reader<'_, '_>, documentation: String) -> Read<InputStatement> {
+    reader.keyword("input", INPUT_HELP)?;
+    let name = reader.name("the name of the input").map_err(|m| m.with_help(INPUT_HELP))?;
+    let quantity = quantity(reader, INPUT_HELP)?;
+    reader.end_of_statement()?;
+    Ok(InputStatement { documentation, name, quantity })
+}
+
+fn quantity(reader: &mut Reader<'_, '_>, help: &str) -> Read<Option<proc_macro2::Ident>> {
+    match reader.mark(':') {
+        Some(_) => reader.name("`angle` or `length`").map(Some).map_err(|m| m.with_help(help)),
+        None => Ok(None),
+    }
+}
+
+fn symbol(reader: &mut Reader<'_, '_>, documentation: String) -> Read<SymbolStatement> {
+    reader.keyword("symbol", SYMBOL_HELP)?;
+    let name = reader.name("a declared name").map_err(|m| m.with_help(SYMBOL_HELP))?;
+    reader.expect_mark('=', SYMBOL_HELP)?;
+    let text = reader.cursor.literal().and_then(|(literal, _)| string_value(&TokenTree::Literal(literal)));
+    let Some(latex) = text else {
+        return Err(reader.expected("the printed form in quotes").with_help(SYMBOL_HELP));
+    };
+    reader.literal();
+    reader.end_of_statement()?;
+    Ok(SymbolStatement { documentation, name, latex })
+}
+
+fn observe(reader: &mut Reader<'_, '_>, documentation: String) -> Read<ObserveStatement> {
+    reader.keyword("observe", OBSERVE_HELP)?;
+    let name = reader.name("the name of the observable").map_err(|m| m.with_help(OBSERVE_HELP))?;
+    reader.expect_mark(':', OBSERVE_HELP)?;
+    let kind = reader.name("`direction` or `point`").map_err(|m| m.with_help(OBSERVE_HELP))?;
+    let components = components(reader, OBSERVE_HELP)?;
+    reader.keyword("of", OBSERVE_HELP)?;
+    let body = reader.name("the name of the body").map_err(|m| m.with_help(OBSERVE_HELP))?;
+    reader.end_of_statement()?;
+    Ok(ObserveStatement { documentation, name, kind, components, body })
+}
+
+fn gravity(reader: &mut Reader<'_, '_>) -> Read<GravityStatement> {
+    let keyword = reader.keyword("gravity", GRAVITY_HELP)?;
+    reader.expect_mark(':', GRAVITY_HELP)?;
+    let components = components(reader, GRAVITY_HELP)?;
+    reader.end_of_statement()?;
+    Ok(GravityStatement { keyword, components })
+}
+
+/// Three amounts in parentheses.
+fn components(reader: &mut Reader<'_, '_>, help: &str) -> Read<[Option<Expr<Span>>; 3]> {
+    let Some((inside, parentheses)) = reader.group(Delimiter::Parenthesis) else {
+        return Err(reader.expected("three components in parentheses").with_help(help));
+    };
+    let components = reader.inside(inside, parentheses.close, |reader| {
+        let mut components = Vec::new();
+        while !reader.is_at_end() {
+            components.push(amount::part(reader));
+            if components.last().is_some_and(Option::is_none) {
+                amount::skip_to_comma(reader);
+            }
+            if !reader.is_at_end() && reader.mark(',').is_none() {
+                let mistake = reader.expected("`,`").with_help(help);
+                reader.mistakes.push(mistake);
+                amount::skip_to_comma(reader);
+                reader.mark(',');
+            }
+        }
+        components
+    });
+    let count = components.len();
+    <[_; 3]>::try_from(components).map_err(|_| {
+        Mistake::new(parentheses.open, format!("three components are needed, and here are {count}"))
+            .with_help(help)
+    })
+}

@@ -1,0 +1,3 @@
+//! The language: what texts mean, and what is said of texts that mean nothing.
+
+mod examples;

@@ -1,1 +1,12 @@
 //! Straight-line programs from derived forms, their interpreter and one writer per language.
+//!
+//! The pipeline reads: chain → [`build`] → [`program`] → [`Interpreter`], or a writer in [`backends`].
+
+pub mod build;
+mod builder;
+pub mod interpreter;
+pub mod program;
+
+pub use build::{build, build_all};
+pub use interpreter::{Interpreter, ShapeError};
+pub use program::{Counts, Form, Layout, NodeId, Op, Program, Stage};

@@ -1,0 +1,116 @@
+//! The first-order form: small turns and shifts between two motions of the design add up to one of each, and
+//! what they do to the observable is carried down to the ground.
+//!
+//! A small turn ε acts as `ε × v`. It may be taken where it sits or carried up the chain first, through the
+//! motions, to where `v` is simpler. Everything below the *meeting place* is carried up to it, everything above
+//! is taken where it sits; [`super::build`] tries every meeting place and keeps the cheapest program.
+
+use model_core::algebra::Poly;
+use model_core::{Axis, Chain, Motion, ObservableKind};
+
+use super::amount::{lower, turn};
+use super::exact::components;
+use super::path::{Path, is_error};
+use super::vectors::{NOTHING, Turn, Vector, add, along, cross};
+use crate::builder::{Builder, Value};
+
+/// A motion of the design.
+enum Move {
+    Turn(Axis, Turn),
+    Shift(Axis, Value),
+}
+
+/// The small turns and shifts between two motions of the design, by axis.
+#[derive(Clone, Default)]
+struct Level {
+    turns: [Poly; 3],
+    shifts: [Poly; 3],
+}
+
+/// The part of the error that is linear in the errors, with every small turn below the motion number `meeting`,
+/// counted from the ground, carried up to there.
+pub(super) fn error(b: &mut Builder, chain: &Chain, path: &Path, meeting: usize) -> Vector {
+    let (levels, moves) = levels(b, chain, path);
+    let mut turns: Vec<Vector> = Vec::with_capacity(levels.len());
+    let mut shifts: Vec<Vector> = Vec::with_capacity(levels.len());
+    for level in &levels {
+        turns.push(std::array::from_fn(|i| lower(b, &level.turns[i])));
+        shifts.push(std::array::from_fn(|i| lower(b, &level.shifts[i])));
+    }
+    for (below, motion) in moves.iter().enumerate().take(meeting) {
+        let small = std::mem::replace(&mut turns[below], NOTHING);
+        let carried = match motion {
+            Move::Turn(axis, turn) => turn.back().apply(b, *axis, &small),
+            Move::Shift(axis, amount) => {
+                if path.kind == ObservableKind::Point {
+                    let lever = cross(b, &small, &along(*axis, *amount));
+                    shifts[below] = add(b, &shifts[below], &lever);
+                }
+                small
+            }
+        };
+        turns[below + 1] = add(b, &turns[below + 1], &carried);
+    }
+
+    let mut nominal = components(b, path);
+    let mut difference = NOTHING;
+    for at in (0..levels.len()).rev() {
+        let turned = cross(b, &turns[at], &nominal);
+        difference = add(b, &difference, &turned);
+        if path.kind == ObservableKind::Point {
+            difference = add(b, &difference, &shifts[at]);
+        }
+        match at.checked_sub(1).map(|motion| &moves[motion]) {
+            Some(Move::Turn(axis, turn)) => {
+                nominal = turn.apply(b, *axis, &nominal);
+                difference = turn.apply(b, *axis, &difference);
+            }
+            Some(Move::Shift(axis, amount)) => nominal = add(b, &nominal, &along(*axis, *amount)),
+            None => {}
+        }
+    }
+    difference
+}
+
+/// How many motions of the design a path has.
+pub(super) fn motions(path: &Path) -> usize {
+    path.steps.iter().filter(|step| !step.nominal.is_zero()).count()
+}
+
+/// The levels of small turns and shifts, one more than there are motions between them. What commutes with
+/// the motion above it is put above it.
+fn levels(b: &mut Builder, chain: &Chain, path: &Path) -> (Vec<Level>, Vec<Move>) {
+    let mut levels = Vec::new();
+    let mut moves = Vec::new();
+    let mut level = Level::default();
+    for step in &path.steps {
+        if !step.nominal.is_zero() {
+            let above = commuting(&mut level, step.motion, step.axis);
+            levels.push(std::mem::replace(&mut level, above));
+            moves.push(match step.motion {
+                Motion::Rotation => Move::Turn(step.axis, turn(b, &step.nominal)),
+                Motion::Translation => Move::Shift(step.axis, lower(b, &step.nominal)),
+            });
+        }
+        let linear = step.error.graded_part(|symbol| is_error(chain, symbol), 1);
+        let sums = match step.motion {
+            Motion::Rotation => &mut level.turns,
+            Motion::Translation => &mut level.shifts,
+        };
+        sums[step.axis.index()] = &sums[step.axis.index()] + &linear;
+    }
+    levels.push(level);
+    (levels, moves)
+}
+
+/// Takes out of a level what commutes with the motion above it.
+fn commuting(level: &mut Level, motion: Motion, axis: Axis) -> Level {
+    let mut above = Level::default();
+    let i = axis.index();
+    above.turns[i] = std::mem::take(&mut level.turns[i]);
+    match motion {
+        Motion::Rotation => above.shifts[i] = std::mem::take(&mut level.shifts[i]),
+        Motion::Translation => above.shifts = std::mem::take(&mut level.shifts),
+    }
+    above
+}

@@ -1,0 +1,121 @@
+//! Jacobians from what lies below and above each step: with `P` the turn from the ground up to the step and
+//! `s` the vector from the device down to it, a turn about axis `a` moves the observable by `P (a × s)`, a
+//! shift along it by `P a`.
+
+use model_core::algebra::Poly;
+use model_core::{Chain, Motion, SymbolId};
+
+use super::amount::{lower, small_turn, turn};
+use super::exact::components;
+use super::path::{Path, Step, is_error};
+use super::vectors::{Matrix, NOTHING, Turn, Vector, add, affine, along, axis_cross};
+use crate::builder::Builder;
+
+/// Where the derivative is taken.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum At {
+    /// At the errors given.
+    Errors,
+    /// Where every error is zero.
+    Nominal,
+}
+
+/// A column for each symbol.
+pub(super) fn columns(b: &mut Builder, chain: &Chain, path: &Path, at: At, wrt: &[SymbolId]) -> Vec<Vector> {
+    let places = places(b, path, at);
+    wrt.iter().map(|&symbol| column(b, chain, path, &places, at, symbol)).collect()
+}
+
+/// What lies below and above each step; the last is the device, with nothing above but the observable itself.
+struct Places {
+    below: Vec<Matrix>,
+    above: Vec<Vector>,
+}
+
+fn places(b: &mut Builder, path: &Path, at: At) -> Places {
+    let mut prefix: Matrix = [
+        along_x(),
+        [Builder::ZERO, Builder::ONE, Builder::ZERO],
+        [Builder::ZERO, Builder::ZERO, Builder::ONE],
+    ];
+    let mut below = vec![prefix];
+    for step in &path.steps {
+        for turn in turns(b, step, at) {
+            // A row times R is the row turned back.
+            prefix = std::array::from_fn(|i| turn.back().apply(b, step.axis, &prefix[i]));
+        }
+        below.push(prefix);
+    }
+    let mut suffix = components(b, path);
+    let mut above = vec![suffix];
+    for step in path.steps.iter().rev() {
+        suffix = lowered(b, step, at, &suffix);
+        above.push(suffix);
+    }
+    above.reverse();
+    Places { below, above }
+}
+
+fn column(b: &mut Builder, chain: &Chain, path: &Path, places: &Places, at: At, symbol: SymbolId) -> Vector {
+    let derivative = |b: &mut Builder, amount: &Poly| {
+        let derivative = amount.derivative(symbol);
+        match at {
+            At::Errors => lower(b, &derivative),
+            At::Nominal => lower(b, &derivative.graded_part(|id| is_error(chain, id), 0)),
+        }
+    };
+    let mut sum = NOTHING;
+    for ((step, below), above) in path.steps.iter().zip(&places.below).zip(&places.above) {
+        let total = &step.nominal + &step.error;
+        let rate = derivative(b, &total);
+        let moved = match step.motion {
+            Motion::Rotation => axis_cross(step.axis, above).map(|component| b.mul(rate, component)),
+            Motion::Translation => along(step.axis, rate),
+        };
+        let moved = affine(b, below, &moved, &NOTHING);
+        sum = add(b, &sum, &moved);
+    }
+    let own = std::array::from_fn(|i| derivative(b, &path.components[i]));
+    match places.below.last() {
+        Some(below) => affine(b, below, &own, &sum),
+        None => sum,
+    }
+}
+
+/// The turns that a step makes, of the design and of the errors.
+fn turns(b: &mut Builder, step: &Step, at: At) -> Vec<Turn> {
+    if step.motion == Motion::Translation {
+        return Vec::new();
+    }
+    let mut turns = Vec::new();
+    if !step.nominal.is_zero() {
+        turns.push(turn(b, &step.nominal));
+    }
+    if at == At::Errors && !step.error.is_zero() {
+        let small = small_turn(b, &step.error);
+        turns.push(Turn { sin: small.sin, cos: b.sub(Builder::ONE, small.versine) });
+    }
+    turns
+}
+
+/// A vector above a step as it is below it.
+fn lowered(b: &mut Builder, step: &Step, at: At, vector: &Vector) -> Vector {
+    match step.motion {
+        Motion::Rotation => {
+            turns(b, step, at).into_iter().fold(*vector, |v, turn| turn.apply(b, step.axis, &v))
+        }
+        Motion::Translation => {
+            let nominal = lower(b, &step.nominal);
+            let shifted = add(b, vector, &along(step.axis, nominal));
+            if at == At::Nominal {
+                return shifted;
+            }
+            let error = lower(b, &step.error);
+            add(b, &shifted, &along(step.axis, error))
+        }
+    }
+}
+
+fn along_x() -> Vector {
+    [Builder::ONE, Builder::ZERO, Builder::ZERO]
+}

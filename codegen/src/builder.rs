@@ -1,0 +1,245 @@
+//! Where nodes are made: equal nodes are shared, numbers folded, zeros and ones gone, signs pulled out.
+//!
+//! A [`Value`] is a node with a sign, so that a change of sign costs nothing and `a - b` and `b - a` are one
+//! node. Signs turn into operations only at the outputs, where they cannot be helped.
+
+use std::collections::HashMap;
+
+use model_core::{Chain, SymbolId, SymbolKind};
+
+use crate::program::{Layout, Literal, NodeId, Op, Program, Stage};
+
+/// A node or its negative.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct Value {
+    node: NodeId,
+    negative: bool,
+}
+
+impl std::ops::Neg for Value {
+    type Output = Self;
+
+    /// Zero has no sign, so that what is structurally zero stays recognisable.
+    fn neg(self) -> Self {
+        if self == Builder::ZERO { self } else { Self { negative: !self.negative, ..self } }
+    }
+}
+
+/// Nodes made so far.
+pub(crate) struct Builder {
+    nodes: Vec<Op>,
+    stages: Vec<Stage>,
+    shared: HashMap<Op, NodeId>,
+    symbol_stages: Vec<Stage>,
+}
+
+impl Builder {
+    /// Structurally zero: the first node of every builder.
+    pub(crate) const ZERO: Value = Value { node: NodeId(0), negative: false };
+    /// One: the second node of every builder.
+    pub(crate) const ONE: Value = Value { node: NodeId(1), negative: false };
+
+    /// No nodes but zero and one, for the symbols of a chain.
+    pub(crate) fn new(chain: &Chain) -> Self {
+        let symbol_stages = chain
+            .symbols
+            .iter()
+            .map(|symbol| match symbol.kind {
+                SymbolKind::Pi | SymbolKind::Error | SymbolKind::Constant => Stage::Prepared,
+                SymbolKind::Joint | SymbolKind::Input => Stage::Evaluated,
+            })
+            .collect();
+        let mut builder =
+            Self { nodes: Vec::new(), stages: Vec::new(), shared: HashMap::new(), symbol_stages };
+        builder.constant(0.0);
+        builder.constant(1.0);
+        builder
+    }
+
+    /// When a value is computed.
+    pub(crate) fn stage(&self, value: Value) -> Stage {
+        self.stages[value.node.index()]
+    }
+
+    pub(crate) fn constant(&mut self, number: f64) -> Value {
+        let node = self.node(Op::Constant(Literal::new(number.abs())));
+        Value { node, negative: number < 0.0 }
+    }
+
+    pub(crate) fn symbol(&mut self, symbol: SymbolId) -> Value {
+        if symbol == SymbolId::PI {
+            return self.constant(std::f64::consts::PI);
+        }
+        let node = self.node(Op::Input(symbol));
+        Value { node, negative: false }
+    }
+
+    pub(crate) fn add(&mut self, a: Value, b: Value) -> Value {
+        if a == Self::ZERO {
+            return b;
+        }
+        if b == Self::ZERO {
+            return a;
+        }
+        if a == -b {
+            return Self::ZERO;
+        }
+        if let (Some(x), Some(y)) = (self.number(a), self.number(b)) {
+            return self.constant(x + y);
+        }
+        let (first, second) = if a.node <= b.node { (a, b) } else { (b, a) };
+        let op = if first.negative == second.negative {
+            Op::Add(first.node, second.node)
+        } else {
+            Op::Sub(first.node, second.node)
+        };
+        let node = self.node(op);
+        Value { node, negative: first.negative }
+    }
+
+    pub(crate) fn sub(&mut self, a: Value, b: Value) -> Value {
+        self.add(a, -b)
+    }
+
+    pub(crate) fn mul(&mut self, a: Value, b: Value) -> Value {
+        if a == Self::ZERO || b == Self::ZERO {
+            return Self::ZERO;
+        }
+        let negative = a.negative != b.negative;
+        if let (Some(x), Some(y)) = (self.number(a), self.number(b)) {
+            return self.constant(x * y);
+        }
+        if a.node == Self::ONE.node {
+            return Value { node: b.node, negative };
+        }
+        if b.node == Self::ONE.node {
+            return Value { node: a.node, negative };
+        }
+        let node = self.node(Op::Mul(a.node.min(b.node), a.node.max(b.node)));
+        Value { node, negative }
+    }
+
+    pub(crate) fn div(&mut self, a: Value, b: Value) -> Value {
+        if a == Self::ZERO {
+            return Self::ZERO;
+        }
+        let negative = a.negative != b.negative;
+        if b.node == Self::ONE.node {
+            return Value { node: a.node, negative };
+        }
+        let node = self.node(Op::Div(a.node, b.node));
+        Value { node, negative }
+    }
+
+    /// Sine and cosine of an angle; opposite angles share theirs.
+    pub(crate) fn sin_cos(&mut self, angle: Value) -> (Value, Value) {
+        if angle == Self::ZERO {
+            return (Self::ZERO, Self::ONE);
+        }
+        let sin = self.node(Op::Sin(angle.node));
+        let cos = self.node(Op::Cos(angle.node));
+        (Value { node: sin, negative: angle.negative }, Value { node: cos, negative: false })
+    }
+
+    /// A sum of products, `Σ aᵢ bᵢ`.
+    pub(crate) fn dot(&mut self, pairs: impl IntoIterator<Item = (Value, Value)>) -> Value {
+        pairs.into_iter().fold(Self::ZERO, |sum, (a, b)| {
+            let product = self.mul(a, b);
+            self.add(sum, product)
+        })
+    }
+
+    /// What the nodes are worth as a program with these outputs: only what an output needs, prepared first.
+    pub(crate) fn finish(mut self, layout: Layout, outputs: &[Value]) -> Program {
+        let outputs = self.apply_signs(outputs);
+        let needed = self.needed(&outputs);
+        let mut place = vec![NodeId(0); self.nodes.len()];
+        let mut nodes = Vec::new();
+        let mut prepared = 0;
+        for stage in [Stage::Prepared, Stage::Evaluated] {
+            for index in (0..self.nodes.len()).filter(|&index| needed[index] && self.stages[index] == stage) {
+                place[index] = next_id(&nodes);
+                nodes.push(self.nodes[index].map(|operand| place[operand.index()]));
+            }
+            if stage == Stage::Prepared {
+                prepared = nodes.len();
+            }
+        }
+        let outputs = outputs.iter().map(|output| place[output.index()]).collect();
+        Program { layout, nodes, prepared, outputs }
+    }
+
+    /// The number that a value is, if it is one.
+    fn number(&self, value: Value) -> Option<f64> {
+        match self.nodes[value.node.index()] {
+            Op::Constant(literal) => Some(if value.negative { -literal.value() } else { literal.value() }),
+            _ => None,
+        }
+    }
+
+    /// The node of an operation, shared with an equal one.
+    fn node(&mut self, op: Op) -> NodeId {
+        if let Some(&id) = self.shared.get(&op) {
+            return id;
+        }
+        let stage = match op {
+            Op::Input(symbol) => self.symbol_stages[symbol.index()],
+            _ => op.operands().map(|id| self.stages[id.index()]).max().unwrap_or(Stage::Prepared),
+        };
+        let id = next_id(&self.nodes);
+        self.nodes.push(op);
+        self.stages.push(stage);
+        self.shared.insert(op, id);
+        id
+    }
+
+    /// The node of each output, its sign applied: by turning a difference round if nothing else reads it, else
+    /// by a change of sign.
+    fn apply_signs(&mut self, outputs: &[Value]) -> Vec<NodeId> {
+        let plain: Vec<NodeId> = outputs.iter().map(|output| output.node).collect();
+        let mut read = vec![false; self.nodes.len()];
+        let needed = self.needed(&plain);
+        for (op, _) in self.nodes.iter().zip(&needed).filter(|&(_, &needed)| needed) {
+            for operand in op.operands() {
+                read[operand.index()] = true;
+            }
+        }
+        for output in outputs.iter().filter(|output| !output.negative) {
+            read[output.node.index()] = true;
+        }
+        outputs
+            .iter()
+            .map(|output| {
+                if !output.negative {
+                    return output.node;
+                }
+                match self.nodes[output.node.index()] {
+                    Op::Constant(literal) => self.node(Op::Constant(Literal::new(-literal.value()))),
+                    Op::Sub(a, b) if !read[output.node.index()] => self.node(Op::Sub(b, a)),
+                    _ => self.node(Op::Neg(output.node)),
+                }
+            })
+            .collect()
+    }
+
+    /// Which nodes these outputs depend on.
+    fn needed(&self, outputs: &[NodeId]) -> Vec<bool> {
+        let mut needed = vec![false; self.nodes.len()];
+        for output in outputs {
+            needed[output.index()] = true;
+        }
+        for index in (0..self.nodes.len()).rev() {
+            if needed[index] {
+                for operand in self.nodes[index].operands() {
+                    needed[operand.index()] = true;
+                }
+            }
+        }
+        needed
+    }
+}
+
+/// A program has fewer nodes than fit memory, far fewer than 2³².
+fn next_id(nodes: &[Op]) -> NodeId {
+    NodeId(u32::try_from(nodes.len()).unwrap_or(u32::MAX))
+}

@@ -22,18 +22,27 @@ const IDENTITY: Matrix = [
 
 /// The observable with errors.
 pub(super) fn value(b: &mut Builder, path: &Path) -> Vector {
-    let mut carried = Carried::new(NOTHING, components(b, path));
+    let (nominal, error) = (components(b, path), component_errors(b, path));
+    let real = add(b, &nominal, &error);
+    let mut carried = Carried::new(NOTHING, real);
     carried.down(b, path, Origin::Difference)
 }
 
 /// The observable with errors minus without.
 pub(super) fn error(b: &mut Builder, path: &Path) -> Vector {
-    let mut carried = Carried::new(components(b, path), NOTHING);
+    let (nominal, error) = (components(b, path), component_errors(b, path));
+    let mut carried = Carried::new(nominal, error);
     carried.down(b, path, Origin::Nominal)
 }
 
+/// The observable in the frame of the body that carries it, without errors.
 pub(super) fn components(b: &mut Builder, path: &Path) -> Vector {
-    std::array::from_fn(|i| lower(b, &path.components[i]))
+    std::array::from_fn(|i| lower(b, &path.components[i].nominal))
+}
+
+/// What errors add to it there.
+pub(super) fn component_errors(b: &mut Builder, path: &Path) -> Vector {
+    std::array::from_fn(|i| lower(b, &path.components[i].error))
 }
 
 /// Which of the two vectors a shift of the design belongs to.
@@ -94,11 +103,11 @@ impl Carried {
     fn down(&mut self, b: &mut Builder, path: &Path, origin: Origin) -> Vector {
         let mut run: Option<Bend> = None;
         for step in path.steps.iter().rev() {
-            if !step.error.is_zero() {
+            if !step.amount.error.is_zero() {
                 let bend = match step.motion {
-                    Motion::Rotation => Bend::rotation(b, step.axis, &step.error),
+                    Motion::Rotation => Bend::rotation(b, step.axis, &step.amount.error),
                     Motion::Translation => {
-                        let amount = lower(b, &step.error);
+                        let amount = lower(b, &step.amount.error);
                         Bend { bend: NO_TURN, shift: along(step.axis, amount) }
                     }
                 };
@@ -111,17 +120,17 @@ impl Carried {
                     None => bend,
                 });
             }
-            if !step.nominal.is_zero() {
+            if !step.amount.nominal.is_zero() {
                 if let Some(bend) = run.take() {
                     self.bend(b, &bend);
                 }
                 match step.motion {
                     Motion::Rotation => {
-                        let turn = turn(b, &step.nominal);
+                        let turn = turn(b, &step.amount.nominal);
                         self.turn(b, step.axis, turn);
                     }
                     Motion::Translation => {
-                        let amount = lower(b, &step.nominal);
+                        let amount = lower(b, &step.amount.nominal);
                         self.shift(b, step.axis, amount, origin);
                     }
                 }

@@ -53,7 +53,7 @@ pub(super) fn error(b: &mut Builder, chain: &Chain, path: &Path, meeting: usize)
     }
 
     let mut nominal = components(b, path);
-    let mut difference = NOTHING;
+    let mut difference = std::array::from_fn(|i| lower(b, &linear(chain, &path.components[i].error)));
     for at in (0..levels.len()).rev() {
         let turned = cross(b, &turns[at], &nominal);
         difference = add(b, &difference, &turned);
@@ -72,9 +72,14 @@ pub(super) fn error(b: &mut Builder, chain: &Chain, path: &Path, meeting: usize)
     difference
 }
 
+/// The part of an amount that is linear in the errors.
+fn linear(chain: &Chain, amount: &Poly) -> Poly {
+    amount.graded_part(|symbol| is_error(chain, symbol), 1)
+}
+
 /// How many motions of the design a path has.
 pub(super) fn motions(path: &Path) -> usize {
-    path.steps.iter().filter(|step| !step.nominal.is_zero()).count()
+    path.steps.iter().filter(|step| !step.amount.nominal.is_zero()).count()
 }
 
 /// The levels of small turns and shifts, one more than there are motions between them. What commutes with
@@ -84,20 +89,19 @@ fn levels(b: &mut Builder, chain: &Chain, path: &Path) -> (Vec<Level>, Vec<Move>
     let mut moves = Vec::new();
     let mut level = Level::default();
     for step in &path.steps {
-        if !step.nominal.is_zero() {
+        if !step.amount.nominal.is_zero() {
             let above = commuting(&mut level, step.motion, step.axis);
             levels.push(std::mem::replace(&mut level, above));
             moves.push(match step.motion {
-                Motion::Rotation => Move::Turn(step.axis, turn(b, &step.nominal)),
-                Motion::Translation => Move::Shift(step.axis, lower(b, &step.nominal)),
+                Motion::Rotation => Move::Turn(step.axis, turn(b, &step.amount.nominal)),
+                Motion::Translation => Move::Shift(step.axis, lower(b, &step.amount.nominal)),
             });
         }
-        let linear = step.error.graded_part(|symbol| is_error(chain, symbol), 1);
         let sums = match step.motion {
             Motion::Rotation => &mut level.turns,
             Motion::Translation => &mut level.shifts,
         };
-        sums[step.axis.index()] = &sums[step.axis.index()] + &linear;
+        sums[step.axis.index()] = &sums[step.axis.index()] + &linear(chain, &step.amount.error);
     }
     levels.push(level);
     (levels, moves)

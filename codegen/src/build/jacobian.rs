@@ -2,12 +2,11 @@
 //! `s` the vector from the device down to it, a turn about axis `a` moves the observable by `P (a × s)`, a
 //! shift along it by `P a`.
 
-use model_core::algebra::Poly;
 use model_core::{Chain, Motion, SymbolId};
 
 use super::amount::{lower, small_turn, turn};
-use super::exact::components;
-use super::path::{Path, Step, is_error};
+use super::exact::{component_errors, components};
+use super::path::{Path, Split, Step, is_error};
 use super::vectors::{Matrix, NOTHING, Turn, Vector, add, affine, along, axis_cross};
 use crate::builder::Builder;
 
@@ -47,6 +46,10 @@ fn places(b: &mut Builder, path: &Path, at: At) -> Places {
         below.push(prefix);
     }
     let mut suffix = components(b, path);
+    if at == At::Errors {
+        let errors = component_errors(b, path);
+        suffix = add(b, &suffix, &errors);
+    }
     let mut above = vec![suffix];
     for step in path.steps.iter().rev() {
         suffix = lowered(b, step, at, &suffix);
@@ -57,8 +60,8 @@ fn places(b: &mut Builder, path: &Path, at: At) -> Places {
 }
 
 fn column(b: &mut Builder, chain: &Chain, path: &Path, places: &Places, at: At, symbol: SymbolId) -> Vector {
-    let derivative = |b: &mut Builder, amount: &Poly| {
-        let derivative = amount.derivative(symbol);
+    let derivative = |b: &mut Builder, amount: &Split| {
+        let derivative = (&amount.nominal + &amount.error).derivative(symbol);
         match at {
             At::Errors => lower(b, &derivative),
             At::Nominal => lower(b, &derivative.graded_part(|id| is_error(chain, id), 0)),
@@ -66,8 +69,7 @@ fn column(b: &mut Builder, chain: &Chain, path: &Path, places: &Places, at: At, 
     };
     let mut sum = NOTHING;
     for ((step, below), above) in path.steps.iter().zip(&places.below).zip(&places.above) {
-        let total = &step.nominal + &step.error;
-        let rate = derivative(b, &total);
+        let rate = derivative(b, &step.amount);
         let moved = match step.motion {
             Motion::Rotation => axis_cross(step.axis, above).map(|component| b.mul(rate, component)),
             Motion::Translation => along(step.axis, rate),
@@ -88,11 +90,11 @@ fn turns(b: &mut Builder, step: &Step, at: At) -> Vec<Turn> {
         return Vec::new();
     }
     let mut turns = Vec::new();
-    if !step.nominal.is_zero() {
-        turns.push(turn(b, &step.nominal));
+    if !step.amount.nominal.is_zero() {
+        turns.push(turn(b, &step.amount.nominal));
     }
-    if at == At::Errors && !step.error.is_zero() {
-        let small = small_turn(b, &step.error);
+    if at == At::Errors && !step.amount.error.is_zero() {
+        let small = small_turn(b, &step.amount.error);
         turns.push(Turn { sin: small.sin, cos: b.sub(Builder::ONE, small.versine) });
     }
     turns
@@ -105,12 +107,12 @@ fn lowered(b: &mut Builder, step: &Step, at: At, vector: &Vector) -> Vector {
             turns(b, step, at).into_iter().fold(*vector, |v, turn| turn.apply(b, step.axis, &v))
         }
         Motion::Translation => {
-            let nominal = lower(b, &step.nominal);
+            let nominal = lower(b, &step.amount.nominal);
             let shifted = add(b, vector, &along(step.axis, nominal));
             if at == At::Nominal {
                 return shifted;
             }
-            let error = lower(b, &step.error);
+            let error = lower(b, &step.amount.error);
             add(b, &shifted, &along(step.axis, error))
         }
     }

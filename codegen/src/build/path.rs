@@ -4,14 +4,27 @@
 use model_core::algebra::Poly;
 use model_core::{Axis, Chain, Motion, ObservableId, ObservableKind, SymbolId, SymbolKind};
 
-/// One factor on the way: an elementary transform by `nominal + error`, which commute.
+/// An amount in two parts.
+pub(super) struct Split {
+    /// The amount where every error is zero.
+    pub(super) nominal: Poly,
+    /// The rest of it.
+    pub(super) error: Poly,
+}
+
+impl Split {
+    fn new(chain: &Chain, amount: &Poly) -> Self {
+        let nominal = amount.graded_part(|symbol| is_error(chain, symbol), 0);
+        let error = amount - &nominal;
+        Self { nominal, error }
+    }
+}
+
+/// One factor on the way: an elementary transform by its nominal amount and one by the error, which commute.
 pub(super) struct Step {
     pub(super) motion: Motion,
     pub(super) axis: Axis,
-    /// The amount where every error is zero.
-    pub(super) nominal: Poly,
-    /// The rest of the amount.
-    pub(super) error: Poly,
+    pub(super) amount: Split,
 }
 
 /// The way to an observable.
@@ -20,7 +33,7 @@ pub(super) struct Path {
     pub(super) steps: Vec<Step>,
     pub(super) kind: ObservableKind,
     /// In the frame of the body that carries it.
-    pub(super) components: [Poly; 3],
+    pub(super) components: [Split; 3],
 }
 
 /// Shifts do not move directions, so the way of a direction has none.
@@ -30,13 +43,15 @@ pub(super) fn path(chain: &Chain, observable: ObservableId) -> Path {
         .factors_to(observable)
         .into_iter()
         .filter(|factor| kind == ObservableKind::Point || factor.motion == Motion::Rotation)
-        .map(|factor| {
-            let nominal = factor.amount.graded_part(|symbol| is_error(chain, symbol), 0);
-            let error = &factor.amount - &nominal;
-            Step { motion: factor.motion, axis: factor.axis, nominal, error }
+        .map(|factor| Step {
+            motion: factor.motion,
+            axis: factor.axis,
+            amount: Split::new(chain, &factor.amount),
         })
         .collect();
-    Path { steps, kind, components: chain.observable(observable).components.clone() }
+    let components =
+        chain.observable(observable).components.each_ref().map(|amount| Split::new(chain, amount));
+    Path { steps, kind, components }
 }
 
 pub(super) fn is_error(chain: &Chain, symbol: SymbolId) -> bool {

@@ -4,5 +4,4 @@ pub mod fit;
 pub mod formats;
 pub mod noise;
 pub mod observations;
-pub mod search;
 pub mod units;

@@ -9,7 +9,6 @@ pub mod check;
 pub mod exact;
 pub mod expr;
 pub mod forms;
-pub mod latex;
 pub mod mistake;
 pub mod names;
 pub mod print;

@@ -3,11 +3,22 @@
 //! Weighted nonlinear least squares by Levenberg-Marquardt, robust and with a noise model; how it ended is an
 //! [`Outcome`], never a panic.
 
+mod dense;
+mod model;
+mod partial;
+pub mod robust;
+mod solve;
+mod subspace;
+
 use faer::Mat;
-use model_core::{Chain, SymbolId};
+use model_core::{Chain, SymbolId, SymbolKind};
 
 use crate::noise::{Noise, NoiseOptions};
-use crate::observations::Observations;
+
+pub use model::{Block, Model};
+pub use partial::Partial;
+pub use solve::fit;
+pub use subspace::{Step, Subspace};
 
 /// What to fit and how.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,7 +40,7 @@ impl FitOptions {
     #[must_use]
     pub fn for_chain(chain: &Chain) -> Self {
         Self {
-            estimate: chain.symbols_of(model_core::SymbolKind::Error).collect(),
+            estimate: chain.symbols_of(SymbolKind::Error).collect(),
             start: chain.nominal_values(),
             robust: true,
             noise: NoiseOptions::default(),
@@ -134,6 +145,12 @@ pub enum FitError {
         name: String,
         /// What it is.
         kind: &'static str,
+    },
+    /// Values or columns of the wrong number or length.
+    #[error("observations and chain do not fit each other: {why}")]
+    WrongShape {
+        /// What differs.
+        why: String,
     },
     /// A joint or input that the observable depends on has no readings.
     #[error("no readings of `{name}`, which `{observable}` depends on")]

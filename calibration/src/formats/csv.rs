@@ -21,11 +21,16 @@ const PEEK: u64 = 64 * 1024;
 pub struct Reader<R: Read> {
     source: String,
     header: Vec<ColumnName>,
-    inner: ::csv::Reader<io::Chain<io::Cursor<Vec<u8>>, R>>,
+    inner: ::csv::Reader<Text<R>>,
     record: ByteRecord,
     row: u64,
     separator: u8,
+    /// Lines by which the reader is ahead after a row: it has read a line feed, but of `\r\n` only the first half.
+    ahead: u64,
 }
+
+/// What was peeked at, the rest, and an end of line, so that the last row ends like the others.
+type Text<R> = io::Chain<io::Chain<io::Cursor<Vec<u8>>, R>, &'static [u8]>;
 
 impl<R: Read> Reader<R> {
     /// Reads the header.
@@ -45,29 +50,39 @@ impl<R: Read> Reader<R> {
         let byte_order_mark = if head.starts_with(&[0xEF, 0xBB, 0xBF]) { 3 } else { 0 };
         head.drain(..byte_order_mark);
         let separator = options.separator.unwrap_or_else(|| guess_separator(&head));
+        let (ahead, line_end): (u64, &[u8]) =
+            if head.windows(2).any(|pair| pair == b"\r\n") { (0, b"\r\n") } else { (1, b"\n") };
         let mut inner = ReaderBuilder::new()
             .delimiter(separator)
             .comment(Some(b'#'))
             .flexible(true)
             .trim(::csv::Trim::All)
-            .from_reader(io::Cursor::new(head).chain(reader));
+            .from_reader(io::Cursor::new(head).chain(reader).chain(line_end));
         let cells = inner.byte_headers().map_err(|error| unreadable(source, &error))?.clone();
         if cells.is_empty() || cells.iter().all(<[u8]>::is_empty) {
             return Err(DataError::Empty { file: source.to_string() });
         }
-        let line = cells.position().map_or(1, ::csv::Position::line);
+        let line = inner.position().line().saturating_sub(ahead);
         let header = cells
             .iter()
             .map(|cell| std::str::from_utf8(cell).map(ColumnName::parse))
             .collect::<Result<Vec<_>, _>>()
             .map_err(|_| DataError::NotUtf8 { file: source.to_string(), line })?;
         unique(&header, source)?;
-        Ok(Self { source: source.to_string(), header, inner, record: ByteRecord::new(), row: 0, separator })
+        Ok(Self {
+            source: source.to_string(),
+            header,
+            inner,
+            record: ByteRecord::new(),
+            row: 0,
+            separator,
+            ahead,
+        })
     }
 
     /// Line of the row that was read last.
     fn line(&self) -> u64 {
-        self.record.position().map_or(0, ::csv::Position::line)
+        self.inner.position().line().saturating_sub(self.ahead)
     }
 
     /// The place of a cell of the row that was read last.
@@ -222,6 +237,8 @@ mod tests {
             message(b"az,az\n"),
             message(b"az,name\n1,Mars\nx,Moon\n"),
             message(b"# c\naz,name\n1,Mars\n\nNaN,Moon\n"),
+            message(b"az;name\r\n\r\n1;Mars\r\n-;Moon"),
+            message(b"az,name\n1,Mars\n2,"),
             message(b"az,name\n,Mars\n"),
             message(b"az,name\n1,Mars,3\n"),
             message(b"az,name\n1,\xffMars\n"),

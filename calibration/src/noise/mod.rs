@@ -1,9 +1,18 @@
 //! The noise of the observations: how large in each component, how it varies with the joints, and how it
 //! remembers the observation before.
 //!
-//! Source: `DIAGNOSIS` step 2 in words: variance model, floor per component, ARMA(1,1) in order of acquisition.
+//! `σ²` of a component = floor² of its kind · exp(variance model of the joints); in order of acquisition the values
+//! so scaled follow ARMA(1,1). Each part is taken up only if the data bear it out.
+
+mod estimate;
+mod layout;
+mod serial;
+mod variance;
 
 use model_core::SymbolId;
+
+pub use estimate::{estimate, from_medians, resolution};
+pub use layout::{Layout, Run};
 
 /// What is known of the noise, and what to find out about it.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,34 +34,35 @@ impl Default for NoiseOptions {
 /// The noise that a fit assumed and found.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Noise {
-    /// Standard deviation of each kind of component (series by series, component by component), rad or m.
+    /// Standard deviation of each kind of component (series by series, component by component): rad or m, or a
+    /// factor on the standard uncertainties that the data state.
     pub floor: Vec<f64>,
     /// The dependence of the variance on the joints, if one was found.
     pub variance: Option<VarianceModel>,
     /// The serial correlation, if one was found.
     pub serial: Option<Serial>,
-    /// Per residual component the standard deviation before serial correlation, rad or m, length n.
+    /// Per residual component the standard deviation that whitening divides by, rad or m, length n. With serial
+    /// correlation, that of what the value before does not explain.
     pub sigma: Vec<f64>,
-    /// Residual components at which a new sequence starts (nothing is remembered across), and the stride to the
-    /// same component of the row before.
+    /// Components that follow each other in order of acquisition.
     pub runs: Vec<Run>,
 }
 
-/// log variance = Σ coefficient · function of the joints, around its mean.
+/// log variance = Σ coefficient · function of joints and ranges, above the floor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VarianceModel {
-    /// Coefficients with the functions they multiply.
+    /// Functions with their coefficients.
     pub terms: Vec<(VarianceTerm, f64)>,
 }
 
-/// A function of the joints in the variance model.
+/// A function in the variance model, less its mean over the rows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum VarianceTerm {
     /// Cosine of a multiple of a joint.
     Cos(SymbolId, u8),
     /// Sine of a multiple of a joint.
     Sin(SymbolId, u8),
-    /// The logarithm of an input of length (a measured range).
+    /// The logarithm of an input of length: a measured range.
     LogRange(SymbolId),
 }
 
@@ -65,39 +75,46 @@ pub struct Serial {
     pub moving_average: f64,
 }
 
-/// Rows that follow each other: components `start..end`, `stride` components a row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Run {
-    /// First component.
-    pub start: usize,
-    /// One past the last component.
-    pub end: usize,
-    /// Components a row.
-    pub stride: usize,
+impl Serial {
+    /// Standard deviation of the values in units of that of the innovations.
+    ///
+    /// Source: G. E. P. Box, G. M. Jenkins, Time Series Analysis, section 3.4.3.
+    #[must_use]
+    pub fn gain(self) -> f64 {
+        let (phi, theta) = (self.autoregressive, self.moving_average);
+        ((1.0 + 2.0 * phi * theta + theta * theta) / (1.0 - phi * phi)).sqrt()
+    }
+
+    /// Turns values into innovations in place; the first value of the run, which nothing precedes, is scaled to the
+    /// same variance.
+    pub fn whiten(self, column: &mut [f64], run: Run) {
+        for component in 0..run.stride {
+            let (mut x_before, mut e_before) = (0.0, 0.0);
+            for at in (run.start + component..run.end).step_by(run.stride) {
+                let Some(value) = column.get_mut(at) else { return };
+                let x = *value;
+                e_before = if at == run.start + component {
+                    x / self.gain()
+                } else {
+                    x - self.autoregressive * x_before - self.moving_average * e_before
+                };
+                x_before = x;
+                *value = e_before;
+            }
+        }
+    }
 }
 
 impl Noise {
     /// Whitens a column of residual components (length n, SI) in place: divides by the standard deviations and
-    /// takes out what the observation before it explains.
-    ///
-    /// Robust weights are not part of it.
+    /// takes out what the observation before it explains. Robust weights are not part of it.
     pub fn whiten(&self, column: &mut [f64]) {
         for (value, sigma) in column.iter_mut().zip(&self.sigma) {
             *value /= sigma;
         }
-        let Some(serial) = self.serial else {
-            return;
-        };
-        for run in &self.runs {
-            for component in 0..run.stride {
-                let (mut x_before, mut e_before) = (0.0, 0.0);
-                for at in (run.start + component..run.end).step_by(run.stride.max(1)) {
-                    let Some(value) = column.get_mut(at) else { break };
-                    let x = *value;
-                    e_before = x - serial.autoregressive * x_before - serial.moving_average * e_before;
-                    x_before = x;
-                    *value = e_before;
-                }
+        if let Some(serial) = self.serial {
+            for &run in &self.runs {
+                serial.whiten(column, run);
             }
         }
     }

@@ -2,7 +2,7 @@
 //!
 //! Files become observations in [`crate::study`]; nothing here knows a file's format.
 
-mod derive;
+pub mod derive;
 mod tangent;
 
 pub use derive::{DeriveError, Derived, parse_derived};

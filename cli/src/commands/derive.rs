@@ -2,12 +2,14 @@
 
 use std::path::PathBuf;
 
-use model_core::{forms, print};
+use model_core::forms::{self, Form};
+use model_core::{Chain, ObservableKind, print};
+use serde_json::json;
 
 use super::Answer;
 use crate::failure::Failure;
-use crate::source::{self, Source};
-use crate::terminal;
+use crate::source::{Source, observables};
+use crate::terminal::{self, HEADING};
 
 /// Derive the closed form of the error of each observable.
 ///
@@ -26,7 +28,7 @@ pub struct Arguments {
     /// Keep products of up to this many errors
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=3))]
     order: u32,
-    /// How to print
+    /// How to print the formulas
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
@@ -40,13 +42,58 @@ enum Format {
     Latex,
     /// Markdown with formulas between dollar signs
     Markdown,
-    /// For programs
+    /// For programs: both the plain text and the LaTeX of each component
     Json,
 }
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let chain = Source::read(&arguments.chain)?.chain()?;
-    let _ = source::observables(&chain, &arguments.observable)?;
+    let forms: Vec<Form> = observables(&chain, &arguments.observable)?
+        .into_iter()
+        .map(|observable| forms::derive(&chain, observable, arguments.order))
+        .collect::<Result<_, _>>()
+        .map_err(|error| Failure::Input(error.to_string()))?;
+    let printed = match arguments.format {
+        Format::Json => format!("{:#}\n", as_json(&chain, &forms, arguments.order)),
+        Format::Text => sections(&chain, &forms, print::Style::Text, |title| format!("{HEADING}{title}{HEADING:#}")),
+        Format::Latex => sections(&chain, &forms, print::Style::Latex, |title| format!("% {title}")),
+        Format::Markdown => sections(&chain, &forms, print::Style::Markdown, |title| format!("## {title}\n")),
+    };
+    terminal::print(&printed)?;
     Ok(Answer::Done)
+}
+
+/// The forms one after the other, each below its title.
+fn sections(chain: &Chain, forms: &[Form], style: print::Style, title: impl Fn(&str) -> String) -> String {
+    let sections: Vec<String> = forms
+        .iter()
+        .map(|form| format!("{}\n{}", title(&title_of(chain, form)), print::form(form, chain, style)))
+        .collect();
+    sections.join("\n")
+}
+
+/// `pointing: error of the direction of device, to first order in the errors`
+fn title_of(chain: &Chain, form: &Form) -> String {
+    let observable = chain.observable(form.observable);
+    let (kind, unit) = match observable.kind {
+        ObservableKind::Direction => ("direction", ""),
+        ObservableKind::Point => ("point", ", in m"),
+    };
+    let order = ["first", "second", "third"].get(form.order as usize - 1).copied().unwrap_or("higher");
+    let body = &chain.body(observable.body).name;
+    format!("{}: error of the {kind} of {body}, to {order} order in the errors{unit}", observable.name)
+}
+
+fn as_json(chain: &Chain, forms: &[Form], order: u32) -> serde_json::Value {
+    let observables: Vec<serde_json::Value> = forms
+        .iter()
+        .map(|form| {
+            let [x, y, z] = form.components.each_ref().map(|component| {
+                json!({"text": print::text(component, chain), "latex": print::latex(component, chain)})
+            });
+            json!({"name": chain.observable(form.observable).name, "components": {"x": x, "y": y, "z": z}})
+        })
+        .collect();
+    json!({"chain": chain.name, "order": order, "observables": observables})
 }

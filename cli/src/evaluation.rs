@@ -1,0 +1,111 @@
+//! Observables over columns of readings: what `eval`, `apply` and `simulate` compute.
+
+use codegen::{Form, Interpreter, build};
+use model_core::{Chain, ObservableId, SymbolId, SymbolKind};
+
+use crate::failure::Failure;
+
+/// The exact form, or the first-order one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Exactness {
+    /// The product of all transforms
+    Exact,
+    /// Products of two or more errors dropped
+    FirstOrder,
+}
+
+/// What of an observable is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Quantity {
+    /// What the errors add to it
+    Error,
+    /// The observable itself, with its errors
+    Value,
+}
+
+/// Programs for some observables of a chain, with their errors filled in.
+pub struct Evaluator {
+    /// The observables, in the order of the output columns.
+    pub observables: Vec<ObservableId>,
+    /// The joints and inputs that they need, each once, in order of the chain.
+    pub readings: Vec<SymbolId>,
+    /// Programs whose outputs add up, each with the values of errors and constants.
+    parts: Vec<(Interpreter, Vec<f64>)>,
+}
+
+impl Evaluator {
+    /// Builds what computes `quantity` of the observables; `values` as an errors file gives them.
+    #[must_use]
+    pub fn new(
+        chain: &Chain,
+        observables: Vec<ObservableId>,
+        exactness: Exactness,
+        quantity: Quantity,
+        values: &[f64],
+    ) -> Self {
+        let mut without_errors = values.to_vec();
+        for error in chain.symbols_of(SymbolKind::Error) {
+            without_errors[error.index()] = 0.0;
+        }
+        let forms = match (exactness, quantity) {
+            (Exactness::Exact, Quantity::Error) => vec![(Form::ExactError, values.to_vec())],
+            (Exactness::Exact, Quantity::Value) => vec![(Form::ExactValue, values.to_vec())],
+            (Exactness::FirstOrder, Quantity::Error) => vec![(Form::FirstOrderError, values.to_vec())],
+            (Exactness::FirstOrder, Quantity::Value) => {
+                vec![(Form::ExactValue, without_errors), (Form::FirstOrderError, values.to_vec())]
+            }
+        };
+        let parts = forms
+            .into_iter()
+            .map(|(form, values)| (Interpreter::new(&build(chain, &observables, form, &[])), values))
+            .collect();
+        let mut readings: Vec<SymbolId> =
+            observables.iter().flat_map(|&observable| readings_of(chain, observable)).collect();
+        readings.sort_unstable();
+        readings.dedup();
+        Self { observables, readings, parts }
+    }
+
+    /// The components of all observables over columns of readings, `3 * observables` columns, x, y, z first of the
+    /// first observable.
+    ///
+    /// # Errors
+    /// Columns of different lengths, or one missing.
+    pub fn columns(&mut self, readings: &[(SymbolId, &[f64])], rows: usize) -> Result<Vec<Vec<f64>>, Failure> {
+        let mut sum = vec![vec![0.0; rows]; 3 * self.observables.len()];
+        let mut part = sum.clone();
+        for (interpreter, values) in &mut self.parts {
+            let mut out: Vec<&mut [f64]> = part.iter_mut().map(Vec::as_mut_slice).collect();
+            interpreter
+                .eval_batch(readings, values, &mut out)
+                .map_err(|error| Failure::Input(error.to_string()))?;
+            for (sum, part) in sum.iter_mut().flatten().zip(part.iter().flatten()) {
+                *sum += part;
+            }
+        }
+        Ok(sum)
+    }
+}
+
+/// The joints and inputs that an observable depends on, in order of the chain.
+#[must_use]
+pub fn readings_of(chain: &Chain, observable: ObservableId) -> Vec<SymbolId> {
+    let components = chain.observable(observable).components.iter();
+    let mut symbols: Vec<SymbolId> = chain
+        .factors_to(observable)
+        .into_iter()
+        .map(|factor| &factor.amount)
+        .chain(components)
+        .flat_map(|amount| amount.symbols())
+        .filter(|&id| matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input))
+        .collect();
+    symbols.sort_unstable();
+    symbols.dedup();
+    symbols
+}
+
+/// Names of the columns of an observable: `pointing_x`, `pointing_y`, `pointing_z`.
+pub fn column_names(chain: &Chain, observable: ObservableId) -> impl Iterator<Item = String> {
+    let name = &chain.observable(observable).name;
+    ["x", "y", "z"].into_iter().map(move |axis| format!("{name}_{axis}"))
+}

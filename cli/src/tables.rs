@@ -1,0 +1,114 @@
+//! Tables of data as files: opened by the ending of their name, read in chunks, written whole.
+
+use std::fs::File;
+use std::io::{self, BufReader};
+use std::path::Path;
+
+use calibration::formats::{self, Cells, DataError, TableReader, Wanted, csv::Options, find_column};
+use model_core::{Chain, SymbolId};
+
+use crate::failure::Failure;
+use crate::source;
+
+/// Rows that are read, computed and written at a time.
+const CHUNK: usize = 4096;
+
+/// A data file whose columns of readings are found by the names of joints and inputs.
+pub struct ReadingsTable {
+    reader: Box<dyn TableReader>,
+    readings: Vec<SymbolId>,
+    /// Every column as text, then the readings as numbers.
+    wanted: Vec<Wanted>,
+}
+
+/// Some rows of a [`ReadingsTable`].
+pub struct Rows {
+    /// Every column of the file as text.
+    pub cells: Vec<Vec<String>>,
+    /// The readings, in SI.
+    pub readings: Vec<(SymbolId, Vec<f64>)>,
+    /// How many rows these are.
+    pub count: usize,
+}
+
+impl ReadingsTable {
+    /// Opens a file; `-` is standard input.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub fn open(path: &Path) -> Result<Self, Failure> {
+        let options = Options::default();
+        let reader = if path == Path::new("-") {
+            formats::open(io::stdin().lock(), "standard input", &options)
+        } else {
+            let file = File::open(path).map_err(|error| source::not_readable(path, &error))?;
+            if file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
+                return Err(Failure::read(path, &io::ErrorKind::IsADirectory.into()));
+            }
+            formats::open(BufReader::new(file), &path.display().to_string(), &options)
+        };
+        let reader = reader.map_err(failure)?;
+        let wanted = (0..reader.header().len()).map(|column| Wanted { column, factor: None }).collect();
+        Ok(Self { reader, readings: Vec::new(), wanted })
+    }
+
+    /// Names of the columns, as they stand in the header.
+    pub fn header(&self) -> impl Iterator<Item = &str> {
+        self.reader.header().iter().map(|column| column.full.as_str())
+    }
+
+    /// Whether there is a column for each of these joints and inputs.
+    #[must_use]
+    pub fn has(&self, chain: &Chain, readings: &[SymbolId]) -> bool {
+        let header = self.reader.header();
+        readings.iter().all(|&id| find_column(header, &chain.symbol(id).name, "").is_ok())
+    }
+
+    /// Finds the columns of joints and inputs by their declared names; an angle or length without a unit in the
+    /// header is in SI, as the command itself writes it.
+    ///
+    /// # Errors
+    /// A column that is not there, or whose unit measures something else.
+    pub fn want(&mut self, chain: &Chain, readings: &[SymbolId]) -> Result<(), Failure> {
+        for &id in readings {
+            let symbol = chain.symbol(id);
+            let header = self.reader.header();
+            let column = find_column(header, &symbol.name, self.reader.source()).map_err(failure)?;
+            let factor = header[column]
+                .factor(symbol.quantity, None, true, self.reader.source())
+                .map_err(failure)?;
+            self.readings.push(id);
+            self.wanted.push(Wanted { column, factor: Some(factor) });
+        }
+        Ok(())
+    }
+
+    /// The next rows; `None` at the end.
+    ///
+    /// # Errors
+    /// A cell that cannot be read, with its place.
+    pub fn next(&mut self) -> Result<Option<Rows>, Failure> {
+        let chunk = self.reader.read(&self.wanted, CHUNK).map_err(failure)?;
+        if chunk.rows.is_empty() {
+            return Ok(None);
+        }
+        let mut rows = Rows { cells: Vec::new(), readings: Vec::new(), count: chunk.rows.len() };
+        let mut ids = self.readings.iter();
+        for column in chunk.columns {
+            match column {
+                Cells::Labels(labels) => rows.cells.push(labels),
+                Cells::Numbers(numbers) => {
+                    if let Some(&id) = ids.next() {
+                        rows.readings.push((id, numbers));
+                    }
+                }
+            }
+        }
+        Ok(Some(rows))
+    }
+}
+
+/// A mistake in a data file; its text names the file and the place.
+pub fn failure(error: DataError) -> Failure {
+    Failure::Input(error.to_string())
+}

@@ -25,6 +25,9 @@ pub enum Failure {
     /// Mistakes in a text, already rendered with their places and the lines they stand on.
     #[error("{0}")]
     Mistakes(String),
+    /// Whoever read standard output has gone away, as `head` does; no fault of anybody's.
+    #[error("standard output is closed")]
+    ReaderGone,
     /// Anything else, in words that say what to write instead.
     #[error("{0}")]
     Input(String),
@@ -38,6 +41,9 @@ impl Failure {
 
     /// A file that could not be written, with the reason in plain words.
     pub fn write(path: &Path, error: &io::Error) -> Self {
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            return Self::ReaderGone;
+        }
         Self::Write { path: path.to_owned(), why: reason(error) }
     }
 }

@@ -24,6 +24,7 @@ fn main() -> ExitCode {
     match Arguments::parse().command.run() {
         Ok(commands::Answer::Done) => ExitCode::SUCCESS,
         Ok(commands::Answer::No) => ExitCode::from(1),
+        Err(failure::Failure::ReaderGone) => ExitCode::SUCCESS,
         Err(failure) => {
             terminal::report_failure(&failure);
             ExitCode::from(2)

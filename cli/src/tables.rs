@@ -1,14 +1,14 @@
 //! Tables of data as files: opened by the ending of their name, read in chunks, written whole.
 
 use std::fs::File;
-use std::io::{self, BufReader};
+use std::io::{self, BufReader, Write};
 use std::path::Path;
 
 use calibration::formats::{self, Cells, DataError, TableReader, Wanted, csv::Options, find_column};
 use model_core::{Chain, SymbolId};
 
 use crate::failure::Failure;
-use crate::source;
+use crate::{output, source};
 
 /// Rows that are read, computed and written at a time.
 const CHUNK: usize = 4096;
@@ -105,6 +105,38 @@ impl ReadingsTable {
             }
         }
         Ok(Some(rows))
+    }
+}
+
+/// A table that is being written, as `.csv`.
+pub struct TableWriter<'a> {
+    path: &'a Path,
+    inner: ::csv::Writer<&'a mut dyn Write>,
+}
+
+/// Writes a table file; it appears whole or not at all.
+///
+/// # Errors
+/// The place cannot be written, or `write` failed.
+pub fn write(
+    path: &Path,
+    write: impl FnOnce(&mut TableWriter) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    output::write_with(path, |file| {
+        let mut writer = TableWriter { path, inner: ::csv::Writer::from_writer(file) };
+        write(&mut writer)?;
+        writer.inner.flush().map_err(|error| Failure::write(path, &error))
+    })
+}
+
+impl TableWriter<'_> {
+    /// Writes one row of cells; the first is the header.
+    ///
+    /// # Errors
+    /// The place cannot be written.
+    pub fn row(&mut self, cells: impl IntoIterator<Item = impl AsRef<[u8]>>) -> Result<(), Failure> {
+        let written = self.inner.write_record(cells);
+        written.map_err(|error| Failure::write(self.path, &error.into()))
     }
 }
 

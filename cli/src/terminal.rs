@@ -2,7 +2,7 @@
 //! only where a person looks.
 
 use std::fmt::Display;
-use std::io::{self, Write as _};
+use std::io::Write as _;
 
 use anstyle::{AnsiColor, Style};
 
@@ -17,18 +17,15 @@ pub const GOOD: Style = AnsiColor::Green.on_default().bold();
 /// Style of headings.
 pub const HEADING: Style = Style::new().bold();
 
-/// Writes a result to standard output. A reader that has gone away (`| head`) is no failure.
+/// Writes a result to standard output.
 ///
 /// # Errors
 /// Standard output cannot be written, a full disk say.
 pub fn print(text: &str) -> Result<(), Failure> {
     let mut out = anstream::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Failure::write("standard output".as_ref(), &error))
-        }
-        _ => Ok(()),
-    }
+    out.write_all(text.as_bytes())
+        .and_then(|()| out.flush())
+        .map_err(|error| Failure::write("standard output".as_ref(), &error))
 }
 
 /// Says on standard error what the user should know although the command goes on.

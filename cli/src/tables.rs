@@ -140,6 +140,11 @@ impl TableWriter<'_> {
     }
 }
 
+/// A number as tables hold it: as short as reads back to the same number.
+pub fn number(number: f64) -> String {
+    format!("{number:?}")
+}
+
 /// A mistake in a data file; its text names the file and the place.
 pub fn failure(error: DataError) -> Failure {
     Failure::Input(error.to_string())

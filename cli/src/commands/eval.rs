@@ -102,7 +102,7 @@ pub fn write_evaluated(
                 let computed: Vec<f64> = columns.iter().map(|column| column[row]).collect();
                 not_finite += usize::from(computed.iter().any(|number| !number.is_finite()));
                 let cells = kept.iter().map(|&column| rows.cells[column][row].clone());
-                writer.row(cells.chain(computed.iter().map(f64::to_string)))?;
+                writer.row(cells.chain(computed.iter().copied().map(tables::number)))?;
             }
         }
         Ok(())

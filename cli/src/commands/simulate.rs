@@ -1,0 +1,220 @@
+//! `trueaxis simulate`: measured data from a chain, with noise and a seed.
+
+use std::f64::consts::PI;
+use std::path::PathBuf;
+
+use calibration::units::Amount;
+use model_core::{Chain, ObservableId, ObservableKind, Quantity as Measures, SymbolId};
+use rand::{RngExt as _, SeedableRng as _};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution as _, StandardNormal};
+
+use super::Answer;
+use crate::errors_file;
+use crate::evaluation::{Evaluator, Exactness, Quantity, column_names};
+use crate::failure::Failure;
+use crate::ranges::{self, Range, RangeArgument};
+use crate::source::{Source, listed, observables};
+use crate::{tables, terminal};
+
+/// Simulate measured data.
+///
+/// Joints are drawn at random, turning joints from a whole turn unless --range says otherwise; what the chain shows
+/// there is exact, with normal noise: for a direction along each of two directions across it, for a point along x, y
+/// and z. Angles are written in rad and lengths in m. An effect that another declaration lacks comes from
+/// simulating with a richer one.
+///
+/// Example: trueaxis simulate examples/mobile-lidar/off-centre.chain --errors
+/// examples/mobile-lidar/off-centre.errors.toml --poses 400 --noise "2 arcsec" --seed 1 --out measured.csv
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The declaration
+    chain: PathBuf,
+    /// Values of the errors
+    #[arg(long, value_name = "E.toml")]
+    errors: PathBuf,
+    /// How many poses
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    poses: u32,
+    /// Standard deviation of the noise, "2 arcsec" for directions, "0.1 mm" for points (give both for both)
+    #[arg(long, value_name = "SIGMA", required = true, allow_negative_numbers = true)]
+    noise: Vec<String>,
+    /// Seed of the random numbers: the same seed gives the same data
+    #[arg(long, value_name = "S")]
+    seed: u64,
+    /// Range of a joint or input: "beta=-30 deg..60 deg" (may be given several times)
+    #[arg(long, value_name = "joint=lo..hi")]
+    range: Vec<RangeArgument>,
+    /// Only this observable (may be given several times); default: every one that --noise fits
+    #[arg(long)]
+    observable: Vec<String>,
+    /// Where to write: .csv, .parquet, or - for CSV on standard output
+    #[arg(long, value_name = "OUT")]
+    out: PathBuf,
+}
+
+/// Standard deviations of the noise, where given.
+#[derive(Debug, Clone, Copy, Default)]
+struct Noise {
+    /// Of a direction, along each of two directions across it.
+    angle_rad: Option<f64>,
+    /// Of a point, along each axis.
+    length_m: Option<f64>,
+}
+
+/// Poses that are computed at a time.
+const CHUNK: usize = 4096;
+
+/// Runs the command.
+pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
+    let chain = Source::read(&arguments.chain)?.chain()?;
+    let values = errors_file::values(&Source::read(&arguments.errors)?, &chain)?;
+    let noise = Noise::parse(&arguments.noise)?;
+    let chosen = measured(&chain, &arguments.observable, noise)?;
+    let mut evaluator = Evaluator::new(&chain, chosen, Exactness::Exact, Quantity::Value, &values);
+    let given = ranges::of_chain(&chain, &arguments.range)?;
+    let ranges = ranges_of(&chain, &evaluator.readings, &given)?;
+
+    let mut poses = stream(arguments.seed, 0);
+    let mut errors = stream(arguments.seed, 1);
+    tables::write(&arguments.out, |writer| {
+        let readings = ranges.iter().map(|range| chain.symbol(range.symbol).name.clone());
+        writer.row(readings.chain(evaluator.observables.iter().flat_map(|&id| column_names(&chain, id))))?;
+        let mut left = arguments.poses as usize;
+        while left > 0 {
+            let rows = left.min(CHUNK);
+            left -= rows;
+            let mut readings: Vec<(SymbolId, Vec<f64>)> =
+                ranges.iter().map(|range| (range.symbol, Vec::with_capacity(rows))).collect();
+            for _ in 0..rows {
+                for (range, (_, column)) in ranges.iter().zip(&mut readings) {
+                    column.push(range.low + (range.high - range.low) * poses.random::<f64>());
+                }
+            }
+            let columns: Vec<_> = readings.iter().map(|(id, column)| (*id, column.as_slice())).collect();
+            let mut shown = evaluator.columns(&columns, rows)?;
+            for row in 0..rows {
+                for (&observable, shown) in evaluator.observables.iter().zip(shown.chunks_exact_mut(3)) {
+                    let kind = chain.observable(observable).kind;
+                    let moved = noise.add(kind, [shown[0][row], shown[1][row], shown[2][row]], &mut errors);
+                    for (column, component) in shown.iter_mut().zip(moved) {
+                        column[row] = component;
+                    }
+                }
+                let cells = readings.iter().map(|(_, column)| column).chain(&shown).map(|column| column[row]);
+                writer.row(cells.map(tables::number))?;
+            }
+        }
+        Ok(())
+    })?;
+    Ok(Answer::Done)
+}
+
+/// A stream of random numbers of its own for each purpose: more noise does not move the poses.
+fn stream(seed: u64, purpose: u64) -> ChaCha8Rng {
+    let mut stream = ChaCha8Rng::seed_from_u64(seed);
+    stream.set_stream(purpose);
+    stream
+}
+
+/// The observables that are to be measured: those asked for, or all whose noise was given.
+fn measured(chain: &Chain, names: &[String], noise: Noise) -> Result<Vec<ObservableId>, Failure> {
+    let all = observables(chain, names)?;
+    let (chosen, silent): (Vec<_>, Vec<_>) =
+        all.into_iter().partition(|&id| noise.of(chain.observable(id).kind).is_some());
+    let silent: Vec<&str> = silent.into_iter().map(|id| chain.observable(id).name.as_str()).collect();
+    if silent.is_empty() {
+        return Ok(chosen);
+    }
+    let missing = match noise.angle_rad {
+        Some(_) => "points: their noise is a length, --noise \"0.1 mm\"",
+        None => "directions: their noise is an angle, --noise \"2 arcsec\"",
+    };
+    let message = format!("{} measure {missing}", listed(silent.into_iter()));
+    if !names.is_empty() || chosen.is_empty() {
+        return Err(Failure::Input(message));
+    }
+    terminal::warn(format_args!("{message}; they are left out"));
+    Ok(chosen)
+}
+
+/// The range of every reading that is needed: as given, or a whole turn.
+fn ranges_of(chain: &Chain, readings: &[SymbolId], given: &[Range]) -> Result<Vec<Range>, Failure> {
+    for range in given {
+        if !readings.contains(&range.symbol) {
+            let name = &chain.symbol(range.symbol).name;
+            terminal::warn(format_args!("--range {name}: no observable here depends on it"));
+        }
+    }
+    readings
+        .iter()
+        .map(|&symbol| {
+            let name = &chain.symbol(symbol).name;
+            let turns = chain.symbol(symbol).quantity == Measures::Angle;
+            let whole_turn = turns.then_some(Range { symbol, low: -PI, high: PI });
+            given.iter().copied().find(|range| range.symbol == symbol).or(whole_turn).ok_or_else(|| {
+                let example = match chain.symbol(symbol).quantity {
+                    Measures::Length => "1 m..100 m",
+                    _ => "0..30",
+                };
+                Failure::Input(format!("`{name}` has no natural range: say --range \"{name}={example}\""))
+            })
+        })
+        .collect()
+}
+
+impl Noise {
+    /// Reads every `--noise`; a number without a unit holds for directions (rad) and points (m).
+    fn parse(texts: &[String]) -> Result<Self, Failure> {
+        let mut noise = Self::default();
+        for text in texts {
+            let wrong = |why: String| Failure::Input(format!("--noise: {why}"));
+            let amount = Amount::parse(text).map_err(|error| wrong(error.to_string()))?;
+            if amount.number < 0.0 {
+                return Err(wrong(format!("`{text}` is negative: write the standard deviation")));
+            }
+            let measures = amount.unit.map(|unit| unit.quantity);
+            if measures == Some(Measures::Number) {
+                return Err(wrong(format!("`{text}` is neither an angle nor a length")));
+            }
+            for (quantity, sigma) in
+                [(Measures::Angle, &mut noise.angle_rad), (Measures::Length, &mut noise.length_m)]
+            {
+                if measures.is_none_or(|measured| measured == quantity) {
+                    let si = amount.to_si(quantity).map_err(|error| wrong(error.to_string()))?;
+                    if sigma.replace(si).is_some() {
+                        return Err(wrong(format!("`{text}`: the noise of one kind is given twice")));
+                    }
+                }
+            }
+        }
+        Ok(noise)
+    }
+
+    /// The standard deviation for one kind of observable, SI.
+    fn of(self, kind: ObservableKind) -> Option<f64> {
+        match kind {
+            ObservableKind::Direction => self.angle_rad,
+            ObservableKind::Point => self.length_m,
+        }
+    }
+
+    /// What is measured where the instrument shows `shown`.
+    fn add(self, kind: ObservableKind, shown: [f64; 3], chance: &mut ChaCha8Rng) -> [f64; 3] {
+        let sigma = self.of(kind).unwrap_or_default();
+        let mut draw = || -> f64 { sigma * Distribution::<f64>::sample(&StandardNormal, chance) };
+        match kind {
+            ObservableKind::Point => shown.map(|component| component + draw()),
+            ObservableKind::Direction => {
+                // Normal noise along x, y and z, projected off the direction, is normal along any two directions
+                // across it.
+                let noise = [draw(), draw(), draw()];
+                let along: f64 = noise.iter().zip(shown).map(|(n, s)| n * s).sum();
+                let square: f64 = shown.iter().map(|s| s * s).sum();
+                let moved = [0, 1, 2].map(|axis| shown[axis] + noise[axis] - along * shown[axis] / square);
+                let length = moved.iter().map(|m| m * m).sum::<f64>().sqrt();
+                moved.map(|component| component / length)
+            }
+        }
+    }
+}

@@ -209,12 +209,16 @@ impl Noise {
                 // Normal noise along x, y and z, projected off the direction, is normal along any two directions
                 // across it.
                 let noise = [draw(), draw(), draw()];
+                let shown = of_length_one(shown);
                 let along: f64 = noise.iter().zip(shown).map(|(n, s)| n * s).sum();
-                let square: f64 = shown.iter().map(|s| s * s).sum();
-                let moved = [0, 1, 2].map(|axis| shown[axis] + noise[axis] - along * shown[axis] / square);
-                let length = moved.iter().map(|m| m * m).sum::<f64>().sqrt();
-                moved.map(|component| component / length)
+                of_length_one([0, 1, 2].map(|axis| shown[axis] + noise[axis] - along * shown[axis]))
             }
         }
     }
+}
+
+/// The direction of a vector.
+fn of_length_one(vector: [f64; 3]) -> [f64; 3] {
+    let length = vector.iter().map(|component| component * component).sum::<f64>().sqrt();
+    vector.map(|component| component / length)
 }

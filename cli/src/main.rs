@@ -1,9 +1,13 @@
 //! The `trueaxis` command: arguments in, exit code out. What a command does stands in [`commands`].
 
 mod commands;
+mod errors_file;
+mod evaluation;
 mod failure;
 mod output;
+mod ranges;
 mod source;
+mod tables;
 mod terminal;
 
 use std::process::ExitCode;

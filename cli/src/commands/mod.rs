@@ -1,6 +1,9 @@
 //! The registry of commands: one file each, one line each in the table below.
 
+mod apply;
 mod derive;
+mod eval;
+mod simulate;
 
 use crate::failure::Failure;
 
@@ -37,4 +40,7 @@ macro_rules! commands {
 
 commands! {
     Derive => derive,
+    Simulate => simulate,
+    Eval => eval,
+    Apply => apply,
 }

@@ -7,7 +7,7 @@ use calibration::units::Amount;
 use model_core::{Chain, ObservableId, ObservableKind, Quantity as Measures, SymbolId};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution as _, StandardNormal};
+use rand_distr::StandardNormal;
 
 use super::Answer;
 use crate::errors_file;
@@ -202,7 +202,7 @@ impl Noise {
     /// What is measured where the instrument shows `shown`.
     fn add(self, kind: ObservableKind, shown: [f64; 3], chance: &mut ChaCha8Rng) -> [f64; 3] {
         let sigma = self.of(kind).unwrap_or_default();
-        let mut draw = || -> f64 { sigma * Distribution::<f64>::sample(&StandardNormal, chance) };
+        let mut draw = || -> f64 { sigma * chance.sample::<f64, _>(StandardNormal) };
         match kind {
             ObservableKind::Point => shown.map(|component| component + draw()),
             ObservableKind::Direction => {

@@ -6,6 +6,7 @@ pub mod build;
 mod builder;
 pub mod interpreter;
 pub mod program;
+pub mod vector;
 
 pub use build::{build, build_all};
 pub use interpreter::{Interpreter, ShapeError};

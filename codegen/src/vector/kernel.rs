@@ -1,0 +1,118 @@
+// Sine and cosine of many angles at once, without branches, tables or dependencies.
+//
+// This text is compiled into this crate and goes, with `paths.rs` and `wide.rs`, unchanged into generated Rust files;
+// `kernel.c` is the same algorithm in C, bit for bit. Method: take away the nearest multiple of π/2 in parts (Cody and
+// Waite), keep what is left as a sum of two numbers, evaluate one polynomial each for sine and cosine on |r| ≤ π/4, and
+// swap and negate by the quadrant. Angles beyond `WIDEST` go through `wide.rs`. `minimax.py` derives the constants.
+
+/// The largest angle, rad, that the fast reduction is made for: 20 bits of quadrant number.
+pub const WIDEST: f64 = 1.0e6;
+
+/// Rows that are worked on together.
+pub const ROWS: usize = 64;
+
+const TWO_OVER_PI: f64 = 0.6366197723675814;
+/// Adding 1.5·2^52 rounds to a whole number, which then stands in the low bits.
+const ROUNDER: f64 = 6755399441055744.0;
+
+/// Sine and cosine, at most 1 ulp off, for |x| ≤ [`WIDEST`]; NaN for NaN. Anything else for other angles.
+#[inline(always)]
+pub fn sin_cos_narrow<A: Arithmetic>(arithmetic: A, x: f64) -> (f64, f64) {
+    let rounded = arithmetic.mul_add(x, TWO_OVER_PI, ROUNDER);
+    let quarters = rounded - ROUNDER;
+    let (r, low) = if A::FUSED {
+        // The first difference is exact, and what rounding takes from the second goes to `low`: the product with the
+        // 33 bits is exact, so that nothing is lost when both nearly cancel.
+        let first = arithmetic.mul_add(-quarters, 1.5707963267948966, x);
+        let r = arithmetic.mul_add(-quarters, 6.12323399538461e-17, first);
+        let low = arithmetic.mul_add(-quarters, 6.12323399538461e-17, first - r);
+        (r, arithmetic.mul_add(-quarters, 3.5215598651832e-27, low))
+    } else {
+        // π/2 in words of 33 bits: three exact products, and differences that are exact wherever they cancel.
+        let first = x - quarters * 1.5707963267341256;
+        let second = quarters * 6.077100506303966e-11;
+        let third = quarters * 2.0222662487111665e-21;
+        let fourth = quarters * 8.4784276603689e-32;
+        let middle = first - second;
+        let left = ((first - middle) - second) - third;
+        let r = middle + left;
+        (r, ((middle - r) + left) - fourth)
+    };
+    sin_cos_reduced(arithmetic, r, low, rounded.to_bits())
+}
+
+/// Sine and cosine of r + low + quarters·π/2, where |r| ≤ π/4 and `low` is at most half a unit in r's last place.
+#[inline(always)]
+fn sin_cos_reduced<A: Arithmetic>(arithmetic: A, r: f64, low: f64, quarters: u64) -> (f64, f64) {
+    let square = r * r;
+
+    let mut s = 1.5895433056632474e-10;
+    s = arithmetic.mul_add(s, square, -2.5050734386448547e-08);
+    s = arithmetic.mul_add(s, square, 2.755731353850391e-06);
+    s = arithmetic.mul_add(s, square, -0.00019841269829358517);
+    s = arithmetic.mul_add(s, square, 0.00833333333332184);
+    s = arithmetic.mul_add(s, square, -0.1666666666666663);
+    let sine = r + arithmetic.mul_add(r * square, s, low);
+
+    let mut c = -1.1358749250041842e-11;
+    c = arithmetic.mul_add(c, square, 2.087570539641511e-09);
+    c = arithmetic.mul_add(c, square, -2.7557314217041915e-07);
+    c = arithmetic.mul_add(c, square, 2.4801587289002086e-05);
+    c = arithmetic.mul_add(c, square, -0.0013888888888873342);
+    c = arithmetic.mul_add(c, square, 0.041666666666666595);
+    // cos(r + low) = 1 - r²/2 + (r⁴ c - r low): the half square keeps what rounding takes from it.
+    let rest = arithmetic.mul_add(square * square, c, -(r * low));
+    let cosine = if A::FUSED {
+        1.0 + arithmetic.mul_add(-0.5 * r, r, rest)
+    } else {
+        let half = 0.5 * square;
+        let top = 1.0 - half;
+        top + (((1.0 - top) - half) + rest)
+    };
+
+    let swap = quarters & 1 == 1;
+    let (sine, cosine) = if swap { (cosine, sine) } else { (sine, cosine) };
+    let sine_sign = (quarters << 62) & (1 << 63);
+    let cosine_sign = ((quarters << 62) ^ (quarters << 63)) & (1 << 63);
+    (f64::from_bits(sine.to_bits() ^ sine_sign), f64::from_bits(cosine.to_bits() ^ cosine_sign))
+}
+
+/// Sine and cosine of any angle, rad: at most 1 ulp off for |x| ≤ [`WIDEST`], and for all others; NaN where
+/// the angle is no finite number.
+#[inline(always)]
+pub fn sin_cos_with<A: Arithmetic>(arithmetic: A, x: f64) -> (f64, f64) {
+    if x.abs() <= WIDEST { sin_cos_narrow(arithmetic, x) } else { sin_cos_wide(arithmetic, x) }
+}
+
+/// Sine and cosine of one angle, rad, the same on every processor: see [`sin_cos_with`].
+#[must_use]
+pub fn sin_cos(x: f64) -> (f64, f64) {
+    sin_cos_with(Portable, x)
+}
+
+/// Sines and cosines of a block of angles, rad: see [`sin_cos_with`].
+#[inline(always)]
+pub fn sin_cos_rows<A: Arithmetic>(
+    arithmetic: A,
+    x: &[f64; ROWS],
+    sine: &mut [f64; ROWS],
+    cosine: &mut [f64; ROWS],
+) {
+    // One sum of squares tells a whole block: if it is small enough, so is every angle in it. A block that fails
+    // (some angle is large or no number, or many are above WIDEST / 8) is right too, only slower.
+    let mut squares = [0.0; 8];
+    for eight in x.as_chunks::<8>().0 {
+        for (square, x) in squares.iter_mut().zip(eight) {
+            *square = arithmetic.mul_add(*x, *x, *square);
+        }
+    }
+    if squares.iter().sum::<f64>() <= WIDEST * WIDEST {
+        for row in 0..ROWS {
+            (sine[row], cosine[row]) = sin_cos_narrow(arithmetic, x[row]);
+        }
+    } else {
+        for row in 0..ROWS {
+            (sine[row], cosine[row]) = sin_cos_with(arithmetic, x[row]);
+        }
+    }
+}

@@ -11,7 +11,8 @@ pub const WIDEST: f64 = 1.0e6;
 /// Rows that are worked on together.
 pub const ROWS: usize = 64;
 
-const TWO_OVER_PI: f64 = 0.6366197723675814;
+const TWO_OVER_PI: f64 = core::f64::consts::FRAC_2_PI;
+const HALF_PI: f64 = core::f64::consts::FRAC_PI_2;
 /// Adding 1.5·2^52 rounds to a whole number, which then stands in the low bits.
 const ROUNDER: f64 = 6755399441055744.0;
 
@@ -23,7 +24,7 @@ pub fn sin_cos_narrow<A: Arithmetic>(arithmetic: A, x: f64) -> (f64, f64) {
     let (r, low) = if A::FUSED {
         // The first difference is exact, and what rounding takes from the second goes to `low`: the product with the
         // 33 bits is exact, so that nothing is lost when both nearly cancel.
-        let first = arithmetic.mul_add(-quarters, 1.5707963267948966, x);
+        let first = arithmetic.mul_add(-quarters, HALF_PI, x);
         let r = arithmetic.mul_add(-quarters, 6.12323399538461e-17, first);
         let low = arithmetic.mul_add(-quarters, 6.12323399538461e-17, first - r);
         (r, arithmetic.mul_add(-quarters, 3.5215598651832e-27, low))

@@ -21,8 +21,7 @@ pub use sine_cosine::{
 };
 
 /// The parts of the module `sine_cosine` in generated Rust, in order.
-pub const RUST: [&str; 3] =
-    [include_str!("paths.rs"), include_str!("kernel.rs"), include_str!("wide.rs")];
+pub const RUST: [&str; 3] = [include_str!("paths.rs"), include_str!("kernel.rs"), include_str!("wide.rs")];
 
 /// The same in C99: the start of generated C files.
 pub const C: &str = include_str!("kernel.c");

@@ -6,18 +6,32 @@
 /// 2/π as a binary fraction, after one word of zeros so that no angle starts before the first.
 const TWO_OVER_PI_WORDS: [u64; 20] = [
     0,
-    0xa2f9_836e_4e44_1529, 0xfc27_57d1_f534_ddc0, 0xdb62_9599_3c43_9041, 0xfe51_63ab_debb_c561,
-    0xb724_6e3a_424d_d2e0, 0x0649_2eea_09d1_921c, 0xfe1d_eb1c_b129_a73e, 0xe882_35f5_2ebb_4484,
-    0xe99c_7026_b45f_7e41, 0x3991_d639_8353_39f4, 0x9c84_5f8b_bdf9_283b, 0x1ff8_97ff_de05_980f,
-    0xef2f_118b_5a0a_6d1f, 0x6d36_7ecf_27cb_09b7, 0x4f46_3f66_9e5f_ea2d, 0x7527_bac7_ebe5_f17b,
-    0x3d07_39f7_8a52_92ea, 0x6bfb_5fb1_1f8d_5d08, 0x5603_3046_fc7b_6bab,
+    0xa2f9_836e_4e44_1529,
+    0xfc27_57d1_f534_ddc0,
+    0xdb62_9599_3c43_9041,
+    0xfe51_63ab_debb_c561,
+    0xb724_6e3a_424d_d2e0,
+    0x0649_2eea_09d1_921c,
+    0xfe1d_eb1c_b129_a73e,
+    0xe882_35f5_2ebb_4484,
+    0xe99c_7026_b45f_7e41,
+    0x3991_d639_8353_39f4,
+    0x9c84_5f8b_bdf9_283b,
+    0x1ff8_97ff_de05_980f,
+    0xef2f_118b_5a0a_6d1f,
+    0x6d36_7ecf_27cb_09b7,
+    0x4f46_3f66_9e5f_ea2d,
+    0x7527_bac7_ebe5_f17b,
+    0x3d07_39f7_8a52_92ea,
+    0x6bfb_5fb1_1f8d_5d08,
+    0x5603_3046_fc7b_6bab,
 ];
 
 /// Upper half of the product.
 #[inline]
 fn product_high(a: u64, b: u64) -> u64 {
     const LOW: u64 = 0xffff_ffff;
-    let middle = (a >> 32) * (b & LOW) + ((a & LOW) * (b & LOW) >> 32);
+    let middle = (a >> 32) * (b & LOW) + (((a & LOW) * (b & LOW)) >> 32);
     let other = (a & LOW) * (b >> 32) + (middle & LOW);
     (a >> 32) * (b >> 32) + (middle >> 32) + (other >> 32)
 }
@@ -42,10 +56,8 @@ fn sin_cos_wide<A: Arithmetic>(arithmetic: A, x: f64) -> (f64, f64) {
     // The product as a fraction of a turn: 192 bits, of which the last 53 are not all right.
     let last = mantissa.wrapping_mul(c);
     let (middle, carry) = mantissa.wrapping_mul(b).overflowing_add(product_high(mantissa, c));
-    let first = mantissa
-        .wrapping_mul(a)
-        .wrapping_add(product_high(mantissa, b))
-        .wrapping_add(u64::from(carry));
+    let first =
+        mantissa.wrapping_mul(a).wrapping_add(product_high(mantissa, b)).wrapping_add(u64::from(carry));
 
     // Two bits of quarter turns, rounded to the nearest; what is left is a fraction of one, with its sign.
     let mut quarters = first >> 62;
@@ -70,11 +82,11 @@ fn sin_cos_wide<A: Arithmetic>(arithmetic: A, x: f64) -> (f64, f64) {
     // Times π/2, in halves of 26 bits so that the products are exact.
     let big_head = f64::from_bits(big.to_bits() & !0x7ff_ffff);
     let big_tail = big - big_head;
-    let product = big * 1.5707963267948966;
+    let product = big * HALF_PI;
     let error = big_tail * 1.5893254712295857e-8
         - (((product - big_head * 1.5707963109016418) - big_tail * 1.5707963109016418)
             - big_head * 1.5893254712295857e-8);
-    let rest = error + (big * 6.123233995736766e-17 + small * 1.5707963267948966);
+    let rest = error + (big * 6.123233995736766e-17 + small * HALF_PI);
     let r = product + rest;
     let left = (product - r) + rest;
 

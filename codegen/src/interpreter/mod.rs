@@ -8,6 +8,7 @@ mod tape;
 use model_core::SymbolId;
 
 use crate::program::{NodeId, Op, Program, Stage};
+use crate::vector::sin_cos;
 use tape::Tape;
 
 /// Runs one program, on its own working memory: no call allocates.
@@ -129,8 +130,8 @@ impl Interpreter {
                 Op::Sub(a, b) => at(a) - at(b),
                 Op::Mul(a, b) => at(a) * at(b),
                 Op::Div(a, b) => at(a) / at(b),
-                Op::Sin(a) => at(a).sin(),
-                Op::Cos(a) => at(a).cos(),
+                Op::Sin(a) => sin_cos(at(a)).0,
+                Op::Cos(a) => sin_cos(at(a)).1,
             };
         }
     }

@@ -10,9 +10,8 @@ use std::collections::BTreeMap;
 use model_core::SymbolId;
 
 use crate::program::{NodeId, Op, Program, Stage};
+use crate::vector::{Portable, ROWS, sin_cos_rows};
 
-/// Rows in a block.
-const ROWS: usize = 64;
 /// Rows that are loaded before any is stored.
 const LANES: usize = 8;
 
@@ -126,11 +125,12 @@ impl Tape {
             Instruction::Mul { a, b, to } => map(slot(a), slot(b), slot(to), |a, b| a * b),
             Instruction::Div { a, b, to } => map(slot(a), slot(b), slot(to), |a, b| a / b),
             Instruction::SinCos { angle, sin, cos } => {
-                for ((angle, sin), cos) in slot(angle).iter().zip(slot(sin)).zip(slot(cos)) {
-                    let (s, c) = angle.get().sin_cos();
-                    sin.set(s);
-                    cos.set(c);
-                }
+                let angles = slot(angle).each_ref().map(Cell::get);
+                let (mut sines, mut cosines) = ([0.0; ROWS], [0.0; ROWS]);
+                // The same path on every processor, and the same bits as one pose.
+                sin_cos_rows(Portable, &angles, &mut sines, &mut cosines);
+                slot(sin).iter().zip(sines).for_each(|(cell, sine)| cell.set(sine));
+                slot(cos).iter().zip(cosines).for_each(|(cell, cosine)| cell.set(cosine));
             }
             Instruction::Store { from, output } => {
                 for (value, cell) in out[output][block].iter_mut().zip(slot(from)) {

@@ -99,6 +99,13 @@ impl Axis {
     }
 }
 
+impl std::fmt::Display for Axis {
+    /// `x`, `y` or `z`.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(["x", "y", "z"][self.index()])
+    }
+}
+
 /// What an instrument shows, in the ground frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Observable {

@@ -4,8 +4,10 @@
 //! null spaces. Nothing here reads a file, prints, or knows a clock.
 
 pub mod algebra;
+pub mod budget;
 pub mod chain;
 pub mod check;
+pub mod checker;
 pub mod exact;
 pub mod expr;
 pub mod forms;

@@ -1,0 +1,166 @@
+//! The error budget: what each error alone does to an observable over a set of poses, and what all of them do together.
+//!
+//! Everything is measured on the exact form. The influence of an error at a pose is the angle between the direction with
+//! the error and the one without (rad), or the distance of the two points (m). Over the poses it is summed up by its
+//! largest value and its root mean square.
+//!
+//! - [`Poses`]: along a path of one parameter, or over ranges of joints and inputs.
+//! - [`Budget::measure`]: the influences and their sums.
+//! - [`Curves::along`]: the influences point by point along a path, for plots.
+
+mod curves;
+mod poses;
+mod probe;
+mod quadrature;
+mod summary;
+
+#[cfg(test)]
+mod tests;
+
+use crate::chain::{Chain, ObservableId, ObservableKind};
+use crate::symbol::SymbolId;
+use poses::Space;
+use probe::Probe;
+use summary::summarise;
+
+pub use curves::{Curve, Curves};
+pub use poses::{JointRange, Path, PathError, Poses};
+pub use summary::{Measure, Summary};
+
+/// What every error does to an observable over a set of poses.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Budget {
+    /// The observable.
+    pub observable: ObservableId,
+    /// One for each error with a size, in the order of the chain.
+    pub influences: Vec<Influence>,
+    /// The sum of all influences at each pose: to first order no combination within the sizes does more.
+    pub worst_case: Summary,
+    /// The root of the sum of the squared influences at each pose: what to expect of independent errors.
+    pub root_sum_square: Summary,
+}
+
+/// What one error alone does.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Influence {
+    /// The error.
+    pub error: SymbolId,
+    /// Its size in SI.
+    pub size: f64,
+    /// What it does over the poses.
+    pub summary: Summary,
+}
+
+/// Why a budget cannot be measured.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum BudgetError {
+    /// A joint or input moves the observable, and nothing says what its value is.
+    #[error("{observable} depends on {name}, and nothing says over which values it goes")]
+    NoValue {
+        /// The observable.
+        observable: String,
+        /// The joint or input.
+        name: String,
+    },
+    /// The observable has no finite value at a pose.
+    #[error("{observable} has no finite value at {pose}")]
+    NotFinite {
+        /// The observable.
+        observable: String,
+        /// The pose in words.
+        pose: String,
+    },
+}
+
+impl Budget {
+    /// Measures a budget; `sizes` are in SI and indexed by [`SymbolId`], zero for errors to leave out.
+    ///
+    /// # Errors
+    /// The poses do not give the observable a value: see [`BudgetError`].
+    pub fn measure(
+        chain: &Chain,
+        observable: ObservableId,
+        sizes: &[f64],
+        poses: &Poses,
+    ) -> Result<Self, BudgetError> {
+        let space = Space::new(chain, observable, poses)?;
+        let probe = Probe::new(chain, observable);
+        let errors = sized(chain, sizes);
+        let mut single: Vec<Vec<f64>> = errors.iter().map(|_| Vec::new()).collect();
+        let mut values = chain.nominal_values();
+        let nodes = space.nodes();
+        for node in &nodes {
+            space.set(&node.parameters, &mut values);
+            let direction = probe.nominal(&values);
+            for ((error, size), influences) in errors.iter().zip(&mut single) {
+                influences.push(probe.influence(&mut values, *error, *size, &direction));
+            }
+            if single.iter().any(|influences| influences.last().is_some_and(|value| !value.is_finite())) {
+                return Err(BudgetError::NotFinite {
+                    observable: chain.observable(observable).name.clone(),
+                    pose: space.describe(chain, &values),
+                });
+            }
+        }
+        let combined = |combine: fn(&mut dyn Iterator<Item = f64>) -> f64| {
+            (0..nodes.len())
+                .map(|node| combine(&mut single.iter().map(|values| values[node])))
+                .collect::<Vec<f64>>()
+        };
+        let all_at = |parameters: &[f64],
+                      values: &mut Vec<f64>,
+                      combine: fn(&mut dyn Iterator<Item = f64>) -> f64| {
+            space.set(parameters, values);
+            let direction = probe.nominal(values);
+            combine(&mut errors.iter().map(|&(error, size)| probe.influence(values, error, size, &direction)))
+        };
+        let influences = errors
+            .iter()
+            .zip(&single)
+            .map(|(&(error, size), sampled)| {
+                let summary = summarise(&space, &nodes, sampled, |parameters| {
+                    space.set(parameters, &mut values);
+                    let direction = probe.nominal(&values);
+                    probe.influence(&mut values, error, size, &direction)
+                });
+                Influence { error, size, summary }
+            })
+            .collect();
+        let together = |combine: fn(&mut dyn Iterator<Item = f64>) -> f64| {
+            let mut values = chain.nominal_values();
+            summarise(&space, &nodes, &combined(combine), |parameters| {
+                all_at(parameters, &mut values, combine)
+            })
+        };
+        Ok(Self {
+            observable,
+            influences,
+            worst_case: together(|influences| influences.sum()),
+            root_sum_square: together(|influences| influences.map(|value| value * value).sum::<f64>().sqrt()),
+        })
+    }
+
+    /// The unit of the influences: `rad` or `m`.
+    #[must_use]
+    pub fn unit(&self, chain: &Chain) -> &'static str {
+        unit(chain, self.observable)
+    }
+}
+
+/// The unit of influences on an observable: `rad` or `m`.
+#[must_use]
+pub fn unit(chain: &Chain, observable: ObservableId) -> &'static str {
+    match chain.observable(observable).kind {
+        ObservableKind::Direction => "rad",
+        ObservableKind::Point => "m",
+    }
+}
+
+/// The errors with a size, in order.
+fn sized(chain: &Chain, sizes: &[f64]) -> Vec<(SymbolId, f64)> {
+    chain
+        .symbols_of(crate::SymbolKind::Error)
+        .filter_map(|error| sizes.get(error.index()).map(|&size| (error, size)))
+        .filter(|(_, size)| *size != 0.0)
+        .collect()
+}

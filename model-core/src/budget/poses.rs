@@ -1,0 +1,225 @@
+//! Sets of poses: a path of one parameter, or ranges of joints and inputs.
+
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+use super::BudgetError;
+use super::quadrature::{self, Node as RuleNode};
+use crate::algebra::{LowerError, Poly};
+use crate::chain::{Chain, ObservableId};
+use crate::expr::Expr;
+use crate::symbol::{Quantity, SymbolId, SymbolKind};
+
+/// The poses that a budget goes over.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Poses {
+    /// Joints and inputs as functions of one parameter.
+    Path(Path),
+    /// Every combination of values within ranges. A joint that is an angle and has no range makes a full turn.
+    Ranges(Vec<JointRange>),
+}
+
+/// Joints and inputs as functions of a parameter `t`, which runs over (0, 2π).
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Path {
+    /// What each joint or input is: amounts over π and [`Path::PARAMETER`].
+    assignments: Vec<(SymbolId, Poly)>,
+}
+
+/// The range of one joint or input, SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointRange {
+    /// The joint or input.
+    pub symbol: SymbolId,
+    /// The smallest value.
+    pub low: f64,
+    /// The largest value.
+    pub high: f64,
+}
+
+/// Why an assignment cannot be part of a path.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum PathError {
+    /// What is assigned to is no joint or input.
+    #[error("`{0}` is no joint or input of the chain")]
+    NotMovable(String),
+    /// A joint or input is given twice.
+    #[error("`{0}` is given twice")]
+    Twice(String),
+    /// The amount is no function of `t`.
+    #[error("{0}")]
+    Amount(LowerError<Range<usize>>),
+}
+
+impl Path {
+    /// Where the parameter runs from and to.
+    pub const PARAMETER: Range<f64> = 0.0..TAU;
+    /// The parameter's place in the values that an assignment is evaluated at, π being the first.
+    const T: SymbolId = SymbolId(1);
+
+    /// Adds `name = amount`, an amount in `t` and π.
+    ///
+    /// # Errors
+    /// See [`PathError`].
+    pub fn assign(
+        &mut self,
+        chain: &Chain,
+        name: &str,
+        amount: &Expr<Range<usize>>,
+    ) -> Result<(), PathError> {
+        let symbol = movable(chain)
+            .find(|&id| chain.symbol(id).name == name)
+            .ok_or_else(|| PathError::NotMovable(name.to_owned()))?;
+        if self.assignments.iter().any(|(earlier, _)| *earlier == symbol) {
+            return Err(PathError::Twice(name.to_owned()));
+        }
+        let resolve = |name: &str| (name == "t").then_some(Self::T);
+        let amount = Poly::from_expr(amount, resolve, |_| true).map_err(PathError::Amount)?;
+        self.assignments.push((symbol, amount));
+        Ok(())
+    }
+
+    /// Sets the joints and inputs to their values at `t`.
+    pub(super) fn set(&self, t: f64, values: &mut [f64]) {
+        for (symbol, amount) in &self.assignments {
+            values[symbol.index()] = amount.eval(&[std::f64::consts::PI, t]);
+        }
+    }
+
+    fn symbols(&self) -> impl Iterator<Item = SymbolId> + '_ {
+        self.assignments.iter().map(|(symbol, _)| *symbol)
+    }
+}
+
+/// Joints and inputs: what has a value at each pose.
+pub(super) fn movable(chain: &Chain) -> impl Iterator<Item = SymbolId> + '_ {
+    chain.symbols_of(SymbolKind::Joint).chain(chain.symbols_of(SymbolKind::Input))
+}
+
+/// The set of poses of one observable as a box of parameters with a rule for means over it.
+#[derive(Debug)]
+pub(super) struct Space<'a> {
+    kind: Kind<'a>,
+    /// One rule for each parameter.
+    axes: Vec<Vec<RuleNode>>,
+    /// Where each parameter runs from and to.
+    pub bounds: Vec<(f64, f64)>,
+}
+
+#[derive(Debug)]
+enum Kind<'a> {
+    Path(&'a Path),
+    Ranges(Vec<SymbolId>),
+}
+
+/// One pose of the rule.
+#[derive(Debug, Clone)]
+pub(super) struct Pose {
+    pub parameters: Vec<f64>,
+    pub weight: f64,
+}
+
+/// Poses that a rule over several ranges may have.
+const POSES: usize = 20_000;
+/// Nodes that one range has at most.
+const NODES: usize = 256;
+
+impl<'a> Space<'a> {
+    /// The poses as far as they move the observable.
+    pub fn new(chain: &Chain, observable: ObservableId, poses: &'a Poses) -> Result<Self, BudgetError> {
+        let needed = needed(chain, observable);
+        let no_value = |id: SymbolId| BudgetError::NoValue {
+            observable: chain.observable(observable).name.clone(),
+            name: chain.symbol(id).name.clone(),
+        };
+        match poses {
+            Poses::Path(path) => {
+                if let Some(&missing) = needed.iter().find(|id| !path.symbols().any(|given| given == **id)) {
+                    return Err(no_value(missing));
+                }
+                let Range { start, end } = Path::PARAMETER;
+                Ok(Self {
+                    kind: Kind::Path(path),
+                    axes: vec![quadrature::panels(start, end, 64, 8)],
+                    bounds: vec![(start, end)],
+                })
+            }
+            Poses::Ranges(ranges) => {
+                let mut bounds = Vec::with_capacity(needed.len());
+                for &id in &needed {
+                    let symbol = chain.symbol(id);
+                    let full_turn = symbol.kind == SymbolKind::Joint && symbol.quantity == Quantity::Angle;
+                    match ranges.iter().find(|range| range.symbol == id) {
+                        Some(range) => bounds.push((range.low, range.high)),
+                        None if full_turn => bounds.push((0.0, TAU)),
+                        None => return Err(no_value(id)),
+                    }
+                }
+                let wide = bounds.iter().filter(|(low, high)| low < high).count().max(1);
+                let count = (POSES as f64).powf(1.0 / wide as f64).floor().clamp(2.0, NODES as f64);
+                let axes =
+                    bounds.iter().map(|&(low, high)| quadrature::rule(low, high, count as usize)).collect();
+                Ok(Self { kind: Kind::Ranges(needed), axes, bounds })
+            }
+        }
+    }
+
+    /// The poses of the rule; their weights sum to one.
+    pub fn nodes(&self) -> Vec<Pose> {
+        let mut nodes = vec![Pose { parameters: Vec::new(), weight: 1.0 }];
+        for axis in &self.axes {
+            nodes = nodes
+                .iter()
+                .flat_map(|pose| {
+                    axis.iter().map(|node| {
+                        let mut parameters = pose.parameters.clone();
+                        parameters.push(node.at);
+                        Pose { parameters, weight: pose.weight * node.weight }
+                    })
+                })
+                .collect();
+        }
+        nodes
+    }
+
+    /// The distance of neighbouring nodes along one parameter, about.
+    pub fn spacing(&self, axis: usize) -> f64 {
+        let (low, high) = self.bounds[axis];
+        (high - low) / self.axes[axis].len() as f64
+    }
+
+    /// Sets the joints and inputs of a pose.
+    pub fn set(&self, parameters: &[f64], values: &mut [f64]) {
+        match &self.kind {
+            Kind::Path(path) => path.set(parameters[0], values),
+            Kind::Ranges(symbols) => {
+                for (symbol, &value) in symbols.iter().zip(parameters) {
+                    values[symbol.index()] = value;
+                }
+            }
+        }
+    }
+
+    /// A pose in words: the joints and inputs that are set, SI.
+    pub fn describe(&self, chain: &Chain, values: &[f64]) -> String {
+        let show = |id: SymbolId| format!("{} = {}", chain.symbol(id).name, values[id.index()]);
+        let parts: Vec<String> = match &self.kind {
+            Kind::Path(path) => path.symbols().map(show).collect(),
+            Kind::Ranges(symbols) => symbols.iter().copied().map(show).collect(),
+        };
+        parts.join(", ")
+    }
+}
+
+/// The joints and inputs that an observable depends on, in order.
+fn needed(chain: &Chain, observable: ObservableId) -> Vec<SymbolId> {
+    let amounts = chain.factors_to(observable).into_iter().map(|factor| &factor.amount);
+    let mut symbols: Vec<SymbolId> = amounts
+        .chain(&chain.observable(observable).components)
+        .flat_map(Poly::symbols)
+        .filter(|&id| matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input))
+        .collect();
+    symbols.sort_unstable();
+    symbols.dedup();
+    symbols
+}

@@ -1,0 +1,130 @@
+//! Budgets that can be said in closed form.
+
+use std::f64::consts::PI;
+
+use approx::assert_relative_eq;
+
+use super::*;
+use crate::syntax;
+
+const LIDAR: &str = include_str!("../../../examples/mobile-lidar/mobile-lidar.chain");
+
+fn chain() -> Chain {
+    Chain::from_text(LIDAR).unwrap_or_else(|mistakes| panic!("{mistakes}"))
+}
+
+fn path(chain: &Chain, text: &[(&str, &str)]) -> Path {
+    let mut path = Path::default();
+    for (name, amount) in text {
+        let amount = syntax::parse_amount(amount).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        path.assign(chain, name, &amount).unwrap_or_else(|error| panic!("{error}"));
+    }
+    path
+}
+
+fn sizes(chain: &Chain, errors: &[(&str, f64)]) -> Vec<f64> {
+    let mut sizes = vec![0.0; chain.symbols.len()];
+    for (name, size) in errors {
+        let id = chain.find_symbol(name).unwrap_or_else(|| panic!("{name}"));
+        sizes[id.index()] = *size;
+    }
+    sizes
+}
+
+fn observable(chain: &Chain, name: &str) -> ObservableId {
+    chain.find_observable(name).unwrap_or_else(|| panic!("{name}"))
+}
+
+/// A tilt of the inner axis by δ turns the beam by δ at every pose; a turn about the beam does nothing; a tilt of the
+/// outer frame about y acts as δ cos β to first order.
+#[test]
+fn tilts_do_what_geometry_says() {
+    let chain = chain();
+    let delta = 5e-5;
+    let sizes = sizes(&chain, &[("db1", delta), ("db2", delta), ("dg2", delta)]);
+    let path = path(&chain, &[("alpha", "t"), ("beta", "t"), ("gamma", "t")]);
+    for poses in [Poses::Path(path), Poses::Ranges(Vec::new())] {
+        let budget = Budget::measure(&chain, observable(&chain, "pointing"), &sizes, &poses)
+            .unwrap_or_else(|error| panic!("{error}"));
+        let [tilt, full, none] = budget.influences.as_slice() else { panic!("{budget:?}") };
+        assert_relative_eq!(full.summary.sup, delta, max_relative = 1e-12);
+        assert_relative_eq!(full.summary.rms, delta, max_relative = 1e-12);
+        assert!(none.summary.sup < 1e-20, "{none:?}");
+        // sin(influence/2) = sin(δ/2)|cos β|, so that the largest influence is δ.
+        assert_relative_eq!(tilt.summary.sup, delta, max_relative = 1e-12);
+        assert_relative_eq!(tilt.summary.rms, delta / 2f64.sqrt(), max_relative = 1e-8);
+        assert_relative_eq!(budget.worst_case.sup, 2.0 * delta, max_relative = 1e-12);
+        assert_relative_eq!(budget.root_sum_square.sup, 2f64.sqrt() * delta, max_relative = 1e-12);
+        assert_relative_eq!(budget.root_sum_square.rms, 1.5f64.sqrt() * delta, max_relative = 1e-8);
+    }
+}
+
+#[test]
+fn the_largest_influence_is_found_between_the_nodes_and_at_the_edge() {
+    let chain = chain();
+    let delta = 1e-3;
+    let sizes = sizes(&chain, &[("delta_y3", delta), ("db1", delta)]);
+    let beta = chain.find_symbol("beta").unwrap_or(SymbolId::PI);
+    // The influence of db1 on the pointing, δ|cos β|, is largest at the edge of this range.
+    let poses = Poses::Ranges(vec![JointRange { symbol: beta, low: 0.3, high: 1.3 }]);
+    let budget = Budget::measure(&chain, observable(&chain, "pointing"), &sizes, &poses)
+        .unwrap_or_else(|error| panic!("{error}"));
+    let db1 = &budget.influences[0];
+    assert_relative_eq!(
+        db1.summary.sup,
+        2.0 * ((delta / 2.0).sin() * 0.3f64.cos()).asin(),
+        max_relative = 1e-12
+    );
+    assert_relative_eq!(db1.summary.at[1], 0.3);
+    // The mean of cos² β over (0.3, 1.3).
+    let mean = 0.5 + (2.6f64.sin() - 0.6f64.sin()) / 4.0;
+    assert_relative_eq!(db1.summary.rms, delta * mean.sqrt(), max_relative = 1e-6);
+    // A shift moves the lens by itself wherever the joints stand.
+    let budget = Budget::measure(&chain, observable(&chain, "position"), &sizes, &poses)
+        .unwrap_or_else(|error| panic!("{error}"));
+    assert_relative_eq!(budget.influences[1].summary.sup, delta, max_relative = 1e-12);
+}
+
+#[test]
+fn curves_pass_through_the_sizes_in_equal_steps() {
+    let chain = chain();
+    let sizes = sizes(&chain, &[("db1", 1e-5)]);
+    let path = path(&chain, &[("alpha", "0"), ("beta", "t/2 + pi/4"), ("gamma", "sin(t)")]);
+    let curves = Curves::along(&chain, observable(&chain, "pointing"), &sizes, &path, 5, 5)
+        .unwrap_or_else(|error| panic!("{error}"));
+    assert_relative_eq!(curves.t.as_slice(), [0.0, PI / 2.0, PI, 1.5 * PI, 2.0 * PI].as_slice());
+    assert_eq!(curves.curves.len(), 5);
+    for (step, curve) in (1..=5).zip(&curves.curves) {
+        assert_relative_eq!(curve.size, f64::from(step) * 2e-6, max_relative = 1e-15);
+        let expected = curves.t.iter().map(|t| curve.size * (t / 2.0 + PI / 4.0).cos().abs());
+        for (influence, expected) in curve.influence.iter().zip(expected) {
+            assert_relative_eq!(*influence, expected, epsilon = 1e-15);
+        }
+    }
+}
+
+#[test]
+fn what_the_poses_leave_open_is_said() {
+    let chain = chain();
+    let sizes = sizes(&chain, &[("db1", 1e-5)]);
+    let measure = |name: &str, poses: &Poses| {
+        Budget::measure(&chain, observable(&chain, name), &sizes, poses)
+            .map_err(|error| error.to_string())
+            .err()
+    };
+    let short = path(&chain, &[("alpha", "t"), ("beta", "t")]);
+    assert_eq!(
+        measure("pointing", &Poses::Path(short)).as_deref(),
+        Some("pointing depends on gamma, and nothing says over which values it goes")
+    );
+    assert_eq!(
+        measure("target", &Poses::Ranges(Vec::new())).as_deref(),
+        Some("target depends on range, and nothing says over which values it goes")
+    );
+    let mut path = Path::default();
+    let amount = |text: &str| syntax::parse_amount(text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    assert!(matches!(path.assign(&chain, "db1", &amount("t")), Err(PathError::NotMovable(_))));
+    assert!(matches!(path.assign(&chain, "alpha", &amount("beta")), Err(PathError::Amount(_))));
+    assert!(path.assign(&chain, "alpha", &amount("t")).is_ok());
+    assert!(matches!(path.assign(&chain, "alpha", &amount("t")), Err(PathError::Twice(_))));
+}

@@ -1,0 +1,62 @@
+//! The checker as an assertion, for the tests of a crate that declares a chain.
+
+use std::fmt::Write as _;
+
+use super::{Checker, ClosedForm, PrintedVector, errors_named};
+use crate::chain::Chain;
+use crate::latex::PrintedSymbols;
+use crate::print;
+
+/// Asserts that the error of an observable has this closed form, in LaTeX with the chain's printed symbols or in the
+/// plain syntax of amounts. `kept` names the errors that are not zero, by name or pattern.
+///
+/// # Panics
+/// The formula cannot be read, or differs from what the chain implies; the message says where and what belongs there.
+#[track_caller]
+pub fn assert_closed_form(chain: &Chain, observable: &str, order: u32, kept: &[&str], components: [&str; 3]) {
+    if let Err(message) = closed_form(chain, observable, order, kept, &components) {
+        panic!("{message}");
+    }
+}
+
+/// The assertion's message, if it fails.
+fn closed_form(
+    chain: &Chain,
+    observable: &str,
+    order: u32,
+    kept: &[&str],
+    components: &[&str; 3],
+) -> Result<(), String> {
+    let id = chain
+        .find_observable(observable)
+        .ok_or_else(|| format!("chain {} has no observable `{observable}`", chain.name))?;
+    let mut errors = Vec::new();
+    for pattern in kept {
+        errors.extend(errors_named(chain, pattern).map_err(|mistake| mistake.message)?);
+    }
+    errors.sort_unstable();
+    errors.dedup();
+    let symbols = PrintedSymbols::of_chain(chain);
+    let printed = PrintedVector::read(chain, &symbols, components).map_err(|mistakes| {
+        let mut said = String::new();
+        for mistake in mistakes {
+            let text = components.get(mistake.place.text_index).copied().unwrap_or_default();
+            let place = text.get(mistake.place.bytes.clone()).unwrap_or_default();
+            let _ = writeln!(said, "`{text}`, at `{place}`: {}", mistake.message);
+        }
+        said
+    })?;
+    let claim = ClosedForm { observable: id, order, kept: errors, printed };
+    let verdict = Checker::new(chain).closed_form(&claim).map_err(|error| error.to_string())?;
+    if verdict.differences.is_empty() {
+        return Ok(());
+    }
+    let mut said = format!("the formula for {observable} is not what {} implies\n", chain.name);
+    for difference in &verdict.differences {
+        let error = difference.error_name(chain);
+        let [printed, derived] =
+            [&difference.printed, &difference.derived].map(|poly| print::text(poly, chain));
+        let _ = writeln!(said, "  {}, {error}: printed {printed}, derived {derived}", difference.component);
+    }
+    Err(said)
+}

@@ -1,0 +1,82 @@
+//! Claims as data: what somebody says of a chain.
+
+use super::formula::PrintedVector;
+use crate::budget::{Measure, Poses};
+use crate::chain::{Chain, ObservableId};
+use crate::mistake::Mistake;
+use crate::names;
+use crate::symbol::{SymbolId, SymbolKind};
+
+/// One claim.
+#[derive(Debug, Clone)]
+pub enum Claim {
+    /// A printed formula for the error of an observable.
+    ClosedForm(Box<ClosedForm>),
+    /// One error matters less than another.
+    Comparison(Comparison),
+    /// How many errors of a kind are declared.
+    Count(Count),
+}
+
+/// That the error of an observable has this closed form.
+#[derive(Debug, Clone)]
+pub struct ClosedForm {
+    /// Of which observable.
+    pub observable: ObservableId,
+    /// Products of more than this many errors are dropped; 1 to 3.
+    pub order: u32,
+    /// The errors that are not zero, in order.
+    pub kept: Vec<SymbolId>,
+    /// The formula as printed.
+    pub printed: PrintedVector,
+}
+
+/// That the influence of one error is at most `at_most` times that of another.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    /// On which observable.
+    pub observable: ObservableId,
+    /// The error that is said to be small.
+    pub error: SymbolId,
+    /// The error that it is compared with.
+    pub against: SymbolId,
+    /// Of both errors, in SI: rad for angles, m for lengths.
+    pub size: f64,
+    /// How an influence is measured over the poses.
+    pub measure: Measure,
+    /// The largest ratio that the claim allows.
+    pub at_most: f64,
+    /// Over which poses.
+    pub poses: Poses,
+}
+
+/// That the chain declares this many errors of a kind.
+#[derive(Debug, Clone)]
+pub struct Count {
+    /// The errors of the kind, in order.
+    pub errors: Vec<SymbolId>,
+    /// How many there are said to be.
+    pub equals: usize,
+}
+
+/// The errors of a chain that a name or a pattern (`dtheta_*`) means, in order.
+///
+/// # Errors
+/// A name that is no error of the chain, or a pattern that matches none.
+pub fn errors_named(chain: &Chain, pattern: &str) -> Result<Vec<SymbolId>, Mistake<()>> {
+    let errors = || chain.symbols_of(SymbolKind::Error);
+    let found: Vec<SymbolId> =
+        errors().filter(|&error| names::matches(pattern, &chain.symbol(error).name)).collect();
+    if !found.is_empty() {
+        return Ok(found);
+    }
+    if names::is_pattern(pattern) {
+        let message = format!("the pattern `{pattern}` matches no error of chain {}", chain.name);
+        return Err(Mistake::new((), message).with_help("`*` stands for any letters: `da*`, `*_x2`"));
+    }
+    let mistake = Mistake::new((), format!("chain {} has no error `{pattern}`", chain.name));
+    Err(match names::nearest(pattern, errors().map(|error| chain.symbol(error).name.as_str())) {
+        Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
+        None => mistake,
+    })
+}

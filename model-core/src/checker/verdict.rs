@@ -1,0 +1,95 @@
+//! Verdicts: what the algebra, or the exact form, says of a claim.
+
+use std::ops::Range;
+
+use super::compare;
+use super::slip::{FormSlip, TermSlip};
+use crate::algebra::Poly;
+use crate::chain::{Axis, Chain};
+use crate::print;
+use crate::symbol::SymbolId;
+
+/// What is said of one claim.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Verdict {
+    /// Of a printed formula.
+    ClosedForm(FormVerdict),
+    /// Of a comparison.
+    Comparison(Measured),
+    /// Of a count.
+    Count(Counted),
+}
+
+impl Verdict {
+    /// Whether the claim holds.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        match self {
+            Self::ClosedForm(form) => form.differences.is_empty(),
+            Self::Comparison(measured) => measured.holds,
+            Self::Count(counted) => counted.found == counted.claimed,
+        }
+    }
+}
+
+/// What is said of a printed formula. It holds if there is no difference.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FormVerdict {
+    /// Every term that differs, by component, then by error.
+    pub differences: Vec<Difference>,
+    /// What explains several differences at once.
+    pub slips: Vec<FormSlip>,
+    /// The formula that the chain implies.
+    pub derived: [Poly; 3],
+}
+
+/// A term that differs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Difference {
+    /// In which component.
+    pub component: Axis,
+    /// The error, or the product of errors: symbols and powers, by symbol. Empty for what has no error in it.
+    pub error: Vec<(SymbolId, u32)>,
+    /// What multiplies it in print; zero if it is missing there.
+    pub printed: Poly,
+    /// What multiplies it by the algebra; zero if it does not belong there.
+    pub derived: Poly,
+    /// Where in the text of the component, if the term is printed.
+    pub place: Option<Range<usize>>,
+    /// What went wrong, if it is one of the usual slips.
+    pub slip: Option<TermSlip>,
+}
+
+impl Difference {
+    /// The product of errors as an amount: `dtheta_x1`, `dx1*dg2`; `1` for what has no error in it.
+    #[must_use]
+    pub fn error_name(&self, chain: &Chain) -> String {
+        print::text(&compare::product(&self.error), chain)
+    }
+}
+
+/// Two influences, measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measured {
+    /// Influence of the error that is said to be small: rad for directions, m for points.
+    pub error: f64,
+    /// Influence of the other one, in the same unit.
+    pub against: f64,
+    /// The one over the other; `None` if the other has no influence at all.
+    pub ratio: Option<f64>,
+    /// The largest ratio that the claim allows.
+    pub at_most: f64,
+    /// Whether the claim holds.
+    pub holds: bool,
+}
+
+/// A count.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Counted {
+    /// How many there are.
+    pub found: usize,
+    /// How many there are said to be.
+    pub claimed: usize,
+    /// Their names, in order.
+    pub names: Vec<String>,
+}

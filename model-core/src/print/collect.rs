@@ -11,9 +11,10 @@ pub(super) struct Group {
 }
 
 impl Group {
-    pub(super) fn monomial_term((coefficient, monomial): &(Rational, Monomial)) -> Term {
+    /// A monomial as a term of its own, its sign turned if asked.
+    pub(super) fn term((coefficient, monomial): &(Rational, Monomial), turned: bool) -> Term {
         Term {
-            coefficient: coefficient.clone(),
+            coefficient: if turned { -coefficient } else { coefficient.clone() },
             powers: monomial.clone(),
             waves: Vec::new(),
             poles: Vec::new(),

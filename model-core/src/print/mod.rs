@@ -114,14 +114,11 @@ fn write_group(group: &Group, chain: &Chain, notation: &dyn Notation) -> Addend 
     let sum = |terms: Vec<Term>| {
         join(&terms.iter().map(|term| write_term(term, chain, notation)).collect::<Vec<_>>())
     };
-    let monomials: Vec<Term> = group.monomials.iter().map(Group::monomial_term).collect();
-    let negative = matches!(monomials.as_slice(), [only] if only.coefficient.is_negative());
+    let negative = group.monomials.first().is_some_and(|(coefficient, _)| coefficient.is_negative());
+    let monomials: Vec<Term> = group.monomials.iter().map(|pair| Group::term(pair, negative)).collect();
     let monomials = match monomials.as_slice() {
-        [only] => {
-            let only = Term { coefficient: only.coefficient.abs(), ..only.clone() };
-            let unit = only.powers.is_empty() && only.coefficient.is_one();
-            (!unit).then(|| write_term(&only, chain, notation).body)
-        }
+        [only] if only.powers.is_empty() && only.coefficient.is_one() => None,
+        [only] => Some(write_term(only, chain, notation).body),
         _ => Some(notation.parentheses(&sum(monomials))),
     };
     let angular = match waves.as_slice() {

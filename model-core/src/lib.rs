@@ -14,6 +14,7 @@ pub mod forms;
 pub mod mistake;
 pub mod names;
 pub mod print;
+pub mod remainder;
 pub mod symbol;
 pub mod syntax;
 

@@ -1,16 +1,17 @@
 //! The exact form in numbers: the reference that generated code is compared with.
 //!
-//! The difference is carried through the chain beside the vector itself, with sin ε and −2 sin²(ε/2) in place of
-//! R − 1, so that it keeps full relative precision however small the errors are.
+//! What the errors add is carried through the chain beside the vector itself, with sin ε and −2 sin²(ε/2) in place of
+//! R − 1, so that it keeps full relative precision however small the errors are. Its first order and the rest are kept
+//! apart, so that the remainder keeps full relative precision too.
 
 use nalgebra::Vector3;
 
 use crate::algebra::Poly;
 use crate::chain::{Axis, Chain, Motion, ObservableId, ObservableKind};
 use crate::forms::error_table;
-use crate::symbol::SymbolKind;
+use crate::symbol::{SymbolId, SymbolKind};
 
-/// The factors of one observable, with every amount split into nominal part and error.
+/// The factors of one observable, with every amount split by degree in the errors.
 #[derive(Debug, Clone)]
 pub struct Path {
     /// From the device to the ground.
@@ -28,13 +29,18 @@ struct Step {
 #[derive(Debug, Clone)]
 struct Split {
     nominal: Poly,
-    error: Poly,
+    /// Of degree one in the errors.
+    linear: Poly,
+    /// Of higher degree; nearly always zero.
+    beyond: Poly,
 }
 
-/// A vector without errors, and what the errors add to it.
-struct Pair {
+/// A vector without errors, what the errors add to it in first order, and what else they add.
+#[derive(Debug, Clone, Copy)]
+struct Parts {
     nominal: Vector3<f64>,
-    difference: Vector3<f64>,
+    first: Vector3<f64>,
+    rest: Vector3<f64>,
 }
 
 impl Path {
@@ -43,8 +49,9 @@ impl Path {
     pub fn new(chain: &Chain, id: ObservableId) -> Self {
         let is_error = error_table(chain);
         let split = |amount: &Poly| {
-            let nominal = amount.graded_part(|symbol| is_error[symbol.index()], 0);
-            Split { error: amount - &nominal, nominal }
+            let grade = |degree| amount.graded_part(|symbol| is_error[symbol.index()], degree);
+            let (nominal, linear) = (grade(0), grade(1));
+            Split { beyond: &(amount - &nominal) - &linear, nominal, linear }
         };
         let observable = chain.observable(id);
         let moves = |motion| motion == Motion::Rotation || observable.kind == ObservableKind::Point;
@@ -58,60 +65,105 @@ impl Path {
         Self { steps, vector: observable.components.each_ref().map(split) }
     }
 
+    /// The symbols that the observable depends on, in order.
+    #[must_use]
+    pub fn symbols(&self) -> Vec<SymbolId> {
+        let amounts = self.steps.iter().map(|step| &step.amount).chain(&self.vector);
+        let mut symbols: Vec<SymbolId> = amounts
+            .flat_map(|split| [&split.nominal, &split.linear, &split.beyond])
+            .flat_map(Poly::symbols)
+            .collect();
+        symbols.sort_unstable();
+        symbols.dedup();
+        symbols
+    }
+
     /// The observable with errors, in the ground frame. `values` is indexed by
-    /// [`SymbolId`](crate::SymbolId), in SI units, π included.
+    /// [`SymbolId`], in SI units, π included.
     #[must_use]
     pub fn value(&self, values: &[f64]) -> Vector3<f64> {
-        let pair = self.pair(values);
-        pair.nominal + pair.difference
+        let parts = self.parts(values);
+        parts.nominal + (parts.first + parts.rest)
     }
 
     /// What the errors add to the observable: exact, with full relative precision.
     #[must_use]
     pub fn error(&self, values: &[f64]) -> Vector3<f64> {
-        self.pair(values).difference
+        let parts = self.parts(values);
+        parts.first + parts.rest
     }
 
-    fn pair(&self, values: &[f64]) -> Pair {
+    /// The error less its first order: with full relative precision, far below the rounding of the error itself.
+    #[must_use]
+    pub fn remainder(&self, values: &[f64]) -> Vector3<f64> {
+        self.parts(values).rest
+    }
+
+    fn parts(&self, values: &[f64]) -> Parts {
         let start =
             |part: fn(&Split) -> &Poly| Vector3::from_fn(|axis, _| part(&self.vector[axis]).eval(values));
-        let mut pair =
-            Pair { nominal: start(|split| &split.nominal), difference: start(|split| &split.error) };
+        let mut parts = Parts {
+            nominal: start(|split| &split.nominal),
+            first: start(|split| &split.linear),
+            rest: start(|split| &split.beyond),
+        };
         for step in &self.steps {
-            let nominal = step.amount.nominal.eval(values);
-            let error = step.amount.error.eval(values);
+            let [nominal, linear, beyond] = [&step.amount.nominal, &step.amount.linear, &step.amount.beyond]
+                .map(|part| part.eval(values));
             match step.motion {
                 Motion::Translation => {
-                    pair.nominal[step.axis.index()] += nominal;
-                    pair.difference[step.axis.index()] += error;
+                    parts.nominal[step.axis.index()] += nominal;
+                    parts.first[step.axis.index()] += linear;
+                    parts.rest[step.axis.index()] += beyond;
                 }
-                Motion::Rotation => pair.rotate(step.axis, nominal, error),
+                Motion::Rotation => parts.rotate(step.axis, nominal, linear, beyond),
             }
         }
-        pair
+        parts
     }
 }
 
-impl Pair {
-    /// R(nominal) R(error): with v the vector and d its difference, d becomes
-    /// R(nominal) (d + (R(error) − 1)(v + d)).
-    fn rotate(&mut self, axis: Axis, nominal_rad: f64, error_rad: f64) {
+impl Parts {
+    /// R(nominal) R(ε) with ε = linear + beyond. With v the nominal vector and d all that the errors add, d becomes
+    /// R(nominal) (d + (R(ε) − 1)(v + d)); of that, R(nominal) (first + linear · axis × v) is the first order.
+    fn rotate(&mut self, axis: Axis, nominal_rad: f64, linear_rad: f64, beyond_rad: f64) {
         let (a, b) = ((axis.index() + 1) % 3, (axis.index() + 2) % 3);
-        let sine = error_rad.sin();
-        let half = (error_rad / 2.0).sin();
-        let cosine_less_one = -2.0 * half * half;
-        let moved = self.nominal + self.difference;
-        self.difference[a] += cosine_less_one * moved[a] - sine * moved[b];
-        self.difference[b] += sine * moved[a] + cosine_less_one * moved[b];
+        let error_rad = linear_rad + beyond_rad;
+        if error_rad != 0.0 || linear_rad != 0.0 {
+            let sine = error_rad.sin();
+            let sine_less_linear = sine_less_angle(error_rad) + beyond_rad;
+            let half = (error_rad / 2.0).sin();
+            let cosine_less_one = -2.0 * half * half;
+            let added = self.first + self.rest;
+            let all = self.nominal + added;
+            let v = self.nominal;
+            self.rest[a] += cosine_less_one * all[a] - sine * added[b] - sine_less_linear * v[b];
+            self.rest[b] += cosine_less_one * all[b] + sine * added[a] + sine_less_linear * v[a];
+            self.first[a] -= linear_rad * v[b];
+            self.first[b] += linear_rad * v[a];
+        }
         if nominal_rad != 0.0 {
             let (sine, cosine) = nominal_rad.sin_cos();
-            for vector in [&mut self.nominal, &mut self.difference] {
+            for vector in [&mut self.nominal, &mut self.first, &mut self.rest] {
                 let (x, y) = (vector[a], vector[b]);
                 vector[a] = cosine * x - sine * y;
                 vector[b] = sine * x + cosine * y;
             }
         }
     }
+}
+
+/// sin x − x without cancellation.
+fn sine_less_angle(angle_rad: f64) -> f64 {
+    /// Below this the series of seven terms is good to the last digit.
+    const SMALL_RAD: f64 = 0.5;
+    if angle_rad.abs() > SMALL_RAD {
+        return angle_rad.sin() - angle_rad;
+    }
+    let square = angle_rad * angle_rad;
+    // −x³/6 (1 − x²/20 (1 − x²/42 (1 − …))), each divisor (2k)(2k + 1)
+    let series = (2..8).rev().fold(1.0, |inner, k| 1.0 - square / f64::from((2 * k) * (2 * k + 1)) * inner);
+    -angle_rad * square / 6.0 * series
 }
 
 /// The observable with errors, in the ground frame: see [`Path::value`].
@@ -127,7 +179,7 @@ pub fn error(chain: &Chain, observable: ObservableId, values: &[f64]) -> Vector3
 }
 
 impl Chain {
-    /// A value for every symbol, in SI units, indexed by [`SymbolId`](crate::SymbolId): π, constants at their declared
+    /// A value for every symbol, in SI units, indexed by [`SymbolId`]: π, constants at their declared
     /// value, everything else (joints, errors, inputs) at zero.
     #[must_use]
     pub fn nominal_values(&self) -> Vec<f64> {

@@ -1,0 +1,128 @@
+//! A search for the largest remainder in a domain: many starts, each climbing one symbol at a time.
+
+use super::domain::{Domain, DomainError};
+use crate::chain::{Chain, ObservableId};
+use crate::exact::Path;
+use crate::symbol::{SymbolId, SymbolKind};
+
+/// The largest remainder that a search found, and where.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Found {
+    /// The length of exact minus first order; no unit for a direction, metres for a point.
+    pub value: f64,
+    /// Values of all symbols at that place, indexed by [`SymbolId`], in SI units.
+    pub values: Vec<f64>,
+}
+
+/// Points tried across the range of a joint or input before the climb refines the best of them.
+const GRID: u32 = 12;
+/// Halvings of the step when refining.
+const REFINEMENTS: u32 = 12;
+/// Rounds over all symbols after which a climb ends in any case.
+const ROUNDS: u32 = 30;
+
+/// Searches a domain for the largest |exact − first order| of an observable. The same seed finds the same.
+///
+/// # Errors
+/// [`DomainError::RangeNeeded`] if an input has no range.
+pub fn search(
+    chain: &Chain,
+    observable: ObservableId,
+    domain: &Domain,
+    starts: u32,
+    seed: u64,
+) -> Result<Found, DomainError> {
+    let path = Path::new(chain, observable);
+    let length = |values: &[f64]| path.remainder(values).norm();
+    let nominal = chain.nominal_values();
+    let mut climbed = Vec::new();
+    let mut cornered = Vec::new();
+    for id in path.symbols() {
+        let symbol = chain.symbol(id);
+        match (symbol.kind, domain.range(id)) {
+            (SymbolKind::Pi | SymbolKind::Constant, _) => {}
+            (SymbolKind::Error, Some([low, high])) if low < high => cornered.push((id, [low, high])),
+            (SymbolKind::Error, _) => {}
+            (_, Some(range)) => climbed.push((id, range)),
+            (SymbolKind::Joint, None) => climbed.push((id, [0.0, std::f64::consts::TAU])),
+            (SymbolKind::Input, None) => {
+                return Err(DomainError::RangeNeeded { name: symbol.name.clone() });
+            }
+        }
+    }
+    let mut random = Random(seed);
+    let mut best = Found { value: length(&nominal), values: nominal.clone() };
+    for _ in 0..starts {
+        let mut values = nominal.clone();
+        for &(id, [low, high]) in &cornered {
+            values[id.index()] = if random.uniform() < 0.5 { low } else { high };
+        }
+        for &(id, [low, high]) in &climbed {
+            values[id.index()] = low + (high - low) * random.uniform();
+        }
+        let mut found = Found { value: length(&values), values };
+        for _ in 0..ROUNDS {
+            let before = found.value;
+            for &(id, range) in &cornered {
+                for end in range {
+                    found.try_value(id, end, length);
+                }
+            }
+            for &(id, range) in &climbed {
+                found.climb(id, range, length);
+            }
+            if found.value <= before * (1.0 + 1e-9) {
+                break;
+            }
+        }
+        if found.value > best.value {
+            best = found;
+        }
+    }
+    Ok(best)
+}
+
+impl Found {
+    /// Moves one symbol to a value if the remainder grows.
+    fn try_value(&mut self, id: SymbolId, value: f64, length: impl Fn(&[f64]) -> f64) -> bool {
+        let old = std::mem::replace(&mut self.values[id.index()], value);
+        let candidate = length(&self.values);
+        if candidate > self.value {
+            self.value = candidate;
+            return true;
+        }
+        self.values[id.index()] = old;
+        false
+    }
+
+    /// Moves one symbol to the best place in a range: a grid first, then halved steps around the best.
+    fn climb(&mut self, id: SymbolId, [low, high]: [f64; 2], length: impl Fn(&[f64]) -> f64) {
+        let mut step = (high - low) / f64::from(GRID);
+        for index in 0..=GRID {
+            self.try_value(id, low + step * f64::from(index), &length);
+        }
+        for _ in 0..REFINEMENTS {
+            step /= 2.0;
+            let here = self.values[id.index()];
+            let _ = self.try_value(id, (here - step).max(low), &length)
+                || self.try_value(id, (here + step).min(high), &length);
+        }
+    }
+}
+
+/// SplitMix64: repeatable, and good enough to scatter starts.
+///
+/// Source: Steele, Lea, Flood, "Fast splittable pseudorandom number generators" (2014).
+struct Random(u64);
+
+impl Random {
+    /// Uniform in [0, 1).
+    fn uniform(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^= z >> 31;
+        (z >> 11) as f64 / (1u64 << 53) as f64
+    }
+}

@@ -54,7 +54,8 @@ pub fn largest_sizes(source: &Source, chain: &Chain) -> Result<Vec<f64>, Failure
 /// A plain name wins over a pattern, and a pattern with more letters over one with fewer.
 fn read(source: &Source, chain: &Chain, kinds: &[SymbolKind]) -> Result<Settings, Failure> {
     let entries: Entries = source.toml()?;
-    let mut ranked: Vec<_> = entries.iter().map(|(name, amount)| (rank(name.get_ref()), name, amount)).collect();
+    let mut ranked: Vec<_> =
+        entries.iter().map(|(name, amount)| (rank(name.get_ref()), name, amount)).collect();
     ranked.sort_by_key(|&(rank, ..)| rank);
     let mut settings = Settings::new();
     let mut set_by: BTreeMap<SymbolId, (usize, &str)> = BTreeMap::new();
@@ -62,16 +63,16 @@ fn read(source: &Source, chain: &Chain, kinds: &[SymbolKind]) -> Result<Settings
         for id in named(source, chain, kinds, name)? {
             let symbol = chain.symbol(id);
             let place = amount.span();
-            if let Some((_, other)) = set_by.insert(id, (rank, name.get_ref())).filter(|&(other, _)| other == rank)
+            if let Some((_, other)) =
+                set_by.insert(id, (rank, name.get_ref())).filter(|&(other, _)| other == rank)
             {
                 let message = format!("`{}` and `{other}` both set `{}`", name.get_ref(), symbol.name);
                 let help = format!("write `{} = …` as well: a plain name wins", symbol.name);
                 return Err(source.mistake(Mistake::new(name.span(), message).with_help(help)));
             }
-            let value = amount
-                .get_ref()
-                .to_si(symbol.quantity)
-                .map_err(|why| source.mistake(Mistake::new(place.clone(), format!("{}: {why}", symbol.name))))?;
+            let value = amount.get_ref().to_si(symbol.quantity).map_err(|why| {
+                source.mistake(Mistake::new(place.clone(), format!("{}: {why}", symbol.name)))
+            })?;
             settings.insert(id, (value, place));
         }
     }

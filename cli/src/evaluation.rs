@@ -71,7 +71,11 @@ impl Evaluator {
     ///
     /// # Errors
     /// Columns of different lengths, or one missing.
-    pub fn columns(&mut self, readings: &[(SymbolId, &[f64])], rows: usize) -> Result<Vec<Vec<f64>>, Failure> {
+    pub fn columns(
+        &mut self,
+        readings: &[(SymbolId, &[f64])],
+        rows: usize,
+    ) -> Result<Vec<Vec<f64>>, Failure> {
         let mut sum = vec![vec![0.0; rows]; 3 * self.observables.len()];
         let mut part = sum.clone();
         for (interpreter, values) in &mut self.parts {

@@ -44,7 +44,11 @@ impl Failure {
         if error.kind() == io::ErrorKind::BrokenPipe {
             return Self::ReaderGone;
         }
-        Self::Write { path: path.to_owned(), why: reason(error) }
+        let why = match error.kind() {
+            io::ErrorKind::NotFound => "the folder it would lie in is not there; create it first".to_owned(),
+            _ => reason(error),
+        };
+        Self::Write { path: path.to_owned(), why }
     }
 }
 
@@ -54,7 +58,7 @@ fn reason(error: &io::Error) -> String {
         io::ErrorKind::NotFound => "there is no such file or folder".to_owned(),
         io::ErrorKind::IsADirectory => "it is a folder; name a file in it".to_owned(),
         io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
-        io::ErrorKind::InvalidData => "it is not UTF-8 text".to_owned(),
+        io::ErrorKind::InvalidData => "it is not UTF-8 text; save it as such".to_owned(),
         _ => error.to_string(),
     }
 }

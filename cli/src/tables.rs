@@ -19,6 +19,8 @@ pub struct ReadingsTable {
     readings: Vec<SymbolId>,
     /// Every column as text, then the readings as numbers.
     wanted: Vec<Wanted>,
+    /// Whether a row has been read.
+    started: bool,
 }
 
 /// Some rows of a [`ReadingsTable`].
@@ -49,7 +51,7 @@ impl ReadingsTable {
         };
         let reader = reader.map_err(failure)?;
         let wanted = (0..reader.header().len()).map(|column| Wanted { column, factor: None }).collect();
-        Ok(Self { reader, readings: Vec::new(), wanted })
+        Ok(Self { reader, readings: Vec::new(), wanted, started: false })
     }
 
     /// Names of the columns, as they stand in the header.
@@ -74,9 +76,8 @@ impl ReadingsTable {
             let symbol = chain.symbol(id);
             let header = self.reader.header();
             let column = find_column(header, &symbol.name, self.reader.source()).map_err(failure)?;
-            let factor = header[column]
-                .factor(symbol.quantity, None, true, self.reader.source())
-                .map_err(failure)?;
+            let factor =
+                header[column].factor(symbol.quantity, None, true, self.reader.source()).map_err(failure)?;
             self.readings.push(id);
             self.wanted.push(Wanted { column, factor: Some(factor) });
         }
@@ -86,12 +87,14 @@ impl ReadingsTable {
     /// The next rows; `None` at the end.
     ///
     /// # Errors
-    /// A cell that cannot be read, with its place.
+    /// A cell that cannot be read, with its place; no rows at all.
     pub fn next(&mut self) -> Result<Option<Rows>, Failure> {
         let chunk = self.reader.read(&self.wanted, CHUNK).map_err(failure)?;
         if chunk.rows.is_empty() {
-            return Ok(None);
+            let file = self.reader.source().to_owned();
+            return if self.started { Ok(None) } else { Err(failure(DataError::NoRows { file })) };
         }
+        self.started = true;
         let mut rows = Rows { cells: Vec::new(), readings: Vec::new(), count: chunk.rows.len() };
         let mut ids = self.readings.iter();
         for column in chunk.columns {
@@ -136,7 +139,10 @@ impl TableWriter<'_> {
     /// The place cannot be written.
     pub fn row(&mut self, cells: impl IntoIterator<Item = impl AsRef<[u8]>>) -> Result<(), Failure> {
         let written = self.inner.write_record(cells);
-        written.map_err(|error| Failure::write(self.path, &error.into()))
+        written.map_err(|error| match error.into_kind() {
+            ::csv::ErrorKind::Io(error) => Failure::write(self.path, &error),
+            other => Failure::write(self.path, &io::Error::other(format!("{other:?}"))),
+        })
     }
 }
 

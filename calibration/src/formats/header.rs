@@ -78,7 +78,10 @@ pub fn find_column(header: &[ColumnName], name: &str, file: &str) -> Result<usiz
     let exact = header.iter().position(|column| column.full == name);
     exact.or_else(|| header.iter().position(|column| column.stem == name)).ok_or_else(|| {
         let full = || header.iter().map(|column| column.full.as_str());
-        let help = names::nearest(name, full()).map_or_else(
+        let near = names::nearest(name, header.iter().map(|column| column.stem.as_str()))
+            .and_then(|stem| header.iter().find(|column| column.stem == stem))
+            .map(|column| column.full.as_str());
+        let help = near.or_else(|| names::nearest(name, full())).map_or_else(
             || {
                 format!(
                     "the file has {}",

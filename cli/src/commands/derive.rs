@@ -18,7 +18,6 @@ use crate::terminal::{self, HEADING};
 ///
 /// Example: trueaxis derive examples/mobile-lidar/mobile-lidar.chain --observable pointing --format latex
 #[derive(Debug, clap::Args)]
-#[command(verbatim_doc_comment)]
 pub struct Arguments {
     /// The declaration
     chain: PathBuf,
@@ -56,7 +55,9 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         .map_err(|error| Failure::Input(error.to_string()))?;
     let printed = match arguments.format {
         Format::Json => format!("{:#}\n", as_json(&chain, &forms, arguments.order)),
-        Format::Text => sections(&chain, &forms, print::Style::Text, |title| format!("{HEADING}{title}{HEADING:#}")),
+        Format::Text => {
+            sections(&chain, &forms, print::Style::Text, |title| format!("{HEADING}{title}{HEADING:#}"))
+        }
         Format::Latex => sections(&chain, &forms, print::Style::Latex, |title| format!("% {title}")),
         Format::Markdown => sections(&chain, &forms, print::Style::Markdown, |title| format!("## {title}\n")),
     };

@@ -96,7 +96,8 @@ pub fn write_evaluated(
     tables::write(out, |writer| {
         writer.row(kept.iter().map(|&column| &header[column]).chain(&added))?;
         while let Some(rows) = table.next()? {
-            let readings: Vec<_> = rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
+            let readings: Vec<_> =
+                rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
             let columns = evaluator.columns(&readings, rows.count)?;
             for row in 0..rows.count {
                 let computed: Vec<f64> = columns.iter().map(|column| column[row]).collect();

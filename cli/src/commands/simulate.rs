@@ -37,7 +37,7 @@ pub struct Arguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     poses: u32,
     /// Standard deviation of the noise, "2 arcsec" for directions, "0.1 mm" for points (give both for both)
-    #[arg(long, value_name = "SIGMA", required = true, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SIGMA", required = true, allow_hyphen_values = true)]
     noise: Vec<String>,
     /// Seed of the random numbers: the same seed gives the same data
     #[arg(long, value_name = "S")]
@@ -126,15 +126,17 @@ fn measured(chain: &Chain, names: &[String], noise: Noise) -> Result<Vec<Observa
     if silent.is_empty() {
         return Ok(chosen);
     }
-    let missing = match noise.angle_rad {
-        Some(_) => "points: their noise is a length, --noise \"0.1 mm\"",
-        None => "directions: their noise is an angle, --noise \"2 arcsec\"",
+    let (show, verb) = match (noise.angle_rad, silent.len()) {
+        (Some(_), 1) => ("a point, whose noise is a length: say --noise \"0.1 mm\" too", "shows"),
+        (Some(_), _) => ("points, whose noise is a length: say --noise \"0.1 mm\" too", "show"),
+        (None, 1) => ("a direction, whose noise is an angle: say --noise \"2 arcsec\" too", "shows"),
+        (None, _) => ("directions, whose noise is an angle: say --noise \"2 arcsec\" too", "show"),
     };
-    let message = format!("{} measure {missing}", listed(silent.into_iter()));
+    let message = format!("{} {verb} {show}", listed(silent.into_iter()));
     if !names.is_empty() || chosen.is_empty() {
         return Err(Failure::Input(message));
     }
-    terminal::warn(format_args!("{message}; they are left out"));
+    terminal::warn(format_args!("{message}; left out"));
     Ok(chosen)
 }
 

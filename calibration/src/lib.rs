@@ -4,4 +4,5 @@ pub mod fit;
 pub mod formats;
 pub mod noise;
 pub mod observations;
+pub mod study;
 pub mod units;

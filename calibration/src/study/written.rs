@@ -1,0 +1,287 @@
+//! The study file as written, every name with its place.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::marker::PhantomData;
+
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer, StrDeserializer};
+use serde::de::{Error, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use toml::Spanned;
+
+use super::StudyError;
+use crate::units::Amount;
+
+/// Names with what is said of them, in the order of the alphabet.
+pub(super) type Table<T> = BTreeMap<Spanned<String>, Spanned<T>>;
+
+/// A study file.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Study {
+    /// Path of the chain, relative to the study.
+    pub chain: Spanned<String>,
+    /// The observable that was measured; the chain's only one if not given.
+    pub observable: Option<Spanned<String>>,
+    /// Paths of the data files, relative to the study.
+    pub data: Spanned<OneOrMore>,
+    /// The separator of the data files, where it cannot be seen from their header.
+    pub separator: Option<Spanned<char>>,
+    /// Which column is which joint or input.
+    #[serde(default)]
+    pub(super) columns: Table<Column>,
+    /// What was measured.
+    pub(super) observed: Spanned<Observed>,
+    /// What is known of the noise.
+    #[serde(default)]
+    pub(super) noise: NoiseTable,
+    /// What to estimate.
+    #[serde(default)]
+    pub(super) fit: FitTable,
+    /// What to look for.
+    #[serde(default)]
+    pub(super) search: SearchTable,
+    /// How to judge on data that no stage saw.
+    #[serde(default)]
+    pub hold_out: HoldOut,
+    /// Where to propose to measure next.
+    pub(super) next: Option<NextTable>,
+    /// Further data that observe otherwise.
+    #[serde(default)]
+    pub(super) also: Vec<Also>,
+}
+
+/// Data that observe something else, or in another way, than the study's first.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Also {
+    pub observable: Option<Spanned<String>>,
+    pub data: Spanned<OneOrMore>,
+    #[serde(default)]
+    pub columns: Table<Column>,
+    pub observed: Spanned<Observed>,
+}
+
+/// One text or a list of them.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct OneOrMore(pub Vec<String>);
+
+/// Where the readings of a joint or input are.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Deserialize)]
+#[serde(deny_unknown_fields, remote = "Self")]
+pub(super) struct Column {
+    pub column: Option<String>,
+    pub unit: Option<String>,
+    pub derive: Option<String>,
+}
+
+/// `[observed]`.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Observed {
+    pub kind: Kind,
+    pub x: Option<Column>,
+    pub y: Option<Column>,
+    pub z: Option<Column>,
+    pub azimuth: Option<Column>,
+    pub elevation: Option<Column>,
+    pub ha: Option<Column>,
+    pub dec: Option<Column>,
+    pub cross: Option<Column>,
+    pub along: Option<Column>,
+    pub range: Option<Column>,
+}
+
+/// What the numbers of an observation are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Kind {
+    Direction,
+    Spherical,
+    Offset,
+    Point,
+    Range,
+}
+
+/// `[noise]`.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct NoiseTable {
+    pub sigma: Option<Spanned<Sigma>>,
+    pub group: OneOrMore,
+    pub order: Option<String>,
+    pub variance: bool,
+    pub serial: bool,
+}
+
+impl Default for NoiseTable {
+    fn default() -> Self {
+        Self { sigma: None, group: OneOrMore::default(), order: None, variance: true, serial: true }
+    }
+}
+
+/// The standard deviation: one for all, or a column, or a column for each component.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Sigma {
+    Amount(Amount),
+    Columns(Vec<Column>),
+}
+
+/// `[fit]`.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct FitTable {
+    pub estimate: Vec<Spanned<String>>,
+    pub fix: Table<Amount>,
+    pub start: Table<Amount>,
+    pub robust: bool,
+    pub max_iterations: usize,
+}
+
+impl Default for FitTable {
+    fn default() -> Self {
+        let all = Spanned::new(0..0, "*".to_string());
+        Self {
+            estimate: vec![all],
+            fix: Table::new(),
+            start: Table::new(),
+            robust: true,
+            max_iterations: 50,
+        }
+    }
+}
+
+/// `[search]`.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct SearchTable {
+    pub false_alarm: Spanned<f64>,
+    pub inputs: Vec<Spanned<String>>,
+    pub sequence: bool,
+}
+
+impl Default for SearchTable {
+    fn default() -> Self {
+        Self { false_alarm: Spanned::new(0..0, 0.05), inputs: Vec::new(), sequence: false }
+    }
+}
+
+/// `[hold_out]`.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct HoldOut {
+    /// Into how many parts the observations are divided.
+    pub folds: usize,
+    /// A second file instead, relative to the study.
+    pub file: Option<String>,
+    /// Seed of the division.
+    pub seed: u64,
+}
+
+impl Default for HoldOut {
+    fn default() -> Self {
+        Self { folds: 10, file: None, seed: 1 }
+    }
+}
+
+/// `[next]`.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct NextTable {
+    pub poses: usize,
+    #[serde(default)]
+    pub range: Table<[Amount; 2]>,
+}
+
+impl Study {
+    /// Reads a study file.
+    ///
+    /// # Errors
+    /// The first mistake, with its place.
+    pub fn from_text(text: &str) -> Result<Self, StudyError> {
+        toml::from_str(text).map_err(|error| StudyError::from_toml(&error))
+    }
+}
+
+/// Reads a value that may be written short (a text or number) or long (a table or list).
+struct Short<T>(&'static str, PhantomData<T>);
+
+impl<'de> Deserialize<'de> for OneOrMore {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(Short("a text or a list of texts", PhantomData::<Self>))
+    }
+}
+
+impl<'de> Visitor<'de> for Short<OneOrMore> {
+    type Value = OneOrMore;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0)
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<OneOrMore, E> {
+        Ok(OneOrMore(vec![text.to_string()]))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<OneOrMore, A::Error> {
+        Vec::deserialize(SeqAccessDeserializer::new(list)).map(OneOrMore)
+    }
+}
+
+impl<'de> Deserialize<'de> for Column {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(Short("the name of a column, or a table such as { column = \"az\", unit = \"deg\" }", PhantomData::<Self>))
+    }
+}
+
+impl<'de> Visitor<'de> for Short<Column> {
+    type Value = Column;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0)
+    }
+
+    fn visit_str<E: Error>(self, name: &str) -> Result<Column, E> {
+        Ok(Column { column: Some(name.to_string()), ..Column::default() })
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Column, A::Error> {
+        let column = Column::deserialize(MapAccessDeserializer::new(map))?;
+        match (&column.column, &column.unit, &column.derive) {
+            (Some(_), _, None) | (None, None, Some(_)) => Ok(column),
+            (Some(_), _, Some(_)) => Err(Error::custom("a column is read or derived, not both: leave out `column` or `derive`")),
+            (None, Some(_), Some(_)) => Err(Error::custom("a derived column has no unit: leave out `unit`")),
+            (None, _, None) => Err(Error::custom("which column? write `column = \"…\"` or `derive = \"…\"`")),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Sigma {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(Short("a quantity such as \"2 arcsec\", a column, or a list of columns", PhantomData::<Self>))
+    }
+}
+
+impl<'de> Visitor<'de> for Short<Sigma> {
+    type Value = Sigma;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0)
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<Sigma, E> {
+        Amount::deserialize(StrDeserializer::new(text)).map(Sigma::Amount)
+    }
+
+    fn visit_f64<E: Error>(self, number: f64) -> Result<Sigma, E> {
+        Ok(Sigma::Amount(Amount { number, unit: None }))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Sigma, A::Error> {
+        Short("", PhantomData::<Column>).visit_map(map).map(|column| Sigma::Columns(vec![column]))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Sigma, A::Error> {
+        Vec::deserialize(SeqAccessDeserializer::new(list)).map(Sigma::Columns)
+    }
+}

@@ -4,5 +4,6 @@ pub mod fit;
 pub mod formats;
 pub mod noise;
 pub mod observations;
+pub mod search;
 pub mod study;
 pub mod units;

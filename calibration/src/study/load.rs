@@ -44,7 +44,10 @@ impl Plan {
     /// # Errors
     /// What is wrong with a file, with its place.
     pub fn observations(&self, open: &mut Open<'_>) -> Result<Observations, DataError> {
-        let mut all = Observations { in_sequence: self.order.is_some() || self.search.sequence, ..Observations::default() };
+        let mut all = Observations {
+            in_sequence: self.order.is_some() || self.search.sequence,
+            ..Observations::default()
+        };
         let mut groups = BTreeMap::new();
         for source in &self.sources {
             self.append(&mut all, source, &source.paths, open, &mut groups)?;
@@ -60,7 +63,10 @@ impl Plan {
         let (Some(path), Some(source)) = (&self.hold_out.file, self.sources.first()) else {
             return Ok(None);
         };
-        let mut all = Observations { in_sequence: self.order.is_some() || self.search.sequence, ..Observations::default() };
+        let mut all = Observations {
+            in_sequence: self.order.is_some() || self.search.sequence,
+            ..Observations::default()
+        };
         self.append(&mut all, source, std::slice::from_ref(path), open, &mut BTreeMap::new())?;
         Ok(Some(all))
     }
@@ -141,8 +147,10 @@ impl Plan {
             columns.readings.iter().map(|&(id, at)| (id, number(at))).collect();
         let named = |name: &str| {
             let id = self.chain.find_symbol(name);
-            let of_symbol = read.iter().find(|(known, _)| Some(*known) == id).map(|(_, values)| values.clone());
-            of_symbol.or_else(|| columns.times.iter().find(|(time, _)| time == name).map(|&(_, at)| number(at)))
+            let of_symbol =
+                read.iter().find(|(known, _)| Some(*known) == id).map(|(_, values)| values.clone());
+            of_symbol
+                .or_else(|| columns.times.iter().find(|(time, _)| time == name).map(|&(_, at)| number(at)))
         };
         let derived = source.readings.iter().filter_map(|(id, reading)| {
             let Reading::Derived(derived) = reading else { return None };
@@ -259,7 +267,10 @@ impl Columns {
                 Reading::Column(_) => Vec::new(),
             };
             for name in names {
-                let of_symbol = plan.chain.find_symbol(name).is_some_and(|id| readings.iter().any(|(known, _)| *known == id));
+                let of_symbol = plan
+                    .chain
+                    .find_symbol(name)
+                    .is_some_and(|id| readings.iter().any(|(known, _)| *known == id));
                 if !of_symbol && !times.iter().any(|(known, _)| known == name) {
                     times.push((name.clone(), plans.len()));
                     let quantity = model_core::Quantity::Number;
@@ -293,7 +304,9 @@ impl Rows {
         let (mut numbers, mut labels) = (self.numbers.iter_mut(), self.labels.iter_mut());
         for cells in chunk.columns {
             match cells {
-                Cells::Numbers(values) => numbers.next().into_iter().for_each(|column| column.extend(&values)),
+                Cells::Numbers(values) => {
+                    numbers.next().into_iter().for_each(|column| column.extend(&values))
+                }
                 Cells::Labels(values) => {
                     labels.next().into_iter().for_each(|column| column.extend(values.iter().cloned()));
                 }

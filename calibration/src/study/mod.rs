@@ -41,7 +41,12 @@ impl StudyError {
         candidates: impl Iterator<Item = &'a str> + Clone,
     ) -> Self {
         let help = names::nearest(name, candidates.clone()).map_or_else(
-            || format!("there are {}", candidates.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")),
+            || {
+                format!(
+                    "there are {}",
+                    candidates.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+                )
+            },
             |near| format!("did you mean `{near}`?"),
         );
         Self::new(place, format!("no {what} is called `{name}`"), help)

@@ -141,7 +141,8 @@ impl Study {
                 }),
                 Some(SymbolKind::Input | SymbolKind::Joint) => {}
                 Some(_) => {
-                    let message = format!("`{}` is neither a joint nor an input of the chain", name.get_ref());
+                    let message =
+                        format!("`{}` is neither a joint nor an input of the chain", name.get_ref());
                     return Err(StudyError::new(name.span(), message, "give the column another name"));
                 }
             }
@@ -157,7 +158,8 @@ impl Study {
                 .ok_or_else(|| StudyError::unknown(name.span(), "observable", name.get_ref(), all())),
             None if chain.observables.len() == 1 => Ok(ObservableId(0)),
             None => {
-                let help = format!("write `observable = \"…\"`: one of {}", all().collect::<Vec<_>>().join(", "));
+                let help =
+                    format!("write `observable = \"…\"`: one of {}", all().collect::<Vec<_>>().join(", "));
                 Err(StudyError::new(self.chain.span(), "which observable was measured?", help))
             }
         }
@@ -172,11 +174,13 @@ impl Study {
     ) -> Result<Vec<(SymbolId, Reading)>, StudyError> {
         let mut wanted = needed(chain, observable);
         for name in columns.keys().chain(&self.search.inputs) {
-            let read = |id: &SymbolId| matches!(chain.symbol(*id).kind, SymbolKind::Joint | SymbolKind::Input);
+            let read =
+                |id: &SymbolId| matches!(chain.symbol(*id).kind, SymbolKind::Joint | SymbolKind::Input);
             let id = chain.find_symbol(name.get_ref()).filter(read).ok_or_else(|| {
-                let all = chain.symbols.iter().filter(|symbol| {
-                    matches!(symbol.kind, SymbolKind::Joint | SymbolKind::Input)
-                });
+                let all = chain
+                    .symbols
+                    .iter()
+                    .filter(|symbol| matches!(symbol.kind, SymbolKind::Joint | SymbolKind::Input));
                 let names = all.map(|symbol| symbol.name.as_str());
                 StudyError::unknown(name.span(), "joint or input", name.get_ref(), names)
             })?;
@@ -207,7 +211,8 @@ impl Study {
 
     fn fit_options(&self, chain: &Chain, noise: NoiseOptions) -> Result<FitOptions, StudyError> {
         let estimable = |symbol: &Symbol| matches!(symbol.kind, SymbolKind::Error | SymbolKind::Constant);
-        let names_of = || chain.symbols.iter().filter(|symbol| estimable(symbol)).map(|symbol| symbol.name.as_str());
+        let names_of =
+            || chain.symbols.iter().filter(|symbol| estimable(symbol)).map(|symbol| symbol.name.as_str());
         let find = |name: &Spanned<String>| {
             let found = chain.find_symbol(name.get_ref()).filter(|&id| estimable(chain.symbol(id)));
             found.ok_or_else(|| {
@@ -281,7 +286,11 @@ impl Study {
         let Some(separator) = &self.separator else { return Ok(None) };
         match u8::try_from(*separator.get_ref()) {
             Ok(byte) if byte.is_ascii() && byte != b'"' && byte != b'#' => Ok(Some(byte)),
-            _ => Err(StudyError::new(separator.span(), "no such separator", "write one ASCII character, such as \";\"")),
+            _ => Err(StudyError::new(
+                separator.span(),
+                "no such separator",
+                "write one ASCII character, such as \";\"",
+            )),
         }
     }
 }
@@ -301,7 +310,11 @@ fn column_plan(column: &Column, quantity: Quantity, place: &Range<usize>) -> Res
     let unit = unit.map_err(|error| StudyError::new(place.clone(), error.to_string(), ""))?;
     match &column.column {
         Some(name) => Ok(ColumnPlan { name: name.clone(), unit, quantity, declared: false }),
-        None => Err(StudyError::new(place.clone(), "this column is measured, not derived", "write `column = \"…\"`")),
+        None => Err(StudyError::new(
+            place.clone(),
+            "this column is measured, not derived",
+            "write `column = \"…\"`",
+        )),
     }
 }
 
@@ -319,7 +332,10 @@ fn observed_columns(
         let (what, help) = if is_point {
             ("a point", "write kind = \"point\" or \"range\", or name another observable")
         } else {
-            ("a direction", "write kind = \"direction\", \"spherical\" or \"offset\", or name another observable")
+            (
+                "a direction",
+                "write kind = \"direction\", \"spherical\" or \"offset\", or name another observable",
+            )
         };
         let message = format!("`{}` is {what}, which this kind does not measure", observable.name);
         return Err(StudyError::new(place, message, help));
@@ -345,9 +361,12 @@ fn observed_columns(
     let plan = |(key, column): (&str, &Option<Column>)| match column {
         Some(column) => column_plan(column, quantity, &place),
         // What `simulate` and `eval` write needs no naming.
-        None if xyz.iter().any(|(name, _)| *name == key) => {
-            Ok(ColumnPlan { name: format!("{}_{key}", observable.name), unit: None, quantity, declared: true })
-        }
+        None if xyz.iter().any(|(name, _)| *name == key) => Ok(ColumnPlan {
+            name: format!("{}_{key}", observable.name),
+            unit: None,
+            quantity,
+            declared: true,
+        }),
         None => {
             let help = format!("write `{key} = {{ column = \"…\", unit = \"…\" }}`");
             Err(StudyError::new(place.clone(), format!("which column is `{key}`?"), help))
@@ -369,7 +388,11 @@ fn sigma_amount(amount: Amount, place: &Range<usize>, measure: Measure) -> Resul
     if sigma > 0.0 {
         return Ok(sigma);
     }
-    Err(StudyError::new(place.clone(), "a standard deviation is positive", "leave `sigma` out to have it estimated"))
+    Err(StudyError::new(
+        place.clone(),
+        "a standard deviation is positive",
+        "leave `sigma` out to have it estimated",
+    ))
 }
 
 fn sigma_columns(

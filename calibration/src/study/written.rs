@@ -141,13 +141,7 @@ pub(super) struct FitTable {
 impl Default for FitTable {
     fn default() -> Self {
         let all = Spanned::new(0..0, "*".to_string());
-        Self {
-            estimate: vec![all],
-            fix: Table::new(),
-            start: Table::new(),
-            robust: true,
-            max_iterations: 50,
-        }
+        Self { estimate: vec![all], fix: Table::new(), start: Table::new(), robust: true, max_iterations: 50 }
     }
 }
 
@@ -230,7 +224,10 @@ impl<'de> Visitor<'de> for Short<OneOrMore> {
 
 impl<'de> Deserialize<'de> for Column {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(Short("the name of a column, or a table such as { column = \"az\", unit = \"deg\" }", PhantomData::<Self>))
+        deserializer.deserialize_any(Short(
+            "the name of a column, or a table such as { column = \"az\", unit = \"deg\" }",
+            PhantomData::<Self>,
+        ))
     }
 }
 
@@ -249,7 +246,9 @@ impl<'de> Visitor<'de> for Short<Column> {
         let column = Column::deserialize(MapAccessDeserializer::new(map))?;
         match (&column.column, &column.unit, &column.derive) {
             (Some(_), _, None) | (None, None, Some(_)) => Ok(column),
-            (Some(_), _, Some(_)) => Err(Error::custom("a column is read or derived, not both: leave out `column` or `derive`")),
+            (Some(_), _, Some(_)) => {
+                Err(Error::custom("a column is read or derived, not both: leave out `column` or `derive`"))
+            }
             (None, Some(_), Some(_)) => Err(Error::custom("a derived column has no unit: leave out `unit`")),
             (None, _, None) => Err(Error::custom("which column? write `column = \"…\"` or `derive = \"…\"`")),
         }
@@ -258,7 +257,10 @@ impl<'de> Visitor<'de> for Short<Column> {
 
 impl<'de> Deserialize<'de> for Sigma {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(Short("a quantity such as \"2 arcsec\", a column, or a list of columns", PhantomData::<Self>))
+        deserializer.deserialize_any(Short(
+            "a quantity such as \"2 arcsec\", a column, or a list of columns",
+            PhantomData::<Self>,
+        ))
     }
 }
 

@@ -1,0 +1,82 @@
+//! Classes: candidates that no data at these poses can tell apart.
+
+use super::problem::Problem;
+use super::sweep::Sweep;
+
+/// Overlap of the projected spaces above which two candidates are one class.
+const SAME: f64 = 0.995;
+
+/// Candidates whose projected spaces coincide. The first stands for all of them.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Class {
+    /// Candidate numbers; the first is the one that is tested.
+    pub members: Vec<usize>,
+    /// The common rank after projection.
+    pub rank: usize,
+}
+
+/// Merges candidates into classes, in order of first member; those of rank zero are left out.
+#[must_use]
+pub fn classes(problem: &Problem) -> Vec<Class> {
+    let (gram, _) = problem.gram(|_| true);
+    let sweep = Sweep::new(gram);
+    let mut classes: Vec<Class> = Vec::new();
+    let mut bases: Vec<Vec<usize>> = Vec::new();
+    for candidate in 0..problem.candidates() {
+        let columns = problem.columns(candidate);
+        let rank = rank(&sweep, &columns);
+        if rank == 0 {
+            continue;
+        }
+        let same = (0..classes.len()).find(|&i| {
+            classes[i].rank == rank
+                && overlap(&sweep, &columns, &bases[i], rank) > SAME
+                && overlap(&sweep, &bases[i], &columns, rank) > SAME
+        });
+        match same {
+            Some(i) => classes[i].members.push(candidate),
+            None => {
+                classes.push(Class { members: vec![candidate], rank });
+                bases.push(columns);
+            }
+        }
+    }
+    classes
+}
+
+/// Rank of a block of columns.
+fn rank(sweep: &Sweep, columns: &[usize]) -> usize {
+    match columns.first() {
+        Some(&any) => sweep.gain(columns, any).1,
+        None => 0,
+    }
+}
+
+/// Mean squared length of the unit vectors of `of`'s space after projection on `on`'s, both seen in what the
+/// swept columns leave: one if it lies within, zero if it is orthogonal.
+#[must_use]
+pub fn overlap(sweep: &Sweep, of: &[usize], on: &[usize], rank: usize) -> f64 {
+    // trace(G_oo⁻ G_on G_nn⁻ G_no) / rank, by sweeping a small copy.
+    let all: Vec<usize> = of.iter().chain(on).copied().collect();
+    let small = faer::Mat::from_fn(all.len(), all.len(), |i, j| sweep.entry(all[i], all[j]));
+    // A quick way out for single columns, the most common case.
+    if of.len() == 1 && on.len() == 1 {
+        let (a, b, c) = (small[(0, 0)], small[(1, 1)], small[(0, 1)]);
+        return if a > 0.0 && b > 0.0 { c * c / (a * b) } else { 0.0 };
+    }
+    let mut unexplained = Sweep::new(small.clone());
+    for j in of.len()..all.len() {
+        unexplained.add(j);
+    }
+    let mut inverse = Sweep::new(small);
+    for j in 0..of.len() {
+        inverse.add(j);
+    }
+    let mut left = 0.0;
+    for i in (0..of.len()).filter(|&i| inverse.contains(i)) {
+        for j in (0..of.len()).filter(|&j| inverse.contains(j)) {
+            left -= inverse.entry(i, j) * unexplained.entry(i, j);
+        }
+    }
+    1.0 - left / rank.max(1) as f64
+}

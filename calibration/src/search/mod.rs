@@ -1,0 +1,28 @@
+//! The search: from a residual to the effects that the declaration lacks.
+//!
+//! Everything here is linear algebra on one whitened problem ([`Problem`]): the declared columns, a block of
+//! columns for each candidate effect, the residual, and which rows belong together. What a candidate *is* (a
+//! place in the chain, a degree of freedom, a function) lives in [`crate::effects`]; the loop around the search
+//! (fit, whiten, search, amend, fit again) in [`crate::calibrate`].
+//!
+//! The pipeline reads from one place: project ([`problem`]), merge what coincides ([`classes`]), test
+//! ([`tail`], [`flips`]), select ([`select`]), name the rivals ([`rivals`]), confirm on held-out folds
+//! ([`nested`]).
+
+pub mod classes;
+pub mod flips;
+pub mod nested;
+pub mod problem;
+pub mod rivals;
+pub mod select;
+pub mod sweep;
+pub mod tail;
+
+pub use classes::{Class, classes};
+pub use nested::{HeldOut, nested};
+pub use problem::{Problem, ProblemError};
+pub use rivals::{Rival, rivals};
+pub use select::{Accepted, Options, Selection, select};
+
+#[cfg(test)]
+mod tests;

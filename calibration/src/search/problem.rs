@@ -1,0 +1,358 @@
+//! The whitened linear problem of a search, projected on what the declaration cannot explain.
+//!
+//! Notation: J the whitened declared columns, Z_c those of candidate c, r the whitened residual. With U an
+//! orthonormal basis of the range of J, the rows kept are `[U | Z̃ | r̃]`, where Z̃ = (I − UUᵀ)Z with columns
+//! of length one: well scaled and, in its first block, orthonormal, so that Gram matrices of subsets of the rows
+//! (training folds) can be formed by adding and subtracting without loss.
+
+use std::ops::Range;
+
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatRef, Par};
+use rand::Rng;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+
+/// Share of a candidate's sum of squares that must be left by the declared columns for it to have any rank.
+const VISIBLE: f64 = 1e-9;
+/// Singular values of the scaled declared columns below this share of the largest count as zero.
+const RANK: f64 = 1e-9;
+
+/// Why a problem cannot be set up.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum ProblemError {
+    /// The parts do not have the same number of rows.
+    #[error("{what} has {found} rows where the residual has {expected}")]
+    Rows {
+        /// Which part.
+        what: &'static str,
+        /// Its rows.
+        found: usize,
+        /// The residual's rows.
+        expected: usize,
+    },
+    /// A value is not finite.
+    #[error("{what} holds a value that is not finite, in row {row}")]
+    NotFinite {
+        /// Which part.
+        what: &'static str,
+        /// The first such row, counted from 0.
+        row: usize,
+    },
+    /// The declared columns have no singular value decomposition.
+    #[error("the singular values of the declared columns could not be computed")]
+    Singular,
+}
+
+/// A whitened problem, ready to be searched.
+#[derive(Debug, Clone)]
+pub struct Problem {
+    /// `[U | Z̃ | r̃]`, one row for each whitened component of an observation.
+    rows: Mat<f64>,
+    /// Columns of U.
+    declared: usize,
+    /// Columns of each candidate in `rows`.
+    blocks: Vec<Range<usize>>,
+    /// What the declared columns leave of each candidate's sum of squares, 0 to 1.
+    visible: Vec<f64>,
+    /// The length of each candidate column after projection, before it was scaled to one.
+    lengths: Vec<f64>,
+    /// Group of each row; groups are numbered from 0 in order of first appearance.
+    group_of_row: Vec<usize>,
+    groups: usize,
+    fold_of_group: Vec<usize>,
+    /// Gram matrix of the rows of each fold.
+    grams: Vec<Mat<f64>>,
+    rows_of_fold: Vec<usize>,
+}
+
+impl Problem {
+    /// Projects and scales.
+    ///
+    /// `declared` is n × p, `candidates` n × K with the columns of candidate c at `blocks[c]`, `residual` has n
+    /// values that must not contain any candidate's share yet, and `groups` says which rows are not
+    /// independent. Groups are dealt to `folds` folds at random (`seed`), evenly by rows.
+    ///
+    /// # Errors
+    /// Where the row counts differ or a value is not finite.
+    pub fn new(
+        declared: MatRef<'_, f64>,
+        candidates: MatRef<'_, f64>,
+        blocks: &[Range<usize>],
+        residual: &[f64],
+        groups: &[usize],
+        folds: usize,
+        seed: u64,
+    ) -> Result<Self, ProblemError> {
+        let n = residual.len();
+        for (what, found) in [
+            ("the declared columns", declared.nrows()),
+            ("the candidates", candidates.nrows()),
+            ("the list of groups", groups.len()),
+        ] {
+            if found != n {
+                return Err(ProblemError::Rows { what, found, expected: n });
+            }
+        }
+        check_finite("the declared columns", declared)?;
+        check_finite("the candidates", candidates)?;
+        check_finite("the residual", faer::ColRef::from_slice(residual).as_mat())?;
+
+        let basis = range(declared)?;
+        let (u, k) = (basis.ncols(), candidates.ncols());
+        let mut rows = Mat::zeros(n, u + k + 1);
+        rows.subcols_mut(0, u).copy_from(&basis);
+        rows.subcols_mut(u, k).copy_from(candidates);
+        rows.col_as_slice_mut(u + k).copy_from_slice(residual);
+        let before: Vec<f64> = (0..k).map(|j| rows.col(u + j).squared_norm_l2()).collect();
+        // Twice: one pass of Gram-Schmidt leaves rounding of the part taken out.
+        for _ in 0..2 {
+            let mut coefficients = Mat::zeros(u, k + 1);
+            matmul(
+                &mut coefficients,
+                Accum::Replace,
+                basis.transpose(),
+                rows.subcols(u, k + 1),
+                1.0,
+                Par::Seq,
+            );
+            matmul(rows.subcols_mut(u, k + 1), Accum::Add, &basis, &coefficients, -1.0, Par::Seq);
+        }
+        let after: Vec<f64> = (0..k).map(|j| rows.col(u + j).squared_norm_l2()).collect();
+        let mut lengths = vec![0.0; k];
+        for j in 0..k {
+            let seen = after[j] > VISIBLE * before[j] && after[j] > 0.0;
+            lengths[j] = if seen { after[j].sqrt() } else { 0.0 };
+            let scale = if seen { 1.0 / lengths[j] } else { 0.0 };
+            rows.col_as_slice_mut(u + j).iter_mut().for_each(|value| *value *= scale);
+        }
+        let visible = blocks
+            .iter()
+            .map(|block| {
+                let total: f64 = before[block.clone()].iter().sum();
+                let left: f64 = after[block.clone()].iter().sum();
+                if total > 0.0 { left / total } else { 0.0 }
+            })
+            .collect();
+        let blocks = blocks.iter().map(|block| block.start + u..block.end + u).collect();
+
+        let (group_of_row, group_count) = number_groups(groups);
+        let fold_of_group = deal(&group_of_row, group_count, folds, seed);
+        let mut problem = Self {
+            rows,
+            declared: u,
+            blocks,
+            visible,
+            lengths,
+            group_of_row,
+            groups: group_count,
+            fold_of_group,
+            grams: Vec::new(),
+            rows_of_fold: Vec::new(),
+        };
+        problem.form_grams();
+        Ok(problem)
+    }
+
+    /// The Gram matrix of each fold's rows.
+    fn form_grams(&mut self) {
+        let folds = self.fold_of_group.iter().max().map_or(1, |&last| last + 1);
+        let width = self.rows.ncols();
+        self.grams.clear();
+        self.rows_of_fold.clear();
+        for fold in 0..folds {
+            let members = self.rows_of_folds(|f| f == fold);
+            let part = self.rows_at(&members);
+            let mut gram = Mat::zeros(width, width);
+            // Half of it; the other half is its mirror image.
+            faer::linalg::matmul::triangular::matmul(
+                &mut gram,
+                faer::linalg::matmul::triangular::BlockStructure::TriangularLower,
+                Accum::Replace,
+                part.transpose(),
+                faer::linalg::matmul::triangular::BlockStructure::Rectangular,
+                &part,
+                faer::linalg::matmul::triangular::BlockStructure::Rectangular,
+                1.0,
+                Par::Seq,
+            );
+            for j in 0..width {
+                for i in 0..j {
+                    gram[(i, j)] = gram[(j, i)];
+                }
+            }
+            self.grams.push(gram);
+            self.rows_of_fold.push(members.len());
+        }
+    }
+
+    /// The rows that lie in the folds chosen, in order.
+    #[must_use]
+    pub fn rows_of_folds(&self, chosen: impl Fn(usize) -> bool) -> Vec<usize> {
+        (0..self.rows.nrows()).filter(|&row| chosen(self.fold_of_row(row))).collect()
+    }
+
+    /// A copy of some rows.
+    #[must_use]
+    pub fn rows_at(&self, members: &[usize]) -> Mat<f64> {
+        let mut part = Mat::zeros(members.len(), self.rows.ncols());
+        for j in 0..self.rows.ncols() {
+            let column = self.rows.col_as_slice(j);
+            for (target, &row) in part.col_as_slice_mut(j).iter_mut().zip(members) {
+                *target = column[row];
+            }
+        }
+        part
+    }
+
+    /// The Gram matrix of the rows in the folds chosen, and how many rows those are.
+    #[must_use]
+    pub fn gram(&self, chosen: impl Fn(usize) -> bool) -> (Mat<f64>, usize) {
+        let width = self.rows.ncols();
+        let mut sum = Mat::zeros(width, width);
+        let mut count = 0;
+        for (fold, gram) in self.grams.iter().enumerate().filter(|&(fold, _)| chosen(fold)) {
+            sum += gram;
+            count += self.rows_of_fold[fold];
+        }
+        (sum, count)
+    }
+
+    /// The Gram matrix of one fold's rows.
+    #[must_use]
+    pub fn fold_gram(&self, fold: usize) -> MatRef<'_, f64> {
+        self.grams[fold].as_ref()
+    }
+
+    /// Rows of one fold.
+    #[must_use]
+    pub fn fold_rows(&self, fold: usize) -> usize {
+        self.rows_of_fold[fold]
+    }
+
+    /// How many folds there are.
+    #[must_use]
+    pub fn folds(&self) -> usize {
+        self.grams.len()
+    }
+
+    /// The fold that a row lies in.
+    #[must_use]
+    pub fn fold_of_row(&self, row: usize) -> usize {
+        self.fold_of_group[self.group_of_row[row]]
+    }
+
+    /// Group of each row, numbered from 0.
+    #[must_use]
+    pub fn group_of_row(&self) -> &[usize] {
+        &self.group_of_row
+    }
+
+    /// How many groups there are.
+    #[must_use]
+    pub fn groups(&self) -> usize {
+        self.groups
+    }
+
+    /// `[U | Z̃ | r̃]`.
+    #[must_use]
+    pub fn rows(&self) -> MatRef<'_, f64> {
+        self.rows.as_ref()
+    }
+
+    /// Rank of the declared columns.
+    #[must_use]
+    pub fn declared(&self) -> usize {
+        self.declared
+    }
+
+    /// The column that holds the residual.
+    #[must_use]
+    pub fn residual(&self) -> usize {
+        self.rows.ncols() - 1
+    }
+
+    /// How many candidates there are.
+    #[must_use]
+    pub fn candidates(&self) -> usize {
+        self.blocks.len()
+    }
+
+    /// The columns of a candidate that the declared ones leave anything of.
+    #[must_use]
+    pub fn columns(&self, candidate: usize) -> Vec<usize> {
+        self.blocks[candidate].clone().filter(|&j| self.lengths[j - self.declared] > 0.0).collect()
+    }
+
+    /// What the declared columns leave of a candidate's sum of squares, 0 (absorbed) to 1.
+    #[must_use]
+    pub fn visible(&self, candidate: usize) -> f64 {
+        self.visible[candidate]
+    }
+
+    /// The length of a candidate's column after projection, in whitened units for a coefficient of one.
+    #[must_use]
+    pub fn length(&self, column: usize) -> f64 {
+        self.lengths[column - self.declared]
+    }
+}
+
+/// Checks that a matrix is finite throughout.
+fn check_finite(what: &'static str, matrix: MatRef<'_, f64>) -> Result<(), ProblemError> {
+    for j in 0..matrix.ncols() {
+        if let Some(row) = (0..matrix.nrows()).find(|&i| !matrix[(i, j)].is_finite()) {
+            return Err(ProblemError::NotFinite { what, row });
+        }
+    }
+    Ok(())
+}
+
+/// An orthonormal basis of the range of a matrix, its columns scaled to length one before rank is decided.
+fn range(matrix: MatRef<'_, f64>) -> Result<Mat<f64>, ProblemError> {
+    let kept: Vec<usize> = (0..matrix.ncols()).filter(|&j| matrix.col(j).squared_norm_l2() > 0.0).collect();
+    if kept.is_empty() || matrix.nrows() == 0 {
+        return Ok(Mat::zeros(matrix.nrows(), 0));
+    }
+    let scaled =
+        Mat::from_fn(matrix.nrows(), kept.len(), |i, j| matrix[(i, kept[j])] / matrix.col(kept[j]).norm_l2());
+    let svd = scaled.thin_svd().map_err(|_| ProblemError::Singular)?;
+    let singular = svd.S().column_vector();
+    let rank = (0..singular.nrows()).filter(|&i| singular[i] > RANK * singular[0]).count();
+    Ok(svd.U().subcols(0, rank).to_owned())
+}
+
+/// Numbers groups from 0 in order of first appearance.
+fn number_groups(groups: &[usize]) -> (Vec<usize>, usize) {
+    let mut numbers = std::collections::BTreeMap::new();
+    let of_row = groups
+        .iter()
+        .map(|&group| {
+            let next = numbers.len();
+            *numbers.entry(group).or_insert(next)
+        })
+        .collect();
+    (of_row, numbers.len())
+}
+
+/// Deals groups to folds: shuffled, then each to the fold with the fewest rows so far.
+fn deal(group_of_row: &[usize], groups: usize, folds: usize, seed: u64) -> Vec<usize> {
+    let folds = folds.clamp(1, groups.max(1));
+    let mut size = vec![0_usize; groups];
+    group_of_row.iter().for_each(|&group| size[group] += 1);
+    let mut order: Vec<usize> = (0..groups).collect();
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    for i in (1..order.len()).rev() {
+        let j = (random.next_u64() % (i as u64 + 1)) as usize;
+        order.swap(i, j);
+    }
+    // Large groups first, so that they cannot unbalance the end of the deal; equal ones stay shuffled.
+    order.sort_by_key(|&group| std::cmp::Reverse(size[group]));
+    let mut rows = vec![0_usize; folds];
+    let mut fold_of_group = vec![0; groups];
+    for group in order {
+        let fold = (0..folds).min_by_key(|&fold| rows[fold]).unwrap_or(0);
+        fold_of_group[group] = fold;
+        rows[fold] += size[group];
+    }
+    fold_of_group
+}

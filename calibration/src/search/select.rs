@@ -1,0 +1,309 @@
+//! Selection: forward by familywise p and a penalised likelihood, confirmed by cross-validation, with swaps
+//! and drops.
+
+use faer::Mat;
+
+use super::classes::Class;
+use super::flips::{Family, Signs, familywise};
+use super::problem::Problem;
+use super::sweep::Sweep;
+use super::tail::Tails;
+
+/// How a search decides.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Chance that anything at all is accepted where there is nothing: 0.05.
+    pub false_alarm: f64,
+    /// Sign flips for the familywise p.
+    pub flips: usize,
+    /// Seed of the flips.
+    pub seed: u64,
+    /// Effects accepted at most.
+    pub most: usize,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { false_alarm: 0.05, flips: 999, seed: 1, most: 12 }
+    }
+}
+
+/// An accepted class.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Accepted {
+    /// Number of the class.
+    pub class: usize,
+    /// Its familywise p when it was accepted.
+    pub p_value: f64,
+}
+
+/// What a selection ends with.
+#[derive(Debug, Clone)]
+pub struct Selection {
+    /// The accepted classes in the order they came in.
+    pub accepted: Vec<Accepted>,
+    /// The smallest familywise p of all that was left out at the end.
+    pub remaining_p: f64,
+    /// The training rows' Gram matrix with the declared columns and the accepted effects swept.
+    pub state: State,
+}
+
+/// A regression on the declared columns and some classes, over some folds.
+#[derive(Debug, Clone)]
+pub struct State {
+    /// The Gram matrix, swept.
+    pub sweep: Sweep,
+    /// The columns swept, declared ones first.
+    pub base: Vec<usize>,
+    /// Rows it stands on.
+    pub rows: usize,
+    residual: usize,
+}
+
+impl State {
+    /// The declared columns alone, over the folds chosen.
+    #[must_use]
+    pub fn declared(problem: &Problem, chosen: impl Fn(usize) -> bool) -> Self {
+        let (gram, rows) = problem.gram(chosen);
+        let mut state =
+            Self { sweep: Sweep::new(gram), base: Vec::new(), rows, residual: problem.residual() };
+        for column in 0..problem.declared() {
+            state.add_column(column);
+        }
+        state
+    }
+
+    fn add_column(&mut self, column: usize) {
+        if self.sweep.add(column) {
+            self.base.push(column);
+        }
+    }
+
+    /// Adds a block of columns.
+    pub fn add(&mut self, block: &[usize]) {
+        block.iter().for_each(|&column| self.add_column(column));
+    }
+
+    /// Takes a block out.
+    pub fn remove(&mut self, block: &[usize]) {
+        block.iter().for_each(|&column| self.sweep.remove(column));
+        self.base.retain(|column| !block.contains(column));
+    }
+
+    /// The residual's sum of squares.
+    #[must_use]
+    pub fn rss(&self) -> f64 {
+        self.sweep.entry(self.residual, self.residual).max(f64::MIN_POSITIVE)
+    }
+
+    /// What a block would take off the sum of squares, and its rank here.
+    #[must_use]
+    pub fn gain(&self, block: &[usize]) -> (f64, usize) {
+        self.sweep.gain(block, self.residual)
+    }
+
+    /// Degrees of freedom of the residual.
+    #[must_use]
+    pub fn df(&self) -> f64 {
+        self.rows as f64 - self.base.len() as f64
+    }
+
+    /// Penalised log-likelihood (half a Schwarz criterion, up to a constant) after adding a block.
+    #[must_use]
+    pub fn criterion(&self, gain: f64, rank: usize) -> f64 {
+        let n = self.rows as f64;
+        let left = (self.rss() - gain).max(1e-12 * self.rss());
+        -n / 2.0 * left.ln() - (self.base.len() + rank) as f64 / 2.0 * n.ln()
+    }
+}
+
+/// The columns of each class's first member.
+#[must_use]
+pub fn class_columns(problem: &Problem, classes: &[Class]) -> Vec<Vec<usize>> {
+    classes.iter().map(|class| class.members.first().map_or_else(Vec::new, |&c| problem.columns(c))).collect()
+}
+
+/// Searches the folds chosen, starting from `start` (classes accepted before).
+#[must_use]
+pub fn select(
+    problem: &Problem,
+    classes: &[Class],
+    start: &[usize],
+    chosen: impl Fn(usize) -> bool + Copy,
+    options: &Options,
+) -> Selection {
+    let blocks = class_columns(problem, classes);
+    let members = problem.rows_of_folds(chosen);
+    let rows = problem.rows_at(&members);
+    let groups: Vec<usize> = members.iter().map(|&row| problem.group_of_row()[row]).collect();
+    let signs = Signs::new(&groups, options.flips, options.seed);
+    let folds: Vec<usize> = (0..problem.folds()).filter(|&fold| chosen(fold)).collect();
+
+    let mut state = State::declared(problem, chosen);
+    let mut accepted: Vec<Accepted> = Vec::new();
+    for &class in start {
+        state.add(&blocks[class]);
+        accepted.push(Accepted { class, p_value: f64::NAN });
+    }
+    let search = Search { problem, blocks: &blocks, folds: &folds };
+    let mut dropped = search.drop_idle(&mut state, &mut accepted, options, None);
+    let mut remaining_p = 1.0;
+    while accepted.len() < options.most {
+        let mut tests = search.test(&state, &accepted, &rows, &signs);
+        // What was dropped once does not come back: every turn of this loop shortens the list of candidates.
+        tests.retain(|test| !dropped.contains(&test.class));
+        remaining_p = tests.iter().map(|test| test.p_value).fold(1.0, f64::min);
+        let mut passing: Vec<&Test> =
+            tests.iter().filter(|test| test.p_value <= options.false_alarm).collect();
+        passing.sort_by(|a, b| b.criterion.total_cmp(&a.criterion).then(a.class.cmp(&b.class)));
+        let before = search.held_out(&state.base);
+        let best = passing.into_iter().take(3).find(|test| {
+            let with: Vec<usize> = state.base.iter().chain(&blocks[test.class]).copied().collect();
+            search.held_out(&with) < before
+        });
+        let Some(best) = best else { break };
+        state.add(&blocks[best.class]);
+        accepted.push(Accepted { class: best.class, p_value: best.p_value });
+        search.swap(&mut state, &mut accepted);
+        let newest = accepted.last().map(|a| a.class);
+        dropped.extend(search.drop_idle(&mut state, &mut accepted, options, newest));
+    }
+    Selection { accepted, remaining_p, state }
+}
+
+/// The test of one class against the present state.
+struct Test {
+    class: usize,
+    p_value: f64,
+    criterion: f64,
+}
+
+/// What every step of one search reads.
+struct Search<'a> {
+    problem: &'a Problem,
+    blocks: &'a [Vec<usize>],
+    folds: &'a [usize],
+}
+
+impl Search<'_> {
+    /// Tests every class that is not in yet.
+    fn test(&self, state: &State, accepted: &[Accepted], rows: &Mat<f64>, signs: &Signs) -> Vec<Test> {
+        let open: Vec<usize> =
+            (0..self.blocks.len()).filter(|&class| accepted.iter().all(|a| a.class != class)).collect();
+        let gains: Vec<(f64, usize)> = open.iter().map(|&class| state.gain(&self.blocks[class])).collect();
+        let tails = Tails::new(gains.iter().map(|&(_, rank)| rank), state.df());
+        let tested: Vec<Vec<usize>> = open.iter().map(|&c| self.blocks[c].clone()).collect();
+        let family = Family {
+            rows: rows.as_ref(),
+            sweep: &state.sweep,
+            base: &state.base,
+            blocks: &tested,
+            tails: &tails,
+        };
+        let smallest = family.smallest(signs);
+        open.iter()
+            .zip(gains)
+            .filter(|&(_, (_, rank))| rank > 0)
+            .map(|(&class, (gain, rank))| Test {
+                class,
+                p_value: familywise(tails.ln_p(rank, gain, state.rss()), &smallest),
+                criterion: state.criterion(gain, rank),
+            })
+            .collect()
+    }
+
+    /// Cross-validated sum of squares of a regression on some columns.
+    fn held_out(&self, columns: &[usize]) -> f64 {
+        if self.folds.len() < 2 {
+            // Nothing to hold out: the in-sample criterion has already spoken.
+            return -(columns.len() as f64);
+        }
+        let residual = self.problem.residual();
+        let mut picked = columns.to_vec();
+        picked.push(residual);
+        let small = |fold: usize| {
+            let gram = self.problem.fold_gram(fold);
+            Mat::from_fn(picked.len(), picked.len(), |i, j| gram[(picked[i], picked[j])])
+        };
+        let parts: Vec<Mat<f64>> = self.folds.iter().map(|&fold| small(fold)).collect();
+        let mut total = Mat::<f64>::zeros(picked.len(), picked.len());
+        parts.iter().for_each(|part| total += part);
+        parts.iter().map(|part| held_out_rss(&total, part)).sum()
+    }
+
+    /// Tries each accepted class against the others of no larger rank, until no exchange gains.
+    fn swap(&self, state: &mut State, accepted: &mut [Accepted]) {
+        for _ in 0..4 {
+            let mut changed = false;
+            for at in 0..accepted.len() {
+                let own = accepted[at].class;
+                state.remove(&self.blocks[own]);
+                let (gain, rank) = state.gain(&self.blocks[own]);
+                let mut best = (state.criterion(gain, rank), own);
+                for class in 0..self.blocks.len() {
+                    if accepted.iter().any(|a| a.class == class) {
+                        continue;
+                    }
+                    let (gain, other) = state.gain(&self.blocks[class]);
+                    if other > 0 && other <= rank.max(1) {
+                        let criterion = state.criterion(gain, other);
+                        if criterion > best.0 + 1e-9 {
+                            best = (criterion, class);
+                        }
+                    }
+                }
+                state.add(&self.blocks[best.1]);
+                changed |= best.1 != own;
+                accepted[at].class = best.1;
+            }
+            if !changed {
+                break;
+            }
+        }
+    }
+
+    /// Drops accepted classes, `newest` aside, that later ones have made idle: their Bonferroni p is above the
+    /// false-alarm rate. Returns them.
+    fn drop_idle(
+        &self,
+        state: &mut State,
+        accepted: &mut Vec<Accepted>,
+        options: &Options,
+        newest: Option<usize>,
+    ) -> Vec<usize> {
+        let mut dropped = Vec::new();
+        loop {
+            let mut worst: Option<(f64, usize)> = None;
+            for (at, own) in accepted.iter().enumerate().filter(|(_, a)| Some(a.class) != newest) {
+                let block = &self.blocks[own.class];
+                state.remove(block);
+                let (gain, rank) = state.gain(block);
+                let tails = Tails::new([rank], state.df());
+                let ln_p = tails.ln_p(rank, gain, state.rss()) + (self.blocks.len() as f64).ln();
+                let idle = rank == 0 || ln_p > options.false_alarm.ln();
+                if idle && worst.is_none_or(|(most, _)| ln_p > most) {
+                    worst = Some((ln_p, at));
+                }
+                state.add(block);
+            }
+            let Some((_, at)) = worst else { return dropped };
+            let gone = accepted.remove(at);
+            state.remove(&self.blocks[gone.class]);
+            dropped.push(gone.class);
+        }
+    }
+}
+
+/// Sum of squares that a regression fitted to `total − part` leaves in `part`; the last column is the residual.
+pub(super) fn held_out_rss(total: &Mat<f64>, part: &Mat<f64>) -> f64 {
+    let last = total.ncols() - 1;
+    let mut sweep = Sweep::new(total - part);
+    let used: Vec<usize> = (0..last).filter(|&j| sweep.add(j)).collect();
+    let mut rss = part[(last, last)];
+    for &i in &used {
+        let b = sweep.entry(i, last);
+        rss -= 2.0 * b * part[(i, last)];
+        rss += used.iter().map(|&j| b * sweep.entry(j, last) * part[(i, j)]).sum::<f64>();
+    }
+    rss
+}

@@ -1,0 +1,68 @@
+#![allow(clippy::unwrap_used)]
+//! The search on synthetic matrices.
+
+use faer::Mat;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use rand_distr::{Distribution, StandardNormal};
+
+use super::*;
+
+/// A problem of n rows: `p` declared columns, `count` candidates of one or two columns that are smooth functions of
+/// three angles, one of them planted with `amplitude` (in σ), unit noise.
+fn problem(n: usize, p: usize, count: usize, planted: Option<(usize, f64)>, seed: u64) -> Problem {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut normal = |_: usize, _: usize| -> f64 { StandardNormal.sample(&mut random) };
+    let declared = Mat::from_fn(n, p, &mut normal);
+    let candidates = Mat::from_fn(n, 2 * count, &mut normal);
+    let mut residual: Vec<f64> = (0..n).map(|i| normal(i, 0)).collect();
+    if let Some((which, amplitude)) = planted {
+        for (i, r) in residual.iter_mut().enumerate() {
+            *r += amplitude * candidates[(i, 2 * which)];
+        }
+    }
+    let blocks: Vec<_> = (0..count).map(|c| 2 * c..2 * c + 2).collect();
+    let groups: Vec<usize> = (0..n).map(|i| i / 2).collect();
+    Problem::new(declared.as_ref(), candidates.as_ref(), &blocks, &residual, &groups, 10, seed).unwrap()
+}
+
+#[test]
+fn a_planted_effect_is_found_and_nothing_else() {
+    let problem = problem(400, 10, 60, Some((17, 0.5)), 3);
+    let classes = classes(&problem);
+    assert_eq!(classes.len(), 60);
+    let found = select(&problem, &classes, &[], |_| true, &Options::default());
+    let names: Vec<usize> = found.accepted.iter().map(|a| a.class).collect();
+    assert_eq!(names, [17]);
+    let held = nested(&problem, &classes, &Options::default());
+    assert!((held.share(17) - 1.0).abs() < 1e-12);
+    assert!(held.after < 0.9 * held.before);
+}
+
+#[test]
+fn the_false_alarm_rate_is_as_stated() {
+    let mut alarms = 0;
+    let tries = 200;
+    for seed in 0..tries {
+        let problem = problem(200, 10, 60, None, 100 + seed);
+        let classes = classes(&problem);
+        let options = Options { flips: 199, ..Options::default() };
+        let found = select(&problem, &classes, &[], |_| true, &options);
+        alarms += usize::from(found.remaining_p <= 0.05 || !found.accepted.is_empty());
+    }
+    // 200 tries at 5 %: binomial, 10 ± 3.1; three standard deviations either way.
+    assert!((1..=20).contains(&alarms), "{alarms} of {tries}");
+}
+
+#[test]
+fn timing() {
+    let t = std::time::Instant::now();
+    let problem = problem(5000, 20, 109, Some((17, 0.5)), 3);
+    println!("problem {:?}", t.elapsed());
+    let t = std::time::Instant::now();
+    let classes = classes(&problem);
+    println!("classes {:?}", t.elapsed());
+    let t = std::time::Instant::now();
+    let found = select(&problem, &classes, &[], |_| true, &Options::default());
+    println!("select {:?} {:?}", t.elapsed(), found.accepted);
+}

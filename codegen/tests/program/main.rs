@@ -1,0 +1,11 @@
+//! Programs and their interpreter: against the numeric reference of `model-core`, against the derived closed form,
+//! against differences, and how much they cost.
+#![allow(clippy::unwrap_used)]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod batches;
+mod counts;
+mod jacobians;
+mod values;

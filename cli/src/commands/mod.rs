@@ -1,6 +1,7 @@
 //! The registry of commands: one file each, one line each in the table below.
 
 mod apply;
+mod bound;
 mod derive;
 mod eval;
 mod simulate;
@@ -14,6 +15,15 @@ pub enum Answer {
     Done,
     /// The question was answered, and the answer is no.
     No,
+}
+
+/// How a command prints its answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum TextOrJson {
+    /// For reading
+    Text,
+    /// For programs
+    Json,
 }
 
 macro_rules! commands {
@@ -40,6 +50,7 @@ macro_rules! commands {
 
 commands! {
     Derive => derive,
+    Bound => bound,
     Simulate => simulate,
     Eval => eval,
     Apply => apply,

@@ -1,0 +1,122 @@
+//! `trueaxis bound`: a proven bound on what the first-order form leaves out.
+
+use std::path::PathBuf;
+
+use model_core::remainder::{self, Bound, Domain, DomainError, Found};
+use model_core::{Chain, ObservableKind, SymbolKind};
+use serde_json::json;
+
+use super::{Answer, TextOrJson};
+use crate::errors_file;
+use crate::failure::Failure;
+use crate::ranges::{self, RangeArgument};
+use crate::source::{Source, observables};
+use crate::terminal;
+
+/// Bound what the first-order form leaves out.
+///
+/// Gives a number that the difference between the exact error and its first-order form never exceeds while every
+/// error stays within its largest size, at all angles of the joints or in the ranges given. The bound is proven and
+/// rounded up. Beside it stands the largest difference that a search found: the truth lies between the two.
+///
+/// Example: trueaxis bound examples/mobile-lidar/mobile-lidar.chain --errors examples/mobile-lidar/box.toml
+/// --observable pointing
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The declaration
+    chain: PathBuf,
+    /// Largest sizes of the errors
+    #[arg(long, value_name = "BOX.toml")]
+    errors: PathBuf,
+    /// Only this observable (may be given several times); default: every one
+    #[arg(long)]
+    observable: Vec<String>,
+    /// Range of a joint or input: "elevation=10 deg..80 deg" (may be given several times)
+    #[arg(long, value_name = "joint=lo..hi")]
+    range: Vec<RangeArgument>,
+    /// Seed of the search for a large difference
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// How to print
+    #[arg(long, value_enum, default_value_t = TextOrJson::Text)]
+    format: TextOrJson,
+}
+
+/// Starts of the search for a large difference: more find a little more, and cost as much more.
+const STARTS: u32 = 24;
+
+/// Runs the command.
+pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
+    let chain = Source::read(&arguments.chain)?.chain()?;
+    let sizes = errors_file::largest_sizes(&Source::read(&arguments.errors)?, &chain)?;
+    let mut domain = Domain::new(&chain);
+    for error in chain.symbols_of(SymbolKind::Error) {
+        domain.set_size(&chain, error, sizes[error.index()]).map_err(failure)?;
+    }
+    for range in ranges::of_chain(&chain, &arguments.range)? {
+        domain.set_range(&chain, range.symbol, range.low, range.high).map_err(failure)?;
+    }
+
+    let mut answers = Vec::new();
+    for observable in observables(&chain, &arguments.observable)? {
+        let answer = remainder::bound(&chain, observable, &domain).and_then(|bound| {
+            Ok((bound, remainder::search(&chain, observable, &domain, STARTS, arguments.seed)?))
+        });
+        match answer {
+            Ok(answer) => answers.push(answer),
+            // Nobody asked for this observable in particular; the others still have an answer.
+            Err(error @ DomainError::RangeNeeded { .. }) if arguments.observable.is_empty() => {
+                let name = &chain.observable(observable).name;
+                terminal::warn(format_args!("{name} is left out: {}", failure(error)));
+            }
+            Err(error) => return Err(failure(error)),
+        }
+    }
+    let printed = match arguments.format {
+        TextOrJson::Text => {
+            let texts: Vec<String> =
+                answers.iter().map(|(bound, found)| remainder::text(bound, Some(found), &chain)).collect();
+            texts.join("\n")
+        }
+        TextOrJson::Json => {
+            let bounds: Vec<_> = answers.iter().map(|(bound, found)| as_json(&chain, bound, found)).collect();
+            format!("{:#}\n", json!({ "bounds": bounds }))
+        }
+    };
+    terminal::print(&printed)?;
+    Ok(Answer::Done)
+}
+
+/// A range that is missing is given on the command line.
+fn failure(error: DomainError) -> Failure {
+    Failure::Input(match error {
+        DomainError::RangeNeeded { name } => {
+            format!("there is no bound unless `{name}` has a range: say --range \"{name}=lo..hi\"")
+        }
+        other => other.to_string(),
+    })
+}
+
+fn as_json(chain: &Chain, bound: &Bound, found: &Found) -> serde_json::Value {
+    let observable = chain.observable(bound.observable);
+    let unit = match observable.kind {
+        ObservableKind::Direction => "1",
+        ObservableKind::Point => "m",
+    };
+    let name = |id| &chain.symbol(id).name;
+    let shares: Vec<_> = bound
+        .shares
+        .iter()
+        .map(|pair| json!({"errors": [name(pair.one), name(pair.other)], "share": pair.share}))
+        .collect();
+    json!({
+        "observable": observable.name,
+        "unit": unit,
+        "bound": bound.value,
+        "second_order": bound.second_order,
+        "tail": bound.tail,
+        "largest_found": found.value,
+        "ratio": bound.value / found.value,
+        "shares": shares,
+    })
+}

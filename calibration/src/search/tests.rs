@@ -1,5 +1,5 @@
-#![allow(clippy::unwrap_used)]
 //! The search on synthetic matrices.
+#![allow(clippy::unwrap_used)]
 
 use faer::Mat;
 use rand_chacha::ChaCha8Rng;
@@ -52,17 +52,4 @@ fn the_false_alarm_rate_is_as_stated() {
     }
     // 200 tries at 5 %: binomial, 10 ± 3.1; three standard deviations either way.
     assert!((1..=20).contains(&alarms), "{alarms} of {tries}");
-}
-
-#[test]
-fn timing() {
-    let t = std::time::Instant::now();
-    let problem = problem(5000, 20, 109, Some((17, 0.5)), 3);
-    println!("problem {:?}", t.elapsed());
-    let t = std::time::Instant::now();
-    let classes = classes(&problem);
-    println!("classes {:?}", t.elapsed());
-    let t = std::time::Instant::now();
-    let found = select(&problem, &classes, &[], |_| true, &Options::default());
-    println!("select {:?} {:?}", t.elapsed(), found.accepted);
 }

@@ -1,0 +1,81 @@
+//! Encoders: errors of a joint about its own axis that repeat with the joint.
+
+use model_core::algebra::Poly;
+use model_core::Role;
+
+use super::{Alias, Effect, Family, Function, JointAxis, Place, Setting, harmonic};
+
+/// Harmonics of a turn that are in the catalogue; higher ones are found by the scan for gears.
+const HARMONICS: std::ops::RangeInclusive<u32> = 1..=8;
+
+pub(super) const FAMILY: Family = Family {
+    name: "encoder",
+    what: "The joint is not quite where its encoder says, by a function of the reading.",
+    causes: "The graduated disc sits off centre (once a turn) or is oval or tilted (twice); four readout \
+             cells differ (four times); interpolation within a line, teeth of a gear or poles of a motor (many \
+             times); a wrong number of counts a turn (scale).",
+    looks: "A sine of the reading, about the joint's own axis and no other, the same whatever the other \
+            joints and the plumb line do.",
+    check: "Read a second head on the other side of the disc: eccentricity changes sign, ellipticity does not.",
+    aliases: &[
+        Alias { name: "TPOINT HASA", meaning: "sine of azimuth in azimuth: eccentricity" },
+        Alias { name: "TPOINT HACA", meaning: "cosine of azimuth in azimuth: eccentricity" },
+        Alias { name: "TPOINT HHSH", meaning: "sine of hour angle in hour angle: eccentricity" },
+        Alias { name: "TPOINT HHCH", meaning: "cosine of hour angle in hour angle: eccentricity" },
+        Alias { name: "TPOINT HDSD", meaning: "sine of declination in declination: eccentricity" },
+        Alias { name: "TPOINT HDCD", meaning: "cosine of declination in declination: eccentricity" },
+        Alias { name: "laser tracker x8x, x8y", meaning: "eccentricity of the horizontal encoder" },
+        Alias { name: "laser tracker x9n", meaning: "harmonic 2 of the horizontal encoder" },
+        Alias { name: "scanner additional parameters B, C", meaning: "eccentricity and ellipticity" },
+    ],
+    effects,
+};
+
+/// The name of a harmonic of an encoder.
+pub(super) fn harmonic_name(order: u32, joint: &str) -> String {
+    match order {
+        1 => format!("encoder eccentricity of {joint}"),
+        2 => format!("encoder ellipticity of {joint}"),
+        _ => format!("encoder error of {joint}, {order} per turn"),
+    }
+}
+
+/// The harmonic of an encoder, in the catalogue or from a scan.
+pub(crate) fn encoder_harmonic(setting: &Setting<'_>, joint: &JointAxis, order: u32) -> Effect {
+    let name = setting.name(joint.symbol);
+    let stem = match order {
+        1 => "ecc",
+        2 => "ellip",
+        _ => "enc",
+    };
+    Effect {
+        family: FAMILY.name,
+        name: harmonic_name(order, name),
+        place: Place { body: joint.body, role: Role::MotionError, freedom: joint.freedom },
+        functions: harmonic(joint.symbol, name, order, stem),
+        driver: name.to_owned(),
+        form: format!("harmonic {order}"),
+    }
+}
+
+fn effects(setting: &Setting<'_>) -> Vec<Effect> {
+    let mut effects = Vec::new();
+    for joint in setting.joints() {
+        let name = setting.name(joint.symbol);
+        if joint.turns() {
+            effects.extend(HARMONICS.map(|order| encoder_harmonic(setting, &joint, order)));
+        }
+        effects.push(Effect {
+            family: FAMILY.name,
+            name: format!("encoder scale of {name}"),
+            place: Place { body: joint.body, role: Role::MotionError, freedom: joint.freedom },
+            functions: vec![Function {
+                amount: Poly::symbol(joint.symbol),
+                stem: format!("scale_{name}"),
+            }],
+            driver: name.to_owned(),
+            form: "linear".to_owned(),
+        });
+    }
+    effects
+}

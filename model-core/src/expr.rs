@@ -55,6 +55,32 @@ pub enum Function {
 }
 
 impl<S> Expr<S> {
+    /// Every use of a name, from left to right, with its place.
+    #[must_use]
+    pub fn names(&self) -> Vec<(&str, S)>
+    where
+        S: Clone,
+    {
+        let mut names = Vec::new();
+        self.collect_names(&mut names);
+        names
+    }
+
+    fn collect_names<'a>(&'a self, names: &mut Vec<(&'a str, S)>)
+    where
+        S: Clone,
+    {
+        match &self.node {
+            Node::Number(_) | Node::Pi => {}
+            Node::Symbol(name) => names.push((name, self.place.clone())),
+            Node::Neg(inner) | Node::Pow(inner, _) | Node::Call(_, inner) => inner.collect_names(names),
+            Node::Add(left, right) | Node::Mul(left, right) | Node::Div(left, right) => {
+                left.collect_names(names);
+                right.collect_names(names);
+            }
+        }
+    }
+
     /// The same expression with its places translated.
     #[must_use]
     pub fn map_place<T>(&self, translate: &impl Fn(&S) -> T) -> Expr<T> {

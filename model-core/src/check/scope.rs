@@ -6,11 +6,8 @@
 
 use std::collections::BTreeMap;
 
-use proc_macro2::Span;
-
 use super::words;
 use crate::chain::Role;
-use crate::expr::{Expr, Node};
 use crate::symbol::{Quantity, SymbolId, SymbolKind};
 use crate::syntax::Declaration;
 use crate::syntax::declaration::{BodyStatement, FactorGroup, FactorTerm, Statement};
@@ -82,7 +79,7 @@ impl Scope {
                 let (Some(role), Some(amount)) = (role, &factor.amount) else {
                     continue;
                 };
-                for (name, _) in names_in(amount) {
+                for (name, _) in amount.names() {
                     let kind = match fixed.get(name) {
                         Some(SymbolKind::Joint) => SymbolKind::Joint,
                         None if matches!(role, Role::PositionError | Role::MotionError) => SymbolKind::Error,
@@ -164,25 +161,6 @@ pub fn documentation<'a>(group: &'a FactorGroup, factor: &'a FactorTerm) -> &'a 
     if factor.documentation.is_empty() { &group.documentation } else { &factor.documentation }
 }
 
-/// Every use of a name in an amount, from left to right.
-pub fn names_in(amount: &Expr<Span>) -> Vec<(&str, Span)> {
-    let mut names = Vec::new();
-    collect_names(amount, &mut names);
-    names
-}
-
-fn collect_names<'a>(amount: &'a Expr<Span>, names: &mut Vec<(&'a str, Span)>) {
-    match &amount.node {
-        Node::Number(_) | Node::Pi => {}
-        Node::Symbol(name) => names.push((name, amount.place)),
-        Node::Neg(inner) | Node::Pow(inner, _) | Node::Call(_, inner) => collect_names(inner, names),
-        Node::Add(left, right) | Node::Mul(left, right) | Node::Div(left, right) => {
-            collect_names(left, names);
-            collect_names(right, names);
-        }
-    }
-}
-
 /// The kinds that do not depend on the order of statements: constants and inputs by their statements, joints by
 /// the motions that they drive.
 fn fixed_kinds(declaration: &Declaration) -> BTreeMap<String, SymbolKind> {
@@ -198,7 +176,7 @@ fn fixed_kinds(declaration: &Declaration) -> BTreeMap<String, SymbolKind> {
         .flat_map(|body| &body.groups)
         .filter(|group| words::likely_role(&group.role) == Some(Role::Motion));
     for amount in motions.flat_map(|group| &group.factors).filter_map(|factor| factor.amount.as_ref()) {
-        for (name, _) in names_in(amount) {
+        for (name, _) in amount.names() {
             kinds.entry(name.to_owned()).or_insert(SymbolKind::Joint);
         }
     }

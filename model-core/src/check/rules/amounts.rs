@@ -4,7 +4,6 @@ use proc_macro2::Span;
 
 use super::super::Subject;
 use super::super::amounts::{Amount, Purpose};
-use super::super::scope::names_in;
 use super::names::unknown_name;
 use crate::algebra::{AngleSum, Poly};
 use crate::chain::{Motion, Role};
@@ -15,7 +14,7 @@ use crate::symbol::{Quantity, SymbolId, SymbolKind};
 
 pub fn names_are_declared(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
     for amount in &subject.amounts {
-        for (name, place) in names_in(amount.written) {
+        for (name, place) in amount.written.names() {
             if subject.scope.find(name).is_none() && !super::super::words::is_reserved(name) {
                 let otherwise = format!("declare it: `const {name}: length = 0.25;` or `input {name};`");
                 mistakes.push(unknown_name(subject, name, place, &otherwise));
@@ -29,7 +28,7 @@ pub fn functions_of_angles(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Spa
         let mut arguments = Vec::new();
         arguments_in(amount.written, &mut arguments);
         for argument in arguments {
-            for (name, place) in names_in(argument) {
+            for (name, place) in argument.names() {
                 let Some(id) = subject.scope.find(name) else { continue };
                 if !subject.scope.is_angle(id) {
                     mistakes.push(no_angle(subject, id, place));
@@ -95,7 +94,7 @@ fn factors_of<'a, 's>(
 
 pub fn position_is_constant(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
     for (amount, motion) in factors_of(subject, |role| role == Role::Position) {
-        for (name, place) in names_in(amount.written) {
+        for (name, place) in amount.written.names() {
             let Some(entry) = subject.scope.lookup(name) else { continue };
             let (what, help) = match entry.kind {
                 SymbolKind::Pi | SymbolKind::Constant => continue,
@@ -156,7 +155,7 @@ pub fn motion_is_linear(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>
     for (amount, motion) in factors_of(subject, |role| role == Role::Motion) {
         let mut is_moved = false;
         let mut has_input = false;
-        for (name, place) in names_in(amount.written) {
+        for (name, place) in amount.written.names() {
             match subject.scope.lookup(name).map(|entry| entry.kind) {
                 Some(SymbolKind::Joint) => is_moved = true,
                 Some(SymbolKind::Input) => {

@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use proc_macro2::{Ident, Span};
 
 use super::super::Subject;
-use super::super::scope::names_in;
 use super::super::words::is_reserved;
 use crate::mistake::Mistake;
 use crate::names::nearest;
@@ -21,7 +20,7 @@ pub fn not_reserved(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
         refuse(&name.to_string(), name.span(), mistakes);
     }
     for amount in &subject.amounts {
-        for (name, place) in names_in(amount.written) {
+        for (name, place) in amount.written.names() {
             refuse(name, place, mistakes);
         }
     }

@@ -4,9 +4,9 @@ use proc_macro2::Span;
 
 use super::super::Subject;
 use super::super::amounts::Purpose;
-use super::super::scope::names_in;
 use super::super::words::{GROUND, OBSERVABLE_KINDS, advice, meaning};
 use super::bodies::unknown_body;
+use crate::algebra::Poly;
 use crate::chain::ObservableKind;
 use crate::mistake::Mistake;
 use crate::symbol::SymbolKind;
@@ -42,7 +42,7 @@ pub fn components_are_known(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Sp
             Purpose::Gravity => "the direction of gravity",
             Purpose::Factor { .. } => continue,
         };
-        for (name, place) in names_in(amount.written) {
+        for (name, place) in amount.written.names() {
             let kind = match subject.scope.lookup(name).map(|entry| entry.kind) {
                 Some(SymbolKind::Joint) => "joint",
                 Some(SymbolKind::Error) => "error",
@@ -88,8 +88,6 @@ pub fn gravity_is_a_direction(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<
     }
 }
 
-fn is_zero_vector<'a>(components: impl Iterator<Item = Option<&'a crate::algebra::Poly>>) -> bool {
-    components
-        .map(|value| value.is_some_and(crate::algebra::Poly::is_zero))
-        .fold(true, |all, zero| all && zero)
+fn is_zero_vector<'a>(mut components: impl Iterator<Item = Option<&'a Poly>>) -> bool {
+    components.all(|value| value.is_some_and(Poly::is_zero))
 }

@@ -7,7 +7,6 @@ use proc_macro2::{Ident, Span};
 use super::super::Subject;
 use super::super::amounts::Purpose;
 use super::super::quantity::inferred;
-use super::super::scope::names_in;
 use super::super::words::{QUANTITIES, advice, meaning, quantity_moved};
 use crate::chain::Role;
 use crate::mistake::Mistake;
@@ -34,7 +33,7 @@ fn unknown_quantity(word: &Ident) -> Mistake<Span> {
 pub fn constant_has_a_value(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
     for constant in subject.declaration.constants() {
         let Some(value) = &constant.value else { continue };
-        let names = names_in(value);
+        let names = value.names();
         for (name, place) in &names {
             mistakes.push(
                 Mistake::new(*place, format!("the name `{name}` stands in the value of a constant"))
@@ -57,7 +56,7 @@ pub fn one_quantity_each(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>
     for amount in &subject.amounts {
         let Purpose::Factor { role, motion, .. } = amount.purpose else { continue };
         let uses: Vec<(SymbolId, Quantity)> = if role == Role::Motion {
-            let names = names_in(amount.written).into_iter().filter_map(|(name, _)| scope.find(name));
+            let names = amount.written.names().into_iter().filter_map(|(name, _)| scope.find(name));
             names
                 .filter(|&id| scope.entry(id).kind == SymbolKind::Joint)
                 .map(|id| (id, quantity_moved(motion)))
@@ -70,7 +69,9 @@ pub fn one_quantity_each(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>
                 continue;
             }
             let name = &scope.entry(id).name;
-            let place = names_in(amount.written)
+            let place = amount
+                .written
+                .names()
                 .into_iter()
                 .find(|(used, _)| used == name)
                 .map_or(amount.written.place, |(_, place)| place);

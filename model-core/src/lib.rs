@@ -11,6 +11,7 @@ pub mod checker;
 pub mod exact;
 pub mod expr;
 pub mod forms;
+pub mod identify;
 pub mod latex;
 pub mod mistake;
 pub mod names;

@@ -1,8 +1,14 @@
 //! The grading: degrees in chosen symbols (the errors), and the parts of each degree.
 
+use std::collections::BTreeMap;
+
 use super::atom::Atom;
 use super::poly::Poly;
 use crate::symbol::SymbolId;
+
+/// A product of powers of symbols and of their sines, cosines and poles: an element of the basis of the canonical form.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct BasisFunction(Vec<Atom>);
 
 impl Poly {
     /// The highest total power of the chosen symbols in any term; sines and cosines do not count.
@@ -65,6 +71,58 @@ impl Poly {
             parts[index].push(coefficient.clone(), &rest);
         }
         monomials.into_iter().zip(parts.into_iter().map(Self::normalised)).collect()
+    }
+
+    /// The basis functions of the chosen symbols that occur, each with what stands beside it. They are linearly
+    /// independent, so this is zero if and only if all the parts are.
+    #[must_use]
+    pub fn split_by(&self, chosen: impl Fn(SymbolId) -> bool) -> Vec<(BasisFunction, Self)> {
+        let mut parts: BTreeMap<BasisFunction, Self> = BTreeMap::new();
+        for (coefficient, atoms) in self.iter() {
+            let (key, rest): (Vec<Atom>, Vec<Atom>) = atoms.iter().partition(|atom| chosen(atom.symbol()));
+            parts.entry(BasisFunction(key)).or_default().push(coefficient.clone(), &rest);
+        }
+        parts.into_iter().map(|(key, part)| (key, part.normalised())).collect()
+    }
+
+    /// The symbols that every term has, with the lowest of their powers.
+    #[must_use]
+    pub fn monomial_content(&self) -> Vec<(SymbolId, u32)> {
+        let powers = |atoms: &[Atom]| -> Vec<(SymbolId, u32)> {
+            let powers = atoms.iter().filter(|atom| atom.is_power());
+            powers.map(|atom| (atom.symbol(), atom.number())).collect()
+        };
+        let mut keys = self.iter().map(|(_, atoms)| powers(atoms));
+        let first = keys.next().unwrap_or_default();
+        keys.fold(first, |common, key| {
+            let lowest = |(symbol, n): (SymbolId, u32)| {
+                key.iter().find(|(other, _)| *other == symbol).map(|&(_, m)| (symbol, n.min(m)))
+            };
+            common.into_iter().filter_map(lowest).collect()
+        })
+    }
+
+    /// This divided by a monomial that divides every term.
+    #[must_use]
+    pub fn without_monomial(&self, monomial: &[(SymbolId, u32)]) -> Self {
+        let mut result = Self::zero();
+        for (coefficient, atoms) in self.iter() {
+            let key: Vec<Atom> = atoms
+                .iter()
+                .filter_map(|&atom| {
+                    let divisor = monomial.iter().find(|(symbol, _)| *symbol == atom.symbol());
+                    match divisor {
+                        Some(&(symbol, power)) if atom.is_power() => {
+                            let left = atom.number().saturating_sub(power);
+                            (left > 0).then(|| Atom::power(symbol, left))
+                        }
+                        _ => Some(atom),
+                    }
+                })
+                .collect();
+            result.push(coefficient.clone(), &key);
+        }
+        result.normalised()
     }
 
     /// The terms whose atoms satisfy a condition.

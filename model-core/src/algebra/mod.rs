@@ -18,6 +18,7 @@ mod rational;
 mod terms;
 
 pub use angle::AngleSum;
+pub use grading::BasisFunction;
 pub use lower::LowerError;
 pub use poly::Poly;
 pub use rational::{DecimalError, Rational};

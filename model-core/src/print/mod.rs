@@ -86,7 +86,16 @@ struct Addend {
 }
 
 fn write_sum(poly: &Poly, chain: &Chain, notation: &dyn Notation) -> String {
-    join(&groups(poly).iter().map(|group| write_group(group, chain, notation)).collect::<Vec<_>>())
+    let write = |group: &Group| {
+        // Monomials that no function of the angles stands beside need no parentheses.
+        if group.angular == Poly::one() {
+            let terms = group.monomials.iter().map(|pair| Group::term(pair, false));
+            terms.map(|term| write_term(&term, chain, notation)).collect()
+        } else {
+            vec![write_group(group, chain, notation)]
+        }
+    };
+    join(&groups(poly).iter().flat_map(write).collect::<Vec<_>>())
 }
 
 fn join(addends: &[Addend]) -> String {

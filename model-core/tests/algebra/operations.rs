@@ -91,7 +91,7 @@ fn derivatives_of_each_basis_function() {
         for k in 1..5u32 {
             let power = inverse.pow(k).unwrap();
             let slope =
-                (&(&inverse.pow(k + 1).unwrap() * &f.derivative(t))).scale(&Rational::from(-i64::from(k)));
+                (&inverse.pow(k + 1).unwrap() * &f.derivative(t)).scale(&Rational::from(-i64::from(k)));
             assert_eq!(power.derivative(t), slope);
             for g in [&sin, &cos] {
                 let product = &(&g.derivative(t) * &power) + &(g * &slope);

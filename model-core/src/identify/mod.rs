@@ -1,0 +1,215 @@
+//! Structural identifiability: what no data can tell apart, before any data exist.
+//!
+//! The columns of the first-order form are functions of joints and inputs. An observable shows the sum of errors times
+//! columns, and functions are told apart by their coefficients in the basis of the canonical form; so each basis
+//! function gives one exact linear equation between the errors and what is seen. Elimination then says which
+//! combinations of errors are determined. Constants do not vary while data are taken, so they are coefficients here, not
+//! functions: a shift and a tilt at the end of a constant arm are one. A constant declared as zero counts as zero, any
+//! other counts as a size that no special relation holds for.
+
+mod candidate;
+mod elimination;
+mod words;
+
+use std::collections::BTreeMap;
+
+use crate::algebra::{BasisFunction, Poly};
+use crate::chain::{Chain, ObservableId};
+use crate::forms::{self, FormError};
+use crate::symbol::{SymbolId, SymbolKind};
+use elimination::{Echelon, Row, entry};
+
+pub use candidate::{Candidate, Mistaken, Verdict, mistaken_for};
+pub use words::{mistaken_text, text};
+
+/// What can be told apart from an observable, or from several together, to first order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Identifiability {
+    /// Seen together.
+    pub observables: Vec<ObservableId>,
+    /// How many errors are declared.
+    pub declared: usize,
+    /// Errors without any influence.
+    pub invisible: Vec<SymbolId>,
+    /// Errors whose influence is the same function up to a factor that does not vary: at least two in each group.
+    pub alike: Vec<Vec<Alike>>,
+    /// Errors whose influence is a combination of that of several others.
+    pub combinations: Vec<Dependence>,
+    /// The combinations of errors that data determine; as many as there are independent columns.
+    pub estimable: Vec<Vec<(SymbolId, Poly)>>,
+}
+
+/// A member of a group of errors that are alike.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Alike {
+    /// The error.
+    pub error: SymbolId,
+    /// Its influence over that of the first of the group: `numerator / denominator` in constants.
+    pub ratio: Ratio,
+}
+
+/// A quotient of two polynomials in constants.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ratio {
+    /// Above.
+    pub numerator: Poly,
+    /// Below, never zero.
+    pub denominator: Poly,
+}
+
+/// An error whose influence is `Σ ratio · influence`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dependence {
+    /// The error.
+    pub error: SymbolId,
+    /// The others, with their ratios.
+    pub others: Vec<(SymbolId, Ratio)>,
+}
+
+/// Computes what can be told apart from observables of a chain, seen together.
+///
+/// # Errors
+/// [`FormError`] if an observable has no first-order form.
+pub fn identify(chain: &Chain, observables: &[ObservableId]) -> Result<Identifiability, FormError> {
+    let errors: Vec<SymbolId> = chain.symbols_of(SymbolKind::Error).collect();
+    let echelon = equations(chain, observables, &errors, Echelon::default())?;
+    let columns: Vec<Column> = (0..errors.len()).map(|index| Column::new(&echelon, index)).collect();
+    let invisible =
+        columns.iter().filter(|column| column.is_zero()).map(|column| errors[column.index]).collect();
+    let mut groups: Vec<Vec<(usize, Ratio)>> = Vec::new();
+    for column in columns.iter().filter(|column| !column.is_zero()) {
+        let found = groups.iter_mut().find_map(|group| {
+            let ratio = column.over(&columns[group[0].0])?;
+            Some((group, ratio))
+        });
+        match found {
+            Some((group, ratio)) => group.push((column.index, ratio)),
+            None => groups.push(vec![(column.index, Ratio::one())]),
+        }
+    }
+    // A group that is no multiple of one pivot is a combination of several.
+    let combinations = groups
+        .iter()
+        .map(|group| &columns[group[0].0])
+        .filter(|column| column.parts.len() > 1)
+        .map(|column| Dependence {
+            error: errors[column.index],
+            others: column.parts.iter().map(|(pivot, ratio)| (errors[*pivot], ratio.clone())).collect(),
+        })
+        .collect();
+    let alike = groups
+        .into_iter()
+        .filter(|group| group.len() > 1)
+        .map(|group| group.into_iter().map(|(index, ratio)| Alike { error: errors[index], ratio }).collect())
+        .collect();
+    let estimable = echelon
+        .rows()
+        .iter()
+        .map(|(_, row)| row.iter().map(|(column, value)| (errors[*column], value.clone())).collect())
+        .collect();
+    Ok(Identifiability {
+        observables: observables.to_vec(),
+        declared: errors.len(),
+        invisible,
+        alike,
+        combinations,
+        estimable,
+    })
+}
+
+/// One equation for each observable, axis and basis function, added to an echelon. Columns are indices into `errors`.
+fn equations(
+    chain: &Chain,
+    observables: &[ObservableId],
+    errors: &[SymbolId],
+    mut echelon: Echelon,
+) -> Result<Echelon, FormError> {
+    let varies =
+        |symbol: SymbolId| matches!(chain.symbol(symbol).kind, SymbolKind::Joint | SymbolKind::Input);
+    for &observable in observables {
+        let columns = forms::derive(chain, observable, 1)?.columns(chain);
+        for axis in 0..3 {
+            let mut rows: BTreeMap<BasisFunction, Row> = BTreeMap::new();
+            for (index, error) in errors.iter().enumerate() {
+                let column = columns.iter().find(|(symbol, _)| symbol == error);
+                let Some((_, components)) = column else { continue };
+                for (function, coefficient) in without_zeros(chain, &components[axis]).split_by(varies) {
+                    rows.entry(function).or_default().push((index, coefficient));
+                }
+            }
+            rows.into_values().for_each(|row| echelon.insert(row));
+        }
+    }
+    Ok(echelon)
+}
+
+/// Constants that are declared as zero are zero, where the algebra can put that in.
+fn without_zeros(chain: &Chain, column: &Poly) -> Poly {
+    let zero = |symbol: &SymbolId| {
+        let symbol = chain.symbol(*symbol);
+        symbol.kind == SymbolKind::Constant && symbol.value == Some(0.0)
+    };
+    column
+        .symbols()
+        .iter()
+        .filter(|symbol| zero(symbol))
+        .fold(column.clone(), |column, symbol| column.substitute(*symbol, &Poly::zero()).unwrap_or(column))
+}
+
+/// The influence of an error as a combination of the pivots' influences.
+struct Column {
+    index: usize,
+    parts: Vec<(usize, Ratio)>,
+}
+
+impl Column {
+    fn new(echelon: &Echelon, index: usize) -> Self {
+        let part = |(pivot, row): &(usize, Row)| {
+            let (numerator, denominator) = (entry(row, index)?.clone(), entry(row, *pivot)?.clone());
+            Some((*pivot, Ratio::new(numerator, denominator)))
+        };
+        Self { index, parts: echelon.rows().iter().filter_map(part).collect() }
+    }
+
+    fn is_zero(&self) -> bool {
+        self.parts.is_empty()
+    }
+
+    /// This over another column, if it is a multiple of it.
+    fn over(&self, other: &Self) -> Option<Ratio> {
+        let ((pivot, first), (other_pivot, other_first)) = (self.parts.first()?, other.parts.first()?);
+        let ratio = first.over(other_first);
+        let same = pivot == other_pivot
+            && self.parts.len() == other.parts.len()
+            && self
+                .parts
+                .iter()
+                .zip(&other.parts)
+                .all(|((p, value), (q, other))| p == q && value.over(other).equals(&ratio));
+        same.then_some(ratio)
+    }
+}
+
+impl Ratio {
+    fn one() -> Self {
+        Self { numerator: Poly::one(), denominator: Poly::one() }
+    }
+
+    fn new(numerator: Poly, denominator: Poly) -> Self {
+        if numerator == denominator {
+            return Self::one();
+        }
+        match denominator.recip() {
+            Some(inverse) => Self { numerator: &numerator * &inverse, denominator: Poly::one() },
+            None => Self { numerator, denominator },
+        }
+    }
+
+    fn over(&self, other: &Self) -> Self {
+        Self::new(&self.numerator * &other.denominator, &self.denominator * &other.numerator)
+    }
+
+    fn equals(&self, other: &Self) -> bool {
+        &self.numerator * &other.denominator == &other.numerator * &self.denominator
+    }
+}

@@ -1,0 +1,4 @@
+//! What no data can tell apart.
+#![allow(clippy::unwrap_used)]
+
+mod mobile_lidar;

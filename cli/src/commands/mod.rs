@@ -4,6 +4,7 @@ mod apply;
 mod bound;
 mod derive;
 mod eval;
+mod generate;
 mod simulate;
 
 use crate::failure::Failure;
@@ -51,6 +52,7 @@ macro_rules! commands {
 commands! {
     Derive => derive,
     Bound => bound,
+    Generate => generate,
     Simulate => simulate,
     Eval => eval,
     Apply => apply,

@@ -113,8 +113,9 @@ impl {kind} {{
         statements(&listing.evaluated, "sine_cosine::sin_cos", 8),
         observed(unit, function.form, &listing.outputs),
     );
-    text.push_str(&rust_rows::method(unit, function, joints));
+    text.push_str(&rust_rows::methods(unit, function, joints));
     text.push_str("}\n");
+    text.push_str(&rust_rows::items(unit, function));
     text
 }
 

@@ -1,13 +1,14 @@
-//! Rust over structure of arrays: the loop around the evaluated stage, and the kernel's text.
+//! Rust over structure of arrays: blocks of rows through the paths of [`crate::vector`], and the kernel's text.
 
 use std::fmt::Write;
 
-use model_core::{SymbolId, SymbolKind};
+use model_core::SymbolId;
 
-use super::listing::list;
-use super::rust::{Names, shape, statements};
-use super::unit::{Function, Unit};
-use crate::vector;
+use super::rust::shape;
+use super::unit::{Function, Unit, camel_case, form_name};
+use crate::vector::{self, Dialect, Line, Rows};
+
+const DIALECT: Dialect = Dialect { binding: "let", mul_add: "arithmetic.mul_add(" };
 
 /// What all functions of a file share: the columns of joints, and the module of sines and cosines.
 pub(super) fn shared(unit: &Unit<'_>, joints: &[SymbolId]) -> String {
@@ -25,9 +26,20 @@ pub(super) fn shared(unit: &Unit<'_>, joints: &[SymbolId]) -> String {
     text.push_str(
         "}
 
-/// Slices of different lengths.
+/// Slices of different lengths, or of more than [`ROWS`] where a block is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LengthsDiffer;
+
+/// Rows in a block.
+pub const ROWS: usize = sine_cosine::ROWS;
+
+pub use sine_cosine::Path;
+
+/// Which instructions functions over many poses run on here.
+#[must_use]
+pub fn path_taken() -> Path {
+    sine_cosine::path()
+}
 
 ",
     );
@@ -39,59 +51,310 @@ pub struct LengthsDiffer;
     text
 }
 
-/// The method of a form that does many poses, inside its `impl`.
-pub(super) fn method(unit: &Unit<'_>, function: &Function, joints: &[SymbolId]) -> String {
-    let chain = unit.chain;
-    let symbol = |id: SymbolId| match chain.symbol(id).kind {
-        SymbolKind::Joint | SymbolKind::Input => format!("joints.{}[row]", chain.symbol(id).name),
-        SymbolKind::Pi | SymbolKind::Error | SymbolKind::Constant => String::new(),
-    };
-    let names = Names { chain, symbol: &symbol, carried: &|index| format!("p[{index}]") };
-    let listing = list(&function.program, &names);
-    let columns = if function.form.is_jacobian() { unit.errors().len() } else { 1 };
-    let places = unit.observable_names().flat_map(|name| {
-        (0..3).flat_map(move |component| {
-            (0..columns).map(move |column| {
-                if function.form.is_jacobian() {
-                    format!("out.{name}[{component}][{column}]")
-                } else {
-                    format!("out.{name}[{component}]")
-                }
-            })
-        })
-    });
-    let places: Vec<String> = places.collect();
-    let Some(first) = places.first() else { return String::new() };
-    let mut text = String::new();
-    let shape = shape(unit, function.form, "&mut [f64]");
-    let _ = writeln!(
-        text,
+/// The methods of a form that do many poses, inside its `impl`.
+pub(super) fn methods(unit: &Unit<'_>, function: &Function, joints: &[SymbolId]) -> String {
+    let loops = vector::rows(unit.chain, &function.program, &DIALECT);
+    if loops.places.is_empty() {
+        return String::new();
+    }
+    let names: Vec<&str> = joints.iter().map(|&id| unit.chain.symbol(id).name.as_str()).collect();
+    let read: Vec<&str> = loops.columns.iter().map(|&id| unit.chain.symbol(id).name.as_str()).collect();
+    if function.form.is_jacobian() {
+        blocks(unit, function, &loops, &names, &read)
+    } else {
+        slices(unit, function, &loops, &names, &read)
+    }
+}
+
+/// What a form needs beside its `impl`: for Jacobians, the type of their blocks.
+pub(super) fn items(unit: &Unit<'_>, function: &Function) -> String {
+    if !function.form.is_jacobian() {
+        return String::new();
+    }
+    let loops = vector::rows(unit.chain, &function.program, &DIALECT);
+    let kind = camel_case(form_name(function.form));
+    let columns = unit.errors().len();
+    let mut places = loops.places.iter();
+    let mut fields = String::new();
+    for name in unit.observable_names() {
+        let _ = writeln!(fields, "            {name}: [");
+        for _ in 0..3 {
+            let row: Vec<String> =
+                places.by_ref().take(columns).map(|place| format!("self.row({place})")).collect();
+            let _ = writeln!(fields, "                [{}],", row.join(", "));
+        }
+        fields.push_str("            ],\n");
+    }
+    format!(
         "
-    /// Many poses, each as [`Self::eval`] has it up to the last place of its sines and cosines.
+/// A block of rows of [`{kind}`]: derivatives that are the same function are held once.
+#[derive(Debug, Clone, PartialEq)]
+pub struct {kind}Block {{
+    // The columns are longer than a block, so that they do not all meet in the same places of the cache.
+    values: [[f64; ROWS + 8]; {distinct}],
+}}
+
+impl Default for {kind}Block {{
+    fn default() -> Self {{
+        Self {{ values: [[0.0; ROWS + 8]; {distinct}] }}
+    }}
+}}
+
+impl {kind}Block {{
+    /// The derivatives, each for all rows.
+    #[must_use]
+    pub fn observed(&self) -> Observed<{shape}> {{
+        Observed {{
+{fields}        }}
+    }}
+
+    fn row(&self, place: usize) -> &[f64] {{
+        &self.values[place][..ROWS]
+    }}
+}}
+",
+        distinct = loops.distinct,
+        shape = shape(unit, function.form, "&[f64]"),
+    )
+}
+
+/// Forms with few outputs: slices of any length, block by block.
+fn slices(unit: &Unit<'_>, function: &Function, loops: &Rows, names: &[&str], read: &[&str]) -> String {
+    let outs: Vec<String> = (0..loops.places.len()).map(|index| format!("out{index}")).collect();
+    let pattern: String = unit
+        .observable_names()
+        .zip(outs.chunks(3))
+        .fold(String::new(), |text, (name, outs)| format!("{text}{name}: [{}], ", outs.join(", ")));
+    let lengths: Vec<String> = names
+        .iter()
+        .map(|name| format!("joints.{name}.len()"))
+        .chain(outs.iter().skip(1).map(|out| format!("{out}.len()")))
+        .collect();
+    let pose = pose(names, "[row]");
+    let each_out = |format: &dyn Fn(&str) -> String| outs.iter().map(|out| format(out)).collect::<String>();
+    let each_read =
+        |format: &dyn Fn(&str) -> String| read.iter().map(|name| format(name)).collect::<String>();
+    format!(
+        "
+    /// Many poses: as [`Self::eval`], but products may be fused with sums. {ACCURACY}
     ///
     /// # Errors
     /// If the slices of `joints` and `out` are not all equally long; nothing is written then.
     pub fn eval_rows(&self, joints: &Columns<'_>, out: Observed<{shape}>) -> Result<(), LengthsDiffer> {{
-        let rows = {first}.len();"
-    );
-    let lengths = joints
-        .iter()
-        .map(|&id| format!("joints.{}", chain.symbol(id).name))
-        .chain(places.iter().skip(1).cloned());
-    for slice in lengths {
-        let _ = writeln!(text, "        if {slice}.len() != rows {{ return Err(LengthsDiffer); }}");
-    }
-    let _ = writeln!(
-        text,
-        "        let p = &self.prepared;
-        for row in 0..rows {{
-{}{}        }}
+        let Observed {{ {pattern}}} = out;
+        let rows = out0.len();
+        if [{lengths}].iter().any(|&length| length != rows) {{
+            return Err(LengthsDiffer);
+        }}
+        if rows < ROWS {{
+            for row in 0..rows {{
+                let Observed {{ {pattern_of_numbers}}} = self.eval({pose});
+{scalar_stores}            }}
+            return Ok(());
+        }}
+
+        struct Work<'a> {{
+            prepared: &'a [f64; {carried}],
+{work_fields}        }}
+        impl sine_cosine::Work for Work<'_> {{
+            #[inline(always)]
+            fn run<A: sine_cosine::Arithmetic>(self, arithmetic: A) {{
+                let rows = self.out0.len();
+                let mut start = 0;
+                while start < rows {{
+                    // The last block may do rows again that the one before it did.
+                    let first = start.min(rows - ROWS);
+{columns_of_block}{outs_of_block}                    compute(arithmetic, self.prepared, {arguments});
+                    start += ROWS;
+                }}
+            }}
+        }}
+{block}
+        sine_cosine::run(sine_cosine::path(), Work {{ prepared: &self.prepared, {work_values} }});
         Ok(())
-    }}",
-        statements(&listing.evaluated, "sine_cosine::sin_cos", 12),
-        places.iter().zip(&listing.outputs).fold(String::new(), |text, (place, value)| format!(
-            "{text}            {place}[row] = {value};\n"
+    }}
+",
+        shape = shape(unit, function.form, "&mut [f64]"),
+        lengths = lengths.join(", "),
+        pattern_of_numbers = pattern.replace("out", "value"),
+        scalar_stores =
+            each_out(&|out| { format!("                {out}[row] = {};\n", out.replace("out", "value")) }),
+        carried = function.program.carried().len(),
+        work_fields = each_read(&|name| format!("            column_{name}: &'a [f64],\n"))
+            + &each_out(&|out| format!("            {out}: &'a mut [f64],\n")),
+        columns_of_block = each_read(&|name| format!(
+            "                    let Some(column_{name}) = self.column_{name}[first..].first_chunk() else {{ return }};\n"
         )),
+        outs_of_block = each_out(&|out| format!(
+            "                    let Some({out}) = self.{out}[first..].first_chunk_mut() else {{ return }};\n"
+        )),
+        arguments = each_read(&|name| format!("column_{name}, ")) + &outs.join(", "),
+        block =
+            block(function, loops, read, &each_out(&|out| format!("{out}: &mut [f64; ROWS], ")), &|place| {
+                let indices = (0..loops.places.len()).filter(|&index| loops.places[index] == place);
+                indices.map(|index| format!("out{index}[row]")).collect()
+            }),
+        work_values = each_read(&|name| format!("column_{name}: joints.{name}, ")) + &outs.join(", "),
+    )
+}
+
+/// Jacobians: a block at a time, so that it is still in the cache when it is used.
+fn blocks(unit: &Unit<'_>, function: &Function, loops: &Rows, names: &[&str], read: &[&str]) -> String {
+    let kind = camel_case(form_name(function.form));
+    let each_read =
+        |format: &dyn Fn(&str) -> String| read.iter().map(|name| format(name)).collect::<String>();
+    let lengths: Vec<String> = names.iter().map(|name| format!("joints.{name}.len()")).collect();
+    let each_observable =
+        |format: &dyn Fn(&str) -> String| unit.observable_names().map(format).collect::<String>();
+    format!(
+        "
+    /// A block of at most [`ROWS`] poses: as [`Self::eval`], but products may be fused with sums. {ACCURACY}
+    ///
+    /// # Errors
+    /// If the slices of `joints` are not all equally long, or longer than a block; nothing is written then.
+    pub fn eval_block(&self, joints: &Columns<'_>, block: &mut {kind}Block) -> Result<(), LengthsDiffer> {{
+        let lengths: [usize; {count}] = [{lengths}];
+        if lengths.iter().any(|&length| length != lengths[0] || length > ROWS) {{
+            return Err(LengthsDiffer);
+        }}
+
+        struct Work<'a> {{
+            prepared: &'a [f64; {carried}],
+{work_fields}            out: &'a mut [[f64; ROWS + 8]; {distinct}],
+        }}
+        impl sine_cosine::Work for Work<'_> {{
+            #[inline(always)]
+            fn run<A: sine_cosine::Arithmetic>(self, arithmetic: A) {{
+                compute(arithmetic, self.prepared, {arguments}self.out);
+            }}
+        }}
+{block}
+        let padded = |column: &[f64]| {{
+            let mut rows = [0.0; ROWS];
+            rows[..column.len()].copy_from_slice(column);
+            rows
+        }};
+        sine_cosine::run(
+            sine_cosine::path(),
+            Work {{ prepared: &self.prepared, {work_values}out: &mut block.values }},
+        );
+        Ok(())
+    }}
+
+    /// Many poses: as [`Self::eval_block`], block by block.
+    ///
+    /// # Errors
+    /// If the slices of `joints` and `out` are not all equally long; nothing is written then.
+    pub fn eval_rows(&self, joints: &Columns<'_>, mut out: Observed<{shape}>) -> Result<(), LengthsDiffer> {{
+        let lengths: [usize; {count}] = [{lengths}];
+        let rows = lengths.first().copied().unwrap_or(0);
+        let differs = |length: usize| length != rows;
+        if lengths.iter().any(|&length| differs(length)){out_lengths} {{
+            return Err(LengthsDiffer);
+        }}
+        let mut block = {kind}Block::default();
+        for start in (0..rows).step_by(ROWS) {{
+            let end = rows.min(start + ROWS);
+            self.eval_block(&Columns {{ {part} }}, &mut block)?;
+            let values = block.observed();
+{copies}        }}
+        Ok(())
+    }}
+",
+        count = lengths.len(),
+        lengths = lengths.join(", "),
+        carried = function.program.carried().len(),
+        distinct = loops.distinct,
+        work_fields = each_read(&|name| format!("            column_{name}: [f64; ROWS],\n")),
+        arguments = each_read(&|name| format!("&self.column_{name}, ")),
+        work_values = each_read(&|name| format!("column_{name}: padded(joints.{name}), ")),
+        block = block(
+            function,
+            loops,
+            read,
+            &format!("out: &mut [[f64; ROWS + 8]; {}]", loops.distinct),
+            &|place| vec![format!("out[{place}][row]")],
+        ),
+        shape = shape(unit, function.form, "&mut [f64]"),
+        out_lengths = each_observable(&|name| format!(
+            "\n            || out.{name}.iter().flatten().any(|column| differs(column.len()))"
+        )),
+        part = names
+            .iter()
+            .map(|name| format!("{name}: &joints.{name}[start..end]"))
+            .collect::<Vec<_>>()
+            .join(", "),
+        copies = each_observable(&|name| {
+            format!(
+            "            for (out, values) in out.{name}.iter_mut().flatten().zip(values.{name}.iter().flatten()) {{
+                out[start..end].copy_from_slice(&values[..end - start]);
+            }}
+"
+        )
+        }),
+    )
+}
+
+const ACCURACY: &str = "Sines and
+    /// cosines are at most 0.9 units in the last place off for angles up to 1e6 rad, and right for any angle.";
+
+/// The function of one block, inside the method that uses it. `targets` says where a value goes.
+fn block(
+    function: &Function,
+    loops: &Rows,
+    read: &[&str],
+    outs: &str,
+    targets: &dyn Fn(usize) -> Vec<String>,
+) -> String {
+    let carried: Vec<String> =
+        (0..function.program.carried().len()).map(|index| format!("p{index}")).collect();
+    let columns: String = read.iter().map(|name| format!("column_{name}: &[f64; ROWS], ")).collect();
+    let mut text = format!(
+        "        #[inline(always)]
+        fn compute<A: sine_cosine::Arithmetic>(arithmetic: A, &[{}]: &[f64; {}], {columns}{outs}) {{
+",
+        carried.join(", "),
+        carried.len()
     );
+    for angle in &loops.angles {
+        let name = &angle.name;
+        let source = match &angle.computed {
+            None => format!("column_{name}"),
+            Some((statements, value)) => {
+                let _ = writeln!(text, "            let mut angle_{name} = [0.0; ROWS];");
+                text.push_str("            for row in 0..ROWS {\n");
+                for statement in statements {
+                    let _ = writeln!(text, "                {statement}");
+                }
+                let _ = writeln!(text, "                angle_{name}[row] = {value};\n            }}");
+                format!("&angle_{name}")
+            }
+        };
+        let _ = writeln!(
+            text,
+            "            let (mut sine_{name}, mut cosine_{name}) = ([0.0; ROWS], [0.0; ROWS]);
+            sine_cosine::sin_cos_rows(arithmetic, {source}, &mut sine_{name}, &mut cosine_{name});"
+        );
+    }
+    text.push_str("            for row in 0..ROWS {\n");
+    for line in &loops.statements {
+        match line {
+            Line::Bind(statement) => {
+                let _ = writeln!(text, "                {statement}");
+            }
+            Line::Store { place, value } => {
+                for target in targets(*place) {
+                    let _ = writeln!(text, "                {target} = {value};");
+                }
+            }
+        }
+    }
+    text.push_str("            }\n        }\n");
     text
+}
+
+/// One pose of columns.
+fn pose(names: &[&str], index: &str) -> String {
+    let fields: Vec<String> = names.iter().map(|name| format!("{name}: joints.{name}{index}")).collect();
+    format!("&Joints {{ {} }}", fields.join(", "))
 }

@@ -4,6 +4,8 @@
 //! Accuracy, against 200-bit arithmetic: at most 0.9 units in the last place for |x| ≤ 1e6 rad on every path; NaN for
 //! NaN and infinities. The sine of −0 is +0.
 
+mod rows;
+
 mod sine_cosine {
     #![allow(
         unsafe_code,
@@ -16,6 +18,7 @@ mod sine_cosine {
     include!("wide.rs");
 }
 
+pub(crate) use rows::{Dialect, Line, Rows, rows};
 pub use sine_cosine::{
     Arithmetic, Path, Portable, ROWS, WIDEST, Work, path, run, sin_cos, sin_cos_rows, sin_cos_with,
 };

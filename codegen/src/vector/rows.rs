@@ -1,0 +1,209 @@
+//! The evaluated stage of a program as loops over a block of rows, in words that Rust and C share.
+//!
+//! First come the angles: each column of angles, or angle computed from columns, goes through the vector sine and
+//! cosine into arrays of its own, so that large angles are dealt with by the block. What is left is one loop without
+//! calls or branches, which compilers turn into vector code. In it a product that only one sum reads is fused
+//! with that sum on processors that can; that is all that keeps the bits from being the interpreter's.
+
+use model_core::{Chain, SymbolId};
+
+use crate::program::{NodeId, Op, Program, Stage};
+
+/// How a language writes what stands in the loops.
+pub(crate) struct Dialect {
+    /// What stands before the name of a new value: `let`.
+    pub(crate) binding: &'static str,
+    /// The call of a·b + c up to the first operand.
+    pub(crate) mul_add: &'static str,
+}
+
+/// One angle whose sine or cosine is read.
+pub(crate) struct Angle {
+    /// Its name in those of its arrays: `sine_alpha`, `cosine_alpha`.
+    pub(crate) name: String,
+    /// The statements that compute it in a row, the last of them the value, if it is no column.
+    pub(crate) computed: Option<(Vec<String>, String)>,
+}
+
+/// A program's evaluated stage. In statements, `row` is the row, `column_alpha` a column, `p3` the third carried
+/// value, and `sine_alpha` an angle's array.
+pub(crate) struct Rows {
+    /// The columns that are read.
+    pub(crate) columns: Vec<SymbolId>,
+    /// Angles, each after those that it depends on.
+    pub(crate) angles: Vec<Angle>,
+    /// Statements of the last loop.
+    pub(crate) statements: Vec<Line>,
+    /// How many different values come out.
+    pub(crate) distinct: usize,
+    /// For each output of the program, which of the different values it is.
+    pub(crate) places: Vec<usize>,
+}
+
+/// One statement of the last loop.
+pub(crate) enum Line {
+    /// A new value.
+    Bind(String),
+    /// A value that comes out.
+    Store {
+        /// Which of the different values.
+        place: usize,
+        /// The value.
+        value: String,
+    },
+}
+
+/// Lists a program.
+pub(crate) fn rows(chain: &Chain, program: &Program, dialect: &Dialect) -> Rows {
+    Lister::new(chain, program, dialect).list()
+}
+
+struct Lister<'a> {
+    chain: &'a Chain,
+    program: &'a Program,
+    dialect: &'a Dialect,
+    /// How often each node is read, outputs included.
+    readers: Vec<usize>,
+    carried: Vec<NodeId>,
+}
+
+impl<'a> Lister<'a> {
+    fn new(chain: &'a Chain, program: &'a Program, dialect: &'a Dialect) -> Self {
+        let mut readers = vec![0; program.nodes().len()];
+        let operands = program.stage(Stage::Evaluated).flat_map(|(_, op)| op.operands());
+        for node in operands.chain(program.outputs().iter().copied()) {
+            readers[node.index()] += 1;
+        }
+        Self { chain, program, dialect, readers, carried: program.carried() }
+    }
+
+    fn list(&self) -> Rows {
+        let mut columns = Vec::new();
+        let mut angles: Vec<NodeId> = Vec::new();
+        for (_, op) in self.program.stage(Stage::Evaluated) {
+            match op {
+                Op::Input(symbol) => columns.push(symbol),
+                Op::Sin(angle) | Op::Cos(angle) if !angles.contains(&angle) => angles.push(angle),
+                _ => {}
+            }
+        }
+        let angles = angles
+            .into_iter()
+            .map(|angle| {
+                let computed = match self.op(angle) {
+                    Op::Input(_) => None,
+                    _ => Some((self.statements(&[angle]).map(|(_, text)| text).collect(), self.text(angle))),
+                };
+                Angle { name: self.angle_name(angle), computed }
+            })
+            .collect();
+
+        let mut distinct: Vec<NodeId> = Vec::new();
+        let mut places = Vec::new();
+        for &output in self.program.outputs() {
+            let place = distinct.iter().position(|&node| node == output).unwrap_or(distinct.len());
+            if place == distinct.len() {
+                distinct.push(output);
+            }
+            places.push(place);
+        }
+        let store = |node: NodeId| {
+            let place = distinct.iter().position(|&output| output == node)?;
+            Some(Line::Store { place, value: self.text(node) })
+        };
+        let prepared = distinct.iter().filter(|&&node| self.program.stage_of(node) == Stage::Prepared);
+        let mut statements: Vec<Line> = prepared.filter_map(|&node| store(node)).collect();
+        for (node, text) in self.statements(&distinct) {
+            statements.push(Line::Bind(text));
+            // As soon as it is known, so that it need not be kept.
+            statements.extend(store(node));
+        }
+        Rows { columns, angles, statements, distinct: distinct.len(), places }
+    }
+
+    /// The statements that some nodes need, in order, sines and cosines read from their arrays.
+    fn statements(&self, roots: &[NodeId]) -> impl Iterator<Item = (NodeId, String)> {
+        let mut needed = vec![false; self.program.nodes().len()];
+        for root in roots {
+            needed[root.index()] = true;
+        }
+        let evaluated: Vec<(NodeId, Op)> = self.program.stage(Stage::Evaluated).collect();
+        let mut lines = Vec::new();
+        for &(node, op) in evaluated.iter().rev() {
+            if !needed[node.index()] {
+                continue;
+            }
+            let (value, reads) = self.value(op);
+            for read in reads {
+                needed[read.index()] = true;
+            }
+            lines.push((node, format!("{} {} = {value};", self.dialect.binding, self.text(node))));
+        }
+        lines.into_iter().rev()
+    }
+
+    /// What a node is in a row, and the nodes that must be there before.
+    fn value(&self, op: Op) -> (String, Vec<NodeId>) {
+        let fused = |[x, y]: [NodeId; 2], sign: &str, sum: String, rest: NodeId| {
+            let text = format!("{}{sign}{}, {}, {sum})", self.dialect.mul_add, self.text(x), self.text(y));
+            (text, vec![x, y, rest])
+        };
+        let plain = |sign: &str, a: NodeId, b: NodeId| {
+            (format!("{} {sign} {}", self.text(a), self.text(b)), vec![a, b])
+        };
+        match op {
+            Op::Add(a, b) => match (self.product(a), self.product(b)) {
+                (Some(product), _) => fused(product, "", self.text(b), b),
+                (None, Some(product)) => fused(product, "", self.text(a), a),
+                (None, None) => plain("+", a, b),
+            },
+            Op::Sub(a, b) => match (self.product(a), self.product(b)) {
+                (_, Some(product)) => fused(product, "-", self.text(a), a),
+                (Some(product), None) => fused(product, "", format!("-{}", self.text(b)), b),
+                (None, None) => plain("-", a, b),
+            },
+            Op::Mul(a, b) => plain("*", a, b),
+            Op::Div(a, b) => plain("/", a, b),
+            Op::Neg(a) => (format!("-{}", self.text(a)), vec![a]),
+            Op::Sin(angle) => (format!("sine_{}[row]", self.angle_name(angle)), vec![]),
+            Op::Cos(angle) => (format!("cosine_{}[row]", self.angle_name(angle)), vec![]),
+            Op::Input(symbol) => (format!("column_{}[row]", self.chain.symbol(symbol).name), vec![]),
+            Op::Constant(literal) => (format!("{:?}", literal.value()), vec![]),
+        }
+    }
+
+    /// The factors of an evaluated product that is read once.
+    fn product(&self, node: NodeId) -> Option<[NodeId; 2]> {
+        match self.op(node) {
+            Op::Mul(a, b)
+                if self.readers[node.index()] == 1 && self.program.stage_of(node) == Stage::Evaluated =>
+            {
+                Some([a, b])
+            }
+            _ => None,
+        }
+    }
+
+    fn op(&self, node: NodeId) -> Op {
+        self.program.nodes()[node.index()]
+    }
+
+    fn angle_name(&self, angle: NodeId) -> String {
+        match self.op(angle) {
+            Op::Input(symbol) => self.chain.symbol(symbol).name.clone(),
+            _ => angle.index().to_string(),
+        }
+    }
+
+    /// A node as an operand.
+    fn text(&self, node: NodeId) -> String {
+        match (self.op(node), self.carried.iter().position(|&carried| carried == node)) {
+            (Op::Constant(literal), _) if literal.value().is_sign_negative() => {
+                format!("({:?})", literal.value())
+            }
+            (Op::Constant(literal), _) => format!("{:?}", literal.value()),
+            (_, Some(index)) => format!("p{index}"),
+            (_, None) => format!("v{}", node.index()),
+        }
+    }
+}

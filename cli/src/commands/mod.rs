@@ -5,6 +5,7 @@ mod bound;
 mod derive;
 mod eval;
 mod generate;
+mod identify;
 mod simulate;
 
 use crate::failure::Failure;
@@ -51,6 +52,7 @@ macro_rules! commands {
 
 commands! {
     Derive => derive,
+    Identify => identify,
     Bound => bound,
     Generate => generate,
     Simulate => simulate,

@@ -1,0 +1,164 @@
+//! `trueaxis identify`: what no data can tell apart, before any data exist.
+
+use std::path::PathBuf;
+
+use model_core::identify::{self, Candidate, Identifiability, Mistaken, Ratio, Verdict};
+use model_core::{BodyId, Chain, Mistakes, ObservableId, Role, names, print};
+use serde_json::{Value, json};
+
+use super::{Answer, TextOrJson};
+use crate::failure::Failure;
+use crate::source::{Source, listed, observables};
+use crate::terminal;
+
+/// Say what no data can tell apart.
+///
+/// Follows from the declaration alone, exactly: which errors are one, which have no influence, and which combinations
+/// data can determine, for each observable by itself and for all together; with --observable, for those together.
+///
+/// Example: trueaxis identify examples/mobile-lidar/mobile-lidar.chain --observable pointing
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The declaration
+    chain: PathBuf,
+    /// This observable (may be given several times: seen together); default: each alone, then all together
+    #[arg(long)]
+    observable: Vec<String>,
+    /// For an effect that the declaration lacks, which declared errors it would be mistaken for: "middle
+    /// Rx(x*cos(beta))"
+    #[arg(long, value_name = "BODY FACTOR")]
+    candidate: Option<String>,
+    /// How to print
+    #[arg(long, value_enum, default_value_t = TextOrJson::Text)]
+    format: TextOrJson,
+}
+
+/// Runs the command.
+pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
+    let chain = Source::read(&arguments.chain)?.chain()?;
+    let chosen = observables(&chain, &arguments.observable)?;
+    let sets = if arguments.observable.is_empty() && chosen.len() > 1 {
+        chosen.iter().map(|&id| vec![id]).chain([chosen.clone()]).collect()
+    } else {
+        vec![chosen]
+    };
+    let candidate = arguments.candidate.as_deref().map(|text| candidate(&chain, text)).transpose()?;
+    let mut texts = Vec::new();
+    let mut answers = Vec::new();
+    for set in &sets {
+        let failure = |error: model_core::forms::FormError| Failure::Input(error.to_string());
+        let found = identify::identify(&chain, set).map_err(failure)?;
+        let mut text = identify::text(&found, &chain);
+        let mut answer = as_json(&chain, set, &found);
+        if let Some(candidate) = &candidate {
+            let mistaken = identify::mistaken_for(candidate, set).map_err(failure)?;
+            text.push_str("  the candidate:\n");
+            text.extend(identify::mistaken_text(&mistaken).lines().map(|line| format!("    {line}\n")));
+            answer["candidate"] = mistaken_json(&mistaken);
+        }
+        texts.push(text);
+        answers.push(answer);
+    }
+    terminal::print(&match arguments.format {
+        TextOrJson::Text => texts.join("\n"),
+        TextOrJson::Json => format!("{:#}\n", json!({ "identifiability": answers })),
+    })?;
+    Ok(Answer::Done)
+}
+
+/// Reads `middle Rx(x*cos(beta))`.
+fn candidate(chain: &Chain, text: &str) -> Result<Candidate, Failure> {
+    let wrong = |why: String| Failure::Input(format!("--candidate: {why}"));
+    let (body, factor) = text.trim().split_once(char::is_whitespace).ok_or_else(|| {
+        wrong("write a body and a factor, for example \"middle Rx(x*cos(beta))\"".to_owned())
+    })?;
+    let bodies = || chain.bodies.iter().map(|body| body.name.as_str());
+    let index = bodies().position(|name| name == body).ok_or_else(|| {
+        let instead = names::nearest(body, bodies())
+            .map_or_else(|| format!("it has {}", listed(bodies())), |near| format!("did you mean `{near}`?"));
+        wrong(format!("chain {} has no body `{body}`; {instead}", chain.name))
+    })?;
+    let body = u16::try_from(index).map(BodyId).map_err(|error| wrong(error.to_string()))?;
+    let factor = factor.trim();
+    Candidate::parse(chain, body, Role::MotionError, factor)
+        .map_err(|mistakes: Mistakes| Failure::Mistakes(mistakes.render("--candidate", factor)))
+}
+
+fn as_json(chain: &Chain, set: &[ObservableId], found: &Identifiability) -> Value {
+    let name = |id: &_| Value::from(chain.symbol(*id).name.as_str());
+    let alike: Vec<Value> = found
+        .alike
+        .iter()
+        .map(|group| {
+            let members: Vec<Value> = group
+                .iter()
+                .map(|member| json!({"error": name(&member.error), "ratio": ratio(chain, &member.ratio)}))
+                .collect();
+            Value::from(members)
+        })
+        .collect();
+    let combinations: Vec<Value> = found
+        .combinations
+        .iter()
+        .map(|dependence| {
+            let others: Vec<Value> = dependence
+                .others
+                .iter()
+                .map(|(error, factor)| json!({"error": name(error), "ratio": ratio(chain, factor)}))
+                .collect();
+            json!({"error": name(&dependence.error), "acts_as": others})
+        })
+        .collect();
+    let estimable: Vec<Value> = found
+        .estimable
+        .iter()
+        .map(|combination| {
+            let terms: Vec<Value> = combination
+                .iter()
+                .map(|(error, factor)| json!({"error": name(error), "factor": print::text(factor, chain)}))
+                .collect();
+            Value::from(terms)
+        })
+        .collect();
+    json!({
+        "observables": set.iter().map(|&id| chain.observable(id).name.as_str()).collect::<Vec<_>>(),
+        "declared": found.declared,
+        "invisible": found.invisible.iter().map(name).collect::<Vec<_>>(),
+        "alike": alike,
+        "combinations": combinations,
+        "estimable": estimable,
+    })
+}
+
+fn mistaken_json(mistaken: &Mistaken) -> Value {
+    let chain = &mistaken.chain;
+    let name = |id: &_| chain.symbol(*id).name.as_str();
+    let unknowns: Vec<Value> = mistaken
+        .unknowns
+        .iter()
+        .map(|(unknown, verdict)| match verdict {
+            Verdict::Invisible => json!({"unknown": name(unknown), "verdict": "invisible"}),
+            Verdict::Separable => json!({"unknown": name(unknown), "verdict": "separable"}),
+            Verdict::MistakenFor(groups) => {
+                let groups: Vec<Value> = groups
+                    .iter()
+                    .map(|group| {
+                        let errors: Vec<&str> = group.errors.iter().map(name).collect();
+                        json!({"errors": errors, "ratio": ratio(chain, &group.ratio)})
+                    })
+                    .collect();
+                json!({"unknown": name(unknown), "verdict": "mistaken", "for": groups})
+            }
+        })
+        .collect();
+    Value::from(unknowns)
+}
+
+/// A ratio as text: `1`, `arm`, `(a + b)/c`.
+fn ratio(chain: &Chain, ratio: &Ratio) -> String {
+    let above = print::text(&ratio.numerator, chain);
+    if ratio.denominator == model_core::algebra::Poly::one() {
+        return above;
+    }
+    format!("({above})/({})", print::text(&ratio.denominator, chain))
+}

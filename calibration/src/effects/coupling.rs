@@ -30,7 +30,10 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
                     let stem = format!("cross_{}{}", freedom.word().to_lowercase(), name);
                     effects.push(Effect {
                         family: FAMILY.name,
-                        name: format!("coupling of {driver} into {name} {}, harmonic {order}", freedom.words()),
+                        name: format!(
+                            "coupling of {driver} into {name} {}, harmonic {order}",
+                            freedom.words()
+                        ),
                         place: Place { body: own.body, role: Role::MotionError, freedom },
                         functions: harmonic(other.symbol, driver, order, &stem),
                         driver: driver.to_owned(),

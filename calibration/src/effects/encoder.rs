@@ -1,7 +1,7 @@
 //! Encoders: errors of a joint about its own axis that repeat with the joint.
 
-use model_core::algebra::Poly;
 use model_core::Role;
+use model_core::algebra::Poly;
 
 use super::{Alias, Effect, Family, Function, JointAxis, Place, Setting, harmonic};
 
@@ -69,10 +69,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
             family: FAMILY.name,
             name: format!("encoder scale of {name}"),
             place: Place { body: joint.body, role: Role::MotionError, freedom: joint.freedom },
-            functions: vec![Function {
-                amount: Poly::symbol(joint.symbol),
-                stem: format!("scale_{name}"),
-            }],
+            functions: vec![Function { amount: Poly::symbol(joint.symbol), stem: format!("scale_{name}") }],
             driver: name.to_owned(),
             form: "linear".to_owned(),
         });

@@ -20,7 +20,10 @@ pub(super) const FAMILY: Family = Family {
     aliases: &[
         Alias { name: "TPOINT HZSA3, HZCA3", meaning: "tilt of the azimuth axis, harmonic 3" },
         Alias { name: "TPOINT HPSA, HPCA", meaning: "non-perpendicularity that varies with azimuth" },
-        Alias { name: "ISO 230-7 tilt, radial and axial error motion", meaning: "the same, by degree of freedom" },
+        Alias {
+            name: "ISO 230-7 tilt, radial and axial error motion",
+            meaning: "the same, by degree of freedom",
+        },
     ],
     effects,
 };

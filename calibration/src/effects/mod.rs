@@ -182,11 +182,8 @@ impl Setting<'_> {
     /// Bodies on the way to something observed, from the ground up.
     #[must_use]
     pub fn bodies(&self) -> Vec<BodyId> {
-        let mut bodies: Vec<BodyId> = self
-            .observables
-            .iter()
-            .flat_map(|&id| self.chain.path(self.chain.observable(id).body))
-            .collect();
+        let mut bodies: Vec<BodyId> =
+            self.observables.iter().flat_map(|&id| self.chain.path(self.chain.observable(id).body)).collect();
         bodies.sort_unstable();
         bodies.dedup();
         bodies
@@ -195,10 +192,7 @@ impl Setting<'_> {
     /// Whether a degree of freedom can move anything observed: shifts do not move directions.
     fn moved_by(&self, freedom: Freedom) -> bool {
         freedom.motion == Motion::Rotation
-            || self
-                .observables
-                .iter()
-                .any(|&id| self.chain.observable(id).kind == ObservableKind::Point)
+            || self.observables.iter().any(|&id| self.chain.observable(id).kind == ObservableKind::Point)
     }
 
     /// The joints of the bodies observed, each with the body and the degree of freedom that it moves.
@@ -314,33 +308,11 @@ fn free_name(chain: &Chain, stem: &str) -> String {
 
 /// Declares a new error.
 pub(crate) fn add_error(chain: &mut Chain, name: String, quantity: Quantity) -> Option<SymbolId> {
-    add_symbol(chain, name, SymbolKind::Error, quantity)
-}
-
-fn add_symbol(
-    chain: &mut Chain,
-    name: String,
-    kind: SymbolKind,
-    quantity: Quantity,
-) -> Option<SymbolId> {
+    let (kind, documentation) = (SymbolKind::Error, String::new());
     let id = SymbolId(u16::try_from(chain.symbols.len()).ok()?);
     let latex = name.replace('_', r"\_");
-    let documentation = String::new();
     chain.symbols.push(Symbol { name, kind, quantity, documentation, latex, value: None });
     Some(id)
-}
-
-/// The chain with side quantities that the study measured and the declaration does not know, as inputs.
-#[must_use]
-pub fn with_inputs(chain: &Chain, names: &[String]) -> Chain {
-    let mut extended = chain.clone();
-    for name in names {
-        if extended.find_symbol(name).is_none() {
-            // A chain has room for 65,536 symbols; the language's own check refuses more.
-            let _ = add_symbol(&mut extended, name.clone(), SymbolKind::Input, Quantity::Number);
-        }
-    }
-    extended
 }
 
 /// Inserts a factor after the last one of its role, or where that role belongs.
@@ -348,9 +320,9 @@ pub(crate) fn insert(chain: &mut Chain, place: Place, amount: Poly, documentatio
     let Some(body) = chain.bodies.get_mut(usize::from(place.body.0)) else { return };
     let last = |role: Role| body.factors.iter().rposition(|factor| factor.role == role);
     let at = match place.role {
-        Role::MotionError => last(Role::MotionError)
-            .or_else(|| last(Role::Motion))
-            .map_or(body.factors.len(), |i| i + 1),
+        Role::MotionError => {
+            last(Role::MotionError).or_else(|| last(Role::Motion)).map_or(body.factors.len(), |i| i + 1)
+        }
         _ => last(Role::PositionError).or_else(|| last(Role::Position)).map_or(0, |i| i + 1),
     };
     let factor = Factor {

@@ -28,10 +28,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
                     family: FAMILY.name,
                     name: format!("{kind} of {name}"),
                     place: Place { body: joint.body, role: Role::MotionError, freedom: joint.freedom },
-                    functions: vec![Function {
-                        amount: Poly::symbol(input),
-                        stem: format!("{kind}_{name}"),
-                    }],
+                    functions: vec![Function { amount: Poly::symbol(input), stem: format!("{kind}_{name}") }],
                     driver: format!("{name}_{suffix}"),
                     form: form.to_owned(),
                 });

@@ -15,7 +15,10 @@ pub(super) const FAMILY: Family = Family {
     check: "Compare pressure and temperature given to the refraction model; measure a known baseline.",
     aliases: &[
         Alias { name: "TPOINT TX", meaning: "tangent of zenith distance: refraction" },
-        Alias { name: "scanner additional parameter A0, range zero", meaning: "offset along the line of sight" },
+        Alias {
+            name: "scanner additional parameter A0, range zero",
+            meaning: "offset along the line of sight",
+        },
         Alias { name: "laser tracker x2, x10", meaning: "range offset and scale" },
     ],
     effects,
@@ -53,7 +56,8 @@ fn range(setting: &Setting<'_>) -> Vec<Effect> {
     for &id in setting.observables {
         let observable = chain.observable(id);
         for (i, component) in observable.components.iter().enumerate() {
-            let inputs = component.symbols().into_iter().filter(|&s| chain.symbol(s).kind == SymbolKind::Input);
+            let inputs =
+                component.symbols().into_iter().filter(|&s| chain.symbol(s).kind == SymbolKind::Input);
             for input in inputs {
                 let axis = [Axis::X, Axis::Y, Axis::Z][i];
                 let name = setting.name(input);

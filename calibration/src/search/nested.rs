@@ -4,17 +4,17 @@ use rayon::prelude::*;
 
 use super::classes::Class;
 use super::problem::Problem;
-use super::select::{Options, class_columns, held_out_rss, select};
+use super::select::{Options, State, select};
 
-/// What the searches without each fold found, and what they left in it.
+/// What the searches without each fold found, and the regressions that predict it.
 #[derive(Debug, Clone)]
 pub struct HeldOut {
     /// Classes accepted without each fold.
     pub chosen: Vec<Vec<usize>>,
-    /// Whitened sum of squares in the held-out folds, declared columns alone.
-    pub before: f64,
-    /// The same with the effects that each search found.
-    pub after: f64,
+    /// Per fold the coefficients, fitted without it, of the declared columns alone: column and value.
+    pub before: Vec<Vec<(usize, f64)>>,
+    /// The same with the effects that its search found.
+    pub after: Vec<Vec<(usize, f64)>>,
 }
 
 impl HeldOut {
@@ -24,35 +24,42 @@ impl HeldOut {
         let times = self.chosen.iter().filter(|chosen| chosen.contains(&class)).count();
         times as f64 / self.chosen.len().max(1) as f64
     }
+
+    /// Whitened sum of squares in the held-out folds, by the declared columns alone and with effects.
+    #[must_use]
+    pub fn sums_of_squares(&self, problem: &Problem) -> (f64, f64) {
+        let sum = |coefficients: &[Vec<(usize, f64)>]| {
+            coefficients.iter().enumerate().map(|(fold, b)| left(problem, fold, b)).sum()
+        };
+        (sum(&self.before), sum(&self.after))
+    }
+}
+
+/// The sum of squares that coefficients leave in a fold.
+fn left(problem: &Problem, fold: usize, coefficients: &[(usize, f64)]) -> f64 {
+    let (gram, last) = (problem.fold_gram(fold), problem.residual());
+    let mut rss = gram[(last, last)];
+    for &(i, b) in coefficients {
+        rss -= 2.0 * b * gram[(i, last)];
+        rss += coefficients.iter().map(|&(j, c)| b * c * gram[(i, j)]).sum::<f64>();
+    }
+    rss
 }
 
 /// Repeats the search without each fold.
 #[must_use]
 pub fn nested(problem: &Problem, classes: &[Class], options: &Options) -> HeldOut {
-    let blocks = class_columns(problem, classes);
-    let residual = problem.residual();
-    let folds: Vec<(Vec<usize>, f64, f64)> = (0..problem.folds())
+    let folds: Vec<(Vec<usize>, State, State)> = (0..problem.folds())
         .into_par_iter()
         .map(|fold| {
             let selection = select(problem, classes, &[], |f| f != fold, options);
-            let chosen: Vec<usize> = selection.accepted.iter().map(|a| a.class).collect();
-            let left = |effects: &[usize]| {
-                let mut columns: Vec<usize> = (0..problem.declared()).collect();
-                columns.extend(effects.iter().flat_map(|&class| &blocks[class]));
-                columns.push(residual);
-                let pick = |gram: faer::MatRef<'_, f64>| {
-                    faer::Mat::from_fn(columns.len(), columns.len(), |i, j| gram[(columns[i], columns[j])])
-                };
-                let (total, _) = problem.gram(|_| true);
-                held_out_rss(&pick(total.as_ref()), &pick(problem.fold_gram(fold)))
-            };
-            let (before, after) = (left(&[]), left(&chosen));
-            (chosen, before, after)
+            let chosen = selection.accepted.iter().map(|a| a.class).collect();
+            (chosen, State::declared(problem, |f| f != fold), selection.state)
         })
         .collect();
     HeldOut {
-        before: folds.iter().map(|fold| fold.1).sum(),
-        after: folds.iter().map(|fold| fold.2).sum(),
+        before: folds.iter().map(|fold| fold.1.coefficients()).collect(),
+        after: folds.iter().map(|fold| fold.2.coefficients()).collect(),
         chosen: folds.into_iter().map(|fold| fold.0).collect(),
     }
 }

@@ -64,6 +64,10 @@ pub struct Problem {
     /// Gram matrix of the rows of each fold.
     grams: Vec<Mat<f64>>,
     rows_of_fold: Vec<usize>,
+    /// T with U = J·T, p × u.
+    right: Mat<f64>,
+    /// UᵀZ and Uᵀr, u × (K + 1): what the declared columns took of each candidate column and of the residual.
+    absorbed: Mat<f64>,
 }
 
 impl Problem {
@@ -98,13 +102,14 @@ impl Problem {
         check_finite("the candidates", candidates)?;
         check_finite("the residual", faer::ColRef::from_slice(residual).as_mat())?;
 
-        let basis = range(declared)?;
+        let (basis, right) = range(declared)?;
         let (u, k) = (basis.ncols(), candidates.ncols());
         let mut rows = Mat::zeros(n, u + k + 1);
         rows.subcols_mut(0, u).copy_from(&basis);
         rows.subcols_mut(u, k).copy_from(candidates);
         rows.col_as_slice_mut(u + k).copy_from_slice(residual);
         let before: Vec<f64> = (0..k).map(|j| rows.col(u + j).squared_norm_l2()).collect();
+        let mut absorbed = Mat::zeros(u, k + 1);
         // Twice: one pass of Gram-Schmidt leaves rounding of the part taken out.
         for _ in 0..2 {
             let mut coefficients = Mat::zeros(u, k + 1);
@@ -117,6 +122,7 @@ impl Problem {
                 Par::Seq,
             );
             matmul(rows.subcols_mut(u, k + 1), Accum::Add, &basis, &coefficients, -1.0, Par::Seq);
+            absorbed += coefficients;
         }
         let after: Vec<f64> = (0..k).map(|j| rows.col(u + j).squared_norm_l2()).collect();
         let mut lengths = vec![0.0; k];
@@ -149,6 +155,8 @@ impl Problem {
             fold_of_group,
             grams: Vec::new(),
             rows_of_fold: Vec::new(),
+            right,
+            absorbed,
         };
         problem.form_grams();
         Ok(problem)
@@ -290,6 +298,43 @@ impl Problem {
         self.visible[candidate]
     }
 
+    /// One candidate column or the residual (the last) in its own units: what is left of it, before whitening, after
+    /// the declared columns took their (whitened) share. `declared` and `own` are the columns before whitening.
+    #[must_use]
+    pub fn before_whitening(&self, column: usize, declared: MatRef<'_, f64>, own: &[f64]) -> Vec<f64> {
+        let at = column - self.declared;
+        let share = self.share(column);
+        let mut left = own.to_vec();
+        for (j, share) in share.iter().enumerate() {
+            left.iter_mut().zip(declared.col(j).iter()).for_each(|(l, d)| *l -= share * d);
+        }
+        if let Some(&length) = self.lengths.get(at).filter(|&&length| length > 0.0) {
+            left.iter_mut().for_each(|l| *l /= length);
+        }
+        left
+    }
+
+    /// A column of the basis of the declared ones before whitening.
+    #[must_use]
+    pub fn basis_before_whitening(&self, column: usize, declared: MatRef<'_, f64>) -> Vec<f64> {
+        let mut sum = vec![0.0; declared.nrows()];
+        for j in 0..declared.ncols() {
+            let t = self.right[(j, column)];
+            sum.iter_mut().zip(declared.col(j).iter()).for_each(|(s, d)| *s += t * d);
+        }
+        sum
+    }
+
+    /// How a unit of a candidate's column (or of the residual, the last), left out, would move each declared
+    /// parameter.
+    #[must_use]
+    pub fn share(&self, column: usize) -> Vec<f64> {
+        let at = column - self.declared;
+        (0..self.right.nrows())
+            .map(|j| (0..self.declared).map(|u| self.right[(j, u)] * self.absorbed[(u, at)]).sum())
+            .collect()
+    }
+
     /// The length of a candidate's column after projection, in whitened units for a coefficient of one.
     #[must_use]
     pub fn length(&self, column: usize) -> f64 {
@@ -307,18 +352,26 @@ fn check_finite(what: &'static str, matrix: MatRef<'_, f64>) -> Result<(), Probl
     Ok(())
 }
 
-/// An orthonormal basis of the range of a matrix, its columns scaled to length one before rank is decided.
-fn range(matrix: MatRef<'_, f64>) -> Result<Mat<f64>, ProblemError> {
+/// An orthonormal basis U of the range of a matrix, its columns scaled to length one before rank is decided, and the T
+/// with U = matrix · T.
+fn range(matrix: MatRef<'_, f64>) -> Result<(Mat<f64>, Mat<f64>), ProblemError> {
     let kept: Vec<usize> = (0..matrix.ncols()).filter(|&j| matrix.col(j).squared_norm_l2() > 0.0).collect();
     if kept.is_empty() || matrix.nrows() == 0 {
-        return Ok(Mat::zeros(matrix.nrows(), 0));
+        return Ok((Mat::zeros(matrix.nrows(), 0), Mat::zeros(matrix.ncols(), 0)));
     }
     let scaled =
         Mat::from_fn(matrix.nrows(), kept.len(), |i, j| matrix[(i, kept[j])] / matrix.col(kept[j]).norm_l2());
     let svd = scaled.thin_svd().map_err(|_| ProblemError::Singular)?;
     let singular = svd.S().column_vector();
     let rank = (0..singular.nrows()).filter(|&i| singular[i] > RANK * singular[0]).count();
-    Ok(svd.U().subcols(0, rank).to_owned())
+    let mut right = Mat::zeros(matrix.ncols(), rank);
+    for (i, &j) in kept.iter().enumerate() {
+        let length = matrix.col(j).norm_l2();
+        for r in 0..rank {
+            right[(j, r)] = svd.V()[(i, r)] / (singular[r] * length);
+        }
+    }
+    Ok((svd.U().subcols(0, rank).to_owned(), right))
 }
 
 /// Numbers groups from 0 in order of first appearance.

@@ -102,6 +102,12 @@ impl State {
         self.sweep.gain(block, self.residual)
     }
 
+    /// The swept columns with their coefficients.
+    #[must_use]
+    pub fn coefficients(&self) -> Vec<(usize, f64)> {
+        self.base.iter().map(|&column| (column, self.sweep.entry(column, self.residual))).collect()
+    }
+
     /// Degrees of freedom of the residual.
     #[must_use]
     pub fn df(&self) -> f64 {
@@ -295,7 +301,7 @@ impl Search<'_> {
 }
 
 /// Sum of squares that a regression fitted to `total − part` leaves in `part`; the last column is the residual.
-pub(super) fn held_out_rss(total: &Mat<f64>, part: &Mat<f64>) -> f64 {
+fn held_out_rss(total: &Mat<f64>, part: &Mat<f64>) -> f64 {
     let last = total.ncols() - 1;
     let mut sweep = Sweep::new(total - part);
     let used: Vec<usize> = (0..last).filter(|&j| sweep.add(j)).collect();

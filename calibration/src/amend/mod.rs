@@ -1,0 +1,130 @@
+//! Amendment: what the search found becomes lines in the user's own text.
+//!
+//! Comments, order and layout of the text stay as they are: new lines go in after the last list of the same role in
+//! the body, indented like it. What they mean together with the rest is the business of the language's reader.
+
+use model_core::syntax::declaration::{BodyStatement, Declaration, FactorGroup, Statement};
+use model_core::{BodyId, Chain, Mistakes, Role};
+
+/// A factor to add, as a declaration writes it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Addition {
+    /// The body it goes into.
+    pub body: BodyId,
+    /// Its role there.
+    pub role: Role,
+    /// `Rx(ecc_cos_beta*cos(beta) + ecc_sin_beta*sin(beta))`
+    pub factor: String,
+    /// What was found, when and with what evidence: one `///` line each.
+    pub documentation: Vec<String>,
+}
+
+/// Why a text could not be amended.
+#[derive(Debug, thiserror::Error)]
+pub enum AmendError {
+    /// The text itself is no declaration.
+    #[error("the declaration cannot be read: {0}")]
+    Text(#[from] Mistakes),
+    /// The text is not that of the chain.
+    #[error("the declaration has no body `{0}`")]
+    NoBody(String),
+}
+
+/// The text with the additions and with inputs that it does not declare yet (name and `///` line).
+///
+/// # Errors
+/// A text that is no declaration, or not that of the chain.
+pub fn amend(
+    text: &str,
+    chain: &Chain,
+    additions: &[Addition],
+    inputs: &[(String, String)],
+) -> Result<String, AmendError> {
+    let declaration = Declaration::from_text(text)?;
+    let mut insertions: Vec<(usize, String)> = Vec::new();
+    for addition in additions {
+        let name = &chain.body(addition.body).name;
+        let body = declaration
+            .bodies()
+            .find(|body| body.name == name.as_str())
+            .ok_or_else(|| AmendError::NoBody(name.clone()))?;
+        let (at, indent) = place(text, body, addition.role);
+        let word = if addition.role == Role::MotionError { "motion_error" } else { "position_error" };
+        let mut lines: String =
+            addition.documentation.iter().map(|line| format!("\n{indent}/// {line}")).collect();
+        lines.push_str(&format!("\n{indent}{word}: {};", addition.factor));
+        insertions.push((at, lines));
+    }
+    for (name, documentation) in inputs {
+        let (at, indent) = input_place(text, &declaration);
+        insertions.push((at, format!("\n{indent}/// {documentation}\n{indent}input {name};")));
+    }
+    // Those at one place keep their order.
+    insertions.sort_by_key(|&(at, _)| at);
+    let mut amended =
+        String::with_capacity(text.len() + insertions.iter().map(|(_, s)| s.len()).sum::<usize>());
+    let mut from = 0;
+    for (at, lines) in insertions {
+        amended.push_str(&text[from..at]);
+        amended.push_str(&lines);
+        from = at;
+    }
+    amended.push_str(&text[from..]);
+    Ok(amended)
+}
+
+/// The difference of two texts as a unified diff.
+#[must_use]
+pub fn diff(before: &str, after: &str, name: &str) -> String {
+    similar::TextDiff::from_lines(before, after)
+        .unified_diff()
+        .context_radius(2)
+        .header(name, "amended.chain")
+        .to_string()
+}
+
+/// Where a factor of a role goes in a body: the byte after which a new line starts, and its indentation.
+fn place(text: &str, body: &BodyStatement, role: Role) -> (usize, String) {
+    let last = |word: &str| body.groups.iter().rev().find(|group| group.role == word);
+    let after = |group: &FactorGroup| {
+        let at = end_of_line(text, group.semicolon.byte_range().end);
+        (at, indentation(text, group.role.span().byte_range().start))
+    };
+    let found = match role {
+        Role::MotionError => last("motion_error").or_else(|| last("motion")).or(body.groups.last()),
+        _ => last("position_error").or_else(|| last("position")),
+    };
+    match found {
+        Some(group) => after(group),
+        None => {
+            let at = end_of_line(text, body.braces.open.byte_range().end);
+            (at, format!("{}    ", indentation(text, body.name.span().byte_range().start)))
+        }
+    }
+}
+
+/// Where a new input goes: after the last one, else before what follows the opening brace.
+fn input_place(text: &str, declaration: &Declaration) -> (usize, String) {
+    let inputs = declaration.statements.iter().filter_map(|statement| match statement {
+        Statement::Input(input) => Some(input.name.span().byte_range().end),
+        _ => None,
+    });
+    match inputs.max() {
+        Some(end) => (end_of_line(text, end), indentation(text, end)),
+        None => (end_of_line(text, declaration.braces.open.byte_range().end), "    ".to_owned()),
+    }
+}
+
+/// The end of the line if only a comment follows `at` on it, `at` itself otherwise.
+fn end_of_line(text: &str, at: usize) -> usize {
+    let rest = &text[at..];
+    let line = rest.split('\n').next().unwrap_or_default();
+    let bare = line.trim_start_matches([';', ' ', '\t', '\r']);
+    if bare.is_empty() || bare.starts_with("//") { at + line.trim_end_matches('\r').len() } else { at }
+}
+
+/// The white space that the line around a byte starts with.
+fn indentation(text: &str, at: usize) -> String {
+    let start = text[..at].rfind('\n').map_or(0, |newline| newline + 1);
+    text[start..].chars().take_while(|c| *c == ' ' || *c == '\t').collect()
+}

@@ -1,0 +1,127 @@
+//! The whole loop: fit, whiten, search, amend, fit again, judge on held-out data, report.
+//!
+//! One round ([`round`]) fits the declaration with the effects accepted so far and searches from there; rounds go on
+//! until one changes nothing. Then the search is repeated in every fold ([`held_out`]), and everything is put into
+//! words ([`words`]).
+
+mod held_out;
+mod round;
+mod words;
+
+use model_core::{Chain, SymbolId};
+
+use crate::amend::{AmendError, amend};
+use crate::columns::places;
+use crate::effects::{Effect, Setting, catalogue};
+use crate::fit::{FitError, FitResult};
+use crate::observations::Observations;
+use crate::report::Report;
+use crate::search::{HeldOut, Options, ProblemError, nested};
+use crate::study::Plan;
+use round::Round;
+
+/// Rounds of fit and search at most.
+const ROUNDS: usize = 8;
+
+/// What to calibrate.
+#[derive(Clone, Copy)]
+pub struct Request<'a> {
+    /// The user's declaration as written.
+    pub text: &'a str,
+    /// The study, with every name resolved.
+    pub plan: &'a Plan,
+    /// The measured data.
+    pub observations: &'a Observations,
+    /// A second file that no stage sees, if the study names one.
+    pub second: Option<&'a Observations>,
+    /// The date that the amended declaration gives: `2026-11-21`.
+    pub when: &'a str,
+}
+
+/// Everything that a calibration makes.
+#[derive(Debug, Clone)]
+pub struct Calibration {
+    /// The report.
+    pub report: Report,
+    /// The user's text with lines added; the text itself if nothing was found.
+    pub amended: String,
+    /// The chain with the effects that were found.
+    pub chain: Chain,
+    /// The fit of the declaration as it was.
+    pub before: FitResult,
+    /// The fit of the amended chain.
+    pub after: FitResult,
+}
+
+/// Why there is no calibration.
+#[derive(Debug, thiserror::Error)]
+pub enum CalibrateError {
+    /// The study asks for something that cannot be fitted.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    /// The data lead to numbers that cannot be searched.
+    #[error(transparent)]
+    Problem(#[from] ProblemError),
+    /// The text is not that of the chain.
+    #[error(transparent)]
+    Amend(#[from] AmendError),
+}
+
+/// An accepted effect: its number in the catalogue and its familywise p.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Found {
+    pub effect: usize,
+    pub p_value: f64,
+}
+
+/// What all rounds share.
+pub(crate) struct Loop<'a> {
+    pub request: Request<'a>,
+    pub catalogue: Vec<Effect>,
+    pub options: Options,
+}
+
+/// Runs the loop.
+///
+/// # Errors
+/// What the caller did wrong; whatever the data say is in the report.
+pub fn calibrate(request: Request<'_>) -> Result<Calibration, CalibrateError> {
+    let plan = request.plan;
+    let observables: Vec<_> = request.observations.series.iter().map(|series| series.observable).collect();
+    let setting = Setting { chain: &plan.chain, observables: &observables, inputs: &plan.search.inputs };
+    let options =
+        Options { false_alarm: plan.search.false_alarm, seed: plan.hold_out.seed, ..Options::default() };
+    let whole = Loop { request, catalogue: catalogue(&setting), options };
+
+    let mut round = Round::first(&whole)?;
+    let before = round.fit.clone();
+    let mut visited: Vec<Vec<usize>> = vec![Vec::new()];
+    for _ in 0..ROUNDS {
+        let found = round.search(&whole);
+        let mut names: Vec<usize> = found.iter().map(|f| f.effect).collect();
+        names.sort_unstable();
+        let unchanged = round.holds(&names);
+        if unchanged || visited.contains(&names) {
+            break;
+        }
+        visited.push(names);
+        round = Round::with(&whole, found, &round)?;
+    }
+    let held_out: HeldOut = nested(&round.problem, &round.classes, &whole.options);
+    let rms = held_out::rms(&whole, &before, &round, &held_out)?;
+    let additions = words::additions(&whole, &round, &held_out, rms);
+    let inputs = words::new_inputs(&whole, &round);
+    let amended = amend(request.text, &round.chain, &additions, &inputs)?;
+    let report = words::report(&whole, &round, &held_out, rms);
+    Ok(Calibration { report, amended, chain: round.chain, before, after: round.fit })
+}
+
+/// The places of the whole catalogue.
+pub(crate) fn all_places(whole: &Loop<'_>) -> Vec<crate::effects::Place> {
+    places(&whole.catalogue)
+}
+
+/// The symbols that the study estimates.
+pub(crate) fn declared<'a>(whole: &Loop<'a>) -> &'a [SymbolId] {
+    &whole.request.plan.fit.estimate
+}

@@ -1,0 +1,254 @@
+//! What was found, in words: the report, and the lines of the amended declaration.
+
+use std::collections::BTreeMap;
+
+use model_core::{SymbolId, SymbolKind};
+
+use super::held_out::BeforeAfter;
+use super::round::Round;
+use super::{Loop, declared};
+use crate::amend::Addition;
+use crate::report::{EffectFound, ErrorFound, NotShown, Remaining, Report, SetAsideRow, Used, Verdict};
+use crate::search::{HeldOut, rivals};
+
+/// Standard deviations at which an effect is found four times out of five, corrected for the size of the catalogue.
+const FOUND: f64 = 4.4;
+
+/// The lines to add to the declaration.
+pub(crate) fn additions(
+    whole: &Loop<'_>,
+    last: &Round,
+    held_out: &HeldOut,
+    rms: BeforeAfter,
+) -> Vec<Addition> {
+    let measure = whole.request.observations.series.first().map_or("rad", |series| series.measure.unit());
+    last.found
+        .iter()
+        .zip(&last.errors)
+        .map(|(found, errors)| {
+            let effect = &whole.catalogue[found.effect];
+            let share = last.class_of(found.effect).map_or(0.0, |class| held_out.share(class));
+            let held = match (rms.before.held_out_rms, rms.after.held_out_rms) {
+                (Some(before), Some(after)) => format!(
+                    ", held-out residual {} to {} RMS",
+                    in_words(before, measure),
+                    in_words(after, measure)
+                ),
+                _ => String::new(),
+            };
+            Addition {
+                body: effect.place.body,
+                role: effect.place.role,
+                factor: effect.text(&last.chain, errors),
+                documentation: vec![format!(
+                    "Found {}: {}. Familywise p {}, found again in {:.0} % of the folds{held}.",
+                    whole.request.when,
+                    effect.name,
+                    p_in_words(found.p_value),
+                    100.0 * share
+                )],
+            }
+        })
+        .collect()
+}
+
+/// A residual with the unit that its size is usually told in.
+fn in_words(si: f64, unit: &str) -> String {
+    match unit {
+        "rad" => format!("{:.4} arcsec", si.to_degrees() * 3600.0),
+        _ => format!("{:.4} mm", 1e3 * si),
+    }
+}
+
+fn p_in_words(p: f64) -> String {
+    if p < 0.0015 { "≤ 0.001".to_owned() } else { format!("{p:.3}") }
+}
+
+/// Inputs that accepted effects use and the declaration does not have.
+pub(crate) fn new_inputs(whole: &Loop<'_>, last: &Round) -> Vec<(String, String)> {
+    let declared = model_core::Chain::from_text(whole.request.text);
+    let mut used: Vec<SymbolId> = last
+        .found
+        .iter()
+        .flat_map(|found| &whole.catalogue[found.effect].functions)
+        .flat_map(|function| function.amount.symbols())
+        .filter(|&symbol| last.chain.symbol(symbol).kind == SymbolKind::Input)
+        .collect();
+    used.sort_unstable();
+    used.dedup();
+    used.into_iter()
+        .map(|symbol| last.chain.symbol(symbol).name.clone())
+        .filter(|name| declared.as_ref().is_ok_and(|chain| chain.find_symbol(name).is_none()))
+        .map(|name| (name, "Measured beside the joints, in the unit of the data.".to_owned()))
+        .collect()
+}
+
+/// Puts everything into the report.
+pub(crate) fn report(whole: &Loop<'_>, last: &Round, held_out: &HeldOut, rms: BeforeAfter) -> Report {
+    let observations = whole.request.observations;
+    let effects = effects(whole, last, held_out);
+    let remaining = Remaining { p_value: 1.0, place: None, shape: Vec::new() };
+    let alone = effects.iter().all(|effect| effect.class.is_empty() && effect.rivals.is_empty());
+    let verdict = if effects.is_empty() {
+        Verdict::NothingDetectable
+    } else if alone {
+        Verdict::Explained
+    } else {
+        Verdict::UpToAClass
+    };
+    let row_number = |row: usize| observations.row_numbers.get(row).copied().unwrap_or(row as u64 + 1);
+    let aside = &last.fit.set_aside;
+    Report {
+        verdict,
+        observations: Used {
+            rows: observations.rows(),
+            used: observations.rows() - aside.len(),
+            set_aside: aside
+                .iter()
+                .map(|aside| SetAsideRow { row: row_number(aside.row), why: aside.why.clone() })
+                .collect(),
+        },
+        errors: errors(last),
+        not_separable: not_separable(last),
+        effects,
+        remaining,
+        not_shown: not_shown(whole, last, rms),
+        before: rms.before,
+        after: rms.after,
+        unit: observations.series.first().map_or("rad", |series| series.measure.unit()),
+    }
+}
+
+fn errors(last: &Round) -> Vec<ErrorFound> {
+    last.fit
+        .parameters
+        .iter()
+        .zip(&last.fit.separable)
+        .map(|(&id, &separable)| {
+            let symbol = last.chain.symbol(id);
+            ErrorFound {
+                name: symbol.name.clone(),
+                value: last.fit.values[id.index()],
+                standard_uncertainty: last.fit.standard_uncertainty(id).unwrap_or(0.0),
+                unit: symbol.quantity.unit(),
+                separable,
+            }
+        })
+        .collect()
+}
+
+/// Parameters that share an undetermined combination, list by list.
+fn not_separable(last: &Round) -> Vec<Vec<String>> {
+    let null = &last.fit.null_space;
+    let mut lists: Vec<Vec<usize>> = Vec::new();
+    for j in 0..null.ncols() {
+        let largest = (0..null.nrows()).map(|i| null[(i, j)].abs()).fold(0.0, f64::max);
+        let mut own: Vec<usize> =
+            (0..null.nrows()).filter(|&i| null[(i, j)].abs() > 1e-6 * largest).collect();
+        lists.retain(|list| {
+            let meets = list.iter().any(|i| own.contains(i));
+            if meets {
+                own.extend(list);
+            }
+            !meets
+        });
+        own.sort_unstable();
+        own.dedup();
+        lists.push(own);
+    }
+    lists.sort();
+    lists
+        .into_iter()
+        .map(|list| {
+            list.into_iter().map(|i| last.chain.symbol(last.fit.parameters[i]).name.clone()).collect()
+        })
+        .collect()
+}
+
+fn effects(whole: &Loop<'_>, last: &Round, held_out: &HeldOut) -> Vec<EffectFound> {
+    let accepted = last.accepted_classes();
+    let selection = last.selection(whole);
+    let all_rivals = rivals(&last.problem, &last.classes, &accepted, &selection.state);
+    let name = |effect: usize| whole.catalogue[effect].name.clone();
+    last.found
+        .iter()
+        .zip(&last.errors)
+        .enumerate()
+        .map(|(at, (found, errors))| {
+            let effect = &whole.catalogue[found.effect];
+            let class = last.class_of(found.effect);
+            let others: Vec<String> = class.map_or_else(Vec::new, |class| {
+                let members = &last.classes[class].members;
+                members.iter().filter(|&&m| m != found.effect).map(|&m| name(m)).collect()
+            });
+            let mut names = vec![effect.name.clone()];
+            names.extend(aliases(effect));
+            EffectFound {
+                text: effect.text(&last.chain, errors),
+                body: last.chain.body(effect.place.body).name.clone(),
+                dof: effect.place.freedom.word().to_owned(),
+                driver: effect.driver.clone(),
+                form: effect.form.clone(),
+                names,
+                class: others,
+                rivals: all_rivals.get(at).map_or_else(Vec::new, |rivals| {
+                    rivals.iter().map(|rival| name(last.classes[rival.class].members[0])).collect()
+                }),
+                coefficients: errors
+                    .iter()
+                    .map(|&id| (last.chain.symbol(id).name.clone(), last.fit.values[id.index()]))
+                    .collect(),
+                p_value: found.p_value,
+                selected_in_folds: class.map_or(0.0, |class| held_out.share(class)),
+                bias: bias(whole, last, found.effect, errors),
+            }
+        })
+        .collect()
+}
+
+/// Names that other fields have for members of the family.
+fn aliases(_effect: &crate::effects::Effect) -> Vec<String> {
+    Vec::new()
+}
+
+/// How far one standard uncertainty of an effect, left out, would move each declared error.
+fn bias(whole: &Loop<'_>, last: &Round, effect: usize, errors: &[SymbolId]) -> BTreeMap<String, f64> {
+    let columns = last.problem.columns(effect);
+    let mut squares = vec![0.0; declared(whole).len()];
+    for (&column, &error) in columns.iter().zip(errors) {
+        let sigma = last.fit.standard_uncertainty(error).unwrap_or(0.0);
+        for (square, share) in squares.iter_mut().zip(last.problem.share(column)) {
+            *square += (sigma * share).powi(2);
+        }
+    }
+    declared(whole)
+        .iter()
+        .zip(squares)
+        .filter(|&(_, square)| square > 0.0)
+        .map(|(&id, square)| (last.chain.symbol(id).name.clone(), square.sqrt()))
+        .collect()
+}
+
+/// Effects that could be as large as the residual without these data showing them.
+fn not_shown(whole: &Loop<'_>, last: &Round, rms: BeforeAfter) -> Vec<NotShown> {
+    let problem = &last.problem;
+    let accepted: Vec<usize> = last.found.iter().map(|found| found.effect).collect();
+    let mut list = Vec::new();
+    for (number, effect) in whole.catalogue.iter().enumerate() {
+        if accepted.contains(&number) || last.effects[number].is_empty() {
+            continue;
+        }
+        let columns = problem.columns(number);
+        let shortest = columns.iter().map(|&column| problem.length(column)).fold(f64::INFINITY, f64::min);
+        let smallest = (!columns.is_empty()).then(|| FOUND / shortest);
+        if smallest.is_none_or(|smallest| smallest > rms.after.rms) {
+            list.push(NotShown {
+                name: effect.name.clone(),
+                smallest,
+                unit: effect.place.freedom.quantity().unit(),
+                absorbed: 1.0 - problem.visible(number),
+            });
+        }
+    }
+    list
+}

@@ -1,0 +1,133 @@
+//! The columns of a search: what a unit of each declared error, and of each effect, would do to every residual
+//! component.
+//!
+//! One probe error for each place in the chain that an effect uses; its derivative comes from the exact form at the
+//! fitted errors, once, and is multiplied by the effect's functions of the readings.
+
+mod functions;
+
+use faer::Mat;
+use model_core::algebra::Poly;
+use model_core::{Chain, SymbolId};
+
+use crate::effects::{Effect, Place, add_error, insert};
+use crate::fit::{FitError, Model};
+use crate::observations::Observations;
+use functions::Functions;
+
+/// Values of a function more than this many times its RMS make the column hang on a single observation.
+const TOO_STEEP: f64 = 1e3;
+
+/// Everything before whitening, row by row, component by component.
+#[derive(Debug, Clone)]
+pub struct Columns {
+    /// Measured minus predicted, rad or m.
+    pub residual: Vec<f64>,
+    /// Derivative by each declared parameter.
+    pub declared: Mat<f64>,
+    /// Row of the observations that each component belongs to.
+    pub row: Vec<u32>,
+    places: Vec<Place>,
+    probes: Mat<f64>,
+}
+
+impl Columns {
+    /// Evaluates at `values` (of the chain's symbols).
+    ///
+    /// # Errors
+    /// Missing readings, or values that do not fit the chain.
+    pub fn at(
+        chain: &Chain,
+        observations: &Observations,
+        parameters: &[SymbolId],
+        values: &[f64],
+        places: &[Place],
+    ) -> Result<Self, FitError> {
+        let mut probed = chain.clone();
+        let mut wrt = parameters.to_vec();
+        for (number, &place) in places.iter().enumerate() {
+            let name = format!("probe {number}");
+            let Some(id) = add_error(&mut probed, name, place.freedom.quantity()) else { break };
+            insert(&mut probed, place, Poly::symbol(id), String::new());
+            wrt.push(id);
+        }
+        let mut all = values.to_vec();
+        all.resize(probed.symbols.len(), 0.0);
+        let model = Model::new(&probed, observations, &wrt)?;
+        let blocks = model.map_blocks(observations, &all, |_, rows, block| (rows, block))?;
+        let n: usize = blocks.iter().map(|(_, block)| block.residual.len()).sum();
+        let mut columns = Self {
+            residual: Vec::with_capacity(n),
+            declared: Mat::zeros(n, parameters.len()),
+            row: Vec::with_capacity(n),
+            places: places.to_vec(),
+            probes: Mat::zeros(n, wrt.len() - parameters.len()),
+        };
+        let mut start = 0;
+        for (rows, block) in blocks {
+            let count = block.residual.len();
+            let components = count / rows.len().max(1);
+            columns.residual.extend(&block.residual);
+            for row in rows {
+                columns.row.extend(std::iter::repeat_n(row as u32, components));
+            }
+            for j in 0..wrt.len() {
+                let target = match j.checked_sub(parameters.len()) {
+                    None => &mut columns.declared.col_as_slice_mut(j)[start..start + count],
+                    Some(probe) => &mut columns.probes.col_as_slice_mut(probe)[start..start + count],
+                };
+                for (i, value) in target.iter_mut().enumerate() {
+                    *value = block.jacobian[(i, j)];
+                }
+            }
+            start += count;
+        }
+        Ok(columns)
+    }
+
+    /// The columns of each effect, one for each of its functions; empty where a reading is missing, or a function
+    /// is not finite, or it hangs on a single row.
+    #[must_use]
+    pub fn of_effects(
+        &self,
+        effects: &[Effect],
+        observations: &Observations,
+        values: &[f64],
+    ) -> Vec<Vec<Vec<f64>>> {
+        let mut functions = Functions::new(observations, values);
+        effects
+            .iter()
+            .map(|effect| {
+                let Some(place) = self.places.iter().position(|place| *place == effect.place) else {
+                    return Vec::new();
+                };
+                let probe = self.probes.col_as_slice(place);
+                let columns: Option<Vec<Vec<f64>>> = effect
+                    .functions
+                    .iter()
+                    .map(|function| {
+                        let by_row = functions.column(&function.amount)?;
+                        if by_row.iter().any(|value| !value.is_finite()) {
+                            return None;
+                        }
+                        let rms = (by_row.iter().map(|v| v * v).sum::<f64>() / by_row.len() as f64).sqrt();
+                        if by_row.iter().any(|value| value.abs() > TOO_STEEP * rms) {
+                            return None;
+                        }
+                        Some(probe.iter().zip(&self.row).map(|(p, &row)| p * by_row[row as usize]).collect())
+                    })
+                    .collect();
+                columns.unwrap_or_default()
+            })
+            .collect()
+    }
+}
+
+/// The places that some effects use, each once.
+#[must_use]
+pub fn places(effects: &[Effect]) -> Vec<Place> {
+    let mut places: Vec<Place> = effects.iter().map(|effect| effect.place).collect();
+    places.sort_unstable();
+    places.dedup();
+    places
+}

@@ -32,9 +32,10 @@ pub fn whole(reader: &mut Reader<'_, '_>) -> Option<Amount> {
     if reader.is_at_end() {
         return Some(amount);
     }
-    let help = match reader.mark(',') {
-        Some(_) => "write one amount",
-        None => "write `*` between factors, `+` or `-` between terms",
+    let help = if reader.is_mark(',') {
+        "write one amount here"
+    } else {
+        "write `*` between factors, `+` or `-` between terms"
     };
     let mistake = reader.expected("the end of the amount").with_help(help);
     reader.mistakes.push(mistake);
@@ -127,8 +128,11 @@ fn power(reader: &mut Reader<'_, '_>) -> Read {
     let written = reader.literal().map(|literal| literal.to_string()).unwrap_or_default();
     let exponent = written.parse::<i32>().ok().filter(|exponent| *exponent <= MAX_POWER);
     let Some(exponent) = exponent else {
-        return Err(Mistake::new(place, "a power must be a whole number")
-            .with_help(format!("write a number from -{MAX_POWER} to {MAX_POWER}")));
+        return Err(Mistake::new(
+            place,
+            format!("a power must be a whole number from -{MAX_POWER} to {MAX_POWER}"),
+        )
+        .with_help("write `a^2`, or a product"));
     };
     let exponent = if is_negative { -exponent } else { exponent };
     let place = join(base.place, place);

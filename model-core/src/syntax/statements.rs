@@ -1,7 +1,7 @@
 //! Reading statements. A statement that cannot be read is reported and skipped, so that the ones behind it
 //! are read all the same.
 
-use proc_macro2::{Delimiter, Span, TokenTree};
+use proc_macro2::{Delimiter, Ident, Span, TokenTree};
 use syn::buffer::Cursor;
 
 use super::amount;
@@ -40,8 +40,7 @@ pub fn declaration(reader: &mut Reader<'_, '_>) -> Option<Declaration> {
         }
     };
     if declaration.is_some() && !reader.is_at_end() {
-        let mistake = reader
-            .expected("nothing after the chain")
+        let mistake = Mistake::new(reader.here(), format!("{} after the end of the chain", reader.found()))
             .with_help("write one chain in a file, or in one `chain!`");
         reader.mistakes.push(mistake);
     }
@@ -129,7 +128,9 @@ fn string_value(literal: &TokenTree) -> Option<String> {
 fn body(reader: &mut Reader<'_, '_>, documentation: String) -> Read<BodyStatement> {
     reader.keyword("body", BODY_HELP)?;
     let name = reader.name("the name of the body").map_err(|m| m.with_help(BODY_HELP))?;
-    reader.keyword("on", BODY_HELP)?;
+    if let Err(mistake) = reader.keyword("on", BODY_HELP) {
+        reader.mistakes.push(mistake);
+    }
     let lower = reader.name("the name of the lower body").map_err(|m| m.with_help(BODY_HELP))?;
     let Some((inside, braces)) = reader.group(Delimiter::Brace) else {
         return Err(reader.expected("`{`").with_help(BODY_HELP));
@@ -175,15 +176,24 @@ fn factor(reader: &mut Reader<'_, '_>) -> Read<FactorTerm> {
 fn constant(reader: &mut Reader<'_, '_>, documentation: String) -> Read<ConstantStatement> {
     reader.keyword("const", CONSTANT_HELP)?;
     let name = reader.name("the name of the constant").map_err(|m| m.with_help(CONSTANT_HELP))?;
-    let quantity = quantity(reader, CONSTANT_HELP)?;
-    reader.expect_mark('=', CONSTANT_HELP)?;
-    let value = amount::part(reader);
-    if value.is_none() {
+    let mut constant = ConstantStatement { documentation, name, quantity: None, value: None };
+    // The name is declared, whatever is wrong with the rest.
+    if let Err(mistake) = constant_value(reader, &mut constant) {
+        reader.mistakes.push(mistake);
+        reader.skip_statement();
+    } else if constant.value.is_none() {
         reader.skip_statement();
     } else {
         reader.end_of_statement()?;
     }
-    Ok(ConstantStatement { documentation, name, quantity, value })
+    Ok(constant)
+}
+
+fn constant_value(reader: &mut Reader<'_, '_>, constant: &mut ConstantStatement) -> Read<()> {
+    constant.quantity = quantity(reader, CONSTANT_HELP)?;
+    reader.expect_mark('=', CONSTANT_HELP)?;
+    constant.value = amount::part(reader);
+    Ok(())
 }
 
 fn input(reader: &mut Reader<'_, '_>, documentation: String) -> Read<InputStatement> {
@@ -194,7 +204,7 @@ fn input(reader: &mut Reader<'_, '_>, documentation: String) -> Read<InputStatem
     Ok(InputStatement { documentation, name, quantity })
 }
 
-fn quantity(reader: &mut Reader<'_, '_>, help: &str) -> Read<Option<proc_macro2::Ident>> {
+fn quantity(reader: &mut Reader<'_, '_>, help: &str) -> Read<Option<Ident>> {
     match reader.mark(':') {
         Some(_) => reader.name("`angle` or `length`").map(Some).map_err(|m| m.with_help(help)),
         None => Ok(None),

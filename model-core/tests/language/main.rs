@@ -1,3 +1,4 @@
 //! The language: what texts mean, and what is said of texts that mean nothing.
 
 mod examples;
+mod mistakes;

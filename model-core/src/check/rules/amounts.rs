@@ -1,9 +1,12 @@
 //! Rules about the amounts of factors.
 
+use std::collections::BTreeSet;
+
 use proc_macro2::Span;
 
 use super::super::Subject;
 use super::super::amounts::{Amount, Purpose};
+use super::super::words::is_reserved;
 use super::names::unknown_name;
 use crate::algebra::{AngleSum, Poly};
 use crate::chain::{Motion, Role};
@@ -14,9 +17,15 @@ use crate::symbol::{Quantity, SymbolId, SymbolKind};
 
 pub fn names_are_declared(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
     for amount in &subject.amounts {
+        let mut arguments = Vec::new();
+        arguments_in(amount.written, &mut arguments);
+        let turned: BTreeSet<&str> =
+            arguments.iter().flat_map(|argument| argument.names()).map(|(name, _)| name).collect();
+        let turns = matches!(amount.purpose, Purpose::Factor { motion: Motion::Rotation, .. });
         for (name, place) in amount.written.names() {
-            if subject.scope.find(name).is_none() && !super::super::words::is_reserved(name) {
-                let otherwise = format!("declare it: `const {name}: length = 0.25;` or `input {name};`");
+            if subject.scope.find(name).is_none() && !is_reserved(name) {
+                let value = if turns || turned.contains(name) { "angle = pi/6" } else { "length = 0.25" };
+                let otherwise = format!("declare it: `const {name}: {value};` or `input {name};`");
                 mistakes.push(unknown_name(subject, name, place, &otherwise));
             }
         }

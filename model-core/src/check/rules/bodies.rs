@@ -46,7 +46,9 @@ pub fn hangs_on_ground(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>)
         while let Some(at) = next.filter(|&at| !is_settled[at]) {
             is_settled[at] = true;
             way.push(at);
-            next = index.get(&bodies[at].lower.to_string()).copied();
+            next = Some(bodies[at].lower.to_string())
+                .filter(|lower| lower != GROUND)
+                .and_then(|lower| index.get(&lower).copied());
         }
         let circle = next.and_then(|back| way.iter().position(|&at| at == back)).map(|from| &way[from..]);
         if let Some(circle) = circle {

@@ -1,6 +1,6 @@
 //! Rules about names: which words can be names, each declared once, printed forms of names that exist.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 use proc_macro2::{Ident, Span};
 
@@ -8,6 +8,7 @@ use super::super::Subject;
 use super::super::words::is_reserved;
 use crate::mistake::Mistake;
 use crate::names::nearest;
+use crate::syntax::declaration::Statement;
 
 pub fn not_reserved(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
     let declaration = subject.declaration;
@@ -33,11 +34,10 @@ fn refuse(name: &str, place: Span, mistakes: &mut Vec<Mistake<Span>>) {
                 .with_help(format!("write another name: `{plain}_`")),
         );
     } else if is_reserved(name) {
-        let another =
-            if name == "_" { "a name that begins with a letter".to_owned() } else { format!("`{name}_`") };
+        let another = if name == "_" { "unnamed" } else { name };
         mistakes.push(
             Mistake::new(place, format!("`{name}` is a reserved word"))
-                .with_help(format!("write another name: {another}")),
+                .with_help(format!("write another name: `{another}_`")),
         );
     }
 }
@@ -45,8 +45,8 @@ fn refuse(name: &str, place: Span, mistakes: &mut Vec<Mistake<Span>>) {
 pub fn declared_once(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
     let declaration = subject.declaration;
     let symbols = declaration.statements.iter().filter_map(|statement| match statement {
-        crate::syntax::declaration::Statement::Constant(constant) => Some(&constant.name),
-        crate::syntax::declaration::Statement::Input(input) => Some(&input.name),
+        Statement::Constant(constant) => Some(&constant.name),
+        Statement::Input(input) => Some(&input.name),
         _ => None,
     });
     once("the body", declaration.bodies().map(|body| &body.name), mistakes);
@@ -56,19 +56,13 @@ pub fn declared_once(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
 }
 
 fn once<'a>(what: &str, names: impl Iterator<Item = &'a Ident>, mistakes: &mut Vec<Mistake<Span>>) {
-    let mut first: BTreeMap<String, Span> = BTreeMap::new();
+    let mut seen: BTreeSet<String> = BTreeSet::new();
     for name in names {
-        let text = name.to_string();
-        match first.get(&text) {
-            Some(earlier) => mistakes.push(
-                Mistake::new(name.span(), format!("{what} `{name}` is declared twice")).with_help(format!(
-                    "write another name, or remove one of the two; the first stands in line {}",
-                    earlier.start().line
-                )),
-            ),
-            None => {
-                first.insert(text, name.span());
-            }
+        if !seen.insert(name.to_string()) {
+            mistakes.push(
+                Mistake::new(name.span(), format!("{what} `{name}` is declared twice"))
+                    .with_help("write another name, or remove one of the two"),
+            );
         }
     }
 }

@@ -72,7 +72,8 @@ pub fn direction_is_not_zero(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<S
 }
 
 pub fn gravity_is_a_direction(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
-    let components = subject.amounts.iter().filter(|amount| matches!(amount.purpose, Purpose::Gravity));
+    let components =
+        subject.amounts.iter().filter(|amount| matches!(amount.purpose, Purpose::Gravity)).take(3);
     if let Some(first) = subject.declaration.gravities().next()
         && is_zero_vector(components.map(|amount| amount.value.as_ref()))
     {

@@ -1,0 +1,7 @@
+model_macros::chain! {
+body fork on ground {
+    motion: Rz(alpha);
+}
+}
+
+fn main() {}

@@ -107,12 +107,18 @@ impl Rational {
         }))
     }
 
-    /// The nearest `f64` (to within one unit in the last place).
+    /// The nearest `f64`.
     #[must_use]
     pub fn to_f64(&self) -> f64 {
+        /// Integers up to here are exact as `f64`, so that one division rounds once.
+        const EXACT: u64 = 1 << f64::MANTISSA_DIGITS;
         match &self.0 {
-            Repr::Small { numerator, denominator } => *numerator as f64 / denominator.get() as f64,
-            Repr::Big(big) => big.to_f64().value(),
+            Repr::Small { numerator, denominator }
+                if numerator.unsigned_abs() <= EXACT && denominator.unsigned_abs().get() <= EXACT =>
+            {
+                *numerator as f64 / denominator.get() as f64
+            }
+            _ => self.to_big().to_f64().value(),
         }
     }
 

@@ -136,7 +136,7 @@ impl Domain {
         }
         let over = Upper::rounded(1.0 / least).powi(pole.sin_power.max(pole.cos_power));
         let above = match wave {
-            Some(_) => Upper::rounded((1.0 - least * least).next_up().max(0.0).sqrt()),
+            Some(_) => Upper::rounded((1.0 - (least * least).next_down()).next_up().max(0.0).sqrt()),
             None => Upper::ONE,
         };
         Ok(over * above)

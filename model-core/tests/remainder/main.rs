@@ -1,4 +1,6 @@
 //! The proven bound on exact minus first order: never exceeded, and sharp where that was promised.
 #![allow(clippy::unwrap_used)]
 
+mod limits;
 mod mobile_lidar;
+mod random_chains;

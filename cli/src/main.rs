@@ -1,10 +1,12 @@
 //! The `trueaxis` command: arguments in, exit code out. What a command does stands in [`commands`].
 
+mod claims;
 mod commands;
 mod errors_file;
 mod evaluation;
 mod failure;
 mod output;
+mod poses;
 mod ranges;
 mod source;
 mod tables;

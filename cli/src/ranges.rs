@@ -48,7 +48,8 @@ pub struct Range {
 pub fn of_chain(chain: &Chain, arguments: &[RangeArgument]) -> Result<Vec<Range>, Failure> {
     let mut ranges: Vec<Range> = Vec::new();
     for argument in arguments {
-        let range = of_symbol(chain, argument)?;
+        let range = read(chain, argument)
+            .map_err(|why| Failure::Input(format!("--range {}: {why}", argument.name)))?;
         if ranges.iter().any(|earlier| earlier.symbol == range.symbol) {
             return Err(Failure::Input(format!("`--range {}=…` is given twice", argument.name)));
         }
@@ -58,7 +59,10 @@ pub fn of_chain(chain: &Chain, arguments: &[RangeArgument]) -> Result<Vec<Range>
 }
 
 /// One range of a chain's joint or input.
-fn of_symbol(chain: &Chain, argument: &RangeArgument) -> Result<Range, Failure> {
+///
+/// # Errors
+/// As [`of_chain`], in words.
+pub fn read(chain: &Chain, argument: &RangeArgument) -> Result<Range, String> {
     let RangeArgument { name, low, high } = argument;
     let symbol = movable(chain).find(|&id| chain.symbol(id).name == *name).ok_or_else(|| {
         let declared = || movable(chain).map(|id| chain.symbol(id).name.as_str());
@@ -66,10 +70,10 @@ fn of_symbol(chain: &Chain, argument: &RangeArgument) -> Result<Range, Failure> 
             || format!("it has {}", listed(declared())),
             |near| format!("did you mean `{near}`?"),
         );
-        Failure::Input(format!("--range: chain {} has no joint or input `{name}`; {instead}", chain.name))
+        format!("chain {} has no joint or input `{name}`; {instead}", chain.name)
     })?;
     let quantity = chain.symbol(symbol).quantity;
-    let wrong = |text: &str, why| Failure::Input(format!("--range {name}: `{text}`: {why}"));
+    let wrong = |text: &str, why| format!("`{text}`: {why}");
     let upper = Amount::parse(high).map_err(|why| wrong(high, why))?;
     let mut lower = Amount::parse(low).map_err(|why| wrong(low, why))?;
     // `-30..30 deg`: the unit of the upper bound holds for both.
@@ -77,8 +81,7 @@ fn of_symbol(chain: &Chain, argument: &RangeArgument) -> Result<Range, Failure> 
     let high = upper.to_si(quantity).map_err(|why| wrong(high, why))?;
     let low = lower.to_si(quantity).map_err(|why| wrong(low, why))?;
     if low > high {
-        let message = format!("--range {name}: the lower bound is above the upper one; swap them");
-        return Err(Failure::Input(message));
+        return Err("the lower bound is above the upper one; swap them".to_owned());
     }
     Ok(Range { symbol, low, high })
 }

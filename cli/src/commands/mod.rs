@@ -2,6 +2,7 @@
 
 mod apply;
 mod bound;
+mod check;
 mod derive;
 mod eval;
 mod generate;
@@ -54,6 +55,7 @@ commands! {
     Derive => derive,
     Identify => identify,
     Bound => bound,
+    Check => check,
     Generate => generate,
     Simulate => simulate,
     Eval => eval,

@@ -61,10 +61,16 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// The product of errors as an amount: `dtheta_x1`, `dx1*dg2`; `1` for what has no error in it.
+    /// The product of errors as an amount; one for what has no error in it.
+    #[must_use]
+    pub fn error_product(&self) -> Poly {
+        compare::product(&self.error)
+    }
+
+    /// The product of errors by its names: `dtheta_x1`, `dx1*dg2`; `1` for what has no error in it.
     #[must_use]
     pub fn error_name(&self, chain: &Chain) -> String {
-        print::text(&compare::product(&self.error), chain)
+        print::text(&self.error_product(), chain)
     }
 }
 

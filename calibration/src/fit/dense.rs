@@ -57,19 +57,29 @@ impl Raw {
 
     /// Whitens residual and Jacobian.
     pub fn whiten(&self, noise: &Noise) -> White {
-        let mut white = White { residual: self.residual.clone(), jacobian: self.jacobian.clone() };
-        noise.whiten(&mut white.residual);
-        let columns: Vec<_> = white.jacobian.as_mut().col_iter_mut().collect();
-        columns.into_par_iter().for_each(|column| {
-            if let Some(column) = column.try_as_col_major_mut() {
-                noise.whiten(column.as_slice_mut());
-            }
-        });
-        white
+        White { residual: self.residual.clone(), jacobian: self.jacobian.clone() }
+            .each_column(|column| noise.whiten(column))
     }
 }
 
 impl White {
+    /// Every column changed in the same way.
+    fn each_column(mut self, change: impl Fn(&mut [f64]) + Sync) -> Self {
+        change(&mut self.residual);
+        let columns: Vec<_> = self.jacobian.as_mut().col_iter_mut().collect();
+        columns.into_par_iter().for_each(|column| {
+            if let Some(column) = column.try_as_col_major_mut() {
+                change(column.as_slice_mut());
+            }
+        });
+        self
+    }
+
+    /// The columns whose products with each other are those of these with the correlation matrix in between.
+    pub fn coloured(&self, noise: &Noise) -> Self {
+        self.clone().each_column(|column| noise.colour(column))
+    }
+
     /// The factor of [√w J | √w r], rows weighted by their row's weight.
     pub fn partial(&self, layout: &Layout, weight: &[f64]) -> Partial {
         let (n, p) = (self.residual.len(), self.jacobian.ncols());

@@ -13,6 +13,9 @@ use crate::observations::Observations;
 /// A step is negligible when it moves the prediction by this many standard deviations in all.
 const NEGLIGIBLE: f64 = 1e-7;
 
+/// The same while the noise is still being learned.
+const ROUGHLY: f64 = 1e-2;
+
 /// How often the noise is learned anew.
 const NOISE_ROUNDS: usize = 8;
 
@@ -60,23 +63,24 @@ impl Solver<'_> {
         if self.options.robust {
             self.start_robustly(&mut point, &mut noise, &subspace)?;
         }
-        let mut converged = false;
-        for round in 0..NOISE_ROUNDS {
-            converged = self.descend(&mut point, &noise, &subspace)?;
+        for _ in 0..NOISE_ROUNDS {
+            self.descend(&mut point, &noise, &subspace, ROUGHLY)?;
             let seen = subspace.clone().extended(&self.unweighted(&point, &noise));
             if seen.rank() > subspace.rank() {
                 subspace = seen;
                 continue;
             }
-            if round + 1 == NOISE_ROUNDS || self.layout.components() <= subspace.rank() {
+            if self.layout.components() <= subspace.rank() {
                 break;
             }
             let learned = self.learn_noise(&point, &noise, subspace.rank());
-            if same(&learned, &noise) {
+            let known = same(&learned, &noise);
+            noise = learned;
+            if known {
                 break;
             }
-            noise = learned;
         }
+        let converged = self.descend(&mut point, &noise, &subspace, NEGLIGIBLE)?;
         Ok(self.result(point, noise, &subspace, converged))
     }
 
@@ -98,7 +102,7 @@ impl Solver<'_> {
     }
 
     fn learn_noise(&self, point: &Point, noise: &Noise, rank: usize) -> Noise {
-        let weight = self.weights(&point.raw, &point.raw.whiten(noise));
+        let weight = self.weights(&point.raw, &point.raw.whiten(&noise.without_memory()));
         noise::estimate(
             self.chain,
             &self.options.noise,
@@ -115,9 +119,9 @@ impl Solver<'_> {
         white.weights(&self.layout, raw, |norm, m| if biweight { robust::weight(norm, m) } else { 1.0 })
     }
 
-    /// The factor of all rows that have a value, each with its full weight.
+    /// The factor of all rows that have a value, each with its full weight, whitened but for serial correlation.
     fn unweighted(&self, point: &Point, noise: &Noise) -> Partial {
-        let white = point.raw.whiten(noise);
+        let white = point.raw.whiten(&noise.without_memory());
         white.partial(&self.layout, &white.weights(&self.layout, &point.raw, |_, _| 1.0))
     }
 
@@ -146,19 +150,30 @@ impl Solver<'_> {
         Ok(())
     }
 
-    /// Levenberg-Marquardt with the noise as it is; whether it converged.
+    /// Levenberg-Marquardt with the noise as it is; whether it converged to a step no longer than `negligible`.
+    ///
+    /// Serial correlation has no part in it: estimates that do not lean on it stay right when what looks like memory is
+    /// an effect that the chain lacks. It enters the uncertainties.
     ///
     /// Source: K. Madsen, H. B. Nielsen, O. Tingleff, Methods for Non-Linear Least Squares Problems (2004), with steps
     /// within the determined combinations and weights taken anew at every step.
-    fn descend(&mut self, point: &mut Point, noise: &Noise, subspace: &Subspace) -> Result<bool, FitError> {
+    fn descend(
+        &mut self,
+        point: &mut Point,
+        noise: &Noise,
+        subspace: &Subspace,
+        negligible: f64,
+    ) -> Result<bool, FitError> {
+        let noise = &noise.without_memory();
         let biweight = self.options.robust;
-        let negligible = NEGLIGIBLE.max(self.unresolved(noise));
+        let negligible = negligible.max(self.unresolved(noise));
         let mut damping = 0.0;
         let mut white = point.raw.whiten(noise);
         let mut objective = white.objective(&self.layout, &point.raw, biweight);
         for _ in 0..self.options.max_iterations {
             let weight = self.weights(&point.raw, &white);
             let step = subspace.step(&white.partial(&self.layout, &weight), damping);
+            let step = step.times(self.stride(&white, &weight));
             if step.length <= negligible && damping < 1e-3 {
                 return Ok(true);
             }
@@ -179,6 +194,23 @@ impl Solver<'_> {
         Ok(false)
     }
 
+    /// By how much a step with weights held fixed falls short of the minimum, because the weights move along.
+    ///
+    /// Source: Huber and Ronchetti, Robust Statistics, 2nd ed., section 7.8.
+    fn stride(&self, white: &White, weight: &[f64]) -> f64 {
+        if !self.options.robust {
+            return 1.0;
+        }
+        let (mut weights, mut slopes) = (0.0, 0.0);
+        let norms = self.layout.norms(&white.residual);
+        for ((norm, &weight), ends) in norms.zip(weight).zip(self.layout.first.windows(2)) {
+            let components = ends[1] - ends[0];
+            weights += components as f64 * weight;
+            slopes += components as f64 * weight + robust::slope(norm, components) * norm;
+        }
+        if slopes > 0.0 { (weights / slopes).clamp(1.0, 1.5) } else { 1.0 }
+    }
+
     /// The length of a step that only moves the last bits of the prediction.
     fn unresolved(&self, noise: &Noise) -> f64 {
         let resolution = noise::resolution(self.observations);
@@ -188,14 +220,23 @@ impl Solver<'_> {
     fn result(self, point: Point, noise: Noise, subspace: &Subspace, converged: bool) -> FitResult {
         let parameters = self.model.parameters().to_vec();
         let (n, rank) = (self.layout.components(), subspace.rank());
-        let mut white = point.raw.whiten(&noise);
-        let weight = self.weights(&point.raw, &white);
-        let norms: Vec<f64> = self.layout.norms(&white.residual).collect();
+        let independent = point.raw.whiten(&noise.without_memory());
+        let weight = self.weights(&point.raw, &independent);
+        let norms: Vec<f64> = self.layout.norms(&independent.residual).collect();
         let set_aside = self.set_aside(&point, &norms, &weight);
         let kept: f64 = self.layout.row.iter().filter(|&&row| weight[row as usize] > 0.0).count() as f64;
         let degrees_of_freedom = kept - rank as f64;
         let factor = self.variance_factor(&norms, &weight, rank);
-        let covariance = scaled(&subspace.covariance(&self.unweighted(&point, &noise)), factor);
+        let full = independent.weights(&self.layout, &point.raw, |_, _| 1.0);
+        let partial = independent.partial(&self.layout, &full);
+        let covariance = match noise.serial {
+            None => subspace.covariance(&partial),
+            Some(_) => {
+                subspace.sandwich(&partial, &independent.coloured(&noise).partial(&self.layout, &full))
+            }
+        };
+        let covariance = scaled(&covariance, factor);
+        let mut white = point.raw.whiten(&noise);
         let (mut squares, mut rows) = (0.0, 0.0);
         for (norm, &weight) in self.layout.norms(&point.raw.residual).zip(&weight) {
             if weight > 0.0 {

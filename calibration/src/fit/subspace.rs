@@ -30,6 +30,15 @@ pub struct Step {
     pub length: f64,
 }
 
+impl Step {
+    /// The same step, longer or shorter.
+    #[must_use]
+    pub fn times(self, stride: f64) -> Self {
+        let change = self.change.into_iter().map(|change| stride * change).collect();
+        Self { change, length: stride * self.length }
+    }
+}
+
 impl Subspace {
     /// What is seen at the point where the partial was accumulated.
     #[must_use]
@@ -68,6 +77,16 @@ impl Subspace {
     #[must_use]
     pub fn rank(&self) -> usize {
         self.basis.ncols()
+    }
+
+    /// The covariance of estimates that were made as if the rows were independent, when they are not: A⁻¹ B A⁻¹ with
+    /// A = JᵀJ and B = KᵀK, K the coloured Jacobian. p × p.
+    #[must_use]
+    pub fn sandwich(&self, partial: &Partial, coloured: &Partial) -> Mat<f64> {
+        let p = partial.parameters;
+        let factor = coloured.factor();
+        let root = factor.submatrix(0, 0, p, p) * self.covariance(partial);
+        root.transpose() * &root
     }
 
     /// The step that minimises |r − J δ|² + damping · s² |δ|², s the largest singular value.

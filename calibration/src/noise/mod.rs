@@ -88,24 +88,64 @@ impl Serial {
     /// Turns values into innovations in place; the first value of the run, which nothing precedes, is scaled to the
     /// same variance.
     pub fn whiten(self, column: &mut [f64], run: Run) {
+        let gain = self.gain();
         for component in 0..run.stride {
             let (mut x_before, mut e_before) = (0.0, 0.0);
             for at in (run.start + component..run.end).step_by(run.stride) {
                 let Some(value) = column.get_mut(at) else { return };
                 let x = *value;
-                e_before = if at == run.start + component {
-                    x / self.gain()
+                if at == run.start + component {
+                    // Nothing precedes the first value: it is scaled, and tells this much of its innovation.
+                    *value = x / gain;
+                    e_before = x / (gain * gain);
                 } else {
-                    x - self.autoregressive * x_before - self.moving_average * e_before
-                };
+                    e_before = x - self.autoregressive * x_before - self.moving_average * e_before;
+                    *value = e_before;
+                }
                 x_before = x;
-                *value = e_before;
+            }
+        }
+    }
+}
+
+impl Serial {
+    /// Multiplies a column by the transpose of what turns innovations into values of variance one, in place.
+    fn colour(self, column: &mut [f64], run: Run) {
+        let gain = self.gain();
+        for component in 0..run.stride {
+            // Backwards through x_t = φ x_{t−1} + e_t + θ e_{t−1}: what each innovation has part in.
+            let (mut after, mut carried) = (0.0, 0.0);
+            for at in (run.start + component..run.end).step_by(run.stride).rev() {
+                let Some(value) = column.get_mut(at) else { return };
+                after = *value + self.autoregressive * after;
+                let remembered = self.moving_average * carried;
+                let first = at == run.start + component;
+                *value = if first { after + remembered / (gain * gain) } else { (after + remembered) / gain };
+                carried = after;
             }
         }
     }
 }
 
 impl Noise {
+    /// The same noise as if no observation remembered the one before.
+    #[must_use]
+    pub fn without_memory(&self) -> Self {
+        let gain = self.serial.map_or(1.0, Serial::gain);
+        let sigma = self.sigma.iter().map(|sigma| sigma * gain).collect();
+        Self { sigma, serial: None, ..self.clone() }
+    }
+
+    /// Multiplies a column that was whitened [without memory](Self::without_memory) by a root of the correlation
+    /// matrix, in place.
+    pub fn colour(&self, column: &mut [f64]) {
+        if let Some(serial) = self.serial {
+            for &run in &self.runs {
+                serial.colour(column, run);
+            }
+        }
+    }
+
     /// Whitens a column of residual components (length n, SI) in place: divides by the standard deviations and
     /// takes out what the observation before it explains. Robust weights are not part of it.
     pub fn whiten(&self, column: &mut [f64]) {
@@ -116,6 +156,50 @@ impl Noise {
             for &run in &self.runs {
                 serial.whiten(column, run);
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    /// Colouring multiplies by a root of the correlation matrix, so the coloured columns of a basis have the
+    /// correlations of the process as their products, once its start is forgotten.
+    #[test]
+    fn colouring_gives_the_correlations_of_the_process() {
+        let serial = Serial { autoregressive: 0.8, moving_average: -0.3 };
+        let run = Run { start: 0, end: 200, stride: 2 };
+        let unit = |at: usize| {
+            let mut column = vec![0.0; 200];
+            column[at] = 1.0;
+            serial.colour(&mut column, run);
+            column
+        };
+        let product = |a: usize, b: usize| unit(a).iter().zip(unit(b)).map(|(x, y)| x * y).sum::<f64>();
+        // Source: Box and Jenkins, Time Series Analysis, equation (3.4.7).
+        let first = (1.0 + 0.8 * -0.3) * (0.8 - 0.3) / (1.0 + 2.0 * 0.8 * -0.3 + 0.09);
+        assert_relative_eq!(product(0, 0), 1.0, epsilon = 1e-12);
+        assert_relative_eq!(product(180, 180), 1.0, epsilon = 1e-12);
+        assert_relative_eq!(product(180, 182), first, epsilon = 1e-12);
+        assert_relative_eq!(product(180, 186), first * 0.8 * 0.8, epsilon = 1e-12);
+        assert_relative_eq!(product(180, 183), 0.0, epsilon = 1e-12);
+    }
+
+    #[test]
+    fn whitening_undoes_colour() {
+        let serial = Serial { autoregressive: 0.9, moving_average: 0.4 };
+        let run = Run { start: 0, end: 5, stride: 1 };
+        let innovations = [1.0, -0.5, 0.25, 2.0, -1.0];
+        let mut values = vec![serial.gain() * innovations[0]];
+        for at in 1..5 {
+            let before = if at == 1 { innovations[0] / serial.gain() } else { innovations[at - 1] };
+            values.push(0.9 * values[at - 1] + innovations[at] + 0.4 * before);
+        }
+        serial.whiten(&mut values, run);
+        for (value, innovation) in values.iter().zip(innovations) {
+            assert_relative_eq!(*value, innovation, epsilon = 1e-12);
         }
     }
 }

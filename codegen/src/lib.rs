@@ -5,13 +5,11 @@
 pub mod backends;
 pub mod build;
 mod builder;
-mod expand;
 pub mod interpreter;
 pub mod program;
 pub mod vector;
 
-pub use backends::{File, Language, Unit, generate};
+pub use backends::{File, LANGUAGES, Language, Unit, generate};
 pub use build::{build, build_all};
-pub use expand::{Expansion, expand};
 pub use interpreter::{Interpreter, ShapeError};
 pub use program::{Counts, Form, Layout, NodeId, Op, Program, Stage};

@@ -143,7 +143,7 @@ fn observed(unit: &Unit<'_>, form: Form, outputs: &[String]) -> String {
 }
 
 /// Statements, indented.
-pub(crate) fn statements(statements: &[Statement], sin_cos: &str, indent: usize) -> String {
+pub(super) fn statements(statements: &[Statement], sin_cos: &str, indent: usize) -> String {
     statements.iter().fold(String::new(), |mut text, statement| {
         let _ = match statement {
             Statement::Let { name, value } => writeln!(text, "{:indent$}let {name} = {value};", ""),
@@ -160,10 +160,10 @@ pub(crate) fn statements(statements: &[Statement], sin_cos: &str, indent: usize)
 }
 
 /// How Rust writes a program: the caller says what a symbol and a carried node are called.
-pub(crate) struct Names<'a> {
-    pub(crate) chain: &'a Chain,
-    pub(crate) symbol: &'a dyn Fn(SymbolId) -> String,
-    pub(crate) carried: &'a dyn Fn(usize) -> String,
+pub(super) struct Names<'a> {
+    pub(super) chain: &'a Chain,
+    pub(super) symbol: &'a dyn Fn(SymbolId) -> String,
+    pub(super) carried: &'a dyn Fn(usize) -> String,
 }
 
 impl Words for Names<'_> {

@@ -1,6 +1,6 @@
 //! What goes into one generated file, and what every language says about it.
 
-use model_core::{Chain, ObservableId, SymbolId, SymbolKind};
+use model_core::{Chain, ObservableId, Quantity, SymbolId, SymbolKind};
 
 use crate::build::build;
 use crate::program::{Form, Program};
@@ -91,8 +91,11 @@ impl Unit<'_> {
         let symbol = self.chain.symbol(id);
         let words = symbol.documentation.split_whitespace().collect::<Vec<_>>().join(" ");
         let words = words.trim_end_matches('.');
-        let unit = symbol.quantity.unit();
-        if words.is_empty() { format!("In {unit}.") } else { format!("{words}, {unit}.") }
+        let unit = match symbol.quantity {
+            Quantity::Angle | Quantity::Length => symbol.quantity.unit(),
+            Quantity::Number => "number",
+        };
+        if words.is_empty() { format!("`{}` ({unit}).", symbol.name) } else { format!("{words} ({unit}).") }
     }
 
     /// What an observable is, on one line.

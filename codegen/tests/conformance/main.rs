@@ -1,0 +1,121 @@
+//! Generated code, compiled or run, against the interpreter: twelve chains, all forms, every language that runs.
+//!
+//! Rust and C compute one pose as the interpreter does, bit by bit: the same operations, the same sine and cosine. Many
+//! poses at once may fuse products and sums inside sine and cosine, and the other languages have their own; these agree
+//! within 4 units in the last place of the result's scale.
+#![allow(clippy::unwrap_used, clippy::print_stderr)]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod case;
+mod drivers;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use case::Case;
+use codegen::Language;
+
+/// A folder of its own for each language.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("conformance").join(name);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// What a command prints; it must succeed.
+fn output(command: &mut Command) -> String {
+    let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{command:?} failed:\n{errors}");
+    assert!(errors.is_empty(), "{command:?} warns:\n{errors}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Writes the generated files of every chain.
+fn write_all(cases: &[Case], language: Language, folder: &Path) {
+    for case in cases {
+        for file in case.generate(language) {
+            fs::write(folder.join(format!("{}.{}", case.name, file.extension)), file.text).unwrap();
+        }
+    }
+}
+
+/// Compares what a driver printed, a number a line, with the interpreter.
+fn compare(cases: &[Case], printed: &str, one_pose_is_exact: bool) {
+    let mut numbers = printed.lines().map(|line| line.parse::<f64>().unwrap());
+    for case in cases {
+        case.compare(&mut numbers, one_pose_is_exact);
+    }
+    assert_eq!(numbers.next(), None, "nothing is printed beyond what was asked");
+}
+
+#[test]
+fn rust() {
+    let cases = Case::all();
+    let folder = folder("rust");
+    write_all(&cases, Language::Rust, &folder);
+    fs::write(folder.join("generated.rs"), drivers::rust_library(&cases)).unwrap();
+    fs::write(folder.join("main.rs"), drivers::rust(&cases)).unwrap();
+    let rustc = || {
+        let mut command = Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()));
+        command.current_dir(&folder).args(["--edition=2024", "-Copt-level=1", "-Dwarnings"]);
+        command
+    };
+    output(rustc().args(["--crate-type=rlib", "generated.rs"]));
+    output(rustc().args(["--extern=generated=libgenerated.rlib", "main.rs"]));
+    compare(&cases, &output(&mut Command::new(folder.join("main"))), true);
+}
+
+#[test]
+fn c() {
+    let cases = Case::all();
+    let folder = folder("c");
+    write_all(&cases, Language::C, &folder);
+    fs::write(folder.join("main.c"), drivers::c(&cases)).unwrap();
+    let sources = cases.iter().map(|case| format!("{}.c", case.name));
+    output(
+        Command::new(std::env::var_os("CC").unwrap_or_else(|| "cc".into()))
+            .current_dir(&folder)
+            .args([
+                "-std=c99",
+                "-O1",
+                "-ffp-contract=off",
+                "-Wall",
+                "-Wextra",
+                "-pedantic",
+                "-o",
+                "main",
+                "main.c",
+            ])
+            .args(sources),
+    );
+    compare(&cases, &output(&mut Command::new(folder.join("main"))), true);
+}
+
+#[test]
+fn javascript() {
+    let cases = Case::all();
+    let folder = folder("javascript");
+    write_all(&cases, Language::Javascript, &folder);
+    fs::write(folder.join("package.json"), "{\"type\": \"module\"}").unwrap();
+    fs::write(folder.join("main.js"), drivers::javascript(&cases)).unwrap();
+    compare(&cases, &output(Command::new("node").current_dir(&folder).arg("main.js")), false);
+}
+
+#[test]
+fn numpy() {
+    let has_numpy = Command::new("python3").args(["-c", "import numpy"]).output();
+    if !has_numpy.is_ok_and(|output| output.status.success()) {
+        assert!(std::env::var_os("CI").is_none(), "python3 with numpy is part of what CI checks");
+        eprintln!("skipped: python3 cannot import numpy");
+        return;
+    }
+    let cases = Case::all();
+    let folder = folder("numpy");
+    write_all(&cases, Language::Numpy, &folder);
+    fs::write(folder.join("main.py"), drivers::numpy(&cases)).unwrap();
+    compare(&cases, &output(Command::new("python3").current_dir(&folder).arg("main.py")), false);
+}

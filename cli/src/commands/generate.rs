@@ -43,12 +43,24 @@ pub struct Arguments {
 enum Language {
     /// Rust that needs nothing but core
     Rust,
+    /// C99, with its header
+    C,
+    /// Equations, to be included in a document
+    Latex,
+    /// Python with NumPy
+    Numpy,
+    /// A JavaScript module
+    Javascript,
 }
 
 impl From<Language> for codegen::Language {
     fn from(language: Language) -> Self {
         match language {
             Language::Rust => Self::Rust,
+            Language::C => Self::C,
+            Language::Latex => Self::Latex,
+            Language::Numpy => Self::Numpy,
+            Language::Javascript => Self::Javascript,
         }
     }
 }
@@ -78,7 +90,8 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         forms: &FORMS,
         remainders: &remainders,
     };
-    let files = codegen::generate(&unit, arguments.language.into());
+    let name = arguments.out.file_stem().unwrap_or_default().to_string_lossy();
+    let files = codegen::generate(&unit, arguments.language.into(), &name);
     if arguments.out == Path::new("-") && files.len() > 1 {
         let message =
             format!("this language takes {} files; name one with --out, the rest lie beside it", files.len());

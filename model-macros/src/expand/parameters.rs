@@ -44,7 +44,10 @@ pub fn groups(chain: &Chain) -> Vec<Group> {
 pub fn items(context: &Context<'_>, group: &Group) -> TokenStream {
     let structure = structure(context, group);
     let conversions = match group.kind {
-        SymbolKind::Joint | SymbolKind::Input => slices(context, group),
+        SymbolKind::Joint | SymbolKind::Input => {
+            let (arrays, slices) = (arrays(context, group), slices(context, group));
+            quote! { #arrays #slices }
+        }
         SymbolKind::Error => arrays(context, group),
         _ => declared_values(context, group),
     };
@@ -89,9 +92,9 @@ fn meaning(symbol: &Symbol) -> String {
     if symbol.documentation.is_empty() { note } else { format!("{}\n\n{note}", symbol.documentation) }
 }
 
-/// Errors to and from an array, in the order of the Jacobians' columns.
+/// To and from an array, in order; that of errors is the order of the Jacobians' columns.
 fn arrays(context: &Context<'_>, group: &Group) -> TokenStream {
-    let Group { type_name, symbols, .. } = group;
+    let Group { field: variable, type_name, symbols, .. } = group;
     let fields: Vec<Ident> = fields(context, symbols).collect();
     let count = fields.len();
     quote! {
@@ -102,8 +105,8 @@ fn arrays(context: &Context<'_>, group: &Group) -> TokenStream {
         }
 
         impl From<#type_name> for [f64; #count] {
-            fn from(errors: #type_name) -> Self {
-                [#(errors.#fields),*]
+            fn from(#variable: #type_name) -> Self {
+                [#(#variable.#fields),*]
             }
         }
     }

@@ -5,9 +5,12 @@ use model_core::algebra::Poly;
 use model_core::{SymbolKind, forms, syntax};
 use std::collections::BTreeMap;
 
+/// Error, axis and expression.
+type Entry<'a> = (&'a str, usize, &'a str);
+
 #[test]
 fn validate_every_first_order_column() {
-    let mut reference: BTreeMap<(&str, &str), Vec<(&str, usize, &str)>> = BTreeMap::new();
+    let mut reference: BTreeMap<(&str, &str), Vec<Entry>> = BTreeMap::new();
     for line in include_str!("../reference/columns.txt").lines() {
         let (place, expression) = line.split_once(" = ").unwrap();
         let [chain, observable, error, axis] = place.split(' ').collect::<Vec<_>>().try_into().unwrap();

@@ -70,16 +70,13 @@ fn validate_the_parts_of_degree_one_two_and_three() {
         let mut lower = [0.0; 3];
         for order in 1..=3 {
             let form = forms::derive(&chain, observable, order).unwrap();
-            for axis in 0..3 {
+            for (axis, lower) in lower.iter_mut().enumerate() {
                 let sum = form.components[axis].eval(&values);
-                let (found, expected) = (sum - lower[axis], line.vectors[order as usize][axis]);
-                let scale = expected.abs() + lower[axis].abs() + 1.0;
-                assert!(
-                    (found - expected).abs() <= 1e-12 * scale,
-                    "{} {order}: {found} {expected}",
-                    line.observable
-                );
-                lower[axis] = sum;
+                let (found, expected) = (sum - *lower, line.vectors[order as usize][axis]);
+                let scale = expected.abs() + lower.abs() + 1.0;
+                let place = (line.observable, order, axis);
+                assert!((found - expected).abs() <= 1e-12 * scale, "{place:?}: {found} {expected}");
+                *lower = sum;
                 count += 1;
             }
         }

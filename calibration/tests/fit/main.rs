@@ -1,6 +1,8 @@
 //! The fit against simulated instruments whose errors are known.
 #![allow(clippy::unwrap_used)]
 
+mod coverage;
+mod nasty;
 mod simulated;
 
 use calibration::fit::{FitOptions, Outcome, fit};

@@ -78,11 +78,19 @@ impl Simulation {
 
     /// Directions with normal noise on the tangent plane.
     pub fn directions(&mut self, observable: &str, sigma_rad: f64) -> Observations {
+        self.directions_with(observable, sigma_rad, 0.0)
+    }
+
+    /// The same, where each row's noise remembers the share `memory` of the row before.
+    pub fn directions_with(&mut self, observable: &str, sigma_rad: f64, memory: f64) -> Observations {
         let truth = self.truth(observable);
-        let measured = truth
-            .iter()
-            .map(|u| direction_from_offset(u, sigma_rad * self.normal(), sigma_rad * self.normal()).into())
-            .collect();
+        let mut noise = [sigma_rad * self.normal(), sigma_rad * self.normal()];
+        let fresh = sigma_rad * (1.0 - memory * memory).sqrt();
+        let mut measured = Vec::new();
+        for direction in truth {
+            measured.push(direction_from_offset(&direction, noise[0], noise[1]).into());
+            noise = noise.map(|value| memory * value + fresh * self.normal());
+        }
         self.observations(observable, Measure::Direction, measured)
     }
 

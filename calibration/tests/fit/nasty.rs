@@ -1,0 +1,155 @@
+//! Data as they should not be: an outcome that names the trouble, never a panic, never a silent wrong answer.
+
+use calibration::fit::{FitOptions, FitResult, Outcome, fit};
+use calibration::observations::Observations;
+use rand::RngExt;
+
+use crate::simulated::Simulation;
+
+const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;
+
+fn mount(rows: usize, seed: u64) -> Simulation {
+    let text = include_str!("../../../examples/alt-azimuth/alt-azimuth.chain");
+    let mut simulation = Simulation::new(text, seed);
+    simulation.column("azimuth", rows, -3.1..3.1);
+    simulation.column("elevation", rows, 0.2..1.3);
+    simulation.draw_errors("*", 60.0 * ARCSEC);
+    simulation
+}
+
+fn fitted(simulation: &Simulation, observations: &Observations) -> FitResult {
+    fit(&simulation.chain, observations, &FitOptions::for_chain(&simulation.chain)).unwrap()
+}
+
+/// The greatest error of an estimate, in units of its standard uncertainty.
+fn worst(simulation: &Simulation, result: &FitResult) -> f64 {
+    let score = |(at, parameter): (usize, &model_core::SymbolId)| {
+        let error = result.values[parameter.index()] - simulation.values[parameter.index()];
+        error.abs() / result.covariance[(at, at)].sqrt()
+    };
+    result.parameters.iter().enumerate().map(score).fold(0.0, f64::max)
+}
+
+#[test]
+fn forty_percent_outliers_are_set_aside() {
+    let mut simulation = mount(300, 1);
+    let mut observations = simulation.directions("sight", 2.0 * ARCSEC);
+    for row in 0..120 {
+        let to: f64 = simulation.rng().random_range(0.002..0.5);
+        let [x, y, z] = observations.measured[row];
+        let moved = nalgebra::Vector3::new(x + to, y - to, z).normalize();
+        observations.measured[row] = moved.into();
+    }
+    let result = fitted(&simulation, &observations);
+    assert!(matches!(result.outcome, Outcome::Converged { .. }), "{:?}", result.outcome);
+    assert!((120..126).contains(&result.set_aside.len()), "{}", result.set_aside.len());
+    assert!(result.set_aside.iter().filter(|aside| aside.row < 120).count() == 120);
+    assert!(worst(&simulation, &result) < 4.0, "{}", worst(&simulation, &result));
+}
+
+#[test]
+fn one_pose_repeated_determines_two_combinations() {
+    let mut simulation = mount(50, 2);
+    for (_, column) in &mut simulation.columns {
+        let first = column[0];
+        column.fill(first);
+    }
+    let observations = simulation.directions("sight", 2.0 * ARCSEC);
+    let result = fitted(&simulation, &observations);
+    assert_eq!(result.rank, 2);
+    assert!(result.separable.iter().all(|separable| !separable));
+    assert_eq!(result.null_space.ncols(), 4);
+}
+
+#[test]
+fn all_rows_identical_have_no_spread_to_learn_from() {
+    let mut simulation = mount(1, 3);
+    let one = simulation.directions("sight", 2.0 * ARCSEC);
+    let observations = one.select(&[0; 20]);
+    let result = fitted(&simulation, &observations);
+    assert_eq!(result.rank, 2);
+    assert!(result.rms < 1e-12);
+}
+
+#[test]
+fn fewer_rows_than_errors_are_named() {
+    for rows in [0, 1, 2, 3] {
+        let mut simulation = mount(rows, 4);
+        let observations = simulation.directions("sight", 2.0 * ARCSEC);
+        let result = fitted(&simulation, &observations);
+        let few = Outcome::TooFewObservations { components: 2 * rows, parameters: 6 };
+        assert_eq!(result.outcome, few, "{rows} rows");
+        assert!(result.values.iter().all(|value| value.is_finite()));
+        assert!((0..6).all(|at| !(result.covariance[(at, at)] < 1e-6 && result.separable[at])));
+    }
+}
+
+#[test]
+fn errors_of_degrees_converge() {
+    let mut simulation = mount(200, 5);
+    simulation.draw_errors("*", 0.1);
+    let observations = simulation.directions("sight", 2.0 * ARCSEC);
+    let result = fitted(&simulation, &observations);
+    assert!(matches!(result.outcome, Outcome::Converged { .. }), "{:?}", result.outcome);
+    assert!(worst(&simulation, &result) < 4.0, "{}", worst(&simulation, &result));
+}
+
+#[test]
+fn tiny_and_huge_scales_fit_alike() {
+    // Errors of 1e-12 rad with noise of 1e-13, and a lever arm of a thousand kilometres.
+    let mut simulation = mount(200, 6);
+    simulation.draw_errors("*", 1e-12);
+    let observations = simulation.directions("sight", 1e-13);
+    let result = fitted(&simulation, &observations);
+    assert!(matches!(result.outcome, Outcome::Converged { .. }), "{:?}", result.outcome);
+    assert!(worst(&simulation, &result) < 4.0, "{}", worst(&simulation, &result));
+
+    let text = "chain Far { body a on ground { position_error: Tx(x), Ty(y), Ry(tilt); motion: Rz(q); \
+                motion_error: Rz(index); } observe mark: point(1000000, 0, 0) of a; }";
+    let mut simulation = Simulation::new(text, 7);
+    simulation.column("q", 200, -3.0..3.0);
+    simulation.draw_errors("*", 1e-3);
+    let observations = simulation.points("mark", 1e-3);
+    let result = fitted(&simulation, &observations);
+    assert!(matches!(result.outcome, Outcome::Converged { .. }), "{:?}", result.outcome);
+    assert_eq!(result.rank, 4);
+    assert!(worst(&simulation, &result) < 4.0, "{}", worst(&simulation, &result));
+}
+
+#[test]
+fn perfect_data_are_no_trouble() {
+    let mut simulation = mount(100, 8);
+    let observations = simulation.directions("sight", 0.0);
+    let result = fitted(&simulation, &observations);
+    assert!(matches!(result.outcome, Outcome::Converged { .. }), "{:?}", result.outcome);
+    assert!(result.rms < 1e-14, "{}", result.rms);
+}
+
+#[test]
+fn where_the_chain_has_no_value_the_row_is_set_aside() {
+    let text = "chain Cot { body a on ground { motion: Rx(q); motion_error: Rx(t*cot(q)); } \
+                observe sight: direction(0, 1, 0) of a; }";
+    let mut simulation = Simulation::new(text, 9);
+    simulation.column("q", 50, 0.2..1.3);
+    simulation.draw_errors("*", 1e-3);
+    let mut observations = simulation.directions("sight", 1e-5);
+    observations.columns[0].1[7] = 0.0;
+    let result = fitted(&simulation, &observations);
+    let aside = result.set_aside.iter().find(|aside| aside.row == 7).unwrap();
+    assert!(aside.why.contains("no finite value"), "{}", aside.why);
+    assert!(worst(&simulation, &result) < 4.0);
+}
+
+#[test]
+fn duplicated_rows_change_no_estimate() {
+    let mut simulation = mount(60, 10);
+    let observations = simulation.directions("sight", 2.0 * ARCSEC);
+    let once = fitted(&simulation, &observations);
+    let rows: Vec<usize> = (0..60).chain(0..60).collect();
+    let twice = fitted(&simulation, &observations.select(&rows));
+    for &parameter in &once.parameters {
+        let uncertainty = once.standard_uncertainty(parameter).unwrap();
+        let moved = once.values[parameter.index()] - twice.values[parameter.index()];
+        assert!(moved.abs() < 0.05 * uncertainty, "{}", moved / uncertainty);
+    }
+}

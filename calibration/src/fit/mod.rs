@@ -8,6 +8,7 @@ mod model;
 mod partial;
 pub mod robust;
 mod solve;
+mod stream;
 mod subspace;
 
 use faer::Mat;
@@ -18,6 +19,7 @@ use crate::noise::{Noise, NoiseOptions};
 pub use model::{Block, Model};
 pub use partial::Partial;
 pub use solve::fit;
+pub use stream::{Next, Pass, Streamed, StreamedResult, Tally};
 pub use subspace::{Step, Subspace};
 
 /// What to fit and how.

@@ -4,6 +4,7 @@
 mod coverage;
 mod nasty;
 mod simulated;
+mod streamed;
 
 use calibration::fit::{FitOptions, Outcome, fit};
 use simulated::Simulation;

@@ -2,12 +2,14 @@
 
 mod claims;
 mod commands;
+mod date;
 mod errors_file;
 mod evaluation;
 mod failure;
 mod output;
 mod poses;
 mod ranges;
+mod report;
 mod source;
 mod tables;
 mod terminal;

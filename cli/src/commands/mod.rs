@@ -2,6 +2,7 @@
 
 mod apply;
 mod bound;
+mod calibrate;
 mod check;
 mod derive;
 mod eval;
@@ -59,5 +60,6 @@ commands! {
     Generate => generate,
     Simulate => simulate,
     Eval => eval,
+    Calibrate => calibrate,
     Apply => apply,
 }

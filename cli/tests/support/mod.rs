@@ -43,9 +43,13 @@ pub fn run_in(folder: &Path, arguments: &[&str], stdin: &str) -> Run {
         .stderr(Stdio::piped())
         .spawn()
         .expect("the command starts");
-    // A command that stops early does not read its input.
-    let _ = child.stdin.take().expect("piped").write_all(stdin.as_bytes());
-    let output = child.wait_with_output().expect("the command ends");
+    let mut input = child.stdin.take().expect("piped");
+    let output = std::thread::scope(|scope| {
+        // Written beside the reading of what comes out, or both sides could wait for each other; a command that
+        // stops early does not read its input.
+        scope.spawn(move || input.write_all(stdin.as_bytes()));
+        child.wait_with_output().expect("the command ends")
+    });
     Run {
         code: output.status.code().expect("no signal ends the command"),
         stdout: String::from_utf8(output.stdout).expect("UTF-8"),

@@ -1,0 +1,111 @@
+//! `trueaxis calibrate`: fit, residual, trace, amend, report.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use calibration::calibrate::{Request, calibrate};
+use calibration::formats::DataError;
+use calibration::study::{Plan, Study, StudyError};
+use model_core::Mistake;
+
+use super::{Answer, TextOrJson};
+use crate::failure::Failure;
+use crate::report::{self, Reported};
+use crate::source::Source;
+use crate::{date, source, tables, terminal};
+
+/// Fit the errors to measured data, and find what the declaration lacks.
+///
+/// Fits the declared errors, looks for structure in the residual, names the effect that explains it, amends the
+/// declaration, and judges the error before and after on data that nobody fitted. The study file names the chain,
+/// the data, their columns and what was observed.
+///
+/// Example: trueaxis calibrate examples/mobile-lidar/study.toml --out result
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The study file
+    study: PathBuf,
+    /// Folder for report.html, report.json, amended.chain, errors.toml and residuals.csv
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Only print how the declaration would change; write nothing
+    #[arg(long, conflicts_with = "out")]
+    dry_run: bool,
+    /// How to print
+    #[arg(long, value_enum, default_value_t = TextOrJson::Text)]
+    format: TextOrJson,
+}
+
+/// Runs the command.
+pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
+    let study_source = Source::read(&arguments.study)?;
+    let in_study = |error: StudyError| {
+        let mistake = Mistake::new(error.place.clone(), error.message);
+        study_source.mistake(if error.help.is_empty() { mistake } else { mistake.with_help(error.help) })
+    };
+    let study = Study::from_text(&study_source.text).map_err(in_study)?;
+    let chain_source = study_source.read_beside(Path::new(study.chain.get_ref()))?;
+    let plan = study.plan(&chain_source.chain()?).map_err(in_study)?;
+
+    let mut open = |path: &str| open_beside(&study_source, path);
+    let observations = plan.observations(&mut open).map_err(tables::failure)?;
+    let second = plan.held_out(&mut open).map_err(tables::failure)?;
+    terminal::note(format_args!("{}", what_is_done(&plan, observations.rows())));
+
+    let date = date::today();
+    let request = Request {
+        text: &chain_source.text,
+        plan: &plan,
+        observations: &observations,
+        second: second.as_ref(),
+        when: &date,
+    };
+    let calibration = calibrate(request).map_err(|error| Failure::Input(error.to_string()))?;
+    let reported = Reported {
+        calibration: &calibration,
+        observations: &observations,
+        chain_file: study.chain.get_ref(),
+        chain_text: &chain_source.text,
+        date: &date,
+    };
+    if arguments.dry_run {
+        terminal::print(&report::diff(&reported))?;
+        return Ok(Answer::Done);
+    }
+    if let Some(folder) = &arguments.out {
+        report::write_all(&reported, folder)?;
+        terminal::note(format_args!("the report is in {}", folder.join("report.html").display()));
+    }
+    terminal::print(&match arguments.format {
+        TextOrJson::Text => report::as_text(&reported),
+        TextOrJson::Json => report::json(&reported)?,
+    })?;
+    Ok(Answer::Done)
+}
+
+/// `400 observations; fitting 30 errors, searching, and repeating the search in 10 folds`
+fn what_is_done(plan: &Plan, rows: usize) -> String {
+    let folds = match (&plan.hold_out.file, plan.hold_out.folds) {
+        (Some(file), _) => format!("judging on {file}"),
+        (None, folds) => format!("repeating the search in {folds} folds"),
+    };
+    format!("{rows} observations; fitting {} errors, searching, and {folds}", plan.fit.estimate.len())
+}
+
+/// Opens a data file that the study names.
+fn open_beside(study: &Source, path: &str) -> Result<Box<dyn Read>, DataError> {
+    let beside = study.beside(Path::new(path));
+    let unreadable = |error: &io::Error| {
+        let why = match source::not_readable(&beside, error) {
+            Failure::Read { why, .. } => why,
+            other => other.to_string(),
+        };
+        DataError::Unreadable { file: beside.display().to_string(), why }
+    };
+    let file = File::open(&beside).map_err(|error| unreadable(&error))?;
+    if file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
+        return Err(unreadable(&io::ErrorKind::IsADirectory.into()));
+    }
+    Ok(Box::new(file))
+}

@@ -1,0 +1,171 @@
+//! A calibration for the terminal: verdict, effects, errors, before and after.
+
+use std::fmt::Write as _;
+
+use calibration::report::{EffectFound, Report, Verdict};
+use similar::TextDiff;
+
+use super::{Reported, quantities};
+use crate::terminal::{CAREFUL, GOOD, HEADING};
+
+/// Effects that these data could not have shown, that are listed.
+const NOT_SHOWN: usize = 5;
+
+/// The whole summary.
+#[must_use]
+pub fn as_text(reported: &Reported<'_>) -> String {
+    let report = &reported.calibration.report;
+    let mut text = String::new();
+    let style = match report.verdict {
+        Verdict::Explained | Verdict::UpToAClass => GOOD,
+        _ => CAREFUL,
+    };
+    let _ = writeln!(text, "{HEADING}verdict:{HEADING:#} {style}{}{style:#}", report.verdict.words());
+    let _ = writeln!(text, "{}\n", what_it_means(report));
+    effects(&mut text, report);
+    before_and_after(&mut text, report);
+    errors(&mut text, report);
+    remarks(&mut text, report);
+    if !report.effects.is_empty() {
+        let _ =
+            writeln!(text, "\n{HEADING}the declaration, amended{HEADING:#}\n{}", diff(reported).trim_end());
+    }
+    text
+}
+
+/// The difference between the declaration and the amended one, as a unified diff; empty if there is none.
+#[must_use]
+pub fn diff(reported: &Reported<'_>) -> String {
+    let file = reported.chain_file;
+    TextDiff::from_lines(reported.chain_text, reported.calibration.amended.as_str())
+        .unified_diff()
+        .context_radius(2)
+        .header(file, &format!("{file} (amended)"))
+        .to_string()
+}
+
+/// A verdict in a sentence.
+#[must_use]
+pub fn what_it_means(report: &Report) -> &'static str {
+    match report.verdict {
+        Verdict::Explained => {
+            "The effects below explain what the declaration left over; nothing else stands out."
+        }
+        Verdict::UpToAClass => {
+            "The effects below explain what the declaration left over, but these data cannot tell some of them from \
+             others: read each with its class and its rivals."
+        }
+        Verdict::StructureRemains => {
+            "Structure remains in the residual that no effect of the catalogue explains."
+        }
+        Verdict::NothingDetectable => "No effect that the declaration lacks stands out from the noise.",
+        Verdict::FewObservations => {
+            "An effect rests on fewer than five observations: measure more there first."
+        }
+    }
+}
+
+fn effects(text: &mut String, report: &Report) {
+    if report.effects.is_empty() {
+        return;
+    }
+    let _ = writeln!(text, "{HEADING}effects that the declaration lacks{HEADING:#}");
+    for (number, effect) in (1..).zip(&report.effects) {
+        let _ = writeln!(
+            text,
+            "  {number}. {} in body {}: {}",
+            effect.text,
+            effect.body,
+            effect.names.join(", ")
+        );
+        for line in evidence(effect, report) {
+            let _ = writeln!(text, "     {line}");
+        }
+    }
+    text.push('\n');
+}
+
+/// What speaks for an effect, and what cannot be told from it.
+#[must_use]
+pub fn evidence(effect: &EffectFound, report: &Report) -> Vec<String> {
+    let mut lines = Vec::new();
+    for (name, value) in &effect.coefficients {
+        let found = report.errors.iter().find(|error| error.name == *name);
+        let told = found.map_or_else(
+            || format!("{value:?}"),
+            |error| quantities::estimate(error.value, error.standard_uncertainty, error.unit),
+        );
+        lines.push(format!("{name} = {told}"));
+    }
+    lines.push(format!(
+        "chance of as much from noise, with every candidate tried: {}; found in {:.0} % of the folds",
+        quantities::chance(effect.p_value),
+        100.0 * effect.selected_in_folds
+    ));
+    if !effect.class.is_empty() {
+        lines.push(format!("these data cannot tell it from: {}", effect.class.join("; ")));
+    }
+    if !effect.rivals.is_empty() {
+        lines.push(format!("explains these data about as well: {}", effect.rivals.join("; ")));
+    }
+    lines
+}
+
+fn before_and_after(text: &mut String, report: &Report) {
+    let told = |si: Option<f64>| si.map_or_else(|| "none".to_owned(), |si| quantities::told(si, report.unit));
+    let row = |text: &mut String, name: &str, before: Option<f64>, after: Option<f64>| {
+        let _ = writeln!(text, "  {name:30} {:>14} {:>14}", told(before), told(after));
+    };
+    let _ = writeln!(
+        text,
+        "{HEADING}{:32} {:>14} {:>14}{HEADING:#}",
+        "residual, RMS of its length", "before", "after"
+    );
+    row(text, "on the data that were fitted", Some(report.before.rms), Some(report.after.rms));
+    row(text, "on data that nobody fitted", report.before.held_out_rms, report.after.held_out_rms);
+}
+
+fn errors(text: &mut String, report: &Report) {
+    let width = report.errors.iter().map(|error| error.name.len()).max().unwrap_or_default();
+    let _ = writeln!(text, "\n{HEADING}errors{HEADING:#}");
+    for error in report.errors.iter().filter(|error| error.separable) {
+        let told = quantities::estimate(error.value, error.standard_uncertainty, error.unit);
+        let _ = writeln!(text, "  {:width$}  {told}", error.name);
+    }
+    for list in &report.not_separable {
+        match list.as_slice() {
+            [one] => {
+                let _ = writeln!(text, "  {one:width$}  these data do not show it");
+            }
+            several => {
+                let _ = writeln!(text, "  these data determine only combinations of {}", several.join(", "));
+            }
+        }
+    }
+}
+
+fn remarks(text: &mut String, report: &Report) {
+    let used = &report.observations;
+    if !used.set_aside.is_empty() {
+        let _ = writeln!(
+            text,
+            "\n{HEADING}{} of {} observations set aside{HEADING:#}",
+            used.set_aside.len(),
+            used.rows
+        );
+        for aside in used.set_aside.iter().take(NOT_SHOWN) {
+            let _ = writeln!(text, "  row {}: {}", aside.row, aside.why);
+        }
+        if used.set_aside.len() > NOT_SHOWN {
+            let _ = writeln!(text, "  and {} more; report.json lists all", used.set_aside.len() - NOT_SHOWN);
+        }
+    }
+    if let Some(place) = &report.remaining.place {
+        let chance = quantities::chance(report.remaining.p_value);
+        let _ = writeln!(
+            text,
+            "\n{HEADING}what is left{HEADING:#} sits in body {}, {}, driven by {} (chance from noise: {chance})",
+            place.body, place.dof, place.driver
+        );
+    }
+}

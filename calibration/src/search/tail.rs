@@ -78,7 +78,7 @@ impl Tails {
     #[must_use]
     pub fn new(ranks: impl IntoIterator<Item = usize>, df: f64) -> Self {
         let mut by_rank: Vec<Option<Tail>> = Vec::new();
-        for rank in ranks {
+        for rank in ranks.into_iter().filter(|&rank| rank > 0 && df > rank as f64) {
             by_rank.resize(by_rank.len().max(rank + 1), None);
             by_rank[rank].get_or_insert_with(|| Tail::new(rank, df - rank as f64));
         }

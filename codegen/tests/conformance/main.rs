@@ -8,6 +8,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod branches;
 mod case;
 mod drivers;
 

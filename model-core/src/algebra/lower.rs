@@ -2,6 +2,7 @@
 
 use super::AlgebraError;
 use super::angle::AngleSum;
+use super::multiply::Budget;
 use super::poly::Poly;
 use crate::expr::{Expr, Function, Node};
 use crate::symbol::SymbolId;
@@ -63,13 +64,14 @@ impl Poly {
         resolve: impl Fn(&str) -> Option<SymbolId>,
         is_angle: impl Fn(SymbolId) -> bool,
     ) -> Result<Self, LowerError<S>> {
-        Lowering { resolve, is_angle }.value(expression)
+        Lowering { resolve, is_angle, budget: Budget::new() }.value(expression)
     }
 }
 
 struct Lowering<R, A> {
     resolve: R,
     is_angle: A,
+    budget: Budget,
 }
 
 impl<R: Fn(&str) -> Option<SymbolId>, A: Fn(SymbolId) -> bool> Lowering<R, A> {
@@ -83,11 +85,10 @@ impl<R: Fn(&str) -> Option<SymbolId>, A: Fn(SymbolId) -> bool> Lowering<R, A> {
             }),
             Node::Neg(inner) => Ok(-&self.value(inner)?),
             Node::Add(_, _) => self.sum(expression),
-            Node::Mul(left, right) => self.value(left)?.checked_mul(&self.value(right)?).map_err(refuse),
-            Node::Div(left, right) => self.value(left)?.checked_mul(&self.reciprocal(right)?).map_err(refuse),
+            Node::Mul(..) | Node::Div(..) => self.product(expression, false),
             Node::Pow(base, exponent) => {
                 let base = if *exponent < 0 { self.reciprocal(base)? } else { self.value(base)? };
-                base.pow(exponent.unsigned_abs()).map_err(refuse)
+                base.pow_within(exponent.unsigned_abs(), &self.budget).map_err(refuse)
             }
             Node::Call(function, argument) => self.call(*function, argument, expression),
         }
@@ -111,19 +112,37 @@ impl<R: Fn(&str) -> Option<SymbolId>, A: Fn(SymbolId) -> bool> Lowering<R, A> {
         Ok(result.normalised())
     }
 
+    /// A product or quotient, or one over it; the left spine is walked as in a sum.
+    fn product<S: Clone>(&self, expression: &Expr<S>, inverted: bool) -> Result<Poly, LowerError<S>> {
+        let mut factors = Vec::new();
+        let mut spine = expression;
+        while let Node::Mul(left, right) | Node::Div(left, right) = &spine.node {
+            factors.push((&**right, inverted != matches!(spine.node, Node::Div(..))));
+            spine = left;
+        }
+        factors.push((spine, inverted));
+        let mut result = Poly::one();
+        for (factor, below) in factors.into_iter().rev() {
+            let factor = if below { self.reciprocal(factor)? } else { self.value(factor)? };
+            result = result
+                .mul_within(&factor, &self.budget)
+                .map_err(|error| LowerError::Algebra { error, place: expression.place.clone() })?;
+        }
+        Ok(result)
+    }
+
     /// One over an expression. Products and powers are taken apart as written, because multiplied out they are sums.
     fn reciprocal<S: Clone>(&self, expression: &Expr<S>) -> Result<Poly, LowerError<S>> {
         let refuse = |error| LowerError::Algebra { error, place: expression.place.clone() };
         match &expression.node {
             Node::Neg(inner) => Ok(-&self.reciprocal(inner)?),
-            Node::Mul(left, right) => {
-                self.reciprocal(left)?.checked_mul(&self.reciprocal(right)?).map_err(refuse)
-            }
-            Node::Div(left, right) => self.reciprocal(left)?.checked_mul(&self.value(right)?).map_err(refuse),
+            Node::Mul(..) | Node::Div(..) => self.product(expression, true),
             Node::Pow(base, exponent) if *exponent >= 0 => {
-                self.reciprocal(base)?.pow(exponent.unsigned_abs()).map_err(refuse)
+                self.reciprocal(base)?.pow_within(exponent.unsigned_abs(), &self.budget).map_err(refuse)
             }
-            Node::Pow(base, exponent) => self.value(base)?.pow(exponent.unsigned_abs()).map_err(refuse),
+            Node::Pow(base, exponent) => {
+                self.value(base)?.pow_within(exponent.unsigned_abs(), &self.budget).map_err(refuse)
+            }
             _ => {
                 let value = self.value(expression)?;
                 if value.is_zero() {

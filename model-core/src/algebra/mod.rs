@@ -24,9 +24,9 @@ pub use poly::Poly;
 pub use rational::{DecimalError, Rational};
 pub use terms::{Pole, Term, Wave, WaveFactor};
 
-/// Terms (and atoms) that one product of typed expressions may have.
+/// Products of terms that one checked operation, or a typed expression as a whole, may take.
 pub const SIZE_LIMIT: usize = 200_000;
-/// The highest power or harmonic that a typed power may lead to.
+/// The highest power of a symbol, or of a sine or cosine in a denominator, that a checked product may lead to.
 pub const DEGREE_LIMIT: u32 = 1000;
 /// The highest multiple of an angle that a sine or cosine may be taken of.
 pub const HARMONIC_LIMIT: u32 = 1_000_000;

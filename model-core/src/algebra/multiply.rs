@@ -1,12 +1,13 @@
 //! Products and powers.
 
+use std::cell::Cell;
 use std::ops::Mul;
 
-use super::atom::{Atom, Meaning};
+use super::atom::{Atom, Circle, Meaning};
 use super::circle::{self, Combination};
 use super::poly::Poly;
 use super::rational::Rational;
-use super::{AlgebraError, SIZE_LIMIT};
+use super::{AlgebraError, DEGREE_LIMIT, SIZE_LIMIT};
 
 impl Mul for &Poly {
     type Output = Poly;
@@ -23,20 +24,36 @@ impl Mul for &Poly {
     }
 }
 
+/// How much work may still be spent on products, in term products.
+///
+/// What a user types is multiplied out within a budget; a formula of an instrument needs a tiny part of it.
+pub(super) struct Budget {
+    left: Cell<usize>,
+}
+
+impl Budget {
+    /// For one checked operation, or for one typed expression.
+    pub(super) fn new() -> Self {
+        Self { left: Cell::new(SIZE_LIMIT) }
+    }
+
+    fn spend(&self, work: usize) -> Result<(), AlgebraError> {
+        let left = self.left.get().checked_sub(work).ok_or(AlgebraError::TooLarge)?;
+        self.left.set(left);
+        Ok(())
+    }
+}
+
 impl Poly {
     /// `self · other`, unless the product would be unreasonably large.
     ///
     /// For expressions that a user typed; a formula of an instrument is far below the limit.
     ///
     /// # Errors
-    /// [`AlgebraError::TooLarge`] if more than [`SIZE_LIMIT`] terms would have to be formed.
+    /// [`AlgebraError::TooLarge`] if more than about [`SIZE_LIMIT`] terms would have to be formed, or powers beyond
+    /// [`DEGREE_LIMIT`].
     pub fn checked_mul(&self, other: &Self) -> Result<Self, AlgebraError> {
-        if self.len().saturating_mul(other.len()) > SIZE_LIMIT {
-            return Err(AlgebraError::TooLarge);
-        }
-        let product = self * other;
-        let atoms = product.atoms.len();
-        if atoms > SIZE_LIMIT { Err(AlgebraError::TooLarge) } else { Ok(product) }
+        self.mul_within(other, &Budget::new())
     }
 
     /// This to a whole power.
@@ -44,10 +61,32 @@ impl Poly {
     /// # Errors
     /// [`AlgebraError::TooLarge`] if the result would be unreasonably large.
     pub fn pow(&self, exponent: u32) -> Result<Self, AlgebraError> {
-        let degree = self.atoms.iter().map(|atom| atom.number()).max().unwrap_or(0);
-        if self.as_constant().is_none_or(|value| !value.is_zero() && !value.abs().is_one())
-            && degree.max(1).saturating_mul(exponent) > super::DEGREE_LIMIT
-        {
+        self.pow_within(exponent, &Budget::new())
+    }
+
+    pub(super) fn mul_within(&self, other: &Self, budget: &Budget) -> Result<Self, AlgebraError> {
+        let (a, b) = (degrees(self), degrees(other));
+        let [power, harmonic, sin_pole, cos_pole] = std::array::from_fn(|i| a[i].saturating_add(b[i]));
+        if power.max(sin_pole).max(cos_pole) > DEGREE_LIMIT {
+            return Err(AlgebraError::TooLarge);
+        }
+        // A product with poles is divided with remainder, once for each power, over all harmonics; poles of the sine
+        // times poles of the cosine are first split into as many parts. Those are operations on numbers, of which
+        // sixteen cost about as much as a product of terms.
+        let poles = u64::from(sin_pole + cos_pole);
+        let parts = if sin_pole > 0 && cos_pole > 0 { poles } else { 1 };
+        let each = poles.saturating_mul(parts).saturating_mul(poles + u64::from(harmonic)) / 16 + 1;
+        let each = usize::try_from(each).unwrap_or(usize::MAX);
+        budget.spend(self.len().saturating_mul(other.len()).saturating_mul(each))?;
+        let product = self * other;
+        budget.spend(product.atoms.len() / 8)?;
+        Ok(product)
+    }
+
+    pub(super) fn pow_within(&self, exponent: u32, budget: &Budget) -> Result<Self, AlgebraError> {
+        // Numbers grow without any degree.
+        let grows = self.as_constant().is_some_and(|value| !value.is_zero() && !value.abs().is_one());
+        if grows && exponent > DEGREE_LIMIT {
             return Err(AlgebraError::TooLarge);
         }
         let mut result = Self::one();
@@ -55,15 +94,30 @@ impl Poly {
         let mut left = exponent;
         while left > 0 {
             if left & 1 == 1 {
-                result = result.checked_mul(&base)?;
+                result = result.mul_within(&base, budget)?;
             }
             left >>= 1;
             if left > 0 {
-                base = base.checked_mul(&base)?;
+                base = base.mul_within(&base, budget)?;
             }
         }
         Ok(result)
     }
+}
+
+/// The highest power of a symbol, the highest harmonic, and the highest poles of sine and cosine in a polynomial.
+fn degrees(poly: &Poly) -> [u32; 4] {
+    let mut degrees = [0; 4];
+    for atom in &poly.atoms {
+        let kind = match atom.meaning() {
+            Meaning::Power(_) => 0,
+            Meaning::Circle(Circle::Cos(_) | Circle::Sin(_)) => 1,
+            Meaning::Circle(Circle::OverSin(_) | Circle::CosOverSin(_)) => 2,
+            Meaning::Circle(Circle::OverCos(_) | Circle::SinOverCos(_)) => 3,
+        };
+        degrees[kind] = atom.number().max(degrees[kind]);
+    }
+    degrees
 }
 
 /// Space that the product of two terms needs, kept from one product to the next.

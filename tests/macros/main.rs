@@ -4,4 +4,6 @@
 mod agreement;
 mod chains;
 mod closed_forms;
+#[warn(clippy::pedantic)]
+mod expanded;
 mod second_order;

@@ -49,21 +49,20 @@ pub fn chain(subject: &Subject<'_>) -> Chain {
 }
 
 /// The bodies, each after its lower body, otherwise in the order of the text.
-fn in_order(mut waiting: Vec<&BodyStatement>) -> Vec<&BodyStatement> {
-    let mut ordered: Vec<&BodyStatement> = Vec::with_capacity(waiting.len());
-    while !waiting.is_empty() {
-        let before = ordered.len();
-        waiting.retain(|body| {
-            let is_ready =
-                body.lower == super::words::GROUND || ordered.iter().any(|other| other.name == body.lower);
-            if is_ready {
-                ordered.push(body);
-            }
-            !is_ready
-        });
-        if ordered.len() == before {
-            break;
+fn in_order(bodies: Vec<&BodyStatement>) -> Vec<&BodyStatement> {
+    let index: BTreeMap<String, usize> =
+        bodies.iter().enumerate().map(|(at, body)| (body.name.to_string(), at)).collect();
+    let mut is_placed = vec![false; bodies.len()];
+    let mut ordered = Vec::with_capacity(bodies.len());
+    for start in 0..bodies.len() {
+        let mut way = Vec::new();
+        let mut next = Some(start);
+        while let Some(at) = next.filter(|&at| !is_placed[at]) {
+            is_placed[at] = true;
+            way.push(bodies[at]);
+            next = index.get(&bodies[at].lower.to_string()).copied();
         }
+        ordered.extend(way.into_iter().rev());
     }
     ordered
 }

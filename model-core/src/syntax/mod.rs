@@ -6,6 +6,7 @@
 mod amount;
 pub mod declaration;
 mod number;
+mod print;
 mod statements;
 mod tokens;
 

@@ -4,6 +4,8 @@ use model_core::{Chain, Motion, ObservableId, Role, forms, print};
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
+use super::doc;
+
 /// Behind more turning joints than this a formula fills pages (its terms double with each), and is left out.
 const MAX_TURNS: usize = 7;
 
@@ -21,12 +23,12 @@ pub fn constants(chain: &Chain, id: ObservableId) -> Option<TokenStream> {
     let plain = form.components.each_ref().map(|component| print::text(component, chain));
     let latex = form.components.each_ref().map(|component| print::latex(component, chain));
     let (plain_name, latex_name) = (constant(name, ""), constant(name, "_LATEX"));
-    let plain_doc = format!("The first-order error of `{name}` as text: x, y and z.");
-    let latex_doc = format!("The first-order error of `{name}` in LaTeX: x, y and z.");
+    let plain_doc = doc(&format!("The first-order error of `{name}` as text: x, y and z."));
+    let latex_doc = doc(&format!("The first-order error of `{name}` in LaTeX: x, y and z."));
     Some(quote! {
-        #[doc = #plain_doc]
+        #plain_doc
         pub const #plain_name: [&'static str; 3] = [#(#plain),*];
-        #[doc = #latex_doc]
+        #latex_doc
         pub const #latex_name: [&'static str; 3] = [#(#latex),*];
     })
 }

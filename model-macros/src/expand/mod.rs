@@ -8,9 +8,11 @@ mod names;
 mod observable;
 mod parameters;
 mod program;
+#[cfg(test)]
+mod tests;
 
 use model_core::{Chain, Mistake, SymbolKind};
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
 pub use names::Names;
@@ -54,18 +56,18 @@ pub fn module(chain: &Chain, names: &Names) -> Result<TokenStream, Vec<Mistake<S
     }
     let context = Context { chain, names, groups: groups(chain) };
     let module = Ident::new(&snake_case(&chain.name), names.chain());
-    let documentation = if chain.documentation.is_empty() {
+    let documentation = doc(&if chain.documentation.is_empty() {
         format!("The chain `{}`.", chain.name)
     } else {
         chain.documentation.clone()
-    };
+    });
     let instrument = instrument(&context, &documentation);
     let parameters: TokenStream =
         context.groups.iter().map(|group| parameters::items(&context, group)).collect();
     let unequal_lengths = context.pose().next().map(|_| parameters::unequal_lengths());
     let helpers = exact::helpers(&context);
     Ok(quote! {
-        #[doc = #documentation]
+        #documentation
         #[allow(
             dead_code,
             non_camel_case_types,
@@ -98,8 +100,23 @@ pub fn module(chain: &Chain, names: &Names) -> Result<TokenStream, Vec<Mistake<S
     })
 }
 
+/// Documentation, as `///` lines would be.
+fn doc(text: &str) -> TokenStream {
+    text.lines()
+        .map(|line| {
+            let line = if line.is_empty() { String::new() } else { format!(" {line}") };
+            quote! { #[doc = #line] }
+        })
+        .collect()
+}
+
+/// How many, as a number without a suffix.
+fn count(number: usize) -> Literal {
+    Literal::usize_unsuffixed(number)
+}
+
 /// The type of the chain with its methods.
-fn instrument(context: &Context<'_>, documentation: &str) -> TokenStream {
+fn instrument(context: &Context<'_>, documentation: &TokenStream) -> TokenStream {
     let Context { chain, names, .. } = context;
     let name = Ident::new(&chain.name, names.chain());
     let fields = context.instrument().map(|group| {
@@ -108,7 +125,8 @@ fn instrument(context: &Context<'_>, documentation: &str) -> TokenStream {
             SymbolKind::Error => "What differs from the design.",
             _ => "The sizes of the geometry.",
         };
-        quote! { #[doc = #meaning] pub #field: #type_name }
+        let meaning = doc(meaning);
+        quote! { #meaning pub #field: #type_name }
     });
     let new = context.group(SymbolKind::Error).map(|errors| {
         let Group { field, type_name, .. } = errors;
@@ -128,23 +146,23 @@ fn instrument(context: &Context<'_>, documentation: &str) -> TokenStream {
         let symbols = group.symbols.iter().map(|&id| chain.symbol(id));
         let (plain, printed): (Vec<&str>, Vec<&str>) =
             symbols.map(|symbol| (symbol.name.as_str(), symbol.latex.as_str())).unzip();
-        let count = plain.len();
+        let count = count(plain.len());
         let singular = group.singular.to_uppercase();
         let (plain_name, printed_name) =
             (format_ident!("{singular}_NAMES"), format_ident!("{singular}_LATEX"));
-        let plain_doc = format!("The names of the {}s, in order.", group.singular);
-        let printed_doc = format!("The printed forms of the {}s, in LaTeX, in order.", group.singular);
+        let plain_doc = doc(&format!("The names of the {}s, in order.", group.singular));
+        let printed_doc = doc(&format!("The printed forms of the {}s, in LaTeX, in order.", group.singular));
         quote! {
-            #[doc = #plain_doc]
+            #plain_doc
             pub const #plain_name: [&'static str; #count] = [#(#plain),*];
-            #[doc = #printed_doc]
+            #printed_doc
             pub const #printed_name: [&'static str; #count] = [#(#printed),*];
         }
     });
     let chain_name = &chain.name;
     let observables: TokenStream = observable::ids(chain).map(|id| observable::items(context, id)).collect();
     quote! {
-        #[doc = #documentation]
+        #documentation
         ///
         /// Angles are radians, lengths metres. `Default` is the instrument as designed.
         #[derive(Debug, Clone, Copy, PartialEq, Default)]

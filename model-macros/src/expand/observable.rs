@@ -6,7 +6,7 @@ use quote::{format_ident, quote};
 
 use super::first_order::{self, Code};
 use super::parameters::slices_name;
-use super::{Context, closed_form, exact};
+use super::{Context, closed_form, count, doc, exact};
 
 /// The observables of a chain, in order.
 pub fn ids(chain: &Chain) -> impl Iterator<Item = ObservableId> {
@@ -73,11 +73,11 @@ fn exact_methods(context: &Context<'_>, id: ObservableId, parameters: &Parameter
     let method = Ident::new(name, context.names.observable(name));
     let (parts, error) = (format_ident!("{name}_parts"), format_ident!("{name}_error"));
     let (documentation, unit) = meaning(context, id);
-    let value_doc = format!("{documentation}\n\nWith its errors, in the ground frame: {unit}.");
-    let error_doc = format!(
+    let value_doc = doc(&format!("{documentation}\n\nWith its errors, in the ground frame: {unit}."));
+    let error_doc = doc(&format!(
         "What the errors add to [`{name}`](Self::{name}), exactly.\n\nIn the ground frame, with full relative precision however small the errors are."
-    );
-    let parts_doc = format!("[`{name}`](Self::{name}) without errors, and what they add.");
+    ));
+    let parts_doc = doc(&format!("[`{name}`](Self::{name}) without errors, and what they add."));
     let body = exact::body(context, id);
     let over = over_slices(
         context,
@@ -91,20 +91,20 @@ fn exact_methods(context: &Context<'_>, id: ObservableId, parameters: &Parameter
         },
     );
     quote! {
-        #[doc = #value_doc]
+        #value_doc
         #[must_use]
         pub fn #method(&self, #one) -> Vector3<f64> {
             let (nominal, difference) = self.#parts(#arguments);
             nominal + difference
         }
 
-        #[doc = #error_doc]
+        #error_doc
         #[must_use]
         pub fn #error(&self, #one) -> Vector3<f64> {
             self.#parts(#arguments).1
         }
 
-        #[doc = #parts_doc]
+        #parts_doc
         fn #parts(&self, #one) -> (Vector3<f64>, Vector3<f64>) {
             #body
         }
@@ -117,9 +117,9 @@ fn first_order_methods(context: &Context<'_>, id: ObservableId, parameters: &Par
     let one = &parameters.one;
     let name = &context.chain.observable(id).name;
     let method = format_ident!("{name}_first_order");
-    let documentation = format!(
+    let documentation = doc(&format!(
         "What the errors add to [`{name}`](Self::{name}), to first order.\n\nProducts of two or more errors are dropped."
-    );
+    ));
     let code = first_order::error(context, id);
     let Code { prepared, evaluated, outputs } = &code;
     let over = over_slices(
@@ -130,7 +130,7 @@ fn first_order_methods(context: &Context<'_>, id: ObservableId, parameters: &Par
         &code,
     );
     quote! {
-        #[doc = #documentation]
+        #documentation
         #[must_use]
         pub fn #method(&self, #one) -> Vector3<f64> {
             #prepared
@@ -151,6 +151,7 @@ fn over_slices(
     code: &Code,
 ) -> Option<TokenStream> {
     context.pose().next()?;
+    let documentation = doc(documentation);
     let Parameters { many, have_length, at_pose, .. } = parameters;
     let Code { prepared, evaluated, outputs } = code;
     let outputs =
@@ -158,7 +159,7 @@ fn over_slices(
             quote! { #axis[pose] = #value; }
         });
     Some(quote! {
-        #[doc = #documentation]
+        #documentation
         ///
         /// `out` receives x, y and z.
         ///
@@ -168,7 +169,8 @@ fn over_slices(
         pub fn #method(&self, #many out: [&mut [f64]; 3]) -> Result<(), UnequalLengths> {
             let [x, y, z] = out;
             let length = x.len();
-            if !(y.len() == length && z.len() == length #(&& #have_length)*) {
+            let all_equal = y.len() == length && z.len() == length #(&& #have_length)*;
+            if !all_equal {
                 return Err(UnequalLengths);
             }
             #prepared
@@ -191,21 +193,23 @@ fn jacobian_methods(
     let Parameters { one, arguments, many, have_length, at_pose } = parameters;
     let name = &context.chain.observable(id).name;
     let (method, over) = (format_ident!("{name}_jacobian"), format_ident!("{name}_jacobian_over"));
-    let documentation = format!(
+    let documentation = doc(&format!(
         "Derivatives of [`{name}`](Self::{name}) with respect to the errors, where they are zero.\n\nThe columns are in the order of the fields of [`Errors`]."
-    );
-    let over_doc = format!("[`{name}_jacobian`](Self::{name}_jacobian) of many poses.");
+    ));
+    let over_doc = doc(&format!("[`{name}_jacobian`](Self::{name}_jacobian) of many poses."));
+    let errors = count(errors);
     let Code { prepared, evaluated, outputs } = first_order::jacobian(context, id);
     let over = context.pose().next().map(|_| {
         quote! {
-            #[doc = #over_doc]
+            #over_doc
             ///
             /// # Errors
             ///
             /// If the slices have different lengths.
             pub fn #over(&self, #many out: &mut [SMatrix<f64, 3, #errors>]) -> Result<(), UnequalLengths> {
                 let length = out.len();
-                if !(#(#have_length)&&*) {
+                let all_equal = #(#have_length)&&*;
+                if !all_equal {
                     return Err(UnequalLengths);
                 }
                 for pose in 0..length {
@@ -217,7 +221,7 @@ fn jacobian_methods(
         }
     });
     quote! {
-        #[doc = #documentation]
+        #documentation
         #[must_use]
         pub fn #method(&self, #one) -> SMatrix<f64, 3, #errors> {
             #prepared

@@ -4,7 +4,7 @@ use model_core::{Chain, Quantity, Symbol, SymbolId, SymbolKind};
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::Context;
+use super::{Context, count, doc};
 
 /// The symbols of one kind, as one struct.
 pub struct Group {
@@ -65,11 +65,12 @@ fn structure(context: &Context<'_>, group: &Group) -> TokenStream {
     let fields = symbols.iter().map(|&id| {
         let symbol = context.chain.symbol(id);
         let field = context.names.symbol(&symbol.name);
-        let documentation = meaning(symbol);
-        quote! { #[doc = #documentation] pub #field: f64 }
+        let documentation = doc(&meaning(symbol));
+        quote! { #documentation pub #field: f64 }
     });
+    let documentation = doc(documentation);
     quote! {
-        #[doc = #documentation]
+        #documentation
         #[derive(Debug, Clone, Copy, PartialEq, #default)]
         pub struct #type_name {
             #(#fields),*
@@ -96,7 +97,7 @@ fn meaning(symbol: &Symbol) -> String {
 fn arrays(context: &Context<'_>, group: &Group) -> TokenStream {
     let Group { field: variable, type_name, symbols, .. } = group;
     let fields: Vec<Ident> = fields(context, symbols).collect();
-    let count = fields.len();
+    let count = count(fields.len());
     quote! {
         impl From<[f64; #count]> for #type_name {
             fn from([#(#fields),*]: [f64; #count]) -> Self {
@@ -134,14 +135,14 @@ fn slices(context: &Context<'_>, group: &Group) -> TokenStream {
     let Group { type_name, singular, symbols, .. } = group;
     let name = slices_name(group);
     let documentation =
-        format!("The {singular}s of many poses: a slice for each {singular}, all of one length.");
+        doc(&format!("The {singular}s of many poses: a slice for each {singular}, all of one length."));
     let fields: Vec<Ident> = fields(context, symbols).collect();
-    let meanings = symbols.iter().map(|&id| meaning(context.chain.symbol(id)));
+    let meanings = symbols.iter().map(|&id| doc(&meaning(context.chain.symbol(id))));
     quote! {
-        #[doc = #documentation]
+        #documentation
         #[derive(Debug, Clone, Copy)]
         pub struct #name<'a> {
-            #(#[doc = #meanings] pub #fields: &'a [f64]),*
+            #(#meanings pub #fields: &'a [f64]),*
         }
 
         impl #name<'_> {

@@ -5,7 +5,8 @@
 //!
 //! - `Rx(a)`, `Rx(a*cos(beta))`: an angle; `Tx(a)`, `Tx(a*cos(beta))`: a length.
 //! - `Tx(lead*alpha)`, a shift in proportion to an angle: a length (for each radian).
-//! - `Rx(scale*alpha)`, `Tx(scale*range)`, `Rx(drift*temperature)`: a number, in what unit the factor leaves.
+//! - `Rx(drift*temperature)`: an angle, for each unit of a plain number such as the temperature.
+//! - `Rx(scale*alpha)`, `Tx(scale*range)`: a number, in what unit the factor leaves.
 //! - Terms with a product or power of errors say nothing.
 //!
 //! Where uses differ, an angle or a length wins over a number.
@@ -36,8 +37,9 @@ pub fn inferred(scope: &Scope, amount: &Amount<'_>) -> Vec<(SymbolId, Quantity)>
 fn measured(scope: &Scope, moved: Quantity, cofactor: &Poly) -> Quantity {
     let is_plain = |powers: &[(SymbolId, u32)]| {
         powers.iter().all(|&(id, _)| {
-            id == SymbolId::PI
-                || moved == Quantity::Length && scope.entry(id).quantity == Some(Quantity::Angle)
+            let quantity = scope.entry(id).quantity;
+            quantity == Some(Quantity::Number)
+                || moved == Quantity::Length && quantity == Some(Quantity::Angle)
         })
     };
     if cofactor.terms().any(|term| is_plain(&term.powers)) { moved } else { Quantity::Number }

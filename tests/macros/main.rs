@@ -4,6 +4,7 @@
 mod agreement;
 mod chains;
 mod closed_forms;
+#[rustfmt::skip]
 #[warn(clippy::pedantic)]
 mod expanded;
 mod second_order;

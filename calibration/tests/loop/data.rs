@@ -1,0 +1,63 @@
+//! Studies and the data that they name, read from the workspace.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use calibration::calibrate::{Calibration, Request, calibrate};
+use calibration::observations::Observations;
+use calibration::study::{Plan, Study};
+use model_core::Chain;
+
+/// The workspace's root.
+pub fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// A study, ready to calibrate.
+pub struct Loaded {
+    pub text: String,
+    pub plan: Plan,
+    pub observations: Observations,
+    pub second: Option<Observations>,
+}
+
+/// Reads a study; `None`, with a word about it, where its data are not at hand (never so in CI).
+pub fn load(study: &str) -> Option<Loaded> {
+    let path = root().join(study);
+    let folder = path.parent().unwrap().to_owned();
+    let study = Study::from_text(&std::fs::read_to_string(&path).unwrap()).unwrap();
+    let text = std::fs::read_to_string(folder.join(study.chain.get_ref())).unwrap();
+    let chain = Chain::from_text(&text).unwrap_or_else(|mistakes| panic!("{}", mistakes.render("chain", &text)));
+    let missing = study.data.get_ref().0.iter().find(|file| !folder.join(file).exists());
+    if let Some(file) = missing {
+        assert!(std::env::var_os("CI").is_none(), "{file} is missing");
+        println!("skipped: {file} is not at hand");
+        return None;
+    }
+    let plan = study.plan(&chain).unwrap();
+    let mut open = |file: &str| {
+        Ok(Box::new(File::open(folder.join(file)).expect("the file is there")) as Box<dyn Read>)
+    };
+    let observations = plan.observations(&mut open).unwrap();
+    let second = plan.held_out(&mut open).unwrap();
+    Some(Loaded { text, plan, observations, second })
+}
+
+impl Loaded {
+    pub fn calibrate(&self) -> Calibration {
+        calibrate(Request {
+            text: &self.text,
+            plan: &self.plan,
+            observations: &self.observations,
+            second: self.second.as_ref(),
+            when: "2026-11-21",
+        })
+        .unwrap()
+    }
+}
+
+/// Radians as arcseconds.
+pub fn arcsec(rad: f64) -> f64 {
+    rad.to_degrees() * 3600.0
+}

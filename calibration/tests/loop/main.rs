@@ -1,0 +1,5 @@
+//! The whole loop on measured data: simulated ones of the examples, and real ones where they are at hand.
+#![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
+
+mod data;
+mod examples;

@@ -13,7 +13,7 @@ use model_core::{Chain, SymbolId};
 use crate::amend::{AmendError, amend};
 use crate::columns::places;
 use crate::effects::{Effect, Setting, catalogue};
-use crate::fit::{FitError, FitResult};
+use crate::fit::{FitError, FitResult, Outcome};
 use crate::observations::Observations;
 use crate::report::Report;
 use crate::search::{HeldOut, Options, ProblemError, nested};
@@ -88,7 +88,12 @@ pub(crate) struct Loop<'a> {
 pub fn calibrate(request: Request<'_>) -> Result<Calibration, CalibrateError> {
     let plan = request.plan;
     let observables: Vec<_> = request.observations.series.iter().map(|series| series.observable).collect();
-    let setting = Setting { chain: &plan.chain, observables: &observables, inputs: &plan.search.inputs };
+    let setting = Setting {
+        chain: &plan.chain,
+        observables: &observables,
+        inputs: &plan.search.inputs,
+        harmonics: plan.search.harmonics,
+    };
     let options =
         Options { false_alarm: plan.search.false_alarm, seed: plan.hold_out.seed, ..Options::default() };
     let whole = Loop { request, catalogue: catalogue(&setting), options };
@@ -105,7 +110,8 @@ pub fn calibrate(request: Request<'_>) -> Result<Calibration, CalibrateError> {
             break;
         }
         visited.push(names);
-        round = Round::with(&whole, found, &round)?;
+        let Some(next) = taken_up(&whole, found, &round)? else { break };
+        round = next;
     }
     let held_out: HeldOut = nested(&round.problem, &round.classes, &whole.options);
     let rms = held_out::rms(&whole, &before, &round, &held_out)?;
@@ -114,6 +120,20 @@ pub fn calibrate(request: Request<'_>) -> Result<Calibration, CalibrateError> {
     let amended = amend(request.text, &round.chain, &additions, &inputs)?;
     let report = words::report(&whole, &round, &held_out, rms);
     Ok(Calibration { report, amended, chain: round.chain, before, after: round.fit })
+}
+
+/// The next round; with the later half of the effects left out, again and again, while the exact form cannot hold what
+/// the linear search likes. `None` if it can hold nothing new.
+fn taken_up(whole: &Loop<'_>, mut found: Vec<Found>, last: &Round) -> Result<Option<Round>, CalibrateError> {
+    while found.len() > last.found.len() {
+        let next = Round::with(whole, found.clone(), last)?;
+        let failed = matches!(next.fit.outcome, Outcome::NotConverged { .. });
+        if !failed || next.fit.rms < last.fit.rms {
+            return Ok(Some(next));
+        }
+        found.truncate(found.len().div_ceil(2).min(found.len() - 1));
+    }
+    Ok(if found.is_empty() { None } else { Some(Round::with(whole, found, last)?) })
 }
 
 /// The places of the whole catalogue.

@@ -6,7 +6,8 @@ use model_core::{Chain, SymbolId};
 use super::{CalibrateError, Found, Loop, all_places, declared};
 use crate::columns::Columns;
 use crate::fit::{FitOptions, FitResult, fit};
-use crate::search::{Class, Problem, Selection, classes, select};
+use crate::noise::NoiseOptions;
+use crate::search::{Accepted, Class, Problem, ProblemError, Selection, classes, select};
 
 /// A fit, and the whitened problem at it.
 pub(crate) struct Round {
@@ -18,7 +19,9 @@ pub(crate) struct Round {
     pub errors: Vec<Vec<SymbolId>>,
     /// The fit of that chain.
     pub fit: FitResult,
-    /// Columns before whitening, at the fit, of the declared errors and of the effects' places.
+    /// Combinations of the declared errors that these data determine, one a column.
+    pub combinations: Mat<f64>,
+    /// Columns before whitening, at the fit, of those combinations and of the effects' places.
     pub columns: Columns,
     /// The columns of each effect of the catalogue before whitening; empty where they cannot be had.
     pub effects: Vec<Vec<Vec<f64>>>,
@@ -67,9 +70,13 @@ impl Round {
         options: FitOptions,
     ) -> Result<Self, CalibrateError> {
         let observations = whole.request.observations;
+        // While something is missing, residuals are larger than the noise: weights go by what they are.
+        let noise = NoiseOptions { sigma: None, ..options.noise };
+        let options = FitOptions { noise, ..options };
         let fit = fit(&chain, observations, &options)?;
-        let columns = Columns::at(&chain, observations, declared(whole), &fit.values, &all_places(whole))?;
-        let effects = columns.of_effects(&whole.catalogue, observations, &fit.values);
+        let mut columns =
+            Columns::at(&chain, observations, declared(whole), &fit.values, &all_places(whole))?;
+        let effects = columns.of_effects(&chain, &whole.catalogue, observations, &fit.values);
         let mut without = columns.residual.clone();
         for (found, new) in found.iter().zip(&errors) {
             for (column, error) in effects[found.effect].iter().zip(new) {
@@ -86,6 +93,8 @@ impl Round {
             column
         };
         let n = columns.residual.len();
+        let combinations = determined(&fit, columns.declared.ncols())?;
+        columns.declared = &columns.declared * &combinations;
         let mut declared_white = Mat::zeros(n, columns.declared.ncols());
         for j in 0..columns.declared.ncols() {
             declared_white.col_as_slice_mut(j).copy_from_slice(&whitened(columns.declared.col_as_slice(j)));
@@ -113,7 +122,7 @@ impl Round {
             hold_out.seed,
         )?;
         let classes = classes(&problem);
-        Ok(Self { chain, found, errors, fit, columns, effects, without, problem, classes })
+        Ok(Self { chain, found, errors, fit, combinations, columns, effects, without, problem, classes })
     }
 
     /// The class that an effect belongs to.
@@ -128,7 +137,14 @@ impl Round {
 
     /// The linear search from the accepted effects.
     pub fn selection(&self, whole: &Loop<'_>) -> Selection {
-        select(&self.problem, &self.classes, &self.accepted_classes(), |_| true, &whole.options)
+        let start: Vec<Accepted> = self
+            .found
+            .iter()
+            .filter_map(|found| {
+                Some(Accepted { class: self.class_of(found.effect)?, p_value: found.p_value })
+            })
+            .collect();
+        select(&self.problem, &self.classes, &start, |_| true, &whole.options)
     }
 
     /// What the search ends with: accepted effects keep their name and p, a new class lends its first member's.
@@ -150,4 +166,14 @@ impl Round {
         own.sort_unstable();
         own == sorted
     }
+}
+
+/// An orthonormal basis of the declared errors' space without what the fit found undetermined; the rest would only
+/// be seen through products of errors.
+fn determined(fit: &FitResult, declared: usize) -> Result<Mat<f64>, ProblemError> {
+    let null = fit.null_space.subrows(0, declared);
+    let svd = null.svd().map_err(|_| ProblemError::Singular)?;
+    let values = svd.S().column_vector();
+    let rank = (0..values.nrows()).filter(|&i| values[i] > 1e-8).count();
+    Ok(svd.U().subcols(rank, declared - rank).to_owned())
 }

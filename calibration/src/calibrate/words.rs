@@ -181,8 +181,15 @@ fn effects(whole: &Loop<'_>, last: &Round, held_out: &HeldOut) -> Vec<EffectFoun
                 let members = &last.classes[class].members;
                 members.iter().filter(|&&m| m != found.effect).map(|&m| name(m)).collect()
             });
+            // Members of the class at the same place are the same function by another name.
             let mut names = vec![effect.name.clone()];
-            names.extend(aliases(effect));
+            if let Some(class) = class {
+                let same = |&&member: &&usize| {
+                    member != found.effect && whole.catalogue[member].place == effect.place
+                };
+                names.extend(last.classes[class].members.iter().filter(same).map(|&member| name(member)));
+            }
+            names.dedup();
             EffectFound {
                 text: effect.text(&last.chain, errors),
                 body: last.chain.body(effect.place.body).name.clone(),
@@ -206,19 +213,17 @@ fn effects(whole: &Loop<'_>, last: &Round, held_out: &HeldOut) -> Vec<EffectFoun
         .collect()
 }
 
-/// Names that other fields have for members of the family.
-fn aliases(_effect: &crate::effects::Effect) -> Vec<String> {
-    Vec::new()
-}
-
 /// How far one standard uncertainty of an effect, left out, would move each declared error.
 fn bias(whole: &Loop<'_>, last: &Round, effect: usize, errors: &[SymbolId]) -> BTreeMap<String, f64> {
     let columns = last.problem.columns(effect);
-    let mut squares = vec![0.0; declared(whole).len()];
+    let combinations = &last.combinations;
+    let mut squares = vec![0.0; combinations.nrows()];
     for (&column, &error) in columns.iter().zip(errors) {
         let sigma = last.fit.standard_uncertainty(error).unwrap_or(0.0);
-        for (square, share) in squares.iter_mut().zip(last.problem.share(column)) {
-            *square += (sigma * share).powi(2);
+        let share = last.problem.share(column);
+        for (i, square) in squares.iter_mut().enumerate() {
+            let moved: f64 = share.iter().enumerate().map(|(j, s)| combinations[(i, j)] * s).sum();
+            *square += (sigma * moved).powi(2);
         }
     }
     declared(whole)

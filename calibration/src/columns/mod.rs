@@ -8,7 +8,7 @@ mod functions;
 
 use faer::Mat;
 use model_core::algebra::Poly;
-use model_core::{Chain, SymbolId};
+use model_core::{Chain, Motion, SymbolId, SymbolKind};
 
 use crate::effects::{Effect, Place, add_error, insert};
 use crate::fit::{FitError, Model};
@@ -17,6 +17,14 @@ use functions::Functions;
 
 /// Values of a function more than this many times its RMS make the column hang on a single observation.
 const TOO_STEEP: f64 = 1e3;
+
+/// Functions of joints alone that stay this small are not what an instrument shows: gravity seen across a base that is
+/// all but level.
+const TOO_FLAT: f64 = 1e-2;
+
+/// A place that moves the observations this many times less than the place that moves them most is seen only
+/// through products of errors.
+const UNSEEN: f64 = 1e-3;
 
 /// Everything before whitening, row by row, component by component.
 #[derive(Debug, Clone)]
@@ -90,17 +98,28 @@ impl Columns {
     #[must_use]
     pub fn of_effects(
         &self,
+        chain: &Chain,
         effects: &[Effect],
         observations: &Observations,
         values: &[f64],
     ) -> Vec<Vec<Vec<f64>>> {
         let mut functions = Functions::new(observations, values);
+        let strength: Vec<f64> = (0..self.probes.ncols()).map(|j| self.probes.col(j).norm_l2()).collect();
+        let strongest = |motion| {
+            let own = self.places.iter().zip(&strength).filter(|(place, _)| place.freedom.motion == motion);
+            own.map(|(_, &s)| s).fold(0.0, f64::max)
+        };
+        let (turn, shift) = (strongest(Motion::Rotation), strongest(Motion::Translation));
         effects
             .iter()
             .map(|effect| {
                 let Some(place) = self.places.iter().position(|place| *place == effect.place) else {
                     return Vec::new();
                 };
+                let most = if effect.place.freedom.motion == Motion::Rotation { turn } else { shift };
+                if strength[place] < UNSEEN * most {
+                    return Vec::new();
+                }
                 let probe = self.probes.col_as_slice(place);
                 let columns: Option<Vec<Vec<f64>>> = effect
                     .functions
@@ -111,7 +130,13 @@ impl Columns {
                             return None;
                         }
                         let rms = (by_row.iter().map(|v| v * v).sum::<f64>() / by_row.len() as f64).sqrt();
-                        if by_row.iter().any(|value| value.abs() > TOO_STEEP * rms) {
+                        let of_joints = function
+                            .amount
+                            .symbols()
+                            .iter()
+                            .all(|&symbol| chain.symbol(symbol).kind != SymbolKind::Input);
+                        let flat = of_joints && rms < TOO_FLAT;
+                        if flat || by_row.iter().any(|value| value.abs() > TOO_STEEP * rms) {
                             return None;
                         }
                         Some(probe.iter().zip(&self.row).map(|(p, &row)| p * by_row[row as usize]).collect())

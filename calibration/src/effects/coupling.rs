@@ -19,13 +19,11 @@ pub(super) const FAMILY: Family = Family {
 fn effects(setting: &Setting<'_>) -> Vec<Effect> {
     let joints: Vec<_> = setting.joints().into_iter().filter(super::JointAxis::turns).collect();
     let mut effects = Vec::new();
-    for own in &joints {
-        for other in joints.iter().filter(|other| other.symbol != own.symbol) {
+    for (at, own) in joints.iter().enumerate() {
+        let neighbours = joints.iter().enumerate().filter(|&(i, _)| i.abs_diff(at) == 1);
+        for (_, other) in neighbours {
             let (name, driver) = (setting.body_name(own.body), setting.name(other.symbol));
-            for freedom in Freedom::ALL {
-                if freedom.motion == Motion::Translation && freedom != own.freedom {
-                    continue;
-                }
+            for freedom in Freedom::ALL.into_iter().filter(|f| f.motion == Motion::Rotation) {
                 for order in 1..=2 {
                     let stem = format!("cross_{}{}", freedom.word().to_lowercase(), name);
                     effects.push(Effect {
@@ -51,7 +49,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
 fn products(setting: &Setting<'_>, joints: &[super::JointAxis]) -> Vec<Effect> {
     let mut effects = Vec::new();
     for (at, first) in joints.iter().enumerate() {
-        for second in &joints[at + 1..] {
+        for second in joints.iter().skip(at + 1).take(1) {
             let (a, b) = (setting.name(first.symbol), setting.name(second.symbol));
             let waves = |symbol| {
                 let angle = AngleSum::symbol(symbol);

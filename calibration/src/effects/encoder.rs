@@ -5,9 +5,6 @@ use model_core::algebra::Poly;
 
 use super::{Alias, Effect, Family, Function, JointAxis, Place, Setting, harmonic};
 
-/// Harmonics of a turn that are in the catalogue; higher ones are found by the scan for gears.
-const HARMONICS: std::ops::RangeInclusive<u32> = 1..=8;
-
 pub(super) const FAMILY: Family = Family {
     name: "encoder",
     what: "The joint is not quite where its encoder says, by a function of the reading.",
@@ -63,7 +60,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
     for joint in setting.joints() {
         let name = setting.name(joint.symbol);
         if joint.turns() {
-            effects.extend(HARMONICS.map(|order| encoder_harmonic(setting, &joint, order)));
+            effects.extend((1..=setting.harmonics).map(|order| encoder_harmonic(setting, &joint, order)));
         }
         effects.push(Effect {
             family: FAMILY.name,

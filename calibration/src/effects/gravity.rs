@@ -1,7 +1,7 @@
 //! Gravity: bodies sag, and joints wind up, by the components of gravity that they see.
 
 use model_core::algebra::{AngleSum, Poly};
-use model_core::{Axis, BodyId, Role};
+use model_core::{Axis, BodyId, Motion, Role, SymbolKind};
 
 use super::{Alias, Effect, Family, Freedom, Function, Place, Setting, whole};
 
@@ -24,17 +24,24 @@ pub(super) const FAMILY: Family = Family {
     effects,
 };
 
+/// Gravity seen through more joints than this has too many terms to be told by a formula.
+const MOST_TERMS: usize = 8;
+
 fn effects(setting: &Setting<'_>) -> Vec<Effect> {
     let mut effects = Vec::new();
     for body in setting.bodies() {
-        let Some(seen) = gravity_seen(setting, body) else { continue };
+        let moved = setting.chain.body(body).factors.iter().any(|factor| factor.role == Role::Motion);
+        let Some(seen) = gravity_seen(setting, body).filter(|_| moved) else { continue };
         let name = setting.body_name(body);
-        let changing: Vec<(usize, &Poly)> =
-            seen.iter().enumerate().filter(|(_, g)| g.as_constant().is_none()).collect();
+        let changing: Vec<(usize, &Poly)> = seen
+            .iter()
+            .enumerate()
+            .filter(|(_, g)| g.as_constant().is_none() && g.len() <= MOST_TERMS)
+            .collect();
         if changing.is_empty() {
             continue;
         }
-        for freedom in Freedom::ALL {
+        for freedom in Freedom::ALL.into_iter().filter(|f| f.motion == Motion::Rotation) {
             let about = freedom.axis_name();
             let sag = |parts: &[(usize, &Poly)], form: &str| Effect {
                 family: FAMILY.name,
@@ -43,8 +50,8 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
                 functions: parts
                     .iter()
                     .map(|&(i, g)| Function {
-                        amount: g.clone(),
-                        stem: format!("sag_{name}_{}{about}_{}", letter(freedom), ["x", "y", "z"][i]),
+                        amount: upright(g),
+                        stem: format!("sag_{name}_{about}_{}", ["x", "y", "z"][i]),
                     })
                     .collect(),
                 driver: "gravity".to_owned(),
@@ -62,22 +69,22 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
     effects
 }
 
-fn letter(freedom: Freedom) -> &'static str {
-    match freedom.motion {
-        model_core::Motion::Rotation => "r",
-        model_core::Motion::Translation => "t",
+/// The function or its negative, whichever starts with a positive term.
+fn upright(g: &Poly) -> Poly {
+    match g.terms().next() {
+        Some(first) if first.coefficient.is_negative() => -g,
+        _ => g.clone(),
     }
 }
 
 /// Gravity in the frame of a body, nominal errors; `None` where a motion is by no whole multiple of a joint.
 pub(super) fn gravity_seen(setting: &Setting<'_>, body: BodyId) -> Option<[Poly; 3]> {
     let chain = setting.chain;
-    let errors: Vec<bool> =
-        chain.symbols.iter().map(|symbol| symbol.kind == model_core::SymbolKind::Error).collect();
+    let errors: Vec<bool> = chain.symbols.iter().map(|symbol| symbol.kind == SymbolKind::Error).collect();
     let mut seen = chain.gravity.clone();
     for body in chain.path(body) {
         for factor in &chain.body(body).factors {
-            if factor.motion == model_core::Motion::Translation {
+            if factor.motion == Motion::Translation {
                 continue;
             }
             let nominal = factor.amount.graded_part(|symbol| errors[symbol.index()], 0);

@@ -40,13 +40,16 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
                     (format!("radial motion along {}", freedom.axis_name()), "radial")
                 }
             };
-            for order in HARMONICS {
+            let turns = freedom.motion == Motion::Rotation;
+            for order in HARMONICS.filter(|&order| turns || order <= 2) {
                 let per_turn = match order {
                     1 => "once a turn".to_owned(),
                     _ => format!("{order} per turn"),
                 };
                 let stem = format!("{stem}_{}", freedom.axis_name());
-                for role in [Role::MotionError, Role::PositionError] {
+                let roles: &[Role] =
+                    if turns { &[Role::MotionError, Role::PositionError] } else { &[Role::MotionError] };
+                for &role in roles {
                     let frame = match role {
                         Role::MotionError => "",
                         _ => " in the fixed frame",

@@ -63,6 +63,8 @@ pub struct Setting<'a> {
     pub observables: &'a [ObservableId],
     /// Side quantities that effects may use.
     pub inputs: &'a [SymbolId],
+    /// The highest harmonic of an encoder.
+    pub harmonics: u32,
 }
 
 /// A rotation about an axis, or a shift along one.
@@ -175,6 +177,13 @@ pub fn catalogue(setting: &Setting<'_>) -> Vec<Effect> {
             }
         }
     }
+    let reversed: Vec<Effect> = setting
+        .inputs
+        .iter()
+        .filter(|&&input| setting.reverses(input))
+        .flat_map(|&input| all.iter().filter_map(move |effect| effect.times(input, setting)))
+        .collect();
+    all.extend(reversed);
     all
 }
 
@@ -193,6 +202,21 @@ impl Setting<'_> {
     fn moved_by(&self, freedom: Freedom) -> bool {
         freedom.motion == Motion::Rotation
             || self.observables.iter().any(|&id| self.chain.observable(id).kind == ObservableKind::Point)
+    }
+
+    /// Whether the declaration multiplies errors by an input, as with the side of the pier or the face: then what
+    /// else is fixed to that body may change with it too.
+    fn reverses(&self, input: SymbolId) -> bool {
+        let errors = self.chain.bodies.iter().flat_map(|body| &body.factors);
+        errors
+            .filter(|factor| matches!(factor.role, Role::PositionError | Role::MotionError))
+            .any(|factor| factor.amount.symbols().contains(&input))
+    }
+
+    /// Whether something observed is a direction.
+    #[must_use]
+    pub fn aims(&self) -> bool {
+        self.observables.iter().any(|&id| self.chain.observable(id).kind == ObservableKind::Direction)
     }
 
     /// The joints of the bodies observed, each with the body and the degree of freedom that it moves.
@@ -270,6 +294,26 @@ impl Effect {
         }
         insert(&mut amended, self.place, amount, self.name.clone());
         Some((amended, errors))
+    }
+
+    /// The same effect times an input, for families of the instrument's own geometry and low orders.
+    fn times(&self, input: SymbolId, setting: &Setting<'_>) -> Option<Self> {
+        let geometric = [gravity::FAMILY.name, encoder::FAMILY.name, joint_motion::FAMILY.name];
+        let low = ["harmonic 1", "harmonic 2"].contains(&self.form.as_str());
+        if !geometric.contains(&self.family) || !(low || self.family == gravity::FAMILY.name) {
+            return None;
+        }
+        let name = setting.name(input);
+        let times = |function: &Function| Function {
+            amount: &Poly::symbol(input) * &function.amount,
+            stem: format!("{}_{name}", function.stem),
+        };
+        Some(Self {
+            name: format!("{}, times {name}", self.name),
+            functions: self.functions.iter().map(times).collect(),
+            driver: format!("{}, {name}", self.driver),
+            ..self.clone()
+        })
     }
 
     /// As a declaration would write it in a chain that has its errors: `Rx(a*cos(beta) + b*sin(beta))`.

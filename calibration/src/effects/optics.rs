@@ -26,7 +26,8 @@ pub(super) const FAMILY: Family = Family {
 
 fn effects(setting: &Setting<'_>) -> Vec<Effect> {
     let mut effects = Vec::new();
-    for joint in setting.joints().into_iter().filter(super::JointAxis::turns) {
+    let aims = setting.aims();
+    for joint in setting.joints().into_iter().filter(|joint| aims && joint.turns()) {
         let name = setting.name(joint.symbol);
         let angle = AngleSum::symbol(joint.symbol);
         let (cosine, sine) = (Poly::cos(&angle), Poly::sin(&angle));

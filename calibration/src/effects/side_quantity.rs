@@ -1,7 +1,7 @@
 //! Side quantities: a degree of freedom that follows a temperature, the time, the side of the pier.
 
-use model_core::algebra::{AngleSum, Poly};
-use model_core::{Motion, Role, SymbolKind};
+use model_core::algebra::Poly;
+use model_core::{Role, SymbolKind};
 
 use super::{Alias, Effect, Family, Freedom, Function, Place, Setting};
 
@@ -22,7 +22,6 @@ pub(super) const FAMILY: Family = Family {
 
 fn effects(setting: &Setting<'_>) -> Vec<Effect> {
     let mut effects = Vec::new();
-    let joints = setting.joints();
     for &input in setting.inputs {
         if setting.chain.symbol(input).kind != SymbolKind::Input {
             continue;
@@ -48,25 +47,6 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
                         functions: vec![Function { amount: Poly::symbol(input), stem }],
                         driver: driver.to_owned(),
                         form: "linear".to_owned(),
-                    });
-                }
-            }
-            // What the side quantity scales: sag and eccentricity that differ between its values.
-            for joint in joints.iter().filter(|joint| joint.body == body && joint.turns()) {
-                let angle = AngleSum::symbol(joint.symbol);
-                let by = |wave: &Poly| &Poly::symbol(input) * wave;
-                for freedom in Freedom::ALL.into_iter().filter(|f| f.motion == Motion::Rotation) {
-                    let stem = format!("{driver}_{name}_{}", freedom.word().to_lowercase());
-                    effects.push(Effect {
-                        family: FAMILY.name,
-                        name: format!("{driver} times the first harmonic of {name} {}", freedom.words()),
-                        place: Place { body, role: Role::MotionError, freedom },
-                        functions: vec![
-                            Function { amount: by(&Poly::cos(&angle)), stem: format!("{stem}_cos") },
-                            Function { amount: by(&Poly::sin(&angle)), stem: format!("{stem}_sin") },
-                        ],
-                        driver: driver.to_owned(),
-                        form: "linear times harmonic 1".to_owned(),
                     });
                 }
             }

@@ -14,7 +14,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 /// Share of a candidate's sum of squares that must be left by the declared columns for it to have any rank.
-const VISIBLE: f64 = 1e-9;
+const VISIBLE: f64 = 1e-4;
 /// Singular values of the scaled declared columns below this share of the largest count as zero.
 const RANK: f64 = 1e-9;
 

@@ -2,12 +2,16 @@
 //! and drops.
 
 use faer::Mat;
+use faer::linalg::solvers::Solve;
 
 use super::classes::Class;
 use super::flips::{Family, Signs, familywise};
 use super::problem::Problem;
 use super::sweep::Sweep;
 use super::tail::Tails;
+
+/// ln of a Bonferroni p below which the flips are not asked.
+const BEYOND_FLIPS: f64 = -25.0;
 
 /// How a search decides.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,7 +28,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { false_alarm: 0.05, flips: 999, seed: 1, most: 12 }
+        Self { false_alarm: 0.05, flips: 999, seed: 1, most: 10 }
     }
 }
 
@@ -102,6 +106,18 @@ impl State {
         self.sweep.gain(block, self.residual)
     }
 
+    /// What a swept block takes off the sum of squares, and its rank.
+    #[must_use]
+    pub fn loss(&self, block: &[usize]) -> (f64, usize) {
+        let inside: Vec<usize> = block.iter().copied().filter(|&c| self.sweep.contains(c)).collect();
+        let k = inside.len();
+        let inverse = Mat::from_fn(k, k, |i, j| -self.sweep.entry(inside[i], inside[j]));
+        let b = Mat::from_fn(k, 1, |i, _| self.sweep.entry(inside[i], self.residual));
+        let Ok(factor) = inverse.llt(faer::Side::Lower) else { return (0.0, 0) };
+        let scaled = factor.solve(&b);
+        ((0..k).map(|i| b[(i, 0)] * scaled[(i, 0)]).sum(), k)
+    }
+
     /// The swept columns with their coefficients.
     #[must_use]
     pub fn coefficients(&self) -> Vec<(usize, f64)> {
@@ -134,7 +150,7 @@ pub fn class_columns(problem: &Problem, classes: &[Class]) -> Vec<Vec<usize>> {
 pub fn select(
     problem: &Problem,
     classes: &[Class],
-    start: &[usize],
+    start: &[Accepted],
     chosen: impl Fn(usize) -> bool + Copy,
     options: &Options,
 ) -> Selection {
@@ -147,9 +163,9 @@ pub fn select(
 
     let mut state = State::declared(problem, chosen);
     let mut accepted: Vec<Accepted> = Vec::new();
-    for &class in start {
-        state.add(&blocks[class]);
-        accepted.push(Accepted { class, p_value: f64::NAN });
+    for known in start {
+        state.add(&blocks[known.class]);
+        accepted.push(known.clone());
     }
     let search = Search { problem, blocks: &blocks, folds: &folds };
     let mut dropped = search.drop_idle(&mut state, &mut accepted, options, None);
@@ -199,6 +215,13 @@ impl Search<'_> {
         let gains: Vec<(f64, usize)> = open.iter().map(|&class| state.gain(&self.blocks[class])).collect();
         let tails = Tails::new(gains.iter().map(|&(_, rank)| rank), state.df());
         let tested: Vec<Vec<usize>> = open.iter().map(|&c| self.blocks[c].clone()).collect();
+        // Far beyond what the flips could resolve, their number alone bounds the p.
+        let best = open
+            .iter()
+            .zip(&gains)
+            .map(|(_, &(gain, rank))| tails.ln_p(rank, gain, state.rss()))
+            .fold(0.0, f64::min);
+        let sure = best + (open.len() as f64).ln() < BEYOND_FLIPS;
         let family = Family {
             rows: rows.as_ref(),
             sweep: &state.sweep,
@@ -206,7 +229,7 @@ impl Search<'_> {
             blocks: &tested,
             tails: &tails,
         };
-        let smallest = family.smallest(signs);
+        let smallest = if sure { vec![best.midpoint(0.0); signs.flips()] } else { family.smallest(signs) };
         open.iter()
             .zip(gains)
             .filter(|&(_, (_, rank))| rank > 0)
@@ -239,7 +262,7 @@ impl Search<'_> {
 
     /// Tries each accepted class against the others of no larger rank, until no exchange gains.
     fn swap(&self, state: &mut State, accepted: &mut [Accepted]) {
-        for _ in 0..4 {
+        for _ in 0..2 {
             let mut changed = false;
             for at in 0..accepted.len() {
                 let own = accepted[at].class;
@@ -281,16 +304,13 @@ impl Search<'_> {
         loop {
             let mut worst: Option<(f64, usize)> = None;
             for (at, own) in accepted.iter().enumerate().filter(|(_, a)| Some(a.class) != newest) {
-                let block = &self.blocks[own.class];
-                state.remove(block);
-                let (gain, rank) = state.gain(block);
-                let tails = Tails::new([rank], state.df());
-                let ln_p = tails.ln_p(rank, gain, state.rss()) + (self.blocks.len() as f64).ln();
+                let (gain, rank) = state.loss(&self.blocks[own.class]);
+                let tails = Tails::new([rank], state.df() + rank as f64);
+                let ln_p = tails.ln_p(rank, gain, state.rss() + gain) + (self.blocks.len() as f64).ln();
                 let idle = rank == 0 || ln_p > options.false_alarm.ln();
                 if idle && worst.is_none_or(|(most, _)| ln_p > most) {
                     worst = Some((ln_p, at));
                 }
-                state.add(block);
             }
             let Some((_, at)) = worst else { return dropped };
             let gone = accepted.remove(at);

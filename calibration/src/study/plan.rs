@@ -6,7 +6,7 @@ use model_core::{Chain, ObservableId, Quantity, Symbol, SymbolId, SymbolKind, na
 use toml::Spanned;
 
 use super::StudyError;
-use super::written::{Column, HoldOut, Kind, Observed, Sigma, Study, Table};
+use super::written::{Column, HoldOut, Kind, Observed, SearchTable, Sigma, Study, Table};
 use crate::fit::FitOptions;
 use crate::formats::csv;
 use crate::noise::NoiseOptions;
@@ -57,6 +57,8 @@ pub struct Search {
     pub inputs: Vec<SymbolId>,
     /// Whether rows are in order of acquisition, so that direction of motion and drift may be used.
     pub sequence: bool,
+    /// Harmonics of each encoder up to this order, for gears and motors that repeat many times a turn.
+    pub harmonics: u32,
 }
 
 /// Where the values of a joint or input come from.
@@ -259,7 +261,8 @@ impl Study {
             return Err(StudyError::new(place, "a share of false alarms lies between 0 and 1", "write 0.05"));
         }
         let inputs = self.search.inputs.iter().filter_map(|name| chain.find_symbol(name.get_ref())).collect();
-        Ok(Search { false_alarm, inputs, sequence: self.search.sequence })
+        let SearchTable { sequence, harmonics, .. } = self.search;
+        Ok(Search { false_alarm, inputs, sequence, harmonics })
     }
 
     fn next(&self, chain: &Chain) -> Result<Option<(usize, Vec<(SymbolId, Range<f64>)>)>, StudyError> {

@@ -152,11 +152,12 @@ pub(super) struct SearchTable {
     pub false_alarm: Spanned<f64>,
     pub inputs: Vec<Spanned<String>>,
     pub sequence: bool,
+    pub harmonics: u32,
 }
 
 impl Default for SearchTable {
     fn default() -> Self {
-        Self { false_alarm: Spanned::new(0..0, 0.05), inputs: Vec::new(), sequence: false }
+        Self { false_alarm: Spanned::new(0..0, 0.05), inputs: Vec::new(), sequence: false, harmonics: 8 }
     }
 }
 

@@ -5,6 +5,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use calibration::calibrate::{Calibration, Request, calibrate};
+use calibration::formats::DataError;
 use calibration::observations::Observations;
 use calibration::study::{Plan, Study};
 use model_core::Chain;
@@ -22,13 +23,28 @@ pub struct Loaded {
     pub second: Option<Observations>,
 }
 
+/// The study file itself.
+pub fn study(path: &str) -> Study {
+    Study::from_text(&std::fs::read_to_string(root().join(path)).unwrap()).unwrap()
+}
+
+/// The observations that a study names, for its plan.
+pub fn observations(study: &str, plan: &Plan) -> Observations {
+    plan.observations(&mut opener(study)).unwrap()
+}
+
+fn opener(study: &str) -> impl FnMut(&str) -> Result<Box<dyn Read>, DataError> {
+    let folder = root().join(study).parent().unwrap().to_owned();
+    move |file: &str| Ok(Box::new(File::open(folder.join(file)).expect("the file is there")) as Box<dyn Read>)
+}
+
 /// Reads a study; `None`, with a word about it, where its data are not at hand (never so in CI).
-pub fn load(study: &str) -> Option<Loaded> {
-    let path = root().join(study);
-    let folder = path.parent().unwrap().to_owned();
-    let study = Study::from_text(&std::fs::read_to_string(&path).unwrap()).unwrap();
+pub fn load(path: &str) -> Option<Loaded> {
+    let study = study(path);
+    let folder = root().join(path).parent().unwrap().to_owned();
     let text = std::fs::read_to_string(folder.join(study.chain.get_ref())).unwrap();
-    let chain = Chain::from_text(&text).unwrap_or_else(|mistakes| panic!("{}", mistakes.render("chain", &text)));
+    let chain =
+        Chain::from_text(&text).unwrap_or_else(|mistakes| panic!("{}", mistakes.render("chain", &text)));
     let missing = study.data.get_ref().0.iter().find(|file| !folder.join(file).exists());
     if let Some(file) = missing {
         assert!(std::env::var_os("CI").is_none(), "{file} is missing");
@@ -36,11 +52,8 @@ pub fn load(study: &str) -> Option<Loaded> {
         return None;
     }
     let plan = study.plan(&chain).unwrap();
-    let mut open = |file: &str| {
-        Ok(Box::new(File::open(folder.join(file)).expect("the file is there")) as Box<dyn Read>)
-    };
-    let observations = plan.observations(&mut open).unwrap();
-    let second = plan.held_out(&mut open).unwrap();
+    let observations = observations(path, &plan);
+    let second = plan.held_out(&mut opener(path)).unwrap();
     Some(Loaded { text, plan, observations, second })
 }
 

@@ -1,5 +1,6 @@
 //! The whole loop on measured data: simulated ones of the examples, and real ones where they are at hand.
-#![allow(clippy::unwrap_used, clippy::expect_used, missing_docs)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout, missing_docs)]
 
 mod data;
 mod examples;
+mod instruments;

@@ -93,14 +93,10 @@ void {prefix}_{name}_prepare(const {prefix}_errors *errors, {prefix}_{name}_prep
 // Per pose: {}.
 void {prefix}_{name}(const {prefix}_{name}_prepared *prepared, const {prefix}_joints *joints,
     {prefix}_{result} *out);
-{}
-// The same for many poses, up to the last place of sines and cosines. Arrays must not overlap.
-{};
-",
+{}",
                 function.program.carried().len().max(1),
                 function.program.counts().evaluated,
-                self.declared_without_branch(function.form),
-                c_rows::declaration(self, function),
+                c_rows::declarations(self, function),
             );
         }
         text.push_str("\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n");
@@ -112,7 +108,7 @@ void {prefix}_{name}(const {prefix}_{name}_prepared *prepared, const {prefix}_jo
         let _ = write!(text, "\n#include \"{file_name}.h\"\n\n{}", vector::C);
         for function in functions {
             text.push_str(&self.one_pose(function));
-            text.push_str(&c_rows::definition(self, function));
+            text.push_str(&c_rows::definitions(self, function));
         }
         text
     }
@@ -131,49 +127,30 @@ void {prefix}_{name}(const {prefix}_{name}_prepared *prepared, const {prefix}_jo
         for (index, value) in listing.carried.iter().enumerate() {
             let _ = writeln!(text, "    prepared->values[{index}] = {value};");
         }
-        text.push_str("}\n");
-        for (variant, sin_cos) in variants(function.form) {
-            let _ = write!(
-                text,
-                "
-void {prefix}_{name}{variant}(const {prefix}_{name}_prepared *prepared, const {prefix}_joints *joints,
+        let _ = write!(
+            text,
+            "}}
+
+void {prefix}_{name}(const {prefix}_{name}_prepared *prepared, const {prefix}_joints *joints,
     {prefix}_{result} *out)
 {{
     const double *const p = prepared->values;
     (void)p;
     (void)joints;
 {}",
-                statements(&listing.evaluated, sin_cos, 4)
-            );
-            for (place, value) in self.places(function.form).iter().zip(&listing.outputs) {
-                let _ = writeln!(text, "    out->{place} = {value};");
-            }
-            text.push_str("}\n");
+            statements(&listing.evaluated, "trueaxis_sin_cos_with(0, ", 4)
+        );
+        for (place, value) in self.places(function.form).iter().zip(&listing.outputs) {
+            let _ = writeln!(text, "    out->{place} = {value};");
         }
+        text.push_str("}\n");
         text
-    }
-
-    /// The function without branches, if the form has one.
-    fn declared_without_branch(&self, form: Form) -> String {
-        if form != Form::FirstOrderError {
-            return String::new();
-        }
-        let (prefix, name) = (&self.prefix, form_name(form));
-        format!(
-            "
-// One pose by the same instructions for every pose: no branch, no allocation, no recursion, so that time and stack are
-// known beforehand. Not a number where an angle is beyond 1e6 rad.
-void {prefix}_{name}_without_branch(const {prefix}_{name}_prepared *prepared,
-    const {prefix}_joints *joints, {prefix}_observed *out);
-"
-        )
     }
 
     /// Where each output of a form goes, in order.
     pub(super) fn places(&self, form: Form) -> Vec<String> {
         let columns = self.unit.errors().len();
-        let names = self.unit.observable_names().map(|name| identifier(self.unit.chain, name));
-        names
+        self.observable_fields()
             .flat_map(|name| {
                 (0..3).flat_map(move |component| {
                     let name = name.clone();
@@ -188,6 +165,11 @@ void {prefix}_{name}_without_branch(const {prefix}_{name}_prepared *prepared,
                 })
             })
             .collect()
+    }
+
+    /// The observables' names in C.
+    pub(super) fn observable_fields(&self) -> impl Iterator<Item = String> {
+        self.unit.observable_names().map(|name| identifier(self.unit.chain, name))
     }
 
     /// The type that a form puts out.
@@ -209,13 +191,6 @@ void {prefix}_{name}_without_branch(const {prefix}_{name}_prepared *prepared,
             (format!("{of}{name}{shape}"), self.unit.describe_observable(id))
         })
     }
-}
-
-/// The functions of one pose: what their names add to that of the form, and their sine and cosine.
-fn variants(form: Form) -> &'static [(&'static str, &'static str)] {
-    const ANY_ANGLE: (&str, &str) = ("", "trueaxis_sin_cos_with(0, ");
-    const WITHOUT_BRANCH: (&str, &str) = ("_without_branch", "trueaxis_sin_cos_without_branch(");
-    if form == Form::FirstOrderError { &[ANY_ANGLE, WITHOUT_BRANCH] } else { &[ANY_ANGLE] }
 }
 
 /// A structure; C knows no empty ones.

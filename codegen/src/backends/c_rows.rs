@@ -1,30 +1,296 @@
-//! C over structure of arrays: the loop around the evaluated stage.
+//! C over structure of arrays: blocks of rows through the paths of [`crate::vector`].
 
 use std::fmt::Write;
 
-use super::c::{C, Names, statements};
-use super::listing::list;
-use super::unit::{Function, form_name};
+use model_core::SymbolId;
 
-/// The function that does many poses, as declared.
-pub(super) fn declaration(c: &C<'_>, function: &Function) -> String {
+use super::c::C;
+use super::unit::{Function, form_name};
+use crate::vector::{self, Dialect, Line, Rows};
+
+/// What a form declares for many poses, with what it needs: for Jacobians, the type of their blocks.
+pub(super) fn declarations(c: &C<'_>, function: &Function) -> String {
+    let mut text = String::new();
+    if function.form.is_jacobian() {
+        let loops = loops(c, function);
+        let (prefix, name) = (&c.prefix, form_name(function.form));
+        let columns = c.unit.errors().len();
+        let fields = c
+            .observable_fields()
+            .fold(String::new(), |text, name| format!("{text}    unsigned short {name}[3][{columns}];\n"));
+        let _ = write!(
+            text,
+            "
+// A block of {name}: 64 poses. Derivatives that are the same function are held once, and columns are longer than a block,
+// so that they do not all meet in the same places of the cache.
+typedef struct {{
+    double values[{}][72];
+}} {prefix}_{name}_block;
+
+// Which of a block's values each derivative is.
+typedef struct {{
+{fields}}} {prefix}_{name}_places;
+extern const {prefix}_{name}_places {prefix}_{name}_place;
+
+// At most 64 poses, left in a block, so that they are still in the cache when they are used.
+{};
+",
+            loops.distinct,
+            block_signature(c, function),
+        );
+    }
+    let _ = write!(
+        text,
+        "
+// The same for many poses, but products may be fused with sums. Sines and cosines are at most 0.9 units in the last place
+// off for angles up to 1e6 rad, and right for any angle. Arrays must not overlap.
+{};
+",
+        rows_signature(c, function)
+    );
+    text
+}
+
+/// The definitions.
+pub(super) fn definitions(c: &C<'_>, function: &Function) -> String {
+    let loops = loops(c, function);
+    let mut text = compute(c, function, &loops);
+    text.push_str(&if function.form.is_jacobian() {
+        blocks(c, function, &loops)
+    } else {
+        slices(c, function, &loops)
+    });
+    text
+}
+
+fn loops(c: &C<'_>, function: &Function) -> Rows {
+    let name = |id: SymbolId| c.name(id);
+    let dialect = Dialect { name: &name, binding: "const double", mul_add: "trueaxis_mul_add(fused, " };
+    vector::rows(&function.program, &dialect)
+}
+
+fn rows_signature(c: &C<'_>, function: &Function) -> String {
     let (prefix, name, result) = (&c.prefix, form_name(function.form), c.result(function.form));
     format!(
         "void {prefix}_{name}_rows(const {prefix}_{name}_prepared *prepared, size_t rows,\n    const {prefix}_joints_rows *joints, const {prefix}_{result}_rows *out)"
     )
 }
 
-/// Its definition.
-pub(super) fn definition(c: &C<'_>, function: &Function) -> String {
-    let listing = list(&function.program, &Names { c, row: "[row]" });
+fn block_signature(c: &C<'_>, function: &Function) -> String {
+    let (prefix, name) = (&c.prefix, form_name(function.form));
+    format!(
+        "void {prefix}_{name}_rows_of_block(const {prefix}_{name}_prepared *prepared, size_t rows,\n    const {prefix}_joints_rows *joints, {prefix}_{name}_block *block)"
+    )
+}
+
+/// The function of one block.
+fn compute(c: &C<'_>, function: &Function, loops: &Rows) -> String {
+    let (prefix, name) = (&c.prefix, form_name(function.form));
+    let jacobian = function.form.is_jacobian();
+    let columns: String =
+        loops.columns.iter().map(|&id| format!(", const double *restrict column_{}", c.name(id))).collect();
+    let outs: String = if jacobian {
+        ", double (*restrict out)[72]".into()
+    } else {
+        (0..loops.places.len()).map(|index| format!(", double *restrict out{index}")).collect()
+    };
     let mut text = format!(
-        "\n{}\n{{\n    const double *const p = prepared->values;\n    size_t row;\n    (void)p;\n    (void)joints;\n    for (row = 0; row < rows; row++) {{\n{}",
-        declaration(c, function),
-        statements(&listing.evaluated, "trueaxis_sin_cos_with(0, ", 8)
+        "\nTRUEAXIS_INLINE void {prefix}_{name}_compute(const int fused, const double *p{columns}{outs})\n{{\n    int row;\n"
     );
-    for (place, value) in c.places(function.form).iter().zip(&listing.outputs) {
-        let _ = writeln!(text, "        out->{place}[row] = {value};");
+    for index in 0..function.program.carried().len() {
+        let _ = writeln!(text, "    const double p{index} = p[{index}];");
+    }
+    text.push_str("    (void)p;\n    (void)fused;\n");
+    for angle in &loops.angles {
+        let name = &angle.name;
+        let source = match &angle.computed {
+            None => format!("column_{name}"),
+            Some((statements, value)) => {
+                let _ = writeln!(text, "    double angle_{name}[TRUEAXIS_ROWS];");
+                text.push_str("    for (row = 0; row < TRUEAXIS_ROWS; row++) {\n");
+                for statement in statements {
+                    let _ = writeln!(text, "        {statement}");
+                }
+                let _ = writeln!(text, "        angle_{name}[row] = {value};\n    }}");
+                format!("angle_{name}")
+            }
+        };
+        let _ = writeln!(
+            text,
+            "    double sine_{name}[TRUEAXIS_ROWS], cosine_{name}[TRUEAXIS_ROWS];
+    trueaxis_sin_cos_rows(fused, {source}, sine_{name}, cosine_{name});"
+        );
+    }
+    text.push_str("    for (row = 0; row < TRUEAXIS_ROWS; row++) {\n");
+    for line in &loops.statements {
+        match line {
+            Line::Bind(statement) => {
+                let _ = writeln!(text, "        {statement}");
+            }
+            Line::Store { place, value } if jacobian => {
+                let _ = writeln!(text, "        out[{place}][row] = {value};");
+            }
+            Line::Store { place, value } => {
+                for (index, _) in loops.places.iter().enumerate().filter(|&(_, at)| at == place) {
+                    let _ = writeln!(text, "        out{index}[row] = {value};");
+                }
+            }
+        }
     }
     text.push_str("    }\n}\n");
     text
+}
+
+/// A function for each path, all with the same parameters and the same body, and the choice between them.
+fn paths(name: &str, parameters: &str, arguments: &str) -> (String, String) {
+    let definitions = format!(
+        "
+#ifdef TRUEAXIS_HAS_PATHS
+TRUEAXIS_TARGET_V3 static void {name}_v3({parameters})
+{{
+    {name}_on(1, {arguments});
+}}
+
+TRUEAXIS_TARGET_V4 static void {name}_v4({parameters})
+{{
+    {name}_on(1, {arguments});
+}}
+#endif
+"
+    );
+    let choice = format!(
+        "    switch (trueaxis_path()) {{
+#ifdef TRUEAXIS_HAS_PATHS
+    case TRUEAXIS_V4:
+        {name}_v4({arguments});
+        break;
+    case TRUEAXIS_V3:
+        {name}_v3({arguments});
+        break;
+#endif
+    default:
+        {name}_on(0, {arguments});
+    }}
+"
+    );
+    (definitions, choice)
+}
+
+/// Forms with few outputs: arrays of any length, block by block.
+fn slices(c: &C<'_>, function: &Function, loops: &Rows) -> String {
+    let (prefix, name, result) = (&c.prefix, form_name(function.form), c.result(function.form));
+    let parameters = format!(
+        "const {prefix}_{name}_prepared *prepared, size_t rows,\n    const {prefix}_joints_rows *joints, const {prefix}_{result}_rows *out"
+    );
+    let (definitions, choice) =
+        paths(&format!("{prefix}_{name}"), &parameters, "prepared, rows, joints, out");
+    let columns: String =
+        loops.columns.iter().map(|&id| format!(", joints->{} + first", c.name(id))).collect();
+    let places = c.places(function.form);
+    let outs: String = places.iter().map(|place| format!(", out->{place} + first")).collect();
+    let mut pose: String = c.joints.iter().map(|&id| c.name(id)).fold(String::new(), |text, name| {
+        format!("{text}            pose.{name} = joints->{name}[start];\n")
+    });
+    if pose.is_empty() {
+        pose.push_str("            pose.none = 0.0;\n");
+    }
+    let stores = places
+        .iter()
+        .fold(String::new(), |text, place| format!("{text}            out->{place}[start] = one.{place};\n"));
+    format!(
+        "
+TRUEAXIS_INLINE void {prefix}_{name}_on(const int fused, {parameters})
+{{
+    size_t start;
+    (void)joints;
+    for (start = 0; start < rows; start += TRUEAXIS_ROWS) {{
+        /* The last block may do rows again that the one before it did. */
+        const size_t first = start + TRUEAXIS_ROWS <= rows ? start : rows - TRUEAXIS_ROWS;
+        {prefix}_{name}_compute(fused, prepared->values{columns}{outs});
+    }}
+}}
+{definitions}
+{}
+{{
+    if (rows < TRUEAXIS_ROWS) {{
+        size_t start;
+        for (start = 0; start < rows; start++) {{
+            {prefix}_joints pose;
+            {prefix}_{result} one;
+{pose}            {prefix}_{name}(prepared, &pose, &one);
+{stores}        }}
+        return;
+    }}
+{choice}}}
+",
+        rows_signature(c, function)
+    )
+}
+
+/// Jacobians: a block at a time, so that it is still in the cache when it is used.
+fn blocks(c: &C<'_>, function: &Function, loops: &Rows) -> String {
+    let (prefix, name) = (&c.prefix, form_name(function.form));
+    let parameters =
+        format!("const double *p, double (*columns)[TRUEAXIS_ROWS], {prefix}_{name}_block *block");
+    let (definitions, choice) =
+        paths(&format!("{prefix}_{name}"), &parameters, "prepared->values, columns, block");
+    let definitions = definitions.replace("prepared->values", "p");
+    let columns: String = (0..loops.columns.len()).map(|index| format!(", columns[{index}]")).collect();
+    let padded = loops.columns.iter().enumerate().fold(String::new(), |text, (index, &id)| {
+        format!("{text}        columns[{index}][row] = row < rows ? joints->{}[row] : 0.0;\n", c.name(id))
+    });
+    let mut places = loops.places.chunks(c.unit.errors().len());
+    let fields = c.observable_fields().fold(String::new(), |mut text, _| {
+        text.push_str("    {");
+        for row in places.by_ref().take(3) {
+            let row: Vec<String> = row.iter().map(usize::to_string).collect();
+            let _ = write!(text, "{{{}}}, ", row.join(", "));
+        }
+        text + "},\n"
+    });
+    let part =
+        c.joints.iter().map(|&id| c.name(id)).fold(String::new(), |text, name| {
+            format!("{text}        part.{name} = joints->{name} + start;\n")
+        });
+    let copies =
+        c.places(function.form).iter().zip(&loops.places).fold(String::new(), |text, (place, value)| {
+            format!("{text}            out->{place}[start + row] = block.values[{value}][row];\n")
+        });
+    format!(
+        "
+const {prefix}_{name}_places {prefix}_{name}_place = {{
+{fields}}};
+
+TRUEAXIS_INLINE void {prefix}_{name}_on(const int fused, {parameters})
+{{
+    (void)columns;
+    {prefix}_{name}_compute(fused, p{columns}, block->values);
+}}
+{definitions}
+{}
+{{
+    double columns[{}][TRUEAXIS_ROWS];
+    size_t row;
+    (void)joints;
+    for (row = 0; row < TRUEAXIS_ROWS; row++) {{
+{padded}    }}
+{choice}}}
+
+{}
+{{
+    size_t start, row;
+    for (start = 0; start < rows; start += TRUEAXIS_ROWS) {{
+        const size_t count = rows - start < TRUEAXIS_ROWS ? rows - start : TRUEAXIS_ROWS;
+        {prefix}_joints_rows part = *joints;
+        {prefix}_{name}_block block;
+{part}        {prefix}_{name}_rows_of_block(prepared, count, &part, &block);
+        for (row = 0; row < count; row++) {{
+{copies}        }}
+    }}
+}}
+",
+        block_signature(c, function),
+        loops.columns.len().max(1),
+        rows_signature(c, function),
+    )
 }

@@ -8,7 +8,10 @@ use super::rust::shape;
 use super::unit::{Function, Unit, camel_case, form_name};
 use crate::vector::{self, Dialect, Line, Rows};
 
-const DIALECT: Dialect = Dialect { binding: "let", mul_add: "arithmetic.mul_add(" };
+fn loops(unit: &Unit<'_>, function: &Function) -> Rows {
+    let name = |id: SymbolId| unit.chain.symbol(id).name.clone();
+    vector::rows(&function.program, &Dialect { name: &name, binding: "let", mul_add: "arithmetic.mul_add(" })
+}
 
 /// What all functions of a file share: the columns of joints, and the module of sines and cosines.
 pub(super) fn shared(unit: &Unit<'_>, joints: &[SymbolId]) -> String {
@@ -53,7 +56,7 @@ pub fn path_taken() -> Path {
 
 /// The methods of a form that do many poses, inside its `impl`.
 pub(super) fn methods(unit: &Unit<'_>, function: &Function, joints: &[SymbolId]) -> String {
-    let loops = vector::rows(unit.chain, &function.program, &DIALECT);
+    let loops = loops(unit, function);
     if loops.places.is_empty() {
         return String::new();
     }
@@ -71,7 +74,7 @@ pub(super) fn items(unit: &Unit<'_>, function: &Function) -> String {
     if !function.form.is_jacobian() {
         return String::new();
     }
-    let loops = vector::rows(unit.chain, &function.program, &DIALECT);
+    let loops = loops(unit, function);
     let kind = camel_case(form_name(function.form));
     let columns = unit.errors().len();
     let mut places = loops.places.iter();

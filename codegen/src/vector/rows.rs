@@ -5,12 +5,14 @@
 //! calls or branches, which compilers turn into vector code. In it a product that only one sum reads is fused
 //! with that sum on processors that can; that is all that keeps the bits from being the interpreter's.
 
-use model_core::{Chain, SymbolId};
+use model_core::SymbolId;
 
 use crate::program::{NodeId, Op, Program, Stage};
 
 /// How a language writes what stands in the loops.
-pub(crate) struct Dialect {
+pub(crate) struct Dialect<'a> {
+    /// A symbol's name.
+    pub(crate) name: &'a dyn Fn(SymbolId) -> String,
     /// What stands before the name of a new value: `let`.
     pub(crate) binding: &'static str,
     /// The call of a·b + c up to the first operand.
@@ -54,27 +56,26 @@ pub(crate) enum Line {
 }
 
 /// Lists a program.
-pub(crate) fn rows(chain: &Chain, program: &Program, dialect: &Dialect) -> Rows {
-    Lister::new(chain, program, dialect).list()
+pub(crate) fn rows(program: &Program, dialect: &Dialect<'_>) -> Rows {
+    Lister::new(program, dialect).list()
 }
 
 struct Lister<'a> {
-    chain: &'a Chain,
     program: &'a Program,
-    dialect: &'a Dialect,
+    dialect: &'a Dialect<'a>,
     /// How often each node is read, outputs included.
     readers: Vec<usize>,
     carried: Vec<NodeId>,
 }
 
 impl<'a> Lister<'a> {
-    fn new(chain: &'a Chain, program: &'a Program, dialect: &'a Dialect) -> Self {
+    fn new(program: &'a Program, dialect: &'a Dialect<'a>) -> Self {
         let mut readers = vec![0; program.nodes().len()];
         let operands = program.stage(Stage::Evaluated).flat_map(|(_, op)| op.operands());
         for node in operands.chain(program.outputs().iter().copied()) {
             readers[node.index()] += 1;
         }
-        Self { chain, program, dialect, readers, carried: program.carried() }
+        Self { program, dialect, readers, carried: program.carried() }
     }
 
     fn list(&self) -> Rows {
@@ -167,7 +168,7 @@ impl<'a> Lister<'a> {
             Op::Neg(a) => (format!("-{}", self.text(a)), vec![a]),
             Op::Sin(angle) => (format!("sine_{}[row]", self.angle_name(angle)), vec![]),
             Op::Cos(angle) => (format!("cosine_{}[row]", self.angle_name(angle)), vec![]),
-            Op::Input(symbol) => (format!("column_{}[row]", self.chain.symbol(symbol).name), vec![]),
+            Op::Input(symbol) => (format!("column_{}[row]", (self.dialect.name)(symbol)), vec![]),
             Op::Constant(literal) => (format!("{:?}", literal.value()), vec![]),
         }
     }
@@ -190,7 +191,7 @@ impl<'a> Lister<'a> {
 
     fn angle_name(&self, angle: NodeId) -> String {
         match self.op(angle) {
-            Op::Input(symbol) => self.chain.symbol(symbol).name.clone(),
+            Op::Input(symbol) => (self.dialect.name)(symbol),
             _ => angle.index().to_string(),
         }
     }

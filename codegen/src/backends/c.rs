@@ -93,9 +93,10 @@ void {prefix}_{name}_prepare(const {prefix}_errors *errors, {prefix}_{name}_prep
 // Per pose: {}.
 void {prefix}_{name}(const {prefix}_{name}_prepared *prepared, const {prefix}_joints *joints,
     {prefix}_{result} *out);
-{}",
+{}{}",
                 function.program.carried().len().max(1),
                 function.program.counts().evaluated,
+                self.declared_without_branch(function.form),
                 c_rows::declarations(self, function),
             );
         }
@@ -127,24 +128,42 @@ void {prefix}_{name}(const {prefix}_{name}_prepared *prepared, const {prefix}_jo
         for (index, value) in listing.carried.iter().enumerate() {
             let _ = writeln!(text, "    prepared->values[{index}] = {value};");
         }
-        let _ = write!(
-            text,
-            "}}
-
-void {prefix}_{name}(const {prefix}_{name}_prepared *prepared, const {prefix}_joints *joints,
+        text.push_str("}\n");
+        for (variant, sin_cos) in variants(function.form) {
+            let _ = write!(
+                text,
+                "
+void {prefix}_{name}{variant}(const {prefix}_{name}_prepared *prepared, const {prefix}_joints *joints,
     {prefix}_{result} *out)
 {{
     const double *const p = prepared->values;
     (void)p;
     (void)joints;
 {}",
-            statements(&listing.evaluated, "trueaxis_sin_cos_with(0, ", 4)
-        );
-        for (place, value) in self.places(function.form).iter().zip(&listing.outputs) {
-            let _ = writeln!(text, "    out->{place} = {value};");
+                statements(&listing.evaluated, sin_cos, 4)
+            );
+            for (place, value) in self.places(function.form).iter().zip(&listing.outputs) {
+                let _ = writeln!(text, "    out->{place} = {value};");
+            }
+            text.push_str("}\n");
         }
-        text.push_str("}\n");
         text
+    }
+
+    /// The function without branches, if the form has one.
+    fn declared_without_branch(&self, form: Form) -> String {
+        if form != Form::FirstOrderError {
+            return String::new();
+        }
+        let (prefix, name) = (&self.prefix, form_name(form));
+        format!(
+            "
+// One pose by the same instructions for every pose: no branch, no allocation, no recursion, so that time and stack are
+// known beforehand. Not a number where an angle is beyond 1e6 rad.
+void {prefix}_{name}_without_branch(const {prefix}_{name}_prepared *prepared,
+    const {prefix}_joints *joints, {prefix}_observed *out);
+"
+        )
     }
 
     /// Where each output of a form goes, in order.
@@ -191,6 +210,13 @@ void {prefix}_{name}(const {prefix}_{name}_prepared *prepared, const {prefix}_jo
             (format!("{of}{name}{shape}"), self.unit.describe_observable(id))
         })
     }
+}
+
+/// The functions of one pose: what their names add to that of the form, and their sine and cosine.
+fn variants(form: Form) -> &'static [(&'static str, &'static str)] {
+    const ANY_ANGLE: (&str, &str) = ("", "trueaxis_sin_cos_with(0, ");
+    const WITHOUT_BRANCH: (&str, &str) = ("_without_branch", "trueaxis_sin_cos_without_branch(");
+    if form == Form::FirstOrderError { &[ANY_ANGLE, WITHOUT_BRANCH] } else { &[ANY_ANGLE] }
 }
 
 /// A structure; C knows no empty ones.

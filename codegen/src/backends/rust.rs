@@ -113,6 +113,22 @@ impl {kind} {{
         statements(&listing.evaluated, "sine_cosine::sin_cos", 8),
         observed(unit, function.form, &listing.outputs),
     );
+    if function.form == Form::FirstOrderError {
+        let _ = write!(
+            text,
+            "
+    /// One pose as [`Self::eval`], by the same instructions for every pose: no branch, no allocation, no recursion, so
+    /// that time and stack are known beforehand. Not a number where an angle is beyond 1e6 rad.
+    #[must_use]
+    pub fn eval_without_branch(&self, joints: &Joints) -> Observed<{shape}> {{
+        let p = &self.prepared;
+{}        {}
+    }}
+",
+            statements(&listing.evaluated, "sine_cosine::sin_cos_without_branch", 8),
+            observed(unit, function.form, &listing.outputs),
+        );
+    }
     text.push_str(&rust_rows::methods(unit, function, joints));
     text.push_str("}\n");
     text.push_str(&rust_rows::items(unit, function));

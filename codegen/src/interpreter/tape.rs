@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use model_core::SymbolId;
 
 use crate::program::{NodeId, Op, Program, Stage};
-use crate::vector::{Portable, ROWS, sin_cos_rows};
+use crate::vector::{self, Arithmetic, Portable, ROWS, sin_cos_rows};
 
 /// Rows that are loaded before any is stored.
 const LANES: usize = 8;
@@ -93,31 +93,46 @@ impl Tape {
         for &(node, slot) in &self.broadcast {
             fill(&self.slots[slot], prepared[node.index()]);
         }
-        for start in (0..rows).step_by(ROWS) {
-            let block = start..rows.min(start + ROWS);
-            for instruction in &self.instructions {
-                self.step(*instruction, columns, constants, block.clone(), out);
+        let work = Blocks { tape: self, columns, constants, rows, out };
+        vector::run(vector::path(), work);
+    }
+}
+
+/// The blocks of one call.
+struct Blocks<'a, 'o> {
+    tape: &'a Tape,
+    columns: &'a [(SymbolId, &'a [f64])],
+    constants: &'a [f64],
+    rows: usize,
+    out: &'a mut [&'o mut [f64]],
+}
+
+impl vector::Work for Blocks<'_, '_> {
+    /// On the widest registers of the processor but with nothing fused, so that each row has the same bits on every
+    /// processor, and those of one pose.
+    #[inline(always)]
+    fn run<A: Arithmetic>(mut self, _: A) {
+        for start in (0..self.rows).step_by(ROWS) {
+            let end = self.rows.min(start + ROWS);
+            for instruction in &self.tape.instructions {
+                self.step(*instruction, start, end);
             }
         }
     }
+}
 
-    fn step(
-        &self,
-        instruction: Instruction,
-        columns: &[(SymbolId, &[f64])],
-        constants: &[f64],
-        block: std::ops::Range<usize>,
-        out: &mut [&mut [f64]],
-    ) {
-        let slot = |index: usize| &self.slots[index];
+impl Blocks<'_, '_> {
+    #[inline(always)]
+    fn step(&mut self, instruction: Instruction, start: usize, end: usize) {
+        let slot = |index: usize| &self.tape.slots[index];
         match instruction {
-            Instruction::Load { symbol, to } => match columns.iter().find(|&&(id, _)| id == symbol) {
+            Instruction::Load { symbol, to } => match self.columns.iter().find(|&&(id, _)| id == symbol) {
                 Some((_, column)) => {
-                    for (cell, value) in slot(to).iter().zip(&column[block]) {
+                    for (cell, value) in slot(to).iter().zip(&column[start..end]) {
                         cell.set(*value);
                     }
                 }
-                None => fill(slot(to), constants[symbol.index()]),
+                None => fill(slot(to), self.constants[symbol.index()]),
             },
             Instruction::Neg { a, to } => map(slot(a), slot(a), slot(to), |a, _| -a),
             Instruction::Add { a, b, to } => map(slot(a), slot(b), slot(to), |a, b| a + b),
@@ -127,13 +142,12 @@ impl Tape {
             Instruction::SinCos { angle, sin, cos } => {
                 let angles = slot(angle).each_ref().map(Cell::get);
                 let (mut sines, mut cosines) = ([0.0; ROWS], [0.0; ROWS]);
-                // The same path on every processor, and the same bits as one pose.
                 sin_cos_rows(Portable, &angles, &mut sines, &mut cosines);
                 slot(sin).iter().zip(sines).for_each(|(cell, sine)| cell.set(sine));
                 slot(cos).iter().zip(cosines).for_each(|(cell, cosine)| cell.set(cosine));
             }
             Instruction::Store { from, output } => {
-                for (value, cell) in out[output][block].iter_mut().zip(slot(from)) {
+                for (value, cell) in self.out[output][start..end].iter_mut().zip(slot(from)) {
                     *value = cell.get();
                 }
             }

@@ -82,14 +82,11 @@ TRUEAXIS_INLINE double trueaxis_number(uint64_t bits)
     return word.number;
 }
 
-/* Sine and cosine of r + low + quarters*pi/2, where |r| <= pi/4 and low is about half a unit in r's last place. */
-TRUEAXIS_INLINE void trueaxis_sin_cos_reduced(const int fused, double r, double low, uint64_t quarters, double *sine,
-                                              double *cosine)
+/* Sine and cosine of r + low, where |r| <= pi/4 and low is about half a unit in r's last place. */
+TRUEAXIS_INLINE void trueaxis_sin_cos_near_zero(const int fused, double r, double low, double *sine, double *cosine)
 {
     const double square = r * r;
-    double s, c, rest, plain_sine, plain_cosine;
-    uint64_t sine_sign, cosine_sign;
-    int swap;
+    double s, c, rest;
 
     s = 0x1.5d8b553ebac9bp-33;
     s = trueaxis_mul_add(fused, s, square, -0x1.ae5e4b83152adp-26);
@@ -97,7 +94,7 @@ TRUEAXIS_INLINE void trueaxis_sin_cos_reduced(const int fused, double r, double 
     s = trueaxis_mul_add(fused, s, square, -0x1.a01a019be9213p-13);
     s = trueaxis_mul_add(fused, s, square, 0x1.111111110f730p-7);
     s = trueaxis_mul_add(fused, s, square, -0x1.5555555555548p-3);
-    plain_sine = r + trueaxis_mul_add(fused, r * square, s, low);
+    *sine = r + trueaxis_mul_add(fused, r * square, s, low);
 
     c = -0x1.8fa6848d36fc7p-37;
     c = trueaxis_mul_add(fused, c, square, 0x1.1ee9dbcf12a57p-29);
@@ -108,22 +105,38 @@ TRUEAXIS_INLINE void trueaxis_sin_cos_reduced(const int fused, double r, double 
     /* cos(r + low) = 1 - r^2/2 + (r^4 c - r low): the half square keeps what rounding takes from it. */
     rest = trueaxis_mul_add(fused, square * square, c, -(r * low));
     if (fused) {
-        plain_cosine = 1.0 + trueaxis_mul_add(fused, -0.5 * r, r, rest);
+        *cosine = 1.0 + trueaxis_mul_add(fused, -0.5 * r, r, rest);
     } else {
         const double half = 0.5 * square;
         const double top = 1.0 - half;
-        plain_cosine = top + (((1.0 - top) - half) + rest);
+        *cosine = top + (((1.0 - top) - half) + rest);
     }
-
-    swap = (quarters & 1) != 0;
-    sine_sign = (quarters << 62) & 0x8000000000000000ULL;
-    cosine_sign = ((quarters << 62) ^ (quarters << 63)) & 0x8000000000000000ULL;
-    *sine = trueaxis_number(trueaxis_bits(swap ? plain_cosine : plain_sine) ^ sine_sign);
-    *cosine = trueaxis_number(trueaxis_bits(swap ? plain_sine : plain_cosine) ^ cosine_sign);
 }
 
-/* Sine and cosine, at most 1 ulp off, for |x| <= TRUEAXIS_WIDEST; NaN for NaN. Anything else for other angles. */
-TRUEAXIS_INLINE void trueaxis_sin_cos_narrow(const int fused, double x, double *sine, double *cosine)
+/* The signs of sine and cosine after some quarter turns. */
+TRUEAXIS_INLINE void trueaxis_with_signs(uint64_t sine_bits, uint64_t cosine_bits, uint64_t quarters, double *sine,
+                                         double *cosine)
+{
+    const uint64_t sine_sign = (quarters << 62) & 0x8000000000000000ULL;
+    const uint64_t cosine_sign = ((quarters << 62) ^ (quarters << 63)) & 0x8000000000000000ULL;
+    *sine = trueaxis_number(sine_bits ^ sine_sign);
+    *cosine = trueaxis_number(cosine_bits ^ cosine_sign);
+}
+
+/* Sine and cosine of r + low + quarters*pi/2. */
+TRUEAXIS_INLINE void trueaxis_sin_cos_reduced(const int fused, double r, double low, uint64_t quarters, double *sine,
+                                              double *cosine)
+{
+    const int swap = (quarters & 1) != 0;
+    double plain_sine, plain_cosine;
+    trueaxis_sin_cos_near_zero(fused, r, low, &plain_sine, &plain_cosine);
+    trueaxis_with_signs(trueaxis_bits(swap ? plain_cosine : plain_sine),
+                        trueaxis_bits(swap ? plain_sine : plain_cosine), quarters, sine, cosine);
+}
+
+/* What is left of an angle with |x| <= TRUEAXIS_WIDEST beside quarter turns, as a sum of two numbers; in the low bits of
+ * what is returned, how many those are. */
+TRUEAXIS_INLINE uint64_t trueaxis_reduce_narrow(const int fused, double x, double *rest, double *rest_low)
 {
     /* Adding 1.5*2^52 rounds to a whole number, which then stands in the low bits. */
     const double rounder = 0x1.8p52;
@@ -148,7 +161,35 @@ TRUEAXIS_INLINE void trueaxis_sin_cos_narrow(const int fused, double x, double *
         r = middle + left;
         low = ((middle - r) + left) - fourth;
     }
-    trueaxis_sin_cos_reduced(fused, r, low, trueaxis_bits(rounded), sine, cosine);
+    *rest = r;
+    *rest_low = low;
+    return trueaxis_bits(rounded);
+}
+
+/* Sine and cosine, at most 1 ulp off, for |x| <= TRUEAXIS_WIDEST; NaN for NaN. Anything else for other angles. */
+TRUEAXIS_INLINE void trueaxis_sin_cos_narrow(const int fused, double x, double *sine, double *cosine)
+{
+    double r, low;
+    const uint64_t quarters = trueaxis_reduce_narrow(fused, x, &r, &low);
+    trueaxis_sin_cos_reduced(fused, r, low, quarters, sine, cosine);
+}
+
+/* The same by the same instructions for every angle, and NaN beyond TRUEAXIS_WIDEST: choices are made by masks, which no
+ * compiler turns into jumps. */
+TRUEAXIS_INLINE void trueaxis_sin_cos_without_branch(double x, double *sine, double *cosine)
+{
+    const uint64_t magnitude = trueaxis_bits(x) & 0x7fffffffffffffffULL;
+    /* Bits of positive numbers are ordered as the numbers: all ones where the difference is negative, else zeros. */
+    const uint64_t in_reach = 0 - ((magnitude - (trueaxis_bits(TRUEAXIS_WIDEST) + 1)) >> 63);
+    const double angle = trueaxis_number((trueaxis_bits(x) & in_reach) | (0x7ff8000000000000ULL & ~in_reach));
+    double r, low, plain_sine, plain_cosine;
+    uint64_t quarters, sine_bits, cosine_bits, swapped;
+    quarters = trueaxis_reduce_narrow(0, angle, &r, &low);
+    trueaxis_sin_cos_near_zero(0, r, low, &plain_sine, &plain_cosine);
+    sine_bits = trueaxis_bits(plain_sine);
+    cosine_bits = trueaxis_bits(plain_cosine);
+    swapped = (sine_bits ^ cosine_bits) & (0 - (quarters & 1));
+    trueaxis_with_signs(sine_bits ^ swapped, cosine_bits ^ swapped, quarters, sine, cosine);
 }
 
 /* Upper half of the product. */

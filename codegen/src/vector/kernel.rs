@@ -19,6 +19,14 @@ const ROUNDER: f64 = 6755399441055744.0;
 /// Sine and cosine, at most 1 ulp off, for |x| ≤ [`WIDEST`]; NaN for NaN. Anything else for other angles.
 #[inline(always)]
 pub fn sin_cos_narrow<A: Arithmetic>(arithmetic: A, x: f64) -> (f64, f64) {
+    let (r, low, quarters) = reduce_narrow(arithmetic, x);
+    sin_cos_reduced(arithmetic, r, low, quarters)
+}
+
+/// What is left of an angle with |x| ≤ [`WIDEST`] beside quarter turns, as a sum of two numbers, and in the low bits
+/// how many those are.
+#[inline(always)]
+fn reduce_narrow<A: Arithmetic>(arithmetic: A, x: f64) -> (f64, f64, u64) {
     let rounded = arithmetic.mul_add(x, TWO_OVER_PI, ROUNDER);
     let quarters = rounded - ROUNDER;
     let (r, low) = if A::FUSED {
@@ -39,12 +47,21 @@ pub fn sin_cos_narrow<A: Arithmetic>(arithmetic: A, x: f64) -> (f64, f64) {
         let r = middle + left;
         (r, ((middle - r) + left) - fourth)
     };
-    sin_cos_reduced(arithmetic, r, low, rounded.to_bits())
+    (r, low, rounded.to_bits())
 }
 
 /// Sine and cosine of r + low + quarters·π/2, where |r| ≤ π/4 and `low` is at most half a unit in r's last place.
 #[inline(always)]
 fn sin_cos_reduced<A: Arithmetic>(arithmetic: A, r: f64, low: f64, quarters: u64) -> (f64, f64) {
+    let (sine, cosine) = sin_cos_near_zero(arithmetic, r, low);
+    let swap = quarters & 1 == 1;
+    let (sine, cosine) = if swap { (cosine, sine) } else { (sine, cosine) };
+    with_signs(sine.to_bits(), cosine.to_bits(), quarters)
+}
+
+/// Sine and cosine of r + low, where |r| ≤ π/4.
+#[inline(always)]
+fn sin_cos_near_zero<A: Arithmetic>(arithmetic: A, r: f64, low: f64) -> (f64, f64) {
     let square = r * r;
 
     let mut s = 1.5895433056632474e-10;
@@ -70,12 +87,31 @@ fn sin_cos_reduced<A: Arithmetic>(arithmetic: A, r: f64, low: f64, quarters: u64
         let top = 1.0 - half;
         top + (((1.0 - top) - half) + rest)
     };
+    (sine, cosine)
+}
 
-    let swap = quarters & 1 == 1;
-    let (sine, cosine) = if swap { (cosine, sine) } else { (sine, cosine) };
+/// The signs of sine and cosine after some quarter turns.
+#[inline(always)]
+fn with_signs(sine: u64, cosine: u64, quarters: u64) -> (f64, f64) {
     let sine_sign = (quarters << 62) & (1 << 63);
     let cosine_sign = ((quarters << 62) ^ (quarters << 63)) & (1 << 63);
-    (f64::from_bits(sine.to_bits() ^ sine_sign), f64::from_bits(cosine.to_bits() ^ cosine_sign))
+    (f64::from_bits(sine ^ sine_sign), f64::from_bits(cosine ^ cosine_sign))
+}
+
+/// Sine and cosine of one angle, rad, by the same instructions for every angle: as [`sin_cos`] for |x| ≤ [`WIDEST`], NaN
+/// for all others. Choices are made by masks, which no compiler turns into jumps.
+#[must_use]
+#[inline]
+pub fn sin_cos_without_branch(x: f64) -> (f64, f64) {
+    // Bits of positive numbers are ordered as the numbers: all ones where the difference is negative, all zeros elsewhere.
+    let beyond = x.abs().to_bits().wrapping_sub(WIDEST.to_bits() + 1);
+    let in_reach = 0_u64.wrapping_sub(beyond >> 63);
+    let x = f64::from_bits(x.to_bits() & in_reach | f64::NAN.to_bits() & !in_reach);
+    let (r, low, quarters) = reduce_narrow(Portable, x);
+    let (sine, cosine) = sin_cos_near_zero(Portable, r, low);
+    let (sine, cosine) = (sine.to_bits(), cosine.to_bits());
+    let swapped = (sine ^ cosine) & 0_u64.wrapping_sub(quarters & 1);
+    with_signs(sine ^ swapped, cosine ^ swapped, quarters)
 }
 
 /// Sine and cosine of any angle, rad: at most 1 ulp off for |x| ≤ [`WIDEST`], and for all others; NaN where

@@ -3,6 +3,8 @@
 
 use std::fmt::Write;
 
+use codegen::Form;
+
 use crate::case::{COMPARED, Case, FORMS, ROWS, SINGLE};
 
 /// A library without `std` of all generated files.
@@ -65,12 +67,17 @@ pub fn rust(cases: &[Case]) -> String {
                 .iter()
                 .map(|name| format!("        for x in out.{name}{flat} {{ println!(\"{{x:?}}\"); }}\n"))
                 .collect();
+            let without_branch = if form == Form::FirstOrderError {
+                "        assert_eq!(out, FirstOrderError::prepare(&errors).eval_without_branch(&joints(row)));\n"
+            } else {
+                ""
+            };
             let slices: String = names.iter().map(|name| format!("{name}: {one}, ")).collect();
             write!(
                 text,
                 "    for row in 0..{SINGLE} {{
         let out = {form_name}(&errors, &joints(row));
-{print}    }}
+{without_branch}{print}    }}
     let mut rows = vec![[0.0; {ROWS}]; {outputs}];
     let mut slices = rows.iter_mut().map(|row| row.as_mut_slice());
     {kind}::prepare(&errors).eval_rows(&columns, Observed {{ {slices} }}).unwrap();
@@ -85,7 +92,7 @@ pub fn rust(cases: &[Case]) -> String {
 }
 
 pub fn c(cases: &[Case]) -> String {
-    let mut text = String::from("#include <stdio.h>\n");
+    let mut text = String::from("#include <stdio.h>\n#include <string.h>\n");
     for case in cases {
         writeln!(text, "#include \"{}.h\"", case.name).unwrap();
     }
@@ -122,6 +129,19 @@ pub fn c(cases: &[Case]) -> String {
         for (form, form_name) in FORMS {
             let result = if form.is_jacobian() { "jacobian" } else { "observed" };
             let joints = list(&|index| format!("column{index}[row]"));
+            let without_branch = if form == Form::FirstOrderError {
+                format!(
+                    "            {{
+                {prefix}_{result} same;
+                {prefix}_{form_name}_without_branch(&prepared, &joints, &same);
+                if (memcmp(&same, &out, sizeof same) != 0)
+                    return;
+            }}
+"
+                )
+            } else {
+                String::new()
+            };
             write!(
                 text,
                 "    {{
@@ -135,7 +155,7 @@ pub fn c(cases: &[Case]) -> String {
             {prefix}_{form_name}(&prepared, &joints, &out);
             for (output = 0; output < outputs; output++)
                 printf(\"%.17g\\n\", ((const double *)&out)[output]);
-        }}
+{without_branch}        }}
         for (output = 0; output < outputs; output++)
             ((double **)&slices)[output] = rows[output];
         {prefix}_{form_name}_rows(&prepared, {ROWS}, &columns, &slices);

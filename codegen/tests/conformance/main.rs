@@ -8,6 +8,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod branches;
 mod case;
 mod drivers;
 
@@ -61,7 +62,7 @@ fn rust() {
     fs::write(folder.join("main.rs"), drivers::rust(&cases)).unwrap();
     let rustc = || {
         let mut command = Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()));
-        command.current_dir(&folder).args(["--edition=2024", "-Copt-level=1", "-Dwarnings"]);
+        command.current_dir(&folder).args(["--edition=2024", "-Dwarnings"]);
         command
     };
     output(rustc().args(["--crate-type=rlib", "generated.rs"]));

@@ -38,9 +38,7 @@ fn rows_are_what_single_poses_are() {
                 }
                 interpreter.eval(&values, &mut expected).unwrap();
                 for (found, expected) in found.iter().zip(&expected) {
-                    // Sines and cosines may differ by an ulp between one angle and many.
-                    let tolerance = 64.0 * f64::EPSILON * (1.0 + expected.abs());
-                    assert!((found[row] - expected).abs() <= tolerance, "{name}, row {row}");
+                    assert_eq!(found[row].to_bits(), expected.to_bits(), "{name}, row {row}");
                 }
             }
         }

@@ -2,6 +2,7 @@
 
 mod claims;
 mod commands;
+mod curves;
 mod date;
 mod errors_file;
 mod evaluation;

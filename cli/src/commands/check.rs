@@ -7,7 +7,7 @@ use model_core::checker::{Checker, Claim, Counted, Difference, FormVerdict, Meas
 use model_core::{Chain, Mistake, budget, print};
 use serde_json::{Value, json};
 
-use super::Answer;
+use super::{Answer, TextOrJson};
 use crate::claims::{ClaimsFile, NamedClaim};
 use crate::failure::Failure;
 use crate::terminal::{self, BAD, GOOD, HEADING};
@@ -24,17 +24,8 @@ pub struct Arguments {
     /// The claims file
     claims: PathBuf,
     /// How to print the verdicts
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
-}
-
-/// How verdicts are printed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-enum Format {
-    /// For reading
-    Text,
-    /// For programs
-    Json,
+    #[arg(long, value_enum, default_value_t = TextOrJson::Text)]
+    format: TextOrJson,
 }
 
 /// A claim and what is said of it.
@@ -55,8 +46,8 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         checked.push(Checked { claim, verdict });
     }
     let output = match arguments.format {
-        Format::Text => as_text(&file, &checked),
-        Format::Json => {
+        TextOrJson::Text => as_text(&file, &checked),
+        TextOrJson::Json => {
             let claims: Vec<Value> = checked.iter().map(|checked| as_json(&file, checked)).collect();
             format!("{:#}\n", json!({ "claims": claims }))
         }

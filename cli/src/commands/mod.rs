@@ -2,6 +2,7 @@
 
 mod apply;
 mod bound;
+mod budget;
 mod calibrate;
 mod check;
 mod derive;
@@ -57,6 +58,7 @@ commands! {
     Identify => identify,
     Bound => bound,
     Check => check,
+    Budget => budget,
     Generate => generate,
     Simulate => simulate,
     Eval => eval,

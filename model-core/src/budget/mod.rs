@@ -32,6 +32,8 @@ pub use summary::{Measure, Summary};
 pub struct Budget {
     /// The observable.
     pub observable: ObservableId,
+    /// The joints and inputs that [`Summary::at`] gives for ranges; empty along a path.
+    pub parameters: Vec<SymbolId>,
     /// One for each error with a size, in the order of the chain.
     pub influences: Vec<Influence>,
     /// The sum of all influences at each pose: to first order no combination within the sizes does more.
@@ -134,6 +136,7 @@ impl Budget {
         };
         Ok(Self {
             observable,
+            parameters: space.symbols().to_vec(),
             influences,
             worst_case: together(|influences| influences.sum()),
             root_sum_square: together(|influences| influences.map(|value| value * value).sum::<f64>().sqrt()),

@@ -182,6 +182,14 @@ impl<'a> Space<'a> {
         nodes
     }
 
+    /// The joints and inputs that are parameters themselves; none along a path.
+    pub fn symbols(&self) -> &[SymbolId] {
+        match &self.kind {
+            Kind::Path(_) => &[],
+            Kind::Ranges(symbols) => symbols,
+        }
+    }
+
     /// The distance of neighbouring nodes along one parameter, about.
     pub fn spacing(&self, axis: usize) -> f64 {
         let (low, high) = self.bounds[axis];

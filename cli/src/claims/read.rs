@@ -298,7 +298,7 @@ impl Reader<'_> {
             })),
             Err(why) => {
                 self.mistake(compare.size.span(), why).help =
-                    Some(format!("write it like \"{}\"", units::example(quantity)));
+                    Some(format!("write it like {}", units::example(quantity)));
                 None
             }
         }

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use model_core::budget::{Budget, BudgetError, Curves, Poses, Summary};
-use model_core::{Chain, Quantity, SymbolKind};
+use model_core::Chain;
 use serde_json::{Value, json};
 
 use super::{Answer, TextOrJson};

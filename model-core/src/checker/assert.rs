@@ -20,7 +20,7 @@ pub fn assert_closed_form(chain: &Chain, observable: &str, order: u32, kept: &[&
 }
 
 /// The assertion's message, if it fails.
-fn closed_form(
+pub(super) fn closed_form(
     chain: &Chain,
     observable: &str,
     order: u32,

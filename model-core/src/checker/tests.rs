@@ -183,3 +183,20 @@ fn the_number_of_components_is_minded() {
     assert_eq!(refused(&["[0, 0]"]), ["2 components, where a vector has three"]);
     assert_eq!(refused(&["dtheta_y", "0", "sin(dtheta_y1)"]).len(), 2);
 }
+
+#[test]
+fn the_assertion_passes_what_is_right_and_says_what_is_wrong() {
+    let chain = chain();
+    let kept = ["dtheta_[", "dtheta_x1"];
+    assert_closed_form(&chain, "pointing", 1, &["dtheta_x1", "dtheta_y1", "dtheta_x3"], RIGHT);
+    let said = |observable: &str, kept: &[&str], components: [&str; 3]| {
+        assert::closed_form(&chain, observable, 1, kept, &components).err().unwrap_or_default()
+    };
+    assert!(
+        said("pointing", &["dtheta_x1"], ["0", "dtheta_x1*cos(beta)", "0"])
+            .contains("y, dtheta_x1: printed cos(beta), derived -cos(beta)")
+    );
+    assert!(said("aim", &["dtheta_x1"], RIGHT).contains("no observable `aim`"));
+    assert!(said("pointing", &kept, RIGHT).contains("no error `dtheta_[`"));
+    assert!(said("pointing", &["*"], [r"\cos\bta", "0", "0"]).contains("at `\\bta`: unknown symbol"));
+}

@@ -153,14 +153,14 @@ impl PrintedSymbols {
         if let Some(function) = FUNCTIONS.iter().find(|function| letters.starts_with(**function)) {
             return mistake.with_help(format!("for the function write `\\{function}`"));
         }
-        let known: Vec<(String, &str)> = self
-            .entries
-            .iter()
-            .map(|(glyphs, entry)| (glyph::spelling(glyphs), entry.printed.as_str()))
-            .collect();
+        // A control word that is none is likely a misspelt one: then its own letters count.
+        let spell =
+            if glyph::spelling(&glyphs).contains('\\') { glyph::normal_text } else { glyph::spelling };
+        let known: Vec<(String, &str)> =
+            self.entries.iter().map(|(glyphs, entry)| (spell(glyphs), entry.printed.as_str())).collect();
         // Any two single letters are one change apart: there is no likeness to speak of.
-        let spelling = Some(glyph::spelling(&glyphs)).filter(|spelling| spelling.chars().count() > 1);
-        let nearest = spelling
+        let wanted = Some(spell(&glyphs)).filter(|spelling| spelling.chars().count() > 1);
+        let nearest = wanted
             .and_then(|wanted| names::nearest(&wanted, known.iter().map(|(spelling, _)| spelling.as_str())));
         match known.iter().find(|(spelling, _)| Some(spelling.as_str()) == nearest) {
             Some((_, printed)) => mistake.with_help(format!("did you mean `{printed}`?")),

@@ -149,6 +149,7 @@ fn what_cannot_be_read_is_refused_at_its_place() {
         (r"\Delta\theta_{y1}", r"\Delta\theta_{y1}", r"did you mean `\Delta\theta_{y1}^0`?"),
         (r"\Delta\beta_2^0", r"\Delta\beta_2^0", r"did you mean `\Delta\beta_2`?"),
         (r"\zeta", r"\zeta", "name it under [symbols]"),
+        (r"\bta", r"\bta", r"did you mean `\beta`?"),
         (r"x sin\beta", "s", r"write `\sin`"),
         (r"\sin", "", "the angle of the function"),
         (r"\sin\cos\beta", r"\cos", "put parentheses around the argument"),

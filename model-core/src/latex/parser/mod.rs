@@ -1,12 +1,17 @@
-//! The Pratt parser: tokens → expression.
+//! The Pratt parser: tokens → expression. Functions and powers, with their own conventions, have files of their own.
+
+mod functions;
+mod powers;
 
 use std::ops::Range;
 
 use super::token::{Kind, Token};
 use super::{PrintedSymbols, Unreadable, glyph};
 use crate::algebra::Rational;
-use crate::expr::{Expr, Function, Node};
+use crate::expr::{Expr, Node};
 use crate::mistake::Mistake;
+use functions::function;
+use powers::raised;
 
 type Formula = Expr<Range<usize>>;
 
@@ -348,182 +353,8 @@ impl<'a> Parser<'a> {
             None => self.powered(symbol),
         }
     }
-
-    /// The power, or the degree sign, behind an operand.
-    fn powered(&mut self, base: Formula) -> Result<Formula, Unreadable> {
-        let mut base = base;
-        loop {
-            let start = self.at;
-            let raised_sign = self.is_at_mark('^');
-            self.at += usize::from(raised_sign);
-            if raised_sign && self.is_at_mark('{') && self.is_braced_degree() {
-                self.at += 2;
-                base = degrees(base, self.here().end);
-                self.advance();
-            } else if self.is_at_command("degree") {
-                base = degrees(base, self.here().end);
-                self.advance();
-            } else if raised_sign {
-                let (power, end) = self.power()?;
-                base = raised(base, power, end);
-            } else {
-                self.at = start;
-                return Ok(base);
-            }
-        }
-    }
-
-    fn is_braced_degree(&self) -> bool {
-        let kind = |offset: usize| self.tokens.get(self.at + offset).map(|token| &token.kind);
-        kind(1) == Some(&Kind::Command("degree".to_owned())) && kind(2) == Some(&Kind::Mark('}'))
-    }
-
-    /// A whole power behind `^`, and where it ends.
-    fn power(&mut self) -> Result<(i32, usize), Unreadable> {
-        let start = self.here();
-        let braced = self.is_at_mark('{');
-        self.at += usize::from(braced);
-        let negative = braced && self.is_at_mark('-');
-        self.at += usize::from(negative);
-        let digits_start = self.at;
-        while self.peek().is_some_and(|token| matches!(token.kind, Kind::Digit(_)))
-            && (braced || self.at == digits_start)
-        {
-            self.advance();
-        }
-        let digits: String = self.tokens[digits_start..self.at]
-            .iter()
-            .filter_map(|token| if let Kind::Digit(digit) = token.kind { Some(digit) } else { None })
-            .collect();
-        let closed = !braced || self.is_at_mark('}');
-        let place = start.start..self.here().end.max(start.end);
-        let Some(power) = digits.parse::<i32>().ok().filter(|_| closed) else {
-            return Err(Mistake::new(place, "a power has to be a whole number")
-                .with_help("an upper index of an unknown symbol is read as a power"));
-        };
-        self.at += usize::from(braced);
-        let end = self.tokens[self.at - 1].place.end;
-        Ok((if negative { -power } else { power }, end))
-    }
-
-    /// A function with its power and argument: `\sin^2 \beta`, `\cos(\alpha + \beta)`, `\sin 2\beta`.
-    fn function(&mut self, function: Function, name: &str) -> Result<Formula, Unreadable> {
-        let start = self.here().start;
-        self.advance();
-        let mut power = None;
-        if self.is_at_mark('^') {
-            let caret = self.here();
-            self.advance();
-            let (value, end) = self.power()?;
-            if value < 0 {
-                return Err(Mistake::new(
-                    caret.start..end,
-                    "a negative power of a function can mean its inverse",
-                )
-                .with_help(format!(r"write `\frac{{1}}{{\{name}…}}`")));
-            }
-            power = Some(value);
-        }
-        let argument = self.function_argument()?;
-        let end = argument.place.end;
-        let call = Expr { node: Node::Call(function, Box::new(argument)), place: start..end };
-        match power {
-            Some(power) => Ok(raised(call, power, end)),
-            // Behind a group the power is the function's: `\sin(\beta)^2`.
-            None => self.powered(call),
-        }
-    }
-
-    /// What a function takes: a group, or numbers and one symbol.
-    fn function_argument(&mut self) -> Result<Formula, Unreadable> {
-        let start = self.here().start;
-        if self.is_at_mark('-') {
-            self.advance();
-            let inside = self.function_argument()?;
-            let place = start..inside.place.end;
-            return Ok(Expr { node: Node::Neg(Box::new(inside)), place });
-        }
-        let Some(token) = self.peek() else {
-            return Err(self.unexpected("the angle of the function"));
-        };
-        match &token.kind {
-            Kind::OpenBrace | Kind::Mark('(' | '[' | '{') => self.group(),
-            Kind::Digit(_) | Kind::Mark('.') => {
-                let number = self.number()?;
-                let number = self.powered(number)?;
-                self.behind_number(number)
-            }
-            Kind::Command(name) if is_fraction(name) => {
-                let fraction = self.fraction()?;
-                if is_number(&fraction) { self.behind_number(fraction) } else { Ok(fraction) }
-            }
-            kind if glyph::starts(kind) => {
-                let symbol = self.symbol()?;
-                if let Node::Pow(..) = symbol.node {
-                    return Err(Mistake::new(
-                        symbol.place,
-                        "is this a power of the function or of the angle?",
-                    )
-                    .with_help(r"write `\sin^2 \beta`"));
-                }
-                Ok(symbol)
-            }
-            Kind::Command(name) if function(name).is_some() => Err(self
-                .unexpected("the angle of the function")
-                .with_help("put parentheses around the argument")),
-            _ => Err(self.unexpected("the angle of the function")),
-        }
-    }
-
-    /// The symbol or group that a number inside a function multiplies, if there is one.
-    fn behind_number(&mut self, number: Formula) -> Result<Formula, Unreadable> {
-        let continues = self.peek().is_some_and(|token| {
-            glyph::starts(&token.kind) || matches!(token.kind, Kind::Mark('(' | '[' | '{') | Kind::OpenBrace)
-        });
-        if !continues {
-            return Ok(number);
-        }
-        let angle = self.function_argument()?;
-        let place = number.place.start..angle.place.end;
-        Ok(Expr { node: Node::Mul(Box::new(number), Box::new(angle)), place })
-    }
-}
-
-fn function(name: &str) -> Option<Function> {
-    Some(match name {
-        "sin" => Function::Sin,
-        "cos" => Function::Cos,
-        "tan" => Function::Tan,
-        "cot" => Function::Cot,
-        "sec" => Function::Sec,
-        "csc" => Function::Csc,
-        _ => return None,
-    })
 }
 
 fn is_fraction(name: &str) -> bool {
     matches!(name, "frac" | "tfrac" | "dfrac")
-}
-
-fn is_number(formula: &Formula) -> bool {
-    match &formula.node {
-        Node::Number(_) => true,
-        Node::Neg(inside) => is_number(inside),
-        Node::Div(above, below) => is_number(above) && is_number(below),
-        _ => false,
-    }
-}
-
-fn raised(base: Formula, power: i32, end: usize) -> Formula {
-    let place = base.place.start..end;
-    Expr { node: Node::Pow(Box::new(base), power), place }
-}
-
-/// `90^\circ` is `90*pi/180`.
-fn degrees(number: Formula, end: usize) -> Formula {
-    let place = number.place.start..end;
-    let node = |node| Box::new(Expr { node, place: place.clone() });
-    let half_turn = node(Node::Number(Rational::from(180)));
-    let unit = node(Node::Div(node(Node::Pi), half_turn));
-    Expr { node: Node::Mul(Box::new(number), unit), place }
 }

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use model_core::budget::{Budget, BudgetError, Curves, Poses, Summary};
 use model_core::Chain;
+use model_core::budget::{Budget, BudgetError, Curves, Poses, Summary};
 use serde_json::{Value, json};
 
 use super::{Answer, TextOrJson};

@@ -118,13 +118,13 @@ impl<'a> Formula<'a> {
                     .replace("3(", if self.style == Style::Text { "3*(" } else { "3(" });
                 |slip| matches!(slip, TermSlip::Factor(factor) if *factor == 3.into())
             }
-            Slip::OtherComponent => return self.into_other_component(chosen, here, random),
+            Slip::OtherComponent => return self.move_to_other_component(chosen, here, random),
         };
         (slip, Expected { places: vec![here], is_right })
     }
 
     /// Moves a contribution into a component to which its error contributes nothing; drops it if there is none.
-    fn into_other_component(
+    fn move_to_other_component(
         &mut self,
         chosen: usize,
         here: (Axis, String),

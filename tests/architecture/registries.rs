@@ -1,4 +1,4 @@
-//! Registries: a plural folder with one file an entry and one table in its `mod.rs`.
+//! Registries: a plural folder with one file an entry (and helpers that entries share), and one table in its `mod.rs`.
 
 use crate::sources::below;
 
@@ -7,7 +7,7 @@ const REGISTRIES: &[&str] =
     &["cli/src/commands", "codegen/src/backends", "calibration/src/effects", "calibration/src/formats"];
 
 #[test]
-fn every_entry_of_a_registry_stands_in_its_table() {
+fn no_file_of_a_registry_is_forgotten_by_its_table() {
     for registry in REGISTRIES {
         let files = below(registry);
         let table_path = format!("{registry}/mod.rs");
@@ -16,8 +16,7 @@ fn every_entry_of_a_registry_stands_in_its_table() {
             let entry = file.path.trim_start_matches(registry).trim_start_matches('/');
             let name = entry.split(['/', '.']).next().unwrap_or_default();
             if name != "mod" {
-                let uses = table.text.matches(name).count();
-                assert!(uses >= 2, "{registry}: `{name}` has a file but no line in the table");
+                assert!(table.text.contains(&format!("mod {name};")), "{registry}: `{name}` is not in the table");
             }
         }
     }

@@ -16,7 +16,10 @@ fn no_file_of_a_registry_is_forgotten_by_its_table() {
             let entry = file.path.trim_start_matches(registry).trim_start_matches('/');
             let name = entry.split(['/', '.']).next().unwrap_or_default();
             if name != "mod" {
-                assert!(table.text.contains(&format!("mod {name};")), "{registry}: `{name}` is not in the table");
+                assert!(
+                    table.text.contains(&format!("mod {name};")),
+                    "{registry}: `{name}` is not in the table"
+                );
             }
         }
     }

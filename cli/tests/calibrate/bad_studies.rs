@@ -1,0 +1,123 @@
+//! Slips in a study, or in the data that it names.
+
+use insta::assert_snapshot;
+
+use crate::support::Folder;
+
+const CHAIN: &str = "chain Turntable {
+    body table on ground {
+        position_error: Rx(tilt_x), Ry(tilt_y);
+        motion: Rz(azimuth);
+    }
+    observe pointing: direction(1, 0, 0) of table;
+}
+";
+
+const STUDY: &str = "chain = \"turntable.chain\"
+observable = \"pointing\"
+data = \"measured.csv\"
+
+[columns]
+azimuth = { column = \"az\", unit = \"deg\" }
+
+[observed]
+kind = \"direction\"
+x = \"x\"
+y = \"y\"
+z = \"z\"
+";
+
+const DATA: &str = "az,x,y,z\n0,1,0,0\n90,0,1,0\n180,-1,0,0\n";
+
+/// What `calibrate` says of a chain, a study and data with one place changed.
+fn refused(name: &str, from: &str, to: &str) -> String {
+    let parts = [CHAIN, STUDY, DATA];
+    assert!(parts.iter().any(|part| part.contains(from)), "{from}");
+    let [chain, study, data] = parts.map(|part| part.replacen(from, to, 1));
+    let folder = Folder::new(&format!("study-{name}"));
+    folder.write("turntable.chain", chain).write("study.toml", study).write("measured.csv", data);
+    let run = folder.trueaxis(&["calibrate", "study.toml", "--out", "result"]);
+    assert_eq!((run.code, run.stdout.as_str()), (2, ""), "{run}");
+    assert!(!folder.names().contains(&"result".to_owned()), "nothing is written");
+    run.stderr
+}
+
+#[test]
+fn misspelt_key() {
+    assert_snapshot!(refused("key", "observable =", "observble ="));
+}
+
+#[test]
+fn chain_that_is_not_there() {
+    assert_snapshot!(refused("chain", "turntable.chain\"\nobs", "turntabel.chain\"\nobs"));
+}
+
+#[test]
+fn data_that_are_not_there() {
+    assert_snapshot!(refused("data", "measured.csv", "mesured.csv"));
+}
+
+#[test]
+fn unknown_observable() {
+    assert_snapshot!(refused("observable", "\"pointing\"", "\"pointings\""));
+}
+
+#[test]
+fn unknown_joint() {
+    assert_snapshot!(refused("joint", "azimuth = {", "azimut = {"));
+}
+
+#[test]
+fn unknown_kind() {
+    assert_snapshot!(refused("kind", "\"direction\"", "\"directions\""));
+}
+
+#[test]
+fn missing_column() {
+    assert_snapshot!(refused("column", "column = \"az\"", "column = \"azi\""));
+}
+
+#[test]
+fn angle_without_a_unit() {
+    assert_snapshot!(refused("unit", ", unit = \"deg\"", ""));
+}
+
+#[test]
+fn length_for_an_angle() {
+    assert_snapshot!(refused("length", "unit = \"deg\"", "unit = \"mm\""));
+}
+
+#[test]
+fn cell_that_is_no_number() {
+    assert_snapshot!(refused("number", "90,0,1,0", "ninety,0,1,0"));
+}
+
+#[test]
+fn not_a_number() {
+    assert_snapshot!(refused("nan", "90,0,1,0", "90,NaN,1,0"));
+}
+
+#[test]
+fn empty_data() {
+    assert_snapshot!(refused("empty", DATA, ""));
+}
+
+#[test]
+fn header_alone() {
+    assert_snapshot!(refused("header", DATA, "az,x,y,z\n"));
+}
+
+#[test]
+fn direction_that_is_none() {
+    assert_snapshot!(refused("length-of-direction", "90,0,1,0", "90,0,100,0"));
+}
+
+#[test]
+fn mistake_in_the_chain() {
+    assert_snapshot!(refused("in-chain", "Rz(azimuth)", "Rq(azimuth)"));
+}
+
+#[test]
+fn empty_study() {
+    assert_snapshot!(refused("empty-study", STUDY, ""));
+}

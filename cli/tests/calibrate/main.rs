@@ -1,0 +1,137 @@
+//! The whole loop, as a user runs it.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod bad_studies;
+
+use serde_json::Value;
+use support::{Folder, trueaxis};
+
+const STUDY: &str = "examples/mobile-lidar/study.toml";
+
+/// The example, calibrated into a folder of the test's own.
+fn calibrated(name: &str) -> (Folder, Value) {
+    let folder = Folder::new(name);
+    let out = folder.0.to_str().expect("UTF-8");
+    let run = trueaxis(&["calibrate", STUDY, "--out", out]);
+    assert_eq!(run.code, 0, "{run}");
+    let report = serde_json::from_str(&folder.read("report.json")).expect("JSON");
+    (folder, report)
+}
+
+#[test]
+fn the_loop_closes_on_the_mobile_lidar() {
+    let (folder, report) = calibrated("loop");
+    assert_eq!(
+        folder.names(),
+        ["amended.chain", "errors.toml", "report.html", "report.json", "residuals.csv"]
+    );
+
+    // The encoder of the middle axis is off centre: a rotation of the middle body about x, driven by beta.
+    let effects = report["effects"].as_array().expect("a list");
+    assert_eq!(effects.len(), 1, "{effects:#?}");
+    assert_eq!(effects[0]["body"], "middle");
+    assert_eq!(effects[0]["dof"], "Rx");
+    assert_eq!(effects[0]["driver"], "beta");
+    assert!(effects[0]["p_value"].as_f64().expect("a number") <= 0.001);
+
+    // The noise is 2 arcsec along each of two directions: 2.83 arcsec in length.
+    let arcsec = |value: &Value| value.as_f64().expect("a number") * 648_000.0 / std::f64::consts::PI;
+    assert!(arcsec(&report["before"]["rms"]) > 7.0, "the effect is seen before");
+    for rms in ["rms", "held_out_rms"] {
+        let after = arcsec(&report["after"][rms]);
+        assert!((2.6..3.1).contains(&after), "{rms} after: {after}");
+    }
+}
+
+#[test]
+fn the_amended_declaration_reads_derives_and_has_nothing_more_to_find() {
+    let (folder, report) = calibrated("amended");
+    folder.copy("examples/mobile-lidar/measured.csv").copy(STUDY);
+    let study = folder.read("study.toml").replace("mobile-lidar.chain", "amended.chain");
+    folder.write("study.toml", study);
+    let derived = folder.trueaxis(&["derive", "amended.chain", "--observable", "pointing"]);
+    assert_eq!(derived.code, 0, "{derived}");
+    for coefficient in report["effects"][0]["coefficients"].as_object().expect("a table").keys() {
+        assert!(derived.stdout.contains(coefficient), "{coefficient} is in the closed form");
+    }
+    let again = folder.trueaxis(&["calibrate", "study.toml", "--format", "json"]);
+    assert_eq!(again.code, 0, "{again}");
+    let again: Value = serde_json::from_str(&again.stdout).expect("JSON");
+    assert_eq!(again["effects"], Value::Array(Vec::new()), "nothing more is found");
+}
+
+#[test]
+fn the_errors_written_correct_the_measured_data() {
+    let (folder, _) = calibrated("corrected");
+    folder.copy("examples/mobile-lidar/measured.csv");
+    let arguments = [
+        "apply",
+        "amended.chain",
+        "--errors",
+        "errors.toml",
+        "--data",
+        "measured.csv",
+        "--observable",
+        "pointing",
+        "--out",
+        "corrected.csv",
+    ];
+    let run = folder.trueaxis(&arguments);
+    assert_eq!(run.code, 0, "{run}");
+    let directions = |table: String| -> Vec<f64> {
+        let rows = table.lines().skip(1).map(str::to_owned).collect::<Vec<_>>();
+        rows.iter()
+            .flat_map(|row| {
+                row.split(',').skip(5).map(|cell| cell.parse().expect("a number")).collect::<Vec<f64>>()
+            })
+            .collect()
+    };
+    let (corrected, measured) =
+        (directions(folder.read("corrected.csv")), directions(folder.read("measured.csv")));
+    let squares: f64 = corrected.iter().zip(&measured).map(|(a, b)| (a - b).powi(2)).sum();
+    let rms_arcsec = (squares / 400.0).sqrt() * 648_000.0 / std::f64::consts::PI;
+    assert!((2.6..3.1).contains(&rms_arcsec), "what is left is the noise: {rms_arcsec}");
+}
+
+#[test]
+fn the_page_needs_nothing_from_elsewhere() {
+    let (folder, _) = calibrated("page");
+    let page = folder.read("report.html");
+    let addresses = page.matches("http").count();
+    assert_eq!(
+        addresses,
+        page.matches("http://www.w3.org/2000/svg").count(),
+        "no address but the name of SVG"
+    );
+    assert!(!page.contains("<script") && !page.contains("<link"), "no script, no style from elsewhere");
+    assert!(page.matches("<svg").count() >= 6, "residuals over every joint");
+}
+
+#[test]
+fn a_dry_run_shows_the_difference_and_writes_nothing() {
+    let folder = Folder::new("dry-run");
+    for file in ["mobile-lidar.chain", "measured.csv", "study.toml"] {
+        folder.copy(&format!("examples/mobile-lidar/{file}"));
+    }
+    let before = folder.names();
+    let run = folder.trueaxis(&["calibrate", "study.toml", "--dry-run"]);
+    assert_eq!(run.code, 0, "{run}");
+    assert!(run.stdout.starts_with("--- mobile-lidar.chain\n+++ mobile-lidar.chain (amended)\n@@"), "{run}");
+    let removed = run.stdout.lines().skip(2).filter(|line| line.starts_with('-')).count();
+    assert_eq!(removed, 0, "lines are added, none is taken away");
+    assert_eq!(folder.names(), before);
+}
+
+#[test]
+fn the_independent_simulator_still_writes_the_data() {
+    let folder = Folder::new("simulator");
+    folder.copy("examples/mobile-lidar/simulate.py");
+    let python = std::process::Command::new("python3").arg("simulate.py").current_dir(&folder.0).status();
+    assert!(python.expect("Python is there").success());
+    for file in ["measured.csv", "second-run.csv"] {
+        let kept = std::fs::read_to_string(support::root().join("examples/mobile-lidar").join(file));
+        assert_eq!(folder.read(file), kept.expect("the example's data"), "{file}");
+    }
+}

@@ -116,8 +116,10 @@ impl Words for Names<'_> {
         }
     }
 
+    /// Numbers first.
     fn product(&self, a: &str, b: &str) -> String {
-        format!("{a} \\, {b}")
+        let is_number = b.starts_with(|first: char| first.is_ascii_digit());
+        if is_number { format!("{b} \\, {a}") } else { format!("{a} \\, {b}") }
     }
 
     fn quotient(&self, a: &str, b: &str) -> String {

@@ -33,6 +33,14 @@ pub(super) fn shared(unit: &Unit<'_>, joints: &[SymbolId]) -> String {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LengthsDiffer;
 
+impl core::fmt::Display for LengthsDiffer {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(\"slices of joints and results must be equally long, and no longer than a block where one is filled\")
+    }
+}
+
+impl core::error::Error for LengthsDiffer {}
+
 /// Rows in a block.
 pub const ROWS: usize = sine_cosine::ROWS;
 

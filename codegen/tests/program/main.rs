@@ -8,4 +8,5 @@ mod support;
 mod batches;
 mod counts;
 mod jacobians;
+mod texts;
 mod values;

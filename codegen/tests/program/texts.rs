@@ -1,0 +1,67 @@
+//! What generated files look like, for a reader: a turntable with two errors, in every language. The text of the
+//! vector sine and cosine, the same in each file, is left out.
+
+use codegen::{Form, LANGUAGES, Unit, generate, vector};
+use model_core::ObservableId;
+
+use crate::support::read;
+
+const TURNTABLE: &str = "/// A turntable on a bench.
+chain Turntable {
+    const radius: length = 0.25;
+    body table on ground {
+        motion: Rz(turn);
+        motion_error:
+            /// Encoder off centre, along its zero.
+            Rz(eccentricity*sin(turn)),
+            /// Height of the table.
+            Tz(height);
+    }
+    /// A mark on the rim.
+    observe mark: point(radius, 0, 0) of table;
+    symbol eccentricity = r\"\\epsilon\";
+    symbol turn = r\"\\theta\";
+}
+";
+
+#[test]
+fn generated_files() {
+    let chain = read("turntable", TURNTABLE);
+    let unit = Unit {
+        chain: &chain,
+        declaration: TURNTABLE,
+        observables: &[ObservableId(0)],
+        forms: &[Form::ExactError, Form::FirstOrderJacobian],
+        remainders: &[(
+            ObservableId(0),
+            "off by at most 1.25e-7 m while errors stay within box.toml".to_owned(),
+        )],
+    };
+    for (name, language) in LANGUAGES {
+        for file in generate(&unit, language, "turntable") {
+            let mut text = file.text;
+            for kernel in vector::RUST.into_iter().chain([vector::C]) {
+                text = text.replace(kernel, "[vector sine and cosine]\n");
+            }
+            insta::assert_snapshot!(format!("{name}_{}", file.extension), text);
+        }
+    }
+}
+
+#[test]
+fn versions_and_declarations_stand_in_every_file() {
+    let chain = read("turntable", TURNTABLE);
+    let unit = Unit {
+        chain: &chain,
+        declaration: TURNTABLE,
+        observables: &[ObservableId(0)],
+        forms: &[Form::ExactValue],
+        remainders: &[],
+    };
+    for (name, language) in LANGUAGES {
+        for file in generate(&unit, language, "turntable") {
+            assert!(file.text.contains(&format!("trueaxis {}", env!("CARGO_PKG_VERSION"))), "{name}");
+            assert!(file.text.contains("Rz(eccentricity*sin(turn)),"), "{name}");
+        }
+    }
+}

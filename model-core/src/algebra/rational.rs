@@ -184,6 +184,19 @@ impl Rational {
         if self.is_negative() { -self } else { self.clone() }
     }
 
+    /// The largest number of which both are whole multiples; one if a machine word does not hold them.
+    #[must_use]
+    pub fn common_measure(&self, other: &Self) -> Self {
+        match (&self.0, &other.0) {
+            (Repr::Small { numerator: a, denominator: b }, Repr::Small { numerator: c, denominator: d }) => {
+                let (b, d) = (i128::from(b.get()), i128::from(d.get()));
+                let [left, right] = [i128::from(*a) * d, i128::from(*c) * b].map(i128::unsigned_abs);
+                Self::reduce(gcd(left, right).cast_signed(), b * d)
+            }
+            _ => Self::ONE,
+        }
+    }
+
     /// `numerator / denominator` in lowest terms; the caller keeps the denominator from zero.
     fn reduce(numerator: i128, denominator: i128) -> Self {
         if denominator == 1

@@ -71,6 +71,9 @@ fn eliminated(row: &Row, pivot: usize, other: &Row) -> Row {
 /// The row with common factors taken out, as far as they are seen, and a pivot that starts with one.
 fn simplified(row: Row, pivot: usize) -> Row {
     let Some(value) = entry(&row, pivot) else { return row };
+    if row.len() == 1 {
+        return vec![(pivot, Poly::one())];
+    }
     // Dividing by the whole pivot is best where the algebra can: a number, or sines and cosines of constants.
     let factor = value.recip().unwrap_or_else(|| {
         let leading = value.terms().next().and_then(|term| term.coefficient.recip());

@@ -6,7 +6,7 @@
 mod collect;
 mod notation;
 
-use crate::algebra::{Poly, Term};
+use crate::algebra::{Poly, Rational, Term, WaveFactor};
 use crate::chain::Chain;
 use crate::forms::Form;
 use crate::symbol::SymbolId;
@@ -112,9 +112,9 @@ fn join(addends: &[Addend]) -> String {
     if result.is_empty() { "0".to_owned() } else { result }
 }
 
-/// `(sum of monomials) · (sum of functions of angles)`, with what is one taken out.
+/// `(sum of monomials) · shared sines and cosines · (sum of functions of angles)`, with what is one taken out.
 fn write_group(group: &Group, chain: &Chain, notation: &dyn Notation) -> Addend {
-    let waves: Vec<Term> = group.angular.terms().collect();
+    let mut waves: Vec<Term> = group.angular.terms().collect();
     if let ([(coefficient, monomial)], [term]) = (group.monomials.as_slice(), waves.as_slice()) {
         let coefficient = coefficient * &term.coefficient;
         let term = Term { coefficient, powers: monomial.clone(), ..term.clone() };
@@ -130,14 +130,35 @@ fn write_group(group: &Group, chain: &Chain, notation: &dyn Notation) -> Addend 
         [only] => Some(write_term(only, chain, notation).body),
         _ => Some(notation.parentheses(&sum(monomials))),
     };
+    let shared = take_shared(&mut waves).map(|term| write_term(&term, chain, notation).body);
     let angular = match waves.as_slice() {
         [only] if only.coefficient.is_one() && only.waves.is_empty() && only.poles.is_empty() => None,
         [only] => Some(write_term(only, chain, notation).body),
-        _ if monomials.is_none() && !negative => return Addend { negative, body: sum(waves) },
+        _ if monomials.is_none() && shared.is_none() && !negative => {
+            return Addend { negative, body: sum(waves) };
+        }
         _ => Some(notation.parentheses(&sum(waves))),
     };
-    let body = notation.product(&monomials.into_iter().chain(angular).collect::<Vec<_>>());
+    let body = notation.product(&monomials.into_iter().chain(shared).chain(angular).collect::<Vec<_>>());
     Addend { negative, body }
+}
+
+/// Takes the sines and cosines that all of several terms have out of them.
+fn take_shared(terms: &mut [Term]) -> Option<Term> {
+    let [first, others @ ..] = &*terms else { return None };
+    let free = |term: &Term, wave: &WaveFactor| {
+        term.waves.contains(wave) && term.poles.iter().all(|pole| pole.symbol != wave.symbol)
+    };
+    let shared = first.waves.iter().filter(|wave| free(first, wave));
+    let shared: Vec<WaveFactor> =
+        shared.filter(|wave| others.iter().all(|term| free(term, wave))).copied().collect();
+    if others.is_empty() || shared.is_empty() {
+        return None;
+    }
+    for term in &mut *terms {
+        term.waves.retain(|wave| !shared.contains(wave));
+    }
+    Some(Term { coefficient: Rational::ONE, powers: Vec::new(), waves: shared, poles: Vec::new() })
 }
 
 fn write_term(term: &Term, chain: &Chain, notation: &dyn Notation) -> Addend {

@@ -100,3 +100,35 @@ impl Sum for Upper {
         terms.fold(Self::ZERO, Add::add)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use dashu_float::{FBig, round::mode::Down};
+    use dashu_ratio::RBig;
+    use proptest::prelude::*;
+
+    use super::Upper;
+
+    fn exact(value: f64) -> RBig {
+        RBig::try_from(value).unwrap()
+    }
+
+    proptest! {
+        #[test]
+        fn verify_no_operation_rounds_down(a in 0.0f64..1e3, b in 1e-9f64..1e-3, c in 0.0f64..3.0) {
+            let [x, y, z] = [a, b, c].map(Upper::exact);
+            prop_assert!(exact((x + y).get()) >= exact(a) + exact(b));
+            prop_assert!(exact((x * y).get()) >= exact(a) * exact(b));
+            prop_assert!(exact(y.half().get()) * RBig::from(2) >= exact(b));
+            let square = exact(a) * exact(a) + exact(b) * exact(b) + exact(c) * exact(c);
+            let norm = exact(Upper::norm([x, y, z]).get());
+            prop_assert!(&norm * &norm >= square);
+            // The exponential, against one rounded down at 100 bits; and it is not much larger.
+            let reference = FBig::<Down, 2>::try_from(c).unwrap().with_precision(100).value().exp();
+            let ratio = z.exp().get() / reference.to_f64().value();
+            prop_assert!((1.0..1.01).contains(&ratio), "{ratio}");
+        }
+    }
+}

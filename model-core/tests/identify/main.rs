@@ -2,3 +2,4 @@
 #![allow(clippy::unwrap_used)]
 
 mod mobile_lidar;
+mod reference;

@@ -1,8 +1,8 @@
 //! The remainder: a proven bound on |exact − first order| over a box of errors, and a search for the largest one.
 //!
 //! The error of an observable is a power series in the errors that converges everywhere. Its part of degree two is
-//! bounded cluster by cluster ([`cluster`]), all higher parts together by a majorant series ([`majorant`]); every
-//! number on the way is rounded up ([`upper`]). [`search`] looks for a large remainder, to show how sharp the bound is.
+//! bounded cluster by cluster (`cluster`), all higher parts together by a majorant series (`majorant`); every
+//! number on the way is rounded up (`upper`). [`search`] looks for a large remainder, to show how sharp the bound is.
 //! The derivation is in the book, page "Remainder".
 
 mod cluster;

@@ -39,6 +39,7 @@ impl ReadingsTable {
     /// # Errors
     /// The file cannot be read.
     pub fn open(path: &Path) -> Result<Self, Failure> {
+        only_csv(path)?;
         let options = Options::default();
         let reader = if path == Path::new("-") {
             formats::open(io::stdin().lock(), "standard input", &options)
@@ -125,6 +126,7 @@ pub fn write(
     path: &Path,
     write: impl FnOnce(&mut TableWriter) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
+    only_csv(path)?;
     output::write_with(path, |file| {
         let mut writer = TableWriter { path, inner: ::csv::Writer::from_writer(file) };
         write(&mut writer)?;
@@ -149,6 +151,17 @@ impl TableWriter<'_> {
 /// A number as tables hold it: as short as reads back to the same number.
 pub fn number(number: f64) -> String {
     format!("{number:?}")
+}
+
+/// Refuses a name that promises a format other than separated values.
+fn only_csv(path: &Path) -> Result<(), Failure> {
+    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    if ["parquet", "xlsx", "xls", "ods", "arrow", "feather"].contains(&ending) {
+        let message =
+            format!("`{}`: tables are read and written as .csv only; convert it first", path.display());
+        return Err(Failure::Input(message));
+    }
+    Ok(())
 }
 
 /// A mistake in a data file; its text names the file and the place.

@@ -23,7 +23,21 @@ pub fn place_in_string(file: &str, value: Range<usize>, inside: Range<usize>) ->
     let at = |byte: usize| {
         value.start + start + if is_literal { byte.min(content.len()) } else { raw_offset(content, byte) }
     };
-    at(inside.start)..at(inside.end)
+    let end = at(inside.end);
+    let mut begin = at(inside.start);
+    if !is_literal {
+        // Where a line goes on in the next one, the part begins there.
+        begin += line_continuation(file.get(begin..end).unwrap_or_default());
+    }
+    begin..end
+}
+
+/// The length of a backslash at the end of a line with the blanks after it; zero if there is none at the start.
+fn line_continuation(text: &str) -> usize {
+    match text.strip_prefix('\\') {
+        Some(rest) if rest.starts_with(char::is_whitespace) => text.len() - rest.trim_start().len(),
+        _ => 0,
+    }
 }
 
 /// Where the byte of an escaped text's value stands in the text.
@@ -43,8 +57,7 @@ fn raw_offset(content: &str, byte: usize) -> usize {
             Some('u') => 4,
             Some('U') => 8,
             Some(c) if c.is_whitespace() => {
-                // The end of a line and the blanks of the next one are left out.
-                raw += 1 + escape.len() - escape.trim_start().len();
+                raw += line_continuation(&content[raw..]);
                 continue;
             }
             Some(c) => {
@@ -78,6 +91,6 @@ mod tests {
         assert_eq!(found(r#"x = "\\sin\\beta + y""#, r"\sin\beta + y", r"\beta"), r"\\beta");
         assert_eq!(found("x = \"\\u03b1 + \\\"y\"", "α + \"y", "\"y"), "\\\"y");
         assert_eq!(found("x = '''\nab'''", "ab", "b"), "b");
-        assert_eq!(found("x = \"\"\"\na\\\n   b\"\"\"", "ab", "b"), "\\\n   b".trim_start_matches("\\\n   "));
+        assert_eq!(found("x = \"\"\"\na\\\n   b\"\"\"", "ab", "b"), "b");
     }
 }

@@ -24,13 +24,13 @@ pub struct Arguments {
     /// Values of the errors, as `calibrate` writes them
     #[arg(long, value_name = "E.toml")]
     errors: PathBuf,
-    /// Readings of joints and inputs: .csv, .parquet, or - for CSV on standard input
+    /// Readings of joints and inputs: a .csv file, or - for standard input
     #[arg(long, value_name = "IN")]
     data: PathBuf,
     /// Only this observable (may be given several times); default: every one that the data has the readings for
     #[arg(long)]
     observable: Vec<String>,
-    /// Where to write: .csv, .parquet, or - for CSV on standard output
+    /// Where to write: a .csv file, or - for standard output
     #[arg(long, value_name = "OUT")]
     out: PathBuf,
 }

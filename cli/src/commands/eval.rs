@@ -24,7 +24,7 @@ use crate::terminal;
 pub struct Arguments {
     /// The declaration
     chain: PathBuf,
-    /// Readings of joints and inputs: .csv, .parquet, or - for CSV on standard input
+    /// Readings of joints and inputs: a .csv file, or - for standard input
     #[arg(long, value_name = "IN")]
     data: PathBuf,
     /// Values of the errors
@@ -39,7 +39,7 @@ pub struct Arguments {
     /// The error of the observable, or the observable with its errors
     #[arg(long, value_enum, default_value_t = Quantity::Error)]
     quantity: Quantity,
-    /// Where to write: .csv, .parquet, or - for CSV on standard output
+    /// Where to write: a .csv file, or - for standard output
     #[arg(long, value_name = "OUT")]
     out: PathBuf,
 }

@@ -73,3 +73,11 @@ fn folder_that_is_not_there() {
         ["eval", "mount.chain", "--errors", "e.toml", "--data", "poses.csv", "--out", "results/out.csv"];
     assert_snapshot!(refused(&folder.trueaxis(&arguments)));
 }
+
+#[test]
+fn format_that_is_not_read() {
+    let folder = mount("d-format");
+    let arguments =
+        ["eval", "mount.chain", "--errors", "e.toml", "--data", "poses.parquet", "--out", "out.csv"];
+    assert_snapshot!(refused(&folder.trueaxis(&arguments)));
+}

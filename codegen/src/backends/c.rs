@@ -15,8 +15,7 @@ use crate::vector;
 
 /// The header and the source that includes it as `<file name>.h`.
 pub(crate) fn write(unit: &Unit<'_>, file_name: &str) -> (String, String) {
-    let functions: Vec<Function> =
-        unit.functions().into_iter().filter(|function| !function.program.outputs().is_empty()).collect();
+    let functions = unit.functions();
     let c = C { unit, prefix: prefix(unit.chain), joints: unit.joints(&functions) };
     (c.header(&functions), c.source(&functions, file_name))
 }

@@ -25,7 +25,11 @@ pub(crate) fn write(unit: &Unit<'_>) -> String {
     for function in &functions {
         file.push_str(&item(unit, function, &joints));
     }
-    file.push_str(&rust_rows::shared(unit, &joints));
+    // Without joints and inputs there is one pose.
+    if !joints.is_empty() {
+        file.push_str(&rust_rows::shared(unit, &joints));
+    }
+    file.push_str(&rust_rows::kernel());
     file
 }
 
@@ -128,6 +132,9 @@ impl {kind} {{
             statements(&listing.evaluated, "sine_cosine::sin_cos_without_branch", 8),
             observed(unit, function.form, &listing.outputs),
         );
+    }
+    if joints.is_empty() {
+        return text + "}\n";
     }
     text.push_str(&rust_rows::methods(unit, function, joints));
     text.push_str("}\n");

@@ -13,7 +13,7 @@ fn loops(unit: &Unit<'_>, function: &Function) -> Rows {
     vector::rows(&function.program, &Dialect { name: &name, binding: "let", mul_add: "arithmetic.mul_add(" })
 }
 
-/// What all functions of a file share: the columns of joints, and the module of sines and cosines.
+/// What all functions of many poses share: the columns of joints, and what is known of the paths.
 pub(super) fn shared(unit: &Unit<'_>, joints: &[SymbolId]) -> String {
     let mut text = String::from(
         "\n/// [`Joints`] of many poses: a slice for each, all equally long.\n#[derive(Debug, Clone, Copy, Default)]\n#[allow(non_snake_case)]\npub struct Columns<'a> {\n",
@@ -51,10 +51,16 @@ pub use sine_cosine::Path;
 pub fn path_taken() -> Path {
     sine_cosine::path()
 }
-
 ",
     );
-    text.push_str("#[allow(dead_code, unsafe_code, clippy::all, clippy::pedantic)]\nmod sine_cosine {\n");
+    text
+}
+
+/// The module of sines and cosines.
+pub(super) fn kernel() -> String {
+    let mut text = String::from(
+        "\n#[allow(dead_code, unsafe_code, clippy::all, clippy::pedantic)]\nmod sine_cosine {\n",
+    );
     for part in vector::RUST {
         text.push_str(part);
     }

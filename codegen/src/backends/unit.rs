@@ -28,14 +28,13 @@ pub(crate) struct Function {
 }
 
 impl Unit<'_> {
-    /// Every function of the file.
+    /// Every function of the file; a chain without errors has no Jacobians.
     pub(crate) fn functions(&self) -> Vec<Function> {
+        let errors = self.errors();
         self.forms
             .iter()
-            .map(|&form| Function {
-                form,
-                program: build(self.chain, self.observables, form, &self.errors()),
-            })
+            .map(|&form| Function { form, program: build(self.chain, self.observables, form, &errors) })
+            .filter(|function| !function.program.outputs().is_empty())
             .collect()
     }
 

@@ -8,5 +8,6 @@ mod support;
 mod batches;
 mod counts;
 mod jacobians;
+mod random_chains;
 mod texts;
 mod values;

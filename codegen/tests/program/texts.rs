@@ -65,3 +65,32 @@ fn versions_and_declarations_stand_in_every_file() {
         }
     }
 }
+
+fn rust(text: &str) -> String {
+    let chain = read("still", text);
+    let unit = Unit {
+        chain: &chain,
+        declaration: text,
+        observables: &[ObservableId(0)],
+        forms: &[Form::ExactError, Form::ExactJacobian],
+        remainders: &[],
+    };
+    generate(&unit, LANGUAGES[0].1, "still").remove(0).text
+}
+
+#[test]
+fn a_chain_without_joints_has_one_pose() {
+    let text = rust(
+        "chain Still { body post on ground { position_error: Rz(tilt); } observe tip: point(1, 0, 0) of post; }",
+    );
+    assert!(text.contains("fn eval(") && text.contains("fn exact_jacobian("));
+    assert!(!text.contains("eval_rows") && !text.contains("Columns"));
+}
+
+#[test]
+fn a_chain_without_errors_has_no_jacobians() {
+    let text = rust(
+        "chain Perfect { body arm on ground { motion: Rz(turn); } observe tip: point(1, 0, 0) of arm; }",
+    );
+    assert!(text.contains("fn exact_error(") && !text.contains("exact_jacobian"));
+}

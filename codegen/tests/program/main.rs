@@ -9,5 +9,6 @@ mod batches;
 mod counts;
 mod jacobians;
 mod random_chains;
+mod reference;
 mod texts;
 mod values;

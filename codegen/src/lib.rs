@@ -1,6 +1,6 @@
 //! Straight-line programs from derived forms, their interpreter and one writer per language.
 //!
-//! The pipeline reads: chain → [`build`] → [`program`] → [`Interpreter`], or a writer in [`backends`].
+//! The pipeline reads: chain → [`mod@build`] → [`program`] → [`Interpreter`], or a writer in [`backends`].
 
 pub mod backends;
 pub mod build;

@@ -2,7 +2,7 @@
 //!
 //! A program has two stages. What depends on errors and constants alone is *prepared*, once for a set of
 //! errors; what depends on joints or inputs is *evaluated*, once for a pose. Prepared nodes come first.
-//! How a program comes about is the business of [`crate::build`]; here is only what it is.
+//! How a program comes about is the business of [`mod@crate::build`]; here is only what it is.
 
 use std::fmt;
 
@@ -238,7 +238,7 @@ impl Program {
     /// no node is there twice.
     ///
     /// # Errors
-    /// The first rule that does not hold. Programs from [`crate::build`] hold them all.
+    /// The first rule that does not hold. Programs from [`mod@crate::build`] hold them all.
     pub fn check(&self) -> Result<(), Broken> {
         for (id, op) in self.ids() {
             for operand in op.operands() {

@@ -1,6 +1,6 @@
 //! Writers of programs, one for each language: a file each, and a line in [`LANGUAGES`] and [`generate`].
 //!
-//! [`listing`] decides what gets a name, [`unit`] what a file says about itself; a writer says how its language
+//! `listing` decides what gets a name, `unit` what a file says about itself; a writer says how its language
 //! writes names, statements and types.
 
 mod c;

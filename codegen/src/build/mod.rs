@@ -1,7 +1,7 @@
 //! From a chain to a program: the chain is walked body by body and never multiplied out.
 //!
-//! [`path`] says what lies between the ground and an observable, [`amount`] turns amounts into nodes, and one
-//! module a form carries vectors along the path: [`exact`], [`first_order`], [`jacobian`].
+//! `path` says what lies between the ground and an observable, `amount` turns amounts into nodes, and one
+//! module a form carries vectors along the path: `exact`, `first_order`, `jacobian`.
 
 mod amount;
 mod exact;

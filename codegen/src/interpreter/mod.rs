@@ -1,7 +1,7 @@
 //! The interpreter of programs: the reference for every generated language, and what fits run on.
 //!
 //! One pose at a time it walks the nodes. Over structure of arrays it runs the evaluated stage in blocks of
-//! rows ([`tape`]), after the prepared stage has run once.
+//! rows (`tape`), after the prepared stage has run once.
 
 mod tape;
 

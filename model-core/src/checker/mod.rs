@@ -1,8 +1,8 @@
 //! The checker: whether what somebody published of a chain is what the chain implies.
 //!
 //! A [`Claim`] is data; [`Checker::check`] gives its [`Verdict`]. Closed forms are decided by exact algebra, term by term
-//! ([`compare`], in canonical form, never by sampling), and a difference is traced to the slip behind it
-//! ([`diagnosis`] for terms, [`misreading`] for the order of transforms and left-out frames). Comparisons are measured on
+//! (`compare`, in canonical form, never by sampling), and a difference is traced to the slip behind it
+//! (`diagnosis` for terms, `misreading` for the order of transforms and left-out frames). Comparisons are measured on
 //! the exact form ([`crate::budget`]). Claims files are read elsewhere; a claim that cannot be read is a
 //! [`Mistake`](crate::mistake::Mistake), never a verdict.
 

@@ -5,6 +5,7 @@
 //! words ([`words`]).
 
 mod held_out;
+mod remaining;
 mod round;
 mod words;
 
@@ -67,11 +68,13 @@ pub enum CalibrateError {
     Amend(#[from] AmendError),
 }
 
-/// An accepted effect: its number in the catalogue and its familywise p.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// An accepted effect: its number in the catalogue, and the evidence for it.
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Found {
     pub effect: usize,
     pub p_value: f64,
+    /// Its class when it was accepted, itself included.
+    pub alike: Vec<usize>,
 }
 
 /// What all rounds share.
@@ -79,6 +82,7 @@ pub(crate) struct Loop<'a> {
     pub request: Request<'a>,
     pub catalogue: Vec<Effect>,
     pub options: Options,
+    pub setting: Setting<'a>,
 }
 
 /// Runs the loop.
@@ -96,7 +100,7 @@ pub fn calibrate(request: Request<'_>) -> Result<Calibration, CalibrateError> {
     };
     let options =
         Options { false_alarm: plan.search.false_alarm, seed: plan.hold_out.seed, ..Options::default() };
-    let whole = Loop { request, catalogue: catalogue(&setting), options };
+    let whole = Loop { request, catalogue: catalogue(&setting), options, setting };
 
     let mut round = Round::first(&whole)?;
     let before = round.fit.clone();
@@ -118,7 +122,8 @@ pub fn calibrate(request: Request<'_>) -> Result<Calibration, CalibrateError> {
     let additions = words::additions(&whole, &round, &held_out, rms);
     let inputs = words::new_inputs(&whole, &round);
     let amended = amend(request.text, &round.chain, &additions, &inputs)?;
-    let report = words::report(&whole, &round, &held_out, rms);
+    let remaining = remaining::remaining(&whole, &round)?;
+    let report = words::report(&whole, &round, &held_out, rms, remaining);
     Ok(Calibration { report, amended, chain: round.chain, before, after: round.fit })
 }
 

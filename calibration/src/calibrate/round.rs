@@ -84,14 +84,7 @@ impl Round {
                 without.iter_mut().zip(column).for_each(|(r, z)| *r += value * z);
             }
         }
-        let whitened = |column: &[f64]| {
-            let mut column = column.to_vec();
-            fit.noise.whiten(&mut column);
-            for (value, &row) in column.iter_mut().zip(&columns.row) {
-                *value *= fit.linear.weight[row as usize].sqrt();
-            }
-            column
-        };
+        let whitened = |column: &[f64]| whiten(&fit, &columns.row, column);
         let n = columns.residual.len();
         let combinations = determined(&fit, columns.declared.ncols())?;
         columns.declared = &columns.declared * &combinations;
@@ -109,8 +102,7 @@ impl Round {
         for (j, column) in effects.iter().flatten().enumerate() {
             candidates.col_as_slice_mut(j).copy_from_slice(&whitened(column));
         }
-        let groups: Vec<usize> =
-            columns.row.iter().map(|&row| observations.groups[row as usize] as usize).collect();
+        let groups = groups(whole, &columns.row);
         let hold_out = &whole.request.plan.hold_out;
         let problem = Problem::new(
             declared_white.as_ref(),
@@ -123,6 +115,16 @@ impl Round {
         )?;
         let classes = classes(&problem);
         Ok(Self { chain, found, errors, fit, combinations, columns, effects, without, problem, classes })
+    }
+
+    /// A column of residual components, whitened as the fit whitened its own.
+    pub fn whitened(&self, column: &[f64]) -> Vec<f64> {
+        whiten(&self.fit, &self.columns.row, column)
+    }
+
+    /// The group of each residual component.
+    pub fn groups(&self, whole: &Loop<'_>) -> Vec<usize> {
+        groups(whole, &self.columns.row)
     }
 
     /// The class that an effect belongs to.
@@ -154,8 +156,11 @@ impl Round {
             .accepted
             .into_iter()
             .map(|accepted| match kept.iter().position(|&class| class == accepted.class) {
-                Some(at) => self.found[at],
-                None => Found { effect: self.classes[accepted.class].members[0], p_value: accepted.p_value },
+                Some(at) => self.found[at].clone(),
+                None => {
+                    let alike = self.classes[accepted.class].members.clone();
+                    Found { effect: alike[0], p_value: accepted.p_value, alike }
+                }
             })
             .collect()
     }
@@ -166,6 +171,19 @@ impl Round {
         own.sort_unstable();
         own == sorted
     }
+}
+
+fn groups(whole: &Loop<'_>, row: &[u32]) -> Vec<usize> {
+    row.iter().map(|&row| whole.request.observations.groups[row as usize] as usize).collect()
+}
+
+fn whiten(fit: &FitResult, row: &[u32], column: &[f64]) -> Vec<f64> {
+    let mut column = column.to_vec();
+    fit.noise.whiten(&mut column);
+    for (value, &row) in column.iter_mut().zip(row) {
+        *value *= fit.linear.weight[row as usize].sqrt();
+    }
+    column
 }
 
 /// An orthonormal basis of the declared errors' space without what the fit found undetermined; the rest would only

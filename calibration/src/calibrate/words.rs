@@ -14,6 +14,9 @@ use crate::search::{HeldOut, rivals};
 /// Standard deviations at which an effect is found four times out of five, corrected for the size of the catalogue.
 const FOUND: f64 = 4.4;
 
+/// Fewer observations than this are no evidence of an effect.
+const FEW: f64 = 5.0;
+
 /// The lines to add to the declaration.
 pub(crate) fn additions(
     whole: &Loop<'_>,
@@ -84,12 +87,22 @@ pub(crate) fn new_inputs(whole: &Loop<'_>, last: &Round) -> Vec<(String, String)
 }
 
 /// Puts everything into the report.
-pub(crate) fn report(whole: &Loop<'_>, last: &Round, held_out: &HeldOut, rms: BeforeAfter) -> Report {
+pub(crate) fn report(
+    whole: &Loop<'_>,
+    last: &Round,
+    held_out: &HeldOut,
+    rms: BeforeAfter,
+    remaining: Remaining,
+) -> Report {
     let observations = whole.request.observations;
     let effects = effects(whole, last, held_out);
-    let remaining = Remaining { p_value: 1.0, place: None, shape: Vec::new() };
     let alone = effects.iter().all(|effect| effect.class.is_empty() && effect.rivals.is_empty());
-    let verdict = if effects.is_empty() {
+    let thin = last.found.iter().any(|found| evidence(last, found.effect) < FEW);
+    let verdict = if remaining.place.is_some() {
+        Verdict::StructureRemains
+    } else if thin {
+        Verdict::FewObservations
+    } else if effects.is_empty() {
         Verdict::NothingDetectable
     } else if alone {
         Verdict::Explained
@@ -117,6 +130,20 @@ pub(crate) fn report(whole: &Loop<'_>, last: &Round, held_out: &HeldOut, rms: Be
         after: rms.after,
         unit: observations.series.first().map_or("rad", |series| series.measure.unit()),
     }
+}
+
+/// How many observations an effect hangs on: the rows' share of its projected columns, as an effective number.
+fn evidence(last: &Round, effect: usize) -> f64 {
+    let rows = last.problem.rows();
+    let mut by_row = BTreeMap::new();
+    for column in last.problem.columns(effect) {
+        for (i, &row) in last.columns.row.iter().enumerate() {
+            *by_row.entry(row).or_insert(0.0) += rows[(i, column)] * rows[(i, column)];
+        }
+    }
+    let sum: f64 = by_row.values().sum();
+    let squares: f64 = by_row.values().map(|share| share * share).sum();
+    if squares > 0.0 { sum * sum / squares } else { 0.0 }
 }
 
 fn errors(last: &Round) -> Vec<ErrorFound> {
@@ -177,18 +204,16 @@ fn effects(whole: &Loop<'_>, last: &Round, held_out: &HeldOut) -> Vec<EffectFoun
         .map(|(at, (found, errors))| {
             let effect = &whole.catalogue[found.effect];
             let class = last.class_of(found.effect);
-            let others: Vec<String> = class.map_or_else(Vec::new, |class| {
-                let members = &last.classes[class].members;
-                members.iter().filter(|&&m| m != found.effect).map(|&m| name(m)).collect()
-            });
+            let mut alike = found.alike.clone();
+            alike.extend(class.iter().flat_map(|&class| &last.classes[class].members));
+            alike.retain(|&member| member != found.effect);
+            alike.sort_unstable();
+            alike.dedup();
+            let others: Vec<String> = alike.iter().map(|&member| name(member)).collect();
             // Members of the class at the same place are the same function by another name.
             let mut names = vec![effect.name.clone()];
-            if let Some(class) = class {
-                let same = |&&member: &&usize| {
-                    member != found.effect && whole.catalogue[member].place == effect.place
-                };
-                names.extend(last.classes[class].members.iter().filter(same).map(|&member| name(member)));
-            }
+            let here = |member: &&usize| whole.catalogue[**member].place == effect.place;
+            names.extend(alike.iter().filter(here).map(|&member| name(member)));
             names.dedup();
             EffectFound {
                 text: effect.text(&last.chain, errors),
@@ -240,7 +265,12 @@ fn not_shown(whole: &Loop<'_>, last: &Round, rms: BeforeAfter) -> Vec<NotShown> 
     let accepted: Vec<usize> = last.found.iter().map(|found| found.effect).collect();
     let mut list = Vec::new();
     for (number, effect) in whole.catalogue.iter().enumerate() {
-        if accepted.contains(&number) || last.effects[number].is_empty() {
+        if accepted.contains(&number) {
+            continue;
+        }
+        if last.effects[number].is_empty() {
+            let unit = effect.place.freedom.quantity().unit();
+            list.push(NotShown { name: effect.name.clone(), smallest: None, unit, absorbed: 0.0 });
             continue;
         }
         let columns = problem.columns(number);

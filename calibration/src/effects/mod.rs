@@ -5,6 +5,7 @@
 //! functions make physical sense where. Columns for a search come from the algebra ([`crate::columns`]),
 //! never from formulas typed in.
 
+mod assembly;
 mod coupling;
 mod encoder;
 mod gravity;
@@ -12,10 +13,14 @@ mod joint_motion;
 mod motion_direction;
 mod optics;
 mod side_quantity;
+mod smooth;
 
 use model_core::algebra::{AngleSum, Poly, Rational};
 use model_core::{Axis, BodyId, Chain, Factor, Motion, ObservableId, ObservableKind, Quantity, Role};
 use model_core::{Symbol, SymbolId, SymbolKind, print};
+
+pub use assembly::assembly_name;
+pub use smooth::smooth;
 
 /// One family of the catalogue: its name, what an observer should know of it, and how it follows from a chain.
 pub struct Family {
@@ -45,11 +50,12 @@ pub struct Alias {
 
 /// Every family, in the order in which members of one class lend it their name.
 pub const FAMILIES: &[Family] = &[
+    assembly::FAMILY,
     gravity::FAMILY,
     encoder::FAMILY,
     joint_motion::FAMILY,
-    side_quantity::FAMILY,
     motion_direction::FAMILY,
+    side_quantity::FAMILY,
     optics::FAMILY,
     coupling::FAMILY,
 ];

@@ -292,6 +292,12 @@ impl Problem {
         self.blocks[candidate].clone().filter(|&j| self.lengths[j - self.declared] > 0.0).collect()
     }
 
+    /// All columns of a candidate.
+    #[must_use]
+    pub fn block(&self, candidate: usize) -> Range<usize> {
+        self.blocks[candidate].clone()
+    }
+
     /// What the declared columns leave of a candidate's sum of squares, 0 (absorbed) to 1.
     #[must_use]
     pub fn visible(&self, candidate: usize) -> f64 {

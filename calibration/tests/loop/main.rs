@@ -4,3 +4,4 @@
 mod data;
 mod examples;
 mod instruments;
+mod simulated;

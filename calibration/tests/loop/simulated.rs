@@ -1,0 +1,197 @@
+//! Planted effects: eight kinds are named, two at once, none gives nothing, a bump in no catalogue is placed, and each
+//! declared error that is taken out of the declaration is named again.
+
+use calibration::calibrate::{Calibration, Request, calibrate};
+use calibration::effects::{Freedom, assembly_name};
+use calibration::observations::{Measure, Observations, Series, tangent_frame};
+use calibration::report::Verdict;
+use calibration::study::{Plan, Study};
+use model_core::{Chain, Motion, Role, SymbolId, exact};
+use nalgebra::Vector3;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::StandardNormal;
+
+use crate::data::root;
+
+const ARCSEC: f64 = std::f64::consts::PI / 180.0 / 3600.0;
+const NOISE: f64 = 2.0 * ARCSEC;
+
+fn lidar() -> String {
+    std::fs::read_to_string(root().join("examples/mobile-lidar/mobile-lidar.chain")).unwrap()
+}
+
+/// A study of the pointing, with a temperature measured beside it.
+fn plan(chain: &Chain) -> Plan {
+    let study = "chain = \"c\"\nobservable = \"pointing\"\ndata = \"d\"\n\
+                 [columns]\ntemperature = { column = \"t\" }\nbeta_direction = { column = \"b\" }\n\
+                 [observed]\nkind = \"direction\"\n\
+                 [search]\ninputs = [\"temperature\", \"beta_direction\"]\n";
+    Study::from_text(study).unwrap().plan(chain).unwrap()
+}
+
+/// Observations of a plan's chain at random poses: `truth` turns the readings (alpha, beta, gamma, temperature,
+/// direction of beta) into what the instrument does.
+fn measured(plan: &Plan, rows: usize, seed: u64, truth: impl Fn([f64; 5]) -> Vector3<f64>) -> Observations {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let names = ["alpha", "beta", "gamma", "temperature", "beta_direction"];
+    let mut columns: Vec<(SymbolId, Vec<f64>)> =
+        names.iter().map(|name| (plan.chain.find_symbol(name).unwrap(), Vec::new())).collect();
+    let mut observed = Vec::new();
+    for _ in 0..rows {
+        let mut turn = || random.random_range(-3.1..3.1);
+        let (alpha, beta, gamma) = (turn(), turn(), turn());
+        let temperature = random.random_range(10.0..30.0);
+        let direction = if random.random_range(0.0..1.0) < 0.5 { -1.0 } else { 1.0 };
+        let readings = [alpha, beta, gamma, temperature, direction];
+        columns.iter_mut().zip(readings).for_each(|((_, column), value)| column.push(value));
+        let aim = truth(readings).normalize();
+        let [across, along] = tangent_frame(&aim);
+        let noise = [(); 2].map(|()| NOISE * random.sample::<f64, _>(StandardNormal));
+        observed.push((aim + across * noise[0] + along * noise[1]).normalize().into());
+    }
+    columns.sort_by_key(|(id, _)| *id);
+    let observable = plan.chain.find_observable("pointing").unwrap();
+    Observations {
+        series: vec![Series {
+            observable,
+            measure: Measure::Direction,
+            rows: 0..rows,
+            source: "simulated".to_owned(),
+        }],
+        columns,
+        measured: observed,
+        groups: (0..rows as u32).collect(),
+        row_numbers: (1..=rows as u64).collect(),
+        ..Observations::default()
+    }
+}
+
+/// The pointing of a chain text with some errors set, at some readings.
+fn pointing(chain: &Chain, errors: &[(&str, f64)], readings: [f64; 5]) -> Vector3<f64> {
+    let mut values = chain.nominal_values();
+    let names = ["alpha", "beta", "gamma", "temperature", "beta_direction"];
+    for (name, value) in names.into_iter().zip(readings).chain(errors.iter().copied()) {
+        if let Some(id) = chain.find_symbol(name) {
+            values[id.index()] = value;
+        }
+    }
+    exact::value(chain, chain.find_observable("pointing").unwrap(), &values)
+}
+
+fn search(text: &str, plan: &Plan, observations: &Observations) -> Calibration {
+    calibrate(Request { text, plan, observations, second: None, when: "2026-11-21" }).unwrap()
+}
+
+/// The lidar with `lines` added to the middle frame's motion errors.
+fn planted(lines: &str) -> Chain {
+    let text = lidar().replacen(
+        "    input range",
+        "    input temperature;\n    input beta_direction;\n    input range",
+        1,
+    );
+    let text = text.replacen("Rz(dg2);", &format!("Rz(dg2);\n        motion_error: {lines};"), 1);
+    Chain::from_text(&text).unwrap_or_else(|mistakes| panic!("{}", mistakes.render("planted", &text)))
+}
+
+/// What a search finds after planting: for each effect, its names, class and rivals.
+fn found(lines: &str, errors: &[(&str, f64)], seed: u64) -> Vec<Vec<String>> {
+    let text = lidar();
+    let plan = plan(&Chain::from_text(&text).unwrap());
+    let truth = planted(lines);
+    let declared = [("dtheta_y1", 20.0 * ARCSEC), ("dtheta_x3", -15.0 * ARCSEC)];
+    let all: Vec<(&str, f64)> = declared.iter().chain(errors).copied().collect();
+    let observations = measured(&plan, 300, seed, |readings| pointing(&truth, &all, readings));
+    let report = search(&text, &plan, &observations).report;
+    report.effects.into_iter().map(|effect| [effect.names, effect.class, effect.rivals].concat()).collect()
+}
+
+#[test]
+fn eight_kinds_are_named_right() {
+    let six = 6.0 * ARCSEC;
+    for (line, errors, name) in [
+        ("Rx(p*cos(beta) + q*sin(beta))", vec![("p", six), ("q", six)], "encoder eccentricity of beta"),
+        ("Rx(p*cos(2*beta) + q*sin(2*beta))", vec![("p", six), ("q", six)], "encoder ellipticity of beta"),
+        ("Rx(p*cos(5*beta))", vec![("p", six)], "encoder error of beta, 5 per turn"),
+        (
+            "Ry(p*cos(2*beta) + q*sin(2*beta))",
+            vec![("p", six), ("q", six)],
+            "tilt about y of the beta axis, 2 per turn",
+        ),
+        ("Rx(p*temperature)", vec![("p", six / 5.0)], "temperature in middle about x"),
+        ("Rx(p*beta_direction)", vec![("p", six)], "backlash of beta"),
+        ("Rx(p*beta)", vec![("p", six)], "encoder scale of beta"),
+        ("Rx(p*cos(2*gamma))", vec![("p", six)], "coupling of gamma into middle about x, harmonic 2"),
+    ] {
+        let effects = found(line, &errors, 5);
+        assert_eq!(effects.len(), 1, "{line}: {effects:?}");
+        assert!(effects[0].iter().any(|found| found == name), "{line}: {effects:?}");
+    }
+}
+
+#[test]
+fn two_at_once_are_both_named() {
+    let line = "Rx(p*cos(2*beta) + r*temperature)";
+    let effects = found(line, &[("p", 8.0 * ARCSEC), ("r", ARCSEC)], 6);
+    assert_eq!(effects.len(), 2, "{effects:?}");
+    for name in ["encoder ellipticity of beta", "temperature in middle about x"] {
+        assert!(effects.iter().flatten().any(|found| found == name), "{name}: {effects:?}");
+    }
+}
+
+#[test]
+fn nothing_planted_gives_nothing() {
+    assert_eq!(found("Rx(p)", &[], 7), Vec::<Vec<String>>::new());
+}
+
+#[test]
+fn a_bump_in_no_catalogue_is_placed() {
+    let text = lidar();
+    let chain = Chain::from_text(&text).unwrap();
+    let plan = plan(&chain);
+    let observations = measured(&plan, 400, 8, |mut readings| {
+        let width = (readings[1] - 0.8) / 0.25;
+        readings[1] += 25.0 * ARCSEC * (-0.5 * width * width).exp();
+        pointing(&chain, &[], readings)
+    });
+    let report = search(&text, &plan, &observations).report;
+    assert_eq!(report.verdict, Verdict::StructureRemains, "{:?} {:?}", report.effects, report.remaining);
+    let place = report.remaining.place.unwrap();
+    assert_eq!((place.driver.as_str(), place.dof.as_str()), ("beta", "Rx"));
+}
+
+/// Each rotation of the declaration in turn is taken out of it and planted in the instrument.
+#[test]
+fn every_error_left_out_is_named_or_said_to_be_hidden() {
+    let full = Chain::from_text(&lidar()).unwrap();
+    let mut named = 0;
+    for (number, body) in full.bodies.iter().enumerate() {
+        for (at, factor) in body.factors.iter().enumerate() {
+            let error = factor.amount.symbols()[0];
+            // A direction shows no shift: the catalogue has none then.
+            if factor.role == Role::Motion || factor.motion == Motion::Translation {
+                continue;
+            }
+            let name = &full.symbol(error).name;
+            let mut lacking = plan(&full);
+            lacking.chain.bodies[number].factors.remove(at);
+            lacking.fit.estimate.retain(|&id| id != error);
+            let observations = measured(&lacking, 150, 9 + u64::from(error.0), |readings| {
+                pointing(&full, &[(name, 30.0 * ARCSEC), ("dtheta_x3", -15.0 * ARCSEC)], readings)
+            });
+            let report = search(&lidar(), &lacking, &observations).report;
+            let freedom = Freedom { motion: factor.motion, axis: factor.axis };
+            let wanted = assembly_name(&body.name, factor.role, freedom);
+            let hidden = report.not_shown.iter().any(|effect| effect.name == wanted);
+            let told = report.effects.iter().any(|effect| {
+                [&effect.names, &effect.class, &effect.rivals]
+                    .into_iter()
+                    .flatten()
+                    .any(|found| *found == wanted)
+            });
+            assert!(told || hidden, "{name}: {wanted} not among {:#?}", report.effects);
+            named += usize::from(told);
+        }
+    }
+    assert!(named >= 1, "{named}");
+}

@@ -2,10 +2,13 @@
 //! in the errors, and no product beyond the order is ever formed.
 
 use super::{FormError, error_table};
-use crate::algebra::{AngleSum, Poly, Rational};
+use crate::algebra::{AlgebraError, AngleSum, Poly, Rational};
 use crate::chain::{Axis, Chain, Motion, ObservableId, ObservableKind};
 
 type Vector = [Poly; 3];
+
+/// Terms that a form may have on its way; far beyond what anybody reads, and still in memory.
+const TERMS_LIMIT: usize = 1_000_000;
 
 /// The parts of degree 1 to `order` of an observable, added up.
 pub(super) fn error_up_to(chain: &Chain, id: ObservableId, order: u32) -> Result<Vector, FormError> {
@@ -29,6 +32,9 @@ pub(super) fn error_up_to(chain: &Chain, id: ObservableId, order: u32) -> Result
                 }
                 Motion::Rotation => {
                     rotate_by_error(&mut parts, factor.axis, &amount);
+                    if parts.iter().flatten().map(Poly::len).sum::<usize>() > TERMS_LIMIT {
+                        return Err(FormError::new(&body.name, factor.axis, AlgebraError::TooLarge));
+                    }
                     let angle = AngleSum::from_poly(&amount[0])
                         .map_err(|error| FormError::new(&body.name, factor.axis, error))?;
                     if !angle.is_zero() {

@@ -50,8 +50,8 @@ impl FormError {
 /// multiplying.
 ///
 /// # Errors
-/// [`FormError`] if a rotation by a nominal amount is no [`AngleSum`](crate::algebra::AngleSum). A chain from
-/// [`check`](crate::check) has none such.
+/// [`FormError`] if a rotation by a nominal amount is no [`AngleSum`](crate::algebra::AngleSum) (a chain from
+/// [`check`](crate::check) has none such), or if the form would have more than a million terms.
 pub fn derive(chain: &Chain, observable: ObservableId, order: u32) -> Result<Form, FormError> {
     let components = graded::error_up_to(chain, observable, order)?;
     Ok(Form { observable, order, components })

@@ -64,3 +64,24 @@ fn verify_truncation_commutes_with_the_product() {
         }
     }
 }
+
+#[test]
+fn a_form_beyond_all_reading_is_refused() {
+    use std::fmt::Write;
+    let mut text = "chain Long {\n".to_owned();
+    for joint in 0..9 {
+        let lower = if joint == 0 { "ground".to_owned() } else { format!("b{}", joint - 1) };
+        let axis = ["z", "x", "y"][joint % 3];
+        let errors: Vec<String> =
+            (0..10).map(|n| format!("R{}(e{joint}_{n})", ["x", "y", "z"][n % 3])).collect();
+        let errors = errors.join(", ");
+        writeln!(text, "body b{joint} on {lower} {{ motion: R{axis}(q{joint}); motion_error: {errors}; }}")
+            .unwrap();
+    }
+    text += "observe sight: direction(0, 0, 1) of b8;\n}";
+    let chain = model_core::Chain::from_text(&text).unwrap();
+    let sight = chain.find_observable("sight").unwrap();
+    assert!(forms::derive(&chain, sight, 1).is_ok());
+    let refused = forms::derive(&chain, sight, 3).unwrap_err();
+    assert_eq!(refused.error, model_core::algebra::AlgebraError::TooLarge);
+}

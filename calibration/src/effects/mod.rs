@@ -51,8 +51,8 @@ pub struct Alias {
 /// Every family, in the order in which members of one class lend it their name.
 pub const FAMILIES: &[Family] = &[
     assembly::FAMILY,
-    gravity::FAMILY,
     encoder::FAMILY,
+    gravity::FAMILY,
     joint_motion::FAMILY,
     motion_direction::FAMILY,
     side_quantity::FAMILY,

@@ -8,6 +8,7 @@ pub mod fit;
 pub mod formats;
 pub mod noise;
 pub mod observations;
+pub mod poses;
 pub mod report;
 pub mod search;
 pub mod study;

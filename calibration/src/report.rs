@@ -2,6 +2,9 @@
 
 use serde::Serialize;
 
+use crate::fit::Precision;
+use crate::poses::Proposal;
+
 /// Everything that a calibration found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Report {
@@ -13,6 +16,10 @@ pub struct Report {
     pub errors: Vec<ErrorFound>,
     /// Errors that these data cannot tell apart: only combinations of those in one list are determined.
     pub not_separable: Vec<Vec<String>>,
+    /// What the data can say: outcome of the fit, precision, noise, hints.
+    pub precision: Precision,
+    /// Where to measure next, if the study asks: D-optimal, then A-optimal.
+    pub next_poses: Vec<Proposal>,
     /// The effects that were accepted, in the order they came in.
     pub effects: Vec<EffectFound>,
     /// What is left after them.

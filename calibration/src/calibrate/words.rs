@@ -8,6 +8,8 @@ use super::held_out::BeforeAfter;
 use super::round::Round;
 use super::{Loop, declared};
 use crate::amend::Addition;
+use crate::fit::precision;
+use crate::poses::{Criterion, Proposal, propose};
 use crate::report::{EffectFound, ErrorFound, NotShown, Remaining, Report, SetAsideRow, Used, Verdict};
 use crate::search::{HeldOut, rivals};
 
@@ -109,6 +111,7 @@ pub(crate) fn report(
     } else {
         Verdict::UpToAClass
     };
+    let precision = precision(&last.chain, observations, &last.fit);
     let row_number = |row: usize| observations.row_numbers.get(row).copied().unwrap_or(row as u64 + 1);
     let aside = &last.fit.set_aside;
     Report {
@@ -122,7 +125,9 @@ pub(crate) fn report(
                 .collect(),
         },
         errors: errors(last),
-        not_separable: not_separable(last),
+        not_separable: precision.not_separable.iter().map(|set| set.names.clone()).collect(),
+        next_poses: next_poses(whole, last),
+        precision,
         effects,
         remaining,
         not_shown: not_shown(whole, last, rms),
@@ -164,32 +169,13 @@ fn errors(last: &Round) -> Vec<ErrorFound> {
         .collect()
 }
 
-/// Parameters that share an undetermined combination, list by list.
-fn not_separable(last: &Round) -> Vec<Vec<String>> {
-    let null = &last.fit.null_space;
-    let mut lists: Vec<Vec<usize>> = Vec::new();
-    for j in 0..null.ncols() {
-        let largest = (0..null.nrows()).map(|i| null[(i, j)].abs()).fold(0.0, f64::max);
-        let mut own: Vec<usize> =
-            (0..null.nrows()).filter(|&i| null[(i, j)].abs() > 1e-6 * largest).collect();
-        lists.retain(|list| {
-            let meets = list.iter().any(|i| own.contains(i));
-            if meets {
-                own.extend(list);
-            }
-            !meets
-        });
-        own.sort_unstable();
-        own.dedup();
-        lists.push(own);
-    }
-    lists.sort();
-    lists
-        .into_iter()
-        .map(|list| {
-            list.into_iter().map(|i| last.chain.symbol(last.fit.parameters[i]).name.clone()).collect()
-        })
-        .collect()
+/// The poses that the study asks for; none if it asks for none, or if they cannot be computed.
+fn next_poses(whole: &Loop<'_>, last: &Round) -> Vec<Proposal> {
+    let Some(next) = &whole.request.plan.next else { return Vec::new() };
+    let proposal = |criterion| {
+        propose(&last.chain, whole.request.observations, &last.fit, next.count, &next.ranges, criterion).ok()
+    };
+    [Criterion::D, Criterion::A].into_iter().filter_map(proposal).collect()
 }
 
 fn effects(whole: &Loop<'_>, last: &Round, held_out: &HeldOut) -> Vec<EffectFound> {

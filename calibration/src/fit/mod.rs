@@ -6,6 +6,7 @@
 mod dense;
 mod model;
 mod partial;
+mod precision;
 pub mod robust;
 mod solve;
 mod stream;
@@ -18,6 +19,7 @@ use crate::noise::{Noise, NoiseOptions};
 
 pub use model::{Block, Model};
 pub use partial::Partial;
+pub use precision::{Determined, NotSeparable, Precision, linked, precision};
 pub use solve::fit;
 pub use stream::{Next, Pass, Streamed, StreamedResult, Tally};
 pub use subspace::{Step, Subspace};

@@ -3,12 +3,14 @@
 //! | format | file | ending |
 //! |---|---|---|
 //! | separated values | [`csv`] | anything else |
+//! | TPOINT observations | [`tpoint`] | `.dat` |
 //!
 //! Formats are parsed from readers; opening files is the command's part.
 
 pub mod csv;
 mod error;
 mod header;
+pub mod tpoint;
 
 use std::io::Read;
 
@@ -66,5 +68,9 @@ pub fn open<'r>(
     source: &str,
     options: &csv::Options,
 ) -> Result<Box<dyn TableReader + 'r>, DataError> {
-    Ok(Box::new(csv::Reader::new(reader, source, options)?))
+    let ending = source.rsplit_once('.').map(|(_, ending)| ending.to_ascii_lowercase());
+    match ending.as_deref() {
+        Some("dat") => Ok(Box::new(tpoint::Reader::new(reader, source)?)),
+        _ => Ok(Box::new(csv::Reader::new(reader, source, options)?)),
+    }
 }

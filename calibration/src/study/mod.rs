@@ -13,7 +13,7 @@ use std::ops::Range;
 use model_core::names;
 use thiserror::Error;
 
-pub use plan::{Plan, Search, SourcePlan};
+pub use plan::{NextPoses, Plan, Search, SourcePlan};
 pub use written::{HoldOut, Study};
 
 /// A mistake in a study file.

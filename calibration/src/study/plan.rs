@@ -26,11 +26,20 @@ pub struct Plan {
     pub search: Search,
     /// How to judge on data that no stage saw.
     pub hold_out: HoldOut,
-    /// How many poses to propose, and between which joint values, SI.
-    pub next: Option<(usize, Vec<(SymbolId, Range<f64>)>)>,
+    /// Where to propose to measure next.
+    pub next: Option<NextPoses>,
     pub(super) group: Vec<String>,
     pub(super) order: Option<String>,
     pub(super) format: csv::Options,
+}
+
+/// How many poses to propose, and where.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NextPoses {
+    /// How many.
+    pub count: usize,
+    /// Between which values of a joint, SI; joints without a range stay within that of the data.
+    pub ranges: Vec<(SymbolId, Range<f64>)>,
 }
 
 /// Files that observe one thing in one way.
@@ -85,10 +94,7 @@ impl Study {
     /// The first name that the chain does not declare, or value that cannot be.
     pub fn plan(&self, chain: &Chain) -> Result<Plan, StudyError> {
         let chain = self.with_inputs(chain)?;
-        let sigma = match &self.noise.sigma {
-            Some(sigma) => Some((sigma.get_ref(), sigma.span())),
-            None => None,
-        };
+        let sigma = self.noise.sigma.as_ref().map(|sigma| (sigma.get_ref(), sigma.span()));
         let first = (&self.observable, &self.data, &self.columns, &self.observed);
         let also = self.also.iter().map(|also| (&also.observable, &also.data, &also.columns, &also.observed));
         let mut sources = Vec::new();
@@ -265,7 +271,7 @@ impl Study {
         Ok(Search { false_alarm, inputs, sequence, harmonics })
     }
 
-    fn next(&self, chain: &Chain) -> Result<Option<(usize, Vec<(SymbolId, Range<f64>)>)>, StudyError> {
+    fn next(&self, chain: &Chain) -> Result<Option<NextPoses>, StudyError> {
         let Some(next) = &self.next else { return Ok(None) };
         let joints = || chain.symbols_of(SymbolKind::Joint);
         let mut ranges = Vec::new();
@@ -282,7 +288,7 @@ impl Study {
             }
             ranges.push((id, low..high));
         }
-        Ok(Some((next.poses, ranges)))
+        Ok(Some(NextPoses { count: next.poses, ranges }))
     }
 
     fn separator(&self) -> Result<Option<u8>, StudyError> {

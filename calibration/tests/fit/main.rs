@@ -3,6 +3,7 @@
 
 mod coverage;
 mod nasty;
+mod precision;
 mod simulated;
 mod streamed;
 

@@ -1,0 +1,99 @@
+//! What the data can say, and where to measure next.
+
+use calibration::fit::{FitOptions, fit, precision};
+use calibration::poses::{Criterion, propose};
+
+use crate::simulated::Simulation;
+
+const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;
+const MOUNT: &str = include_str!("../../../examples/alt-azimuth/alt-azimuth.chain");
+
+/// A mount observed between two elevations.
+fn mount(low: f64, high: f64, rows: usize) -> Simulation {
+    let mut simulation = Simulation::new(MOUNT, 1);
+    simulation.column("azimuth", rows, -3.1..3.1);
+    simulation.column("elevation", rows, low..high);
+    simulation.draw_errors("*", 30.0 * ARCSEC);
+    simulation
+}
+
+#[test]
+fn what_poses_owe_is_told_from_what_nothing_can_separate() {
+    // At one elevation, index and collimation and non-perpendicularity in azimuth are one.
+    let mut simulation = mount(0.7, 0.7 + 1e-15, 100);
+    let observations = simulation.directions("sight", 2.0 * ARCSEC);
+    let result = fit(&simulation.chain, &observations, &FitOptions::for_chain(&simulation.chain)).unwrap();
+    let said = precision(&simulation.chain, &observations, &result);
+    assert_eq!(said.rank, [4, 6]);
+    let [set] = said.not_separable.as_slice() else { panic!("{:?}", said.not_separable) };
+    assert_eq!(set.names, ["azimuth_index", "nonperpendicularity", "collimation"]);
+    assert!(!set.structural);
+
+    let mut lidar = Simulation::lidar(300, 2);
+    let observations = lidar.directions("pointing", 2.0 * ARCSEC);
+    let result = fit(&lidar.chain, &observations, &FitOptions::for_chain(&lidar.chain)).unwrap();
+    let said = precision(&lidar.chain, &observations, &result);
+    assert!(said.not_separable.iter().all(|set| set.structural));
+    let together = |a: &str, b: &str| {
+        said.not_separable.iter().any(|set| [a, b].iter().all(|name| set.names.iter().any(|own| own == name)))
+    };
+    assert!(together("dtheta_y3", "db2"), "{:?}", said.not_separable);
+}
+
+#[test]
+fn a_narrow_range_inflates_variances_and_new_poses_mend_it() {
+    let mut simulation = mount(0.7, 0.8, 100);
+    let observations = simulation.directions("sight", 2.0 * ARCSEC);
+    let result = fit(&simulation.chain, &observations, &FitOptions::for_chain(&simulation.chain)).unwrap();
+    let said = precision(&simulation.chain, &observations, &result);
+    let collimation = said.determined.iter().find(|one| one.name == "collimation").unwrap();
+    assert!(collimation.variance_inflation > 100.0, "{collimation:?}");
+    assert!(said.correlations.iter().any(|(a, b, _)| a == "nonperpendicularity" && b == "collimation"));
+
+    let elevation = simulation.chain.find_symbol("elevation").unwrap();
+    for criterion in [Criterion::D, Criterion::A] {
+        let ranges = [(elevation, 0.2..1.4)];
+        let proposal = propose(&simulation.chain, &observations, &result, 10, &ranges, criterion).unwrap();
+        assert_eq!(proposal.poses.len(), 10);
+        let promised =
+            |name: &str| proposal.uncertainties.iter().find(|(own, _, _)| own == name).unwrap().clone();
+        let (_, now, then) = promised("collimation");
+        assert!(then < now / 5.0, "{criterion:?}: {then} against {now}");
+        // Measured, they keep the promise.
+        let mut more = observations.clone();
+        for (at, (_, values)) in more.columns.iter_mut().enumerate() {
+            values.extend(proposal.poses.iter().map(|pose| pose[at]));
+        }
+        let mut together = Simulation::new(MOUNT, 3);
+        together.values = simulation.values.clone();
+        together.columns = more.columns;
+        let observations = together.directions("sight", 2.0 * ARCSEC);
+        let kept = fit(&together.chain, &observations, &FitOptions::for_chain(&together.chain)).unwrap();
+        let id = together.chain.find_symbol("collimation").unwrap();
+        let ratio = kept.standard_uncertainty(id).unwrap() / then;
+        assert!((0.7..1.4).contains(&ratio), "{criterion:?}: {ratio}");
+    }
+}
+
+#[test]
+fn wrong_units_and_signs_are_hinted_at() {
+    let said = |change: &dyn Fn(&mut calibration::observations::Observations)| {
+        let mut simulation = mount(0.2, 1.3, 100);
+        let mut observations = simulation.directions("sight", 2.0 * ARCSEC);
+        change(&mut observations);
+        let result =
+            fit(&simulation.chain, &observations, &FitOptions::for_chain(&simulation.chain)).unwrap();
+        precision(&simulation.chain, &observations, &result).hints.join("\n")
+    };
+    assert_eq!(said(&|_| {}), "");
+    let column = |at: usize, factor: f64| {
+        move |observations: &mut calibration::observations::Observations| {
+            observations.columns[at].1.iter_mut().for_each(|value| *value *= factor);
+        }
+    };
+    assert!(said(&column(0, 57.295_779_513)).contains("degrees taken for radians"));
+    assert!(said(&column(1, 0.017_453_292_5)).contains("radians taken for degrees"));
+    assert!(said(&column(0, -1.0)).contains("a swapped sign"));
+    let swapped = said(&|observations| observations.measured.iter_mut().for_each(|u| u.swap(0, 2)));
+    assert!(swapped.contains("swapped axes") || swapped.contains("an axis"), "{swapped}");
+}

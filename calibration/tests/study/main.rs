@@ -1,0 +1,135 @@
+//! Study files as people write them, rightly and wrongly.
+#![allow(clippy::unwrap_used)]
+
+use std::io::Read;
+
+use calibration::formats::DataError;
+use calibration::observations::{Measure, Observations};
+use calibration::study::Study;
+use model_core::Chain;
+
+const MOUNT: &str = include_str!("../../../examples/alt-azimuth/alt-azimuth.chain");
+
+const STUDY: &str = r#"
+chain = "mount.chain"
+data  = "night.csv"
+
+[columns]
+azimuth   = { column = "az", unit = "deg" }
+elevation = { column = "el [deg]" }
+sense     = { derive = "direction(azimuth)" }
+drift     = { derive = "elapsed(time)" }
+
+[observed]
+kind  = "offset"
+cross = { column = "dx_arcsec" }
+along = { column = "dy_arcsec" }
+
+[noise]
+sigma = "2 arcsec"
+group = ["day"]
+order = "time"
+
+[fit]
+estimate = ["*index", "collimation"]
+fix      = { elevation_index = "1 arcmin" }
+
+[search]
+inputs = ["temperature"]
+"#;
+
+const NIGHT: &str = "\
+az;el [deg];dx_arcsec;dy_arcsec;day;time;temperature
+20;30;0;0;b;3;7,5
+10;30;1;-2;a;1;8,5
+30;30;0;0;b;4;7
+15;30;0;0;a;2;8
+";
+
+/// The observations of a study, or what is wrong with it.
+fn observations(study: &str, data: &'static str) -> Result<Observations, String> {
+    let chain = Chain::from_text(MOUNT).unwrap();
+    let study = Study::from_text(study).map_err(|error| format!("{:?} {error}", error.place))?;
+    let plan = study.plan(&chain).map_err(|error| format!("{:?} {error}", error.place))?;
+    let mut open = |_: &str| -> Result<Box<dyn Read>, DataError> { Ok(Box::new(data.as_bytes())) };
+    plan.observations(&mut open).map_err(|error| error.to_string())
+}
+
+#[test]
+fn a_study_reads_its_data_in_order_and_in_si() {
+    let chain = Chain::from_text(MOUNT).unwrap();
+    let plan = Study::from_text(STUDY).unwrap().plan(&chain).unwrap();
+    let name = |id: &model_core::SymbolId| plan.chain.symbol(*id).name.clone();
+    assert_eq!(plan.fit.estimate.iter().map(name).collect::<Vec<_>>(), ["azimuth_index", "collimation"]);
+    let fixed = chain.find_symbol("elevation_index").unwrap();
+    assert!((plan.fit.start[fixed.index()] - 1.0 / 60.0 * std::f64::consts::PI / 180.0).abs() < 1e-15);
+
+    let read = observations(STUDY, NIGHT).unwrap();
+    assert_eq!(read.row_numbers, [2, 4, 1, 3]);
+    assert_eq!(read.groups, [0, 0, 1, 1]);
+    assert!(read.in_sequence);
+    assert_eq!(read.series[0].measure, Measure::Direction);
+    let column = |name: &str| read.column(plan.chain.find_symbol(name).unwrap()).unwrap();
+    assert!((column("azimuth")[0] - 10f64.to_radians()).abs() < 1e-15);
+    assert_eq!(column("temperature"), [8.5, 8.0, 7.5, 7.0]);
+    assert_eq!(column("sense"), [0.0, 1.0, 1.0, 1.0]);
+    assert_eq!(column("drift"), [0.0, 1.0, 2.0, 3.0]);
+    // The first row in time: 1″ across, −2″ along, from azimuth 10° and elevation 30°.
+    let arcsec = std::f64::consts::PI / 648_000.0;
+    let (a, e) = (10f64.to_radians() + arcsec / 30f64.to_radians().cos(), 30f64.to_radians() - 2.0 * arcsec);
+    let expected = [a.sin() * e.cos(), a.cos() * e.cos(), e.sin()];
+    for (found, expected) in read.measured[0].iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-10, "{found} {expected}");
+    }
+}
+
+#[test]
+fn mistakes_are_named_with_their_place_and_what_to_write() {
+    let with = |from: &str, to: &str| {
+        assert!(STUDY.contains(from), "{from}");
+        observations(&STUDY.replace(from, to), NIGHT).map(|_| ())
+    };
+    insta::assert_debug_snapshot!([
+        with("[observed]", "[observd]"),
+        with("kind  = \"offset\"", "kind = \"ofset\""),
+        with("kind  = \"offset\"", "kind = \"point\""),
+        with("azimuth   = {", "azimut = {"),
+        with("unit = \"deg\"", "unit = \"degree\""),
+        with("column = \"az\", unit = \"deg\"", "column = \"az\""),
+        with("column = \"az\", unit = \"deg\"", "column = \"azi\", unit = \"deg\""),
+        with("column = \"dx_arcsec\"", "column = \"dx_arcsec\", unit = \"deg\""),
+        with("direction(azimuth)", "velocity(azimuth)"),
+        with("\"2 arcsec\"", "\"2 mm\""),
+        with("\"2 arcsec\"", "\"-2 arcsec\""),
+        with("\"collimation\"", "\"colimation\""),
+        with("cross = {", "# cross = {"),
+        with("data  = \"night.csv\"", "data = []"),
+    ]);
+}
+
+#[test]
+fn bad_data_are_named_with_their_place() {
+    let data = |data: &'static str| observations(STUDY, data).map(|_| ());
+    insta::assert_debug_snapshot!([
+        data(""),
+        data("az;el [deg];dx_arcsec;dy_arcsec;day;time;temperature\n"),
+        data("az;el [deg];dx_arcsec;dy_arcsec;day;time;temperature\n1;2;3;x;a;1;2\n"),
+        data("az;el [deg];dx_arcsec;day;time;temperature\n1;2;3;a;1;2\n"),
+    ]);
+    let spherical = STUDY
+        .replace("\"offset\"", "\"spherical\"")
+        .replace("cross", "azimuth")
+        .replace("along", "elevation")
+        .replace("dy_arcsec", "time [deg]")
+        .replace("order = \"time\"", "")
+        .replace("drift     = { derive = \"elapsed(time)\" }", "");
+    let beyond = "az;el [deg];dx_arcsec;time [deg];day;temperature\n1;2;3;100;a;2\n";
+    insta::assert_debug_snapshot!(observations(&spherical, beyond).map(|_| ()));
+}
+
+proptest::proptest! {
+    #[test]
+    fn no_text_panics(text in "\\PC{0,80}") {
+        let _ = observations(&text, NIGHT);
+    }
+}

@@ -378,7 +378,7 @@ fn observed_columns(
         }),
         None => {
             let help = format!("write `{key} = {{ column = \"…\", unit = \"…\" }}`");
-            Err(StudyError::new(place.clone(), format!("which column is `{key}`?"), help))
+            Err(StudyError::new(place.clone(), format!("no column is named for `{key}`"), help))
         }
     };
     let columns = keys.into_iter().map(plan).collect::<Result<_, _>>()?;

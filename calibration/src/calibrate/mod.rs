@@ -1,8 +1,8 @@
 //! The whole loop: fit, whiten, search, amend, fit again, judge on held-out data, report.
 //!
-//! One round ([`round`]) fits the declaration with the effects accepted so far and searches from there; rounds go on
-//! until one changes nothing. Then the search is repeated in every fold ([`held_out`]), and everything is put into
-//! words ([`words`]).
+//! One round (`round`) fits the declaration with the effects accepted so far and searches from there; rounds go on
+//! until one changes nothing. Then the search is repeated in every fold (`held_out`), and everything is put into
+//! words (`words`).
 
 mod held_out;
 mod remaining;

@@ -5,9 +5,9 @@
 //! place in the chain, a degree of freedom, a function) lives in [`crate::effects`]; the loop around the search
 //! (fit, whiten, search, amend, fit again) in [`crate::calibrate`].
 //!
-//! The pipeline reads from one place: project ([`problem`]), merge what coincides ([`classes`]), test
-//! ([`tail`], [`flips`]), select ([`select`]), name the rivals ([`rivals`]), confirm on held-out folds
-//! ([`nested`]), and look for structure that no candidate explains ([`remains`]).
+//! The pipeline reads from one place: project (`problem`), merge what coincides (`classes`), test
+//! (`tail`, `flips`), select (`select`), name the rivals (`rivals`), confirm on held-out folds
+//! (`nested`), and look for structure that no candidate explains (`remains`).
 
 pub mod classes;
 pub mod flips;

@@ -1,8 +1,8 @@
 //! The study file: which chain, which data, what was observed, what to estimate and what to look for.
 //!
-//! [`Study`] is the file as written ([`written`]); with a chain it becomes a [`Plan`] in which every name is
-//! resolved ([`plan`]); with the data files the plan becomes [`Observations`](crate::observations::Observations)
-//! ([`load`]).
+//! [`Study`] is the file as written (`written`); with a chain it becomes a [`Plan`] in which every name is
+//! resolved (`plan`); with the data files the plan becomes [`Observations`](crate::observations::Observations)
+//! (`load`).
 
 mod load;
 mod plan;

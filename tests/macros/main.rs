@@ -7,4 +7,5 @@ mod closed_forms;
 #[rustfmt::skip]
 #[warn(clippy::pedantic)]
 mod expanded;
+mod reference;
 mod second_order;

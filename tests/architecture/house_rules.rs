@@ -2,6 +2,10 @@
 
 use crate::sources::{below, libraries};
 
+/// Texts that are compiled here and also go, unchanged, into generated files.
+const QUOTED: &[&str] =
+    &["codegen/src/vector/kernel.rs", "codegen/src/vector/paths.rs", "codegen/src/vector/wide.rs"];
+
 /// Longer files hold more than one concept.
 const MOST_LINES: usize = 450;
 
@@ -65,8 +69,10 @@ fn every_file_is_one_concept_and_says_which() {
     for file in libraries().into_iter().chain(below("cli/src")) {
         let lines = file.text.lines().count();
         assert!(lines <= MOST_LINES, "{}: {lines} lines; split it by concept", file.path);
+        // A text that goes into the middle of a generated file cannot begin with an inner comment.
+        let comment = if QUOTED.contains(&file.path.as_str()) { "// " } else { "//!" };
         assert!(
-            file.text.starts_with("//!"),
+            file.text.starts_with(comment),
             "{}: the first line must say what concept lives here",
             file.path
         );

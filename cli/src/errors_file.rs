@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::path::Path;
 
 use calibration::units::Amount;
 use model_core::mistake::Mistake;
@@ -33,6 +34,16 @@ pub fn values(source: &Source, chain: &Chain) -> Result<Vec<f64>, Failure> {
         values[id.index()] = value;
     }
     Ok(values)
+}
+
+/// A declaration with the largest sizes of its errors, as [`largest_sizes`] gives them.
+///
+/// # Errors
+/// A file cannot be read, or has a mistake.
+pub fn chain_and_sizes(chain: &Path, errors: &Path) -> Result<(Chain, Vec<f64>), Failure> {
+    let chain = Source::read(chain)?.chain()?;
+    let sizes = largest_sizes(&Source::read(errors)?, &chain)?;
+    Ok((chain, sizes))
 }
 
 /// The largest sizes of errors in SI, indexed by [`SymbolId`]; zero for errors that the file does not name.

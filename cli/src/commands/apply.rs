@@ -1,14 +1,9 @@
 //! `trueaxis apply`: new data corrected with a calibrated model.
 
-use std::path::PathBuf;
-
 use super::Answer;
-use super::eval::{with_readings, write_evaluated};
-use crate::errors_file;
-use crate::evaluation::{Evaluator, Exactness, Quantity};
+use super::eval::OverTable;
+use crate::evaluation::{Exactness, Quantity};
 use crate::failure::Failure;
-use crate::source::Source;
-use crate::tables::ReadingsTable;
 
 /// Correct new data with a calibrated model.
 ///
@@ -19,29 +14,12 @@ use crate::tables::ReadingsTable;
 /// Example: trueaxis apply result/amended.chain --errors result/errors.toml --data new.csv --out corrected.csv
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The declaration, amended or not
-    chain: PathBuf,
-    /// Values of the errors, as `calibrate` writes them
-    #[arg(long, value_name = "E.toml")]
-    errors: PathBuf,
-    /// Readings of joints and inputs: a .csv file, or - for standard input
-    #[arg(long, value_name = "IN")]
-    data: PathBuf,
-    /// Only this observable (may be given several times); default: every one that the data has the readings for
-    #[arg(long)]
-    observable: Vec<String>,
-    /// Where to write: a .csv file, or - for standard output
-    #[arg(long, value_name = "OUT")]
-    out: PathBuf,
+    #[command(flatten)]
+    table: OverTable,
 }
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let chain = Source::read(&arguments.chain)?.chain()?;
-    let values = errors_file::values(&Source::read(&arguments.errors)?, &chain)?;
-    let table = ReadingsTable::open(&arguments.data)?;
-    let chosen = with_readings(&chain, &table, &arguments.observable)?;
-    let evaluator = Evaluator::new(&chain, chosen, Exactness::Exact, Quantity::Value, &values);
-    write_evaluated(&chain, table, evaluator, &arguments.out)?;
+    arguments.table.evaluate(Exactness::Exact, Quantity::Value)?;
     Ok(Answer::Done)
 }

@@ -10,7 +10,7 @@ use super::{Answer, TextOrJson};
 use crate::errors_file;
 use crate::failure::Failure;
 use crate::ranges::{self, RangeArgument};
-use crate::source::{Source, observables};
+use crate::source::observables;
 use crate::terminal;
 
 /// Bound what the first-order form leaves out.
@@ -47,8 +47,7 @@ const STARTS: u32 = 24;
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let chain = Source::read(&arguments.chain)?.chain()?;
-    let sizes = errors_file::largest_sizes(&Source::read(&arguments.errors)?, &chain)?;
+    let (chain, sizes) = errors_file::chain_and_sizes(&arguments.chain, &arguments.errors)?;
     let mut domain = Domain::new(&chain);
     for error in chain.symbols_of(SymbolKind::Error) {
         domain.set_size(&chain, error, sizes[error.index()]).map_err(failure)?;

@@ -56,8 +56,7 @@ const POINTS: usize = 361;
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let chain = Source::read(&arguments.chain)?.chain()?;
-    let sizes = errors_file::largest_sizes(&Source::read(&arguments.errors)?, &chain)?;
+    let (chain, sizes) = errors_file::chain_and_sizes(&arguments.chain, &arguments.errors)?;
     let poses = match &arguments.path {
         Some(text) => Poses::Path(poses::path(&chain, text).map_err(|mistake| {
             let source = Source { path: "--path".into(), text: text.clone() };

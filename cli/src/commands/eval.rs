@@ -22,36 +22,19 @@ use crate::terminal;
 /// --data poses.csv --observable pointing --out errors.csv
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The declaration
-    chain: PathBuf,
-    /// Readings of joints and inputs: a .csv file, or - for standard input
-    #[arg(long, value_name = "IN")]
-    data: PathBuf,
-    /// Values of the errors
-    #[arg(long, value_name = "E.toml")]
-    errors: PathBuf,
-    /// Only this observable (may be given several times); default: every one that the data has the readings for
-    #[arg(long)]
-    observable: Vec<String>,
+    #[command(flatten)]
+    table: OverTable,
     /// Exact, or to first order in the errors
     #[arg(long, value_enum, default_value_t = Exactness::Exact)]
     form: Exactness,
     /// The error of the observable, or the observable with its errors
     #[arg(long, value_enum, default_value_t = Quantity::Error)]
     quantity: Quantity,
-    /// Where to write: a .csv file, or - for standard output
-    #[arg(long, value_name = "OUT")]
-    out: PathBuf,
 }
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let chain = Source::read(&arguments.chain)?.chain()?;
-    let values = errors_file::values(&Source::read(&arguments.errors)?, &chain)?;
-    let table = ReadingsTable::open(&arguments.data)?;
-    let chosen = with_readings(&chain, &table, &arguments.observable)?;
-    let evaluator = Evaluator::new(&chain, chosen, arguments.form, arguments.quantity, &values);
-    let replaced = write_evaluated(&chain, table, evaluator, &arguments.out)?;
+    let replaced = arguments.table.evaluate(arguments.form, arguments.quantity)?;
     if !replaced.is_empty() {
         let names = listed(replaced.iter().map(String::as_str));
         terminal::warn(format_args!("the input's own columns {names} were replaced"));
@@ -59,11 +42,44 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     Ok(Answer::Done)
 }
 
+/// What is evaluated over which table, and where to: the arguments that `eval` and `apply` share.
+#[derive(Debug, clap::Args)]
+pub struct OverTable {
+    /// The declaration, amended or not
+    chain: PathBuf,
+    /// Readings of joints and inputs: a .csv file, or - for standard input
+    #[arg(long, value_name = "IN")]
+    data: PathBuf,
+    /// Values of the errors, as `calibrate` writes them too
+    #[arg(long, value_name = "E.toml")]
+    errors: PathBuf,
+    /// Only this observable (may be given several times); default: every one that the data has the readings for
+    #[arg(long)]
+    observable: Vec<String>,
+    /// Where to write: a .csv file, or - for standard output
+    #[arg(long, value_name = "OUT")]
+    out: PathBuf,
+}
+
+impl OverTable {
+    /// Writes the table with a quantity of each observable; returns which columns of the input these replace.
+    ///
+    /// # Errors
+    /// The declaration, the errors or the readings have a mistake, or the place cannot be written.
+    pub fn evaluate(&self, form: Exactness, quantity: Quantity) -> Result<Vec<String>, Failure> {
+        let chain = Source::read(&self.chain)?.chain()?;
+        let values = errors_file::values(&Source::read(&self.errors)?, &chain)?;
+        let table = ReadingsTable::open(&self.data)?;
+        let chosen = with_readings(&chain, &table, &self.observable)?;
+        write_evaluated(&chain, table, Evaluator::new(&chain, chosen, form, quantity, &values), &self.out)
+    }
+}
+
 /// The observables that were asked for; if none was, all that the table has the readings for.
 ///
 /// # Errors
 /// No observable of the chain has its readings in the table.
-pub fn with_readings(
+fn with_readings(
     chain: &Chain,
     table: &ReadingsTable,
     names: &[String],
@@ -82,7 +98,7 @@ pub fn with_readings(
 ///
 /// # Errors
 /// A reading is missing or cannot be read, or the place cannot be written.
-pub fn write_evaluated(
+fn write_evaluated(
     chain: &Chain,
     mut table: ReadingsTable,
     mut evaluator: Evaluator,

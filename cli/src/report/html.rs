@@ -5,7 +5,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::pictures::{self, Axes};
 use super::residuals::{self, Component};
-use super::summary::{diff, evidence, what_it_means};
+use super::summary::{diff, evidence, not_separable, what_it_means};
 use super::{Reported, quantities};
 
 /// How the page looks.
@@ -17,7 +17,7 @@ td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; }
 tr + tr td { border-top: 1px solid #eee; } code, pre { font-family: ui-monospace, monospace; font-size: .9em; }
 pre { background: #f6f6f4; padding: .8rem 1rem; overflow-x: auto; }
 .verdict { font-size: 1.3rem; font-weight: 600; } .quiet { color: #666; }
-.pictures { display: flex; flex-wrap: wrap; gap: 1rem; } .pictures svg { max-width: 100%; height: auto; }
+.pictures { display: flex; flex-wrap: wrap; gap: .5rem; }
 ins { background: #e2f3e4; text-decoration: none; } del { background: #fbe4e1; text-decoration: none; }
 @media print { body { margin: 0; } section { break-inside: avoid; } }
 ";
@@ -199,19 +199,7 @@ fn errors(report: &Report) -> Markup {
                     }
                 }
             }
-            @if !report.not_separable.is_empty() {
-                p { "These data do not determine by themselves:" }
-                ul {
-                    @for list in &report.not_separable {
-                        li {
-                            @match list.as_slice() {
-                                [one] => { code { (one) } ", which they do not show" }
-                                several => { "combinations of " code { (several.join(", ")) } }
-                            }
-                        }
-                    }
-                }
-            }
+            @for line in not_separable(report) { p { (line) } }
         }
     }
 }

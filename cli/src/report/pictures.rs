@@ -72,8 +72,8 @@ fn draw(axes: &Axes<'_>, plots: Vec<Plot>) -> String {
         .with_title(axes.title)
         .with_x_label(axes.x)
         .with_y_label(axes.y)
-        .with_width(560.0)
-        .with_height(320.0)
+        .with_width(470.0)
+        .with_height(300.0)
         .with_title_size(15)
         .with_label_size(13);
     render_to_svg(plots, layout)

@@ -132,16 +132,28 @@ fn errors(text: &mut String, report: &Report) {
         let told = quantities::estimate(error.value, error.standard_uncertainty, error.unit);
         let _ = writeln!(text, "  {:width$}  {told}", error.name);
     }
-    for list in &report.not_separable {
-        match list.as_slice() {
-            [one] => {
-                let _ = writeln!(text, "  {one:width$}  these data do not show it");
-            }
-            several => {
-                let _ = writeln!(text, "  these data determine only combinations of {}", several.join(", "));
-            }
-        }
+    for line in not_separable(report) {
+        let _ = writeln!(text, "  {line}");
     }
+}
+
+/// What these data do not determine, a line for each set of errors that only combinations of are, and one for
+/// all that they do not show.
+#[must_use]
+pub fn not_separable(report: &Report) -> Vec<String> {
+    let (alone, together): (Vec<&Vec<String>>, Vec<&Vec<String>>) =
+        report.not_separable.iter().partition(|list| list.len() == 1);
+    let mut lines: Vec<String> = together
+        .iter()
+        .map(|list| format!("these data determine only combinations of {}", list.join(", ")))
+        .collect();
+    if !alone.is_empty() {
+        lines.push(format!(
+            "these data do not show {}",
+            alone.into_iter().flatten().map(String::as_str).collect::<Vec<_>>().join(", ")
+        ));
+    }
+    lines
 }
 
 fn remarks(text: &mut String, report: &Report) {

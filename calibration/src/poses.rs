@@ -60,26 +60,30 @@ pub fn propose(
     let m = candidates.series.first().map_or(1, |series| series.measure.components());
     let sigma: Vec<f64> = fit.noise.floor.iter().take(m).map(|floor| floor.max(f64::MIN_POSITIVE)).collect();
     let p = fit.parameters.len();
-    let blocks = model.map_blocks(&candidates, &fit.values, |_, _, block| block.jacobian)?;
     // In units in which every column of the Jacobian so far has length one.
     let scale: Vec<f64> = (0..p)
-        .map(|at| fit.linear.jacobian.col(at).norm_l2())
+        .map(|at| fit.factor.length(at))
         .map(|length| if length > 0.0 { length } else { 1.0 })
         .collect();
-    let rows: Vec<DMatrix<f64>> = blocks
-        .iter()
-        .flat_map(|block| {
-            (0..block.nrows() / m).map(|row| {
-                DMatrix::from_fn(m, p, |component, column| {
-                    block[(row * m + component, column)] / sigma[component] / scale[column]
+    let rows: Vec<DMatrix<f64>> = model
+        .map_blocks(&candidates, &fit.values, |_, _, block| {
+            let columns: Vec<&[f64]> = block.columns().collect();
+            let derivative =
+                |column: Option<usize>, at: usize| column.map_or(0.0, |column| columns[column][at]);
+            let row = |row: usize| {
+                DMatrix::from_fn(m, p, |component, parameter| {
+                    let at = component * block.rows + row;
+                    derivative(model.column_of()[parameter], at) / sigma[component] / scale[parameter]
                 })
-            })
-        })
+            };
+            (0..block.rows).map(row).collect::<Vec<_>>()
+        })?
+        .into_iter()
+        .flatten()
         .filter(|row| row.iter().all(|value| value.is_finite()))
         .collect();
-    let jacobian = DMatrix::from_fn(fit.linear.jacobian.nrows(), p, |row, column| {
-        fit.linear.jacobian[(row, column)] / scale[column]
-    });
+    let factor = fit.factor.factor();
+    let jacobian = DMatrix::from_fn(p, p, |row, column| factor[(row, column)] / scale[column]);
     let information = jacobian.transpose() * &jacobian + DMatrix::identity(p, p) * 1e-9;
     let Some(before) = information.cholesky().map(|factor| factor.inverse()) else {
         return Err(FitError::WrongShape { why: "the information so far is not finite".to_string() });

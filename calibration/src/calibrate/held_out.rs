@@ -23,7 +23,7 @@ pub(crate) fn rms(
     held_out: &HeldOut,
 ) -> Result<BeforeAfter, CalibrateError> {
     let rows = &last.columns.row;
-    let weight = &last.fit.linear.weight;
+    let weight = &last.fit.residuals.weight;
     let used = |residual: &[f64]| length(residual, rows, |row| weight[row as usize] > 0.0);
     let (held_before, held_after) = match whole.request.second {
         Some(second) => {
@@ -40,7 +40,7 @@ pub(crate) fn rms(
     };
     let in_sample = |residual: &[f64]| used(residual).unwrap_or(0.0);
     Ok(BeforeAfter {
-        before: Rms { rms: in_sample(&before.linear.raw_residual), held_out_rms: held_before },
+        before: Rms { rms: in_sample(&before.residuals.raw), held_out_rms: held_before },
         after: Rms { rms: in_sample(&last.columns.residual), held_out_rms: held_after },
     })
 }

@@ -181,7 +181,7 @@ fn whiten(fit: &FitResult, row: &[u32], column: &[f64]) -> Vec<f64> {
     let mut column = column.to_vec();
     fit.noise.whiten(&mut column);
     for (value, &row) in column.iter_mut().zip(row) {
-        *value *= fit.linear.weight[row as usize].sqrt();
+        *value *= fit.residuals.weight[row as usize].sqrt();
     }
     column
 }

@@ -62,8 +62,11 @@ impl Columns {
         let mut all = values.to_vec();
         all.resize(probed.symbols.len(), 0.0);
         let model = Model::new(&probed, observations, &wrt)?;
-        let blocks = model.map_blocks(observations, &all, |_, rows, block| (rows, block))?;
-        let n: usize = blocks.iter().map(|(_, block)| block.residual.len()).sum();
+        let blocks = model.map_blocks(observations, &all, |_, rows, block| {
+            let by_row = |values| block.by_row(values).collect::<Vec<_>>();
+            (rows, by_row(&block.residual), block.columns().map(by_row).collect::<Vec<_>>())
+        })?;
+        let n: usize = blocks.iter().map(|(_, residual, _)| residual.len()).sum();
         let mut columns = Self {
             residual: Vec::with_capacity(n),
             declared: Mat::zeros(n, parameters.len()),
@@ -72,21 +75,20 @@ impl Columns {
             probes: Mat::zeros(n, wrt.len() - parameters.len()),
         };
         let mut start = 0;
-        for (rows, block) in blocks {
-            let count = block.residual.len();
+        for (rows, residual, derivatives) in blocks {
+            let count = residual.len();
             let components = count / rows.len().max(1);
-            columns.residual.extend(&block.residual);
+            columns.residual.extend(residual);
             for row in rows {
                 columns.row.extend(std::iter::repeat_n(row as u32, components));
             }
-            for j in 0..wrt.len() {
+            for (j, column) in model.column_of().iter().enumerate() {
+                let Some(column) = *column else { continue };
                 let target = match j.checked_sub(parameters.len()) {
                     None => &mut columns.declared.col_as_slice_mut(j)[start..start + count],
                     Some(probe) => &mut columns.probes.col_as_slice_mut(probe)[start..start + count],
                 };
-                for (i, value) in target.iter_mut().enumerate() {
-                    *value = block.jacobian[(i, j)];
-                }
+                target.copy_from_slice(&derivatives[column]);
             }
             start += count;
         }

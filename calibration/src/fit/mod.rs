@@ -3,26 +3,29 @@
 //! Weighted nonlinear least squares by Levenberg-Marquardt, robust and with a noise model; how it ended is an
 //! [`Outcome`], never a panic.
 
-mod dense;
 mod model;
 mod partial;
 mod precision;
+mod residual;
 pub mod robust;
 mod solve;
 mod stream;
 mod subspace;
+mod sweep;
 
 use faer::Mat;
 use model_core::{Chain, SymbolId, SymbolKind};
 
 use crate::noise::{Noise, NoiseOptions};
+use sweep::Weighting;
 
 pub use model::{Block, Model};
-pub use partial::Partial;
-pub use precision::{Determined, NotSeparable, Precision, linked, precision};
+pub use partial::{Partial, Rows};
+pub use precision::{Determined, NotSeparable, Precision, precision};
 pub use solve::fit;
-pub use stream::{Next, Pass, Streamed, StreamedResult, Tally};
+pub use stream::{Next, Pass, Streamed, StreamedResult};
 pub use subspace::{Step, Subspace};
+pub use sweep::Tally;
 
 /// What to fit and how.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,6 +53,10 @@ impl FitOptions {
             noise: NoiseOptions::default(),
             max_iterations: 50,
         }
+    }
+
+    fn weighting(&self) -> Weighting {
+        if self.robust { Weighting::Biweight } else { Weighting::Full }
     }
 }
 
@@ -84,21 +91,16 @@ pub struct SetAside {
     pub why: String,
 }
 
-/// The whitened linear model at the estimate: what the search for missing effects reads.
+/// The residuals at the estimate: what the search for missing effects starts from.
 ///
-/// `n` components of all observations, row by row; `p` estimated parameters.
+/// `n` components of all observations, row by row.
 #[derive(Debug, Clone)]
-pub struct Linearised {
+pub struct Residuals {
     /// Measured minus predicted before whitening, rad or m, length n.
-    pub raw_residual: Vec<f64>,
+    pub raw: Vec<f64>,
     /// Measured minus predicted, whitened: unit variance and independent if the noise model holds, times the
     /// square root of the robust weight; length n.
-    pub residual: Vec<f64>,
-    /// Derivative of the whitened prediction by each estimated parameter, n × p.
-    pub jacobian: Mat<f64>,
-    /// Per component the gradient by which a change of the observable (x, y, z, ground frame) moves it, length n:
-    /// the change of the component is this vector times the change.
-    pub projection: Vec<[f64; 3]>,
+    pub whitened: Vec<f64>,
     /// The row of each component, length n.
     pub row: Vec<u32>,
     /// The robust weight of each row, 0 to 1.
@@ -118,7 +120,8 @@ pub struct FitResult {
     pub covariance: Mat<f64>,
     /// The number of combinations that these data determine.
     pub rank: usize,
-    /// Combinations that these data cannot determine, p × (p − rank), columns of length one in SI units.
+    /// Combinations that these data cannot determine, p × (p − rank), columns of length one in SI units, each with as few
+    /// parts as the others leave it.
     pub null_space: Mat<f64>,
     /// Per parameter, whether no undetermined combination holds it.
     pub separable: Vec<bool>,
@@ -132,8 +135,13 @@ pub struct FitResult {
     pub degrees_of_freedom: f64,
     /// RMS over the observations kept of the length of the residual: rad or m.
     pub rms: f64,
-    /// The whitened linear model at the estimate.
-    pub linear: Linearised,
+    /// What the data determine.
+    pub(crate) subspace: Subspace,
+    /// The triangular factor of the derivatives by each parameter, whitened but for memory between rows, each row by the
+    /// root of its robust weight.
+    pub factor: Partial,
+    /// The residuals.
+    pub residuals: Residuals,
 }
 
 /// Why there was nothing to fit: mistakes of the caller, not of the data.

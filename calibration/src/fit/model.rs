@@ -2,37 +2,63 @@
 
 use std::ops::Range;
 
-use codegen::{Form, Interpreter, Program, build_all};
-use faer::Mat;
+use codegen::vector::{self, Arithmetic};
+use codegen::{Form, Interpreter, NodeId, Op, Program, build_all};
 use model_core::{Chain, SymbolId, SymbolKind};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
 use super::FitError;
-use crate::observations::{Measure, Observations, Series, tangent_frame};
+use super::residual::components;
+use crate::observations::{Observations, Series};
 
 /// Rows evaluated at a time: what a block holds stays in the second-level cache.
-pub const BLOCK_ROWS: usize = 512;
+pub const BLOCK_ROWS: usize = 256;
 
 /// Evaluates observables and their derivatives by what is estimated.
 #[derive(Debug, Clone)]
 pub struct Model {
     parameters: Vec<SymbolId>,
-    /// One per series of the observations: exact value, then exact Jacobian.
+    /// Per parameter the column that holds its derivatives; none where it moves nothing. Parameters that move
+    /// everything alike share one.
+    column_of: Vec<Option<usize>>,
+    /// The number of columns.
+    columns: usize,
+    /// One per series of the observations: exact value, then the columns of the exact Jacobian.
     programs: Vec<Program>,
 }
 
-/// Residuals of some rows of one series, before whitening.
-#[derive(Debug, Clone)]
+/// Residuals of some rows of one series, before whitening. Arrays hold all rows of the first component, then all of the
+/// second.
+#[derive(Debug, Clone, Default)]
 pub struct Block {
-    /// Measured minus predicted, row by row, component by component, rad or m.
+    /// Rows.
+    pub rows: usize,
+    /// Components a row.
+    pub components: usize,
+    /// Measured minus predicted, rad or m; 0 where the chain has no finite value.
     pub residual: Vec<f64>,
-    /// Derivative of the predicted components by each parameter, components × parameters.
-    pub jacobian: Mat<f64>,
-    /// The gradient of each predicted component by the observable's x, y, z.
-    pub projection: Vec<[f64; 3]>,
     /// Per row, whether the chain has a finite value there.
     pub defined: Vec<bool>,
+    /// Derivatives of the predicted components, column by column.
+    jacobian: Vec<f64>,
+    /// Gradient of each predicted component by x, y, z of the observable: an array of rows for each of the three.
+    gradient: Vec<f64>,
+    /// What the program puts out.
+    outputs: Vec<f64>,
+}
+
+impl Block {
+    /// The derivatives of the predicted components by the parameters of each column, in order.
+    pub fn columns(&self) -> impl ExactSizeIterator<Item = &[f64]> {
+        self.jacobian.chunks_exact(self.residual.len().max(1))
+    }
+
+    /// An array of this block row by row, component by component.
+    pub fn by_row<'a>(&self, values: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        let (rows, components) = (self.rows, self.components);
+        (0..rows).flat_map(move |row| (0..components).map(move |component| values[component * rows + row]))
+    }
 }
 
 impl Model {
@@ -58,9 +84,13 @@ impl Model {
             };
             return Err(FitError::NotEstimable { name: symbol.name.clone(), kind });
         }
-        let program = |series: &Series| {
+        let build = |wrt: &[SymbolId]| -> Vec<Program> {
             let forms = [Form::ExactValue, Form::ExactJacobian];
-            let program = build_all(chain, &[series.observable], &forms, parameters);
+            let series = observations.series.iter();
+            series.map(|series| build_all(chain, &[series.observable], &forms, wrt)).collect()
+        };
+        let mut programs = build(parameters);
+        for (program, series) in programs.iter().zip(&observations.series) {
             for (symbol, _) in program.inputs() {
                 let measured = matches!(chain.symbol(symbol).kind, SymbolKind::Joint | SymbolKind::Input);
                 if measured && observations.column(symbol).is_none() {
@@ -70,16 +100,41 @@ impl Model {
                     });
                 }
             }
-            Ok(program)
-        };
-        let programs = observations.series.iter().map(program).collect::<Result<_, _>>()?;
-        Ok(Self { parameters: parameters.to_vec(), programs })
+        }
+        let (column_of, kept) = distinct(&programs, parameters.len());
+        if kept.len() < parameters.len() {
+            let wrt: Vec<SymbolId> = kept.iter().map(|&parameter| parameters[parameter]).collect();
+            programs = build(&wrt);
+        }
+        Ok(Self { parameters: parameters.to_vec(), column_of, columns: kept.len(), programs })
+    }
+
+    /// The programs of the observables' values alone.
+    #[must_use]
+    pub fn without_columns(chain: &Chain, observations: &Observations) -> Self {
+        let series = observations.series.iter();
+        let programs =
+            series.map(|series| build_all(chain, &[series.observable], &[Form::ExactValue], &[])).collect();
+        Self { parameters: Vec::new(), column_of: Vec::new(), columns: 0, programs }
     }
 
     /// What is estimated, in the order of the columns.
     #[must_use]
     pub fn parameters(&self) -> &[SymbolId] {
         &self.parameters
+    }
+
+    /// Per parameter its column; none where no observation depends on it.
+    #[must_use]
+    pub fn column_of(&self) -> &[Option<usize>] {
+        &self.column_of
+    }
+
+    /// The number of columns: that of parameters, those that move nothing apart, those that move everything alike
+    /// counted once.
+    #[must_use]
+    pub fn columns(&self) -> usize {
+        self.columns
     }
 
     /// Evaluates all rows, block by block on all threads; `f` makes of each block (with the index of its series and
@@ -91,7 +146,7 @@ impl Model {
         &self,
         observations: &Observations,
         values: &[f64],
-        f: impl Fn(usize, Range<usize>, Block) -> T + Sync,
+        f: impl Fn(usize, Range<usize>, &Block) -> T + Sync,
     ) -> Result<Vec<T>, FitError> {
         let mut tasks = Vec::new();
         for (index, series) in observations.series.iter().enumerate() {
@@ -101,8 +156,8 @@ impl Model {
         tasks
             .into_par_iter()
             .map_init(
-                || self.programs.iter().map(Interpreter::new).collect::<Vec<_>>(),
-                |interpreters, (index, rows)| {
+                || (self.programs.iter().map(Interpreter::new).collect::<Vec<_>>(), Block::default()),
+                |(interpreters, block), (index, rows)| {
                     let (Some(interpreter), Some(series)) =
                         (interpreters.get_mut(index), observations.series.get(index))
                     else {
@@ -110,106 +165,107 @@ impl Model {
                             why: "more series than the model has".to_string(),
                         });
                     };
-                    let block = self.block(interpreter, observations, series, rows.clone(), values)?;
+                    self.evaluate(interpreter, observations, series, rows.clone(), values, block)?;
                     Ok(f(index, rows, block))
                 },
             )
             .collect()
     }
 
-    /// Evaluates consecutive rows of one series.
-    fn block(
+    /// Evaluates consecutive rows of one series into a block.
+    fn evaluate(
         &self,
         interpreter: &mut Interpreter,
         observations: &Observations,
         series: &Series,
         rows: Range<usize>,
         values: &[f64],
-    ) -> Result<Block, FitError> {
-        let (count, width) = (rows.len(), self.parameters.len());
+        block: &mut Block,
+    ) -> Result<(), FitError> {
+        let (count, m) = (rows.len(), series.measure.components());
         let columns: Vec<(SymbolId, &[f64])> = observations
             .columns
             .iter()
             .filter_map(|(id, column)| Some((*id, column.get(rows.clone())?)))
             .collect();
-        let mut buffer = vec![0.0; 3 * (1 + width) * count];
-        let mut outputs: Vec<&mut [f64]> = buffer.chunks_exact_mut(count.max(1)).collect();
+        (block.rows, block.components) = (count, m);
+        block.outputs.resize(3 * (1 + self.columns) * count, 0.0);
+        block.residual.resize(m * count, 0.0);
+        block.gradient.resize(3 * m * count, 0.0);
+        block.jacobian.resize(self.columns * m * count, 0.0);
+        block.defined.clear();
+        let mut outputs: Vec<&mut [f64]> = block.outputs.chunks_exact_mut(count.max(1)).collect();
         interpreter
             .eval_batch(&columns, values, &mut outputs)
             .map_err(|error| FitError::WrongShape { why: error.to_string() })?;
-        let output = |which: usize, row: usize| outputs[which][row];
-        let measures = series.measure.components();
-        let mut block = Block {
-            residual: Vec::with_capacity(count * measures),
-            jacobian: Mat::zeros(count * measures, width),
-            projection: Vec::with_capacity(count * measures),
-            defined: Vec::with_capacity(count),
-        };
+        let predicted = |row: usize| Vector3::new(outputs[0][row], outputs[1][row], outputs[2][row]);
         for row in 0..count {
-            let predicted = Vector3::from_fn(|axis, _| output(axis, row));
+            let predicted = predicted(row);
             let measured = observations.measured.get(rows.start + row).copied().unwrap_or_default();
             let components = components(series.measure, &Vector3::from(measured), &predicted);
-            let defined = components.iter().take(measures).all(|(residual, _)| residual.is_finite());
+            let defined = components.iter().take(m).all(|(residual, _)| residual.is_finite());
             block.defined.push(defined);
-            for (residual, gradient) in components.into_iter().take(measures) {
-                block.residual.push(if defined { residual } else { 0.0 });
-                block.projection.push(gradient.into());
+            for (component, (residual, gradient)) in components.iter().take(m).enumerate() {
+                block.residual[component * count + row] = if defined { *residual } else { 0.0 };
+                for axis in 0..3 {
+                    block.gradient[(3 * component + axis) * count + row] = gradient[axis];
+                }
             }
         }
-        for parameter in 0..width {
-            let derivative = [0, 1, 2].map(|axis| &*outputs[3 + axis * width + parameter]);
-            let mut column = block.jacobian.col_mut(parameter);
-            for (at, gradient) in block.projection.iter().enumerate() {
-                let row = at / measures;
-                let change = gradient[0] * derivative[0][row]
-                    + gradient[1] * derivative[1][row]
-                    + gradient[2] * derivative[2][row];
-                column[at] = if change.is_finite() { change } else { 0.0 };
-            }
-        }
-        Ok(block)
+        vector::run(vector::path(), Projection { block });
+        Ok(())
     }
 }
 
-/// Residual components of one observation, and the gradient of each predicted component by x, y, z; only the first
-/// [`Measure::components`] count.
-fn components(
-    measure: Measure,
-    measured: &Vector3<f64>,
-    predicted: &Vector3<f64>,
-) -> [(f64, Vector3<f64>); 3] {
-    match measure {
-        Measure::Direction => {
-            // On the tangent plane of what was measured; rotations keep the length, which is divided out.
-            let length = predicted.norm();
-            let [across, along] = tangent_frame(measured);
-            let component = |axis: Vector3<f64>| (-axis.dot(predicted) / length, axis / length);
-            let [mut across, mut along] = [across, along].map(component);
-            if measured.dot(predicted) < 0.0 {
-                // More than 90° away the tangent plane would show it near again: continue growing instead.
-                let sine = across.0.hypot(along.0);
-                let stretch = if sine > 0.0 { 2.0 / sine - 1.0 } else { 1.0 };
-                across.0 *= stretch;
-                along.0 = if sine > 0.0 { along.0 * stretch } else { 2.0 };
+/// Turns derivatives of x, y, z into those of the components.
+struct Projection<'a> {
+    block: &'a mut Block,
+}
+
+impl vector::Work for Projection<'_> {
+    #[inline(always)]
+    fn run<A: Arithmetic>(self, _: A) {
+        let Block { rows, components, jacobian, gradient, outputs, .. } = self.block;
+        let (rows, m) = (*rows, *components);
+        if rows == 0 || m == 0 {
+            return;
+        }
+        let width = jacobian.len() / (m * rows);
+        let derivatives = outputs.get(3 * rows..).unwrap_or_default();
+        for (column, target) in jacobian.chunks_exact_mut(m * rows).enumerate() {
+            let along = |axis: usize| &derivatives[(axis * width + column) * rows..][..rows];
+            let (dx, dy, dz) = (along(0), along(1), along(2));
+            for (target, gradient) in target.chunks_exact_mut(rows).zip(gradient.chunks_exact(3 * rows)) {
+                let (gx, gy, gz) = (&gradient[..rows], &gradient[rows..2 * rows], &gradient[2 * rows..]);
+                for row in 0..rows {
+                    let change = gx[row] * dx[row] + gy[row] * dy[row] + gz[row] * dz[row];
+                    target[row] = if change.is_finite() { change } else { 0.0 };
+                }
             }
-            [across, along, (0.0, Vector3::zeros())]
-        }
-        Measure::Point => {
-            let difference = measured - predicted;
-            [(difference.x, Vector3::x()), (difference.y, Vector3::y()), (difference.z, Vector3::z())]
-        }
-        Measure::Range => {
-            let length = predicted.norm();
-            let none = (0.0, Vector3::zeros());
-            [(measured.x - length, predicted / length), none, none]
-        }
-        Measure::Azimuth => {
-            let azimuth = predicted.x.atan2(predicted.y);
-            let turns = ((measured.x - azimuth) / std::f64::consts::TAU).round();
-            let square = predicted.x * predicted.x + predicted.y * predicted.y;
-            let gradient = Vector3::new(predicted.y / square, -predicted.x / square, 0.0);
-            let none = (0.0, Vector3::zeros());
-            [(measured.x - azimuth - turns * std::f64::consts::TAU, gradient), none, none]
         }
     }
+}
+
+/// Which column each parameter has when equal ones are merged and those that are zero left out, and the first parameter of
+/// each column.
+fn distinct(programs: &[Program], parameters: usize) -> (Vec<Option<usize>>, Vec<usize>) {
+    let mut columns: Vec<(Vec<NodeId>, usize)> = Vec::new();
+    let zero = |program: &Program, id: NodeId| matches!(program.nodes().get(id.index()), Some(Op::Constant(literal)) if literal.value() == 0.0);
+    let column_of = (0..parameters)
+        .map(|parameter| {
+            let own = |program: &Program| {
+                [0, 1, 2].map(|axis| program.outputs()[3 + axis * parameters + parameter])
+            };
+            let nodes: Vec<NodeId> = programs.iter().flat_map(own).collect();
+            if programs.iter().all(|program| own(program).iter().all(|&id| zero(program, id))) {
+                return None;
+            }
+            let known = columns.iter().position(|(known, _)| *known == nodes);
+            Some(known.unwrap_or_else(|| {
+                columns.push((nodes, parameter));
+                columns.len() - 1
+            }))
+        })
+        .collect();
+    (column_of, columns.into_iter().map(|(_, parameter)| parameter).collect())
 }

@@ -1,10 +1,15 @@
 //! What the rows leave behind: a packed triangular factor that more rows go into and that merges with others.
 //!
-//! Its size depends on the number of parameters alone. A factor rather than normal equations, so that the condition
-//! number is not squared.
+//! Its size depends on the number of columns alone. A factor rather than normal equations, so that the condition
+//! number is not squared: which combinations the data determine is decided at 1e-8, where normal equations have
+//! only rounding errors left.
 
+use codegen::vector::{self, Arithmetic};
 use faer::{Mat, MatRef};
 use serde::{Deserialize, Serialize};
+
+/// Numbers that are multiplied at once.
+const LANES: usize = 8;
 
 /// The triangular factor R of [J | r] for all rows so far, with counts: QᵀQ = 1, [J | r] = Q R.
 ///
@@ -19,6 +24,30 @@ pub struct Partial {
     packed: Vec<f64>,
 }
 
+/// Rows of [J | r] column by column, whitened and weighted, on their way into a [`Partial`].
+#[derive(Debug, Clone)]
+pub struct Rows {
+    values: Vec<f64>,
+    /// Rows there are, and with the zeros that make them whole groups of lanes.
+    count: usize,
+    stride: usize,
+}
+
+impl Rows {
+    /// So many rows and columns, all zero; as many columns as parameters, and the residual last.
+    #[must_use]
+    pub fn zeros(count: usize, columns: usize) -> Self {
+        let stride = count.next_multiple_of(LANES);
+        Self { values: vec![0.0; stride * columns], count, stride }
+    }
+
+    /// The columns in order.
+    pub fn columns_mut(&mut self) -> impl Iterator<Item = &mut [f64]> {
+        let count = self.count;
+        self.values.chunks_exact_mut(self.stride.max(1)).filter_map(move |column| column.get_mut(..count))
+    }
+}
+
 impl Partial {
     /// No rows yet.
     #[must_use]
@@ -27,28 +56,25 @@ impl Partial {
         Self { parameters, components: 0, packed: vec![0.0; side * (side + 1) / 2] }
     }
 
-    /// Takes in rows of [J | r], whitened and weighted: as many columns as parameters, and the residual last.
+    /// Takes in rows of as many columns as there are parameters, and the residual.
+    #[must_use]
+    pub fn with(mut self, rows: Rows) -> Self {
+        self.components += rows.count as u64;
+        let (packed, side) = (&mut self.packed, self.parameters + 1);
+        vector::run(vector::path(), Reflections { packed, side, rows });
+        self
+    }
+
+    /// Takes in the rows of a matrix.
     ///
     /// Columns in excess are not looked at; missing ones count as zero.
     #[must_use]
-    pub fn with_rows(self, rows: MatRef<'_, f64>) -> Self {
-        let side = self.parameters + 1;
-        let components = self.components + rows.nrows() as u64;
-        let old = if self.components == 0 { 0 } else { side };
-        let stacked = Mat::from_fn((old + rows.nrows()).max(side), side, |row, column| {
-            if row < old {
-                self.at(row, column)
-            } else if row - old < rows.nrows() && column < rows.ncols() {
-                rows[(row - old, column)]
-            } else {
-                0.0
-            }
-        });
-        let factored = stacked.qr();
-        let factor = factored.thin_R();
-        let packed = (0..side).flat_map(|column| (0..=column).map(move |row| (row, column)));
-        let packed = packed.map(|(row, column)| factor[(row, column)]).collect();
-        Self { parameters: self.parameters, components, packed }
+    pub fn with_rows(self, matrix: MatRef<'_, f64>) -> Self {
+        let mut rows = Rows::zeros(matrix.nrows(), self.parameters + 1);
+        for (to, from) in rows.columns_mut().zip(matrix.col_iter()) {
+            to.iter_mut().zip(from.iter()).for_each(|(to, from)| *to = *from);
+        }
+        self.with(rows)
     }
 
     /// Both together. Partials of different numbers of parameters do not belong together; the first is returned.
@@ -58,8 +84,20 @@ impl Partial {
             return self;
         }
         let components = self.components + other.components;
-        let merged = self.with_rows(other.factor().as_ref());
-        Self { components, ..merged }
+        Self { components, ..self.with_rows(other.factor().as_ref()) }
+    }
+
+    /// The partial of parameters each of which has one of these columns, or none: then its column is zero.
+    #[must_use]
+    pub fn spread(&self, column_of: &[Option<usize>]) -> Self {
+        let side = self.parameters + 1;
+        let mut rows = Rows::zeros(side, column_of.len() + 1);
+        for (to, from) in rows.columns_mut().zip(column_of.iter().chain([&Some(self.parameters)])) {
+            if let Some(from) = *from {
+                to.iter_mut().enumerate().for_each(|(row, to)| *to = self.at(row, from));
+            }
+        }
+        Self { components: self.components, ..Self::new(column_of.len()).with(rows) }
     }
 
     /// R in full.
@@ -69,10 +107,10 @@ impl Partial {
         Mat::from_fn(side, side, |row, column| self.at(row, column))
     }
 
-    /// The sum of squares of the residual column.
+    /// The length of a column of J.
     #[must_use]
-    pub fn sum_of_squares(&self) -> f64 {
-        (0..=self.parameters).map(|row| self.at(row, self.parameters).powi(2)).sum()
+    pub fn length(&self, column: usize) -> f64 {
+        (0..=column).map(|row| self.at(row, column).powi(2)).sum::<f64>().sqrt()
     }
 
     fn at(&self, row: usize, column: usize) -> f64 {
@@ -80,6 +118,72 @@ impl Partial {
             return 0.0;
         }
         self.packed.get(column * (column + 1) / 2 + row).copied().unwrap_or_default()
+    }
+}
+
+/// Reflections that turn a triangle on top of rows into a triangle alone. Nothing is fused, so that a factor has the
+/// same bits on every processor.
+///
+/// Source: G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., section 5.1; rows go in block by block as in
+/// J. Demmel et al., Communication-optimal Parallel and Sequential QR and LU Factorizations (2012), section 4.
+struct Reflections<'a> {
+    packed: &'a mut [f64],
+    side: usize,
+    rows: Rows,
+}
+
+impl vector::Work for Reflections<'_> {
+    #[inline(always)]
+    fn run<A: Arithmetic>(self, _: A) {
+        let Self { packed, side, mut rows } = self;
+        let stride = rows.stride.max(1);
+        for column in 0..side {
+            let end = ((column + 1) * stride).min(rows.values.len());
+            let (done, others) = rows.values.split_at_mut(end);
+            let below = done.get(column * stride..).unwrap_or_default();
+            let square = dot(below, below);
+            let corner = column * (column + 1) / 2 + column;
+            if square < f64::MIN_POSITIVE {
+                continue;
+            }
+            let old = packed[corner];
+            // The sign that does not cancel.
+            let new = -(old * old + square).sqrt().copysign(old);
+            let head = old - new;
+            packed[corner] = new;
+            for (other, target) in (column + 1..side).zip(others.chunks_exact_mut(stride)) {
+                let at = other * (other + 1) / 2 + column;
+                let share = (head * packed[at] + dot(below, target)) / (new * head);
+                packed[at] += share * head;
+                add(target, share, below);
+            }
+        }
+    }
+}
+
+/// The sum of products, lane by lane.
+#[inline(always)]
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let (a, _) = a.as_chunks::<LANES>();
+    let (b, _) = b.as_chunks::<LANES>();
+    let mut sums = [0.0; LANES];
+    for (a, b) in a.iter().zip(b) {
+        for lane in 0..LANES {
+            sums[lane] += a[lane] * b[lane];
+        }
+    }
+    sums.iter().sum()
+}
+
+/// Adds a multiple of `b` to `a`.
+#[inline(always)]
+fn add(a: &mut [f64], factor: f64, b: &[f64]) {
+    let (a, _) = a.as_chunks_mut::<LANES>();
+    let (b, _) = b.as_chunks::<LANES>();
+    for (a, b) in a.iter_mut().zip(b) {
+        for lane in 0..LANES {
+            a[lane] += factor * b[lane];
+        }
     }
 }
 

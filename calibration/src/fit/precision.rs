@@ -1,15 +1,13 @@
 //! What the data can say: how well each error is determined, what it hangs together with, which rows carry the fit, and
 //! what went wrong if something did.
 
-use std::collections::BTreeMap;
-
 use faer::Mat;
 use model_core::{Chain, Quantity, SymbolId, SymbolKind};
 use serde::Serialize;
 
-use super::{FitResult, Model, Outcome, Subspace};
-use crate::fit::partial::Partial;
-use crate::noise::VarianceTerm;
+use super::sweep::{Weighting, tally};
+use super::{FitError, FitResult, Model, Outcome, Subspace};
+use crate::noise::{Layout, VarianceTerm};
 use crate::observations::{Measure, Observations};
 
 /// Correlations from here on are listed.
@@ -71,15 +69,14 @@ pub fn precision(chain: &Chain, observations: &Observations, fit: &FitResult) ->
     let sigma = |at: usize| fit.covariance[(at, at)].sqrt();
     let mut determined = Vec::new();
     let mut correlations = Vec::new();
+    let design = fit.subspace.covariance(&fit.factor);
     for (at, parameter) in fit.parameters.iter().enumerate() {
         if !fit.separable[at] || !sigma(at).is_finite() || sigma(at) == 0.0 {
             continue;
         }
-        let column = fit.linear.jacobian.col(at).squared_norm_l2();
-        let alone = fit.degrees_of_freedom.max(1.0) / fit.chi_squared.max(f64::MIN_POSITIVE);
         determined.push(Determined {
             name: name(parameter),
-            variance_inflation: (fit.covariance[(at, at)] * column * alone.min(1.0)).max(1.0),
+            variance_inflation: (design[(at, at)] * fit.factor.length(at).powi(2)).max(1.0),
             smallest_detectable: DETECTABLE * sigma(at),
         });
         for (other, second) in fit.parameters.iter().enumerate().skip(at + 1) {
@@ -95,7 +92,7 @@ pub fn precision(chain: &Chain, observations: &Observations, fit: &FitResult) ->
         determined,
         correlations,
         not_separable: not_separable(chain, observations, fit),
-        leverage: leverage(observations, fit),
+        leverage: leverage(chain, observations, fit),
         noise: noise(chain, observations, fit),
         hints: hints(chain, observations, fit),
     }
@@ -111,59 +108,17 @@ fn outcome(outcome: &Outcome) -> String {
     }
 }
 
-/// Parameters linked by undetermined combinations, set by set.
-#[must_use]
-pub fn linked(fit: &FitResult) -> Vec<Vec<SymbolId>> {
-    let p = fit.parameters.len();
-    // The projector on what is undetermined: parameters that share an entry of it are linked.
-    let scale: Vec<f64> = (0..p)
-        .map(|at| fit.linear.jacobian.col(at).norm_l2())
-        .map(|length| if length > 0.0 { length } else { 1.0 })
-        .collect();
-    let scaled =
-        Mat::from_fn(p, fit.null_space.ncols(), |row, column| fit.null_space[(row, column)] * scale[row]);
-    let Ok(svd) = scaled.thin_svd() else { return Vec::new() };
-    let projector = svd.U() * svd.U().transpose();
-    let mut set_of: Vec<usize> = (0..p).collect();
-    for a in 0..p {
-        for b in 0..a {
-            if projector[(a, b)].abs() > 1e-6 {
-                let (from, to) = (set_of[a], set_of[b]);
-                set_of.iter_mut().filter(|set| **set == from).for_each(|set| *set = to);
-            }
-        }
-    }
-    let mut sets: BTreeMap<usize, Vec<SymbolId>> = BTreeMap::new();
-    for (at, set) in set_of.into_iter().enumerate() {
-        if !fit.separable[at] {
-            sets.entry(set).or_default().push(fit.parameters[at]);
-        }
-    }
-    sets.into_values().collect()
-}
-
 fn not_separable(chain: &Chain, observations: &Observations, fit: &FitResult) -> Vec<NotSeparable> {
-    linked(fit)
-        .into_iter()
-        .map(|set| {
-            let at_spread_poses = spread_rank(chain, observations, &set);
-            let seen_here = rank_of(fit, &set);
-            let names = set.iter().map(|id| chain.symbol(*id).name.clone()).collect();
-            // Structural if poses spread all round would not determine one more combination of the set.
-            NotSeparable { names, structural: at_spread_poses.is_none_or(|rank| rank <= seen_here) }
-        })
-        .collect()
-}
-
-/// The rank of some columns at the poses measured.
-fn rank_of(fit: &FitResult, set: &[SymbolId]) -> usize {
-    let columns: Vec<usize> =
-        set.iter().filter_map(|id| fit.parameters.iter().position(|parameter| parameter == id)).collect();
-    let rows = Mat::from_fn(fit.linear.jacobian.nrows(), columns.len(), |row, column| {
-        fit.linear.jacobian[(row, columns[column])]
-    });
-    let inside = Subspace::determined(&Partial::new(columns.len()).with_rows(rows.as_ref())).rank();
-    inside.min(set.len())
+    let sets = fit.subspace.linked().into_iter();
+    sets.map(|(members, undetermined)| {
+        let set: Vec<SymbolId> = members.iter().map(|&at| fit.parameters[at]).collect();
+        let at_spread_poses = spread_rank(chain, observations, &set);
+        let seen_here = set.len() - undetermined;
+        let names = set.iter().map(|id| chain.symbol(*id).name.clone()).collect();
+        // Structural if poses spread all round would not determine one more combination of the set.
+        NotSeparable { names, structural: at_spread_poses.is_none_or(|rank| rank <= seen_here) }
+    })
+    .collect()
 }
 
 /// The rank that poses all round would give, without errors; `None` where it cannot be computed.
@@ -200,24 +155,15 @@ fn spread_rank(chain: &Chain, observations: &Observations, set: &[SymbolId]) -> 
     spread.measured = vec![[0.0, 1.0, 0.0]; start];
     spread.sigma.clear();
     let model = Model::new(chain, &spread, set).ok()?;
-    let partials = model
-        .map_blocks(&spread, &chain.nominal_values(), |_, _, block| {
-            Partial::new(set.len()).with_rows(block.jacobian.as_ref())
-        })
-        .ok()?;
-    let whole = partials.iter().fold(Partial::new(set.len()), |whole, part| whole.merge(part));
-    Some(Subspace::determined(&whole).rank())
+    let layout = Layout::of(&spread);
+    let sigma = vec![1.0; layout.components()];
+    let tally = tally(&model, &spread, &layout, &chain.nominal_values(), &sigma, Weighting::Full).ok()?;
+    Some(Subspace::determined(&tally.partial.spread(model.column_of())).rank())
 }
 
 /// Rows whose leverage is several times the mean, the largest first.
-fn leverage(observations: &Observations, fit: &FitResult) -> Vec<(u64, f64)> {
-    let Ok(svd) = fit.linear.jacobian.thin_svd() else { return Vec::new() };
-    let mut of_row = vec![0.0; observations.rows()];
-    for (at, &row) in fit.linear.row.iter().enumerate() {
-        let u = svd.U();
-        of_row[row as usize] +=
-            (0..fit.rank.min(u.ncols())).map(|column| u[(at, column)].powi(2)).sum::<f64>();
-    }
+fn leverage(chain: &Chain, observations: &Observations, fit: &FitResult) -> Vec<(u64, f64)> {
+    let Ok(of_row) = leverages(chain, observations, fit) else { return Vec::new() };
     let mean = fit.rank as f64 / (observations.rows() as f64).max(1.0);
     let mut high: Vec<(u64, f64)> = of_row
         .into_iter()
@@ -230,6 +176,36 @@ fn leverage(observations: &Observations, fit: &FitResult) -> Vec<(u64, f64)> {
     high.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
     high.truncate(10);
     high
+}
+
+/// The leverage of every row.
+fn leverages(chain: &Chain, observations: &Observations, fit: &FitResult) -> Result<Vec<f64>, FitError> {
+    let model = Model::new(chain, observations, &fit.parameters)?;
+    let by_parameter = fit.subspace.covariance_root(&fit.factor);
+    let mut by_column = Mat::<f64>::zeros(model.columns(), by_parameter.ncols());
+    for (from, column) in by_parameter.row_iter().zip(model.column_of()) {
+        if let Some(column) = *column {
+            by_column.row_mut(column).iter_mut().zip(from.iter()).for_each(|(sum, part)| *sum += part);
+        }
+    }
+    let layout = Layout::of(observations);
+    let sigma = fit.noise.sigma_without_memory();
+    let blocks = model.map_blocks(observations, &fit.values, |_, rows, block| {
+        let mut shares = vec![0.0; block.residual.len()];
+        for root in by_column.col_iter() {
+            let mut share = vec![0.0; shares.len()];
+            for (column, factor) in block.columns().zip(root.iter()) {
+                share.iter_mut().zip(column).for_each(|(share, derivative)| *share += factor * derivative);
+            }
+            shares.iter_mut().zip(share).for_each(|(sum, share)| *sum += share * share);
+        }
+        let sigma = &sigma[layout.first[rows.start]..layout.first[rows.end]];
+        let whitened = block.by_row(&shares).zip(sigma).map(|(share, sigma)| share / (sigma * sigma));
+        let whitened: Vec<f64> = whitened.collect();
+        let by_row = whitened.chunks_exact(block.components).zip(rows);
+        by_row.map(|(shares, row)| shares.iter().sum::<f64>() * fit.residuals.weight[row]).collect::<Vec<_>>()
+    })?;
+    Ok(blocks.concat())
 }
 
 fn noise(chain: &Chain, observations: &Observations, fit: &FitResult) -> Vec<String> {

@@ -3,10 +3,8 @@
 use faer::Mat;
 use model_core::{Chain, SymbolId};
 
-use super::dense::{Raw, White};
-use super::{
-    FitError, FitOptions, FitResult, Linearised, Model, Outcome, Partial, SetAside, Subspace, robust,
-};
+use super::sweep::{Sweep, Weighting, coloured, residuals, sweep};
+use super::{FitError, FitOptions, FitResult, Model, Outcome, Partial, Residuals, SetAside, Subspace};
 use crate::noise::{self, Layout, Noise};
 use crate::observations::Observations;
 
@@ -28,14 +26,16 @@ struct Solver<'a> {
     observations: &'a Observations,
     options: &'a FitOptions,
     model: Model,
+    /// The same without derivatives.
+    plain: Model,
     layout: Layout,
     iterations: usize,
 }
 
-/// Where the solver is: values, and what they predict.
+/// Where the solver is: values, and what all rows say there.
 struct Point {
     values: Vec<f64>,
-    raw: Raw,
+    sweep: Sweep,
 }
 
 /// Fits the chain to the observations.
@@ -50,22 +50,24 @@ pub fn fit(chain: &Chain, observations: &Observations, options: &FitOptions) -> 
         return Err(FitError::WrongShape { why });
     }
     let model = Model::new(chain, observations, &options.estimate)?;
+    let plain = Model::without_columns(chain, observations);
     let layout = Layout::of(observations);
-    let solver = Solver { chain, observations, options, model, layout, iterations: 0 };
+    let solver = Solver { chain, observations, options, model, plain, layout, iterations: 0 };
     solver.run()
 }
 
 impl Solver<'_> {
     fn run(mut self) -> Result<FitResult, FitError> {
-        let mut point = self.point(self.options.start.clone())?;
-        let mut noise = self.first_noise(&point);
-        let mut subspace = Subspace::determined(&self.unweighted(&point, &noise));
+        let mut values = self.options.start.clone();
+        let mut noise = self.first_noise(&values)?;
+        let mut subspace = Subspace::determined(&self.unweighted(&values, &noise)?);
         if self.options.robust {
-            self.start_robustly(&mut point, &mut noise, &subspace)?;
+            self.start_robustly(&mut values, &mut noise, &subspace)?;
         }
+        let mut point = self.point(values, &noise)?;
         for _ in 0..NOISE_ROUNDS {
             self.descend(&mut point, &noise, &subspace, ROUGHLY)?;
-            let seen = subspace.clone().extended(&self.unweighted(&point, &noise));
+            let seen = subspace.clone().extended(&self.unweighted_at(&point, &noise)?);
             if seen.rank() > subspace.rank() {
                 subspace = seen;
                 continue;
@@ -75,85 +77,106 @@ impl Solver<'_> {
             }
             let learned = self.learn_noise(&point, &noise, subspace.rank());
             let known = same(&learned, &noise);
-            noise = learned;
+            if learned != noise {
+                point = self.point(point.values, &learned)?;
+                noise = learned;
+            }
             if known {
                 break;
             }
         }
         let converged = self.descend(&mut point, &noise, &subspace, NEGLIGIBLE)?;
-        Ok(self.result(point, noise, &subspace, converged))
+        self.result(point, noise, subspace, converged)
     }
 
-    fn point(&self, values: Vec<f64>) -> Result<Point, FitError> {
-        let raw = Raw::at(&self.model, self.observations, &values)?;
-        Ok(Point { values, raw })
+    /// All rows at some values. Serial correlation has no part in it: estimates that do not lean on it stay right when
+    /// what looks like memory is an effect that the chain lacks. It enters the uncertainties.
+    fn sweep(&self, values: &[f64], noise: &Noise, weighting: Weighting) -> Result<Sweep, FitError> {
+        let sigma = noise.sigma_without_memory();
+        sweep(&self.model, self.observations, &self.layout, values, &sigma, weighting)
     }
 
-    fn moved(&self, point: &Point, change: &[f64]) -> Result<Point, FitError> {
-        let mut values = point.values.clone();
+    fn point(&self, values: Vec<f64>, noise: &Noise) -> Result<Point, FitError> {
+        let sweep = self.sweep(&values, noise, self.options.weighting())?;
+        Ok(Point { values, sweep })
+    }
+
+    fn moved(&self, values: &[f64], change: &[f64]) -> Vec<f64> {
+        let mut values = values.to_vec();
         for (parameter, change) in self.model.parameters().iter().zip(change) {
             values[parameter.index()] += change;
         }
-        self.point(values)
+        values
     }
 
-    fn first_noise(&self, point: &Point) -> Noise {
-        noise::from_medians(&self.options.noise, self.observations, &self.layout, &point.raw.residual)
+    fn partial(&self, sweep: &Sweep) -> Partial {
+        sweep.tally.partial.spread(self.model.column_of())
+    }
+
+    fn first_noise(&self, values: &[f64]) -> Result<Noise, FitError> {
+        let residual = residuals(&self.plain, self.observations, values)?;
+        Ok(noise::from_medians(&self.options.noise, self.observations, &self.layout, &residual))
     }
 
     fn learn_noise(&self, point: &Point, noise: &Noise, rank: usize) -> Noise {
-        let weight = self.weights(&point.raw, &point.raw.whiten(&noise.without_memory()));
+        let (_, weight) = self.norms_and_weights(point, noise);
         noise::estimate(
             self.chain,
             &self.options.noise,
             self.observations,
             &self.layout,
-            &point.raw.residual,
+            &point.sweep.residual,
             &weight,
             rank,
         )
     }
 
-    fn weights(&self, raw: &Raw, white: &White) -> Vec<f64> {
-        let biweight = self.options.robust;
-        white.weights(&self.layout, raw, |norm, m| if biweight { robust::weight(norm, m) } else { 1.0 })
+    /// Per row the norm of its whitened components and its weight; rows without a value have none.
+    fn norms_and_weights(&self, point: &Point, noise: &Noise) -> (Vec<f64>, Vec<f64>) {
+        let (sigma, weighting) = (noise.sigma_without_memory(), self.options.weighting());
+        let residual = point.sweep.residual.iter().zip(sigma.iter());
+        let white: Vec<f64> = residual.map(|(residual, sigma)| residual / sigma).collect();
+        let rows = self.layout.norms(&white).zip(self.layout.first.windows(2)).zip(&point.sweep.defined);
+        rows.map(|((norm, ends), &defined)| {
+            (norm, if defined { weighting.weight(norm, ends[1] - ends[0]) } else { 0.0 })
+        })
+        .unzip()
     }
 
     /// The factor of all rows that have a value, each with its full weight, whitened but for serial correlation.
-    fn unweighted(&self, point: &Point, noise: &Noise) -> Partial {
-        let white = point.raw.whiten(&noise.without_memory());
-        white.partial(&self.layout, &white.weights(&self.layout, &point.raw, |_, _| 1.0))
+    fn unweighted(&self, values: &[f64], noise: &Noise) -> Result<Partial, FitError> {
+        Ok(self.partial(&self.sweep(values, noise, Weighting::Full)?))
+    }
+
+    /// The same where the solver is.
+    fn unweighted_at(&self, point: &Point, noise: &Noise) -> Result<Partial, FitError> {
+        match self.options.weighting() {
+            Weighting::Full => Ok(self.partial(&point.sweep)),
+            _ => self.unweighted(&point.values, noise),
+        }
     }
 
     /// Least absolute deviations, roughly: brings the values near enough for the biweight, whatever the outliers.
     fn start_robustly(
         &mut self,
-        point: &mut Point,
+        values: &mut Vec<f64>,
         noise: &mut Noise,
         subspace: &Subspace,
     ) -> Result<(), FitError> {
         for _ in 0..30 {
-            *noise = self.first_noise(point);
-            let white = point.raw.whiten(noise);
-            let weight = white.weights(&self.layout, &point.raw, |norm, m| {
-                (robust::median_norm(m) / norm.max(f64::MIN_POSITIVE)).min(1.0)
-            });
-            let step = subspace.step(&white.partial(&self.layout, &weight), 0.0);
-            *point = self.moved(point, &step.change)?;
+            let step = subspace.step(&self.partial(&self.sweep(values, noise, Weighting::Distance)?), 0.0);
+            *values = self.moved(values, &step.change);
+            *noise = self.first_noise(values)?;
             self.iterations += 1;
             // Within a tenth of a standard uncertainty per combination the biweight takes over.
             if step.length < 0.1 * (subspace.rank() as f64).sqrt() {
                 break;
             }
         }
-        *noise = self.first_noise(point);
         Ok(())
     }
 
     /// Levenberg-Marquardt with the noise as it is; whether it converged to a step no longer than `negligible`.
-    ///
-    /// Serial correlation has no part in it: estimates that do not lean on it stay right when what looks like memory is
-    /// an effect that the chain lacks. It enters the uncertainties.
     ///
     /// Source: K. Madsen, H. B. Nielsen, O. Tingleff, Methods for Non-Linear Least Squares Problems (2004), with steps
     /// within the determined combinations and weights taken anew at every step.
@@ -164,25 +187,18 @@ impl Solver<'_> {
         subspace: &Subspace,
         negligible: f64,
     ) -> Result<bool, FitError> {
-        let noise = &noise.without_memory();
-        let biweight = self.options.robust;
         let negligible = negligible.max(self.unresolved(noise));
         let mut damping = 0.0;
-        let mut white = point.raw.whiten(noise);
-        let mut objective = white.objective(&self.layout, &point.raw, biweight);
         for _ in 0..self.options.max_iterations {
-            let weight = self.weights(&point.raw, &white);
-            let step = subspace.step(&white.partial(&self.layout, &weight), damping);
-            let step = step.times(self.stride(&white, &weight));
+            let tally = &point.sweep.tally;
+            let step = subspace.step(&self.partial(&point.sweep), damping).times(tally.stride());
             if step.length <= negligible && damping < 1e-3 {
                 return Ok(true);
             }
             self.iterations += 1;
-            let next = self.moved(point, &step.change)?;
-            let next_white = next.raw.whiten(noise);
-            let next_objective = next_white.objective(&self.layout, &next.raw, biweight);
-            if next_objective <= objective * (1.0 + 1e-9) {
-                (*point, white, objective) = (next, next_white, next_objective);
+            let next = self.point(self.moved(&point.values, &step.change), noise)?;
+            if next.sweep.tally.objective <= tally.objective * (1.0 + 1e-9) {
+                *point = next;
                 damping = if damping < 1e-7 { 0.0 } else { damping / 10.0 };
             } else {
                 damping = (damping * 10.0).max(1e-6);
@@ -194,63 +210,39 @@ impl Solver<'_> {
         Ok(false)
     }
 
-    /// By how much a step with weights held fixed falls short of the minimum, because the weights move along.
-    ///
-    /// Source: Huber and Ronchetti, Robust Statistics, 2nd ed., section 7.8.
-    fn stride(&self, white: &White, weight: &[f64]) -> f64 {
-        if !self.options.robust {
-            return 1.0;
-        }
-        let (mut weights, mut slopes) = (0.0, 0.0);
-        let norms = self.layout.norms(&white.residual);
-        for ((norm, &weight), ends) in norms.zip(weight).zip(self.layout.first.windows(2)) {
-            let components = ends[1] - ends[0];
-            weights += components as f64 * weight;
-            slopes += components as f64 * weight + robust::slope(norm, components) * norm;
-        }
-        if slopes > 0.0 { (weights / slopes).clamp(1.0, 1.5) } else { 1.0 }
-    }
-
     /// The length of a step that only moves the last bits of the prediction.
     fn unresolved(&self, noise: &Noise) -> f64 {
         let resolution = noise::resolution(self.observations);
-        noise.sigma.iter().map(|sigma| (resolution / sigma).powi(2)).sum::<f64>().sqrt()
+        let sigma = noise.sigma_without_memory();
+        sigma.iter().map(|sigma| (resolution / sigma).powi(2)).sum::<f64>().sqrt()
     }
 
-    fn result(self, point: Point, noise: Noise, subspace: &Subspace, converged: bool) -> FitResult {
-        let parameters = self.model.parameters().to_vec();
+    fn result(
+        self,
+        point: Point,
+        noise: Noise,
+        subspace: Subspace,
+        converged: bool,
+    ) -> Result<FitResult, FitError> {
         let (n, rank) = (self.layout.components(), subspace.rank());
-        let independent = point.raw.whiten(&noise.without_memory());
-        let weight = self.weights(&point.raw, &independent);
-        let norms: Vec<f64> = self.layout.norms(&independent.residual).collect();
-        let set_aside = self.set_aside(&point, &norms, &weight);
-        let kept: f64 = self.layout.row.iter().filter(|&&row| weight[row as usize] > 0.0).count() as f64;
-        let degrees_of_freedom = kept - rank as f64;
-        let factor = self.variance_factor(&norms, &weight, rank);
-        let full = independent.weights(&self.layout, &point.raw, |_, _| 1.0);
-        let partial = independent.partial(&self.layout, &full);
+        let (norms, weight) = self.norms_and_weights(&point, &noise);
+        let kept = self.layout.row.iter().filter(|&&row| weight[row as usize] > 0.0).count() as f64;
+        let full = self.unweighted_at(&point, &noise)?;
         let covariance = match noise.serial {
-            None => subspace.covariance(&partial),
+            None => subspace.covariance(&full),
             Some(_) => {
-                subspace.sandwich(&partial, &independent.coloured(&noise).partial(&self.layout, &full))
+                let coloured = coloured(&self.model, self.observations, &point.values, &noise)?;
+                subspace.sandwich(&full, &coloured.spread(self.model.column_of()))
             }
         };
-        let covariance = scaled(&covariance, factor);
-        let mut white = point.raw.whiten(&noise);
-        let (mut squares, mut rows) = (0.0, 0.0);
-        for (norm, &weight) in self.layout.norms(&point.raw.residual).zip(&weight) {
-            if weight > 0.0 {
-                squares += norm * norm;
-                rows += 1.0;
-            }
+        let (tally, known) = (&point.sweep.tally, self.options.noise.sigma.is_some());
+        let factor = tally.variance_factor(rank, known, self.options.weighting());
+        let mut whitened = point.sweep.residual.clone();
+        noise.whiten(&mut whitened);
+        for (value, &row) in whitened.iter_mut().zip(&self.layout.row) {
+            *value *= weight[row as usize].sqrt();
         }
-        for at in 0..n {
-            let root = weight[self.layout.row[at] as usize].sqrt();
-            white.residual[at] *= root;
-            for column in 0..parameters.len() {
-                white.jacobian[(at, column)] *= root;
-            }
-        }
+        let parameters = self.model.parameters().to_vec();
         let outcome = if n <= rank || n == 0 {
             Outcome::TooFewObservations { components: n, parameters: parameters.len() }
         } else if converged {
@@ -258,68 +250,39 @@ impl Solver<'_> {
         } else {
             Outcome::NotConverged { iterations: self.iterations }
         };
-        FitResult {
+        Ok(FitResult {
             outcome,
             parameters,
-            values: point.values,
-            covariance,
+            covariance: scaled(&covariance, factor),
             rank,
             null_space: subspace.null_space(),
             separable: subspace.separable(),
-            set_aside,
+            subspace,
+            set_aside: set_aside(&point.sweep.defined, &norms, &weight),
             noise,
-            chi_squared: white.residual.iter().map(|r| r * r).sum(),
-            degrees_of_freedom,
-            rms: if rows > 0.0 { f64::sqrt(squares / rows) } else { 0.0 },
-            linear: Linearised {
-                raw_residual: point.raw.residual,
-                residual: white.residual,
-                jacobian: white.jacobian,
-                projection: point.raw.projection,
-                row: self.layout.row,
-                weight,
+            chi_squared: whitened.iter().map(|r| r * r).sum(),
+            degrees_of_freedom: kept - rank as f64,
+            rms: tally.rms(),
+            factor: self.partial(&point.sweep),
+            values: point.values,
+            residuals: Residuals { raw: point.sweep.residual, whitened, row: self.layout.row, weight },
+        })
+    }
+}
+
+/// The rows without weight, and why.
+fn set_aside(defined: &[bool], norms: &[f64], weight: &[f64]) -> Vec<SetAside> {
+    let rows = norms.iter().zip(weight).zip(defined).enumerate();
+    rows.filter(|(_, ((_, weight), _))| **weight == 0.0)
+        .map(|(row, ((norm, _), &defined))| SetAside {
+            row,
+            why: if defined {
+                format!("its residual is {norm:.1} standard deviations")
+            } else {
+                "the chain has no finite value there".to_string()
             },
-        }
-    }
-
-    /// By what (JᵀJ)⁻¹ of the whitened rows must be multiplied to be the covariance of the estimates.
-    ///
-    /// Source: Huber and Ronchetti, Robust Statistics, 2nd ed., equation (7.83), for norms of several components.
-    fn variance_factor(&self, norms: &[f64], weight: &[f64], rank: usize) -> f64 {
-        let n = self.layout.components() as f64;
-        if self.options.noise.sigma.is_some() {
-            return if self.options.robust { 1.0 / robust::EFFICIENCY } else { 1.0 };
-        }
-        if n <= rank as f64 {
-            return f64::INFINITY;
-        }
-        let (mut squares, mut slopes) = (0.0, 0.0);
-        for ((norm, &weight), ends) in norms.iter().zip(weight).zip(self.layout.first.windows(2)) {
-            let components = ends[1] - ends[0];
-            squares += (weight * norm).powi(2);
-            slopes += components as f64 * weight;
-            if self.options.robust {
-                slopes += robust::slope(*norm, components) * norm;
-            }
-        }
-        // Below a twentieth hardly any row has weight left, and the ratio would say nothing.
-        let slope = (slopes / n).max(0.05);
-        squares / (n - rank as f64) / (slope * slope)
-    }
-
-    fn set_aside(&self, point: &Point, norms: &[f64], weight: &[f64]) -> Vec<SetAside> {
-        let rows = norms.iter().zip(weight).zip(&point.raw.defined).enumerate();
-        rows.filter(|(_, ((_, weight), _))| **weight == 0.0)
-            .map(|(row, ((norm, _), &defined))| SetAside {
-                row,
-                why: if defined {
-                    format!("its residual is {norm:.1} standard deviations")
-                } else {
-                    "the chain has no finite value there".to_string()
-                },
-            })
-            .collect()
-    }
+        })
+        .collect()
 }
 
 /// Whether two noise models whiten alike.

@@ -10,6 +10,12 @@ const UNSEEN: f64 = 1e-8;
 /// A combination that only appears away from the starting point (by products of errors) must be seen this well.
 const NEWLY_SEEN: f64 = 1e-3;
 
+/// A column this much shorter than the longest is zero but for rounding: a quarter turn's cosine, say.
+const ROUNDING: f64 = 1e-14;
+
+/// Below this share of its largest part, a part of an undetermined combination is rounding.
+const NO_PART: f64 = 1e-6;
+
 /// The combinations that the data determine.
 #[derive(Debug, Clone)]
 pub struct Subspace {
@@ -17,7 +23,7 @@ pub struct Subspace {
     scale: Vec<f64>,
     /// Orthonormal combinations of the scaled parameters, p × rank.
     basis: Mat<f64>,
-    /// The rest of that space, p × (p − rank).
+    /// The rest of that space in reduced echelon form, p × (p − rank).
     unseen: Mat<f64>,
 }
 
@@ -56,12 +62,13 @@ impl Subspace {
     fn seen_better_than(partial: &Partial, tolerance: f64) -> Self {
         let p = partial.parameters;
         let factor = partial.factor();
-        let jacobian = factor.submatrix(0, 0, p, p);
-        let scale: Vec<f64> = (0..p)
-            .map(|column| jacobian.col(column).norm_l2())
-            .map(|length| if length > 0.0 && length.is_finite() { length } else { 1.0 })
-            .collect();
-        let scaled = Mat::from_fn(p, p, |row, column| jacobian[(row, column)] / scale[column]);
+        let lengths: Vec<f64> = (0..p).map(|column| partial.length(column)).collect();
+        let longest = lengths.iter().copied().filter(|length| length.is_finite()).fold(0.0, f64::max);
+        let visible = |length: f64| length > ROUNDING * longest && length.is_finite();
+        let scale = lengths.iter().map(|&length| if visible(length) { length } else { 1.0 }).collect();
+        let scaled = Mat::from_fn(p, p, |row, column| {
+            if visible(lengths[column]) { factor[(row, column)] / lengths[column] } else { 0.0 }
+        });
         let Ok(svd) = scaled.svd() else {
             // Only numbers that are none do not factor: nothing is seen then.
             return Self { scale, basis: Mat::zeros(p, 0), unseen: Mat::identity(p, p) };
@@ -70,7 +77,8 @@ impl Subspace {
         let largest = if p > 0 { values[0] } else { 0.0 };
         let rank = (0..p).filter(|&at| values[at] > tolerance * largest && values[at] > 0.0).count();
         let v = svd.V();
-        Self { scale, basis: v.subcols(0, rank).to_owned(), unseen: v.subcols(rank, p - rank).to_owned() }
+        let unseen = echelon(v.subcols(rank, p - rank).to_owned());
+        Self { scale, basis: v.subcols(0, rank).to_owned(), unseen }
     }
 
     /// The number of combinations that are determined.
@@ -120,30 +128,36 @@ impl Subspace {
     /// (JᵀJ)⁻¹ over what is determined, in SI; nothing over the rest. p × p.
     #[must_use]
     pub fn covariance(&self, partial: &Partial) -> Mat<f64> {
-        let p = partial.parameters;
-        let Ok(svd) = self.reduced(&partial.factor()).thin_svd() else {
-            return Mat::zeros(p, p);
-        };
-        let s = svd.S().column_vector();
-        let v = &self.basis * svd.V();
-        let root = Mat::from_fn(p, self.rank(), |row, column| {
-            if s[column] > 0.0 { v[(row, column)] / s[column] / self.scale[row] } else { 0.0 }
-        });
+        let root = self.covariance_root(partial);
         &root * root.transpose()
     }
 
-    /// The combinations that are not determined, in SI parameters, columns of length one. p × (p − rank).
+    /// A matrix whose product with its own transpose is the [covariance](Self::covariance), p × rank: J times it has
+    /// orthonormal columns.
+    #[must_use]
+    pub fn covariance_root(&self, partial: &Partial) -> Mat<f64> {
+        let p = partial.parameters;
+        let Ok(svd) = self.reduced(&partial.factor()).thin_svd() else {
+            return Mat::zeros(p, self.rank());
+        };
+        let s = svd.S().column_vector();
+        let v = &self.basis * svd.V();
+        Mat::from_fn(p, self.rank(), |row, column| {
+            if s[column] > 0.0 { v[(row, column)] / s[column] / self.scale[row] } else { 0.0 }
+        })
+    }
+
+    /// The combinations that are not determined, in SI parameters, columns of length one, each with as few parts as the
+    /// others leave it. p × (p − rank).
     #[must_use]
     pub fn null_space(&self) -> Mat<f64> {
         let mut null = Mat::from_fn(self.scale.len(), self.unseen.ncols(), |row, column| {
             self.unseen[(row, column)] / self.scale[row]
         });
-        for column in 0..null.ncols() {
-            let length = null.col(column).norm_l2();
+        for column in null.col_iter_mut() {
+            let length = column.norm_l2();
             if length > 0.0 {
-                for row in 0..null.nrows() {
-                    null[(row, column)] /= length;
-                }
+                column.iter_mut().for_each(|part| *part /= length);
             }
         }
         null
@@ -152,9 +166,27 @@ impl Subspace {
     /// Per parameter, whether it has no part in what is not determined.
     #[must_use]
     pub fn separable(&self) -> Vec<bool> {
-        (0..self.scale.len())
-            .map(|row| (0..self.unseen.ncols()).all(|column| self.unseen[(row, column)].abs() < 1e-6))
-            .collect()
+        self.unseen.row_iter().map(|row| row.iter().all(|&part| part == 0.0)).collect()
+    }
+
+    /// The parameters that undetermined combinations link, set by set in their order, each with the number of combinations
+    /// of the set that are not determined. A parameter that moves nothing is a set of its own.
+    #[must_use]
+    pub fn linked(&self) -> Vec<(Vec<usize>, usize)> {
+        let mut sets: Vec<(Vec<usize>, usize)> = Vec::new();
+        for column in self.unseen.col_iter() {
+            let parts: Vec<usize> = (0..column.nrows()).filter(|&row| column[row] != 0.0).collect();
+            let apart = |set: &(Vec<usize>, usize)| set.0.iter().all(|member| !parts.contains(member));
+            let (mut rest, joined): (Vec<_>, Vec<_>) = sets.into_iter().partition(apart);
+            let count = 1 + joined.iter().map(|(_, count)| count).sum::<usize>();
+            let mut members: Vec<usize> = joined.into_iter().flat_map(|set| set.0).chain(parts).collect();
+            members.sort_unstable();
+            members.dedup();
+            rest.push((members, count));
+            sets = rest;
+        }
+        sets.sort();
+        sets
     }
 
     /// The Jacobian's factor in the coordinates of the subspace, p × rank.
@@ -164,4 +196,39 @@ impl Subspace {
         let scaled = Mat::from_fn(p, p, |row, column| jacobian[(row, column)] / self.scale[column]);
         scaled * &self.basis
     }
+}
+
+/// The same column space in reduced echelon form: each column has a row, its largest part, in which the others are zero.
+/// What is left in other rows are the parts that it cannot do without, so that parameters which nothing links share no
+/// column, and one that moves nothing has a column to itself.
+fn echelon(mut columns: Mat<f64>) -> Mat<f64> {
+    let (rows, count) = columns.shape();
+    let mut used = vec![false; rows];
+    for done in 0..count {
+        let free = (0..rows).filter(|&row| !used[row]).flat_map(|row| (done..count).map(move |at| (row, at)));
+        let largest = free.max_by(|&a, &b| columns[a].abs().total_cmp(&columns[b].abs()));
+        let Some((pivot, at)) = largest.filter(|&at| columns[at] != 0.0) else { break };
+        used[pivot] = true;
+        for row in 0..rows {
+            let own = columns[(row, at)];
+            columns[(row, at)] = columns[(row, done)];
+            columns[(row, done)] = own;
+        }
+        let head = columns[(pivot, done)];
+        for row in 0..rows {
+            columns[(row, done)] /= head;
+        }
+        for other in (0..count).filter(|&other| other != done) {
+            let share = columns[(pivot, other)];
+            for row in 0..rows {
+                columns[(row, other)] -= share * columns[(row, done)];
+            }
+            columns[(pivot, other)] = 0.0;
+        }
+    }
+    for column in columns.col_iter_mut() {
+        let largest = column.norm_max();
+        column.iter_mut().filter(|part| part.abs() < NO_PART * largest).for_each(|part| *part = 0.0);
+    }
+    columns
 }

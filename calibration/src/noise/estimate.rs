@@ -15,12 +15,26 @@ pub fn from_medians(
     residual: &[f64],
 ) -> Noise {
     let stated = stated(options, observations, layout);
-    let floor = (0..layout.kinds)
-        .map(|kind| {
-            let scaled = of_kind(layout, kind).map(|at| (residual[at] / stated[at]).abs()).collect();
-            known(options).unwrap_or_else(|| robust::median(scaled) / robust::median_norm(1))
-        })
-        .collect();
+    let median = |kind| {
+        let scaled = of_kind(layout, kind).map(|at| (residual[at] / stated[at]).abs()).collect();
+        robust::median(scaled) / robust::median_norm(1)
+    };
+    let floor = match known(options) {
+        Some(sigma) => vec![sigma; layout.kinds],
+        None => (0..layout.kinds).map(median).collect(),
+    };
+    finish(Noise { floor, ..Noise::default() }, observations, layout, &stated)
+}
+
+/// The noise that has these floors and nothing else.
+#[must_use]
+pub fn of_floors(
+    floor: Vec<f64>,
+    options: &NoiseOptions,
+    observations: &Observations,
+    layout: &Layout,
+) -> Noise {
+    let stated = stated(options, observations, layout);
     finish(Noise { floor, ..Noise::default() }, observations, layout, &stated)
 }
 

@@ -9,9 +9,11 @@ mod layout;
 mod serial;
 mod variance;
 
+use std::borrow::Cow;
+
 use model_core::SymbolId;
 
-pub use estimate::{estimate, from_medians, resolution};
+pub use estimate::{estimate, from_medians, of_floors, resolution};
 pub use layout::{Layout, Run};
 
 /// What is known of the noise, and what to find out about it.
@@ -131,9 +133,16 @@ impl Noise {
     /// The same noise as if no observation remembered the one before.
     #[must_use]
     pub fn without_memory(&self) -> Self {
-        let gain = self.serial.map_or(1.0, Serial::gain);
-        let sigma = self.sigma.iter().map(|sigma| sigma * gain).collect();
-        Self { sigma, serial: None, ..self.clone() }
+        Self { sigma: self.sigma_without_memory().into_owned(), serial: None, ..self.clone() }
+    }
+
+    /// Per residual component its standard deviation, whatever the component before says of it.
+    #[must_use]
+    pub fn sigma_without_memory(&self) -> Cow<'_, [f64]> {
+        match self.serial {
+            None => Cow::Borrowed(&self.sigma),
+            Some(serial) => self.sigma.iter().map(|sigma| sigma * serial.gain()).collect(),
+        }
     }
 
     /// Multiplies a column that was whitened [without memory](Self::without_memory) by a root of the correlation

@@ -119,7 +119,7 @@ fn encoders_have_one_index() {
     for study in ["encoder/encoder-a.toml", "encoder/encoder-b.toml"] {
         let Some((plan, observations)) = load(study) else { return };
         let result = fitted(&plan, &observations, &plain(&plan));
-        let mean = result.linear.raw_residual.iter().sum::<f64>() / observations.rows() as f64;
+        let mean = result.residuals.raw.iter().sum::<f64>() / observations.rows() as f64;
         assert_eq!(result.rank, 1);
         assert_near(mean / ARCSEC, 0.0, 1e-6);
     }

@@ -75,7 +75,7 @@ fn write_residuals(reported: &Reported<'_>, path: &Path) -> Result<(), Failure> 
         [(name("before"), &component.before), (name("after"), &component.after)]
     });
     let (names, columns): (Vec<String>, Vec<&Vec<Option<f64>>>) = columns.unzip();
-    let weights = &reported.calibration.after.linear.weight;
+    let weights = &reported.calibration.after.residuals.weight;
     tables::write(path, |writer| {
         let readings = residuals::readings(reported).map(|(name, unit, _)| match unit {
             "1" => name.to_owned(),

@@ -57,7 +57,7 @@ pub fn components(reported: &Reported<'_>) -> Vec<Component> {
 /// The raw residual components of each row.
 fn by_row(fit: &FitResult, rows: usize) -> Vec<Vec<f64>> {
     let mut by_row = vec![Vec::new(); rows];
-    for (&row, &residual) in fit.linear.row.iter().zip(&fit.linear.raw_residual) {
+    for (&row, &residual) in fit.residuals.row.iter().zip(&fit.residuals.raw) {
         if let Some(components) = by_row.get_mut(row as usize) {
             components.push(residual);
         }

@@ -1,0 +1,294 @@
+//! One pass over rows at given values: what every row says of the next step, summed up so that parts merge.
+//!
+//! Nothing of a row is kept but its residual, and that only for those who ask: derivatives go straight into the factor.
+
+use faer::Mat;
+use serde::{Deserialize, Serialize};
+
+use super::model::{Block, Model};
+use super::partial::{Partial, Rows};
+use super::{FitError, robust};
+use crate::noise::{Layout, Noise};
+use crate::observations::Observations;
+
+/// How much a row counts, by the norm of its whitened components.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Weighting {
+    /// All alike.
+    Full,
+    /// Tukey's biweight.
+    Biweight,
+    /// One over the distance: roughly, least absolute deviations.
+    Distance,
+}
+
+impl Weighting {
+    pub fn weight(self, norm: f64, components: usize) -> f64 {
+        match self {
+            Self::Full => 1.0,
+            Self::Biweight => robust::weight(norm, components),
+            Self::Distance => (robust::median_norm(components) / norm.max(f64::MIN_POSITIVE)).min(1.0),
+        }
+    }
+
+    /// The weight's derivative by the norm.
+    fn slope(self, norm: f64, components: usize) -> f64 {
+        if self == Self::Biweight { robust::slope(norm, components) } else { 0.0 }
+    }
+
+    /// What the row adds to the sum that a fit with these weights makes small.
+    fn loss(self, norm: f64, components: usize) -> f64 {
+        if self == Self::Biweight { robust::loss(norm, components) } else { norm * norm }
+    }
+}
+
+/// What some rows say of the next step; that of parts merges.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Tally {
+    /// Rows that went in.
+    pub(super) rows: u64,
+    /// Rows with weight.
+    pub(super) kept: u64,
+    /// The factor of the rows, whitened and weighted, by the model's columns.
+    pub(super) partial: Partial,
+    /// Per kind of component: weights, and weights times squares of the whitened residual.
+    pub(super) kinds: Vec<[f64; 2]>,
+    /// What the weights make small.
+    pub(super) objective: f64,
+    /// Squares of weight times whitened residual.
+    pub(super) weighted_squares: f64,
+    /// Components times their weight.
+    pub(super) weights: f64,
+    /// Components times the derivative of weight times norm.
+    pub(super) slopes: f64,
+    /// Squares of the residual of rows with weight, rad or m.
+    pub(super) squares: f64,
+}
+
+impl Tally {
+    /// No rows yet.
+    pub(super) fn new(columns: usize, kinds: usize) -> Self {
+        Self {
+            rows: 0,
+            kept: 0,
+            partial: Partial::new(columns),
+            kinds: vec![[0.0; 2]; kinds],
+            objective: 0.0,
+            weighted_squares: 0.0,
+            weights: 0.0,
+            slopes: 0.0,
+            squares: 0.0,
+        }
+    }
+
+    /// The tally of both parts.
+    #[must_use]
+    pub fn merge(mut self, other: &Self) -> Self {
+        for (kind, other) in self.kinds.iter_mut().flatten().zip(other.kinds.iter().flatten()) {
+            *kind += other;
+        }
+        Self {
+            rows: self.rows + other.rows,
+            kept: self.kept + other.kept,
+            partial: self.partial.merge(&other.partial),
+            kinds: self.kinds,
+            objective: self.objective + other.objective,
+            weighted_squares: self.weighted_squares + other.weighted_squares,
+            weights: self.weights + other.weights,
+            slopes: self.slopes + other.slopes,
+            squares: self.squares + other.squares,
+        }
+    }
+
+    /// By how much a step with weights held fixed falls short of the minimum, because the weights move along.
+    ///
+    /// Source: Huber and Ronchetti, Robust Statistics, 2nd ed., section 7.8.
+    pub(super) fn stride(&self) -> f64 {
+        if self.slopes > 0.0 { (self.weights / self.slopes).clamp(1.0, 1.5) } else { 1.0 }
+    }
+
+    /// By what (JᵀJ)⁻¹ of whitened rows, each with its full weight, must be multiplied to be the covariance of estimates
+    /// made with these weights; `known` if the noise was, and not estimated along with them.
+    ///
+    /// Source: Huber and Ronchetti, Robust Statistics, 2nd ed., equation (7.83), for norms of several components.
+    pub(super) fn variance_factor(&self, rank: usize, known: bool, weighting: Weighting) -> f64 {
+        let n = self.partial.components as f64;
+        if known {
+            return if weighting == Weighting::Biweight { 1.0 / robust::EFFICIENCY } else { 1.0 };
+        }
+        if n <= rank as f64 {
+            return f64::INFINITY;
+        }
+        // Below a twentieth hardly any row has weight left, and the ratio would say nothing.
+        let slope = (self.slopes / n).max(0.05);
+        self.weighted_squares / (n - rank as f64) / (slope * slope)
+    }
+
+    /// RMS of the residuals' lengths over rows with weight, rad or m.
+    pub(super) fn rms(&self) -> f64 {
+        if self.kept > 0 { (self.squares / self.kept as f64).sqrt() } else { 0.0 }
+    }
+
+    /// Takes in a block whose components have these standard deviations, row by row.
+    fn with_block(mut self, block: &Block, first_kind: usize, sigma: &[f64], weighting: Weighting) -> Self {
+        let (rows, m) = (block.rows, block.components);
+        let mut root = vec![0.0; rows * m];
+        for row in 0..rows {
+            self.rows += 1;
+            if !block.defined[row] {
+                continue;
+            }
+            let (mut square, mut length) = (0.0, 0.0);
+            for component in 0..m {
+                let residual = block.residual[component * rows + row];
+                length += residual * residual;
+                square += (residual / sigma[row * m + component]).powi(2);
+            }
+            let norm = square.sqrt();
+            let weight = weighting.weight(norm, m);
+            self.objective += weighting.loss(norm, m);
+            self.weighted_squares += weight * weight * square;
+            self.weights += m as f64 * weight;
+            self.slopes += m as f64 * weight + weighting.slope(norm, m) * norm;
+            if weight > 0.0 {
+                self.kept += 1;
+                self.squares += length;
+            }
+            for component in 0..m {
+                let (at, sigma) = (component * rows + row, sigma[row * m + component]);
+                let [weights, squares] = &mut self.kinds[first_kind + component];
+                *weights += weight;
+                *squares += weight * (block.residual[at] / sigma).powi(2);
+                root[at] = weight.sqrt() / sigma;
+            }
+        }
+        self.partial = self.partial.with(scaled(block, &root));
+        self
+    }
+}
+
+/// The rows of a block, each component times its factor.
+fn scaled(block: &Block, factor: &[f64]) -> Rows {
+    let mut rows = Rows::zeros(factor.len(), block.columns().len() + 1);
+    for (to, from) in rows.columns_mut().zip(block.columns().chain([block.residual.as_slice()])) {
+        for ((to, from), factor) in to.iter_mut().zip(from).zip(factor) {
+            *to = from * factor;
+        }
+    }
+    rows
+}
+
+/// A pass over rows in memory: its tally, and the residuals.
+#[derive(Debug, Clone)]
+pub struct Sweep {
+    pub tally: Tally,
+    /// Measured minus predicted, row by row, component by component, rad or m.
+    pub residual: Vec<f64>,
+    /// Per row, whether the chain has a finite value there.
+    pub defined: Vec<bool>,
+}
+
+/// The first kind of component of each series, and how many there are.
+fn first_kinds(observations: &Observations) -> (Vec<usize>, usize) {
+    let mut kinds = 0;
+    let first = observations.series.iter().map(|series| {
+        kinds += series.measure.components();
+        kinds - series.measure.components()
+    });
+    (first.collect(), kinds)
+}
+
+/// Tallies all rows, whitened by a standard deviation for each component.
+pub fn tally(
+    model: &Model,
+    observations: &Observations,
+    layout: &Layout,
+    values: &[f64],
+    sigma: &[f64],
+    weighting: Weighting,
+) -> Result<Tally, FitError> {
+    Ok(sweep_with(model, observations, layout, values, sigma, weighting, |_| ())?.0)
+}
+
+/// The same, residuals kept.
+pub fn sweep(
+    model: &Model,
+    observations: &Observations,
+    layout: &Layout,
+    values: &[f64],
+    sigma: &[f64],
+    weighting: Weighting,
+) -> Result<Sweep, FitError> {
+    let keep = |block: &Block| (block.by_row(&block.residual).collect::<Vec<_>>(), block.defined.clone());
+    let (tally, kept) = sweep_with(model, observations, layout, values, sigma, weighting, keep)?;
+    let (residual, defined): (Vec<_>, Vec<_>) = kept.into_iter().unzip();
+    Ok(Sweep { tally, residual: residual.concat(), defined: defined.concat() })
+}
+
+/// Residuals alone.
+pub fn residuals(model: &Model, observations: &Observations, values: &[f64]) -> Result<Vec<f64>, FitError> {
+    let keep = |block: &Block| block.by_row(&block.residual).collect::<Vec<_>>();
+    Ok(model.map_blocks(observations, values, |_, _, block| keep(block))?.concat())
+}
+
+fn sweep_with<T: Send>(
+    model: &Model,
+    observations: &Observations,
+    layout: &Layout,
+    values: &[f64],
+    sigma: &[f64],
+    weighting: Weighting,
+    keep: impl Fn(&Block) -> T + Sync,
+) -> Result<(Tally, Vec<T>), FitError> {
+    let (first_kind, kinds) = first_kinds(observations);
+    let empty = Tally::new(model.columns(), kinds);
+    let parts = model.map_blocks(observations, values, |series, rows, block| {
+        let own = layout.first[rows.start]..layout.first[rows.end];
+        let sigma = sigma.get(own).unwrap_or_default();
+        (empty.clone().with_block(block, first_kind[series], sigma, weighting), keep(block))
+    })?;
+    let mut whole = empty.clone();
+    let mut kept = Vec::with_capacity(parts.len());
+    for (part, own) in parts {
+        whole = whole.merge(&part);
+        kept.push(own);
+    }
+    Ok((whole, kept))
+}
+
+/// The factor of the Jacobian times a root of the correlation matrix, every row that has a value with its full weight.
+///
+/// The correlation reaches across all rows of a series, so this alone needs the whole Jacobian in memory.
+pub fn coloured(
+    model: &Model,
+    observations: &Observations,
+    values: &[f64],
+    noise: &Noise,
+) -> Result<Partial, FitError> {
+    let blocks = model.map_blocks(observations, values, |_, _, block| {
+        let m = block.components;
+        let row_wise = |column| {
+            let values = block.by_row(column).enumerate();
+            let kept = values.map(|(at, value)| if block.defined[at / m] { value } else { 0.0 });
+            kept.collect::<Vec<_>>()
+        };
+        block.columns().map(row_wise).collect::<Vec<_>>()
+    })?;
+    let independent = noise.without_memory();
+    let columns: Vec<Vec<f64>> = (0..model.columns())
+        .map(|column| {
+            let mut whole: Vec<f64> = blocks.iter().flat_map(|block| block[column].iter().copied()).collect();
+            independent.whiten(&mut whole);
+            noise.colour(&mut whole);
+            whole
+        })
+        .collect();
+    let n = columns.first().map_or(0, Vec::len);
+    let matrix = |start: usize, count: usize| {
+        Mat::from_fn(count, columns.len(), |row, column| columns[column][start + row])
+    };
+    let starts = (0..n).step_by(super::model::BLOCK_ROWS);
+    Ok(starts.fold(Partial::new(columns.len()), |partial, start| {
+        partial.with_rows(matrix(start, super::model::BLOCK_ROWS.min(n - start)).as_ref())
+    }))
+}

@@ -166,6 +166,8 @@ pub struct NotShown {
     pub unit: &'static str,
     /// The share of it that the declared errors absorb, 0 to 1.
     pub absorbed: f64,
+    /// The bias that it would put into the declared errors: how far an effect of amplitude 1 SI would move each at most, SI.
+    pub mistaken_for: std::collections::BTreeMap<String, f64>,
 }
 
 /// Root mean square over observations of the length of the residual.

@@ -4,7 +4,7 @@
 //! the body, indented like it. What they mean together with the rest is the business of the language's reader.
 
 use model_core::syntax::declaration::{BodyStatement, Declaration, FactorGroup, Statement};
-use model_core::{BodyId, Chain, Mistakes, Role};
+use model_core::{BodyId, Chain, Mistakes, Quantity, Role};
 
 /// A factor to add, as a declaration writes it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -19,6 +19,17 @@ pub struct Addition {
     pub documentation: Vec<String>,
 }
 
+/// An input to declare.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NewInput {
+    /// Its name.
+    pub name: String,
+    /// What it measures.
+    pub quantity: Quantity,
+    /// Its `///` line.
+    pub documentation: String,
+}
+
 /// Why a text could not be amended.
 #[derive(Debug, thiserror::Error)]
 pub enum AmendError {
@@ -30,7 +41,7 @@ pub enum AmendError {
     NoBody(String),
 }
 
-/// The text with the additions and with inputs that it does not declare yet (name and `///` line).
+/// The text with the additions and with inputs that it does not declare yet.
 ///
 /// # Errors
 /// A text that is no declaration, or not that of the chain.
@@ -38,7 +49,7 @@ pub fn amend(
     text: &str,
     chain: &Chain,
     additions: &[Addition],
-    inputs: &[(String, String)],
+    inputs: &[NewInput],
 ) -> Result<String, AmendError> {
     let declaration = Declaration::from_text(text)?;
     let mut insertions: Vec<(usize, String)> = Vec::new();
@@ -55,9 +66,14 @@ pub fn amend(
         lines.push_str(&format!("\n{indent}{word}: {};", addition.factor));
         insertions.push((at, lines));
     }
-    for (name, documentation) in inputs {
+    for NewInput { name, quantity, documentation } in inputs {
         let (at, indent) = input_place(text, &declaration);
-        insertions.push((at, format!("\n{indent}/// {documentation}\n{indent}input {name};")));
+        let measures = match quantity {
+            Quantity::Angle => ": angle",
+            Quantity::Length => ": length",
+            Quantity::Number => "",
+        };
+        insertions.push((at, format!("\n{indent}/// {documentation}\n{indent}input {name}{measures};")));
     }
     // Those at one place keep their order.
     insertions.sort_by_key(|&(at, _)| at);
@@ -106,13 +122,31 @@ fn place(text: &str, body: &BodyStatement, role: Role) -> (usize, String) {
 /// Where a new input goes: after the last one, else before what follows the opening brace.
 fn input_place(text: &str, declaration: &Declaration) -> (usize, String) {
     let inputs = declaration.statements.iter().filter_map(|statement| match statement {
-        Statement::Input(input) => Some(input.name.span().byte_range().end),
+        Statement::Input(input) => {
+            let last = input.quantity.as_ref().unwrap_or(&input.name);
+            Some((after_semicolon(text, last.span().byte_range().end), input.name.span().byte_range().start))
+        }
         _ => None,
     });
     match inputs.max() {
-        Some(end) => (end_of_line(text, end), indentation(text, end)),
+        Some((end, start)) => (end_of_line(text, end), indentation(text, start)),
         None => (end_of_line(text, declaration.braces.open.byte_range().end), "    ".to_owned()),
     }
+}
+
+/// The byte after the semicolon that ends a statement, from its last word on: only white space and comments stand between.
+fn after_semicolon(text: &str, from: usize) -> usize {
+    let mut at = from;
+    while let Some(next) = text[at..].chars().next() {
+        let rest = &text[at..];
+        at += match next {
+            ';' => return at + 1,
+            '/' if rest.starts_with("//") => rest.find('\n').unwrap_or(rest.len()),
+            '/' if rest.starts_with("/*") => rest.find("*/").map_or(rest.len(), |end| end + 2),
+            other => other.len_utf8(),
+        };
+    }
+    at
 }
 
 /// The end of the line if only a comment follows `at` on it, `at` itself otherwise.

@@ -5,6 +5,7 @@
 //! words (`words`).
 
 mod held_out;
+mod hidden;
 mod remaining;
 mod round;
 mod words;
@@ -13,7 +14,7 @@ use model_core::{Chain, SymbolId};
 
 use crate::amend::{AmendError, amend};
 use crate::columns::places;
-use crate::effects::{Effect, Setting, catalogue};
+use crate::effects::{Effect, Name, Setting, catalogue, chosen, known_names};
 use crate::fit::{FitError, FitResult, Outcome};
 use crate::observations::Observations;
 use crate::report::Report;
@@ -81,6 +82,8 @@ pub(crate) struct Found {
 pub(crate) struct Loop<'a> {
     pub request: Request<'a>,
     pub catalogue: Vec<Effect>,
+    /// What other fields call each effect of the catalogue.
+    pub names: Vec<Vec<Name>>,
     pub options: Options,
     pub setting: Setting<'a>,
 }
@@ -92,15 +95,12 @@ pub(crate) struct Loop<'a> {
 pub fn calibrate(request: Request<'_>) -> Result<Calibration, CalibrateError> {
     let plan = request.plan;
     let observables: Vec<_> = request.observations.series.iter().map(|series| series.observable).collect();
-    let setting = Setting {
-        chain: &plan.chain,
-        observables: &observables,
-        inputs: &plan.search.inputs,
-        harmonics: plan.search.harmonics,
-    };
+    let setting = plan.search.setting(&plan.chain, &observables);
     let options =
         Options { false_alarm: plan.search.false_alarm, seed: plan.hold_out.seed, ..Options::default() };
-    let whole = Loop { request, catalogue: catalogue(&setting), options, setting };
+    let catalogue = chosen(&setting, catalogue(&setting), &plan.search.only).unwrap_or_default();
+    let names = known_names(&setting, &catalogue);
+    let whole = Loop { request, catalogue, names, options, setting };
 
     let mut round = Round::first(&whole)?;
     let before = round.fit.clone();

@@ -5,7 +5,7 @@ use model_core::SymbolId;
 use super::round::Round;
 use super::{CalibrateError, Loop, declared};
 use crate::columns::{Columns, places};
-use crate::effects::{Effect, Place, smooth};
+use crate::effects::{Effect, Place, smooth, tensor};
 use crate::report::{Remaining, Where};
 use crate::search::{Problem, Smooth, remains};
 
@@ -18,7 +18,7 @@ const POINTS: usize = 61;
 /// Scans the last residual for smooth functions.
 pub(crate) fn remaining(whole: &Loop<'_>, last: &Round) -> Result<Remaining, CalibrateError> {
     let observations = whole.request.observations;
-    let candidates = smooth(&whole.setting);
+    let candidates = [smooth(&whole.setting), tensor(&whole.setting)].concat();
     let values = &last.fit.values;
     let places = places(&candidates);
     let columns = Columns::at(&last.chain, observations, declared(whole), values, &places)?;

@@ -6,15 +6,13 @@ use model_core::{SymbolId, SymbolKind};
 
 use super::held_out::BeforeAfter;
 use super::round::Round;
-use super::{Loop, declared};
-use crate::amend::Addition;
+use super::{Loop, hidden};
+use crate::amend::{Addition, NewInput};
+use crate::effects::Function;
 use crate::fit::precision;
 use crate::poses::{Criterion, Proposal, propose};
-use crate::report::{EffectFound, ErrorFound, NotShown, Remaining, Report, SetAsideRow, Used, Verdict};
+use crate::report::{EffectFound, ErrorFound, Remaining, Report, SetAsideRow, Used, Verdict};
 use crate::search::{HeldOut, rivals};
-
-/// Standard deviations at which an effect is found four times out of five, corrected for the size of the catalogue.
-const FOUND: f64 = 4.4;
 
 /// Fewer observations than this are no evidence of an effect.
 const FEW: f64 = 5.0;
@@ -30,7 +28,7 @@ pub(crate) fn additions(
     last.found
         .iter()
         .zip(&last.errors)
-        .map(|(found, errors)| {
+        .flat_map(|(found, errors)| {
             let effect = &whole.catalogue[found.effect];
             let share = last.class_of(found.effect).map_or(0.0, |class| held_out.share(class));
             let held = match (rms.before.held_out_rms, rms.after.held_out_rms) {
@@ -41,18 +39,19 @@ pub(crate) fn additions(
                 ),
                 _ => String::new(),
             };
-            Addition {
-                body: effect.place.body,
-                role: effect.place.role,
-                factor: effect.text(&last.chain, errors),
-                documentation: vec![format!(
-                    "Found {}: {}. Familywise p {}, found again in {:.0} % of the folds{held}.",
-                    whole.request.when,
-                    effect.name,
-                    p_in_words(found.p_value),
-                    100.0 * share
-                )],
-            }
+            let documentation = format!(
+                "Found {}: {}. Familywise p {}, found again in {:.0} % of the folds{held}.",
+                whole.request.when,
+                effect.name,
+                p_in_words(found.p_value),
+                100.0 * share
+            );
+            effect.texts(&last.chain, errors).into_iter().map(move |(body, role, factor)| Addition {
+                body,
+                role,
+                factor,
+                documentation: vec![documentation.clone()],
+            })
         })
         .collect()
 }
@@ -70,21 +69,25 @@ fn p_in_words(p: f64) -> String {
 }
 
 /// Inputs that accepted effects use and the declaration does not have.
-pub(crate) fn new_inputs(whole: &Loop<'_>, last: &Round) -> Vec<(String, String)> {
+pub(crate) fn new_inputs(whole: &Loop<'_>, last: &Round) -> Vec<NewInput> {
     let declared = model_core::Chain::from_text(whole.request.text);
     let mut used: Vec<SymbolId> = last
         .found
         .iter()
         .flat_map(|found| &whole.catalogue[found.effect].functions)
-        .flat_map(|function| function.amount.symbols())
+        .flat_map(Function::symbols)
         .filter(|&symbol| last.chain.symbol(symbol).kind == SymbolKind::Input)
         .collect();
     used.sort_unstable();
     used.dedup();
     used.into_iter()
-        .map(|symbol| last.chain.symbol(symbol).name.clone())
-        .filter(|name| declared.as_ref().is_ok_and(|chain| chain.find_symbol(name).is_none()))
-        .map(|name| (name, "Measured beside the joints, in the unit of the data.".to_owned()))
+        .map(|symbol| last.chain.symbol(symbol))
+        .filter(|symbol| declared.as_ref().is_ok_and(|chain| chain.find_symbol(&symbol.name).is_none()))
+        .map(|symbol| NewInput {
+            name: symbol.name.clone(),
+            quantity: symbol.quantity,
+            documentation: "Measured beside the joints, in the unit of the data.".to_owned(),
+        })
         .collect()
 }
 
@@ -130,7 +133,7 @@ pub(crate) fn report(
         precision,
         effects,
         remaining,
-        not_shown: not_shown(whole, last, rms),
+        not_shown: hidden::not_shown(whole, last, rms),
         before: rms.before,
         after: rms.after,
         unit: observations.series.first().map_or("rad", |series| series.measure.unit()),
@@ -201,10 +204,11 @@ fn effects(whole: &Loop<'_>, last: &Round, held_out: &HeldOut) -> Vec<EffectFoun
             let here = |member: &&usize| whole.catalogue[**member].place == effect.place;
             names.extend(alike.iter().filter(here).map(|&member| name(member)));
             names.dedup();
+            names.extend(whole.names[found.effect].iter().map(ToString::to_string));
             EffectFound {
                 text: effect.text(&last.chain, errors),
                 body: last.chain.body(effect.place.body).name.clone(),
-                dof: effect.place.freedom.word().to_owned(),
+                dof: effect.freedoms(),
                 driver: effect.driver.clone(),
                 form: effect.form.clone(),
                 names,
@@ -218,58 +222,8 @@ fn effects(whole: &Loop<'_>, last: &Round, held_out: &HeldOut) -> Vec<EffectFoun
                     .collect(),
                 p_value: found.p_value,
                 selected_in_folds: class.map_or(0.0, |class| held_out.share(class)),
-                bias: bias(whole, last, found.effect, errors),
+                bias: hidden::bias(whole, last, found.effect, errors),
             }
         })
         .collect()
-}
-
-/// How far one standard uncertainty of an effect, left out, would move each declared error.
-fn bias(whole: &Loop<'_>, last: &Round, effect: usize, errors: &[SymbolId]) -> BTreeMap<String, f64> {
-    let columns = last.problem.columns(effect);
-    let combinations = &last.combinations;
-    let mut squares = vec![0.0; combinations.nrows()];
-    for (&column, &error) in columns.iter().zip(errors) {
-        let sigma = last.fit.standard_uncertainty(error).unwrap_or(0.0);
-        let share = last.problem.share(column);
-        for (i, square) in squares.iter_mut().enumerate() {
-            let moved: f64 = share.iter().enumerate().map(|(j, s)| combinations[(i, j)] * s).sum();
-            *square += (sigma * moved).powi(2);
-        }
-    }
-    declared(whole)
-        .iter()
-        .zip(squares)
-        .filter(|&(_, square)| square > 0.0)
-        .map(|(&id, square)| (last.chain.symbol(id).name.clone(), square.sqrt()))
-        .collect()
-}
-
-/// Effects that could be as large as the residual without these data showing them.
-fn not_shown(whole: &Loop<'_>, last: &Round, rms: BeforeAfter) -> Vec<NotShown> {
-    let problem = &last.problem;
-    let accepted: Vec<usize> = last.found.iter().map(|found| found.effect).collect();
-    let mut list = Vec::new();
-    for (number, effect) in whole.catalogue.iter().enumerate() {
-        if accepted.contains(&number) {
-            continue;
-        }
-        if last.effects[number].is_empty() {
-            let unit = effect.place.freedom.quantity().unit();
-            list.push(NotShown { name: effect.name.clone(), smallest: None, unit, absorbed: 0.0 });
-            continue;
-        }
-        let columns = problem.columns(number);
-        let shortest = columns.iter().map(|&column| problem.length(column)).fold(f64::INFINITY, f64::min);
-        let smallest = (!columns.is_empty()).then(|| FOUND / shortest);
-        if smallest.is_none_or(|smallest| smallest > rms.after.rms) {
-            list.push(NotShown {
-                name: effect.name.clone(),
-                smallest,
-                unit: effect.place.freedom.quantity().unit(),
-                absorbed: 1.0 - problem.visible(number),
-            });
-        }
-    }
-    list
 }

@@ -10,7 +10,7 @@ use faer::Mat;
 use model_core::algebra::Poly;
 use model_core::{Chain, Motion, SymbolId, SymbolKind};
 
-use crate::effects::{Effect, Place, add_error, insert};
+use crate::effects::{Effect, Function, Place, add_error, insert};
 use crate::fit::{FitError, Model};
 use crate::observations::Observations;
 use functions::Functions;
@@ -105,55 +105,66 @@ impl Columns {
         observations: &Observations,
         values: &[f64],
     ) -> Vec<Vec<Vec<f64>>> {
-        let mut functions = Functions::new(observations, values);
+        let mut readings = Functions::new(observations, values);
         let strength: Vec<f64> = (0..self.probes.ncols()).map(|j| self.probes.col(j).norm_l2()).collect();
         let strongest = |motion| {
             let own = self.places.iter().zip(&strength).filter(|(place, _)| place.freedom.motion == motion);
             own.map(|(_, &s)| s).fold(0.0, f64::max)
         };
         let (turn, shift) = (strongest(Motion::Rotation), strongest(Motion::Translation));
+        let seen = |place: Place| {
+            let number = self.places.iter().position(|known| *known == place)?;
+            let most = if place.freedom.motion == Motion::Rotation { turn } else { shift };
+            Some((number, strength[number] >= UNSEEN * most))
+        };
         effects
             .iter()
             .map(|effect| {
-                let Some(place) = self.places.iter().position(|place| *place == effect.place) else {
+                let places: Option<Vec<(Place, usize, bool)>> = effect
+                    .places()
+                    .into_iter()
+                    .map(|place| seen(place).map(|(number, strong)| (place, number, strong)))
+                    .collect();
+                let Some(places) = places.filter(|places| places.iter().any(|&(.., strong)| strong)) else {
                     return Vec::new();
                 };
-                let most = if effect.place.freedom.motion == Motion::Rotation { turn } else { shift };
-                if strength[place] < UNSEEN * most {
-                    return Vec::new();
-                }
-                let probe = self.probes.col_as_slice(place);
-                let columns: Option<Vec<Vec<f64>>> = effect
-                    .functions
-                    .iter()
-                    .map(|function| {
-                        let by_row = functions.column(&function.amount)?;
-                        if by_row.iter().any(|value| !value.is_finite()) {
-                            return None;
+                let column = |function: &Function| {
+                    let mut sum = vec![0.0; self.row.len()];
+                    for &(place, number, _) in &places {
+                        let probe = self.probes.col_as_slice(number);
+                        for amount in function.at(effect.place, place) {
+                            let by_row = steady(&mut readings, chain, amount)?;
+                            let moved = probe.iter().zip(&self.row);
+                            sum.iter_mut()
+                                .zip(moved)
+                                .for_each(|(s, (p, &row))| *s += p * by_row[row as usize]);
                         }
-                        let rms = (by_row.iter().map(|v| v * v).sum::<f64>() / by_row.len() as f64).sqrt();
-                        let of_joints = function
-                            .amount
-                            .symbols()
-                            .iter()
-                            .all(|&symbol| chain.symbol(symbol).kind != SymbolKind::Input);
-                        let flat = of_joints && rms < TOO_FLAT;
-                        if flat || by_row.iter().any(|value| value.abs() > TOO_STEEP * rms) {
-                            return None;
-                        }
-                        Some(probe.iter().zip(&self.row).map(|(p, &row)| p * by_row[row as usize]).collect())
-                    })
-                    .collect();
-                columns.unwrap_or_default()
+                    }
+                    Some(sum)
+                };
+                effect.functions.iter().map(column).collect::<Option<_>>().unwrap_or_default()
             })
             .collect()
     }
 }
 
+/// A function's value at each row; `None` where it has none, or is no function that an instrument shows.
+fn steady(readings: &mut Functions<'_>, chain: &Chain, amount: &Poly) -> Option<Vec<f64>> {
+    let by_row = readings.column(amount)?;
+    if by_row.iter().any(|value| !value.is_finite()) {
+        return None;
+    }
+    let rms = (by_row.iter().map(|v| v * v).sum::<f64>() / by_row.len() as f64).sqrt();
+    let of_joints = amount.symbols().iter().all(|&symbol| chain.symbol(symbol).kind != SymbolKind::Input);
+    let flat = of_joints && rms < TOO_FLAT;
+    let steep = by_row.iter().any(|value| value.abs() > TOO_STEEP * rms);
+    (!flat && !steep).then_some(by_row)
+}
+
 /// The places that some effects use, each once.
 #[must_use]
 pub fn places(effects: &[Effect]) -> Vec<Place> {
-    let mut places: Vec<Place> = effects.iter().map(|effect| effect.place).collect();
+    let mut places: Vec<Place> = effects.iter().flat_map(Effect::places).collect();
     places.sort_unstable();
     places.dedup();
     places

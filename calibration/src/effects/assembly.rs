@@ -3,30 +3,17 @@
 use model_core::algebra::Poly;
 use model_core::{Motion, Role};
 
-use super::{Alias, Effect, Family, Freedom, Function, Place, Setting};
+use super::{Effect, Family, Freedom, Function, Place, Setting};
 
 pub(super) const FAMILY: Family = Family {
     name: "assembly",
-    what: "A body sits rotated or shifted on its lower body, or its axis does, by a constant amount.",
-    causes: "Axes that are not perpendicular or do not meet, an encoder's zero, a device mounted askew.",
+    what: "A body sits rotated or shifted on its lower body, or its axis does, by a constant amount: index, \
+           collimation, perpendicularity, intersection of axes, tilt of the whole instrument.",
+    causes: "Axes that are not perpendicular or do not meet, an encoder's zero, a device or a line of sight mounted \
+             askew, an instrument that is not level.",
     looks: "A constant in the frame of the body, turning with everything below it.",
-    check: "Measure in two faces: most of them change sign.",
-    aliases: &[
-        Alias {
-            name: "TPOINT IA, IE, IH, ID",
-            meaning: "index of an encoder: assembly about the joint's own axis",
-        },
-        Alias {
-            name: "TPOINT CA, CH",
-            meaning: "collimation: assembly of the tube across the line of sight",
-        },
-        Alias { name: "TPOINT NPAE, NP", meaning: "non-perpendicularity: assembly of the upper axis" },
-        Alias {
-            name: "TPOINT AN, AW, ME, MA",
-            meaning: "tilt of the lower axis: assembly of the first body",
-        },
-        Alias { name: "laser tracker x1 to x7", meaning: "offsets and tilts of beam and axes" },
-    ],
+    check: "Measure in two faces: most of them change sign. Level the instrument and measure again: its tilt goes away, \
+            the others stay.",
     effects,
 };
 
@@ -50,7 +37,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
                     family: FAMILY.name,
                     name: assembly_name(name, role, freedom),
                     place: Place { body, role, freedom },
-                    functions: vec![Function { amount: Poly::one(), stem }],
+                    functions: vec![Function::new(Poly::one(), stem)],
                     driver: "none".to_owned(),
                     form: "constant".to_owned(),
                 });

@@ -1,30 +1,18 @@
 //! Encoders: errors of a joint about its own axis that repeat with the joint.
 
-use model_core::Role;
 use model_core::algebra::Poly;
 
-use super::{Alias, Effect, Family, Function, JointAxis, Place, Setting, harmonic};
+use super::{Effect, Family, Function, JointAxis, Setting, harmonic};
 
 pub(super) const FAMILY: Family = Family {
     name: "encoder",
     what: "The joint is not quite where its encoder says, by a function of the reading.",
     causes: "The graduated disc sits off centre (once a turn) or is oval or tilted (twice); four readout \
-             cells differ (four times); interpolation within a line, teeth of a gear or poles of a motor (many \
-             times); a wrong number of counts a turn (scale).",
+             cells differ (four times); teeth of a gear or poles of a motor (many times); a wrong number of counts a \
+             turn (scale).",
     looks: "A sine of the reading, about the joint's own axis and no other, the same whatever the other \
             joints and the plumb line do.",
     check: "Read a second head on the other side of the disc: eccentricity changes sign, ellipticity does not.",
-    aliases: &[
-        Alias { name: "TPOINT HASA", meaning: "sine of azimuth in azimuth: eccentricity" },
-        Alias { name: "TPOINT HACA", meaning: "cosine of azimuth in azimuth: eccentricity" },
-        Alias { name: "TPOINT HHSH", meaning: "sine of hour angle in hour angle: eccentricity" },
-        Alias { name: "TPOINT HHCH", meaning: "cosine of hour angle in hour angle: eccentricity" },
-        Alias { name: "TPOINT HDSD", meaning: "sine of declination in declination: eccentricity" },
-        Alias { name: "TPOINT HDCD", meaning: "cosine of declination in declination: eccentricity" },
-        Alias { name: "laser tracker x8x, x8y", meaning: "eccentricity of the horizontal encoder" },
-        Alias { name: "laser tracker x9n", meaning: "harmonic 2 of the horizontal encoder" },
-        Alias { name: "scanner additional parameters B, C", meaning: "eccentricity and ellipticity" },
-    ],
     effects,
 };
 
@@ -48,7 +36,7 @@ pub(crate) fn encoder_harmonic(setting: &Setting<'_>, joint: &JointAxis, order: 
     Effect {
         family: FAMILY.name,
         name: harmonic_name(order, name),
-        place: Place { body: joint.body, role: Role::MotionError, freedom: joint.freedom },
+        place: joint.place(),
         functions: harmonic(joint.symbol, name, order, stem),
         driver: name.to_owned(),
         form: format!("harmonic {order}"),
@@ -65,8 +53,8 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
         effects.push(Effect {
             family: FAMILY.name,
             name: format!("encoder scale of {name}"),
-            place: Place { body: joint.body, role: Role::MotionError, freedom: joint.freedom },
-            functions: vec![Function { amount: Poly::symbol(joint.symbol), stem: format!("scale_{name}") }],
+            place: joint.place(),
+            functions: vec![Function::new(Poly::symbol(joint.symbol), format!("scale_{name}"))],
             driver: name.to_owned(),
             form: "linear".to_owned(),
         });

@@ -1,70 +1,131 @@
 //! Error motion of a joint's axis: tilts and shifts that repeat as the joint turns.
 
-use model_core::{Motion, Role};
+use model_core::SymbolId;
+use model_core::algebra::{AngleSum, Poly};
 
-use super::{Alias, Effect, Family, Freedom, Place, Setting, harmonic};
+use super::{Effect, Family, Freedom, Function, JointAxis, Place, Setting, harmonic, per_turn, seen, whole};
 
-/// Harmonics of the turn that are in the catalogue.
-const HARMONICS: std::ops::RangeInclusive<u32> = 1..=4;
+/// The highest harmonic of the turn in the catalogue.
+const HARMONICS: u32 = 8;
+
+/// Tilts about one axis of the turning frame alone: a shaft clamped askew, an oval race.
+const ONE_SIDED: u32 = 2;
 
 pub(super) const FAMILY: Family = Family {
     name: "joint motion",
-    what: "The axis of a joint tilts or shifts as the joint turns, in step with the turn.",
+    what: "The axis of a joint tilts or shifts as the joint turns, in step with the turn. Its tip moves on a circle, \
+           forward with the turn or backward against it (a whirl); two circles of one order make an ellipse or a line.",
     causes: "Bearing races and balls that are not round, a track that is not flat, a shaft bent or clamped \
              askew.",
-    looks: "Harmonics of the joint in a direction across its own axis (tilt, radial) or along it (axial). \
-            Seen from the ground a tilt of order n in the turning frame is of order n − 1 and n + 1; the part of \
-            order zero is perpendicularity, which is declared.",
-    check: "Watch an inclinometer on the turning frame, or a sphere and dial gauges on the axis, through one \
-            turn.",
-    aliases: &[
-        Alias { name: "TPOINT HZSA3, HZCA3", meaning: "tilt of the azimuth axis, harmonic 3" },
-        Alias { name: "TPOINT HPSA, HPCA", meaning: "non-perpendicularity that varies with azimuth" },
-        Alias {
-            name: "ISO 230-7 tilt, radial and axial error motion",
-            meaning: "the same, by degree of freedom",
-        },
-    ],
+    looks: "Harmonics of the joint in a direction across its own axis (tilt, radial) or along it (axial). Seen from the \
+            ground a forward whirl of order n in the turning frame has order n + 1, a backward one n − 1; the backward one \
+            of order 1 stands still: it is perpendicularity.",
+    check: "Watch an inclinometer on the turning frame, or a sphere and dial gauges on the axis, through one turn (the \
+            tilt, radial and axial error motion of ISO 230-7).",
     effects,
 };
 
+/// How a circle is run through: `order` times for each turn of an angle.
+pub(super) struct Turn<'a> {
+    pub angle: SymbolId,
+    pub name: &'a str,
+    pub order: u32,
+    /// With the angle rather than against it.
+    pub forward: bool,
+}
+
+/// A vector that turns about the axis before a place's own in the cyclic order: the place's axis and the next one carry
+/// its two components, (a + ib)·exp(±inq).
+pub(super) fn whirl(place: Place, turn: &Turn<'_>, stem: &str) -> Vec<Function> {
+    let Ok(angle) = AngleSum::symbol(turn.angle).times(turn.order) else { return Vec::new() };
+    let (next, _) = seen::others(place.freedom.axis);
+    let across = place.with(Freedom { axis: next, ..place.freedom });
+    let cosine = Poly::cos(&angle);
+    let sine = &Poly::sin(&angle) * &whole(if turn.forward { 1 } else { -1 });
+    let sense = if turn.forward { "fwd" } else { "bwd" };
+    let name = |part: &str| format!("{stem}_{sense}{}_{part}_{}", turn.order, turn.name);
+    vec![
+        Function { amount: cosine.clone(), elsewhere: vec![(across, sine.clone())], stem: name("cos") },
+        Function { amount: -&sine, elsewhere: vec![(across, cosine)], stem: name("sin") },
+    ]
+}
+
 fn effects(setting: &Setting<'_>) -> Vec<Effect> {
     let mut effects = Vec::new();
-    for joint in setting.joints().into_iter().filter(super::JointAxis::turns) {
-        let name = setting.name(joint.symbol);
-        for freedom in Freedom::ALL.into_iter().filter(|&freedom| freedom != joint.freedom) {
-            let (kind, stem) = match (freedom.motion, freedom.axis == joint.freedom.axis) {
-                (Motion::Rotation, _) => (format!("tilt about {}", freedom.axis_name()), "tilt"),
-                (Motion::Translation, true) => ("axial motion".to_owned(), "axial"),
-                (Motion::Translation, false) => {
-                    (format!("radial motion along {}", freedom.axis_name()), "radial")
+    for joint in setting.turning() {
+        let (first, second) = seen::others(joint.freedom.axis);
+        let about = [Freedom::about(first), Freedom::about(second)];
+        let seen = about.map(|freedom| setting.moves(joint.place().with(freedom)));
+        match seen {
+            [true, true] => {
+                effects.extend(circles(setting, &joint, about[0], ("tilt", "tilt")));
+                for freedom in about {
+                    effects.extend((1..=ONE_SIDED).map(|order| tilt(setting, &joint, freedom, order)));
                 }
-            };
-            let turns = freedom.motion == Motion::Rotation;
-            for order in HARMONICS.filter(|&order| turns || order <= 2) {
-                let per_turn = match order {
-                    1 => "once a turn".to_owned(),
-                    _ => format!("{order} per turn"),
-                };
-                let stem = format!("{stem}_{}", freedom.axis_name());
-                let roles: &[Role] =
-                    if turns { &[Role::MotionError, Role::PositionError] } else { &[Role::MotionError] };
-                for &role in roles {
-                    let frame = match role {
-                        Role::MotionError => "",
-                        _ => " in the fixed frame",
-                    };
-                    effects.push(Effect {
-                        family: FAMILY.name,
-                        name: format!("{kind} of the {name} axis, {per_turn}{frame}"),
-                        place: Place { body: joint.body, role, freedom },
-                        functions: harmonic(joint.symbol, name, order, &stem),
-                        driver: name.to_owned(),
-                        form: format!("harmonic {order}"),
-                    });
+            }
+            // The other component moves nothing: forward and backward are one.
+            [one, other] => {
+                for freedom in [one.then_some(about[0]), other.then_some(about[1])].into_iter().flatten() {
+                    effects.extend((1..=HARMONICS).map(|order| tilt(setting, &joint, freedom, order)));
                 }
             }
         }
+        effects.extend(circles(setting, &joint, Freedom::along(first), ("radial motion", "radial")));
+        effects.extend((1..=HARMONICS).map(|order| axial(setting, &joint, order)));
     }
     effects
+}
+
+/// Whirls of every order in both senses, `forward` being that of the motion.
+fn circles(
+    setting: &Setting<'_>,
+    joint: &JointAxis,
+    freedom: Freedom,
+    (word, stem): (&str, &str),
+) -> Vec<Effect> {
+    let name = setting.name(joint.symbol);
+    let place = joint.place().with(freedom);
+    let circle = |order, forward| Effect {
+        family: FAMILY.name,
+        name: format!(
+            "{word} of the {name} axis, {} {}",
+            per_turn(order),
+            if forward { "forward" } else { "backward" }
+        ),
+        place,
+        functions: whirl(
+            place,
+            &Turn { angle: joint.symbol, name, order, forward: forward != joint.reversed },
+            stem,
+        ),
+        driver: name.to_owned(),
+        form: format!("harmonic {order}"),
+    };
+    (1..=HARMONICS).flat_map(|order| [circle(order, true), circle(order, false)]).collect()
+}
+
+/// A tilt about one axis of the turning frame.
+fn tilt(setting: &Setting<'_>, joint: &JointAxis, freedom: Freedom, order: u32) -> Effect {
+    let (name, about) = (setting.name(joint.symbol), freedom.axis_name());
+    Effect {
+        family: FAMILY.name,
+        name: format!("tilt about {about} of the {name} axis, {}", per_turn(order)),
+        place: joint.place().with(freedom),
+        functions: harmonic(joint.symbol, name, order, &format!("tilt_{about}")),
+        driver: name.to_owned(),
+        form: format!("harmonic {order}"),
+    }
+}
+
+/// A shift along the joint's own axis.
+fn axial(setting: &Setting<'_>, joint: &JointAxis, order: u32) -> Effect {
+    let name = setting.name(joint.symbol);
+    Effect {
+        family: FAMILY.name,
+        name: format!("axial motion of the {name} axis, {}", per_turn(order)),
+        place: joint.place().with(Freedom::along(joint.freedom.axis)),
+        functions: harmonic(joint.symbol, name, order, "axial"),
+        driver: name.to_owned(),
+        form: format!("harmonic {order}"),
+    }
 }

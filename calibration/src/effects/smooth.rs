@@ -1,8 +1,6 @@
 //! Smooth fall-backs: Fourier series of one joint at one place, for what no formula of the catalogue explains.
 
-use model_core::{Motion, Role};
-
-use super::{Effect, Freedom, Place, Setting, harmonic};
+use super::{Effect, Freedom, Setting, harmonic};
 
 /// The order of the series.
 const ORDER: u32 = 8;
@@ -11,13 +9,13 @@ const ORDER: u32 = 8;
 #[must_use]
 pub fn smooth(setting: &Setting<'_>) -> Vec<Effect> {
     let mut effects = Vec::new();
-    for joint in setting.joints().into_iter().filter(super::JointAxis::turns) {
+    for joint in setting.turning() {
         let name = setting.name(joint.symbol);
-        for freedom in Freedom::ALL.into_iter().filter(|f| f.motion == Motion::Rotation) {
+        for freedom in Freedom::rotations() {
             effects.push(Effect {
                 family: "smooth",
                 name: format!("a smooth function of {name} about {}", freedom.axis_name()),
-                place: Place { body: joint.body, role: Role::MotionError, freedom },
+                place: joint.place().with(freedom),
                 functions: (1..=ORDER)
                     .flat_map(|order| harmonic(joint.symbol, name, order, "smooth"))
                     .collect(),

@@ -1,9 +1,14 @@
-//! Columns derived from rows in order of acquisition: direction of motion, rate, elapsed time.
+//! Columns derived from others: direction of motion, rate, elapsed time, turns, face, and functions of a range.
 
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use model_core::Quantity;
 use thiserror::Error;
 
+use crate::units;
+
 /// A column that follows from others, as a study file writes it.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Derived {
     /// `direction(joint)`: +1, −1, or 0 before the first motion; a joint at rest keeps its last direction.
     Direction {
@@ -22,17 +27,49 @@ pub enum Derived {
         /// Name of the time column.
         time: String,
     },
+    /// `turns(joint)`: how many whole turns the reading lies above zero.
+    Turns {
+        /// The joint's name.
+        joint: String,
+    },
+    /// `face(joint)`: +1 where the joint is within a quarter turn of zero, −1 where it has been turned through.
+    Face {
+        /// The joint's name.
+        joint: String,
+    },
+    /// `is(column, number)`: 1 in the rows that hold the number, 0 in the others; for sessions.
+    Is {
+        /// The column's name.
+        column: String,
+        /// The number.
+        number: f64,
+    },
+    /// `phase(range, 0.6 m)`: an angle that turns once over the distance.
+    Phase {
+        /// Name of the range.
+        range: String,
+        /// The distance, m.
+        wavelength_m: f64,
+    },
+    /// `inverse(range)`: one over it.
+    Inverse {
+        /// Name of the range.
+        range: String,
+    },
 }
 
 /// Why a derived column could not be read.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("`{text}` derives no column: write direction(joint), rate(joint, time) or elapsed(time)")]
+#[error(
+    "`{text}` derives no column: write direction(joint), rate(joint, time), elapsed(time), turns(joint), face(joint), \
+     is(column, number), phase(range, distance) or inverse(range)"
+)]
 pub struct DeriveError {
     /// What was written.
     pub text: String,
 }
 
-/// Reads `direction(beta)`, `rate(beta, time)` or `elapsed(time)`.
+/// Reads `direction(beta)`, `rate(beta, time)` and the like.
 ///
 /// # Errors
 /// Anything else.
@@ -44,13 +81,61 @@ pub fn parse_derived(text: &str) -> Result<Derived, DeriveError> {
     if arguments.iter().any(|argument| argument.is_empty()) {
         return Err(refuse());
     }
+    let own = |name: &str| name.to_string();
     match (function.trim(), arguments.as_slice()) {
-        ("direction", [joint]) => Ok(Derived::Direction { joint: (*joint).to_string() }),
-        ("rate", [joint, time]) => {
-            Ok(Derived::Rate { joint: (*joint).to_string(), time: (*time).to_string() })
+        ("direction", [joint]) => Ok(Derived::Direction { joint: own(joint) }),
+        ("rate", [joint, time]) => Ok(Derived::Rate { joint: own(joint), time: own(time) }),
+        ("elapsed", [time]) => Ok(Derived::Elapsed { time: own(time) }),
+        ("turns", [joint]) => Ok(Derived::Turns { joint: own(joint) }),
+        ("face", [joint]) => Ok(Derived::Face { joint: own(joint) }),
+        ("is", [column, number]) => {
+            let number = number.parse().ok().filter(|number: &f64| number.is_finite()).ok_or_else(refuse)?;
+            Ok(Derived::Is { column: own(column), number })
         }
-        ("elapsed", [time]) => Ok(Derived::Elapsed { time: (*time).to_string() }),
+        ("phase", [range, distance]) => {
+            let wavelength_m = units::parse(distance, Quantity::Length).map_err(|_| refuse())?;
+            let positive = wavelength_m > 0.0;
+            positive.then(|| Derived::Phase { range: own(range), wavelength_m }).ok_or_else(refuse)
+        }
+        ("inverse", [range]) => Ok(Derived::Inverse { range: own(range) }),
         _ => Err(refuse()),
+    }
+}
+
+impl Derived {
+    /// The columns that it follows from.
+    #[must_use]
+    pub fn columns(&self) -> Vec<&str> {
+        match self {
+            Self::Direction { joint } | Self::Turns { joint } | Self::Face { joint } => vec![joint],
+            Self::Rate { joint, time } => vec![joint, time],
+            Self::Elapsed { time } => vec![time],
+            Self::Is { column, .. } => vec![column],
+            Self::Phase { range, .. } | Self::Inverse { range } => vec![range],
+        }
+    }
+
+    /// What it measures.
+    #[must_use]
+    pub fn quantity(&self) -> Quantity {
+        if matches!(self, Self::Phase { .. }) { Quantity::Angle } else { Quantity::Number }
+    }
+
+    /// Its value at each row, SI; `None` if a column that it follows from is not there.
+    pub fn values(&self, column: impl Fn(&str) -> Option<Vec<f64>>) -> Option<Vec<f64>> {
+        let each = |name: &str, f: &dyn Fn(f64) -> f64| Some(column(name)?.into_iter().map(f).collect());
+        match self {
+            Self::Direction { joint } => Some(direction(&column(joint)?)),
+            Self::Rate { joint, time } => Some(rate(&column(joint)?, &column(time)?)),
+            Self::Elapsed { time } => Some(elapsed(&column(time)?)),
+            Self::Turns { joint } => each(joint, &|q| (q / TAU).floor()),
+            Self::Face { joint } => {
+                each(joint, &|q| if (q - TAU * (q / TAU).round()).abs() <= FRAC_PI_2 { 1.0 } else { -1.0 })
+            }
+            Self::Is { column, number } => each(column, &|value| if value == *number { 1.0 } else { 0.0 }),
+            Self::Phase { range, wavelength_m } => each(range, &|r| TAU * (r / wavelength_m).fract()),
+            Self::Inverse { range } => each(range, &|r| 1.0 / r),
+        }
     }
 }
 
@@ -100,6 +185,7 @@ pub fn elapsed(time: &[f64]) -> Vec<f64> {
 }
 
 #[cfg(test)]
+#[allow(clippy::expect_used)]
 mod tests {
     use super::*;
 
@@ -114,9 +200,33 @@ mod tests {
     }
 
     #[test]
+    fn functions_of_one_column_are_read_and_evaluated() {
+        let column = |name: &str| (name == "q").then(|| vec![-0.1, 1.0, 2.0, 6.4]);
+        let values = |text: &str| parse_derived(text).ok().and_then(|derived| derived.values(column));
+        assert_eq!(values("turns(q)"), Some(vec![-1.0, 0.0, 0.0, 1.0]));
+        assert_eq!(values("face(q)"), Some(vec![1.0, 1.0, -1.0, 1.0]));
+        assert_eq!(values("is(q, 2)"), Some(vec![0.0, 0.0, 1.0, 0.0]));
+        assert_eq!(values("inverse(q)"), Some(vec![-10.0, 1.0, 0.5, 1.0 / 6.4]));
+        let phase = values("phase(q, 4 m)").expect("a column");
+        assert!((phase[1] - FRAC_PI_2).abs() < 1e-15, "{phase:?}");
+        assert_eq!(values("turns(p)"), None);
+    }
+
+    #[test]
     fn anything_else_is_refused() {
-        for text in ["", "direction", "direction()", "rate(beta)", "elapsed(t", "speed(beta)", "elapsed(a,b)"]
-        {
+        for text in [
+            "",
+            "direction",
+            "direction()",
+            "rate(beta)",
+            "elapsed(t",
+            "speed(beta)",
+            "elapsed(a,b)",
+            "is(a, b)",
+            "phase(r)",
+            "phase(r, 3 deg)",
+            "phase(r, -1 m)",
+        ] {
             assert!(parse_derived(text).is_err(), "{text}");
         }
     }

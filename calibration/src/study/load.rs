@@ -9,7 +9,6 @@ use nalgebra::Vector3;
 use super::plan::{ColumnPlan, Plan, Reading, SourcePlan};
 use super::written::Kind;
 use crate::formats::{self, Cells, DataError, TableReader, Wanted, find_column};
-use crate::observations::derive::{self, Derived};
 use crate::observations::{Observations, Series, direction_from_offset, direction_from_spherical};
 
 /// Opens a data file of a study by its path as the study writes it.
@@ -154,12 +153,7 @@ impl Plan {
         };
         let derived = source.readings.iter().filter_map(|(id, reading)| {
             let Reading::Derived(derived) = reading else { return None };
-            let values = match derived {
-                Derived::Direction { joint } => derive::direction(&named(joint)?),
-                Derived::Rate { joint, time } => derive::rate(&named(joint)?, &named(time)?),
-                Derived::Elapsed { time } => derive::elapsed(&named(time)?),
-            };
-            Some((*id, values))
+            Some((*id, derived.values(named)?))
         });
         let mut all: Vec<_> = read.iter().cloned().chain(derived).collect();
         all.sort_by_key(|(id, _)| *id);
@@ -261,9 +255,7 @@ impl Columns {
         let mut times = Vec::new();
         for (_, reading) in &source.readings {
             let names = match reading {
-                Reading::Derived(Derived::Direction { joint }) => vec![joint],
-                Reading::Derived(Derived::Rate { joint, time }) => vec![joint, time],
-                Reading::Derived(Derived::Elapsed { time }) => vec![time],
+                Reading::Derived(derived) => derived.columns(),
                 Reading::Column(_) => Vec::new(),
             };
             for name in names {
@@ -272,9 +264,9 @@ impl Columns {
                     .find_symbol(name)
                     .is_some_and(|id| readings.iter().any(|(known, _)| *known == id));
                 if !of_symbol && !times.iter().any(|(known, _)| known == name) {
-                    times.push((name.clone(), plans.len()));
+                    times.push((name.to_owned(), plans.len()));
                     let quantity = model_core::Quantity::Number;
-                    plans.push(ColumnPlan { name: name.clone(), unit: None, quantity, declared: true });
+                    plans.push(ColumnPlan { name: name.to_owned(), unit: None, quantity, declared: true });
                 }
             }
         }

@@ -4,6 +4,8 @@
 //! resolved (`plan`); with the data files the plan becomes [`Observations`](crate::observations::Observations)
 //! (`load`).
 
+mod effects;
+mod inputs;
 mod load;
 mod plan;
 mod written;

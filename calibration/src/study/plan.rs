@@ -7,6 +7,7 @@ use toml::Spanned;
 
 use super::StudyError;
 use super::written::{Column, HoldOut, Kind, Observed, SearchTable, Sigma, Study, Table};
+use crate::effects::Effect;
 use crate::fit::FitOptions;
 use crate::formats::csv;
 use crate::noise::NoiseOptions;
@@ -68,6 +69,12 @@ pub struct Search {
     pub sequence: bool,
     /// Harmonics of each encoder up to this order, for gears and motors that repeat many times a turn.
     pub harmonics: u32,
+    /// Lines a turn of encoders, for their sub-divisional errors.
+    pub lines: Vec<(SymbolId, u32)>,
+    /// The study's own effects.
+    pub own: Vec<Effect>,
+    /// The effects that may be found, by their names, their families' or those of other fields; empty for all.
+    pub only: Vec<String>,
 }
 
 /// Where the values of a joint or input come from.
@@ -117,7 +124,8 @@ impl Study {
             Some((Sigma::Amount(amount), place)) => Some(sigma_amount(*amount, &place, measure)?),
             _ => None,
         };
-        let search = self.search(&chain)?;
+        let observables: Vec<ObservableId> = sources.iter().map(|source| source.observable).collect();
+        let search = self.search(&chain, &observables)?;
         let noise = NoiseOptions { sigma, variance: self.noise.variance, serial: self.noise.serial };
         Ok(Plan {
             sources,
@@ -130,32 +138,6 @@ impl Study {
             format: csv::Options { separator: self.separator()? },
             chain,
         })
-    }
-
-    /// The chain with an input for each side quantity that it does not declare.
-    fn with_inputs(&self, chain: &Chain) -> Result<Chain, StudyError> {
-        let mut chain = chain.clone();
-        let derived = self.columns.iter().filter(|(_, column)| column.get_ref().derive.is_some());
-        let wanted = self.search.inputs.iter().chain(derived.map(|(name, _)| name));
-        for name in wanted {
-            match chain.find_symbol(name.get_ref()).map(|id| chain.symbol(id).kind) {
-                None => chain.symbols.push(Symbol {
-                    name: name.get_ref().clone(),
-                    kind: SymbolKind::Input,
-                    quantity: Quantity::Number,
-                    documentation: String::new(),
-                    latex: format!("\\mathrm{{{}}}", name.get_ref().replace('_', "\\_")),
-                    value: None,
-                }),
-                Some(SymbolKind::Input | SymbolKind::Joint) => {}
-                Some(_) => {
-                    let message =
-                        format!("`{}` is neither a joint nor an input of the chain", name.get_ref());
-                    return Err(StudyError::new(name.span(), message, "give the column another name"));
-                }
-            }
-        }
-        Ok(chain)
     }
 
     fn observable(&self, chain: &Chain, name: Option<&Spanned<String>>) -> Result<ObservableId, StudyError> {
@@ -194,12 +176,17 @@ impl Study {
             })?;
             wanted.push(id);
         }
+        let implied = self.implied(chain);
+        wanted.extend(implied.iter().filter_map(|(name, _)| chain.find_symbol(name)));
         wanted.sort_unstable();
         wanted.dedup();
         let reading = |id: SymbolId| {
             let symbol = chain.symbol(id);
             let written = columns.iter().find(|(name, _)| *name.get_ref() == symbol.name);
             let Some((_, column)) = written else {
+                if let Some((_, derived)) = implied.iter().find(|(name, _)| *name == symbol.name) {
+                    return Ok(Reading::Derived(derived.clone()));
+                }
                 let (name, quantity) = (symbol.name.clone(), symbol.quantity);
                 return Ok(Reading::Column(ColumnPlan { name, unit: None, quantity, declared: true }));
             };
@@ -260,15 +247,21 @@ impl Study {
         Ok(FitOptions { estimate, start, robust, noise, max_iterations })
     }
 
-    fn search(&self, chain: &Chain) -> Result<Search, StudyError> {
+    fn search(&self, chain: &Chain, observables: &[ObservableId]) -> Result<Search, StudyError> {
         let false_alarm = *self.search.false_alarm.get_ref();
         if !(false_alarm > 0.0 && false_alarm < 1.0) {
             let place = self.search.false_alarm.span();
             return Err(StudyError::new(place, "a share of false alarms lies between 0 and 1", "write 0.05"));
         }
-        let inputs = self.search.inputs.iter().filter_map(|name| chain.find_symbol(name.get_ref())).collect();
+        let mut inputs: Vec<SymbolId> =
+            self.search.inputs.iter().filter_map(|name| chain.find_symbol(name.get_ref())).collect();
+        inputs.extend(self.implied(chain).iter().filter_map(|(name, _)| chain.find_symbol(name)));
         let SearchTable { sequence, harmonics, .. } = self.search;
-        Ok(Search { false_alarm, inputs, sequence, harmonics })
+        let (lines, own) = (self.lines(chain)?, self.own_effects(chain)?);
+        let only = self.search.effects.iter().map(|name| name.get_ref().clone()).collect();
+        let search = Search { false_alarm, inputs, sequence, harmonics, lines, own, only };
+        self.check_names(chain, observables, &search)?;
+        Ok(search)
     }
 
     fn next(&self, chain: &Chain) -> Result<Option<NextPoses>, StudyError> {

@@ -41,6 +41,9 @@ pub struct Study {
     /// What to look for.
     #[serde(default)]
     pub(super) search: SearchTable,
+    /// Effects that the catalogue does not have.
+    #[serde(default)]
+    pub(super) effect: Vec<OwnEffect>,
     /// How to judge on data that no stage saw.
     #[serde(default)]
     pub hold_out: HoldOut,
@@ -60,6 +63,17 @@ pub(super) struct Also {
     #[serde(default)]
     pub columns: Table<Column>,
     pub observed: Spanned<Observed>,
+}
+
+/// `[[effect]]`: one of the user's own.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct OwnEffect {
+    pub name: Spanned<String>,
+    pub body: Spanned<String>,
+    pub part: Option<Spanned<String>>,
+    pub moves: Spanned<String>,
+    pub functions: Spanned<Vec<Spanned<String>>>,
 }
 
 /// One text or a list of them.
@@ -153,11 +167,20 @@ pub(super) struct SearchTable {
     pub inputs: Vec<Spanned<String>>,
     pub sequence: bool,
     pub harmonics: u32,
+    pub effects: Vec<Spanned<String>>,
+    pub lines: Table<u32>,
 }
 
 impl Default for SearchTable {
     fn default() -> Self {
-        Self { false_alarm: Spanned::new(0..0, 0.05), inputs: Vec::new(), sequence: false, harmonics: 8 }
+        Self {
+            false_alarm: Spanned::new(0..0, 0.05),
+            inputs: Vec::new(),
+            sequence: false,
+            harmonics: 8,
+            effects: Vec::new(),
+            lines: Table::new(),
+        }
     }
 }
 

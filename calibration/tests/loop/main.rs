@@ -4,4 +4,6 @@
 mod data;
 mod examples;
 mod instruments;
+mod left_out;
+mod mistaken;
 mod simulated;

@@ -1,0 +1,36 @@
+//! Refraction and what else grows towards a pole: the tangent or cotangent of a joint.
+
+use model_core::algebra::{AngleSum, Poly};
+
+use super::{Effect, Family, Function, Setting};
+
+pub(super) const FAMILY: Family = Family {
+    name: "refraction",
+    what: "Light is bent on its way through the air, by an angle that grows as the tangent of the zenith distance: for a \
+           joint that counts from the horizon, the cotangent of the joint.",
+    causes: "Refraction left over after a model of the air: wrong pressure, temperature or wavelength.",
+    looks: "Tangent or cotangent of a joint, growing without bound towards the horizon or a pole.",
+    check: "Compare pressure and temperature given to the refraction model; measure on a day with other weather.",
+    effects,
+};
+
+fn effects(setting: &Setting<'_>) -> Vec<Effect> {
+    let mut effects = Vec::new();
+    for joint in setting.turning().into_iter().filter(|_| setting.aims()) {
+        let name = setting.name(joint.symbol);
+        let angle = AngleSum::symbol(joint.symbol);
+        let (cosine, sine) = (Poly::cos(&angle), Poly::sin(&angle));
+        for (word, above, below) in [("tan", &sine, &cosine), ("cot", &cosine, &sine)] {
+            let Some(reciprocal) = below.recip() else { continue };
+            effects.push(Effect {
+                family: FAMILY.name,
+                name: format!("refraction, {word} of {name}"),
+                place: joint.place(),
+                functions: vec![Function::new(above * &reciprocal, format!("refraction_{word}_{name}"))],
+                driver: name.to_owned(),
+                form: word.to_owned(),
+            });
+        }
+    }
+    effects
+}

@@ -1,0 +1,83 @@
+//! Inputs that a study brings with it: side quantities that the chain does not declare, and what follows from the
+//! sequence of the rows.
+
+use model_core::{Chain, Quantity, Symbol, SymbolKind};
+
+use super::StudyError;
+use super::written::Study;
+use crate::observations::{Derived, parse_derived};
+use crate::units::Unit;
+
+impl Study {
+    /// The chain with an input for each side quantity that it does not declare.
+    pub(super) fn with_inputs(&self, chain: &Chain) -> Result<Chain, StudyError> {
+        let mut chain = chain.clone();
+        let derived = self.columns.iter().filter(|(_, column)| column.get_ref().derive.is_some());
+        let wanted = self.search.inputs.iter().chain(derived.map(|(name, _)| name));
+        for name in wanted {
+            match chain.find_symbol(name.get_ref()).map(|id| chain.symbol(id).kind) {
+                None => chain.symbols.push(input(name.get_ref(), self.quantity_of(name.get_ref()))),
+                Some(SymbolKind::Input | SymbolKind::Joint) => {}
+                Some(_) => {
+                    let message =
+                        format!("`{}` is neither a joint nor an input of the chain", name.get_ref());
+                    return Err(StudyError::new(name.span(), message, "give the column another name"));
+                }
+            }
+        }
+        for (name, derived) in self.implied(&chain) {
+            if chain.find_symbol(&name).is_none() {
+                chain.symbols.push(input(&name, derived.quantity()));
+            }
+        }
+        Ok(chain)
+    }
+
+    /// What an input measures that only the study names: what its column's unit says, or what it is derived as.
+    fn quantity_of(&self, name: &str) -> Quantity {
+        let column = self.columns.iter().find(|(written, _)| *written.get_ref() == name);
+        let Some((_, column)) = column else { return Quantity::Number };
+        match (&column.get_ref().derive, &column.get_ref().unit) {
+            (Some(text), _) => parse_derived(text).map_or(Quantity::Number, |derived| derived.quantity()),
+            (None, Some(unit)) => Unit::find(unit).map_or(Quantity::Number, |unit| unit.quantity),
+            (None, None) => Quantity::Number,
+        }
+    }
+
+    /// Inputs that need no column: where the rows are in sequence, the direction of motion of each joint, and the time
+    /// since the first row if the study names the column of the order.
+    pub(super) fn implied(&self, chain: &Chain) -> Vec<(String, Derived)> {
+        if !self.search.sequence {
+            return Vec::new();
+        }
+        let directions = chain.symbols_of(SymbolKind::Joint).map(|joint| {
+            let joint = chain.symbol(joint).name.clone();
+            (format!("{joint}_direction"), Derived::Direction { joint })
+        });
+        let elapsed = self
+            .noise
+            .order
+            .iter()
+            .map(|time| ("elapsed".to_owned(), Derived::Elapsed { time: time.clone() }));
+        let mut implied: Vec<(String, Derived)> = directions.chain(elapsed).collect();
+        // What the study names itself it also says how to read.
+        implied.retain(|(name, _)| {
+            let named = self.columns.keys().chain(&self.search.inputs).any(|own| own.get_ref() == name);
+            let taken = chain.find_symbol(name).is_some_and(|id| chain.symbol(id).kind != SymbolKind::Input);
+            !named && !taken
+        });
+        implied
+    }
+}
+
+/// An input that a study brings with it.
+fn input(name: &str, quantity: Quantity) -> Symbol {
+    Symbol {
+        name: name.to_owned(),
+        kind: SymbolKind::Input,
+        quantity,
+        documentation: String::new(),
+        latex: format!("\\mathrm{{{}}}", name.replace('_', "\\_")),
+        value: None,
+    }
+}

@@ -1,0 +1,106 @@
+//! Which effects follow from which chain.
+
+use calibration::effects::FAMILIES;
+
+use crate::support::{Asked, SCANNER, example};
+
+fn names(asked: &Asked) -> Vec<String> {
+    asked.catalogue().into_iter().map(|effect| effect.name).collect()
+}
+
+/// Every side quantity that a family asks for.
+const EVERYTHING: &str = "\
+[columns]
+azimuth_direction = { derive = \"direction(azimuth)\" }
+azimuth_rate = { derive = \"rate(azimuth, time)\" }
+elevation_rate = { derive = \"rate(elevation, time)\" }
+azimuth_turns = { derive = \"turns(azimuth)\" }
+elevation_face = { derive = \"face(elevation)\" }
+range_phase = { derive = \"phase(range, 0.6 m)\" }
+session_2 = { derive = \"is(night, 2)\" }
+session_3 = { derive = \"is(night, 3)\" }
+rotator = { column = \"rotator\", unit = \"deg\" }
+elapsed = { derive = \"elapsed(time)\" }
+[[effect]]
+name = \"cable\"
+body = \"alidade\"
+moves = \"Rz\"
+functions = [\"azimuth^2\"]
+[search]
+lines = { azimuth = 3600 }
+inputs = [\"temperature\", \"pressure\", \"azimuth_direction\", \"azimuth_rate\", \"elevation_rate\", \"azimuth_turns\",
+          \"elevation_face\", \"range_phase\", \"session_2\", \"session_3\", \"rotator\", \"elapsed\"]
+";
+
+#[test]
+fn every_family_has_members() {
+    let points = Asked::of(SCANNER, "target", "point", EVERYTHING);
+    let text = SCANNER.replace("point(0, range, 0)", "direction(0, 1, 0)");
+    let inverse = "[columns]\nrange_inverse = { derive = \"inverse(range)\" }\n[search]\ninputs = [\"range_inverse\"]\n";
+    // The parallax of a direction needs a range beside it: another observable of the same chain.
+    let text = text
+        .replace("of telescope;\n", "of telescope;\n    observe mark: point(0, range, 0) of telescope;\n");
+    let mut directions = Asked::of(&text, "target", "direction", inverse);
+    directions.observables.push(directions.plan.chain.find_observable("mark").unwrap());
+    let found = [points.catalogue(), directions.catalogue()].concat();
+    for family in FAMILIES {
+        assert!(found.iter().any(|effect| effect.family == family.name), "{} has no member", family.name);
+    }
+    for name in [
+        "latency common to all encoders",
+        "sub-divisional error of azimuth, 2 per line",
+        "index step of azimuth",
+        "cyclic error of range, once a wavelength",
+        "offset of a session in telescope about x",
+        "play of azimuth about x",
+        "wind-up of elevation under gravity",
+        "beam not along the elevation axis before its mirror",
+        "elapsed in alidade axis about x",
+        "parallax of telescope about x",
+        "radial motion of the azimuth axis, 8 per turn backward",
+    ] {
+        assert!(found.iter().any(|effect| effect.name == name), "{name}");
+    }
+}
+
+#[test]
+fn what_moves_nothing_is_no_candidate() {
+    let chain = example("alt-azimuth/alt-azimuth.chain");
+    let names = names(&Asked::of(&chain, "sight", "direction", ""));
+    // The line of sight is y of the tube: a turn about it moves nothing, and no shift moves a direction.
+    for absent in [
+        "constant rotation of tube about y",
+        "constant shift of tube about x",
+        "wind-up of azimuth under gravity",
+    ] {
+        assert!(!names.iter().any(|name| name == absent), "{absent}");
+    }
+    // So a tilt of the elevation axis shows one component: forward and backward are one effect.
+    assert!(names.iter().any(|name| name == "tilt about z of the elevation axis, 3 per turn"));
+    assert!(!names.iter().any(|name| name.starts_with("tilt of the elevation axis")));
+    assert!(names.iter().any(|name| name == "tilt of the azimuth axis, 3 per turn backward"));
+}
+
+#[test]
+fn the_mobile_lidar_has_its_candidates() {
+    let chain = example("mobile-lidar/mobile-lidar.chain");
+    let plain = Asked::of(&chain, "pointing", "direction", "").catalogue();
+    let mut by_family: Vec<(&str, usize)> = Vec::new();
+    for effect in &plain {
+        match by_family.iter_mut().find(|(name, _)| *name == effect.family) {
+            Some((_, count)) => *count += 1,
+            None => by_family.push((effect.family, 1)),
+        }
+    }
+    insta::assert_debug_snapshot!(by_family);
+}
+
+#[test]
+fn rows_in_sequence_bring_direction_and_drift() {
+    let chain = example("alt-azimuth/alt-azimuth.chain");
+    let more = "[noise]\norder = \"time\"\n[search]\nsequence = true\n";
+    let names = names(&Asked::of(&chain, "sight", "direction", more));
+    for name in ["backlash of azimuth", "play of elevation about z", "elapsed in tube about x"] {
+        assert!(names.iter().any(|found| found == name), "{name}: {names:?}");
+    }
+}

@@ -2,9 +2,7 @@
 //! What was planted stands in `examples/mobile-lidar/simulate.py`, which shares no code with ours.
 
 use calibration::amend::diff;
-use calibration::calibrate::{Request, calibrate};
 use calibration::report::Verdict;
-use calibration::study::Plan;
 use model_core::Chain;
 
 use crate::data::{Loaded, arcsec, load};
@@ -63,24 +61,4 @@ fn the_eccentric_encoder_is_found_and_the_declaration_amended() {
             .collect();
         assert_eq!(by_text, in_memory);
     }
-}
-
-#[test]
-fn calibrating_the_amended_declaration_finds_nothing_more() {
-    let study = study();
-    let amended = study.calibrate().amended;
-    let chain = Chain::from_text(&amended).unwrap();
-    let again = crate::data::study("examples/mobile-lidar/study.toml");
-    let plan: Plan = again.plan(&chain).unwrap();
-    let observations = crate::data::observations("examples/mobile-lidar/study.toml", &plan);
-    let request = Request {
-        text: &amended,
-        plan: &plan,
-        observations: &observations,
-        second: None,
-        when: "2026-11-22",
-    };
-    let found = calibrate(request).unwrap();
-    assert_eq!(found.report.verdict, Verdict::NothingDetectable, "{:#?}", found.report.effects);
-    assert_eq!(found.amended, amended);
 }

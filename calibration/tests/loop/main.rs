@@ -1,6 +1,7 @@
 //! The whole loop on measured data: simulated ones of the examples, and real ones where they are at hand.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout, missing_docs)]
 
+mod again;
 mod data;
 mod examples;
 mod instruments;

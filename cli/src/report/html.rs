@@ -6,7 +6,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use super::pictures::{self, Axes};
 use super::residuals::{self, Component};
 use super::summary::{diff, evidence, not_separable, what_it_means};
-use super::{Reported, quantities};
+use super::{Reported, hidden, quantities};
 
 /// How the page looks.
 const STYLE: &str = "
@@ -226,16 +226,12 @@ fn not_shown(report: &Report) -> Markup {
             section {
                 h2 { "What these data could not have shown" }
                 table {
-                    tr { th { "effect" } th.number { "smallest amplitude that would show" } th.number { "absorbed by the declared errors" } }
+                    tr { th { "effect" } th { "does not show" } th { "what becomes of it" } }
                     @for effect in &report.not_shown {
                         tr {
                             td { (effect.name) }
-                            td.number {
-                                @if let Some(smallest) = effect.smallest {
-                                    (quantities::told(smallest, effect.unit))
-                                } @else { "none would" }
-                            }
-                            td.number { (format!("{:.0} %", 100.0 * effect.absorbed)) }
+                            td { (hidden::size(effect)) }
+                            td { (hidden::fate(effect)) }
                         }
                     }
                 }

@@ -3,6 +3,7 @@
 //! Every number and every word of judgement comes from `calibration`; here they only get a form.
 
 mod files;
+mod hidden;
 mod html;
 mod pictures;
 mod quantities;

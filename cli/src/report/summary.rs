@@ -5,10 +5,10 @@ use std::fmt::Write as _;
 use calibration::report::{EffectFound, Report, Verdict};
 use similar::TextDiff;
 
-use super::{Reported, quantities};
+use super::{Reported, hidden, quantities};
 use crate::terminal::{CAREFUL, GOOD, HEADING};
 
-/// Effects that these data could not have shown, that are listed.
+/// Lines of a list that the terminal shows.
 const NOT_SHOWN: usize = 5;
 
 /// The whole summary.
@@ -102,6 +102,7 @@ pub fn evidence(effect: &EffectFound, report: &Report) -> Vec<String> {
         quantities::chance(effect.p_value),
         100.0 * effect.selected_in_folds
     ));
+    lines.extend(hidden::bias(effect, report));
     if !effect.class.is_empty() {
         lines.push(format!("these data cannot tell it from: {}", effect.class.join("; ")));
     }
@@ -134,6 +135,22 @@ fn errors(text: &mut String, report: &Report) {
     }
     for line in not_separable(report) {
         let _ = writeln!(text, "  {line}");
+    }
+}
+
+/// The effects that these data could not have shown, those that would have to be largest first.
+fn not_shown(text: &mut String, report: &Report) {
+    let mut hidden: Vec<_> = report.not_shown.iter().filter(|effect| effect.absorbed > 0.0).collect();
+    if hidden.is_empty() {
+        return;
+    }
+    hidden.sort_by(|a, b| b.absorbed.total_cmp(&a.absorbed));
+    let _ = writeln!(text, "\n{HEADING}what these data could not have shown{HEADING:#}");
+    for effect in hidden.iter().take(NOT_SHOWN) {
+        let _ = writeln!(text, "  {} {}: {}", effect.name, hidden::size(effect), hidden::fate(effect));
+    }
+    if hidden.len() > NOT_SHOWN {
+        let _ = writeln!(text, "  and {} more; report.json lists all", hidden.len() - NOT_SHOWN);
     }
 }
 
@@ -172,6 +189,7 @@ fn remarks(text: &mut String, report: &Report) {
             let _ = writeln!(text, "  and {} more; report.json lists all", used.set_aside.len() - NOT_SHOWN);
         }
     }
+    not_shown(text, report);
     if let Some(place) = &report.remaining.place {
         let chance = quantities::chance(report.remaining.p_value);
         let _ = writeln!(

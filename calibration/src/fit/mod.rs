@@ -3,6 +3,7 @@
 //! Weighted nonlinear least squares by Levenberg-Marquardt, robust and with a noise model; how it ended is an
 //! [`Outcome`], never a panic.
 
+mod align;
 mod model;
 mod partial;
 mod precision;

@@ -109,21 +109,26 @@ fn outcome(outcome: &Outcome) -> String {
 }
 
 fn not_separable(chain: &Chain, observations: &Observations, fit: &FitResult) -> Vec<NotSeparable> {
+    let all_round = all_round(chain, observations, fit);
     let sets = fit.subspace.linked().into_iter();
     sets.map(|(members, undetermined)| {
-        let set: Vec<SymbolId> = members.iter().map(|&at| fit.parameters[at]).collect();
-        let at_spread_poses = spread_rank(chain, observations, &set);
-        let seen_here = set.len() - undetermined;
-        let names = set.iter().map(|id| chain.symbol(*id).name.clone()).collect();
-        // Structural if poses spread all round would not determine one more combination of the set.
-        NotSeparable { names, structural: at_spread_poses.is_none_or(|rank| rank <= seen_here) }
+        let names = members.iter().map(|&at| chain.symbol(fit.parameters[at]).name.clone()).collect();
+        let inside = |other: &&(Vec<usize>, usize)| other.0.iter().all(|at| members.contains(at));
+        let left =
+            |sets: &Vec<(Vec<usize>, usize)>| sets.iter().filter(inside).map(|set| set.1).sum::<usize>();
+        // Structural if poses spread all round would leave as many combinations of the set.
+        NotSeparable { names, structural: all_round.as_ref().is_none_or(|sets| left(sets) >= undetermined) }
     })
     .collect()
 }
 
-/// The rank that poses all round would give, without errors; `None` where it cannot be computed.
-fn spread_rank(chain: &Chain, observations: &Observations, set: &[SymbolId]) -> Option<usize> {
-    let rows = 24 * set.len() + 48;
+/// What poses all round would leave undetermined, without errors; `None` where it cannot be computed.
+fn all_round(
+    chain: &Chain,
+    observations: &Observations,
+    fit: &FitResult,
+) -> Option<Vec<(Vec<usize>, usize)>> {
+    let rows = 24 * fit.parameters.len() + 48;
     let mut spread = observations.clone();
     let mut start = 0;
     spread.series = observations
@@ -154,11 +159,15 @@ fn spread_rank(chain: &Chain, observations: &Observations, set: &[SymbolId]) -> 
     }
     spread.measured = vec![[0.0, 1.0, 0.0]; start];
     spread.sigma.clear();
-    let model = Model::new(chain, &spread, set).ok()?;
+    let model = Model::new(chain, &spread, &fit.parameters).ok()?;
     let layout = Layout::of(&spread);
     let sigma = vec![1.0; layout.components()];
-    let tally = tally(&model, &spread, &layout, &chain.nominal_values(), &sigma, Weighting::Full).ok()?;
-    Some(Subspace::determined(&tally.partial.spread(model.column_of())).rank())
+    let mut values = chain.nominal_values();
+    for id in chain.symbols_of(SymbolKind::Constant) {
+        values[id.index()] = fit.values[id.index()];
+    }
+    let tally = tally(&model, &spread, &layout, &values, &sigma, Weighting::Full).ok()?;
+    Some(Subspace::determined(&tally.partial.spread(model.column_of())).linked())
 }
 
 /// Rows whose leverage is several times the mean, the largest first.

@@ -3,6 +3,7 @@
 use faer::Mat;
 use model_core::{Chain, SymbolId};
 
+use super::align::starting_values;
 use super::sweep::{Sweep, Weighting, coloured, residuals, sweep};
 use super::{FitError, FitOptions, FitResult, Model, Outcome, Partial, Residuals, SetAside, Subspace};
 use crate::noise::{self, Layout, Noise};
@@ -58,7 +59,7 @@ pub fn fit(chain: &Chain, observations: &Observations, options: &FitOptions) -> 
 
 impl Solver<'_> {
     fn run(mut self) -> Result<FitResult, FitError> {
-        let mut values = self.options.start.clone();
+        let mut values = starting_values(self.chain, self.observations, self.options)?;
         let mut noise = self.first_noise(&values)?;
         let mut subspace = Subspace::determined(&self.unweighted(&values, &noise)?);
         if self.options.robust {
@@ -67,7 +68,7 @@ impl Solver<'_> {
         let mut point = self.point(values, &noise)?;
         for _ in 0..NOISE_ROUNDS {
             self.descend(&mut point, &noise, &subspace, ROUGHLY)?;
-            let seen = subspace.clone().extended(&self.unweighted_at(&point, &noise)?);
+            let seen = subspace.clone().extended(&self.partial(&point.sweep));
             if seen.rank() > subspace.rank() {
                 subspace = seen;
                 continue;

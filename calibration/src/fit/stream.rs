@@ -7,10 +7,11 @@
 use faer::Mat;
 use model_core::{Chain, SymbolId};
 
+use super::align::starting_values;
 use super::model::Model;
 use super::partial::Partial;
 use super::subspace::Subspace;
-use super::sweep::{Tally, Weighting, sweep, tally};
+use super::sweep::{Tally, Weighting, residuals, tally};
 use super::{FitError, FitOptions, fit, robust};
 use crate::noise::{self, Layout, NoiseOptions};
 use crate::observations::Observations;
@@ -94,7 +95,7 @@ impl Streamed {
         options.noise.serial = false;
         let start = fit(chain, sample, &options)?;
         let model = Model::new(chain, sample, &options.estimate)?;
-        let subspace = seen_without_errors(&model, sample, &options)?;
+        let subspace = seen_without_errors(chain, &model, sample, &options)?;
         let pass = Pass {
             model,
             values: start.values,
@@ -168,15 +169,17 @@ impl Streamed {
 
 /// The combinations that a sample determines where the errors have their starting values.
 fn seen_without_errors(
+    chain: &Chain,
     model: &Model,
     sample: &Observations,
     options: &FitOptions,
 ) -> Result<Subspace, FitError> {
     let layout = Layout::of(sample);
-    let whole = |sigma: &[f64]| sweep(model, sample, &layout, &options.start, sigma, Weighting::Full);
-    let residual = whole(&vec![1.0; layout.components()])?.residual;
+    let start = starting_values(chain, sample, options)?;
+    let residual = residuals(model, sample, &start)?;
     let noise = noise::from_medians(&options.noise, sample, &layout, &residual);
-    Ok(Subspace::determined(&whole(&noise.sigma)?.tally.partial.spread(model.column_of())))
+    let tally = tally(model, sample, &layout, &start, &noise.sigma, Weighting::Full)?;
+    Ok(Subspace::determined(&tally.partial.spread(model.column_of())))
 }
 
 impl Pass {

@@ -10,6 +10,10 @@ const UNSEEN: f64 = 1e-8;
 /// A combination that only appears away from the starting point (by products of errors) must be seen this well.
 const NEWLY_SEEN: f64 = 1e-3;
 
+/// And the data must ask for it: by how much the sum of squares, in variances, must become less, in all and for each
+/// combination.
+const ASKED_FOR: [f64; 2] = [16.0, 4.0];
+
 /// A column this much shorter than the longest is zero but for rounding: a quarter turn's cosine, say.
 const ROUNDING: f64 = 1e-14;
 
@@ -52,11 +56,16 @@ impl Subspace {
         Self::seen_better_than(partial, UNSEEN)
     }
 
-    /// This subspace, or a larger one if products of errors make more visible at the estimate.
+    /// This subspace, or a larger one if products of errors make more visible at the estimate and the residual asks for
+    /// it: where errors are small, what only their products show is not determined but by accident.
     #[must_use]
     pub fn extended(self, partial: &Partial) -> Self {
         let at_estimate = Self::seen_better_than(partial, NEWLY_SEEN);
-        if at_estimate.rank() > self.rank() { at_estimate } else { self }
+        let more = at_estimate.rank().saturating_sub(self.rank());
+        let gain = |subspace: &Self| subspace.step(partial, 0.0).length.powi(2);
+        let [in_all, for_each] = ASKED_FOR;
+        let asked_for = || gain(&at_estimate) - gain(&self) > in_all + for_each * more as f64;
+        if more > 0 && asked_for() { at_estimate } else { self }
     }
 
     fn seen_better_than(partial: &Partial, tolerance: f64) -> Self {

@@ -1,7 +1,9 @@
 //! The fit against simulated instruments whose errors are known.
 #![allow(clippy::unwrap_used)]
 
+mod align;
 mod coverage;
+mod kinds;
 mod nasty;
 mod precision;
 mod simulated;

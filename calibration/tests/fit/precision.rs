@@ -3,6 +3,9 @@
 use calibration::fit::{FitOptions, fit, precision};
 use calibration::poses::{Criterion, propose};
 
+use model_core::identify::identify;
+use model_core::{Chain, ObservableId, ObservableKind, SymbolId, SymbolKind};
+
 use crate::simulated::Simulation;
 
 const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;
@@ -96,4 +99,69 @@ fn wrong_units_and_signs_are_hinted_at() {
     assert!(said(&column(0, -1.0)).contains("a swapped sign"));
     let swapped = said(&|observations| observations.measured.iter_mut().for_each(|u| u.swap(0, 2)));
     assert!(swapped.contains("swapped axes") || swapped.contains("an axis"), "{swapped}");
+}
+
+/// What these data cannot tell apart is what no data could, set by set, when poses go all round.
+#[test]
+fn sets_are_those_of_the_declaration() {
+    let lidar = include_str!("../../../examples/mobile-lidar/mobile-lidar.chain");
+    let turntable = include_str!("../../../examples/turntable/turntable.chain");
+    for (text, observable) in
+        [(lidar, "pointing"), (lidar, "position"), (turntable, "pointing"), (MOUNT, "sight")]
+    {
+        let mut simulation = Simulation::new(text, 4);
+        let joints: Vec<String> = simulation
+            .chain
+            .symbols_of(SymbolKind::Joint)
+            .map(|id| simulation.chain.symbol(id).name.clone())
+            .collect();
+        for joint in joints {
+            simulation.column(&joint, 400, -3.1..3.1);
+        }
+        simulation.draw_errors("*", 20.0 * ARCSEC);
+        let id = simulation.chain.find_observable(observable).unwrap();
+        let point = simulation.chain.observable(id).kind == ObservableKind::Point;
+        let observations = if point {
+            simulation.points(observable, 1e-5)
+        } else {
+            simulation.directions(observable, 2.0 * ARCSEC)
+        };
+        let result =
+            fit(&simulation.chain, &observations, &FitOptions::for_chain(&simulation.chain)).unwrap();
+        let said = precision(&simulation.chain, &observations, &result);
+        assert!(said.not_separable.iter().all(|set| set.structural), "{:?}", said.not_separable);
+        let mut found: Vec<Vec<String>> = said.not_separable.into_iter().map(|set| set.names).collect();
+        found.iter_mut().for_each(|set| set.sort());
+        found.sort();
+        assert_eq!(found, declared_sets(&simulation.chain, id), "{observable}");
+    }
+}
+
+/// The sets that the declaration's own columns link: each invisible error alone, and what combinations hold together.
+fn declared_sets(chain: &Chain, observable: ObservableId) -> Vec<Vec<String>> {
+    let known = identify(chain, &[observable]).unwrap();
+    let alike = known.alike.iter().map(|group| group.iter().map(|member| member.error).collect());
+    let combined = known.combinations.iter().map(|dependence| {
+        std::iter::once(dependence.error).chain(dependence.others.iter().map(|(other, _)| *other)).collect()
+    });
+    let mut sets: Vec<Vec<SymbolId>> = known.invisible.iter().map(|&id| vec![id]).collect();
+    for link in alike.chain(combined) {
+        let link: Vec<SymbolId> = link;
+        let (joined, mut rest): (Vec<_>, Vec<_>) =
+            sets.into_iter().partition(|set| set.iter().any(|id| link.contains(id)));
+        rest.push(joined.into_iter().flatten().chain(link).collect());
+        sets = rest;
+    }
+    let mut named: Vec<Vec<String>> = sets
+        .into_iter()
+        .map(|mut set| {
+            set.sort_unstable();
+            set.dedup();
+            let mut names: Vec<String> = set.into_iter().map(|id| chain.symbol(id).name.clone()).collect();
+            names.sort();
+            names
+        })
+        .collect();
+    named.sort();
+    named
 }

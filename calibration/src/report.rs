@@ -175,6 +175,10 @@ pub struct NotShown {
 pub struct Rms {
     /// On the data that were fitted.
     pub rms: f64,
-    /// On data that no stage saw; absent where nothing could be held out.
+    /// On data that no stage saw, gross outliers aside; absent where nothing could be held out.
     pub held_out_rms: Option<f64>,
+    /// Over how many observations that is.
+    pub held_out_rows: usize,
+    /// The same over every observation held out.
+    pub held_out_rms_of_all: Option<f64>,
 }

@@ -1,9 +1,14 @@
 //! Before and after, on the data that were fitted and on data that no stage saw, in physical units.
+//!
+//! Which held-out rows are gross outliers is for the searches that did not see them to say: a row counts unless what its
+//! fold's search predicts of it lies as far off as where the robust weights end. The same rows count before and after,
+//! and the figure over every row stands beside.
 
 use super::round::Round;
 use super::{CalibrateError, Loop, declared};
 use crate::columns::Columns;
-use crate::fit::FitResult;
+use crate::fit::{FitResult, robust};
+use crate::noise::Layout;
 use crate::report::Rms;
 use crate::search::HeldOut;
 
@@ -24,25 +29,65 @@ pub(crate) fn rms(
 ) -> Result<BeforeAfter, CalibrateError> {
     let rows = &last.columns.row;
     let weight = &last.fit.residuals.weight;
-    let used = |residual: &[f64]| length(residual, rows, |row| weight[row as usize] > 0.0);
+    let in_sample = |residual: &[f64]| {
+        length(residual, rows, |row| weight[row as usize] > 0.0).map_or(0.0, |(rms, _)| rms)
+    };
     let (held_before, held_after) = match whole.request.second {
         Some(second) => {
             let residual = |chain, values: &[f64]| {
                 Columns::at(chain, second, declared(whole), values, &[])
-                    .map(|columns| length(&columns.residual, &columns.row, |_| true))
+                    .map(|columns| Held::of(&columns.residual, &columns.row, |_| true))
             };
             (residual(&whole.request.plan.chain, &before.values)?, residual(&last.chain, &last.fit.values)?)
         }
         None if last.problem.folds() > 1 => {
-            (used(&predicted(last, &held_out.before)), used(&predicted(last, &held_out.after)))
+            let after = predicted(last, &held_out.after);
+            let within = within_reach(whole, last, &after);
+            let of = |residual: &[f64]| Held::of(residual, rows, |row| within[row as usize]);
+            (of(&predicted(last, &held_out.before)), of(&after))
         }
-        None => (None, None),
+        None => (Held::default(), Held::default()),
     };
-    let in_sample = |residual: &[f64]| used(residual).unwrap_or(0.0);
     Ok(BeforeAfter {
-        before: Rms { rms: in_sample(&before.residuals.raw), held_out_rms: held_before },
-        after: Rms { rms: in_sample(&last.columns.residual), held_out_rms: held_after },
+        before: held_before.beside(in_sample(&before.residuals.raw)),
+        after: held_after.beside(in_sample(&last.columns.residual)),
     })
+}
+
+/// RMS of residuals that no stage saw.
+#[derive(Default)]
+struct Held {
+    /// Over the rows that count, and how many those are.
+    counted: Option<(f64, usize)>,
+    /// Over every row.
+    all: Option<(f64, usize)>,
+}
+
+impl Held {
+    fn of(residual: &[f64], rows: &[u32], counts: impl Fn(u32) -> bool) -> Self {
+        Self { counted: length(residual, rows, counts), all: length(residual, rows, |_| true) }
+    }
+
+    fn beside(self, rms: f64) -> Rms {
+        Rms {
+            rms,
+            held_out_rms: self.counted.map(|(rms, _)| rms),
+            held_out_rows: self.counted.map_or(0, |(_, rows)| rows),
+            held_out_rms_of_all: self.all.map(|(rms, _)| rms),
+        }
+    }
+}
+
+/// Per row whether a held-out residual is within reach of the robust weights; every row if the fit is not robust.
+fn within_reach(whole: &Loop<'_>, last: &Round, residual: &[f64]) -> Vec<bool> {
+    let observations = whole.request.observations;
+    if !whole.request.plan.fit.robust {
+        return vec![true; observations.rows()];
+    }
+    let mut white = residual.to_vec();
+    last.fit.noise.without_memory().whiten(&mut white);
+    let norms: Vec<f64> = Layout::of(observations).norms(&white).collect();
+    norms.iter().zip(observations.measures()).map(|(&n, m)| n < robust::cutoff(m.components())).collect()
 }
 
 /// What each row's fold, fitted without it, leaves of it, before whitening.
@@ -70,15 +115,15 @@ fn predicted(last: &Round, coefficients: &[Vec<(usize, f64)>]) -> Vec<f64> {
     left
 }
 
-/// RMS over observations of the length of the residual; `None` without observations.
-fn length(residual: &[f64], rows: &[u32], used: impl Fn(u32) -> bool) -> Option<f64> {
-    let (mut squares, mut count, mut last) = (0.0, 0.0, None);
+/// RMS over observations of the length of the residual, and how many they are; `None` without observations.
+fn length(residual: &[f64], rows: &[u32], used: impl Fn(u32) -> bool) -> Option<(f64, usize)> {
+    let (mut squares, mut count, mut last) = (0.0, 0_u32, None);
     for (value, &row) in residual.iter().zip(rows).filter(|&(_, &row)| used(row)) {
         squares += value * value;
         if last != Some(row) {
-            count += 1.0;
+            count += 1;
             last = Some(row);
         }
     }
-    (count > 0.0).then(|| f64::sqrt(squares / count))
+    (count > 0).then(|| (f64::sqrt(squares / f64::from(count)), count as usize))
 }

@@ -31,11 +31,25 @@ def predict(x):
     return base.apply(point) + x[:3]
 
 
-def fit(start):
-    # A faint pull to the start decides what the data leave open.
-    return least_squares(lambda x: np.append((predict(x) - measured).ravel(), 1e-6 * x), start, x_scale="jac", xtol=1e-14)
+def fit(x, step=1e-6):
+    # Gauss-Newton by central differences; lstsq keeps combinations that the data leave open where they are.
+    for _ in range(30):
+        columns = [(predict(x + e) - predict(x - e)).ravel() / (2 * step) for e in step * np.eye(len(x))]
+        design = np.column_stack(columns)
+        scale = np.linalg.norm(design, axis=0)
+        change = np.linalg.lstsq(design / scale, (measured - predict(x)).ravel(), rcond=1e-5)[0] / scale
+        before, x = rms(x), x + change
+        if abs(rms(x) - before) < 1e-11:
+            return x
+    raise SystemExit("not converged")
 
 
-best = min((fit(np.append([0, 0, 0, *turn], np.zeros(3))) for turn in ([0, 0, 0], [0, 0, 2], [0, 0, -2])), key=lambda f: f.cost)
-rms = lambda x: np.sqrt(((predict(x) - measured) ** 2).sum() / len(q)) * 1e3
-print(f"nominal {rms(best.x):.4f}", f"calibrated {rms(fit(np.append(best.x, np.zeros(24))).x):.4f}")
+distance = lambda x: np.linalg.norm(predict(x) - measured, axis=1) * 1e3
+rms = lambda x: np.sqrt((distance(x) ** 2).mean())
+# The base's turn about z is known well enough from a coarse search.
+turned = lambda turn: least_squares(
+    lambda x: (predict(x) - measured).ravel(), [0, 0, 0, 0, 0, turn, 0, 0, 0.1], x_scale="jac", ftol=1e-6
+)
+nominal = fit(min((turned(turn) for turn in (0, 2, -2)), key=lambda f: f.cost).x)
+print(f"nominal {rms(nominal):.9f}, mean {distance(nominal).mean():.4f}, median {np.median(distance(nominal)):.4f}")
+print(f"calibrated {rms(fit(np.append(nominal, np.zeros(24)))):.9f}")

@@ -75,6 +75,13 @@ fn before_and_after(report: &Report) -> Markup {
                 td.number { (told(report.before.held_out_rms)) }
                 td.number { (told(report.after.held_out_rms)) }
             }
+            @if report.after.held_out_rms_of_all != report.after.held_out_rms {
+                tr {
+                    td { "the same with the outliers there" }
+                    td.number { (told(report.before.held_out_rms_of_all)) }
+                    td.number { (told(report.after.held_out_rms_of_all)) }
+                }
+            }
         }
     }
 }

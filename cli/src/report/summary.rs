@@ -124,6 +124,10 @@ fn before_and_after(text: &mut String, report: &Report) {
     );
     row(text, "on the data that were fitted", Some(report.before.rms), Some(report.after.rms));
     row(text, "on data that nobody fitted", report.before.held_out_rms, report.after.held_out_rms);
+    if report.after.held_out_rms_of_all != report.after.held_out_rms {
+        let (before, after) = (report.before.held_out_rms_of_all, report.after.held_out_rms_of_all);
+        row(text, "  with the outliers there", before, after);
+    }
 }
 
 fn errors(text: &mut String, report: &Report) {

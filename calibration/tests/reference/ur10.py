@@ -32,15 +32,16 @@ def predict(x):
 
 
 def fit(x, step=1e-6):
-    # Gauss-Newton by central differences; lstsq keeps combinations that the data leave open where they are.
+    # Gauss-Newton by central differences; lstsq keeps combinations that the data hardly show where they are.
     for _ in range(30):
         columns = [(predict(x + e) - predict(x - e)).ravel() / (2 * step) for e in step * np.eye(len(x))]
         design = np.column_stack(columns)
         scale = np.linalg.norm(design, axis=0)
-        change = np.linalg.lstsq(design / scale, (measured - predict(x)).ravel(), rcond=1e-5)[0] / scale
+        change, _, rank, _ = np.linalg.lstsq(design / scale, (measured - predict(x)).ravel(), rcond=1e-4)
+        change /= scale
         before, x = rms(x), x + change
         if abs(rms(x) - before) < 1e-11:
-            return x
+            return x, rank
     raise SystemExit("not converged")
 
 
@@ -50,6 +51,7 @@ rms = lambda x: np.sqrt((distance(x) ** 2).mean())
 turned = lambda turn: least_squares(
     lambda x: (predict(x) - measured).ravel(), [0, 0, 0, 0, 0, turn, 0, 0, 0.1], x_scale="jac", ftol=1e-6
 )
-nominal = fit(min((turned(turn) for turn in (0, 2, -2)), key=lambda f: f.cost).x)
+nominal = fit(min((turned(turn) for turn in (0, 2, -2)), key=lambda f: f.cost).x)[0]
 print(f"nominal {rms(nominal):.9f}, mean {distance(nominal).mean():.4f}, median {np.median(distance(nominal)):.4f}")
-print(f"calibrated {rms(fit(np.append(nominal, np.zeros(24)))):.9f}")
+calibrated, rank = fit(np.append(nominal, np.zeros(24)))
+print(f"calibrated {rms(calibrated):.9f}, {rank} combinations")

@@ -62,6 +62,20 @@ def rms(residual, parameters, rows):
     return np.sqrt((found.fun**2).sum() / rows)
 
 
+def weighted(name, residual, parameters, rows):
+    """Across and along each weighted by its own scatter, until that no longer changes."""
+    weight = np.ones(2 * rows)
+    for _ in range(50):
+        start = np.zeros(parameters)
+        found = least_squares(lambda p: weight * residual(p), start, jac="3-point", x_scale="jac", xtol=1e-12, ftol=1e-15, gtol=1e-15)
+        left = residual(found.x)
+        scatter = np.sqrt((left.reshape(2, -1) ** 2).mean(axis=1))
+        if np.allclose(weight, 1 / np.repeat(scatter, rows), rtol=1e-9):
+            break
+        weight = 1 / np.repeat(scatter, rows)
+    print(f"{name}, each component by its scatter: {np.sqrt((left**2).sum() / rows):.9f}")
+
+
 def auxtel(p, az, el):
     return sight(("x", p[0]), ("y", p[1]), ("z", -az), ("z", -p[2]), ("x", el), ("x", p[3]), ("x", p[4] / np.tan(el)), ("z", p[5]))
 
@@ -89,7 +103,9 @@ def report(name, residual, parameters, rows):
 for name in ("auxtel-2022-04", "auxtel-2020-03"):
     ta, te, az, el = np.radians(columns(name + ".csv", "true_az_deg", "true_el_deg", "encoder_az_deg", "encoder_el_deg"))
     measured = spherical(ta, te)
-    report(name, lambda p: on_tangent_plane(measured, auxtel(p * ARCSEC, az, el)), 6, len(az))
+    residual = lambda p: on_tangent_plane(measured, auxtel(p * ARCSEC, az, el))
+    report(name, residual, 6, len(az))
+    weighted(name, residual, 6, len(az))
 
 for name in ("iram30m-2013-04", "iram30m-2013-10"):
     keys = ("az_deg", "el_deg", "offset_cross_el_arcsec", "offset_el_arcsec", "fwhm_arcsec")
@@ -112,7 +128,9 @@ for name in ("equatorial-a", "equatorial-b"):
     th, td, ha, dec = np.radians(columns(name + ".csv", *keys))
     (pier,) = columns(name + ".csv", "pier_side")
     measured = spherical(th, td)
-    report(name, lambda p: on_tangent_plane(measured, equatorial(p * ARCSEC, ha, dec, pier)), 6, len(ha))
+    residual = lambda p: on_tangent_plane(measured, equatorial(p * ARCSEC, ha, dec, pier))
+    report(name, residual, 6, len(ha))
+    weighted(name, residual, 6, len(ha))
     cross, along = columns(name + ".csv", "offset_cross_dec_arcsec", "offset_dec_arcsec")
     zero = np.zeros_like(th)
     terms = [

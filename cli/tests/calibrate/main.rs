@@ -4,6 +4,8 @@
 mod support;
 
 mod bad_studies;
+mod instruments;
+mod observations;
 
 use serde_json::Value;
 use support::{Folder, trueaxis};
@@ -127,13 +129,17 @@ fn a_dry_run_shows_the_difference_and_writes_nothing() {
 }
 
 #[test]
-fn the_independent_simulator_still_writes_the_data() {
-    let folder = Folder::new("simulator");
-    folder.copy("examples/mobile-lidar/simulate.py");
-    let python = std::process::Command::new("python3").arg("simulate.py").current_dir(&folder.0).status();
-    assert!(python.expect("Python is there").success());
-    for file in ["measured.csv", "second-run.csv"] {
-        let kept = std::fs::read_to_string(support::root().join("examples/mobile-lidar").join(file));
-        assert_eq!(folder.read(file), kept.expect("the example's data"), "{file}");
+fn the_independent_simulators_still_write_the_data() {
+    for (example, files) in
+        [("mobile-lidar", &["measured.csv", "second-run.csv"][..]), ("turntable", &["measured.csv"][..])]
+    {
+        let folder = Folder::new(&format!("simulator-{example}"));
+        folder.copy(&format!("examples/{example}/simulate.py"));
+        let python = std::process::Command::new("python3").arg("simulate.py").current_dir(&folder.0).status();
+        assert!(python.expect("Python is there").success());
+        for file in files {
+            let kept = std::fs::read_to_string(support::root().join("examples").join(example).join(file));
+            assert_eq!(folder.read(file), kept.expect("the example's data"), "{file}");
+        }
     }
 }

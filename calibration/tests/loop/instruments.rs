@@ -99,7 +99,6 @@ fn encoders_repeat_once_twice_and_four_times_and_with_the_motor() {
 }
 
 #[test]
-#[ignore = "six joints take half a minute: cargo test -p calibration --test loop -- --ignored"]
 fn the_arm_has_joint_errors_and_no_temperature() {
     let Some(found) = calibrated("examples/ur10/ur10.toml", 0.41e-3) else { return };
     assert!(found.report.effects.iter().all(|effect| !effect.driver.contains("temperature")));

@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use model_core::SymbolId;
+use model_core::algebra::Poly;
+use model_core::{Chain, SymbolId, SymbolKind};
 
 use super::held_out::BeforeAfter;
 use super::round::Round;
 use super::{Loop, declared};
-use crate::effects::assembly_name;
+use crate::effects::{Effect, Place, assembly_name};
 use crate::report::NotShown;
 
 /// Standard deviations at which an effect is found four times out of five, corrected for the size of the catalogue.
@@ -61,7 +62,7 @@ pub(super) fn not_shown(whole: &Loop<'_>, last: &Round, rms: BeforeAfter) -> Vec
     });
     let mut list: Vec<NotShown> = unmoved.collect();
     for (number, effect) in whole.catalogue.iter().enumerate() {
-        if accepted.contains(&number) {
+        if accepted.contains(&number) || is_declared(&whole.request.plan.chain, effect) {
             continue;
         }
         let unit = effect.place.freedom.quantity().unit();
@@ -85,6 +86,25 @@ pub(super) fn not_shown(whole: &Loop<'_>, last: &Round, rms: BeforeAfter) -> Vec
         }
     }
     list
+}
+
+/// Whether the declaration has this very effect: an error of its own for each function, at the same place.
+fn is_declared(chain: &Chain, effect: &Effect) -> bool {
+    let Place { body, role, freedom } = effect.place;
+    let factors =
+        chain.body(body).factors.iter().filter(|factor| {
+            (factor.role, factor.motion, factor.axis) == (role, freedom.motion, freedom.axis)
+        });
+    let declared: Vec<Poly> = factors
+        .flat_map(|factor| factor.amount.collect_by(|symbol| chain.symbol(symbol).kind == SymbolKind::Error))
+        .filter(|(errors, _)| matches!(errors.as_slice(), [(_, 1)]))
+        .map(|(_, function)| function)
+        .collect();
+    effect.functions.iter().all(|function| {
+        let negative = -&function.amount;
+        function.elsewhere.is_empty()
+            && declared.iter().any(|own| *own == function.amount || *own == negative)
+    })
 }
 
 /// The declared errors that would take an effect of amplitude one upon them, and how far each would move.

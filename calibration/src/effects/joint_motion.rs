@@ -42,8 +42,7 @@ pub(super) fn whirl(place: Place, turn: &Turn<'_>, stem: &str) -> Vec<Function> 
     let across = place.with(Freedom { axis: next, ..place.freedom });
     let cosine = Poly::cos(&angle);
     let sine = &Poly::sin(&angle) * &whole(if turn.forward { 1 } else { -1 });
-    let sense = if turn.forward { "fwd" } else { "bwd" };
-    let name = |part: &str| format!("{stem}_{sense}{}_{part}_{}", turn.order, turn.name);
+    let name = |part: &str| format!("{stem}{}_{part}_{}", turn.order, turn.name);
     vec![
         Function { amount: cosine.clone(), elsewhere: vec![(across, sine.clone())], stem: name("cos") },
         Function { amount: -&sine, elsewhere: vec![(across, cosine)], stem: name("sin") },
@@ -85,21 +84,18 @@ fn circles(
 ) -> Vec<Effect> {
     let name = setting.name(joint.symbol);
     let place = joint.place().with(freedom);
-    let circle = |order, forward| Effect {
-        family: FAMILY.name,
-        name: format!(
-            "{word} of the {name} axis, {} {}",
-            per_turn(order),
-            if forward { "forward" } else { "backward" }
-        ),
-        place,
-        functions: whirl(
+    let circle = |order, forward: bool| {
+        let (sense, short) = if forward { ("forward", "fwd") } else { ("backward", "bwd") };
+        // With the motion is against the reading where the body turns against it.
+        let turn = Turn { angle: joint.symbol, name, order, forward: forward != joint.reversed };
+        Effect {
+            family: FAMILY.name,
+            name: format!("{word} of the {name} axis, {} {sense}", per_turn(order)),
             place,
-            &Turn { angle: joint.symbol, name, order, forward: forward != joint.reversed },
-            stem,
-        ),
-        driver: name.to_owned(),
-        form: format!("harmonic {order}"),
+            functions: whirl(place, &turn, &format!("{stem}_{short}")),
+            driver: name.to_owned(),
+            form: format!("harmonic {order}"),
+        }
     };
     (1..=HARMONICS).flat_map(|order| [circle(order, true), circle(order, false)]).collect()
 }

@@ -37,12 +37,12 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
                 }
                 for (order, forward) in [(1, true), (1, false), (2, true), (2, false)] {
                     let turn = Turn { angle: input, name, order, forward };
-                    let sense = if forward { "forward" } else { "backward" };
+                    let (sense, short) = if forward { ("forward", "fwd") } else { ("backward", "bwd") };
                     effects.push(Effect {
                         family: FAMILY.name,
                         name: format!("circle with {name}, {} {sense}", per_turn(order)),
                         place,
-                        functions: whirl(place, &turn, "rotator"),
+                        functions: whirl(place, &turn, &format!("circle_{short}")),
                         driver: name.to_owned(),
                         form: format!("harmonic {order}"),
                     });

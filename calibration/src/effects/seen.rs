@@ -74,6 +74,11 @@ pub(super) fn others(axis: Axis) -> (Axis, Axis) {
     }
 }
 
+/// The scalar product of two vectors.
+pub(super) fn dot(a: &[Poly; 3], b: &[Poly; 3]) -> Poly {
+    a.iter().zip(b).fold(Poly::zero(), |sum, (a, b)| &sum + &(a * b))
+}
+
 /// The amount of a factor without errors.
 pub(super) fn nominal(setting: &Setting<'_>, factor: &Factor) -> Poly {
     let is_error = |symbol| setting.chain.symbol(symbol).kind == SymbolKind::Error;

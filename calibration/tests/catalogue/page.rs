@@ -83,7 +83,7 @@ fn page() -> String {
          formula that the field published, up to a factor; the algebra decides. It is listed here with the first family \
          that has such an effect, and a report gives it beside every one. Signs follow each field's conventions and \
          are no part of a name.\n\n\
-         Pictures show an effect of the family on an alt-azimuth mount: where the line of sight goes, over the sky, the \
+         Pictures show an effect of the family on an alt-azimuth mount: where the line of sight goes from each dot, over the sky, the \
          horizon as the rim, north up and east to the right.\n",
     );
     for family in FAMILIES {

@@ -19,10 +19,14 @@ fn nothing_more(path: &str) {
         for name in first.report.effects.iter().flat_map(|effect| effect.coefficients.keys()) {
             let id = chain.find_symbol(name).unwrap();
             let (_, column) = form.columns(&chain).into_iter().find(|(error, _)| *error == id).unwrap();
-            assert!(column.iter().any(|component| !component.is_zero()), "{path}: {name} moves what is observed");
+            assert!(
+                column.iter().any(|component| !component.is_zero()),
+                "{path}: {name} moves what is observed"
+            );
         }
         let errors: Vec<_> = chain.symbols_of(SymbolKind::Error).collect();
-        let program = build_all(&chain, &[series.observable], &[Form::ExactValue, Form::ExactJacobian], &errors);
+        let program =
+            build_all(&chain, &[series.observable], &[Form::ExactValue, Form::ExactJacobian], &errors);
         assert!(!program.inputs().is_empty());
     }
     let again = calibrate(Request {

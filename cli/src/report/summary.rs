@@ -142,13 +142,13 @@ fn errors(text: &mut String, report: &Report) {
     }
 }
 
-/// The effects that these data could not have shown, those that would have to be largest first.
+/// The effects that these data could not have shown: first those that would show if they were large enough.
 fn not_shown(text: &mut String, report: &Report) {
     let mut hidden: Vec<_> = report.not_shown.iter().filter(|effect| effect.absorbed > 0.0).collect();
     if hidden.is_empty() {
         return;
     }
-    hidden.sort_by(|a, b| b.absorbed.total_cmp(&a.absorbed));
+    hidden.sort_by_key(|effect| effect.smallest.is_none());
     let _ = writeln!(text, "\n{HEADING}what these data could not have shown{HEADING:#}");
     for effect in hidden.iter().take(NOT_SHOWN) {
         let _ = writeln!(text, "  {} {}: {}", effect.name, hidden::size(effect), hidden::fate(effect));

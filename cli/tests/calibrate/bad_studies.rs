@@ -118,6 +118,17 @@ fn mistake_in_the_chain() {
 }
 
 #[test]
+fn own_effect_of_an_unknown_joint() {
+    let effect = "[[effect]]\nname = \"cable\"\nbody = \"table\"\nmoves = \"Rz\"\nfunctions = [\"sin(2*azimut)\"]\n\n[columns]";
+    assert_snapshot!(refused("own-effect", "[columns]", effect));
+}
+
+#[test]
+fn unknown_name_of_an_effect() {
+    assert_snapshot!(refused("chosen-effect", "[columns]", "[search]\neffects = [\"encodre\"]\n\n[columns]"));
+}
+
+#[test]
 fn empty_study() {
     assert_snapshot!(refused("empty-study", STUDY, ""));
 }

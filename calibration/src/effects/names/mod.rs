@@ -144,14 +144,7 @@ impl Mount {
             Motion::Translation if self.range.is_some() => motion[axis.index()] = Poly::one(),
             Motion::Translation => return Some(motion),
         }
-        let project = |direction: &[Poly; 3]| {
-            let seen = seen::from_ground(setting, direction, place)?;
-            let mut sum = Poly::zero();
-            for (a, b) in seen.iter().zip(&motion) {
-                sum = &sum + &(a * b);
-            }
-            Some(sum)
-        };
+        let project = |direction| Some(seen::dot(&seen::from_ground(setting, direction, place)?, &motion));
         let [across, along, radial] = &self.frame;
         let radial = if self.range.is_some() { project(radial)? } else { Poly::zero() };
         Some([project(across)?, project(along)?, radial])

@@ -73,12 +73,7 @@ fn observed(setting: &Setting<'_>, observable: ObservableId) -> Option<[Poly; 3]
     let component = |axis: usize| {
         let mut unit = [Poly::zero(), Poly::zero(), Poly::zero()];
         unit[axis] = Poly::one();
-        let unit = seen::from_ground(setting, &unit, place)?;
-        let mut sum = Poly::zero();
-        for (a, b) in unit.iter().zip(&seen) {
-            sum = &sum + &(a * b);
-        }
-        Some(sum)
+        Some(seen::dot(&seen::from_ground(setting, &unit, place)?, &seen))
     };
     Some([component(0)?, component(1)?, component(2)?])
 }

@@ -93,14 +93,14 @@ fn page() -> String {
         if let Some((_, effect, _)) = PICTURES.iter().find(|(known, ..)| *known == family.name) {
             let _ = write!(page, "![{effect}](catalogue/{}.svg)\n\n*{effect}*\n\n", file(family.name));
         }
-        let _ = write!(page, "- **Causes.** {}\n", told(family.causes));
-        let _ = write!(page, "- **Looks like.** {}\n", told(family.looks));
-        let _ = write!(page, "- **Check.** {}\n", told(family.check));
+        let _ = writeln!(page, "- **Causes.** {}", told(family.causes));
+        let _ = writeln!(page, "- **Looks like.** {}", told(family.looks));
+        let _ = writeln!(page, "- **Check.** {}", told(family.check));
         let mut names = names_of(family.name);
         names.retain(|name| !told_before.contains(name));
         told_before.extend(names.clone());
         if !names.is_empty() {
-            let _ = write!(page, "- **Names elsewhere.** {}.\n", by_field(names));
+            let _ = writeln!(page, "- **Names elsewhere.** {}.", by_field(names));
         }
     }
     page

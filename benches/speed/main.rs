@@ -5,13 +5,21 @@
 #![allow(clippy::print_stdout, reason = "a program that prints a table")]
 
 #[cfg(target_arch = "x86_64")]
+#[macro_use]
+mod thirty;
+
+#[cfg(target_arch = "x86_64")]
 mod c_code;
 #[cfg(target_arch = "x86_64")]
 mod candidates;
 #[cfg(target_arch = "x86_64")]
+mod check;
+#[cfg(target_arch = "x86_64")]
 mod floors;
 #[cfg(target_arch = "x86_64")]
 mod rounds;
+#[cfg(target_arch = "x86_64")]
+mod threads;
 
 /// The generated evaluators on the portable path.
 #[allow(dead_code, unused_imports)]

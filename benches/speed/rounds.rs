@@ -1,8 +1,10 @@
 //! Who takes part, the rounds, and the table.
 
 use crate::candidates::{self, Buffers};
+use crate::check;
 use crate::floors::Width;
 use crate::lidar::{Path, path_taken};
+use crate::threads;
 
 const POSES: usize = 1_000_000 / 64 * 64;
 const ROUNDS: usize = 25;
@@ -23,7 +25,7 @@ pub fn run() {
     let joints = [(); 3].map(|()| (0..POSES).map(|_| random_angle(&mut state)).collect());
     let mut buffers = Buffers { joints, out: [(); 6].map(|()| vec![0.0; POSES]) };
 
-    candidates::check(&mut buffers);
+    check::check(&mut buffers);
     let mut candidates = candidates::all();
     let mut best = vec![f64::INFINITY; candidates.len()];
     for _ in 0..ROUNDS {
@@ -44,12 +46,14 @@ pub fn run() {
             .map(|(_, floor)| format!("{:8.3}", time / floor));
         println!("{:22} {:28} {time:9.2} {}", candidate.form, candidate.name, floor.unwrap_or_default());
     }
+    drop(candidates);
+    threads::run(&mut buffers);
 }
 
 /// Nanoseconds that this thread has spent on a processor, so that other programs' turns do not count.
 #[cfg(target_os = "linux")]
 #[allow(unsafe_code, reason = "the standard library does not know this clock")]
-fn processor_ns() -> f64 {
+pub fn processor_ns() -> f64 {
     #[repr(C)]
     struct Time {
         seconds: i64,
@@ -68,7 +72,7 @@ fn processor_ns() -> f64 {
 
 /// Nanoseconds of the clock.
 #[cfg(not(target_os = "linux"))]
-fn processor_ns() -> f64 {
+pub fn processor_ns() -> f64 {
     use std::{sync::OnceLock, time::Instant};
     static START: OnceLock<Instant> = OnceLock::new();
     START.get_or_init(Instant::now).elapsed().as_secs_f64() * 1e9

@@ -21,9 +21,9 @@
 static mobile_lidar_first_order_error_prepared first_order_error;
 static mobile_lidar_exact_error_prepared exact_error;
 static mobile_lidar_exact_jacobian_prepared exact_jacobian;
-static mobile_lidar_exact_jacobian_block exact_block;
+static TRUEAXIS_ALIGNED mobile_lidar_exact_jacobian_block exact_block;
 static mobile_lidar_first_order_jacobian_prepared first_order_jacobian;
-static mobile_lidar_first_order_jacobian_block first_order_block;
+static TRUEAXIS_ALIGNED mobile_lidar_first_order_jacobian_block first_order_block;
 
 /* `errors` are in the order of the declaration, as the structure's fields. */
 void SPEED(prepare)(const mobile_lidar_errors *errors)

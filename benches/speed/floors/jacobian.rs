@@ -4,13 +4,11 @@
 //! along w moves the point by w. So the columns are ground axes of the frames between the errors, and cross products
 //! with them. Of the 180 derivatives 117 depend on the pose and differ; these are stored, three for a column.
 
+use super::ROWS;
 use super::lanes::Lanes;
 use super::sine_cosine::sin_cos;
 use super::three::{Three, across, all, along, cross, times_plus, turned};
 use crate::lidar::Errors;
-
-/// Rows of a block.
-pub const ROWS: usize = 64;
 
 /// The observable (0 direction, 1 point) and the error, by its place in the declaration, of each stored column.
 pub const COLUMNS: [(usize, usize); 39] = [

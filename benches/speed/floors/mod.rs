@@ -5,14 +5,23 @@
 #![allow(unsafe_code, reason = "processor instructions; each block says why it is sound")]
 
 mod errors;
+mod first_order_jacobian;
 mod jacobian;
 mod lanes;
 mod sine_cosine;
 mod three;
 
 pub use errors::{Exact, FirstOrder, Rows};
-pub use jacobian::{Block, COLUMNS, Jacobian, ROWS};
+pub use first_order_jacobian::{DERIVATIVES, FirstOrderJacobian};
+pub use jacobian::{COLUMNS, Jacobian};
 use lanes::{Eight, Four};
+
+/// Rows of a block.
+pub const ROWS: usize = 64;
+
+/// Blocks start at a cache line, as generated ones do.
+#[repr(align(64))]
+pub struct Aligned<T>(pub T);
 
 /// The path on which a floor runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -68,4 +77,15 @@ macro_rules! floor {
 
 floor!(first_order, FirstOrder, (rows: Rows<'_>), "First-order error.");
 floor!(exact, Exact, (rows: Rows<'_>), "Exact error.");
-floor!(jacobian, Jacobian, (joints: [&[f64; ROWS]; 3], out: &mut Block), "Exact Jacobian, one block.");
+floor!(
+    jacobian,
+    Jacobian,
+    (joints: [&[f64; ROWS]; 3], out: &mut jacobian::Block),
+    "Exact Jacobian, one block."
+);
+floor!(
+    first_order_jacobian,
+    FirstOrderJacobian,
+    (joints: [&[f64; ROWS]; 3], out: &mut first_order_jacobian::Block),
+    "First-order Jacobian, one block."
+);

@@ -6,7 +6,7 @@
 
 use std::io::{BufWriter, Error, ErrorKind, Write, stdout};
 
-use codegen::vector::{Arithmetic, Path, ROWS, Work, path, run, sin_cos_rows};
+use codegen::vector::{Arithmetic, Path, ROWS, Waves, Work, path, run, sin_cos_rows};
 
 struct Block<'a> {
     x: &'a [f64; ROWS],
@@ -17,7 +17,9 @@ struct Block<'a> {
 impl Work for Block<'_> {
     #[inline(always)]
     fn run<A: Arithmetic>(self, arithmetic: A) {
-        sin_cos_rows(arithmetic, self.x, self.sine, self.cosine);
+        let mut waves = Waves::NEW;
+        let (sine, cosine) = sin_cos_rows(arithmetic, self.x, &mut waves);
+        (*self.sine, *self.cosine) = (*sine, *cosine);
     }
 }
 

@@ -22,7 +22,7 @@ pub(super) fn declarations(c: &C<'_>, function: &Function) -> String {
             text,
             "
 // A block of {name}: 64 poses. Derivatives that are the same function are held once, and columns are longer than a block,
-// so that they do not all meet in the same places of the cache.
+// so that they do not all meet in the same places of the cache. One that starts at a multiple of 64 bytes is fastest.
 typedef struct {{
     double values[{}][72];
 }} {prefix}_{name}_block;
@@ -117,12 +117,12 @@ fn compute(c: &C<'_>, function: &Function, loops: &Rows) -> String {
         };
         let _ = writeln!(
             text,
-            "    double sine_{name}[TRUEAXIS_ROWS], cosine_{name}[TRUEAXIS_ROWS];
+            "    TRUEAXIS_ALIGNED double sine_{name}[TRUEAXIS_ROWS], cosine_{name}[TRUEAXIS_ROWS];
     trueaxis_sin_cos_rows(fused, {source}, sine_{name}, cosine_{name});"
         );
     }
     text.push_str("    for (row = 0; row < TRUEAXIS_ROWS; row++) {\n");
-    for line in &loops.statements {
+    for line in loops.fixed.iter().chain(&loops.statements) {
         match line {
             Line::Bind(statement) => {
                 let _ = writeln!(text, "        {statement}");
@@ -230,16 +230,33 @@ TRUEAXIS_INLINE void {prefix}_{name}_on(const int fused, {parameters})
 /// Jacobians: a block at a time, so that it is still in the cache when it is used.
 fn blocks(c: &C<'_>, function: &Function, loops: &Rows) -> String {
     let (prefix, name) = (&c.prefix, form_name(function.form));
-    let parameters =
-        format!("const double *p, double (*columns)[TRUEAXIS_ROWS], {prefix}_{name}_block *block");
+    let parameters = format!("const double *p, const double *const *columns, {prefix}_{name}_block *block");
     let (definitions, choice) =
         paths(&format!("{prefix}_{name}"), &parameters, "prepared->values, columns, block");
     let definitions = definitions.replace("prepared->values", "p");
     let columns: String = (0..loops.columns.len()).map(|index| format!(", columns[{index}]")).collect();
-    let padded = loops.columns.iter().enumerate().fold(String::new(), |text, (index, &id)| {
-        format!("{text}        columns[{index}][row] = row < rows ? joints->{}[row] : 0.0;\n", c.name(id))
-    });
-    let mut places = loops.places.chunks(c.unit.errors().len());
+    let read: Vec<String> = loops.columns.iter().map(|&id| format!("joints->{}", c.name(id))).collect();
+    let count = read.len();
+    let whole = if read.is_empty() {
+        "    const double *const *const columns = 0;\n    (void)rows;\n    (void)joints;\n".to_owned()
+    } else {
+        format!(
+            "    const double *columns[{count}] = {{{}}};
+    double padded[{count}][TRUEAXIS_ROWS];
+    if (rows < TRUEAXIS_ROWS) {{
+        size_t column, row;
+        for (column = 0; column < {count}; column++) {{
+            for (row = 0; row < TRUEAXIS_ROWS; row++)
+                padded[column][row] = row < rows ? columns[column][row] : 0.0;
+            columns[column] = padded[column];
+        }}
+    }}
+",
+            read.join(", ")
+        )
+    };
+    let columns_out = c.unit.errors().len();
+    let mut places = loops.places.chunks(columns_out);
     let fields = c.observable_fields().fold(String::new(), |mut text, _| {
         text.push_str("    {");
         for row in places.by_ref().take(3) {
@@ -252,10 +269,14 @@ fn blocks(c: &C<'_>, function: &Function, loops: &Rows) -> String {
         c.joints.iter().map(|&id| c.name(id)).fold(String::new(), |text, name| {
             format!("{text}        part.{name} = joints->{name} + start;\n")
         });
-    let copies =
-        c.places(function.form).iter().zip(&loops.places).fold(String::new(), |text, (place, value)| {
-            format!("{text}            out->{place}[start + row] = block.values[{value}][row];\n")
-        });
+    let copies = c.observable_fields().fold(String::new(), |text, observable| {
+        format!(
+            "{text}                for (row = 0; row < count; row++)
+                    out->{observable}[component][column][start + row] =
+                        block.values[{prefix}_{name}_place.{observable}[component][column]][row];
+"
+        )
+    });
     format!(
         "
 const {prefix}_{name}_places {prefix}_{name}_place = {{
@@ -269,28 +290,24 @@ TRUEAXIS_INLINE void {prefix}_{name}_on(const int fused, {parameters})
 {definitions}
 {}
 {{
-    double columns[{}][TRUEAXIS_ROWS];
-    size_t row;
-    (void)joints;
-    for (row = 0; row < TRUEAXIS_ROWS; row++) {{
-{padded}    }}
-{choice}}}
+{whole}{choice}}}
 
 {}
 {{
-    size_t start, row;
+    size_t start, component, column, row;
     for (start = 0; start < rows; start += TRUEAXIS_ROWS) {{
         const size_t count = rows - start < TRUEAXIS_ROWS ? rows - start : TRUEAXIS_ROWS;
         {prefix}_joints_rows part = *joints;
         {prefix}_{name}_block block;
 {part}        {prefix}_{name}_rows_of_block(prepared, count, &part, &block);
-        for (row = 0; row < count; row++) {{
-{copies}        }}
+        for (component = 0; component < 3; component++) {{
+            for (column = 0; column < {columns_out}; column++) {{
+{copies}            }}
+        }}
     }}
 }}
 ",
         block_signature(c, function),
-        loops.columns.len().max(1),
         rows_signature(c, function),
     )
 }

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use model_core::{Chain, SymbolId, SymbolKind};
 
-use super::listing::{Statement, Words, list};
+use super::listing::{Listing, Statement, Words, list};
 use super::unit::{Function, Unit, camel_case, describe_form, form_name};
 use crate::program::Form;
 
@@ -72,7 +72,7 @@ export function {name}(p, joints) {{
         statements(&listing.prepared, 2),
         listing.carried.iter().fold(String::new(), |text, value| format!("{text}    {value},\n")),
         statements(&listing.evaluated, 2),
-        observed(unit, function.form, &listing.outputs),
+        observed(unit, function.form, &listing),
     );
     let Some(first) = joints.first().map(|&id| unit.chain.symbol(id).name.as_str()) else { return text };
     let _ = write!(
@@ -110,9 +110,8 @@ fn places(unit: &Unit<'_>, form: Form) -> Vec<String> {
     places
 }
 
-fn observed(unit: &Unit<'_>, form: Form, outputs: &[String]) -> String {
-    let columns = if form.is_jacobian() { unit.errors().len() } else { 1 };
-    let mut rows = outputs.chunks(columns.max(1)).map(|row| row.join(", "));
+fn observed(unit: &Unit<'_>, form: Form, listing: &Listing) -> String {
+    let mut rows = listing.components(unit.columns_of(form)).map(|row| row.join(", "));
     let mut text = String::from("{\n");
     for name in unit.observable_names() {
         let _ = writeln!(text, "    {name}: [");

@@ -61,6 +61,13 @@ pub(crate) struct Listing {
     pub(crate) outputs: Vec<String>,
 }
 
+impl Listing {
+    /// What comes out component by component, each with its columns.
+    pub(crate) fn components(&self, columns: usize) -> impl Iterator<Item = &[String]> {
+        self.outputs.chunks(columns.max(1))
+    }
+}
+
 /// Lists a program.
 pub(crate) fn list(program: &Program, words: &impl Words) -> Listing {
     let mut lister = Lister::new(program, words);

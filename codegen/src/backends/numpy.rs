@@ -97,12 +97,11 @@ def {name}(p, joints):
         listing.carried.iter().fold(String::new(), |text, value| format!("{text}        {value},\n")),
         statements(&listing.evaluated),
     );
-    let columns = if form.is_jacobian() { unit.errors().len() } else { 1 };
-    let mut rows = listing.outputs.chunks(columns.max(1));
+    let mut components = listing.components(unit.columns_of(form));
     for _ in unit.observables {
         text.push_str("        _stack([\n");
         for _ in 0..3 {
-            for output in rows.next().unwrap_or_default() {
+            for output in components.next().unwrap_or_default() {
                 let _ = writeln!(text, "            {output},");
             }
         }

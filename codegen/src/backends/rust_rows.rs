@@ -106,6 +106,7 @@ pub(super) fn items(unit: &Unit<'_>, function: &Function) -> String {
         "
 /// A block of rows of [`{kind}`]: derivatives that are the same function are held once.
 #[derive(Debug, Clone, PartialEq)]
+#[repr(align(64))]
 pub struct {kind}Block {{
     // The columns are longer than a block, so that they do not all meet in the same places of the cache.
     values: [[f64; ROWS + 8]; {distinct}],
@@ -113,7 +114,7 @@ pub struct {kind}Block {{
 
 impl Default for {kind}Block {{
     fn default() -> Self {{
-        Self {{ values: [[0.0; ROWS + 8]; {distinct}] }}
+        {default}
     }}
 }}
 
@@ -130,9 +131,26 @@ impl {kind}Block {{
     }}
 }}
 ",
+        default = default_block(&loops),
         distinct = loops.distinct,
         shape = shape(unit, function.form, "&[f64]"),
     )
+}
+
+/// A block that holds what is the same in all of them.
+fn default_block(loops: &Rows) -> String {
+    let fixed: String = loops
+        .fixed
+        .iter()
+        .filter_map(|line| match line {
+            Line::Store { place, value } if value != "0.0" => {
+                Some(format!("        block.values[{place}] = [{value}; ROWS + 8];\n"))
+            }
+            _ => None,
+        })
+        .collect();
+    let zeros = format!("Self {{ values: [[0.0; ROWS + 8]; {}] }}", loops.distinct);
+    if fixed.is_empty() { zeros } else { format!("let mut block = {zeros};\n{fixed}        block") }
 }
 
 /// Forms with few outputs: slices of any length, block by block.
@@ -246,11 +264,6 @@ fn blocks(unit: &Unit<'_>, function: &Function, loops: &Rows, names: &[&str], re
             }}
         }}
 {block}
-        let padded = |column: &[f64]| {{
-            let mut rows = [0.0; ROWS];
-            rows[..column.len()].copy_from_slice(column);
-            rows
-        }};
         sine_cosine::run(
             sine_cosine::path(),
             Work {{ prepared: &self.prepared, {work_values}out: &mut block.values }},
@@ -282,9 +295,10 @@ fn blocks(unit: &Unit<'_>, function: &Function, loops: &Rows, names: &[&str], re
         lengths = lengths.join(", "),
         carried = function.program.carried().len(),
         distinct = loops.distinct,
-        work_fields = each_read(&|name| format!("            column_{name}: [f64; ROWS],\n")),
-        arguments = each_read(&|name| format!("&self.column_{name}, ")),
-        work_values = each_read(&|name| format!("column_{name}: padded(joints.{name}), ")),
+        work_fields = each_read(&|name| format!("            column_{name}: &'a [f64; ROWS],\n")),
+        arguments = each_read(&|name| format!("self.column_{name}, ")),
+        work_values =
+            each_read(&|name| format!("column_{name}: sine_cosine::whole(joints.{name}, &mut None), ")),
         block = block(
             function,
             loops,
@@ -349,12 +363,13 @@ fn block(
         };
         let _ = writeln!(
             text,
-            "            let (mut sine_{name}, mut cosine_{name}) = ([0.0; ROWS], [0.0; ROWS]);
-            sine_cosine::sin_cos_rows(arithmetic, {source}, &mut sine_{name}, &mut cosine_{name});"
+            "            let mut waves_{name} = sine_cosine::Waves::NEW;
+            let (sine_{name}, cosine_{name}) = sine_cosine::sin_cos_rows(arithmetic, {source}, &mut waves_{name});"
         );
     }
     text.push_str("            for row in 0..ROWS {\n");
-    for line in &loops.statements {
+    let fixed = if function.form.is_jacobian() { [].iter() } else { loops.fixed.iter() };
+    for line in fixed.chain(&loops.statements) {
         match line {
             Line::Bind(statement) => {
                 let _ = writeln!(text, "                {statement}");

@@ -43,6 +43,11 @@ impl Unit<'_> {
         self.chain.symbols_of(SymbolKind::Error).collect()
     }
 
+    /// How many numbers a form has for each component of an observable.
+    pub(crate) fn columns_of(&self, form: Form) -> usize {
+        if form.is_jacobian() { self.errors().len() } else { 1 }
+    }
+
     /// Every joint, and the inputs that some function reads, in order.
     pub(crate) fn joints(&self, functions: &[Function]) -> Vec<SymbolId> {
         let is_read = |id| functions.iter().any(|f| f.program.inputs().iter().any(|&(read, _)| read == id));

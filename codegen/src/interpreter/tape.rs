@@ -141,10 +141,10 @@ impl Blocks<'_, '_> {
             Instruction::Div { a, b, to } => map(slot(a), slot(b), slot(to), |a, b| a / b),
             Instruction::SinCos { angle, sin, cos } => {
                 let angles = slot(angle).each_ref().map(Cell::get);
-                let (mut sines, mut cosines) = ([0.0; ROWS], [0.0; ROWS]);
-                sin_cos_rows(Portable, &angles, &mut sines, &mut cosines);
-                slot(sin).iter().zip(sines).for_each(|(cell, sine)| cell.set(sine));
-                slot(cos).iter().zip(cosines).for_each(|(cell, cosine)| cell.set(cosine));
+                let mut waves = vector::Waves::NEW;
+                let (sines, cosines) = sin_cos_rows(Portable, &angles, &mut waves);
+                slot(sin).iter().zip(sines).for_each(|(cell, &sine)| cell.set(sine));
+                slot(cos).iter().zip(cosines).for_each(|(cell, &cosine)| cell.set(cosine));
             }
             Instruction::Store { from, output } => {
                 for (value, cell) in self.out[output][start..end].iter_mut().zip(slot(from)) {

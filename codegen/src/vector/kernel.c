@@ -12,9 +12,11 @@
 #if defined(__GNUC__) || defined(__clang__)
 #define TRUEAXIS_INLINE static inline __attribute__((always_inline, unused))
 #define TRUEAXIS_COLD static __attribute__((noinline, cold, unused))
+#define TRUEAXIS_ALIGNED __attribute__((aligned(64)))
 #else
 #define TRUEAXIS_INLINE static inline
 #define TRUEAXIS_COLD static
+#define TRUEAXIS_ALIGNED
 #endif
 
 /* Which instructions vector code runs on. */

@@ -34,6 +34,8 @@ pub(crate) struct Rows {
     pub(crate) columns: Vec<SymbolId>,
     /// Angles, each after those that it depends on.
     pub(crate) angles: Vec<Angle>,
+    /// Values that are the same number in every row and for all errors.
+    pub(crate) fixed: Vec<Line>,
     /// Statements of the last loop.
     pub(crate) statements: Vec<Line>,
     /// How many different values come out.
@@ -112,14 +114,18 @@ impl<'a> Lister<'a> {
             let place = distinct.iter().position(|&output| output == node)?;
             Some(Line::Store { place, value: self.text(node) })
         };
-        let prepared = distinct.iter().filter(|&&node| self.program.stage_of(node) == Stage::Prepared);
-        let mut statements: Vec<Line> = prepared.filter_map(|&node| store(node)).collect();
+        let (fixed, prepared): (Vec<NodeId>, Vec<NodeId>) = distinct
+            .iter()
+            .filter(|&&node| self.program.stage_of(node) == Stage::Prepared)
+            .partition(|&&node| matches!(self.op(node), Op::Constant(_)));
+        let fixed = fixed.into_iter().filter_map(store).collect();
+        let mut statements: Vec<Line> = prepared.into_iter().filter_map(store).collect();
         for (node, text) in self.statements(&distinct) {
             statements.push(Line::Bind(text));
             // As soon as it is known, so that it need not be kept.
             statements.extend(store(node));
         }
-        Rows { columns, angles, statements, distinct: distinct.len(), places }
+        Rows { columns, angles, fixed, statements, distinct: distinct.len(), places }
     }
 
     /// The statements that some nodes need, in order, sines and cosines read from their arrays.

@@ -11,6 +11,7 @@ mod support;
 mod branches;
 mod case;
 mod drivers;
+mod latex;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -86,6 +87,7 @@ fn c() {
                 "-ffp-contract=off",
                 "-Wall",
                 "-Wextra",
+                "-Werror",
                 "-pedantic",
                 "-o",
                 "main",
@@ -94,6 +96,51 @@ fn c() {
             .args(sources),
     );
     compare(&cases, &output(&mut Command::new(folder.join("main"))), true);
+}
+
+/// Nothing to warn of either where there is little: no joints, no errors.
+#[test]
+fn c_of_small_chains() {
+    let folder = folder("small");
+    for (name, text) in [
+        (
+            "still",
+            "chain Still { body post on ground { position_error: Rz(tilt); } observe tip: point(1, 0, 0) of post; }",
+        ),
+        (
+            "perfect",
+            "chain Perfect { body arm on ground { motion: Rz(turn); } observe tip: point(1, 0, 0) of arm; }",
+        ),
+        ("fixed", "chain Fixed { body post on ground { } observe tip: direction(1, 0, 0) of post; }"),
+    ] {
+        let chain = support::read(name, text);
+        let forms = case::FORMS.map(|(form, _)| form);
+        let observables = [model_core::ObservableId(0)];
+        let unit = codegen::Unit {
+            chain: &chain,
+            declaration: text,
+            observables: &observables,
+            forms: &forms,
+            remainders: &[],
+        };
+        for file in codegen::generate(&unit, Language::C, name) {
+            fs::write(folder.join(format!("{name}.{}", file.extension)), file.text).unwrap();
+        }
+        let source = format!("{name}.c");
+        let cc = std::env::var_os("CC").unwrap_or_else(|| "cc".into());
+        output(Command::new(cc).current_dir(&folder).args([
+            "-std=c99",
+            "-O1",
+            "-Wall",
+            "-Wextra",
+            "-Werror",
+            "-pedantic",
+            "-c",
+            "-o",
+            "small.o",
+            &source,
+        ]));
+    }
 }
 
 #[test]

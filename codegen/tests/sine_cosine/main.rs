@@ -5,7 +5,7 @@
 
 mod c_twin;
 
-use codegen::vector::{Arithmetic, Path, ROWS, Work, path, run, sin_cos, sin_cos_rows};
+use codegen::vector::{Arithmetic, Path, ROWS, Waves, Work, path, run, sin_cos, sin_cos_rows};
 use dashu_float::{FBig, round::mode::HalfEven};
 
 type Wide = FBig<HalfEven, 2>;
@@ -24,7 +24,10 @@ impl Work for Slices<'_> {
         let sine = self.sine.as_chunks_mut::<ROWS>().0;
         let cosine = self.cosine.as_chunks_mut::<ROWS>().0;
         for ((x, sine), cosine) in x.iter().zip(sine).zip(cosine) {
-            sin_cos_rows(arithmetic, x, sine, cosine);
+            let mut waves = Waves::NEW;
+            let (sines, cosines) = sin_cos_rows(arithmetic, x, &mut waves);
+            sine.copy_from_slice(sines);
+            cosine.copy_from_slice(cosines);
         }
     }
 }

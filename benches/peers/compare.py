@@ -55,10 +55,10 @@ def generate(peer, form):
 def compile_source(source):
     """An object file, or why there is none."""
     compiler = ["c++", "-std=c++17"] if source.suffix == ".cpp" else ["cc", "-std=c99"]
-    # SymForce's headers include Eigen, which functions of scalars do not use: an empty one will do.
+    # SymForce's headers include Eigen, of which functions of scalars use no more than what it includes itself.
     stub = BUILD / "stub" / "Eigen"
     stub.mkdir(parents=True, exist_ok=True)
-    (stub / "Core").touch()
+    (stub / "Core").write_text("#include <cmath>\n")
     includes = [f"-I{path}" for path in [source.parent, BUILD, stub.parent, *(BUILD / "venv" / "include").glob("site/*")]]
     target = source.with_suffix(source.suffix + ".o")
     return target, run(*compiler, "-O3", "-march=native", *includes, "-c", source, "-o", target)

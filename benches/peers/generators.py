@@ -45,10 +45,10 @@ def sympy(form, folder):
     out = sp.Matrix(outputs(form, values, sp.sin, sp.cos))
     generator = C99CodeGen(project="peers", cse=True)
     target = sp.MatrixSymbol("out", *out.shape)
-    routine = generator.routine(f"generated_{form}", sp.Eq(target, out), [*values.values(), target], None)
-    generator.write([routine], str(folder / f"generated_{form}"), to_files=True)
-    body = f"    generated_{form}({', '.join(arguments(form))}, out);\n"
-    return f'extern "C" {{\n#include "generated_{form}.h"\n}}\n' + wrapper(f"sympy_{form}", body), [f"generated_{form}.c"]
+    routine = generator.routine(f"sympy_code_{form}", sp.Eq(target, out), [*values.values(), target], None)
+    generator.write([routine], str(folder / f"sympy_code_{form}"), to_files=True)
+    body = f"    sympy_code_{form}({', '.join(arguments(form))}, out);\n"
+    return f'extern "C" {{\n#include "sympy_code_{form}.h"\n}}\n' + wrapper(f"sympy_{form}", body), [f"sympy_code_{form}.c"]
 
 
 def casadi(form, folder):
@@ -59,7 +59,7 @@ def casadi(form, folder):
     joints = ca.vertcat(*(values[name] for name in lidar.JOINTS))
     inputs = [joints] if form == "first_order_jacobian" else [joints, ca.vertcat(*(values[name] for name in lidar.ERRORS))]
     out = ca.cse(ca.vertcat(*outputs(form, values, ca.sin, ca.cos)))
-    name = f"generated_{form}"
+    name = f"casadi_code_{form}"
     generator = ca.CodeGenerator(f"{name}.c", {"with_header": True})
     generator.add(ca.Function(name, inputs, [out]))
     generator.generate(str(folder) + "/")
@@ -89,12 +89,12 @@ def symforce(form, folder):
         inputs=Values(**values),
         outputs=Values(**{f"out{i}": sf.S(value) for i, value in enumerate(results)}),
         config=codegen.CppConfig(),
-        name=f"generated_{form}",
+        name=f"symforce_code_{form}",
     )
     generator.generate_function(output_dir=folder, skip_directory_nesting=True)
     pointers = "".join(f", out + {i}" for i in range(len(results)))
-    body = f"    sym::Generated{''.join(word.capitalize() for word in form.split('_'))}<double>({', '.join(arguments(form))}{pointers});\n"
-    return f'#include "generated_{form}.h"\n' + wrapper(f"symforce_{form}", body), []
+    body = f"    sym::SymforceCode{''.join(word.capitalize() for word in form.split('_'))}<double>({', '.join(arguments(form))}{pointers});\n"
+    return f'#include "symforce_code_{form}.h"\n' + wrapper(f"symforce_{form}", body), []
 
 
 def wrenfold(form, folder):
@@ -109,13 +109,14 @@ def wrenfold(form, folder):
     names = symbols_of(form)
     typed = ", ".join(f"{name}: FloatScalar" for name in names)
     space = {"FloatScalar": FloatScalar, "expressions": expressions}
-    exec(f"def generated_{form}({typed}):\n    return expressions({', '.join(names)})\n", space)
-    text = code_generation.generate_function(space[f"generated_{form}"], code_generation.CppGenerator())
-    code_generation.mkdir_and_write_file(code_generation.CppGenerator.apply_preamble(text, namespace="gen"), folder / f"generated_{form}.h")
+    exec(f"def wrenfold_code_{form}({typed}):\n    return expressions({', '.join(names)})\n", space)
+    generator = code_generation.CppGenerator()
+    text = code_generation.generate_function(space[f"wrenfold_code_{form}"], generator)
+    code_generation.mkdir_and_write_file(generator.apply_preamble(text, namespace="gen"), folder / f"wrenfold_code_{form}.h")
     count = len(outputs(form, {name: sym.symbols(name) for name in names}, sym.sin, sym.cos))
     places = "".join(f", out[{i}]" for i in range(count))
-    body = f"    gen::generated_{form}<double>({', '.join(arguments(form))}{places});\n"
-    return f'#include "generated_{form}.h"\n' + wrapper(f"wrenfold_{form}", body), []
+    body = f"    gen::wrenfold_code_{form}<double>({', '.join(arguments(form))}{places});\n"
+    return f'#include "wrenfold_code_{form}.h"\n' + wrapper(f"wrenfold_{form}", body), []
 
 
 PEERS = {"SymPy": ("sympy", sympy), "CasADi": ("casadi", casadi), "SymForce": ("symforce", symforce), "wrenfold": ("wrenfold", wrenfold)}

@@ -39,7 +39,7 @@ impl ReadingsTable {
     /// # Errors
     /// The file cannot be read.
     pub fn open(path: &Path) -> Result<Self, Failure> {
-        only_csv(path)?;
+        known_format(path)?;
         let options = Options::default();
         let reader = if path == Path::new("-") {
             formats::open(io::stdin().lock(), "standard input", &options)
@@ -112,10 +112,23 @@ impl ReadingsTable {
     }
 }
 
-/// A table that is being written, as `.csv`.
-pub struct TableWriter<'a> {
-    path: &'a Path,
-    inner: ::csv::Writer<&'a mut dyn Write>,
+/// A table that is being written, as its ending says.
+pub enum TableWriter<'a> {
+    /// Separated values, row by row.
+    Csv {
+        /// Where to.
+        path: &'a Path,
+        /// What writes the rows.
+        inner: ::csv::Writer<&'a mut dyn Write>,
+    },
+    /// Columns that are written when all rows are known.
+    #[cfg(feature = "parquet")]
+    Parquet {
+        /// Names of the columns, once the first row has told them.
+        names: Vec<String>,
+        /// Their cells.
+        columns: Vec<Vec<String>>,
+    },
 }
 
 /// Writes a table file; it appears whole or not at all.
@@ -126,12 +139,34 @@ pub fn write(
     path: &Path,
     write: impl FnOnce(&mut TableWriter) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    only_csv(path)?;
+    known_format(path)?;
+    #[cfg(feature = "parquet")]
+    if ending(path) == "parquet" {
+        return write_parquet(path, write);
+    }
     output::write_with(path, |file| {
-        let mut writer = TableWriter { path, inner: ::csv::Writer::from_writer(file) };
+        let mut writer = TableWriter::Csv { path, inner: ::csv::Writer::from_writer(file) };
         write(&mut writer)?;
-        writer.inner.flush().map_err(|error| Failure::write(path, &error))
+        match writer {
+            TableWriter::Csv { mut inner, .. } => inner.flush().map_err(|error| Failure::write(path, &error)),
+            #[cfg(feature = "parquet")]
+            TableWriter::Parquet { .. } => Ok(()),
+        }
     })
+}
+
+#[cfg(feature = "parquet")]
+fn write_parquet(
+    path: &Path,
+    write: impl FnOnce(&mut TableWriter) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let (names, columns) = (Vec::new(), Vec::new());
+    let mut writer = TableWriter::Parquet { names, columns };
+    write(&mut writer)?;
+    let TableWriter::Parquet { names, columns } = writer else { return Ok(()) };
+    let bytes = formats::parquet::file_of(&names, &columns)
+        .map_err(|error| Failure::write(path, &io::Error::other(error)))?;
+    output::write_with(path, |file| file.write_all(&bytes).map_err(|error| Failure::write(path, &error)))
 }
 
 impl TableWriter<'_> {
@@ -140,11 +175,23 @@ impl TableWriter<'_> {
     /// # Errors
     /// The place cannot be written.
     pub fn row(&mut self, cells: impl IntoIterator<Item = impl AsRef<[u8]>>) -> Result<(), Failure> {
-        let written = self.inner.write_record(cells);
-        written.map_err(|error| match error.into_kind() {
-            ::csv::ErrorKind::Io(error) => Failure::write(self.path, &error),
-            other => Failure::write(self.path, &io::Error::other(format!("{other:?}"))),
-        })
+        match self {
+            Self::Csv { path, inner } => inner.write_record(cells).map_err(|error| match error.into_kind() {
+                ::csv::ErrorKind::Io(error) => Failure::write(path, &error),
+                other => Failure::write(path, &io::Error::other(format!("{other:?}"))),
+            }),
+            #[cfg(feature = "parquet")]
+            Self::Parquet { names, columns } => {
+                let cells = cells.into_iter().map(|cell| String::from_utf8_lossy(cell.as_ref()).into_owned());
+                if names.is_empty() {
+                    names.extend(cells);
+                    columns.resize(names.len(), Vec::new());
+                } else {
+                    columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+                }
+                Ok(())
+            }
+        }
     }
 }
 
@@ -153,12 +200,20 @@ pub fn number(number: f64) -> String {
     format!("{number:?}")
 }
 
-/// Refuses a name that promises a format other than separated values.
-fn only_csv(path: &Path) -> Result<(), Failure> {
-    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-    if ["parquet", "xlsx", "xls", "ods", "arrow", "feather"].contains(&ending) {
-        let message =
-            format!("`{}`: tables are read and written as .csv only; convert it first", path.display());
+fn ending(path: &Path) -> String {
+    path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase()
+}
+
+/// Refuses a name that promises a format that this build neither reads nor writes.
+fn known_format(path: &Path) -> Result<(), Failure> {
+    if cfg!(not(feature = "parquet")) && ending(path) == "parquet" {
+        return Err(failure(DataError::NoParquet { file: path.display().to_string() }));
+    }
+    if ["xlsx", "xls", "ods", "arrow", "feather"].contains(&ending(path).as_str()) {
+        let message = format!(
+            "`{}`: tables are read and written as .csv or .parquet; convert it first",
+            path.display()
+        );
         return Err(Failure::Input(message));
     }
     Ok(())

@@ -89,7 +89,7 @@ impl<R: Read> Reader<R> {
     fn cell(&self, column: usize) -> Cell {
         Cell {
             file: self.source.clone(),
-            line: self.line(),
+            line: Some(self.line()),
             row: self.row,
             column: self.header.get(column).map_or_else(String::new, |name| name.full.clone()),
         }

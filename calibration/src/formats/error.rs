@@ -9,8 +9,8 @@ use thiserror::Error;
 pub struct Cell {
     /// Name of the file.
     pub file: String,
-    /// Line in the file, from 1.
-    pub line: u64,
+    /// Line in the file, from 1, where the format has lines.
+    pub line: Option<u64>,
     /// Row, from 1, without the header.
     pub row: u64,
     /// Name of the column as in the header.
@@ -19,7 +19,11 @@ pub struct Cell {
 
 impl fmt::Display for Cell {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: line {}, row {}, column `{}`", self.file, self.line, self.row, self.column)
+        write!(f, "{}: ", self.file)?;
+        if let Some(line) = self.line {
+            write!(f, "line {line}, ")?;
+        }
+        write!(f, "row {}, column `{}`", self.row, self.column)
     }
 }
 
@@ -33,6 +37,14 @@ pub enum DataError {
         file: String,
         /// What the system or the format says.
         why: String,
+    },
+    /// A Parquet file, and a build without the format.
+    #[error(
+        "{file}: this build does not read or write Parquet: build the command with `--features parquet`, or use a .csv file"
+    )]
+    NoParquet {
+        /// Name of the file.
+        file: String,
     },
     /// Nothing in it.
     #[error("{file}: the file is empty: a header line with the names of the columns was expected")]

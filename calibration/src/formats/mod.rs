@@ -4,12 +4,15 @@
 //! |---|---|---|
 //! | separated values | [`csv`] | anything else |
 //! | TPOINT observations | [`tpoint`] | `.dat` |
+//! | Parquet, with the feature of that name | `parquet` | `.parquet` |
 //!
 //! Formats are parsed from readers; opening files is the command's part.
 
 pub mod csv;
 mod error;
 mod header;
+#[cfg(feature = "parquet")]
+pub mod parquet;
 pub mod tpoint;
 
 use std::io::Read;
@@ -71,6 +74,10 @@ pub fn open<'r>(
     let ending = source.rsplit_once('.').map(|(_, ending)| ending.to_ascii_lowercase());
     match ending.as_deref() {
         Some("dat") => Ok(Box::new(tpoint::Reader::new(reader, source)?)),
+        #[cfg(feature = "parquet")]
+        Some("parquet") => Ok(Box::new(parquet::Reader::new(reader, source)?)),
+        #[cfg(not(feature = "parquet"))]
+        Some("parquet") => Err(DataError::NoParquet { file: source.to_string() }),
         _ => Ok(Box::new(csv::Reader::new(reader, source, options)?)),
     }
 }

@@ -104,7 +104,7 @@ impl TableReader for Reader {
                 }
                 let cell = Cell {
                     file: self.source.clone(),
-                    line: *line,
+                    line: Some(*line),
                     row: (start + at + 1) as u64,
                     column: self.header.get(want.column).map_or_else(String::new, |name| name.full.clone()),
                 };

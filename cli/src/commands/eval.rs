@@ -47,7 +47,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
 pub struct OverTable {
     /// The declaration, amended or not
     chain: PathBuf,
-    /// Readings of joints and inputs: a .csv file, or - for standard input
+    /// Readings of joints and inputs: a .csv or .parquet file, or - for standard input
     #[arg(long, value_name = "IN")]
     data: PathBuf,
     /// Values of the errors, as `calibrate` writes them too
@@ -56,7 +56,7 @@ pub struct OverTable {
     /// Only this observable (may be given several times); default: every one that the data has the readings for
     #[arg(long)]
     observable: Vec<String>,
-    /// Where to write: a .csv file, or - for standard output
+    /// Where to write: a .csv or .parquet file, or - for standard output
     #[arg(long, value_name = "OUT")]
     out: PathBuf,
 }

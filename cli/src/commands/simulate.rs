@@ -48,7 +48,7 @@ pub struct Arguments {
     /// Only this observable (may be given several times); default: every one that --noise fits
     #[arg(long)]
     observable: Vec<String>,
-    /// Where to write: a .csv file, or - for standard output
+    /// Where to write: a .csv or .parquet file, or - for standard output
     #[arg(long, value_name = "OUT")]
     out: PathBuf,
 }

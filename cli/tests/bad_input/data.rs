@@ -74,8 +74,9 @@ fn folder_that_is_not_there() {
     assert_snapshot!(refused(&folder.trueaxis(&arguments)));
 }
 
+#[cfg(not(feature = "parquet"))]
 #[test]
-fn format_that_is_not_read() {
+fn format_that_is_not_built_in() {
     let folder = mount("d-format");
     let arguments =
         ["eval", "mount.chain", "--errors", "e.toml", "--data", "poses.parquet", "--out", "out.csv"];

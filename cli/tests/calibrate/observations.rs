@@ -242,3 +242,33 @@ fn tpoint_equatorial_files_are_read() {
     assert!((hour_angle - 60.0).abs() < 0.01, "{hour_angle}");
     assert!((declination - 30.0).abs() < 0.01, "{declination}");
 }
+
+/// The same run as separated values and as Parquet, through every command that reads or writes tables.
+#[cfg(feature = "parquet")]
+#[test]
+fn parquet_is_read_and_written_as_separated_values_are() {
+    let folder = Folder::new("parquet");
+    folder.write("encoder.chain", ENCODER).write("errors.toml", "index = \"11 arcsec\"\n");
+    let done = |arguments: &[&str]| {
+        let run = folder.trueaxis(arguments);
+        assert_eq!(run.code, 0, "{run}");
+    };
+    let errors = ["--errors", "errors.toml"];
+    let [separated, parquet] = ["csv", "parquet"].map(|ending| {
+        let run = format!("run.{ending}");
+        let simulated = ["--poses", "50", "--noise", "2 arcsec", "--seed", "3", "--out", &run];
+        done(&[&["simulate", "encoder.chain"], &errors[..], &simulated[..]].concat());
+        let evaluated = format!("evaluated.{ending}");
+        done(&[&["eval", "encoder.chain"], &errors[..], &["--data", &run, "--out", &evaluated]].concat());
+        let corrected = format!("corrected-{ending}.csv");
+        done(
+            &[&["apply", "encoder.chain"], &errors[..], &["--data", &evaluated, "--out", &corrected]]
+                .concat(),
+        );
+        let kind = "[observed]\nkind = \"direction\"\n";
+        folder.write("study.toml", format!("chain = \"encoder.chain\"\ndata = \"{run}\"\n{kind}"));
+        (report(&folder), folder.read(&corrected))
+    });
+    assert_eq!(parquet.0["errors"], separated.0["errors"]);
+    assert_eq!(parquet.1, separated.1);
+}

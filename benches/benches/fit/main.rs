@@ -1,12 +1,14 @@
-//! The fit: a million rows of 30 errors streamed, a thousand rows at once, and SciPy's `least_squares` on the same data.
+//! The fit: a million rows of 30 errors streamed, a thousand rows at once, and SciPy's `least_squares` and Ceres on the
+//! same data.
 //!
-//! `cargo bench -p trueaxis-benches --bench fit`; with `TRUEAXIS_PYTHON` naming a Python that has SciPy, the comparison
-//! runs too (`peer.py`). Times are the least of several runs.
+//! `cargo bench -p trueaxis-benches --bench fit`; with `TRUEAXIS_PYTHON` naming a Python that has SciPy (and pyceres, for
+//! Ceres), the comparison runs too (`peer.py`). Times are the least of several runs; processor time, which other
+//! programs' turns do not lengthen, is the mean.
 #![allow(clippy::print_stdout, clippy::unwrap_used)]
 
 use std::io::Write as _;
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use calibration::fit::{FitOptions, Next, Streamed, StreamedResult, fit};
 use calibration::observations::{Measure, Observations, Series, direction_from_offset};
@@ -60,18 +62,40 @@ fn simulate(chain: &Chain, observable: &str, joints: &[(&str, f64, f64)], rows: 
     }
 }
 
-/// The least time of several runs.
-fn least<T>(runs: usize, mut f: impl FnMut() -> T) -> (Duration, T) {
-    let mut best: Option<(Duration, T)> = None;
+/// Seconds that took.
+struct Cost {
+    wall: f64,
+    processor: f64,
+}
+
+impl std::fmt::Display for Cost {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{:.2} ms ({:.2} ms of processors)", 1e3 * self.wall, 1e3 * self.processor)
+    }
+}
+
+/// The least time of several runs, and the mean processor time of all threads.
+fn least<T>(runs: u32, mut f: impl FnMut() -> T) -> (Cost, T) {
+    let mut best: Option<(f64, T)> = None;
+    let before = processor_s();
     for _ in 0..runs {
         let start = Instant::now();
         let result = f();
-        let time = start.elapsed();
-        if best.as_ref().is_none_or(|(least, _)| time < *least) {
-            best = Some((time, result));
+        let wall = start.elapsed().as_secs_f64();
+        if best.as_ref().is_none_or(|(least, _)| wall < *least) {
+            best = Some((wall, result));
         }
     }
-    best.unwrap()
+    let (wall, result) = best.unwrap();
+    (Cost { wall, processor: (processor_s() - before) / f64::from(runs) }, result)
+}
+
+/// Processor time of this process so far, to a hundredth of a second; 0 where the system does not say.
+fn processor_s() -> f64 {
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    // After the name, which may hold spaces: the 12th and 13th fields, in hundredths.
+    let fields = stat.rsplit(')').next().unwrap_or_default().split_whitespace().skip(11).take(2);
+    fields.filter_map(|ticks| ticks.parse::<f64>().ok()).sum::<f64>() / 100.0
 }
 
 fn streamed(chain: &Chain, chunks: &[Observations], options: &FitOptions) -> StreamedResult {
@@ -87,11 +111,16 @@ fn streamed(chain: &Chain, chunks: &[Observations], options: &FitOptions) -> Str
     }
 }
 
-/// SciPy on the same rows: seconds, estimates, and standard uncertainties.
-fn scipy(python: &str, observations: &Observations) -> (f64, Vec<f64>) {
+/// A peer on the same rows: its cost and its estimates; `None` if this Python does not have it.
+fn peer(python: &str, name: &str, observations: &Observations) -> Option<(Cost, Vec<f64>)> {
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/fit/peer.py");
-    let mut child =
-        Command::new(python).arg(script).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let mut child = Command::new(python)
+        .args([script, name])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
     let mut text = String::new();
     for (row, u) in observations.measured.iter().enumerate() {
         let q: Vec<f64> = observations.columns.iter().map(|(_, column)| column[row]).collect();
@@ -103,7 +132,8 @@ fn scipy(python: &str, observations: &Observations) -> (f64, Vec<f64>) {
         .split_whitespace()
         .map(|word| word.parse().unwrap())
         .collect();
-    (numbers[0], numbers[1..].to_vec())
+    let (&[wall, processor], estimates) = numbers.split_first_chunk()?;
+    Some((Cost { wall, processor }, estimates.to_vec()))
 }
 
 fn main() {
@@ -111,19 +141,21 @@ fn main() {
     let joints = [("alpha", -3.1, 3.1), ("beta", -3.1, 3.1), ("gamma", -3.1, 3.1)];
     let few = simulate(&lidar, "pointing", &joints, 1000);
     let options = FitOptions::for_chain(&lidar);
-    let (time, result) = least(10, || fit(&lidar, &few, &options).unwrap());
-    println!("1,000 rows × 30 errors, robust, noise learned: {time:.1?} ({:?})", result.outcome);
+    let (time, result) = least(50, || fit(&lidar, &few, &options).unwrap());
+    println!("1,000 rows × 30 errors, robust, noise learned: {time} ({:?})", result.outcome);
 
     let many = simulate(&lidar, "pointing", &joints, 1_000_000);
+    let (time, result) = least(3, || fit(&lidar, &many, &options).unwrap());
+    println!(
+        "1,000,000 rows × 30 errors, all in memory, robust, noise learned: {time} ({:?})",
+        result.outcome
+    );
     let rows: Vec<usize> = (0..1_000_000).collect();
     let chunks: Vec<Observations> = rows.chunks(20_000).map(|rows| many.select(rows)).collect();
     for robust in [false, true] {
         let options = FitOptions { robust, ..options.clone() };
         let (time, result) = least(3, || streamed(&lidar, &chunks, &options));
-        println!(
-            "1,000,000 rows × 30 errors, streamed, robust {robust}: {time:.2?} in {} passes",
-            result.passes
-        );
+        println!("1,000,000 rows × 30 errors, streamed, robust {robust}: {time} in {} passes", result.passes);
     }
 
     let Some(python) = std::env::var("TRUEAXIS_PYTHON").ok() else {
@@ -137,19 +169,25 @@ fn main() {
         let mut options = FitOptions::for_chain(&mount);
         options.robust = false;
         options.noise.sigma = Some(2.0 * ARCSEC);
-        let (time, result) = least(10, || fit(&mount, &observations, &options).unwrap());
-        let (seconds, estimates) = scipy(&python, &observations);
-        let worst = result.parameters.iter().zip(&estimates).enumerate().map(|(at, (parameter, theirs))| {
-            (result.values[parameter.index()] - theirs).abs() / result.covariance[(at, at)].sqrt()
-        });
-        let names: Vec<&str> = result.parameters.iter().map(|&id| mount.symbol(id).name.as_str()).collect();
-        println!(
-            "{rows} rows × 6 errors: {time:.2?}; SciPy {:.2?}, {:.0} times as long; estimates of {} differ by at most {:.1e} \
-             standard uncertainties",
-            Duration::from_secs_f64(seconds),
-            seconds / time.as_secs_f64(),
-            names.join(", "),
-            worst.fold(0.0, f64::max),
-        );
+        let runs = if rows > 1000 { 20 } else { 500 };
+        let (time, result) = least(runs, || fit(&mount, &observations, &options).unwrap());
+        println!("{rows} rows × 6 errors: {time} ({:?})", result.outcome);
+        for name in ["scipy", "ceres"] {
+            let Some((theirs, estimates)) = peer(&python, name, &observations) else {
+                println!("  {name}: not there");
+                continue;
+            };
+            let worst =
+                result.parameters.iter().zip(&estimates).enumerate().map(|(at, (parameter, theirs))| {
+                    (result.values[parameter.index()] - theirs).abs() / result.covariance[(at, at)].sqrt()
+                });
+            println!(
+                "  {name}: {theirs}, {:.0} times as long ({:.0} times the processors); estimates differ by at most {:.1e} \
+                 standard uncertainties",
+                theirs.wall / time.wall,
+                theirs.processor / time.processor,
+                worst.fold(0.0, f64::max),
+            );
+        }
     }
 }

@@ -12,7 +12,7 @@ use super::model::Model;
 use super::sweep::residuals;
 use super::{FitError, FitOptions, robust};
 use crate::noise::Layout;
-use crate::observations::{Measure, Observations};
+use crate::observations::{Measure, Observations, Series};
 
 const AXES: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
 
@@ -34,7 +34,7 @@ pub fn starting_values(
     observations: &Observations,
     options: &FitOptions,
 ) -> Result<Vec<f64>, FitError> {
-    let is_point = |series: &&crate::observations::Series| series.measure == Measure::Point;
+    let is_point = |series: &&Series| series.measure == Measure::Point;
     let mut points = observations.series.iter().filter(is_point);
     let pose = points.next().and_then(|series| BasePose::of(chain, series.observable, options));
     let Some(pose) = pose else { return Ok(options.start.clone()) };

@@ -6,15 +6,18 @@ use model_core::{Chain, Quantity, SymbolId, SymbolKind};
 use serde::Serialize;
 
 use super::sweep::{Weighting, tally};
-use super::{FitError, FitResult, Model, Outcome, Subspace};
+use super::{FitError, FitResult, Model, Outcome, Subspace, robust};
 use crate::noise::{Layout, VarianceTerm};
-use crate::observations::{Measure, Observations};
+use crate::observations::{Measure, Observations, Series};
 
 /// Correlations from here on are listed.
 const STRONG: f64 = 0.9;
 
 /// Rows with so many times the mean leverage are listed.
 const HIGH_LEVERAGE: f64 = 3.0;
+
+/// Residuals of this share of what was measured (of a radian for directions) are no noise: something is read wrongly.
+const OUT_OF_PLACE: f64 = 0.2;
 
 /// A change is detectable when it is found with 80 % chance by a two-sided test of 5 %: so many standard uncertainties.
 ///
@@ -135,7 +138,7 @@ fn all_round(
         .series
         .iter()
         .map(|series| {
-            let own = crate::observations::Series { rows: start..start + rows, ..series.clone() };
+            let own = Series { rows: start..start + rows, ..series.clone() };
             start += rows;
             own
         })
@@ -254,6 +257,14 @@ fn noise(chain: &Chain, observations: &Observations, fit: &FitResult) -> Vec<Str
     said
 }
 
+/// RMS of the residuals' lengths over the rows of one series, with weight or without.
+fn rms_of(series: &Series, observations: &Observations, fit: &FitResult) -> f64 {
+    let layout = Layout::of(observations);
+    let own = layout.first[series.rows.start]..layout.first[series.rows.end];
+    let squares: f64 = fit.residuals.raw[own].iter().map(|residual| residual * residual).sum();
+    (squares / (series.rows.len() as f64).max(1.0)).sqrt()
+}
+
 /// What the size of the residual suggests: a wrong unit, a sign, swapped axes.
 fn hints(chain: &Chain, observations: &Observations, fit: &FitResult) -> Vec<String> {
     let mut hints = Vec::new();
@@ -280,12 +291,25 @@ fn hints(chain: &Chain, observations: &Observations, fit: &FitResult) -> Vec<Str
                 ));
             }
         }
-        if series.measure == Measure::Direction && fit.rms > 0.2 {
-            hints.push(format!(
+        let rms = rms_of(series, observations, fit);
+        match series.measure {
+            Measure::Direction | Measure::Azimuth if rms > OUT_OF_PLACE => hints.push(format!(
                 "{}: the residual is {:.0} deg: a swapped sign, swapped axes or a wrong unit is likely",
                 series.source,
-                fit.rms.to_degrees()
-            ));
+                rms.to_degrees()
+            )),
+            Measure::Point | Measure::Range => {
+                let distance = |row: usize| nalgebra::Vector3::from(observations.measured[row]).norm();
+                let typical = robust::median(series.rows.clone().map(distance).collect());
+                if rms > OUT_OF_PLACE * typical {
+                    hints.push(format!(
+                        "{}: the residual is {rms:.3} m where {typical:.3} m were measured: a wrong unit, a swapped sign or \
+                         swapped axes are likely",
+                        series.source
+                    ));
+                }
+            }
+            _ => {}
         }
     }
     for (at, parameter) in fit.parameters.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! Data as they should not be: an outcome that names the trouble, never a panic, never a silent wrong answer.
 
-use calibration::fit::{FitOptions, FitResult, Outcome, fit};
+use calibration::fit::{FitOptions, FitResult, Outcome, fit, precision};
 use calibration::observations::Observations;
 use rand::RngExt;
 
@@ -151,5 +151,78 @@ fn duplicated_rows_change_no_estimate() {
         let uncertainty = once.standard_uncertainty(parameter).unwrap();
         let moved = once.values[parameter.index()] - twice.values[parameter.index()];
         assert!(moved.abs() < 0.05 * uncertainty, "{}", moved / uncertainty);
+    }
+}
+
+#[test]
+fn a_gap_between_poses_is_no_trouble() {
+    let mut simulation = mount(120, 11);
+    for (_, column) in &mut simulation.columns {
+        // Nothing in the middle of the range.
+        column.iter_mut().filter(|value| (0.4..1.1).contains(*value)).for_each(|value| *value += 0.75);
+    }
+    let observations = simulation.directions("sight", 2.0 * ARCSEC);
+    let result = fitted(&simulation, &observations);
+    assert!(matches!(result.outcome, Outcome::Converged { .. }), "{:?}", result.outcome);
+    assert_eq!(result.rank, 6);
+    assert!(worst(&simulation, &result) < 4.0, "{}", worst(&simulation, &result));
+}
+
+/// What a user reads of each trouble: the outcome in words, and the sets that the data leave open.
+#[test]
+fn trouble_has_words() {
+    let said = |rows: usize, seed: u64, change: &dyn Fn(&mut Simulation) -> Observations| {
+        let mut simulation = mount(rows, seed);
+        let observations = change(&mut simulation);
+        let result = fitted(&simulation, &observations);
+        (precision(&simulation.chain, &observations, &result), result)
+    };
+    let measured = |simulation: &mut Simulation| simulation.directions("sight", 2.0 * ARCSEC);
+
+    let (few, _) = said(2, 12, &measured);
+    assert_eq!(few.outcome, "too few observations: 4 measured components for 6 parameters");
+
+    let (repeated, _) = said(50, 13, &|simulation| {
+        simulation.columns.iter_mut().for_each(|(_, column)| column.fill(0.7));
+        simulation.directions("sight", 2.0 * ARCSEC)
+    });
+    assert_eq!(repeated.rank, [2, 6]);
+    assert!(repeated.determined.is_empty());
+    assert!(repeated.not_separable.iter().all(|set| !set.structural), "{:?}", repeated.not_separable);
+    let named: usize = repeated.not_separable.iter().map(|set| set.names.len()).sum();
+    assert_eq!(named, 6);
+
+    let (identical, _) = said(1, 14, &|simulation| measured(simulation).select(&[0; 20]));
+    assert_eq!(identical.rank, [2, 6]);
+    assert!(identical.determined.is_empty());
+
+    let (_, outliers) = said(100, 15, &|simulation| {
+        let mut observations = measured(simulation);
+        observations.measured[3].swap(0, 1);
+        observations
+    });
+    let why = &outliers.set_aside.iter().find(|aside| aside.row == 3).unwrap().why;
+    assert!(why.ends_with("standard deviations"), "{why}");
+}
+
+#[test]
+fn millimetres_taken_for_metres_are_hinted_at() {
+    let text = "chain Arm { body upper on ground { motion: Rz(q1); motion_error: Rz(index1); } \
+                body fore on upper { position: Tx(0.6); position_error: Tx(length1); motion: Ry(q2); motion_error: Ry(index2); } \
+                observe tip: point(0.5, 0, 0) of fore; }";
+    for (factor, hinted) in [(1.0, false), (1e3, true), (-1.0, true)] {
+        let mut simulation = Simulation::new(text, 16);
+        simulation.column("q1", 80, -3.0..3.0);
+        simulation.column("q2", 80, -1.0..1.0);
+        simulation.draw_errors("*", 1e-3);
+        let mut observations = simulation.points("tip", 1e-4);
+        observations.measured.iter_mut().for_each(|point| point[2] *= factor);
+        let result = fitted(&simulation, &observations);
+        let hints = precision(&simulation.chain, &observations, &result).hints.join("\n");
+        assert_eq!(
+            hints.contains("a wrong unit, a swapped sign or swapped axes"),
+            hinted,
+            "{factor}: {hints}"
+        );
     }
 }

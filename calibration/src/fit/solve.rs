@@ -1,5 +1,7 @@
 //! The loop: start robustly, fit with the noise known so far, learn the noise, until nothing changes.
 
+use std::cell::OnceCell;
+
 use faer::Mat;
 use model_core::{Chain, SymbolId};
 
@@ -27,8 +29,8 @@ struct Solver<'a> {
     observations: &'a Observations,
     options: &'a FitOptions,
     model: Model,
-    /// The same without derivatives.
-    plain: Model,
+    /// The same without derivatives, once it is needed.
+    plain: OnceCell<Model>,
     layout: Layout,
     iterations: usize,
 }
@@ -51,8 +53,7 @@ pub fn fit(chain: &Chain, observations: &Observations, options: &FitOptions) -> 
         return Err(FitError::WrongShape { why });
     }
     let model = Model::new(chain, observations, &options.estimate)?;
-    let plain = Model::without_columns(chain, observations);
-    let layout = Layout::of(observations);
+    let (plain, layout) = (OnceCell::new(), Layout::of(observations));
     let solver = Solver { chain, observations, options, model, plain, layout, iterations: 0 };
     solver.run()
 }
@@ -61,11 +62,12 @@ impl Solver<'_> {
     fn run(mut self) -> Result<FitResult, FitError> {
         let mut values = starting_values(self.chain, self.observations, self.options)?;
         let mut noise = self.first_noise(&values)?;
-        let mut subspace = Subspace::determined(&self.unweighted(&values, &noise)?);
+        let mut point = self.point(values.clone(), &noise)?;
+        let mut subspace = Subspace::determined(&self.unweighted_at(&point, &noise)?);
         if self.options.robust {
             self.start_robustly(&mut values, &mut noise, &subspace)?;
+            point = self.point(values, &noise)?;
         }
-        let mut point = self.point(values, &noise)?;
         for _ in 0..NOISE_ROUNDS {
             self.descend(&mut point, &noise, &subspace, ROUGHLY)?;
             let seen = subspace.clone().extended(&self.partial(&point.sweep));
@@ -115,7 +117,12 @@ impl Solver<'_> {
     }
 
     fn first_noise(&self, values: &[f64]) -> Result<Noise, FitError> {
-        let residual = residuals(&self.plain, self.observations, values)?;
+        // A noise that is known has no use for residuals.
+        let plain = || self.plain.get_or_init(|| Model::without_columns(self.chain, self.observations));
+        let residual = match self.options.noise.known() {
+            Some(_) => Vec::new(),
+            None => residuals(plain(), self.observations, values)?,
+        };
         Ok(noise::from_medians(&self.options.noise, self.observations, &self.layout, &residual))
     }
 
@@ -236,7 +243,7 @@ impl Solver<'_> {
                 subspace.sandwich(&full, &coloured.spread(self.model.column_of()))
             }
         };
-        let (tally, known) = (&point.sweep.tally, self.options.noise.sigma.is_some());
+        let (tally, known) = (&point.sweep.tally, self.options.noise.known().is_some());
         let factor = tally.variance_factor(rank, known, self.options.weighting());
         let mut whitened = point.sweep.residual.clone();
         noise.whiten(&mut whitened);

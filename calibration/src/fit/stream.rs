@@ -131,7 +131,7 @@ impl Streamed {
 
     fn result(self, tally: &Tally, partial: &Partial, converged: bool) -> StreamedResult {
         let subspace = self.subspace;
-        let known = self.pass.noise.sigma.is_some();
+        let known = self.pass.noise.known().is_some();
         let factor = tally.variance_factor(subspace.rank(), known, self.pass.weighting);
         // The factor is weighted; dividing by the mean weight makes up for it.
         let mean = (tally.weights / partial.components as f64).max(f64::MIN_POSITIVE);
@@ -156,7 +156,7 @@ impl Streamed {
         let kinds = tally.kinds.iter().zip(&self.components).zip(&self.pass.floor);
         kinds
             .map(|(([weights, squares], &components), &floor)| {
-                if self.pass.noise.sigma.is_some() || *weights <= 0.0 || *squares <= 0.0 {
+                if self.pass.noise.known().is_some() || *weights <= 0.0 || *squares <= 0.0 {
                     return floor;
                 }
                 let robust = self.pass.weighting == Weighting::Biweight;

@@ -19,7 +19,7 @@ pub fn from_medians(
         let scaled = of_kind(layout, kind).map(|at| (residual[at] / stated[at]).abs()).collect();
         robust::median(scaled) / robust::median_norm(1)
     };
-    let floor = match known(options) {
+    let floor = match options.known() {
         Some(sigma) => vec![sigma; layout.kinds],
         None => (0..layout.kinds).map(median).collect(),
     };
@@ -69,7 +69,7 @@ pub fn estimate(
             })
             .collect()
     };
-    let floor = known(options).map_or_else(|| floors(&stated), |sigma| vec![sigma; layout.kinds]);
+    let floor = options.known().map_or_else(|| floors(&stated), |sigma| vec![sigma; layout.kinds]);
     let mut noise = finish(Noise { floor, ..Noise::default() }, observations, layout, &stated);
     if options.variance && options.sigma.is_none() {
         let scaled: Vec<f64> = residual.iter().zip(&noise.sigma).map(|(r, sigma)| r / sigma).collect();
@@ -90,11 +90,6 @@ pub fn estimate(
         }
     }
     noise
-}
-
-/// The standard deviation that the user states for all.
-fn known(options: &NoiseOptions) -> Option<f64> {
-    options.sigma.filter(|sigma| *sigma > 0.0)
 }
 
 /// What the data state per component, up to a factor: 1 where they state nothing.

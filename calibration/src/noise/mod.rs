@@ -27,6 +27,13 @@ pub struct NoiseOptions {
     pub serial: bool,
 }
 
+impl NoiseOptions {
+    /// The standard deviation that is stated for all components.
+    pub(crate) fn known(&self) -> Option<f64> {
+        self.sigma.filter(|sigma| *sigma > 0.0)
+    }
+}
+
 impl Default for NoiseOptions {
     fn default() -> Self {
         Self { sigma: None, variance: true, serial: true }

@@ -5,8 +5,8 @@ use std::hint::black_box;
 use crate::c_code;
 use crate::floors::{self, Width};
 use crate::lidar::Path;
-use crate::thirty::in_order;
 use crate::rounds::{Candidate, has};
+use crate::thirty::in_order;
 
 /// Columns in and out.
 pub struct Buffers {

@@ -10,8 +10,10 @@ use crate::lidar;
 /// If they differ.
 #[allow(unsafe_code, reason = "floors are called only where the processor has their instructions")]
 pub fn check(buffers: &mut Buffers) {
-    use lidar::{Columns, ExactError, ExactJacobian, ExactJacobianBlock, FirstOrderError, FirstOrderJacobian};
-    use lidar::{FirstOrderJacobianBlock, Joints, Observed};
+    use lidar::{
+        Columns, ExactError, ExactJacobian, ExactJacobianBlock, FirstOrderError, FirstOrderJacobian,
+        FirstOrderJacobianBlock, Joints, Observed,
+    };
     let Some(width) = Width::here() else { return };
     let errors = errors!(v4);
     let pose = |buffers: &Buffers, row: usize| {

@@ -19,7 +19,7 @@ impl Rows<'_> {
     fn is_sound(&self, rows: usize) -> bool {
         let joints = self.joints.iter().map(|column| column.len());
         let mut lengths = joints.chain(self.out.iter().map(|column| column.len()));
-        rows % 8 == 0 && lengths.all(|length| length == rows)
+        rows.is_multiple_of(8) && lengths.all(|length| length == rows)
     }
 }
 

@@ -2,7 +2,8 @@
 //!
 //! Generates the mobile lidar's evaluators once for each path, compiles them with the program in `benches/speed`, and runs
 //! that; it prints the table. Run it with nothing else at work:
-//! `cargo run --release -p trueaxis-benches --bin batch_speed`.
+//! `cargo run --release -p trueaxis-benches --bin batch_speed`. With `--lint` it only has clippy read that program,
+//! which no package holds.
 
 use std::error::Error;
 use std::fs;
@@ -20,6 +21,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     let out = here.join("../target/batch_speed");
     fs::create_dir_all(&out)?;
     write_evaluators(&here.join("../examples/mobile-lidar/mobile-lidar.chain"), &out)?;
+
+    if std::env::args().any(|argument| argument == "--lint") {
+        let mut clippy = Command::new("clippy-driver");
+        clippy
+            .args(["--edition", "2024", "--emit", "metadata", "-D", "warnings", "-o"])
+            .arg(out.join("lint"));
+        return run(clippy.arg(here.join("speed/main.rs")).env("OUT_DIR", &out));
+    }
 
     let program = out.join("speed");
     let mut rustc = Command::new("rustc");

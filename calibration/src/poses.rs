@@ -55,7 +55,7 @@ pub fn propose(
     ranges: &[(SymbolId, Range<f64>)],
     criterion: Criterion,
 ) -> Result<Proposal, FitError> {
-    let candidates = candidates(chain, observations, ranges);
+    let candidates = spread(chain, observations, ranges);
     let model = Model::new(chain, &candidates, &fit.parameters)?;
     let m = candidates.series.first().map_or(1, |series| series.measure.components());
     let sigma: Vec<f64> = fit.noise.floor.iter().take(m).map(|floor| floor.max(f64::MIN_POSITIVE)).collect();
@@ -161,13 +161,18 @@ fn with(covariance: &DMatrix<f64>, row: &DMatrix<f64>, sign: f64) -> DMatrix<f64
     }
 }
 
-fn joints(chain: &Chain, observations: &Observations) -> Vec<SymbolId> {
+/// The joints that have readings.
+pub(crate) fn joints(chain: &Chain, observations: &Observations) -> Vec<SymbolId> {
     let ids = observations.columns.iter().map(|(id, _)| *id);
     ids.filter(|id| chain.symbol(*id).kind == SymbolKind::Joint).collect()
 }
 
 /// Poses spread over the ranges, as observations of the first series without measured values.
-fn candidates(chain: &Chain, observations: &Observations, ranges: &[(SymbolId, Range<f64>)]) -> Observations {
+pub(crate) fn spread(
+    chain: &Chain,
+    observations: &Observations,
+    ranges: &[(SymbolId, Range<f64>)],
+) -> Observations {
     let mut spread = observations.select(&[0]);
     let generator = generator(joints(chain, observations).len());
     let mut axis = 0;

@@ -20,6 +20,8 @@ pub struct Report {
     pub precision: Precision,
     /// Where to measure next, if the study asks: D-optimal, then A-optimal.
     pub next_poses: Vec<Proposal>,
+    /// Where to measure next to tell accepted effects from others that explain these data as well.
+    pub separating: Vec<Separation>,
     /// The effects that were accepted, in the order they came in.
     pub effects: Vec<EffectFound>,
     /// What is left after them.
@@ -132,16 +134,53 @@ pub struct EffectFound {
     pub bias: std::collections::BTreeMap<String, f64>,
 }
 
+/// Poses that would tell an accepted effect from its class and its rivals.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Separation {
+    /// The name of the effect.
+    pub effect: String,
+    /// The joints, in the order of the poses' values.
+    pub joints: Vec<String>,
+    /// One list of joint values a pose, rad or m, the most telling first.
+    pub poses: Vec<Vec<f64>>,
+    /// The others that they tell it from.
+    pub apart: Vec<Told>,
+    /// The others that no pose within the ranges tells from it.
+    pub never: Vec<String>,
+}
+
+/// How well an effect can be told from another.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Told {
+    /// The name of the other.
+    pub name: String,
+    /// Sum of squares, in units of the noise, that the other leaves of the effect in the data so far, all else refitted.
+    pub now: f64,
+    /// The same once the poses are measured too; twice the log-likelihood to expect between the two.
+    pub then: f64,
+}
+
 /// What is left of structure in the residual.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Remaining {
-    /// Chance of at least as much structure in noise.
+    /// Chance of at least as much structure in noise, all that was looked at taken together.
     pub p_value: f64,
-    /// Where it sits, if anywhere.
+    /// What was looked at.
+    pub looked: Vec<Looked>,
+    /// Where it sits, if one smooth function at one place explains the data better than the catalogue does.
     #[serde(rename = "where")]
     pub place: Option<Where>,
     /// The smooth function there: driver (rad or the input's unit), value (rad or m), two standard uncertainties.
     pub shape: Vec<Vec<f64>>,
+}
+
+/// One statistic of what is left.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Looked {
+    /// What it looks at: `neighbours along beta`.
+    pub at: String,
+    /// Chance of as much in noise, of this statistic alone.
+    pub p_value: f64,
 }
 
 /// A place in the chain.
@@ -153,6 +192,8 @@ pub struct Where {
     pub dof: String,
     /// The joint or input.
     pub driver: String,
+    /// The kind of function: `Fourier series of order 8`.
+    pub form: String,
 }
 
 /// An effect that these data would not show below some size.

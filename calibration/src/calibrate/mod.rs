@@ -4,10 +4,12 @@
 //! until one changes nothing. Then the search is repeated in every fold (`held_out`), and everything is put into
 //! words (`words`).
 
+mod basis;
 mod held_out;
 mod hidden;
 mod remaining;
 mod round;
+mod separate;
 mod words;
 
 use model_core::{Chain, SymbolId};

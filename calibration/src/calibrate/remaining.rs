@@ -1,131 +1,312 @@
 //! What is left after the last round: whether it has structure, where, and of what shape.
 
-use model_core::SymbolId;
+use faer::Mat;
+use model_core::{Quantity, Role, SymbolId, SymbolKind};
+use rayon::prelude::*;
 
+use super::basis::Basis;
 use super::round::Round;
 use super::{CalibrateError, Loop, declared};
-use crate::columns::{Columns, places};
-use crate::effects::{Effect, Place, smooth, tensor};
-use crate::report::{Remaining, Where};
-use crate::search::{Problem, Smooth, remains};
+use crate::columns::{self, Columns};
+use crate::effects::{Effect, Freedom, Place, SmoothPlace, smooth, tensor};
+use crate::noise::Layout;
+use crate::observations::Observations;
+use crate::report::{Looked, Remaining, Where};
+use crate::search::contest::{Contender, Price, contender, criterion, most_telling};
+use crate::search::flips::Signs;
+use crate::search::remains::{Statistic, along, combined, lagged, nearest};
+use crate::search::scan::{Left, Sheet};
+use crate::search::select::class_columns;
 
-/// Harmonics 2 to this order at one place are one function.
-const SPELT_OUT: u32 = 5;
+/// Harmonics of each joint that are scanned, unless the study asks for more.
+const HARMONICS: u32 = 32;
+
+/// Harmonics on one sheet.
+const A_SHEET: u32 = 16;
+
+/// Rows between observations that are compared in order of acquisition.
+const LAGS: std::ops::RangeInclusive<usize> = 1..=3;
+
+/// Penalised log-likelihood by which a smooth function must beat the catalogue's model: six units of Schwarz's
+/// criterion.
+const BETTER: f64 = 3.0;
 
 /// Points of the shape that is reported.
 const POINTS: usize = 61;
 
-/// Scans the last residual for smooth functions.
+/// Everything that the scans read.
+struct Scanned<'a> {
+    last: &'a Round,
+    columns: Columns,
+    drivers: Vec<Driver>,
+    /// Functions of two joints together, and their whitened columns.
+    tensors: Vec<(Effect, Mat<f64>)>,
+}
+
+/// A joint or input that functions may hang on, and what they are at its readings.
+struct Driver {
+    symbol: SymbolId,
+    basis: Basis,
+    series: Mat<f64>,
+    bumps: Mat<f64>,
+}
+
+impl Driver {
+    fn new(whole: &Loop<'_>, symbol: SymbolId) -> Option<Self> {
+        let observations = whole.request.observations;
+        let basis = Basis::of(whole.setting.chain, observations, symbol)?;
+        let readings = observations.column(symbol)?;
+        let series = tabulated(readings, |q| basis.series(q));
+        let bumps = basis.bumps();
+        let bumps = tabulated(readings, |q| bumps.iter().map(|&bump| basis.bump(bump, q)).collect());
+        Some(Self { symbol, basis, series, bumps })
+    }
+}
+
+/// Functions at readings, one row a reading.
+fn tabulated(readings: &[f64], functions: impl Fn(f64) -> Vec<f64> + Sync) -> Mat<f64> {
+    let values: Vec<Vec<f64>> = readings.par_iter().map(|&q| functions(q)).collect();
+    let width = values.first().map_or(0, Vec::len);
+    Mat::from_fn(values.len(), width, |row, j| values[row][j])
+}
+
+/// Looks for structure in the last residual.
 pub(crate) fn remaining(whole: &Loop<'_>, last: &Round) -> Result<Remaining, CalibrateError> {
     let observations = whole.request.observations;
-    let candidates = [smooth(&whole.setting), tensor(&whole.setting)].concat();
+    let mut smooths = smooth(&whole.setting);
+    let mut symbols: Vec<SymbolId> = smooths.iter().map(|smooth| smooth.driver).collect();
+    symbols.sort_unstable();
+    symbols.dedup();
+    let drivers: Vec<Driver> = symbols.into_iter().filter_map(|id| Driver::new(whole, id)).collect();
+    let harmonics = harmonics(whole);
+    let mut places: Vec<Place> = smooths.iter().map(|smooth| smooth.place).collect();
+    places.extend(harmonics.iter().map(|(place, ..)| *place));
+    let tensors = tensor(&whole.setting);
+    places.extend(columns::places(&tensors));
+    places.sort_unstable();
+    places.dedup();
     let values = &last.fit.values;
-    let places = places(&candidates);
     let columns = Columns::at(&last.chain, observations, declared(whole), values, &places)?;
-    let effects = columns.of_effects(&last.chain, &candidates, observations, values);
-    let series = series(whole, last);
-    let accepted = last
-        .found
-        .iter()
-        .filter(|found| series.as_ref() != Some(&kind(&whole.catalogue[found.effect])))
-        .flat_map(|found| &last.effects[found.effect]);
-    let known: Vec<Vec<f64>> = (0..last.columns.declared.ncols())
-        .map(|j| last.whitened(last.columns.declared.col_as_slice(j)))
-        .chain(accepted.map(|column| last.whitened(column)))
-        .collect();
-    let unknown: Vec<Vec<f64>> = effects.iter().flatten().map(|column| last.whitened(column)).collect();
-    let mut blocks = Vec::new();
-    let mut start = 0;
-    for effect in &effects {
-        blocks.push(start..start + effect.len());
-        start += effect.len();
-    }
-    let n = last.columns.residual.len();
-    let matrix = |columns: &[Vec<f64>]| faer::Mat::from_fn(n, columns.len(), |i, j| columns[j][i]);
-    let hold_out = &whole.request.plan.hold_out;
-    let problem = Problem::new(
-        matrix(&known).as_ref(),
-        matrix(&unknown).as_ref(),
-        &blocks,
-        &last.whitened(&without_series(whole, last, series.as_ref())),
-        &last.groups(whole),
-        hold_out.folds,
-        hold_out.seed,
-    )?;
-    let found = remains(&problem, &blocks, &whole.options);
-    let Some(smooth) = found.smooth else {
-        return Ok(Remaining { p_value: found.p_value, place: None, shape: Vec::new() });
+    let of_tensors = columns.of_effects(&last.chain, &tensors, observations, values);
+    let tensors = tensors.into_iter().zip(of_tensors).map(|(effect, own)| {
+        let white: Vec<Vec<f64>> = own.iter().map(|column| last.whitened(column)).collect();
+        (effect, Mat::from_fn(last.columns.residual.len(), white.len(), |i, j| white[j][i]))
+    });
+    let tensors = tensors.filter(|(_, own)| own.ncols() > 0).collect();
+    let scanned = Scanned { last, columns, drivers, tensors };
+    smooths.retain(|smooth| {
+        scanned.columns.probe(smooth.place).is_some() && scanned.driver(smooth.driver).is_some()
+    });
+
+    let blocks = class_columns(&last.problem, &last.classes);
+    let accepted: Vec<Vec<usize>> =
+        last.accepted_classes().into_iter().filter_map(|class| blocks.get(class).cloned()).collect();
+    let options = &whole.options;
+    let signs = Signs::scattered(last.problem.group_of_row(), options.flips, options.seed);
+    let left = Left::new(&last.problem, &accepted, &signs);
+
+    let mut statistics = neighbours(whole, &left, &signs);
+    let waves = left.scan(harmonics.len(), |number| scanned.harmonics(observations, harmonics[number]));
+    statistics.push(Statistic::of_scan("harmonics of a joint", &waves));
+    let functions = left.scan(smooths.len(), |number| scanned.smooth(smooths[number]));
+    statistics.push(Statistic::of_scan("smooth functions of a joint or input", &functions));
+    let functions = left.scan(scanned.tensors.len(), |number| Sheet::of(scanned.tensors[number].1.clone()));
+    statistics.push(Statistic::of_scan("smooth functions of two joints", &functions));
+    let (p_value, alone) = combined(&statistics);
+    let looked =
+        statistics.iter().zip(alone).map(|(s, p_value)| Looked { at: s.what.clone(), p_value }).collect();
+
+    // Be it among what is left, or in place of what was accepted.
+    let conspicuous = p_value <= options.false_alarm || !accepted.is_empty();
+    let best = if conspicuous { scanned.best_function(whole, &smooths, &left) } else { None };
+    let (place, shape) = match best {
+        None => (None, Vec::new()),
+        Some(function) => {
+            let place = Where {
+                body: last.chain.body(function.place.body).name.clone(),
+                dof: function.place.freedom.word().to_owned(),
+                driver: function.driver.clone(),
+                form: function.form.clone(),
+            };
+            (Some(place), shape(&function))
+        }
     };
-    let effect = &candidates[smooth.candidate];
-    Ok(Remaining {
-        p_value: found.p_value,
-        place: Some(Where {
-            body: last.chain.body(effect.place.body).name.clone(),
-            dof: effect.place.freedom.word().to_owned(),
-            driver: effect.driver.clone(),
-        }),
-        shape: shape(whole, effect, &smooth, values),
-    })
+    Ok(Remaining { p_value, looked, place, shape })
 }
 
-/// Place and driver of an effect.
-type Kind = (Place, String);
-
-fn kind(effect: &Effect) -> Kind {
-    (effect.place, effect.driver.clone())
+/// A function at a place that explains the data better than the catalogue.
+struct Function {
+    place: Place,
+    driver: String,
+    form: String,
+    /// The functions of one reading: a bump, or else the first of a series; none for functions of two joints.
+    basis: Option<(Basis, Option<(f64, f64)>)>,
+    fitted: Contender,
 }
 
-/// A place where every harmonic of one driver was accepted, order after order: that is no set of sines but one
-/// function that they spell out.
-fn series(whole: &Loop<'_>, last: &Round) -> Option<Kind> {
-    let accepted: Vec<&Effect> = last.found.iter().map(|found| &whole.catalogue[found.effect]).collect();
-    accepted.iter().map(|effect| kind(effect)).find(|kind| {
-        (2..=SPELT_OUT).all(|order| {
-            let form = format!("harmonic {order}");
-            accepted
-                .iter()
-                .any(|effect| effect.form == form && (effect.place, &effect.driver) == (kind.0, &kind.1))
-        })
-    })
-}
-
-/// The last residual with what the effects of a series explain put back.
-fn without_series(whole: &Loop<'_>, last: &Round, series: Option<&Kind>) -> Vec<f64> {
-    let mut residual = last.columns.residual.clone();
-    for (found, errors) in last.found.iter().zip(&last.errors) {
-        if series != Some(&kind(&whole.catalogue[found.effect])) {
-            continue;
-        }
-        for (column, error) in last.effects[found.effect].iter().zip(errors) {
-            let value = last.fit.values[error.index()];
-            residual.iter_mut().zip(column).for_each(|(r, z)| *r += value * z);
+/// Sheets of harmonics: the place, the joint, and the first order of each.
+fn harmonics(whole: &Loop<'_>) -> Vec<(Place, SymbolId, u32)> {
+    let most = HARMONICS.max(whole.setting.harmonics);
+    let mut sheets = Vec::new();
+    for joint in whole.setting.joints().into_iter().filter(crate::effects::JointAxis::turns) {
+        for freedom in Freedom::ALL.into_iter().filter(|freedom| freedom.motion == joint.freedom.motion) {
+            let place = Place { body: joint.body, role: Role::MotionError, freedom };
+            sheets.extend((1..=most).step_by(A_SHEET as usize).map(|first| (place, joint.symbol, first)));
         }
     }
-    residual
+    sheets
+}
+
+impl Scanned<'_> {
+    /// A function's columns at a place: the place's derivative times the function's values, whitened.
+    fn sheet(&self, place: Place, values: &Mat<f64>) -> Mat<f64> {
+        let row = &self.last.columns.row;
+        let mut sheet = Mat::zeros(row.len(), values.ncols());
+        let Some(probe) = self.columns.probe(place) else { return sheet };
+        let serial = self.last.fit.noise.serial.is_some();
+        // Without memory whitening is a factor to each component.
+        let probe = if serial { probe.to_vec() } else { self.last.whitened(probe) };
+        for j in 0..values.ncols() {
+            let (column, values) = (sheet.col_as_slice_mut(j), values.col_as_slice(j));
+            for ((target, p), &row) in column.iter_mut().zip(&probe).zip(row) {
+                *target = p * values[row as usize];
+            }
+            if serial {
+                let whitened = self.last.whitened(column);
+                column.copy_from_slice(&whitened);
+            }
+        }
+        sheet
+    }
+
+    /// The function that beats the catalogue's model by most; the likelier place of two that are the same.
+    fn best_function(&self, whole: &Loop<'_>, smooths: &[SmoothPlace], left: &Left<'_>) -> Option<Function> {
+        let places = smooths.len();
+        let mut each: Vec<Function> =
+            smooths.par_iter().flat_map_iter(|smooth| self.at(whole, *smooth, places, left)).collect();
+        let price = Price { classes: self.last.classes.len(), functions: self.tensors.len(), parameters: 0 };
+        each.par_extend(self.tensors.par_iter().map(|(effect, columns)| Function {
+            place: effect.place,
+            driver: effect.driver.clone(),
+            form: effect.form.clone(),
+            basis: None,
+            fitted: contender(left, columns.as_ref(), price),
+        }));
+        let least = criterion(left, price) + BETTER;
+        if std::env::var_os("DEBUG_CONTEST").is_some() {
+            for f in &each {
+                eprintln!("{least:.1} {:?} {} {:.1} {}", f.place, f.driver, f.fitted.criterion, f.form);
+            }
+        }
+        each.into_iter().fold(None, |best: Option<Function>, other| {
+            let to_beat = best.as_ref().map_or(least, |best| best.fitted.criterion + 1e-6);
+            if other.fitted.criterion > to_beat { Some(other) } else { best }
+        })
+    }
+
+    /// The functions at one place of so many.
+    fn at(&self, whole: &Loop<'_>, smooth: SmoothPlace, places: usize, left: &Left<'_>) -> Vec<Function> {
+        let Some(driver) = self.driver(smooth.driver) else { return Vec::new() };
+        let (basis, classes) = (driver.basis, self.last.classes.len());
+        let function = |form, bump, fitted| Function {
+            place: smooth.place,
+            driver: whole.setting.name(smooth.driver).to_owned(),
+            form,
+            basis: Some((basis, bump)),
+            fitted,
+        };
+        let mut all = Vec::new();
+        let series = self.sheet(smooth.place, &driver.series);
+        let orders: Vec<(u32, usize)> = basis.orders().collect();
+        for &(order, width) in orders.iter().filter(|&&(_, width)| width <= series.ncols()) {
+            let price = Price { classes, functions: places * orders.len(), parameters: 0 };
+            let fitted = contender(left, series.subcols(0, width), price);
+            all.push(function(basis.words(order), None, fitted));
+        }
+        let columns = self.sheet(smooth.place, &driver.bumps);
+        let bumps = basis.bumps();
+        for at in most_telling(left, columns.as_ref()) {
+            let (centre, width) = bumps[at];
+            let price = Price { classes, functions: places, parameters: 2 };
+            let fitted = contender(left, columns.subcols(at, 1), price);
+            all.push(function(format!("bump at {centre:.2}, of width {width:.2}"), Some(bumps[at]), fitted));
+        }
+        all
+    }
+
+    fn driver(&self, symbol: SymbolId) -> Option<&Driver> {
+        self.drivers.iter().find(|driver| driver.symbol == symbol)
+    }
+
+    fn smooth(&self, smooth: SmoothPlace) -> Sheet {
+        let columns = self.driver(smooth.driver).map(|driver| self.sheet(smooth.place, &driver.series));
+        Sheet::of(columns.unwrap_or_else(|| Mat::zeros(self.last.columns.residual.len(), 0)))
+    }
+
+    fn harmonics(&self, observations: &Observations, sheet: (Place, SymbolId, u32)) -> Sheet {
+        let (place, joint, first) = sheet;
+        let wave = |q: f64, order: u32| [(f64::from(order) * q).cos(), (f64::from(order) * q).sin()];
+        let values = tabulated(observations.column(joint).unwrap_or_default(), |q| {
+            (first..first + A_SHEET).flat_map(|order| wave(q, order)).collect()
+        });
+        let columns = self.sheet(place, &values);
+        let blocks = (0..columns.ncols() / 2).map(|at| 2 * at..2 * at + 2).collect();
+        Sheet { columns, blocks }
+    }
+}
+
+/// Products of neighbours: in the space of all joints, along each joint, and in order of acquisition.
+fn neighbours(whole: &Loop<'_>, left: &Left<'_>, signs: &Signs) -> Vec<Statistic> {
+    let observations = whole.request.observations;
+    let chain = whole.setting.chain;
+    let first = Layout::of(observations).first;
+    let joints: Vec<(SymbolId, &[f64])> = observations
+        .columns
+        .iter()
+        .filter(|(id, _)| chain.symbol(*id).kind == SymbolKind::Joint)
+        .map(|(id, readings)| (*id, readings.as_slice()))
+        .collect();
+    let mut points = vec![Vec::new(); observations.rows()];
+    let mut statistics = Vec::new();
+    for (id, readings) in &joints {
+        let symbol = chain.symbol(*id);
+        let angle = symbol.quantity == Quantity::Angle;
+        // Angles on a circle of radius one, lengths in units of their spread.
+        let mean = readings.iter().sum::<f64>() / readings.len().max(1) as f64;
+        let spread = readings.iter().map(|q| (q - mean).powi(2)).sum::<f64>() / readings.len().max(1) as f64;
+        let unit = spread.sqrt().max(f64::MIN_POSITIVE);
+        for (point, q) in points.iter_mut().zip(*readings) {
+            if angle { point.extend([q.cos(), q.sin()]) } else { point.push((q - mean) / unit) }
+        }
+        let what = format!("neighbours along {}", symbol.name);
+        statistics.push(Statistic::of_pairs(what, &along(readings), &first, left, signs));
+    }
+    let what = "neighbours in the space of all joints".to_owned();
+    statistics.insert(0, Statistic::of_pairs(what, &nearest(&points), &first, left, signs));
+    if observations.in_sequence {
+        let runs: Vec<_> = observations.series.iter().map(|series| series.rows.clone()).collect();
+        for lag in LAGS {
+            let what = format!("observations {lag} rows apart");
+            statistics.push(Statistic::of_pairs(what, &lagged(&runs, lag), &first, left, signs));
+        }
+    }
+    statistics
 }
 
 /// Driver, value and two standard uncertainties over the range of the driver's readings.
-fn shape(whole: &Loop<'_>, effect: &Effect, smooth: &Smooth, values: &[f64]) -> Vec<Vec<f64>> {
-    let driver: Option<SymbolId> = whole.setting.chain.find_symbol(&effect.driver);
-    let Some((driver, readings)) =
-        driver.and_then(|id| whole.request.observations.column(id).map(|readings| (id, readings)))
-    else {
-        return Vec::new();
-    };
-    let low = readings.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = readings.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let mut at = values.to_vec();
-    let width = smooth.coefficients.len();
+fn shape(function: &Function) -> Vec<Vec<f64>> {
+    let Some((basis, bump)) = function.basis else { return Vec::new() };
+    let fitted = &function.fitted;
+    let width = fitted.coefficients.len();
     (0..POINTS)
         .map(|point| {
-            let q = low + (high - low) * point as f64 / (POINTS - 1) as f64;
-            at[driver.index()] = q;
-            let basis: Vec<f64> = effect.functions.iter().map(|function| function.amount.eval(&at)).collect();
-            let value: f64 = basis.iter().zip(&smooth.coefficients).map(|(f, c)| f * c).sum();
+            let q = basis.low + (basis.high - basis.low) * point as f64 / (POINTS - 1) as f64;
+            let at = bump.map_or_else(|| basis.series(q), |bump| vec![basis.bump(bump, q)]);
+            let value: f64 = at.iter().zip(&fitted.coefficients).map(|(f, c)| f * c).sum();
             let variance: f64 = (0..width)
                 .map(|i| {
-                    let row = &smooth.covariance[i * width..(i + 1) * width];
-                    basis[i] * row.iter().zip(&basis).map(|(c, f)| c * f).sum::<f64>()
+                    let row = &fitted.covariance[i * width..(i + 1) * width];
+                    at[i] * row.iter().zip(&at).map(|(c, f)| c * f).sum::<f64>()
                 })
                 .sum();
             vec![q, value, 2.0 * variance.max(0.0).sqrt()]

@@ -122,11 +122,6 @@ impl Round {
         whiten(&self.fit, &self.columns.row, column)
     }
 
-    /// The group of each residual component.
-    pub fn groups(&self, whole: &Loop<'_>) -> Vec<usize> {
-        groups(whole, &self.columns.row)
-    }
-
     /// The class that an effect belongs to.
     pub fn class_of(&self, effect: usize) -> Option<usize> {
         self.classes.iter().position(|class| class.members.contains(&effect))

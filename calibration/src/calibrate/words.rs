@@ -6,12 +6,14 @@ use model_core::{SymbolId, SymbolKind};
 
 use super::held_out::BeforeAfter;
 use super::round::Round;
+use super::separate::separation;
 use super::{Loop, hidden};
 use crate::amend::{Addition, NewInput};
 use crate::effects::Function;
 use crate::fit::precision;
 use crate::poses::{Criterion, Proposal, propose};
 use crate::report::{EffectFound, ErrorFound, Remaining, Report, SetAsideRow, Used, Verdict};
+use crate::search::select::{State, class_columns};
 use crate::search::{HeldOut, rivals};
 
 /// Fewer observations than this are no evidence of an effect.
@@ -100,10 +102,19 @@ pub(crate) fn report(
     remaining: Remaining,
 ) -> Report {
     let observations = whole.request.observations;
-    let effects = effects(whole, last, held_out);
+    let others = others(last);
+    let effects = effects(whole, last, held_out, &others);
+    let separating = others
+        .iter()
+        .enumerate()
+        .filter_map(|(at, others)| {
+            let all: Vec<usize> = others.alike.iter().chain(&others.rivals).copied().collect();
+            separation(whole, last, at, &all)
+        })
+        .collect();
     let alone = effects.iter().all(|effect| effect.class.is_empty() && effect.rivals.is_empty());
     let thin = last.found.iter().any(|found| evidence(last, found.effect) < FEW);
-    let verdict = if remaining.place.is_some() {
+    let verdict = if remaining.place.is_some() || remaining.p_value <= whole.options.false_alarm {
         Verdict::StructureRemains
     } else if thin {
         Verdict::FewObservations
@@ -130,6 +141,7 @@ pub(crate) fn report(
         errors: errors(last),
         not_separable: precision.not_separable.iter().map(|set| set.names.clone()).collect(),
         next_poses: next_poses(whole, last),
+        separating,
         precision,
         effects,
         remaining,
@@ -181,28 +193,50 @@ fn next_poses(whole: &Loop<'_>, last: &Round) -> Vec<Proposal> {
     [Criterion::D, Criterion::A].into_iter().filter_map(proposal).collect()
 }
 
-fn effects(whole: &Loop<'_>, last: &Round, held_out: &HeldOut) -> Vec<EffectFound> {
+/// What an accepted effect could be instead.
+struct Others {
+    /// Effects of its class, as it was when it came in or as it is at the last fit.
+    alike: Vec<usize>,
+    /// The first of each class that explains these data about as well.
+    rivals: Vec<usize>,
+}
+
+fn others(last: &Round) -> Vec<Others> {
     let accepted = last.accepted_classes();
-    let selection = last.selection(whole);
-    let all_rivals = rivals(&last.problem, &last.classes, &accepted, &selection.state);
-    let name = |effect: usize| whole.catalogue[effect].name.clone();
+    let mut state = State::declared(&last.problem, |_| true);
+    let blocks = class_columns(&last.problem, &last.classes);
+    accepted.iter().for_each(|&class| state.add(&blocks[class]));
+    let mut rivals = rivals(&last.problem, &last.classes, &accepted, &state).into_iter();
     last.found
         .iter()
-        .zip(&last.errors)
-        .enumerate()
-        .map(|(at, (found, errors))| {
-            let effect = &whole.catalogue[found.effect];
+        .map(|found| {
             let class = last.class_of(found.effect);
             let mut alike = found.alike.clone();
             alike.extend(class.iter().flat_map(|&class| &last.classes[class].members));
             alike.retain(|&member| member != found.effect);
             alike.sort_unstable();
             alike.dedup();
-            let others: Vec<String> = alike.iter().map(|&member| name(member)).collect();
+            // An effect without a class has no rivals: these data do not show it any more.
+            let rivals = class.and_then(|_| rivals.next()).unwrap_or_default();
+            let rivals = rivals.iter().map(|rival| last.classes[rival.class].members[0]).collect();
+            Others { alike, rivals }
+        })
+        .collect()
+}
+
+fn effects(whole: &Loop<'_>, last: &Round, held_out: &HeldOut, others: &[Others]) -> Vec<EffectFound> {
+    let name = |effect: &usize| whole.catalogue[*effect].name.clone();
+    last.found
+        .iter()
+        .zip(&last.errors)
+        .zip(others)
+        .map(|((found, errors), others)| {
+            let effect = &whole.catalogue[found.effect];
+            let class = last.class_of(found.effect);
             // Members of the class at the same place are the same function by another name.
             let mut names = vec![effect.name.clone()];
             let here = |member: &&usize| whole.catalogue[**member].place == effect.place;
-            names.extend(alike.iter().filter(here).map(|&member| name(member)));
+            names.extend(others.alike.iter().filter(here).map(name));
             names.dedup();
             names.extend(whole.names[found.effect].iter().map(ToString::to_string));
             EffectFound {
@@ -212,10 +246,8 @@ fn effects(whole: &Loop<'_>, last: &Round, held_out: &HeldOut) -> Vec<EffectFoun
                 driver: effect.driver.clone(),
                 form: effect.form.clone(),
                 names,
-                class: others,
-                rivals: all_rivals.get(at).map_or_else(Vec::new, |rivals| {
-                    rivals.iter().map(|rival| name(last.classes[rival.class].members[0])).collect()
-                }),
+                class: others.alike.iter().map(name).collect(),
+                rivals: others.rivals.iter().map(name).collect(),
                 coefficients: errors
                     .iter()
                     .map(|&id| (last.chain.symbol(id).name.clone(), last.fit.values[id.index()]))

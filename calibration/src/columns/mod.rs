@@ -95,6 +95,16 @@ impl Columns {
         Ok(columns)
     }
 
+    /// The derivative by a unit at a place; `None` where these observations hardly see it.
+    #[must_use]
+    pub fn probe(&self, place: Place) -> Option<&[f64]> {
+        let at = self.places.iter().position(|known| *known == place)?;
+        let alike = self.places.iter().zip(self.probes.col_iter());
+        let alike = alike.filter(|(other, _)| other.freedom.motion == place.freedom.motion);
+        let most = alike.map(|(_, probe)| probe.norm_l2()).fold(0.0, f64::max);
+        (self.probes.col(at).norm_l2() > UNSEEN * most).then(|| self.probes.col_as_slice(at))
+    }
+
     /// The columns of each effect, one for each of its functions; empty where a reading is missing, or a function
     /// is not finite, or it hangs on a single row.
     #[must_use]

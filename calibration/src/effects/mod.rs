@@ -48,7 +48,7 @@ pub(crate) use effect::{add_error, insert};
 pub use names::{Name, Published, known_names, published};
 pub use own::{OwnError, own};
 pub use setting::{JointAxis, Setting};
-pub use smooth::smooth;
+pub use smooth::{SmoothPlace, smooth};
 pub use tensor::tensor;
 
 /// One family of the catalogue: its name, what an observer should know of it, and how it follows from a chain.

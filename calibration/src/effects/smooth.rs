@@ -1,28 +1,38 @@
-//! Smooth fall-backs: Fourier series of one joint at one place, for what no formula of the catalogue explains.
+//! Smooth fall-backs: where a function of one joint or input could sit that no formula of the catalogue is.
 
-use super::{Effect, Freedom, Setting, harmonic};
+use model_core::{Role, SymbolId};
 
-/// The order of the series.
-const ORDER: u32 = 8;
+use super::{Freedom, Place, Setting};
 
-/// Every smooth candidate of a chain: each joint drives each rotation of its own body.
+/// A place in the chain, and what drives the function there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SmoothPlace {
+    /// Where.
+    pub place: Place,
+    /// The joint or input.
+    pub driver: SymbolId,
+}
+
+/// Every such place of a chain, the likelier first: a joint's own freedom, the others of the body that it moves, the
+/// rotations of the other bodies; then inputs, at all rotations.
 #[must_use]
-pub fn smooth(setting: &Setting<'_>) -> Vec<Effect> {
-    let mut effects = Vec::new();
-    for joint in setting.turning() {
-        let name = setting.name(joint.symbol);
-        for freedom in Freedom::rotations() {
-            effects.push(Effect {
-                family: "smooth",
-                name: format!("a smooth function of {name} about {}", freedom.axis_name()),
-                place: joint.place().with(freedom),
-                functions: (1..=ORDER)
-                    .flat_map(|order| harmonic(joint.symbol, name, order, "smooth"))
-                    .collect(),
-                driver: name.to_owned(),
-                form: format!("Fourier series of order {ORDER}"),
-            });
+pub fn smooth(setting: &Setting<'_>) -> Vec<SmoothPlace> {
+    let rotations =
+        |body| Freedom::rotations().map(move |freedom| Place { body, role: Role::MotionError, freedom });
+    let mut all = Vec::new();
+    for joint in setting.joints() {
+        let own = Freedom::ALL.into_iter().map(|freedom| joint.place().with(freedom));
+        let others = setting.bodies().into_iter().flat_map(rotations);
+        for place in [joint.place()].into_iter().chain(own).chain(others) {
+            let smooth = SmoothPlace { place, driver: joint.symbol };
+            if setting.moves(place) && !all.contains(&smooth) {
+                all.push(smooth);
+            }
         }
     }
-    effects
+    for &driver in setting.inputs {
+        let places = setting.bodies().into_iter().flat_map(rotations).filter(|&place| setting.moves(place));
+        all.extend(places.map(|place| SmoothPlace { place, driver }));
+    }
+    all
 }

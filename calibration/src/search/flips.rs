@@ -29,9 +29,30 @@ pub struct Signs {
 }
 
 impl Signs {
-    /// Signs for the rows whose groups are given.
+    /// Signs for the rows whose groups are given. Where there are many groups, neighbours flip together: whatever
+    /// correlation is left between them then counts as chance.
     #[must_use]
     pub fn new(group_of_row: &[usize], flips: usize, seed: u64) -> Self {
+        Self::dealt(group_of_row, flips, seed, |number, groups, buckets| number * buckets / groups)
+    }
+
+    /// The same, but groups that flip together lie apart: correlation between neighbours is what is looked for.
+    #[must_use]
+    pub fn scattered(group_of_row: &[usize], flips: usize, seed: u64) -> Self {
+        // Steps by the golden section come back to a bucket after as many steps as there are, in no simple pattern.
+        let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
+        Self::dealt(group_of_row, flips, seed, |number, groups, buckets| match groups > buckets {
+            true => ((number as f64 * golden).fract() * buckets as f64) as usize % buckets,
+            false => number,
+        })
+    }
+
+    fn dealt(
+        group_of_row: &[usize],
+        flips: usize,
+        seed: u64,
+        bucket: impl Fn(usize, usize, usize) -> usize,
+    ) -> Self {
         let mut numbers = std::collections::BTreeMap::new();
         for &group in group_of_row {
             let next = numbers.len();
@@ -41,7 +62,7 @@ impl Signs {
         let buckets = groups.min(MOST_FLIPPED);
         let bucket_of_row = group_of_row
             .iter()
-            .map(|group| numbers.get(group).map_or(0, |&number| number * buckets / groups))
+            .map(|group| numbers.get(group).map_or(0, |&number| bucket(number, groups, buckets)))
             .collect();
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut bits = 0_u64;
@@ -77,6 +98,12 @@ impl Signs {
         let mut sums = Mat::zeros(self.signs.nrows(), bucket_scores.ncols());
         matmul(&mut sums, Accum::Replace, &self.signs, bucket_scores, 1.0, Par::Seq);
         sums
+    }
+
+    /// The signs of one flip, bucket by bucket.
+    #[must_use]
+    pub fn of_flip(&self, flip: usize) -> Vec<f64> {
+        self.signs.row(flip).iter().copied().collect()
     }
 
     /// How many buckets.
@@ -146,18 +173,9 @@ impl Family<'_> {
         matmul(effective.subcols_mut(0, p), Accum::Replace, &base_scores, &root, 1.0, Par::Seq);
         let mut at = p;
         for (block, whitener) in self.blocks.iter().zip(&whiteners) {
-            let mut own = Mat::from_fn(signs.buckets(), block.len(), |g, c| scores[(g, block[c])]);
-            let coefficients = Mat::from_fn(p, block.len(), |j, c| self.sweep.entry(self.base[j], block[c]));
-            matmul(&mut own, Accum::Add, &base_scores, &coefficients, -1.0, Par::Seq);
-            matmul(
-                effective.subcols_mut(at, whitener.ncols()),
-                Accum::Replace,
-                &own,
-                whitener,
-                1.0,
-                Par::Seq,
-            );
-            at += whitener.ncols();
+            let own = self.effective(&scores, &base_scores, block, whitener);
+            effective.subcols_mut(at, own.ncols()).copy_from(&own);
+            at += own.ncols();
         }
 
         let sums = signs.flip(effective.as_ref());
@@ -165,16 +183,56 @@ impl Family<'_> {
         for j in 0..p {
             rss.iter_mut().zip(sums.col_as_slice(j)).for_each(|(r, &s)| *r -= s * s);
         }
-        let mut smallest = vec![0.0_f64; signs.flips()];
+        let mut chance = Chance::new(signs.flips());
         let mut at = p;
         for &rank in &ranks {
-            for (flip, best) in smallest.iter_mut().enumerate() {
-                let gain: f64 = (at..at + rank).map(|j| sums[(flip, j)] * sums[(flip, j)]).sum();
-                *best = best.min(self.tails.ln_p(rank, gain, rss[flip]));
-            }
+            chance.add(sums.as_ref().subcols(at, rank));
             at += rank;
         }
-        smallest
+        chance.smallest(&rss, self.tails)
+    }
+
+    /// ln p of one block by the cluster-robust form of its score test, over buckets of groups: no assumption on how the
+    /// noise varies from bucket to bucket, or within one.
+    ///
+    /// With S the buckets' scores, sᵀ(SᵀS)⁻¹s divided by their number is the R² of a regression of 1 on S, so the same
+    /// tail serves.
+    ///
+    /// Source: A. C. Cameron, J. B. Gelbach, D. L. Miller, "Robust Inference with Multiway Clustering", Journal of
+    /// Business & Economic Statistics 29 (2011); H. Hotelling, "The generalization of Student's ratio" (1931).
+    #[must_use]
+    pub fn robust_ln_p(&self, block: &[usize], signs: &Signs) -> f64 {
+        let scores = self.bucket_scores(&self.left(), signs);
+        let base_scores = Mat::from_fn(signs.buckets(), self.base.len(), |g, j| scores[(g, self.base[j])]);
+        let own = self.effective(&scores, &base_scores, block, &self.sweep.whitener(block));
+        let (buckets, rank) = own.shape();
+        if buckets <= rank || rank == 0 {
+            return 0.0;
+        }
+        let mut sweep = Sweep::new(Mat::from_fn(rank + 1, rank + 1, |i, j| match (i < rank, j < rank) {
+            (true, true) => (0..buckets).map(|g| own[(g, i)] * own[(g, j)]).sum(),
+            (false, false) => buckets as f64,
+            (true, false) => own.col(i).sum(),
+            (false, true) => own.col(j).sum(),
+        }));
+        let seen = (0..rank).filter(|&column| sweep.add(column)).count();
+        let explained = buckets as f64 - sweep.entry(rank, rank);
+        Tails::new([seen], buckets as f64).ln_p(seen, explained, buckets as f64)
+    }
+
+    /// The scores of a block in each bucket, after the swept columns and orthonormal.
+    fn effective(
+        &self,
+        scores: &Mat<f64>,
+        base_scores: &Mat<f64>,
+        block: &[usize],
+        whitener: &Mat<f64>,
+    ) -> Mat<f64> {
+        let mut own = Mat::from_fn(scores.nrows(), block.len(), |g, c| scores[(g, block[c])]);
+        let coefficients =
+            Mat::from_fn(self.base.len(), block.len(), |j, c| self.sweep.entry(self.base[j], block[c]));
+        matmul(&mut own, Accum::Add, base_scores, &coefficients, -1.0, Par::Seq);
+        own * whitener
     }
 
     /// Σ column × residual within each bucket.
@@ -187,6 +245,53 @@ impl Family<'_> {
             }
         }
         scores
+    }
+}
+
+/// What chance explains: for each rank, the largest sum of squares that any block of that rank takes up, flip by flip.
+/// Within a rank p falls as that sum grows, so one look at the tail a rank and flip is enough.
+pub(super) struct Chance {
+    flips: usize,
+    largest: Vec<Vec<f64>>,
+}
+
+impl Chance {
+    pub(super) fn new(flips: usize) -> Self {
+        Self { flips, largest: Vec::new() }
+    }
+
+    /// Takes in a block by its orthonormal scores under each flip, flips × rank.
+    pub(super) fn add(&mut self, scores: MatRef<'_, f64>) {
+        let rank = scores.ncols();
+        self.largest.resize_with(self.largest.len().max(rank + 1), Vec::new);
+        let mut gain = vec![0.0; self.flips];
+        for column in scores.col_iter() {
+            gain.iter_mut().zip(column.iter()).for_each(|(g, s)| *g += s * s);
+        }
+        let largest = &mut self.largest[rank];
+        largest.resize(self.flips, 0.0);
+        largest.iter_mut().zip(&gain).for_each(|(l, g)| *l = l.max(*g));
+    }
+
+    /// The larger of two, flip by flip.
+    pub(super) fn merge(mut self, other: Self) -> Self {
+        self.largest.resize_with(self.largest.len().max(other.largest.len()), Vec::new);
+        for (own, other) in self.largest.iter_mut().zip(other.largest) {
+            own.resize(other.len().max(own.len()), 0.0);
+            own.iter_mut().zip(other).for_each(|(l, o)| *l = l.max(o));
+        }
+        self
+    }
+
+    /// The smallest ln p of each flip, where the swept columns leave `rss` of it.
+    pub(super) fn smallest(&self, rss: &[f64], tails: &Tails) -> Vec<f64> {
+        let mut smallest = vec![0.0_f64; self.flips];
+        for (rank, largest) in self.largest.iter().enumerate() {
+            for ((best, gain), rss) in smallest.iter_mut().zip(largest).zip(rss) {
+                *best = best.min(tails.ln_p(rank, *gain, *rss));
+            }
+        }
+        smallest
     }
 }
 

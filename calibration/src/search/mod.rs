@@ -7,14 +7,16 @@
 //!
 //! The pipeline reads from one place: project (`problem`), merge what coincides (`classes`), test
 //! (`tail`, `flips`), select (`select`), name the rivals (`rivals`), confirm on held-out folds
-//! (`nested`), and look for structure that no candidate explains (`remains`).
+//! (`nested`), and look for structure that no candidate explains (`remains`, `scan`, `contest`).
 
 pub mod classes;
+pub mod contest;
 pub mod flips;
 pub mod nested;
 pub mod problem;
 pub mod remains;
 pub mod rivals;
+pub mod scan;
 pub mod select;
 pub mod sweep;
 pub mod tail;
@@ -22,7 +24,6 @@ pub mod tail;
 pub use classes::{Class, classes};
 pub use nested::{HeldOut, nested};
 pub use problem::{Problem, ProblemError};
-pub use remains::{Remains, Smooth, remains};
 pub use rivals::{Rival, rivals};
 pub use select::{Accepted, Options, Selection, select};
 

@@ -1,69 +1,131 @@
-//! Structure remains: whether a smooth function of a joint, at some place in the chain, stands out of a residual that
-//! the catalogue has done with, and what it looks like.
+//! Structure remains: statistics of what the last model leaves, all under the same sign flips, combined by the
+//! smallest p.
 //!
-//! The candidates are whole Fourier series (location × degree of freedom × driver); they go through the same test,
-//! the same sign flips and the same confirmation on held-out folds as the effects did.
+//! Source: P. A. P. Moran, "Notes on continuous stochastic phenomena", Biometrika 37 (1950), for the product of
+//! neighbours; P. H. Westfall and S. S. Young, "Resampling-Based Multiple Testing" (1993) for the combination.
 
-use std::ops::Range;
+use rayon::prelude::*;
 
-use super::classes::classes;
-use super::problem::Problem;
-use super::select::{Options, State, select};
+use super::flips::Signs;
+use super::scan::{Left, Scan};
 
-/// Penalised log-likelihood by which a smooth function must beat the catalogue's model.
-const BETTER: f64 = 3.0;
+/// Nearest neighbours of each observation in the space of all joints.
+const NEAREST: usize = 4;
 
-/// A smooth function that stands out.
+/// Observations that are compared with each other at most: beyond that, evenly chosen ones are.
+const COMPARED: usize = 4000;
+
+/// A statistic of the residual, the larger the more conspicuous, and what chance makes of it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Smooth {
-    /// Number of the candidate.
-    pub candidate: usize,
-    /// Coefficient of each of its columns, in the units of the columns before scaling; 0 for those that are not seen.
-    pub coefficients: Vec<f64>,
-    /// Covariance of the coefficients, row by row.
-    pub covariance: Vec<f64>,
+pub struct Statistic {
+    /// What it looks at: `neighbours in beta`.
+    pub what: String,
+    /// Of the residual as it is.
+    pub observed: f64,
+    /// Under each flip.
+    pub chance: Vec<f64>,
 }
 
-/// What a scan of smooth functions found.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Remains {
-    /// Familywise p of the most conspicuous one.
-    pub p_value: f64,
-    /// The one that is confirmed, if any.
-    pub smooth: Option<Smooth>,
-}
-
-/// Scans the candidates of a problem whose declared columns hold the accepted effects as well. `blocks` are the
-/// candidates' columns as the problem was made with them.
-#[must_use]
-pub fn remains(problem: &Problem, blocks: &[Range<usize>], options: &Options) -> Remains {
-    let classes = classes(problem);
-    let options = Options { most: 1, ..options.clone() };
-    let selection = select(problem, &classes, &[], |_| true, &options);
-    let Some(accepted) = selection.accepted.first() else {
-        return Remains { p_value: selection.remaining_p, smooth: None };
-    };
-    let candidate = classes[accepted.class].members[0];
-    let declared = State::declared(problem, |_| true);
-    let (gain, rank) = declared.gain(&problem.columns(candidate));
-    let better = declared.criterion(gain, rank) - declared.criterion(0.0, 0);
-    let smooth =
-        (better > BETTER).then(|| shape(problem, &selection.state, candidate, blocks[candidate].len()));
-    Remains { p_value: accepted.p_value, smooth }
-}
-
-fn shape(problem: &Problem, state: &State, candidate: usize, width: usize) -> Smooth {
-    let variance = state.rss() / state.df().max(1.0);
-    let seen: Vec<(usize, usize)> =
-        problem.block(candidate).enumerate().filter(|&(_, column)| state.sweep.contains(column)).collect();
-    let mut coefficients = vec![0.0; width];
-    let mut covariance = vec![0.0; width * width];
-    for &(i, a) in &seen {
-        coefficients[i] = state.sweep.entry(a, problem.residual()) / problem.length(a);
-        for &(j, b) in &seen {
-            let inverse = -state.sweep.entry(a, b);
-            covariance[i * width + j] = variance * inverse / (problem.length(a) * problem.length(b));
-        }
+impl Statistic {
+    /// The most conspicuous block of a scan.
+    #[must_use]
+    pub fn of_scan(what: &str, scan: &Scan) -> Self {
+        let chance = scan.chance.iter().map(|ln_p| -ln_p).collect();
+        Self { what: what.to_owned(), observed: -scan.best, chance }
     }
-    Smooth { candidate, coefficients, covariance }
+
+    /// The sum over pairs of observations of the products of their residuals, in size: Moran's I where the pairs are
+    /// neighbours, an autocorrelation where they are so many rows apart. `first` says where the components of each
+    /// observation start.
+    #[must_use]
+    pub fn of_pairs(
+        what: String,
+        pairs: &[(usize, usize)],
+        first: &[usize],
+        left: &Left<'_>,
+        signs: &Signs,
+    ) -> Self {
+        let variance = left.residual.iter().map(|r| r * r).sum::<f64>()
+            / (left.residual.len() as f64 - left.basis.ncols() as f64).max(1.0);
+        let components = |row: usize| first[row]..first[row + 1];
+        let products: Vec<(usize, usize, f64, f64)> = pairs
+            .par_iter()
+            .map(|&(a, b)| {
+                let both = || components(a).zip(components(b));
+                let product = both().map(|(i, j)| left.residual[i] * left.residual[j]).sum();
+                // What the regression alone makes of independent noise.
+                let expected = left.basis.col_iter().map(|u| both().map(|(i, j)| u[i] * u[j]).sum::<f64>());
+                let expected = -variance * expected.sum::<f64>();
+                let bucket = |row: usize| signs.bucket_of_row().get(first[row]).copied().unwrap_or(0);
+                (bucket(a), bucket(b), product, expected)
+            })
+            .collect();
+        let observed: f64 = products.iter().map(|(_, _, product, expected)| product - expected).sum();
+        let chance = (0..signs.flips())
+            .into_par_iter()
+            .map(|flip| {
+                let sign = signs.of_flip(flip);
+                products.iter().map(|&(a, b, product, _)| sign[a] * sign[b] * product).sum::<f64>().abs()
+            })
+            .collect();
+        Self { what, observed: observed.abs(), chance }
+    }
+}
+
+/// Familywise p of the statistics together, and the p of each alone.
+#[must_use]
+pub fn combined(statistics: &[Statistic]) -> (f64, Vec<f64>) {
+    let flips = statistics.first().map_or(0, |statistic| statistic.chance.len());
+    let count = flips as f64 + 1.0;
+    let mut smallest = vec![1.0_f64; flips];
+    let mut alone = Vec::new();
+    for statistic in statistics {
+        let mut sorted = statistic.chance.clone();
+        sorted.push(statistic.observed);
+        sorted.sort_by(f64::total_cmp);
+        // As conspicuous or more, itself counted.
+        let p = |value: f64| (sorted.len() - sorted.partition_point(|&other| other < value)) as f64 / count;
+        smallest.iter_mut().zip(&statistic.chance).for_each(|(s, &value)| *s = s.min(p(value)));
+        alone.push(p(statistic.observed));
+    }
+    let best = alone.iter().copied().fold(1.0, f64::min);
+    let as_good = smallest.iter().filter(|&&p| p <= best).count();
+    ((1 + as_good) as f64 / count, alone)
+}
+
+/// Each observation with its nearest ones in the space of some coordinates (one list an observation).
+#[must_use]
+pub fn nearest(points: &[Vec<f64>]) -> Vec<(usize, usize)> {
+    let step = points.len().div_ceil(COMPARED).max(1);
+    let chosen: Vec<usize> = (0..points.len()).step_by(step).collect();
+    chosen
+        .par_iter()
+        .flat_map_iter(|&a| {
+            let mut near: Vec<(f64, usize)> = Vec::with_capacity(NEAREST + 1);
+            for &b in chosen.iter().filter(|&&b| b != a) {
+                let distance: f64 = points[a].iter().zip(&points[b]).map(|(x, y)| (x - y) * (x - y)).sum();
+                if near.len() == NEAREST && near.last().is_some_and(|&(most, _)| distance >= most) {
+                    continue;
+                }
+                let at = near.partition_point(|&(other, _)| other <= distance);
+                near.insert(at, (distance, b));
+                near.truncate(NEAREST);
+            }
+            near.into_iter().map(move |(_, b)| (a, b))
+        })
+        .collect()
+}
+
+/// Observations that follow each other in one reading: each with the next two.
+#[must_use]
+pub fn along(reading: &[f64]) -> Vec<(usize, usize)> {
+    let mut order: Vec<usize> = (0..reading.len()).collect();
+    order.sort_by(|&a, &b| reading[a].total_cmp(&reading[b]).then(a.cmp(&b)));
+    [1, 2].iter().flat_map(|&lag| order.iter().zip(order.iter().skip(lag)).map(|(&a, &b)| (a, b))).collect()
+}
+
+/// Observations so many rows apart within each run of rows.
+#[must_use]
+pub fn lagged(runs: &[std::ops::Range<usize>], lag: usize) -> Vec<(usize, usize)> {
+    runs.iter().flat_map(|run| (run.start + lag..run.end).map(move |row| (row - lag, row))).collect()
 }

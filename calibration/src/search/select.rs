@@ -172,7 +172,8 @@ pub fn select(
     let mut remaining_p = 1.0;
     while accepted.len() < options.most {
         let mut tests = search.test(&state, &accepted, &rows, &signs);
-        // What was dropped once does not come back: every turn of this loop shortens the list of candidates.
+        // What was dropped once does not come back, here or by a swap: every turn of this loop accepts one more or
+        // shortens the list of candidates, so it ends.
         tests.retain(|test| !dropped.contains(&test.class));
         remaining_p = tests.iter().map(|test| test.p_value).fold(1.0, f64::min);
         let mut passing: Vec<&Test> =
@@ -186,7 +187,7 @@ pub fn select(
         let Some(best) = best else { break };
         state.add(&blocks[best.class]);
         accepted.push(Accepted { class: best.class, p_value: best.p_value });
-        search.swap(&mut state, &mut accepted);
+        search.swap(&mut state, &mut accepted, &dropped);
         let newest = accepted.last().map(|a| a.class);
         dropped.extend(search.drop_idle(&mut state, &mut accepted, options, newest));
     }
@@ -215,13 +216,11 @@ impl Search<'_> {
         let gains: Vec<(f64, usize)> = open.iter().map(|&class| state.gain(&self.blocks[class])).collect();
         let tails = Tails::new(gains.iter().map(|&(_, rank)| rank), state.df());
         let tested: Vec<Vec<usize>> = open.iter().map(|&c| self.blocks[c].clone()).collect();
-        // Far beyond what the flips could resolve, their number alone bounds the p.
-        let best = open
+        let (best, at) = gains
             .iter()
-            .zip(&gains)
-            .map(|(_, &(gain, rank))| tails.ln_p(rank, gain, state.rss()))
-            .fold(0.0, f64::min);
-        let sure = best + (open.len() as f64).ln() < BEYOND_FLIPS;
+            .enumerate()
+            .map(|(at, &(gain, rank))| (tails.ln_p(rank, gain, state.rss()), at))
+            .fold((0.0, 0), |best, other| if other.0 < best.0 { other } else { best });
         let family = Family {
             rows: rows.as_ref(),
             sweep: &state.sweep,
@@ -229,6 +228,9 @@ impl Search<'_> {
             blocks: &tested,
             tails: &tails,
         };
+        // Far beyond what the flips could resolve, and not by the noise of a few groups, their number alone bounds p.
+        let beyond = |ln_p: f64| ln_p + (open.len() as f64).ln() < BEYOND_FLIPS;
+        let sure = beyond(best) && beyond(family.robust_ln_p(&tested[at], signs));
         let smallest = if sure { vec![best.midpoint(0.0); signs.flips()] } else { family.smallest(signs) };
         open.iter()
             .zip(gains)
@@ -260,8 +262,9 @@ impl Search<'_> {
         parts.iter().map(|part| held_out_rss(&total, part)).sum()
     }
 
-    /// Tries each accepted class against the others of no larger rank, until no exchange gains.
-    fn swap(&self, state: &mut State, accepted: &mut [Accepted]) {
+    /// Tries each accepted class against the others of no larger rank, those dropped before aside, until no exchange
+    /// gains.
+    fn swap(&self, state: &mut State, accepted: &mut [Accepted], dropped: &[usize]) {
         for _ in 0..2 {
             let mut changed = false;
             for at in 0..accepted.len() {
@@ -270,7 +273,7 @@ impl Search<'_> {
                 let (gain, rank) = state.gain(&self.blocks[own]);
                 let mut best = (state.criterion(gain, rank), own);
                 for class in 0..self.blocks.len() {
-                    if accepted.iter().any(|a| a.class == class) {
+                    if accepted.iter().any(|a| a.class == class) || dropped.contains(&class) {
                         continue;
                     }
                     let (gain, other) = state.gain(&self.blocks[class]);

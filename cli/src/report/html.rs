@@ -167,8 +167,10 @@ fn remaining(report: &Report) -> Markup {
             section {
                 h2 { "What is left" }
                 p {
-                    "A smooth function of " (place.driver) " at " (place.dof) " of body " (place.body)
-                    "; chance of as much from noise: " (quantities::chance(report.remaining.p_value)) "."
+                    "A function of " (place.driver) " at " (place.dof) " of body " (place.body)
+                    " explains these data better than the catalogue does: a " (place.form)
+                    ". Chance from noise of what the catalogue leaves: "
+                    (quantities::chance(report.remaining.p_value)) "."
                 }
                 (PreEscaped(shape(report, &place.driver)))
             }

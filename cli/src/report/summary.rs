@@ -25,6 +25,7 @@ pub fn as_text(reported: &Reported<'_>) -> String {
     effects(&mut text, report);
     before_and_after(&mut text, report);
     errors(&mut text, report);
+    separating(&mut text, report);
     remarks(&mut text, report);
     if !report.effects.is_empty() {
         let _ =
@@ -177,6 +178,30 @@ pub fn not_separable(report: &Report) -> Vec<String> {
     lines
 }
 
+/// Where to measure next, to tell the effects from others that explain these data as well.
+fn separating(text: &mut String, report: &Report) {
+    for separation in &report.separating {
+        let names = |list: Vec<&str>| list.join("; ");
+        if !separation.poses.is_empty() {
+            let apart = names(separation.apart.iter().map(|told| told.name.as_str()).collect());
+            let _ = writeln!(
+                text,
+                "\n{HEADING}measure next{HEADING:#}, to tell {} from {apart} ({}; rad or m)",
+                separation.effect,
+                separation.joints.join(", ")
+            );
+            for pose in &separation.poses {
+                let values: Vec<String> = pose.iter().map(|value| format!("{value:8.4}")).collect();
+                let _ = writeln!(text, "  {}", values.join(" "));
+            }
+        }
+        if !separation.never.is_empty() {
+            let never = names(separation.never.iter().map(String::as_str).collect());
+            let _ = writeln!(text, "\nno pose within the ranges tells {} from {never}", separation.effect);
+        }
+    }
+}
+
 fn remarks(text: &mut String, report: &Report) {
     let used = &report.observations;
     if !used.set_aside.is_empty() {
@@ -194,12 +219,23 @@ fn remarks(text: &mut String, report: &Report) {
         }
     }
     not_shown(text, report);
+    let chance = quantities::chance(report.remaining.p_value);
     if let Some(place) = &report.remaining.place {
-        let chance = quantities::chance(report.remaining.p_value);
         let _ = writeln!(
             text,
-            "\n{HEADING}what is left{HEADING:#} sits in body {}, {}, driven by {} (chance from noise: {chance})",
-            place.body, place.dof, place.driver
+            "\n{HEADING}what is left{HEADING:#} sits in body {}, {}, driven by {}: a {} fits better than the catalogue \
+             (chance from noise of what the catalogue leaves: {chance})",
+            place.body, place.dof, place.driver, place.form
         );
+    } else if report.verdict == Verdict::StructureRemains {
+        let looked = report.remaining.looked.iter();
+        if let Some(most) = looked.min_by(|a, b| a.p_value.total_cmp(&b.p_value)) {
+            let _ = writeln!(
+                text,
+                "\n{HEADING}what is left{HEADING:#} has structure that no function at one place explains (chance from \
+                 noise: {chance}), most of all: {}",
+                most.at
+            );
+        }
     }
 }

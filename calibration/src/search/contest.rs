@@ -1,0 +1,132 @@
+//! A contest: one function at one place against the effects that the catalogue spelt out.
+//!
+//! Eight harmonics of one joint can follow any bump; that does not make them eight effects. Each model pays for its
+//! columns, and for how many models of its kind there were to choose from.
+//!
+//! Source: J. Chen and Z. Chen, "Extended Bayesian information criteria for model selection with large model spaces",
+//! Biometrika 95 (2008).
+
+use faer::{Mat, MatRef};
+use statrs::function::factorial::ln_binomial;
+
+use super::scan::{Left, VISIBLE};
+use super::sweep::Sweep;
+
+/// What a model pays, beside its columns.
+#[derive(Debug, Clone, Copy)]
+pub struct Price {
+    /// Classes that accepted effects were chosen from.
+    pub classes: usize,
+    /// Functions (places and shapes) that a smooth one was chosen from.
+    pub functions: usize,
+    /// Parameters of the shape that were fitted beside its columns: centre and width of a bump.
+    pub parameters: usize,
+}
+
+/// A model with a function in it.
+#[derive(Debug, Clone)]
+pub struct Contender {
+    /// Its penalised log-likelihood.
+    pub criterion: f64,
+    /// Coefficients of the function's columns; zero for columns that are not seen.
+    pub coefficients: Vec<f64>,
+    /// Their covariance, row by row.
+    pub covariance: Vec<f64>,
+}
+
+/// Penalised log-likelihood of the accepted model itself.
+#[must_use]
+pub fn criterion(left: &Left<'_>, price: Price) -> f64 {
+    let rss = left.residual.iter().map(|r| r * r).sum();
+    penalised(rss, left.residual.len(), left.basis.ncols()) - chosen(price.classes, left.accepted.len())
+}
+
+/// The model with a function's columns in it, without those accepted effects that it makes idle.
+#[must_use]
+pub fn contender(left: &Left<'_>, columns: MatRef<'_, f64>, price: Price) -> Contender {
+    let gram = left.gram(columns);
+    let (rows, residual) = (left.residual.len(), gram.ncols() - 1);
+    let first = residual - columns.ncols();
+    let before: Vec<f64> = (0..=residual).map(|j| gram[(j, j)]).collect();
+    let mut sweep = Sweep::new(gram);
+    let mut count = (0..left.declared).filter(|&column| sweep.add(column)).count();
+    for j in first..residual {
+        count += usize::from(sweep.entry(j, j) > VISIBLE * before[j] && sweep.add(j));
+    }
+    let mut kept: Vec<Vec<usize>> = left
+        .accepted
+        .iter()
+        .map(|block| block.iter().copied().filter(|&column| sweep.add(column)).collect())
+        .filter(|block: &Vec<usize>| !block.is_empty())
+        .collect();
+    count += kept.iter().map(Vec::len).sum::<usize>();
+    let own = (price.functions.max(1) as f64).ln();
+    let judged = |sweep: &Sweep, count: usize, effects: usize| {
+        penalised(sweep.entry(residual, residual), rows, count + price.parameters)
+            - own
+            - chosen(price.classes, effects)
+    };
+    let mut criterion = judged(&sweep, count, kept.len());
+    loop {
+        let mut idle: Option<(usize, f64)> = None;
+        for (at, block) in kept.iter().enumerate() {
+            block.iter().for_each(|&column| sweep.remove(column));
+            let without = judged(&sweep, count - block.len(), kept.len() - 1);
+            block.iter().for_each(|&column| {
+                sweep.add(column);
+            });
+            if without > idle.map_or(criterion, |(_, most)| most) {
+                idle = Some((at, without));
+            }
+        }
+        let Some((at, without)) = idle else { break };
+        let gone = kept.remove(at);
+        count -= gone.len();
+        gone.iter().for_each(|&column| sweep.remove(column));
+        criterion = without;
+    }
+    let variance = sweep.entry(residual, residual) / (rows as f64 - count as f64).max(1.0);
+    let seen = |j: usize| sweep.contains(j);
+    let own: Vec<usize> = (first..residual).collect();
+    let coefficients = own.iter().map(|&j| if seen(j) { sweep.entry(j, residual) } else { 0.0 }).collect();
+    let pairs = own.iter().flat_map(|&i| own.iter().map(move |&j| (i, j)));
+    let covariance = pairs.map(|(i, j)| if seen(i) && seen(j) { -variance * sweep.entry(i, j) } else { 0.0 });
+    Contender { criterion, coefficients, covariance: covariance.collect() }
+}
+
+/// Of many single columns those that explain most: of what the declared columns leave, and of what the accepted
+/// effects leave too.
+#[must_use]
+pub fn most_telling(left: &Left<'_>, columns: MatRef<'_, f64>) -> Vec<usize> {
+    let residual = left.known.ncols() - 1;
+    let declared = left.known.subcols(0, left.declared);
+    let best = |basis: MatRef<'_, f64>, target: MatRef<'_, f64>| {
+        let (absorbed, scores): (Mat<f64>, Mat<f64>) =
+            (basis.transpose() * columns, columns.transpose() * target);
+        let gain = |j: usize| {
+            let whole = columns.col(j).squared_norm_l2();
+            let visible = whole - absorbed.col(j).squared_norm_l2();
+            if visible > VISIBLE * whole { scores[(j, 0)] * scores[(j, 0)] / visible } else { 0.0 }
+        };
+        (0..columns.ncols()).map(|j| (j, gain(j))).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(j, _)| j)
+    };
+    let after = faer::ColRef::from_slice(&left.residual).as_mat();
+    let mut found: Vec<usize> =
+        [best(declared, left.known.subcols(residual, 1)), best(left.basis.as_ref(), after)]
+            .into_iter()
+            .flatten()
+            .collect();
+    found.dedup();
+    found
+}
+
+/// Half a Schwarz criterion, up to a constant.
+fn penalised(rss: f64, rows: usize, count: usize) -> f64 {
+    let rows = rows as f64;
+    -rows / 2.0 * rss.max(f64::MIN_POSITIVE).ln() - count as f64 / 2.0 * rows.ln()
+}
+
+/// The log of how many ways there are to choose so many of so many.
+fn chosen(of: usize, count: usize) -> f64 {
+    if count > of { 0.0 } else { ln_binomial(of as u64, count as u64) }
+}

@@ -1,0 +1,217 @@
+//! Scans: many blocks of columns that are no candidates of the catalogue, tested against what an accepted model leaves.
+//!
+//! The columns come sheet by sheet and are forgotten again; of each sheet only its inner products are kept, with the
+//! declared columns, with the accepted effects and with the residual, and its scores under the sign flips.
+
+use std::ops::Range;
+
+use faer::{Mat, MatRef};
+use rayon::prelude::*;
+
+use super::flips::{Chance, Signs};
+use super::problem::Problem;
+use super::sweep::Sweep;
+use super::tail::Tails;
+
+/// Share of a column's sum of squares that the model before it must leave for the column to count.
+pub(super) const VISIBLE: f64 = 1e-4;
+
+/// Columns to scan, and which of them belong together.
+pub struct Sheet {
+    /// Whitened, one row for each row of the problem.
+    pub columns: Mat<f64>,
+    /// The blocks under test.
+    pub blocks: Vec<Range<usize>>,
+}
+
+impl Sheet {
+    /// All columns as one block.
+    #[must_use]
+    pub fn of(columns: Mat<f64>) -> Self {
+        let blocks = std::iter::once(0..columns.ncols()).collect();
+        Self { columns, blocks }
+    }
+}
+
+/// What the accepted model leaves, ready to be scanned.
+pub struct Left<'a> {
+    /// Columns of the problem's declared part.
+    pub declared: usize,
+    /// The columns of each accepted effect, as `known` numbers them.
+    pub accepted: Vec<Vec<usize>>,
+    /// Declared and accepted columns, the residual last.
+    pub known: Mat<f64>,
+    /// Their Gram matrix.
+    known_gram: Mat<f64>,
+    /// Their scores in each bucket.
+    known_scores: Mat<f64>,
+    /// The residual after the known columns.
+    pub residual: Vec<f64>,
+    /// Orthonormal columns that span the known ones.
+    pub basis: Mat<f64>,
+    /// The residual with each row's leverage undone, which is what is flipped.
+    flipped: Vec<f64>,
+    signs: &'a Signs,
+    /// What the known columns leave of the sum of squares of each flip.
+    rss: Vec<f64>,
+}
+
+/// What a scan found.
+pub struct Scan {
+    /// For each sheet and block: ln p, and the columns that count.
+    pub found: Vec<Vec<(f64, usize)>>,
+    /// The smallest ln p of all.
+    pub best: f64,
+    /// The smallest ln p of each flip.
+    pub chance: Vec<f64>,
+}
+
+impl<'a> Left<'a> {
+    /// After the accepted blocks of a problem.
+    #[must_use]
+    pub fn new(problem: &Problem, accepted: &[Vec<usize>], signs: &'a Signs) -> Self {
+        let rows = problem.rows();
+        let own: Vec<usize> = (0..problem.declared())
+            .chain(accepted.iter().flatten().copied())
+            .chain([problem.residual()])
+            .collect();
+        let known = Mat::from_fn(rows.nrows(), own.len(), |i, j| rows[(i, own[j])]);
+        let basis = orthonormal(problem, accepted, &known);
+        let last = rows.col(problem.residual());
+        let mut residual: Vec<f64> = last.iter().copied().collect();
+        let mut leverage = vec![0.0; residual.len()];
+        for column in basis.col_iter() {
+            let share: f64 = column.iter().zip(last.iter()).map(|(u, r)| u * r).sum();
+            for ((r, h), u) in residual.iter_mut().zip(&mut leverage).zip(column.iter()) {
+                *r -= share * u;
+                *h += u * u;
+            }
+        }
+        let flipped: Vec<f64> =
+            residual.iter().zip(leverage).map(|(r, h)| r / (1.0 - h).max(1e-3).sqrt()).collect();
+        let known_gram = known.transpose() * &known;
+        let (known_scores, rss) = (Mat::zeros(0, 0), Vec::new());
+        let declared = problem.declared();
+        let mut start = declared;
+        let accepted = accepted
+            .iter()
+            .map(|block| {
+                start += block.len();
+                (start - block.len()..start).collect()
+            })
+            .collect();
+        let mut left = Self {
+            declared,
+            accepted,
+            known,
+            known_gram,
+            known_scores,
+            residual,
+            basis,
+            flipped,
+            signs,
+            rss,
+        };
+        left.known_scores = left.bucket_scores(left.known.as_ref());
+        let total: f64 = left.flipped.iter().map(|e| e * e).sum();
+        left.rss = vec![total; signs.flips()];
+        let sums = signs.flip(left.bucket_scores(left.basis.as_ref()).as_ref());
+        for column in sums.col_iter() {
+            left.rss.iter_mut().zip(column.iter()).for_each(|(r, s)| *r -= s * s);
+        }
+        left
+    }
+
+    /// Σ column × flipped residual within each bucket.
+    fn bucket_scores(&self, columns: MatRef<'_, f64>) -> Mat<f64> {
+        let mut scores = Mat::zeros(self.signs.buckets(), columns.ncols());
+        for (j, column) in columns.col_iter().enumerate() {
+            let target = scores.col_as_slice_mut(j);
+            for ((&bucket, &e), &z) in self.signs.bucket_of_row().iter().zip(&self.flipped).zip(column.iter())
+            {
+                target[bucket] += z * e;
+            }
+        }
+        scores
+    }
+
+    /// The Gram matrix of the known columns, others, and the residual, in this order.
+    #[must_use]
+    pub fn gram(&self, columns: MatRef<'_, f64>) -> Mat<f64> {
+        let (k, q) = (columns.ncols(), self.known.ncols() - 1);
+        let (own, cross) = (columns.transpose() * columns, self.known.transpose() * columns);
+        let known = &self.known_gram;
+        // The residual comes last in both numberings.
+        let place = |at: usize| match at {
+            _ if at < q => (true, at),
+            _ if at < q + k => (false, at - q),
+            _ => (true, q),
+        };
+        Mat::from_fn(q + k + 1, q + k + 1, |i, j| match (place(i), place(j)) {
+            ((true, a), (true, b)) => known[(a, b)],
+            ((true, a), (false, b)) | ((false, b), (true, a)) => cross[(a, b)],
+            ((false, a), (false, b)) => own[(a, b)],
+        })
+    }
+
+    /// Scans sheets, made one after another by `sheet`.
+    pub fn scan(&self, sheets: usize, sheet: impl Fn(usize) -> Sheet + Sync) -> Scan {
+        let rows = self.residual.len();
+        let each: Vec<(Vec<(f64, usize)>, Chance, usize)> = (0..sheets)
+            .into_par_iter()
+            .map(|number| {
+                let sheet = sheet(number);
+                let q = self.known.ncols() - 1;
+                let gram = self.gram(sheet.columns.as_ref());
+                let before: Vec<f64> = (0..gram.ncols()).map(|j| gram[(j, j)]).collect();
+                let mut sweep = Sweep::new(gram);
+                let base: Vec<usize> = (0..q).filter(|&column| sweep.add(column)).collect();
+                let (residual, df) = (q + sheet.columns.ncols(), (rows - base.len()) as f64);
+                let tails = Tails::new(sheet.blocks.iter().map(ExactSizeIterator::len), df);
+                let scores = self.bucket_scores(sheet.columns.as_ref());
+                let known = &self.known_scores;
+                let mut chance = Chance::new(self.signs.flips());
+                let mut found = Vec::new();
+                for block in &sheet.blocks {
+                    let seen: Vec<usize> = block
+                        .clone()
+                        .map(|j| q + j)
+                        .filter(|&j| sweep.entry(j, j) > VISIBLE * before[j])
+                        .collect();
+                    let whitener = sweep.whitener(&seen);
+                    let coefficients =
+                        Mat::from_fn(base.len(), seen.len(), |i, j| sweep.entry(base[i], seen[j]));
+                    let own = Mat::from_fn(scores.nrows(), seen.len(), |g, j| scores[(g, seen[j] - q)]);
+                    let base_scores = Mat::from_fn(known.nrows(), base.len(), |g, j| known[(g, base[j])]);
+                    let effective = (own - base_scores * coefficients) * &whitener;
+                    chance.add(self.signs.flip(effective.as_ref()).as_ref());
+                    let (gain, rank) = sweep.gain(&seen, residual);
+                    found.push((tails.ln_p(rank, gain, sweep.entry(residual, residual)), rank));
+                }
+                (found, chance, base.len())
+            })
+            .collect();
+        let most = each.iter().flat_map(|(found, ..)| found).map(|&(_, rank)| rank).max().unwrap_or(0);
+        let df = (rows - each.first().map_or(0, |&(_, _, base)| base)) as f64;
+        let best = each.iter().flat_map(|(found, ..)| found).map(|&(ln_p, _)| ln_p).fold(0.0, f64::min);
+        let (mut all, mut chance) = (Vec::new(), Chance::new(self.signs.flips()));
+        for (found, own, _) in each {
+            all.push(found);
+            chance = chance.merge(own);
+        }
+        Scan { found: all, best, chance: chance.smallest(&self.rss, &Tails::new(1..=most, df)) }
+    }
+}
+
+/// Orthonormal columns that span the declared and the accepted ones.
+fn orthonormal(problem: &Problem, accepted: &[Vec<usize>], known: &Mat<f64>) -> Mat<f64> {
+    let all: Vec<usize> = accepted.iter().flatten().copied().collect();
+    let sweep = Sweep::new(problem.gram(|_| true).0);
+    let whitener = sweep.whitener(&all);
+    let u = problem.declared();
+    let effects = known.subcols(u, all.len()) * &whitener;
+    let mut basis = Mat::zeros(known.nrows(), u + effects.ncols());
+    basis.subcols_mut(0, u).copy_from(known.subcols(0, u));
+    basis.subcols_mut(u, effects.ncols()).copy_from(&effects);
+    basis
+}

@@ -110,15 +110,17 @@ pub(crate) fn remaining(whole: &Loop<'_>, last: &Round) -> Result<Remaining, Cal
     statistics.push(Statistic::of_scan("harmonics of a joint", &waves));
     let functions = left.scan(smooths.len(), |number| scanned.smooth(smooths[number]));
     statistics.push(Statistic::of_scan("smooth functions of a joint or input", &functions));
-    let functions = left.scan(scanned.tensors.len(), |number| Sheet::of(scanned.tensors[number].1.clone()));
-    statistics.push(Statistic::of_scan("smooth functions of two joints", &functions));
+    let pairs = left.scan(scanned.tensors.len(), |number| Sheet::of(scanned.tensors[number].1.clone()));
+    statistics.push(Statistic::of_scan("smooth functions of two joints", &pairs));
     let (p_value, alone) = combined(&statistics);
     let looked =
         statistics.iter().zip(alone).map(|(s, p_value)| Looked { at: s.what.clone(), p_value }).collect();
 
-    // Be it among what is left, or in place of what was accepted.
-    let conspicuous = p_value <= options.false_alarm || !accepted.is_empty();
-    let best = if conspicuous { scanned.best_function(whole, &smooths, &left) } else { None };
+    // Either in place of what was accepted there, or the most conspicuous of what is left.
+    let most = if p_value <= options.false_alarm { functions.most_conspicuous() } else { None };
+    let most = most.and_then(|number| smooths.get(number)).copied();
+    smooths.retain(|smooth| Some(*smooth) == most || spelt_out(whole, last, *smooth));
+    let best = scanned.best_function(whole, &smooths, &left);
     let (place, shape) = match best {
         None => (None, Vec::new()),
         Some(function) => {
@@ -132,6 +134,14 @@ pub(crate) fn remaining(whole: &Loop<'_>, last: &Round) -> Result<Remaining, Cal
         }
     };
     Ok(Remaining { p_value, looked, place, shape })
+}
+
+/// Whether an effect was accepted at a place with the same driver: a function there may be what it spells out.
+fn spelt_out(whole: &Loop<'_>, last: &Round, smooth: SmoothPlace) -> bool {
+    last.found
+        .iter()
+        .map(|found| &whole.catalogue[found.effect])
+        .any(|effect| effect.place == smooth.place && effect.driver == whole.setting.name(smooth.driver))
 }
 
 /// A function at a place that explains the data better than the catalogue.
@@ -193,11 +203,6 @@ impl Scanned<'_> {
             fitted: contender(left, columns.as_ref(), price),
         }));
         let least = criterion(left, price) + BETTER;
-        if std::env::var_os("DEBUG_CONTEST").is_some() {
-            for f in &each {
-                eprintln!("{least:.1} {:?} {} {:.1} {}", f.place, f.driver, f.fitted.criterion, f.form);
-            }
-        }
         each.into_iter().fold(None, |best: Option<Function>, other| {
             let to_beat = best.as_ref().map_or(least, |best| best.fitted.criterion + 1e-6);
             if other.fitted.criterion > to_beat { Some(other) } else { best }

@@ -53,38 +53,36 @@ pub fn contender(left: &Left<'_>, columns: MatRef<'_, f64>, price: Price) -> Con
     for j in first..residual {
         count += usize::from(sweep.entry(j, j) > VISIBLE * before[j] && sweep.add(j));
     }
-    let mut kept: Vec<Vec<usize>> = left
-        .accepted
-        .iter()
-        .map(|block| block.iter().copied().filter(|&column| sweep.add(column)).collect())
-        .filter(|block: &Vec<usize>| !block.is_empty())
-        .collect();
-    count += kept.iter().map(Vec::len).sum::<usize>();
-    let own = (price.functions.max(1) as f64).ln();
-    let judged = |sweep: &Sweep, count: usize, effects: usize| {
-        penalised(sweep.entry(residual, residual), rows, count + price.parameters)
-            - own
-            - chosen(price.classes, effects)
-    };
-    let mut criterion = judged(&sweep, count, kept.len());
-    loop {
-        let mut idle: Option<(usize, f64)> = None;
-        for (at, block) in kept.iter().enumerate() {
-            block.iter().for_each(|&column| sweep.remove(column));
-            let without = judged(&sweep, count - block.len(), kept.len() - 1);
-            block.iter().for_each(|&column| {
-                sweep.add(column);
-            });
-            if without > idle.map_or(criterion, |(_, most)| most) {
-                idle = Some((at, without));
-            }
-        }
-        let Some((at, without)) = idle else { break };
-        let gone = kept.remove(at);
-        count -= gone.len();
-        gone.iter().for_each(|&column| sweep.remove(column));
-        criterion = without;
+    // What declared columns and function leave of the accepted effects and of the residual: a small matrix, regressed
+    // anew for every choice of effects.
+    let open: Vec<usize> = left.accepted.iter().flatten().copied().chain([residual]).collect();
+    let small = Mat::from_fn(open.len(), open.len(), |i, j| sweep.entry(open[i], open[j]));
+    let mut start = 0;
+    let mut kept: Vec<Vec<usize>> = Vec::new();
+    for block in &left.accepted {
+        kept.push((start..start + block.len()).collect());
+        start += block.len();
     }
+    let own = (price.functions.max(1) as f64).ln();
+    let judged = |effects: &[Vec<usize>]| {
+        let mut sweep = Sweep::scaled(small.clone(), open.iter().map(|&column| before[column]).collect());
+        let added = effects.iter().flatten().filter(|&&column| sweep.add(column)).count();
+        let rss = sweep.entry(open.len() - 1, open.len() - 1);
+        penalised(rss, rows, count + added + price.parameters) - own - chosen(price.classes, effects.len())
+    };
+    let mut criterion = judged(&kept);
+    loop {
+        let without = |at: usize| {
+            let mut fewer = kept.clone();
+            fewer.remove(at);
+            (judged(&fewer), at)
+        };
+        let best = (0..kept.len()).map(without).max_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((better, at)) = best.filter(|&(better, _)| better > criterion) else { break };
+        kept.remove(at);
+        criterion = better;
+    }
+    count += kept.iter().flatten().filter(|&&column| sweep.add(open[column])).count();
     let variance = sweep.entry(residual, residual) / (rows as f64 - count as f64).max(1.0);
     let seen = |j: usize| sweep.contains(j);
     let own: Vec<usize> = (first..residual).collect();

@@ -66,6 +66,15 @@ pub struct Scan {
     pub chance: Vec<f64>,
 }
 
+impl Scan {
+    /// The sheet that holds the smallest p.
+    #[must_use]
+    pub fn most_conspicuous(&self) -> Option<usize> {
+        let each = self.found.iter().map(|found| found.iter().map(|&(ln_p, _)| ln_p).fold(0.0, f64::min));
+        each.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map(|(sheet, _)| sheet)
+    }
+}
+
 impl<'a> Left<'a> {
     /// After the accepted blocks of a problem.
     #[must_use]

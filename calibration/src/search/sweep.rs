@@ -25,6 +25,12 @@ impl Sweep {
     #[must_use]
     pub fn new(gram: Mat<f64>) -> Self {
         let scale: Vec<f64> = (0..gram.ncols()).map(|i| gram[(i, i)]).collect();
+        Self::scaled(gram, scale)
+    }
+
+    /// Starts from what others have left of a Gram matrix, with the diagonal that it had before them.
+    #[must_use]
+    pub fn scaled(gram: Mat<f64>, scale: Vec<f64>) -> Self {
         let swept = vec![false; scale.len()];
         Self { matrix: gram, scale, swept }
     }

@@ -142,14 +142,6 @@ pub fn next_poses(count: usize) -> Result<Vec<Line>, Failure> {
         let readings = design.and(&proposed.joints, &proposed.poses);
         let report = calibrated(&design, &design.observe(&readings, &chain, values, &sampled, |_, q| q))?;
         let one = report.effects.first().is_some_and(|f| called(f, &effect.name) && f.rivals.is_empty());
-        if !one && std::env::var_os("EVALUATE_MISSES").is_some() {
-            println!(
-                "{}: {:?}\n  {:?}",
-                effect.name,
-                proposed,
-                report.effects.iter().map(|e| (&e.text, &e.names, &e.class, &e.rivals)).collect::<Vec<_>>()
-            );
-        }
         Ok(Some(one))
     })?;
     let left: Vec<bool> = left.into_iter().flatten().collect();
@@ -212,18 +204,6 @@ pub fn local_defect(count: usize) -> Result<Vec<Line>, Failure> {
             let alarm = report.verdict != Verdict::NothingDetectable;
             let place = report.remaining.place.as_ref();
             let right = place.is_some_and(|place| (&place.driver, &place.dof) == (&bump.driver, &bump.dof));
-            if !right && std::env::var_os("EVALUATE_MISSES").is_some() {
-                println!(
-                    "{} {} at {:.2} width {:.2} height {:.1}: {place:?} {:?} aside {}",
-                    bump.driver,
-                    bump.dof,
-                    bump.middle_rad,
-                    bump.width_rad,
-                    bump.height_rad / SIGMA_RAD,
-                    report.effects.iter().map(|e| &e.text).collect::<Vec<_>>(),
-                    report.observations.set_aside.len()
-                );
-            }
             let explained = matches!(report.verdict, Verdict::Explained | Verdict::UpToAClass);
             Ok((alarm, right, explained))
         })?;

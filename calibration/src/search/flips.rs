@@ -192,34 +192,6 @@ impl Family<'_> {
         chance.smallest(&rss, self.tails)
     }
 
-    /// ln p of one block by the cluster-robust form of its score test, over buckets of groups: no assumption on how the
-    /// noise varies from bucket to bucket, or within one.
-    ///
-    /// With S the buckets' scores, sᵀ(SᵀS)⁻¹s divided by their number is the R² of a regression of 1 on S, so the same
-    /// tail serves.
-    ///
-    /// Source: A. C. Cameron, J. B. Gelbach, D. L. Miller, "Robust Inference with Multiway Clustering", Journal of
-    /// Business & Economic Statistics 29 (2011); H. Hotelling, "The generalization of Student's ratio" (1931).
-    #[must_use]
-    pub fn robust_ln_p(&self, block: &[usize], signs: &Signs) -> f64 {
-        let scores = self.bucket_scores(&self.left(), signs);
-        let base_scores = Mat::from_fn(signs.buckets(), self.base.len(), |g, j| scores[(g, self.base[j])]);
-        let own = self.effective(&scores, &base_scores, block, &self.sweep.whitener(block));
-        let (buckets, rank) = own.shape();
-        if buckets <= rank || rank == 0 {
-            return 0.0;
-        }
-        let mut sweep = Sweep::new(Mat::from_fn(rank + 1, rank + 1, |i, j| match (i < rank, j < rank) {
-            (true, true) => (0..buckets).map(|g| own[(g, i)] * own[(g, j)]).sum(),
-            (false, false) => buckets as f64,
-            (true, false) => own.col(i).sum(),
-            (false, true) => own.col(j).sum(),
-        }));
-        let seen = (0..rank).filter(|&column| sweep.add(column)).count();
-        let explained = buckets as f64 - sweep.entry(rank, rank);
-        Tails::new([seen], buckets as f64).ln_p(seen, explained, buckets as f64)
-    }
-
     /// The scores of a block in each bucket, after the swept columns and orthonormal.
     fn effective(
         &self,

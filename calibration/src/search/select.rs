@@ -216,11 +216,9 @@ impl Search<'_> {
         let gains: Vec<(f64, usize)> = open.iter().map(|&class| state.gain(&self.blocks[class])).collect();
         let tails = Tails::new(gains.iter().map(|&(_, rank)| rank), state.df());
         let tested: Vec<Vec<usize>> = open.iter().map(|&c| self.blocks[c].clone()).collect();
-        let (best, at) = gains
-            .iter()
-            .enumerate()
-            .map(|(at, &(gain, rank))| (tails.ln_p(rank, gain, state.rss()), at))
-            .fold((0.0, 0), |best, other| if other.0 < best.0 { other } else { best });
+        let best = gains.iter().map(|&(gain, rank)| tails.ln_p(rank, gain, state.rss())).fold(0.0, f64::min);
+        // Far beyond what the flips could resolve, their number alone bounds the p.
+        let sure = best + (open.len() as f64).ln() < BEYOND_FLIPS;
         let family = Family {
             rows: rows.as_ref(),
             sweep: &state.sweep,
@@ -228,9 +226,6 @@ impl Search<'_> {
             blocks: &tested,
             tails: &tails,
         };
-        // Far beyond what the flips could resolve, and not by the noise of a few groups, their number alone bounds p.
-        let beyond = |ln_p: f64| ln_p + (open.len() as f64).ln() < BEYOND_FLIPS;
-        let sure = beyond(best) && beyond(family.robust_ln_p(&tested[at], signs));
         let smallest = if sure { vec![best.midpoint(0.0); signs.flips()] } else { family.smallest(signs) };
         open.iter()
             .zip(gains)

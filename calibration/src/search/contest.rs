@@ -50,8 +50,8 @@ pub fn contender(left: &Left<'_>, columns: MatRef<'_, f64>, price: Price) -> Con
     let before: Vec<f64> = (0..=residual).map(|j| gram[(j, j)]).collect();
     let mut sweep = Sweep::new(gram);
     let mut count = (0..left.declared).filter(|&column| sweep.add(column)).count();
-    for j in first..residual {
-        count += usize::from(sweep.entry(j, j) > VISIBLE * before[j] && sweep.add(j));
+    for (j, before) in before.iter().enumerate().take(residual).skip(first) {
+        count += usize::from(sweep.entry(j, j) > VISIBLE * before && sweep.add(j));
     }
     // What declared columns and function leave of the accepted effects and of the residual: a small matrix, regressed
     // anew for every choice of effects.

@@ -56,6 +56,9 @@ pub struct Left<'a> {
     rss: Vec<f64>,
 }
 
+/// Of one sheet: ln p and rank of each block, what chance explains, and the number of columns before it.
+type Scanned = (Vec<(f64, usize)>, Chance, usize);
+
 /// What a scan found.
 pub struct Scan {
     /// For each sheet and block: ln p, and the columns that count.
@@ -166,7 +169,7 @@ impl<'a> Left<'a> {
     /// Scans sheets, made one after another by `sheet`.
     pub fn scan(&self, sheets: usize, sheet: impl Fn(usize) -> Sheet + Sync) -> Scan {
         let rows = self.residual.len();
-        let each: Vec<(Vec<(f64, usize)>, Chance, usize)> = (0..sheets)
+        let each: Vec<Scanned> = (0..sheets)
             .into_par_iter()
             .map(|number| {
                 let sheet = sheet(number);

@@ -43,7 +43,9 @@ impl Problem {
         for j in 0..=last {
             let (column, residual) = (problem.rows.col_as_slice(j), left.col_as_slice(0));
             for (row, (z, r)) in column.iter().zip(residual).enumerate() {
-                grams[self.fold_of_row(row)][j] += z * r;
+                if let Some(product) = grams.get_mut(self.fold_of_row(row)).and_then(|gram| gram.get_mut(j)) {
+                    *product += z * r;
+                }
             }
         }
         for (gram, products) in problem.grams.iter_mut().zip(grams) {

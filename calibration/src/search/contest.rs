@@ -50,9 +50,7 @@ pub fn contender(left: &Left<'_>, columns: MatRef<'_, f64>, price: Price) -> Con
     let before: Vec<f64> = (0..=residual).map(|j| gram[(j, j)]).collect();
     let mut sweep = Sweep::new(gram);
     let mut count = (0..left.declared).filter(|&column| sweep.add(column)).count();
-    for (j, before) in before.iter().enumerate().take(residual).skip(first) {
-        count += usize::from(sweep.entry(j, j) > VISIBLE * before && sweep.add(j));
-    }
+    count += (first..residual).filter(|&j| sweep.entry(j, j) > VISIBLE * before[j] && sweep.add(j)).count();
     // What declared columns and function leave of the accepted effects and of the residual: a small matrix, regressed
     // anew for every choice of effects.
     let open: Vec<usize> = left.accepted.iter().flatten().copied().chain([residual]).collect();

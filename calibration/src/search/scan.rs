@@ -56,8 +56,14 @@ pub struct Left<'a> {
     rss: Vec<f64>,
 }
 
-/// Of one sheet: ln p and rank of each block, what chance explains, and the number of columns before it.
-type Scanned = (Vec<(f64, usize)>, Chance, usize);
+/// What the scan of one sheet found.
+struct Scanned {
+    /// ln p and rank of each block.
+    found: Vec<(f64, usize)>,
+    chance: Chance,
+    /// How many of the known columns have a rank of their own.
+    known: usize,
+}
 
 /// What a scan found.
 pub struct Scan {
@@ -200,16 +206,16 @@ impl<'a> Left<'a> {
                     let (gain, rank) = sweep.gain(&seen, residual);
                     found.push((tails.ln_p(rank, gain, sweep.entry(residual, residual)), rank));
                 }
-                (found, chance, base.len())
+                Scanned { found, chance, known: base.len() }
             })
             .collect();
-        let most = each.iter().flat_map(|(found, ..)| found).map(|&(_, rank)| rank).max().unwrap_or(0);
-        let df = (rows - each.first().map_or(0, |&(_, _, base)| base)) as f64;
-        let best = each.iter().flat_map(|(found, ..)| found).map(|&(ln_p, _)| ln_p).fold(0.0, f64::min);
+        let most = each.iter().flat_map(|sheet| &sheet.found).map(|&(_, rank)| rank).max().unwrap_or(0);
+        let df = (rows - each.first().map_or(0, |sheet| sheet.known)) as f64;
+        let best = each.iter().flat_map(|sheet| &sheet.found).map(|&(ln_p, _)| ln_p).fold(0.0, f64::min);
         let (mut all, mut chance) = (Vec::new(), Chance::new(self.signs.flips()));
-        for (found, own, _) in each {
-            all.push(found);
-            chance = chance.merge(own);
+        for sheet in each {
+            all.push(sheet.found);
+            chance = chance.merge(sheet.chance);
         }
         Scan { found: all, best, chance: chance.smallest(&self.rss, &Tails::new(1..=most, df)) }
     }

@@ -42,7 +42,7 @@ const LEFT_ARCSEC: [f64; 12] = [10.0, 12.0, 11.0, 31.0, 9.0, 13.0, -8.0, 11.5, 1
 
 #[test]
 fn stated_uncertainties_weigh_the_rows() {
-    let sigma = |at: usize| if at % 3 == 0 { 20.0 } else { 1.0 + at as f64 / 10.0 };
+    let sigma = |at: usize| if at.is_multiple_of(3) { 20.0 } else { 1.0 + at as f64 / 10.0 };
     let mut data = String::from("reading,true,sigma\n");
     let (mut weights, mut sum) = (0.0, 0.0);
     for (at, left) in LEFT_ARCSEC.into_iter().enumerate() {

@@ -39,17 +39,13 @@ impl Problem {
         let mut problem = self.clone();
         problem.rows.col_mut(last).copy_from(left.col(0));
         problem.absorbed.col_mut(last - self.declared).copy_from(taken.col(0));
-        let mut grams = vec![vec![0.0; last + 1]; problem.grams.len()];
         for j in 0..=last {
+            let mut products = vec![0.0; problem.grams.len()];
             let (column, residual) = (problem.rows.col_as_slice(j), left.col_as_slice(0));
             for (row, (z, r)) in column.iter().zip(residual).enumerate() {
-                if let Some(product) = grams.get_mut(self.fold_of_row(row)).and_then(|gram| gram.get_mut(j)) {
-                    *product += z * r;
-                }
+                products[self.fold_of_row(row)] += z * r;
             }
-        }
-        for (gram, products) in problem.grams.iter_mut().zip(grams) {
-            for (j, product) in products.into_iter().enumerate() {
+            for (gram, product) in problem.grams.iter_mut().zip(products) {
                 gram[(j, last)] = product;
                 gram[(last, j)] = product;
             }

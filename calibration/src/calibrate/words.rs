@@ -125,7 +125,8 @@ pub(crate) fn report(
     } else {
         Verdict::UpToAClass
     };
-    let precision = precision(&last.chain, observations, &last.fit);
+    let mut precision = precision(&last.chain, observations, &last.fit);
+    precision.noise.extend(whole.request.plan.fit.noise.sigma.map(stated_noise));
     let row_number = |row: usize| observations.row_numbers.get(row).copied().unwrap_or(row as u64 + 1);
     let aside = &last.fit.set_aside;
     Report {
@@ -185,6 +186,14 @@ fn errors(last: &Round) -> Vec<ErrorFound> {
 }
 
 /// The poses that the study asks for; none if it asks for none, or if they cannot be computed.
+/// What became of the standard deviation that the study states, rad or m.
+fn stated_noise(sigma: f64) -> String {
+    format!(
+        "the study states {sigma:.3e} rad or m; while something may be missing weights and uncertainties go by what the \
+         residuals show, which is told here"
+    )
+}
+
 fn next_poses(whole: &Loop<'_>, last: &Round) -> Vec<Proposal> {
     let Some(next) = &whole.request.plan.next else { return Vec::new() };
     let proposal = |criterion| {

@@ -19,6 +19,9 @@ const HIGH_LEVERAGE: f64 = 3.0;
 /// Residuals of this share of what was measured (of a radian for directions) are no noise: something is read wrongly.
 const OUT_OF_PLACE: f64 = 0.2;
 
+/// One second of arc, in radians.
+const ARCSEC_RAD: f64 = std::f64::consts::PI / 648_000.0;
+
 /// A change is detectable when it is found with 80 % chance by a two-sided test of 5 %: so many standard uncertainties.
 ///
 /// Source: Φ⁻¹(0.975) + Φ⁻¹(0.8).
@@ -224,11 +227,14 @@ fn noise(chain: &Chain, observations: &Observations, fit: &FitResult) -> Vec<Str
     let mut said = Vec::new();
     let mut floors = fit.noise.floor.iter();
     for series in &observations.series {
-        let floors: Vec<String> =
-            floors.by_ref().take(series.measure.components()).map(|floor| format!("{floor:.3e}")).collect();
-        let unit =
-            if observations.sigma.is_empty() { series.measure.unit() } else { "times what the data state" };
-        said.push(format!("{}: standard deviation {} {unit}", series.source, floors.join(", ")));
+        let (unit, in_si) = match series.measure {
+            _ if !observations.sigma.is_empty() => ("times what the data state", 1.0),
+            Measure::Direction | Measure::Azimuth => ("arcsec", ARCSEC_RAD),
+            Measure::Point | Measure::Range => ("mm", 1e-3),
+        };
+        let own = floors.by_ref().take(series.measure.components());
+        let told: Vec<String> = own.map(|floor| format!("{:.4}", floor / in_si)).collect();
+        said.push(format!("{}: standard deviation {} {unit}", series.source, told.join(", ")));
     }
     if let Some(model) = &fit.noise.variance {
         let terms = model.terms.iter().map(|(term, coefficient)| {

@@ -119,9 +119,8 @@ impl Study {
             let readings = self.readings(&chain, observable, columns)?;
             sources.push(SourcePlan { paths, observable, measure, readings, observed, kind, sigma });
         }
-        let measure = sources.first().map_or(Measure::Direction, |source| source.measure);
         let sigma = match sigma {
-            Some((Sigma::Amount(amount), place)) => Some(sigma_amount(*amount, &place, measure)?),
+            Some((Sigma::Amount(amount), place)) => Some(sigma_amount(*amount, &place, &sources)?),
             _ => None,
         };
         let observables: Vec<ObservableId> = sources.iter().map(|source| source.observable).collect();
@@ -385,8 +384,17 @@ fn residual_quantity(measure: Measure) -> Quantity {
     }
 }
 
-fn sigma_amount(amount: Amount, place: &Range<usize>, measure: Measure) -> Result<f64, StudyError> {
-    let sigma = si(&amount, residual_quantity(measure), place)?;
+fn sigma_amount(amount: Amount, place: &Range<usize>, sources: &[SourcePlan]) -> Result<f64, StudyError> {
+    let mut quantities = sources.iter().map(|source| residual_quantity(source.measure));
+    let quantity = quantities.next().unwrap_or(Quantity::Angle);
+    if quantities.any(|other| other != quantity) {
+        return Err(StudyError::new(
+            place.clone(),
+            "one standard deviation cannot stand for both angles and lengths",
+            "leave `sigma` out to have each estimated, or write it into a column of each file",
+        ));
+    }
+    let sigma = si(&amount, quantity, place)?;
     if sigma > 0.0 {
         return Ok(sigma);
     }

@@ -5,8 +5,8 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::pictures::{self, Axes};
 use super::residuals::{self, Component};
-use super::summary::{diff, evidence, not_separable, what_it_means};
-use super::{Reported, hidden, quantities};
+use super::summary::{cautions, diff, evidence, not_separable, what_it_means};
+use super::{Reported, hidden, next, quantities};
 
 /// How the page looks.
 const STYLE: &str = "
@@ -16,7 +16,7 @@ table { border-collapse: collapse; } th, td { text-align: left; padding: .2rem 1
 td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; }
 tr + tr td { border-top: 1px solid #eee; } code, pre { font-family: ui-monospace, monospace; font-size: .9em; }
 pre { background: #f6f6f4; padding: .8rem 1rem; overflow-x: auto; }
-.verdict { font-size: 1.3rem; font-weight: 600; } .quiet { color: #666; }
+.verdict { font-size: 1.3rem; font-weight: 600; } .quiet { color: #666; } .caution { background: #fdf3d8; padding: .4rem .8rem; }
 .pictures { display: flex; flex-wrap: wrap; gap: .5rem; }
 ins { background: #e2f3e4; text-decoration: none; } del { background: #fbe4e1; text-decoration: none; }
 @media print { body { margin: 0; } section { break-inside: avoid; } }
@@ -46,11 +46,14 @@ pub fn page(reported: &Reported<'_>) -> String {
                     p.verdict { (report.verdict.words()) }
                     p { (what_it_means(report)) }
                     (before_and_after(report))
+                    @for line in cautions(report) { p.caution { (line) } }
                 }
                 (effects(report))
                 (residual_pictures(reported))
                 (remaining(report))
                 (errors(report))
+                (noise(report))
+                (measure_next(reported))
                 (set_aside(report))
                 (not_shown(report))
                 (amended(reported))
@@ -138,8 +141,8 @@ fn over_a_reading(component: &Component, name: &str, unit: &str, values: &[f64])
     };
     let axes = Axes {
         title: &format!("{} over {name}", component.name),
-        x: &with_unit(name, reading.name),
-        y: &with_unit(component.name, drawn.name),
+        x: &quantities::name_with_unit(name, reading.name),
+        y: &quantities::name_with_unit(component.name, drawn.name),
     };
     pictures::before_and_after(&axes, &points(&component.before), &points(&component.after))
 }
@@ -152,13 +155,9 @@ fn normal(component: &Component) -> String {
     let axes = Axes {
         title: &format!("{} against normal noise", component.name),
         x: "quantile of the normal distribution",
-        y: &with_unit(component.name, drawn.name),
+        y: &quantities::name_with_unit(component.name, drawn.name),
     };
     pictures::normal_quantiles(&axes, &numbers(&component.before), &numbers(&component.after))
-}
-
-fn with_unit(name: &str, unit: &str) -> String {
-    if unit.is_empty() { name.to_owned() } else { format!("{name}, {unit}") }
 }
 
 fn remaining(report: &Report) -> Markup {
@@ -209,6 +208,36 @@ fn errors(report: &Report) -> Markup {
                 }
             }
             @for line in not_separable(report) { p { (line) } }
+        }
+    }
+}
+
+fn noise(report: &Report) -> Markup {
+    html! {
+        section {
+            h2 { "Noise" }
+            ul { @for line in &report.precision.noise { li { (line) } } }
+        }
+    }
+}
+
+fn measure_next(reported: &Reported<'_>) -> Markup {
+    let tables = next::tables(reported);
+    html! {
+        @if !tables.is_empty() {
+            section {
+                h2 { "Where to measure next" }
+                @for table in &tables {
+                    h3 { (table.title) }
+                    @if !table.poses.is_empty() {
+                        table {
+                            tr { @for joint in &table.joints { th.number { (joint) } } }
+                            @for pose in &table.poses { tr { @for value in pose { td.number { (value) } } } }
+                        }
+                    }
+                    @for note in &table.notes { p { (note) } }
+                }
+            }
         }
     }
 }

@@ -5,6 +5,7 @@
 mod files;
 mod hidden;
 mod html;
+mod next;
 mod pictures;
 mod quantities;
 mod residuals;

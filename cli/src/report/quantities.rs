@@ -40,6 +40,12 @@ pub fn estimate(value: f64, uncertainty: f64, unit: &str) -> String {
     with_unit(&format!("{value:.places$} ± {uncertainty:.places$}"), reading)
 }
 
+/// A reading's name with its unit, as it stands beside an axis or above a column.
+#[must_use]
+pub fn name_with_unit(name: &str, unit: &str) -> String {
+    if unit.is_empty() { name.to_owned() } else { format!("{name}, {unit}") }
+}
+
 /// A chance, told as none below what can be told.
 #[must_use]
 pub fn chance(p: f64) -> String {

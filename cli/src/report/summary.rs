@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use calibration::report::{EffectFound, Report, Verdict};
 use similar::TextDiff;
 
-use super::{Reported, hidden, quantities};
+use super::{Reported, hidden, next, quantities};
 use crate::terminal::{CAREFUL, GOOD, HEADING};
 
 /// Lines of a list that the terminal shows.
@@ -22,10 +22,14 @@ pub fn as_text(reported: &Reported<'_>) -> String {
     };
     let _ = writeln!(text, "{HEADING}verdict:{HEADING:#} {style}{}{style:#}", report.verdict.words());
     let _ = writeln!(text, "{}\n", what_it_means(report));
+    for line in cautions(report) {
+        let _ = writeln!(text, "{CAREFUL}caution:{CAREFUL:#} {line}\n");
+    }
     effects(&mut text, report);
     before_and_after(&mut text, report);
     errors(&mut text, report);
-    separating(&mut text, report);
+    noise(&mut text, report);
+    measure_next(&mut text, reported);
     remarks(&mut text, report);
     if !report.effects.is_empty() {
         let _ =
@@ -178,26 +182,34 @@ pub fn not_separable(report: &Report) -> Vec<String> {
     lines
 }
 
-/// Where to measure next, to tell the effects from others that explain these data as well.
-fn separating(text: &mut String, report: &Report) {
-    for separation in &report.separating {
-        let names = |list: Vec<&str>| list.join("; ");
-        if !separation.poses.is_empty() {
-            let apart = names(separation.apart.iter().map(|told| told.name.as_str()).collect());
-            let _ = writeln!(
-                text,
-                "\n{HEADING}measure next{HEADING:#}, to tell {} from {apart} ({}; rad or m)",
-                separation.effect,
-                separation.joints.join(", ")
-            );
-            for pose in &separation.poses {
-                let values: Vec<String> = pose.iter().map(|value| format!("{value:8.4}")).collect();
-                let _ = writeln!(text, "  {}", values.join(" "));
+/// What casts doubt on the whole: a fit that did not end well, data that look misread.
+#[must_use]
+pub fn cautions(report: &Report) -> Vec<String> {
+    let precision = &report.precision;
+    let ended =
+        (!precision.outcome.starts_with("converged")).then(|| format!("the fit {}", precision.outcome));
+    ended.into_iter().chain(precision.hints.iter().cloned()).collect()
+}
+
+fn noise(text: &mut String, report: &Report) {
+    let _ = writeln!(text, "\n{HEADING}noise{HEADING:#}");
+    for line in &report.precision.noise {
+        let _ = writeln!(text, "  {line}");
+    }
+}
+
+fn measure_next(text: &mut String, reported: &Reported<'_>) {
+    for table in next::tables(reported) {
+        let _ = writeln!(text, "\n{HEADING}measure next{HEADING:#}, {}", table.title);
+        if !table.poses.is_empty() {
+            let line = |cells: &[String]| cells.iter().map(|cell| format!("{cell:>16}")).collect::<String>();
+            let _ = writeln!(text, "{}", line(&table.joints));
+            for pose in &table.poses {
+                let _ = writeln!(text, "{}", line(pose));
             }
         }
-        if !separation.never.is_empty() {
-            let never = names(separation.never.iter().map(String::as_str).collect());
-            let _ = writeln!(text, "\nno pose within the ranges tells {} from {never}", separation.effect);
+        for note in &table.notes {
+            let _ = writeln!(text, "  {note}");
         }
     }
 }

@@ -132,3 +132,25 @@ fn unknown_name_of_an_effect() {
 fn empty_study() {
     assert_snapshot!(refused("empty-study", STUDY, ""));
 }
+
+#[test]
+fn one_sigma_for_angles_and_lengths() {
+    let also = "z = \"z\"
+
+[[also]]
+observable = \"edge\"
+data = \"measured.csv\"
+columns = { azimuth = { column = \"az\", unit = \"deg\" } }
+observed = { kind = \"point\", x = \"x\", y = \"y\", z = \"z\" }
+
+[noise]
+sigma = \"2 arcsec\"
+";
+    let folder = Folder::new("study-one-sigma");
+    let edge = CHAIN.replace("    observe", "    observe edge: point(1, 0, 0) of table;\n    observe");
+    folder.write("turntable.chain", edge).write("measured.csv", DATA);
+    folder.write("study.toml", STUDY.replace("z = \"z\"\n", also));
+    let run = folder.trueaxis(&["calibrate", "study.toml"]);
+    assert_eq!((run.code, run.stdout.as_str()), (2, ""), "{run}");
+    assert_snapshot!(run.stderr);
+}

@@ -29,10 +29,13 @@ fn number(report: &Value, path: &str) -> f64 {
     report.pointer(path).and_then(Value::as_f64).unwrap_or_else(|| panic!("no {path}"))
 }
 
-/// Verdict, rows and the bound on what the search leaves where it did not look, in the report's unit.
-fn holds(study: &str, verdict: &str, rows: f64, bound: f64) -> Option<Value> {
+/// Effects, rows and the bound on what the search leaves where it did not look, in the report's unit. Whether such
+/// effects are all that an instrument does beyond its declaration nobody knows: both verdicts that name effects will do.
+fn holds(study: &str, rows: f64, bound: f64) -> Option<Value> {
     let report = report(study)?;
-    assert_eq!(report["verdict"], verdict, "{study}");
+    let verdict = report["verdict"].as_str().expect("a word");
+    assert!(["explained up to a class", "structure remains"].contains(&verdict), "{study}: {verdict}");
+    assert_ne!(report["effects"], Value::Array(Vec::new()), "{study}");
     assert_eq!(number(&report, "/observations/rows"), rows, "{study}");
     let held_out = number(&report, "/after/held_out_rms");
     assert!(held_out <= bound, "{study}: {held_out} is above {bound}");
@@ -47,7 +50,7 @@ fn reports_say_what_an_independent_program_finds() {
         ("auxtel/auxtel-2020-03", 44.0, 14.9, 22.280_896_192),
         ("equatorial/equatorial-a", 454.0, 165.0, 558.260_778_131),
     ] {
-        let Some(report) = holds(study, "explained up to a class", rows, bound_arcsec * ARCSEC) else {
+        let Some(report) = holds(study, rows, bound_arcsec * ARCSEC) else {
             return;
         };
         let before = number(&report, "/before/rms") / ARCSEC;
@@ -61,14 +64,14 @@ fn reports_say_what_an_independent_program_finds() {
 }
 
 #[test]
-fn the_telescopes_are_explained_up_to_a_class() {
+fn the_telescopes_lack_effects_that_predict_what_nobody_fitted() {
     for (study, rows, bound_arcsec) in [
         ("auxtel/auxtel-2022-04", 54.0, 1.78),
         ("iram30m/iram30m-2013-04", 1110.0, 3.8),
         ("iram30m/iram30m-2013-10", 628.0, 3.6),
         ("equatorial/equatorial-b", 98.0, 62.0),
     ] {
-        let Some(report) = holds(study, "explained up to a class", rows, bound_arcsec * ARCSEC) else {
+        let Some(report) = holds(study, rows, bound_arcsec * ARCSEC) else {
             return;
         };
         assert!(number(&report, "/after/held_out_rms_of_all") >= number(&report, "/after/held_out_rms"));
@@ -76,9 +79,9 @@ fn the_telescopes_are_explained_up_to_a_class() {
 }
 
 #[test]
-fn the_encoders_are_explained_up_to_what_one_joint_cannot_tell_apart() {
+fn the_encoders_lack_effects_that_predict_what_nobody_fitted() {
     for study in ["encoder/encoder-a", "encoder/encoder-b"] {
-        if holds(study, "explained up to a class", 200.0, 0.03_f64.to_radians()).is_none() {
+        if holds(study, 200.0, 0.03_f64.to_radians()).is_none() {
             return;
         }
     }

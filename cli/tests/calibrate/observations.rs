@@ -272,3 +272,50 @@ fn parquet_is_read_and_written_as_separated_values_are() {
     assert_eq!(parquet.0["errors"], separated.0["errors"]);
     assert_eq!(parquet.1, separated.1);
 }
+
+/// Degrees that nobody declared as such: the data are read as radians, and the residual is no small error.
+#[test]
+fn misread_data_are_told_before_all_else() {
+    let mut data = String::from("reading,true\n");
+    for (at, left) in LEFT_ARCSEC.into_iter().enumerate() {
+        let reading = 30.0 * at as f64;
+        data += &format!("{},{}\n", reading, (reading + left / 3600.0).to_radians());
+    }
+    let folder = Folder::new("misread");
+    let study = ENCODER_STUDY
+        .replace(
+            "reading = { column = \"reading\", unit = \"deg\" }",
+            "reading = { column = \"reading\", unit = \"rad\" }",
+        )
+        .replace("unit = \"deg\" }\n[fit]", "unit = \"rad\" }\n[fit]");
+    folder.write("encoder.chain", ENCODER).write("measured.csv", data).write("study.toml", study);
+    let run = folder.trueaxis(&["calibrate", "study.toml"]);
+    assert_eq!(run.code, 0, "{run}");
+    let caution = run.stdout.lines().find(|line| line.starts_with("caution: ")).expect("a caution");
+    assert!(
+        caution.contains("`reading` reaches 330 rad") && caution.contains("degrees taken for radians"),
+        "{run}"
+    );
+}
+
+#[test]
+fn poses_to_measure_next_are_proposed_in_degrees() {
+    let folder = Folder::new("next");
+    let data: String = std::iter::once("reading,true\n".to_owned())
+        .chain((0..12).map(|at| format!("{},{}\n", 30 * at, 30.0 * f64::from(at) + LEFT_ARCSEC[0] / 3600.0)))
+        .collect();
+    folder.write("encoder.chain", ENCODER).write("measured.csv", data);
+    folder.write(
+        "study.toml",
+        format!("{ENCODER_STUDY}[next]\nposes = 3\nrange = {{ reading = [\"0 deg\", \"90 deg\"] }}\n"),
+    );
+    let run = folder.trueaxis(&["calibrate", "study.toml"]);
+    assert_eq!(run.code, 0, "{run}");
+    let (_, proposed) = run.stdout.split_once("measure next, to determine").expect("a proposal");
+    let mut lines = proposed.lines().skip(1);
+    assert_eq!(lines.next().map(str::trim), Some("reading, deg"), "{run}");
+    for line in lines.take(3) {
+        let degrees: f64 = line.trim().parse().unwrap_or_else(|_| panic!("{line} in {run}"));
+        assert!((0.0..=90.0).contains(&degrees), "{run}");
+    }
+}

@@ -13,7 +13,7 @@ const CONSISTENCY: [f64; 3] = [1.207_616_545, 1.176_955_563, 1.156_613_834];
 /// The median of the norm of normal components.
 const MEDIAN: [f64; 3] = [0.674_489_750, 1.177_410_023, 1.538_172_254];
 
-/// Efficiency at normal noise, by choice of [`CUTOFF`].
+/// Efficiency at normal noise, by choice of `CUTOFF`.
 pub const EFFICIENCY: f64 = 0.95;
 
 fn of(table: [f64; 3], components: usize) -> f64 {

@@ -10,7 +10,8 @@ use super::separate::separation;
 use super::{Loop, hidden};
 use crate::amend::{Addition, NewInput};
 use crate::effects::Function;
-use crate::fit::precision;
+use crate::fit::{precision, told_in};
+use crate::observations::Measure;
 use crate::poses::{Criterion, Proposal, propose};
 use crate::report::{EffectFound, ErrorFound, Remaining, Report, SetAsideRow, Used, Verdict};
 use crate::search::select::{State, class_columns};
@@ -126,7 +127,8 @@ pub(crate) fn report(
         Verdict::UpToAClass
     };
     let mut precision = precision(&last.chain, observations, &last.fit);
-    precision.noise.extend(whole.request.plan.fit.noise.sigma.map(stated_noise));
+    let stated = whole.request.plan.fit.noise.sigma.zip(observations.series.first());
+    precision.noise.extend(stated.map(|(sigma, series)| stated_noise(sigma, series.measure)));
     let row_number = |row: usize| observations.row_numbers.get(row).copied().unwrap_or(row as u64 + 1);
     let aside = &last.fit.set_aside;
     Report {
@@ -187,10 +189,11 @@ fn errors(last: &Round) -> Vec<ErrorFound> {
 
 /// The poses that the study asks for; none if it asks for none, or if they cannot be computed.
 /// What became of the standard deviation that the study states, rad or m.
-fn stated_noise(sigma: f64) -> String {
+fn stated_noise(sigma: f64, measure: Measure) -> String {
+    let (unit, in_si) = told_in(measure);
     format!(
-        "the study states {sigma:.3e} rad or m; while something may be missing weights and uncertainties go by what the \
-         residuals show, which is told here"
+        "the study states {:.4} {unit}; weights and uncertainties go by what the residuals show, since something may be missing",
+        sigma / in_si
     )
 }
 

@@ -223,14 +223,21 @@ fn leverages(chain: &Chain, observations: &Observations, fit: &FitResult) -> Res
     Ok(blocks.concat())
 }
 
+/// The unit in which noise is told, and its size, rad or m.
+pub(crate) fn told_in(measure: Measure) -> (&'static str, f64) {
+    match measure {
+        Measure::Direction | Measure::Azimuth => ("arcsec", ARCSEC_RAD),
+        Measure::Point | Measure::Range => ("mm", 1e-3),
+    }
+}
+
 fn noise(chain: &Chain, observations: &Observations, fit: &FitResult) -> Vec<String> {
     let mut said = Vec::new();
     let mut floors = fit.noise.floor.iter();
     for series in &observations.series {
         let (unit, in_si) = match series.measure {
             _ if !observations.sigma.is_empty() => ("times what the data state", 1.0),
-            Measure::Direction | Measure::Azimuth => ("arcsec", ARCSEC_RAD),
-            Measure::Point | Measure::Range => ("mm", 1e-3),
+            measure => told_in(measure),
         };
         let own = floors.by_ref().take(series.measure.components());
         let told: Vec<String> = own.map(|floor| format!("{:.4}", floor / in_si)).collect();

@@ -1,6 +1,6 @@
 //! Random expressions, their value in plain floating point, and random rewriting by true identities.
 
-use model_core::algebra::{Poly, Rational};
+use model_core::algebra::{AlgebraError, LowerError, Poly, Rational};
 use model_core::expr::{Expr, Function, Node};
 use model_core::symbol::SymbolId;
 use proptest::prelude::*;
@@ -16,7 +16,19 @@ pub fn resolve(name: &str) -> Option<SymbolId> {
 }
 
 pub fn canonical(expression: &E) -> Poly {
-    Poly::from_expr(expression, resolve, |symbol| symbol.0 >= FIRST_ANGLE).unwrap()
+    lowered(expression).unwrap()
+}
+
+fn lowered(expression: &E) -> Result<Poly, LowerError<()>> {
+    Poly::from_expr(expression, resolve, |symbol| symbol.0 >= FIRST_ANGLE)
+}
+
+/// The form of a random expression; those that are refused as too large when multiplied out say nothing.
+pub fn form(expression: &E) -> Result<Poly, TestCaseError> {
+    lowered(expression).map_err(|error| match error {
+        LowerError::Algebra { error: AlgebraError::TooLarge, .. } => TestCaseError::reject("too large"),
+        other => TestCaseError::fail(other.to_string()),
+    })
 }
 
 /// The value as written, without the algebra.

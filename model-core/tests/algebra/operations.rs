@@ -1,6 +1,6 @@
 //! The operations of the algebra against their defining properties and against values.
 
-use super::expressions::{NAMES, canonical, expression, resolve};
+use super::expressions::{NAMES, expression, form, resolve};
 use model_core::algebra::{AngleSum, Poly, Rational};
 use model_core::symbol::SymbolId;
 use proptest::prelude::*;
@@ -18,7 +18,7 @@ proptest! {
 
     #[test]
     fn sums_and_products_form_a_ring(x in expression(), y in expression(), z in expression()) {
-        let (x, y, z) = (canonical(&x), canonical(&y), canonical(&z));
+        let (x, y, z) = (form(&x)?, form(&y)?, form(&z)?);
         prop_assert_eq!(&x * &y, &y * &x);
         prop_assert_eq!(&(&x + &y) + &z, &x + &(&y + &z));
         prop_assert_eq!(&x * &(&y + &z), &(&x * &y) + &(&x * &z));
@@ -27,7 +27,7 @@ proptest! {
 
     #[test]
     fn derivatives_obey_leibniz_and_commute(x in expression(), y in expression()) {
-        let (x, y) = (canonical(&x), canonical(&y));
+        let (x, y) = (form(&x)?, form(&y)?);
         let (t, a) = (symbol("t"), symbol("a"));
         prop_assert_eq!(
             (&x * &y).derivative(t),
@@ -38,7 +38,7 @@ proptest! {
 
     #[test]
     fn substitution_is_a_homomorphism(x in expression(), y in expression()) {
-        let (x, y) = (canonical(&x), canonical(&y));
+        let (x, y) = (form(&x)?, form(&y)?);
         let a = symbol("a");
         let replacement = &Poly::cos(&angle("u")) + &Poly::symbol(symbol("b"));
         let put = |poly: &Poly| poly.substitute(a, &replacement).unwrap();
@@ -48,7 +48,7 @@ proptest! {
 
     #[test]
     fn grades_add_up(x in expression()) {
-        let x = canonical(&x);
+        let x = form(&x)?;
         let chosen = |id: SymbolId| id == symbol("a") || id == symbol("b");
         let degree = x.degree_in(chosen);
         let sum = (0..=degree).fold(Poly::zero(), |sum, order| &sum + &x.graded_part(chosen, order));

@@ -52,7 +52,7 @@ pub fn amend(
     inputs: &[NewInput],
 ) -> Result<String, AmendError> {
     let declaration = Declaration::from_text(text)?;
-    let mut insertions: Vec<(usize, String)> = Vec::new();
+    let mut insertions: Vec<(usize, Role, String)> = Vec::new();
     for addition in additions {
         let name = &chain.body(addition.body).name;
         let body = declaration
@@ -64,7 +64,7 @@ pub fn amend(
         let mut lines: String =
             addition.documentation.iter().map(|line| format!("\n{indent}/// {line}")).collect();
         lines.push_str(&format!("\n{indent}{word}: {};", addition.factor));
-        insertions.push((at, lines));
+        insertions.push((at, addition.role, lines));
     }
     for NewInput { name, quantity, documentation } in inputs {
         let (at, indent) = input_place(text, &declaration);
@@ -73,14 +73,16 @@ pub fn amend(
             Quantity::Length => ": length",
             Quantity::Number => "",
         };
-        insertions.push((at, format!("\n{indent}/// {documentation}\n{indent}input {name}{measures};")));
+        let lines = format!("\n{indent}/// {documentation}\n{indent}input {name}{measures};");
+        insertions.push((at, Role::Position, lines));
     }
-    // Those at one place keep their order.
-    insertions.sort_by_key(|&(at, _)| at);
+    // In a body without a motion all roles go to one place: there as everywhere, what errs before the motion stands
+    // first, as it does in the chain. Otherwise those at one place keep their order.
+    insertions.sort_by_key(|&(at, role, _)| (at, role));
     let mut amended =
-        String::with_capacity(text.len() + insertions.iter().map(|(_, s)| s.len()).sum::<usize>());
+        String::with_capacity(text.len() + insertions.iter().map(|(_, _, s)| s.len()).sum::<usize>());
     let mut from = 0;
-    for (at, lines) in insertions {
+    for (at, _, lines) in insertions {
         amended.push_str(&text[from..at]);
         amended.push_str(&lines);
         from = at;

@@ -3,7 +3,7 @@
 
 use calibration::amend::{Addition, NewInput, amend};
 use calibration::effects::Effect;
-use model_core::{Chain, Quantity, print};
+use model_core::{Chain, Quantity, Role, print};
 use proptest::prelude::*;
 
 use crate::support::{Asked, example};
@@ -92,4 +92,21 @@ proptest! {
         }
         prop_assert_eq!(left, text);
     }
+}
+
+#[test]
+fn in_a_body_without_a_motion_a_position_error_stands_before_a_motion_error() {
+    let text = example("turntable/turntable.chain");
+    let chain = Chain::from_text(&text).unwrap();
+    let body = chain.observables[0].body;
+    let addition =
+        |role, factor: &str| Addition { body, role, factor: factor.to_owned(), documentation: Vec::new() };
+    // In the order in which they were found.
+    let additions = [addition(Role::MotionError, "Ry(after)"), addition(Role::PositionError, "Ry(before)")];
+    let amended = amend(&text, &chain, &additions, &[]).unwrap();
+    let pointer: Vec<String> = factors(&Chain::from_text(&amended).unwrap())
+        .into_iter()
+        .filter(|factor| factor.starts_with("pointer"))
+        .collect();
+    assert_eq!(pointer[1..], ["pointer PositionError Y before", "pointer MotionError Y after"]);
 }

@@ -1,5 +1,6 @@
 //! What each name of a declaration stands for: joint, error, constant or input, in order of declaration or
-//! first use.
+//! first use. The joints come in the order of the motions that they drive: an error that depends on a joint further up
+//! moves no joint to another place in the answers.
 //!
 //! The scope is made of any declaration, wrong ones too: it takes the likeliest meaning, and the rules say what
 //! is wrong. A misspelt role counts as the nearest one, so that one mistake does not bring on others.
@@ -69,7 +70,7 @@ impl Scope {
         scope
     }
 
-    /// The joints and errors that a body's factors use first.
+    /// The joints that a body's motions and the errors that its factors use first.
     fn declare_used(&mut self, body: &BodyStatement, fixed: &BTreeMap<String, SymbolKind>) {
         for group in &body.groups {
             let role = words::likely_role(&group.role);
@@ -81,7 +82,7 @@ impl Scope {
                 };
                 for (name, _) in amount.names() {
                     let kind = match fixed.get(name) {
-                        Some(SymbolKind::Joint) => SymbolKind::Joint,
+                        Some(SymbolKind::Joint) if role == Role::Motion => SymbolKind::Joint,
                         None if matches!(role, Role::PositionError | Role::MotionError) => SymbolKind::Error,
                         _ => continue,
                     };

@@ -201,6 +201,7 @@ pub(crate) fn spread(
     spread.sigma.clear();
     spread.groups = vec![0; CANDIDATES];
     spread.row_numbers = (1..).take(CANDIDATES).collect();
+    spread.series.retain(|series| !series.rows.is_empty());
     for series in &mut spread.series {
         series.rows = 0..CANDIDATES;
     }

@@ -165,6 +165,8 @@ pub struct Told {
 pub struct Remaining {
     /// Chance of at least as much structure in noise, all that was looked at taken together.
     pub p_value: f64,
+    /// The rows that were looked at: all, or a sample from all over the data where they are many.
+    pub rows: usize,
     /// What was looked at.
     pub looked: Vec<Looked>,
     /// Where it sits, if one smooth function at one place explains the data better than the catalogue does.

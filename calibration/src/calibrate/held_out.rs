@@ -4,6 +4,7 @@
 //! fold's search predicts of it lies as far off as where the robust weights end. The same rows count before and after,
 //! and the figure over every row stands beside.
 
+use super::portion::Portion;
 use super::round::Round;
 use super::{CalibrateError, Loop, declared};
 use crate::columns::Columns;
@@ -24,11 +25,11 @@ pub(crate) struct BeforeAfter {
 pub(crate) fn rms(
     whole: &Loop<'_>,
     before: &FitResult,
-    last: &Round,
+    last: &Round<'_>,
     held_out: &HeldOut,
 ) -> Result<BeforeAfter, CalibrateError> {
-    let rows = &last.columns.row;
-    let weight = &last.fit.residuals.weight;
+    let rows = &last.fitted.layout.row;
+    let weight = &last.fitted.fit.residuals.weight;
     let in_sample = |residual: &[f64]| {
         length(residual, rows, |row| weight[row as usize] > 0.0).map_or(0.0, |(rms, _)| rms)
     };
@@ -38,19 +39,22 @@ pub(crate) fn rms(
                 Columns::at(chain, second, declared(whole), values, &[])
                     .map(|columns| Held::of(&columns.residual, &columns.row, |_| true))
             };
-            (residual(&whole.request.plan.chain, &before.values)?, residual(&last.chain, &last.fit.values)?)
+            (
+                residual(&whole.request.plan.chain, &before.values)?,
+                residual(&last.fitted.chain, &last.fitted.fit.values)?,
+            )
         }
-        None if last.problem.folds() > 1 => {
-            let after = predicted(last, &held_out.after);
+        None if last.posed.problem.folds() > 1 => {
+            let [before, after] = predicted(whole, last, [&held_out.before, &held_out.after])?;
             let within = within_reach(whole, last, &after);
             let of = |residual: &[f64]| Held::of(residual, rows, |row| within[row as usize]);
-            (of(&predicted(last, &held_out.before)), of(&after))
+            (of(&before), of(&after))
         }
         None => (Held::default(), Held::default()),
     };
     Ok(BeforeAfter {
         before: held_before.beside(in_sample(&before.residuals.raw)),
-        after: held_after.beside(in_sample(&last.columns.residual)),
+        after: held_after.beside(in_sample(&last.fitted.fit.residuals.raw)),
     })
 }
 
@@ -79,23 +83,46 @@ impl Held {
 }
 
 /// Per row whether a held-out residual is within reach of the robust weights; every row if the fit is not robust.
-fn within_reach(whole: &Loop<'_>, last: &Round, residual: &[f64]) -> Vec<bool> {
+fn within_reach(whole: &Loop<'_>, last: &Round<'_>, residual: &[f64]) -> Vec<bool> {
     let observations = whole.request.observations;
     if !whole.request.plan.fit.robust {
         return vec![true; observations.rows()];
     }
     let mut white = residual.to_vec();
-    last.fit.noise.without_memory().whiten(&mut white);
+    last.fitted.fit.noise.without_memory().whiten(&mut white);
     let norms: Vec<f64> = Layout::of(observations).norms(&white).collect();
     norms.iter().zip(observations.measures()).map(|(&n, m)| n < robust::cutoff(m.components())).collect()
 }
 
-/// What each row's fold, fitted without it, leaves of it, before whitening.
-fn predicted(last: &Round, coefficients: &[Vec<(usize, f64)>]) -> Vec<f64> {
-    let problem = &last.problem;
-    let declared = last.columns.declared.as_ref();
-    let own: Vec<&Vec<f64>> = last.effects.iter().flatten().collect();
-    let mut left = problem.before_whitening(problem.residual(), declared, &last.without);
+/// Per fold the coefficients of the columns of the problem that were used.
+type Coefficients = [Vec<(usize, f64)>];
+
+/// What each row's fold, fitted without it, leaves of it, before whitening, by either set of coefficients.
+pub(super) fn predicted<const N: usize>(
+    whole: &Loop<'_>,
+    last: &Round<'_>,
+    coefficients: [&Coefficients; N],
+) -> Result<[Vec<f64>; N], CalibrateError> {
+    let mut left = [const { Vec::new() }; N];
+    last.posed.each_portion(whole, &last.fitted, |components, portion| {
+        for (left, coefficients) in left.iter_mut().zip(coefficients) {
+            left.extend(predicted_of(last, coefficients, components.start, portion));
+        }
+    })?;
+    Ok(left)
+}
+
+/// The same for a portion of the rows, whose components start at one of all.
+fn predicted_of(
+    last: &Round<'_>,
+    coefficients: &Coefficients,
+    start: usize,
+    portion: &Portion<'_>,
+) -> Vec<f64> {
+    let problem = &last.posed.problem;
+    let declared = portion.columns.declared.as_ref();
+    let own: Vec<&Vec<f64>> = portion.effects.iter().flatten().collect();
+    let mut left = problem.before_whitening(problem.residual(), declared, &portion.without);
     let mut columns: Vec<usize> = coefficients.iter().flatten().map(|&(column, _)| column).collect();
     columns.sort_unstable();
     columns.dedup();
@@ -108,8 +135,8 @@ fn predicted(last: &Round, coefficients: &[Vec<(usize, f64)>]) -> Vec<f64> {
             .iter()
             .map(|fold| fold.iter().find(|&&(c, _)| c == column).map_or(0.0, |&(_, b)| b))
             .collect();
-        for (row, (left, value)) in left.iter_mut().zip(&values).enumerate() {
-            *left -= by_fold[problem.fold_of_row(row)] * value;
+        for (component, (left, value)) in left.iter_mut().zip(&values).enumerate() {
+            *left -= by_fold[last.posed.fold_of(start + component)] * value;
         }
     }
     left

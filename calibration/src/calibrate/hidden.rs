@@ -20,22 +20,26 @@ const TOLD: f64 = 0.05;
 /// How far one standard uncertainty of an accepted effect, left out, would move each declared error, SI.
 pub(super) fn bias(
     whole: &Loop<'_>,
-    last: &Round,
+    last: &Round<'_>,
     effect: usize,
     errors: &[SymbolId],
 ) -> BTreeMap<String, f64> {
-    let columns = last.problem.block(effect);
-    let sigmas = errors.iter().map(|&error| last.fit.standard_uncertainty(error).unwrap_or(0.0));
+    let columns = last.posed.problem.block(effect);
+    let sigmas = errors.iter().map(|&error| last.fitted.fit.standard_uncertainty(error).unwrap_or(0.0));
     moved(whole, last, columns.zip(sigmas))
 }
 
 /// The largest shift of each declared error by functions of some sizes whose signs are not known: columns of the problem,
 /// each with its size.
-fn moved(whole: &Loop<'_>, last: &Round, sizes: impl Iterator<Item = (usize, f64)>) -> BTreeMap<String, f64> {
-    let combinations = &last.combinations;
+fn moved(
+    whole: &Loop<'_>,
+    last: &Round<'_>,
+    sizes: impl Iterator<Item = (usize, f64)>,
+) -> BTreeMap<String, f64> {
+    let combinations = &last.fitted.combinations;
     let mut squares = vec![0.0; combinations.nrows()];
     for (column, size) in sizes {
-        let share = last.problem.share(column);
+        let share = last.posed.problem.share(column);
         for (i, square) in squares.iter_mut().enumerate() {
             let moved: f64 = share.iter().enumerate().map(|(j, s)| combinations[(i, j)] * s).sum();
             *square += (size * moved).powi(2);
@@ -45,14 +49,14 @@ fn moved(whole: &Loop<'_>, last: &Round, sizes: impl Iterator<Item = (usize, f64
         .iter()
         .zip(squares)
         .filter(|&(_, square)| square > 0.0)
-        .map(|(&id, square)| (last.chain.symbol(id).name.clone(), square.sqrt()))
+        .map(|(&id, square)| (last.fitted.chain.symbol(id).name.clone(), square.sqrt()))
         .collect()
 }
 
 /// Effects that could be as large as the residual without these data showing them.
-pub(super) fn not_shown(whole: &Loop<'_>, last: &Round, rms: BeforeAfter) -> Vec<NotShown> {
-    let problem = &last.problem;
-    let accepted: Vec<usize> = last.found.iter().map(|found| found.effect).collect();
+pub(super) fn not_shown(whole: &Loop<'_>, last: &Round<'_>, rms: BeforeAfter) -> Vec<NotShown> {
+    let problem = &last.posed.problem;
+    let accepted: Vec<usize> = last.fitted.found.iter().map(|found| found.effect).collect();
     let unmoved = whole.setting.unmoved().into_iter().map(|place| NotShown {
         name: assembly_name(whole.setting.body_name(place.body), place.role, place.freedom),
         smallest: None,
@@ -67,7 +71,7 @@ pub(super) fn not_shown(whole: &Loop<'_>, last: &Round, rms: BeforeAfter) -> Vec
         }
         let unit = effect.place.freedom.quantity().unit();
         let name = effect.name.clone();
-        if last.effects[number].is_empty() {
+        if problem.block(number).is_empty() {
             list.push(NotShown { name, smallest: None, unit, absorbed: 0.0, mistaken_for: BTreeMap::new() });
             continue;
         }
@@ -108,8 +112,8 @@ fn is_declared(chain: &Chain, effect: &Effect) -> bool {
 }
 
 /// The declared errors that would take an effect of amplitude one upon them, and how far each would move.
-fn mistaken_for(whole: &Loop<'_>, last: &Round, effect: usize) -> BTreeMap<String, f64> {
-    let mut moved = moved(whole, last, last.problem.block(effect).map(|column| (column, 1.0)));
+fn mistaken_for(whole: &Loop<'_>, last: &Round<'_>, effect: usize) -> BTreeMap<String, f64> {
+    let mut moved = moved(whole, last, last.posed.problem.block(effect).map(|column| (column, 1.0)));
     let largest = moved.values().copied().fold(0.0, f64::max);
     moved.retain(|_, shift| *shift > TOLD * largest);
     moved

@@ -1,31 +1,37 @@
 //! The whole loop: fit, whiten, search, amend, fit again, judge on held-out data, report.
 //!
-//! One round (`round`) fits the declaration with the effects accepted so far and searches from there; rounds go on
-//! until one changes nothing. Then the search is repeated in every fold (`held_out`), and everything is put into
+//! One round (`round`) fits the declaration with the effects accepted so far (`fitted`), sets up the search at that fit
+//! (`posed`, from rows as `portion` has them) and searches from there; rounds go on until one changes nothing. Then the search is repeated in every fold (`held_out`), and everything is put into
 //! words (`words`).
 
 mod basis;
+mod fitted;
 mod held_out;
 mod hidden;
+mod portion;
+mod posed;
 mod remaining;
 mod round;
 mod separate;
 mod words;
 
-use model_core::{Chain, SymbolId};
+use model_core::{Chain, ObservableId, SymbolId};
 
 use crate::amend::{AmendError, amend};
-use crate::columns::places;
 use crate::effects::{Effect, Name, Setting, catalogue, chosen, known_names};
 use crate::fit::{FitError, FitResult, Outcome};
 use crate::observations::Observations;
 use crate::report::Report;
 use crate::search::{HeldOut, Options, ProblemError, nested};
 use crate::study::Plan;
+use fitted::Fitted;
 use round::Round;
 
 /// Rounds of fit and search at most.
 const ROUNDS: usize = 8;
+
+/// Numbers that a matrix of the search holds at most (128 MB). Rows that need more are merged.
+const HELD: usize = 1 << 24;
 
 /// What to calibrate.
 #[derive(Clone, Copy)]
@@ -88,6 +94,20 @@ pub(crate) struct Loop<'a> {
     pub names: Vec<Vec<Name>>,
     pub options: Options,
     pub setting: Setting<'a>,
+    /// Numbers that a matrix of the search holds at most.
+    pub held: usize,
+}
+
+impl<'a> Loop<'a> {
+    fn new(request: Request<'a>, observables: &'a [ObservableId], held: usize) -> Self {
+        let plan = request.plan;
+        let setting = plan.search.setting(&plan.chain, observables);
+        let options =
+            Options { false_alarm: plan.search.false_alarm, seed: plan.hold_out.seed, ..Options::default() };
+        let catalogue = chosen(&setting, catalogue(&setting), &plan.search.only).unwrap_or_default();
+        let names = known_names(&setting, &catalogue);
+        Self { request, catalogue, names, options, setting, held }
+    }
 }
 
 /// Runs the loop.
@@ -95,17 +115,11 @@ pub(crate) struct Loop<'a> {
 /// # Errors
 /// What the caller did wrong; whatever the data say is in the report.
 pub fn calibrate(request: Request<'_>) -> Result<Calibration, CalibrateError> {
-    let plan = request.plan;
     let observables: Vec<_> = request.observations.series.iter().map(|series| series.observable).collect();
-    let setting = plan.search.setting(&plan.chain, &observables);
-    let options =
-        Options { false_alarm: plan.search.false_alarm, seed: plan.hold_out.seed, ..Options::default() };
-    let catalogue = chosen(&setting, catalogue(&setting), &plan.search.only).unwrap_or_default();
-    let names = known_names(&setting, &catalogue);
-    let whole = Loop { request, catalogue, names, options, setting };
+    let whole = Loop::new(request, &observables, HELD);
 
-    let mut round = Round::first(&whole)?;
-    let before = round.fit.clone();
+    let mut round = Round::at(&whole, Fitted::first(&whole)?)?;
+    let before = round.fitted.fit.clone();
     let mut visited: Vec<Vec<usize>> = vec![Vec::new()];
     for _ in 0..ROUNDS {
         let found = round.search(&whole);
@@ -119,33 +133,35 @@ pub fn calibrate(request: Request<'_>) -> Result<Calibration, CalibrateError> {
         let Some(next) = taken_up(&whole, found, &round)? else { break };
         round = next;
     }
-    let held_out: HeldOut = nested(&round.problem, &round.classes, &whole.options);
+    let held_out: HeldOut = nested(&round.posed.problem, &round.classes, &whole.options);
     let rms = held_out::rms(&whole, &before, &round, &held_out)?;
     let additions = words::additions(&whole, &round, &held_out, rms);
     let inputs = words::new_inputs(&whole, &round);
-    let amended = amend(request.text, &round.chain, &additions, &inputs)?;
+    let amended = amend(request.text, &round.fitted.chain, &additions, &inputs)?;
     let remaining = remaining::remaining(&whole, &round)?;
     let report = words::report(&whole, &round, &held_out, rms, remaining);
-    Ok(Calibration { report, amended, chain: round.chain, before, after: round.fit })
+    Ok(Calibration { report, amended, chain: round.fitted.chain, before, after: round.fitted.fit })
 }
 
 /// The next round; with the later half of the effects left out, again and again, while the exact form cannot hold what
 /// the linear search likes. `None` if it can hold nothing new.
-fn taken_up(whole: &Loop<'_>, mut found: Vec<Found>, last: &Round) -> Result<Option<Round>, CalibrateError> {
-    while found.len() > last.found.len() {
-        let next = Round::with(whole, found.clone(), last)?;
+fn taken_up<'a>(
+    whole: &Loop<'a>,
+    mut found: Vec<Found>,
+    last: &Round<'a>,
+) -> Result<Option<Round<'a>>, CalibrateError> {
+    while found.len() > last.fitted.found.len() {
+        let next = Fitted::with(whole, found.clone(), &last.fitted)?;
         let failed = matches!(next.fit.outcome, Outcome::NotConverged { .. });
-        if !failed || next.fit.rms < last.fit.rms {
-            return Ok(Some(next));
+        if !failed || next.fit.rms < last.fitted.fit.rms {
+            return Round::at(whole, next).map(Some);
         }
         found.truncate(found.len().div_ceil(2).min(found.len() - 1));
     }
-    Ok(if found.is_empty() { None } else { Some(Round::with(whole, found, last)?) })
-}
-
-/// The places of the whole catalogue.
-pub(crate) fn all_places(whole: &Loop<'_>) -> Vec<crate::effects::Place> {
-    places(&whole.catalogue)
+    if found.is_empty() {
+        return Ok(None);
+    }
+    Round::at(whole, Fitted::with(whole, found, &last.fitted)?).map(Some)
 }
 
 /// The symbols that the study estimates.

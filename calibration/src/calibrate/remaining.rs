@@ -36,7 +36,7 @@ const POINTS: usize = 61;
 
 /// Everything that the scans read.
 struct Scanned<'a> {
-    last: &'a Round,
+    last: &'a Round<'a>,
     columns: Columns,
     drivers: Vec<Driver>,
     /// Functions of two joints together, and their whitened columns.
@@ -52,8 +52,7 @@ struct Driver {
 }
 
 impl Driver {
-    fn new(whole: &Loop<'_>, symbol: SymbolId) -> Option<Self> {
-        let observations = whole.request.observations;
+    fn new(whole: &Loop<'_>, observations: &Observations, symbol: SymbolId) -> Option<Self> {
         let basis = Basis::of(whole.setting.chain, observations, symbol)?;
         let readings = observations.column(symbol)?;
         let series = tabulated(readings, |q| basis.series(q));
@@ -71,13 +70,14 @@ fn tabulated(readings: &[f64], functions: impl Fn(f64) -> Vec<f64> + Sync) -> Ma
 }
 
 /// Looks for structure in the last residual.
-pub(crate) fn remaining(whole: &Loop<'_>, last: &Round) -> Result<Remaining, CalibrateError> {
-    let observations = whole.request.observations;
+pub(crate) fn remaining(whole: &Loop<'_>, last: &Round<'_>) -> Result<Remaining, CalibrateError> {
+    let observations = &*last.posed.rows.observations;
     let mut smooths = smooth(&whole.setting);
     let mut symbols: Vec<SymbolId> = smooths.iter().map(|smooth| smooth.driver).collect();
     symbols.sort_unstable();
     symbols.dedup();
-    let drivers: Vec<Driver> = symbols.into_iter().filter_map(|id| Driver::new(whole, id)).collect();
+    let drivers: Vec<Driver> =
+        symbols.into_iter().filter_map(|id| Driver::new(whole, observations, id)).collect();
     let harmonics = harmonics(whole);
     let mut places: Vec<Place> = smooths.iter().map(|smooth| smooth.place).collect();
     places.extend(harmonics.iter().map(|(place, ..)| *place));
@@ -85,12 +85,12 @@ pub(crate) fn remaining(whole: &Loop<'_>, last: &Round) -> Result<Remaining, Cal
     places.extend(columns::places(&tensors));
     places.sort_unstable();
     places.dedup();
-    let values = &last.fit.values;
-    let columns = Columns::at(&last.chain, observations, declared(whole), values, &places)?;
-    let of_tensors = columns.of_effects(&last.chain, &tensors, observations, values);
+    let values = &last.fitted.fit.values;
+    let columns = Columns::at(&last.fitted.chain, observations, declared(whole), values, &places)?;
+    let of_tensors = columns.of_effects(&last.fitted.chain, &tensors, observations, values);
     let tensors = tensors.into_iter().zip(of_tensors).map(|(effect, own)| {
-        let white: Vec<Vec<f64>> = own.iter().map(|column| last.whitened(column)).collect();
-        (effect, Mat::from_fn(last.columns.residual.len(), white.len(), |i, j| white[j][i]))
+        let white: Vec<Vec<f64>> = own.iter().map(|column| last.posed.rows.whiten(column)).collect();
+        (effect, Mat::from_fn(last.posed.rows.columns.residual.len(), white.len(), |i, j| white[j][i]))
     });
     let tensors = tensors.filter(|(_, own)| own.ncols() > 0).collect();
     let scanned = Scanned { last, columns, drivers, tensors };
@@ -98,14 +98,14 @@ pub(crate) fn remaining(whole: &Loop<'_>, last: &Round) -> Result<Remaining, Cal
         scanned.columns.probe(smooth.place).is_some() && scanned.driver(smooth.driver).is_some()
     });
 
-    let blocks = class_columns(&last.problem, &last.classes);
+    let blocks = class_columns(last.posed.of_rows(), &last.classes);
     let accepted: Vec<Vec<usize>> =
         last.accepted_classes().into_iter().filter_map(|class| blocks.get(class).cloned()).collect();
     let options = &whole.options;
-    let signs = Signs::scattered(last.problem.group_of_row(), options.flips, options.seed);
-    let left = Left::new(&last.problem, &accepted, &signs);
+    let signs = Signs::scattered(last.posed.of_rows().group_of_row(), options.flips, options.seed);
+    let left = Left::new(last.posed.of_rows(), &accepted, &signs);
 
-    let mut statistics = neighbours(whole, &left, &signs);
+    let mut statistics = neighbours(whole, last, &left, &signs);
     let waves = left.scan(harmonics.len(), |number| scanned.harmonics(observations, harmonics[number]));
     statistics.push(Statistic::of_scan("harmonics of a joint", &waves));
     let functions = left.scan(smooths.len(), |number| scanned.smooth(smooths[number]));
@@ -125,7 +125,7 @@ pub(crate) fn remaining(whole: &Loop<'_>, last: &Round) -> Result<Remaining, Cal
         None => (None, Vec::new()),
         Some(function) => {
             let place = Where {
-                body: last.chain.body(function.place.body).name.clone(),
+                body: last.fitted.chain.body(function.place.body).name.clone(),
                 dof: function.place.freedom.word().to_owned(),
                 driver: function.driver.clone(),
                 form: function.form.clone(),
@@ -133,12 +133,13 @@ pub(crate) fn remaining(whole: &Loop<'_>, last: &Round) -> Result<Remaining, Cal
             (Some(place), shape(&function))
         }
     };
-    Ok(Remaining { p_value, looked, place, shape })
+    Ok(Remaining { p_value, rows: observations.rows(), looked, place, shape })
 }
 
 /// Whether an effect was accepted at a place with the same driver: a function there may be what it spells out.
-fn spelt_out(whole: &Loop<'_>, last: &Round, smooth: SmoothPlace) -> bool {
-    last.found
+fn spelt_out(whole: &Loop<'_>, last: &Round<'_>, smooth: SmoothPlace) -> bool {
+    last.fitted
+        .found
         .iter()
         .map(|found| &whole.catalogue[found.effect])
         .any(|effect| effect.place == smooth.place && effect.driver == whole.setting.name(smooth.driver))
@@ -170,19 +171,19 @@ fn harmonics(whole: &Loop<'_>) -> Vec<(Place, SymbolId, u32)> {
 impl Scanned<'_> {
     /// A function's columns at a place: the place's derivative times the function's values, whitened.
     fn sheet(&self, place: Place, values: &Mat<f64>) -> Mat<f64> {
-        let row = &self.last.columns.row;
+        let row = &self.last.posed.rows.columns.row;
         let mut sheet = Mat::zeros(row.len(), values.ncols());
         let Some(probe) = self.columns.probe(place) else { return sheet };
-        let serial = self.last.fit.noise.serial.is_some();
+        let serial = self.last.fitted.fit.noise.serial.is_some();
         // Without memory whitening is a factor to each component.
-        let probe = if serial { probe.to_vec() } else { self.last.whitened(probe) };
+        let probe = if serial { probe.to_vec() } else { self.last.posed.rows.whiten(probe) };
         for j in 0..values.ncols() {
             let (column, values) = (sheet.col_as_slice_mut(j), values.col_as_slice(j));
             for ((target, p), &row) in column.iter_mut().zip(&probe).zip(row) {
                 *target = p * values[row as usize];
             }
             if serial {
-                let whitened = self.last.whitened(column);
+                let whitened = self.last.posed.rows.whiten(column);
                 column.copy_from_slice(&whitened);
             }
         }
@@ -245,7 +246,7 @@ impl Scanned<'_> {
 
     fn smooth(&self, smooth: SmoothPlace) -> Sheet {
         let columns = self.driver(smooth.driver).map(|driver| self.sheet(smooth.place, &driver.series));
-        Sheet::of(columns.unwrap_or_else(|| Mat::zeros(self.last.columns.residual.len(), 0)))
+        Sheet::of(columns.unwrap_or_else(|| Mat::zeros(self.last.posed.rows.columns.residual.len(), 0)))
     }
 
     fn harmonics(&self, observations: &Observations, sheet: (Place, SymbolId, u32)) -> Sheet {
@@ -261,8 +262,9 @@ impl Scanned<'_> {
 }
 
 /// Products of neighbours: in the space of all joints, along each joint, and in order of acquisition.
-fn neighbours(whole: &Loop<'_>, left: &Left<'_>, signs: &Signs) -> Vec<Statistic> {
-    let observations = whole.request.observations;
+fn neighbours(whole: &Loop<'_>, last: &Round<'_>, left: &Left<'_>, signs: &Signs) -> Vec<Statistic> {
+    let portion = &last.posed.rows;
+    let observations = &*portion.observations;
     let chain = whole.setting.chain;
     let first = Layout::of(observations).first;
     let joints: Vec<(SymbolId, &[f64])> = observations
@@ -289,10 +291,9 @@ fn neighbours(whole: &Loop<'_>, left: &Left<'_>, signs: &Signs) -> Vec<Statistic
     let what = "neighbours in the space of all joints".to_owned();
     statistics.insert(0, Statistic::of_pairs(what, &nearest(&points), &first, left, signs));
     if observations.in_sequence {
-        let runs: Vec<_> = observations.series.iter().map(|series| series.rows.clone()).collect();
         for lag in LAGS {
             let what = format!("observations {lag} rows apart");
-            statistics.push(Statistic::of_pairs(what, &lagged(&runs, lag), &first, left, signs));
+            statistics.push(Statistic::of_pairs(what, &lagged(&portion.stretches, lag), &first, left, signs));
         }
     }
     statistics

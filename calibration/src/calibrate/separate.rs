@@ -41,42 +41,60 @@ struct Other {
 }
 
 /// Poses for the accepted effect number `at`, against the effects `others`.
-pub(super) fn separation(whole: &Loop<'_>, last: &Round, at: usize, others: &[usize]) -> Option<Separation> {
+pub(super) fn separation(
+    whole: &Loop<'_>,
+    last: &Round<'_>,
+    at: usize,
+    others: &[usize],
+) -> Option<Separation> {
     let plan = whole.request.plan;
-    let own = last.found.get(at)?.effect;
-    let others: Vec<usize> =
-        others.iter().copied().filter(|&other| !last.effects[other].is_empty()).take(MOST).collect();
+    let own = last.fitted.found.get(at)?.effect;
+    let others: Vec<usize> = others
+        .iter()
+        .copied()
+        .filter(|&other| !last.posed.rows.effects[other].is_empty())
+        .take(MOST)
+        .collect();
     if others.is_empty() {
         return None;
     }
     let ranges = plan.next.as_ref().map_or(&[][..], |next| &next.ranges);
     let count = plan.next.as_ref().map_or(POSES, |next| next.count);
-    let poses = spread(&last.chain, whole.request.observations, ranges);
+    let poses = spread(&last.fitted.chain, whole.request.observations, ranges);
 
     // Everything at the poses that could be measured, in units of the noise.
-    let kept: Vec<usize> =
-        (0..last.found.len()).filter(|&other| other != at).map(|i| last.found[i].effect).collect();
+    let kept: Vec<usize> = (0..last.fitted.found.len())
+        .filter(|&other| other != at)
+        .map(|i| last.fitted.found[i].effect)
+        .collect();
     let involved: Vec<usize> = [own].into_iter().chain(kept).chain(others).collect();
     let effects: Vec<Effect> = involved.iter().map(|&effect| whole.catalogue[effect].clone()).collect();
-    let values = &last.fit.values;
-    let columns = Columns::at(&last.chain, &poses, declared(whole), values, &places(&effects)).ok()?;
-    let there = columns.of_effects(&last.chain, &effects, &poses, values);
+    let values = &last.fitted.fit.values;
+    let columns = Columns::at(&last.fitted.chain, &poses, declared(whole), values, &places(&effects)).ok()?;
+    let there = columns.of_effects(&last.fitted.chain, &effects, &poses, values);
     let m = poses.series.first()?.measure.components();
-    let sigma: Vec<f64> = last.fit.noise.floor.iter().take(m).map(|f| f.max(f64::MIN_POSITIVE)).collect();
-    let combined = &columns.declared * &last.combinations;
-    let amplitude: Vec<f64> = last.errors.get(at)?.iter().map(|id| values[id.index()]).collect();
+    let sigma: Vec<f64> =
+        last.fitted.fit.noise.floor.iter().take(m).map(|f| f.max(f64::MIN_POSITIVE)).collect();
+    let combined = &columns.declared * &last.fitted.combinations;
+    let amplitude: Vec<f64> = last.fitted.errors.get(at)?.iter().map(|id| values[id.index()]).collect();
 
-    let nuisances = last.found.len() - 1;
+    let nuisances = last.fitted.found.len() - 1;
     let known = &involved[1..=nuisances];
-    let mut here: Vec<Vec<f64>> = (0..last.columns.declared.ncols())
-        .map(|j| last.whitened(last.columns.declared.col_as_slice(j)))
-        .collect();
-    here.extend(known.iter().flat_map(|&effect| &last.effects[effect]).map(|column| last.whitened(column)));
+    let portion = &last.posed.rows;
+    // A row of a sample stands for as many as there are for each.
+    let weight = last.posed.share().sqrt();
+    let whiten = |column: &[f64]| -> Vec<f64> {
+        portion.whiten(column).into_iter().map(|value| weight * value).collect()
+    };
+    let declared_here =
+        (0..portion.columns.declared.ncols()).map(|j| portion.columns.declared.col_as_slice(j));
+    let known_here = known.iter().flat_map(|&effect| &portion.effects[effect]).map(Vec::as_slice);
+    let here: Vec<Vec<f64>> = declared_here.chain(known_here).map(whiten).collect();
     let prediction = |columns: &[Vec<f64>]| -> Vec<f64> {
         let n = columns.first().map_or(0, Vec::len);
         (0..n).map(|i| columns.iter().zip(&amplitude).map(|(column, a)| a * column[i]).sum()).collect()
     };
-    let measured = last.whitened(&prediction(&last.effects[own]));
+    let measured = whiten(&prediction(&portion.effects[own]));
     let target = prediction(&there[0]);
     if target.is_empty() {
         return None;
@@ -86,7 +104,7 @@ pub(super) fn separation(whole: &Loop<'_>, last: &Round, at: usize, others: &[us
     let (mut apart, mut never) = (Vec::new(), Vec::new());
     for (number, &effect) in involved.iter().enumerate().skip(1 + nuisances) {
         let mut mine = here.clone();
-        mine.extend(last.effects[effect].iter().map(|column| last.whitened(column)));
+        mine.extend(portion.effects[effect].iter().map(|column| whiten(column)));
         let refitted: Vec<&[f64]> = (0..combined.ncols())
             .map(|j| combined.col_as_slice(j))
             .chain(there[1..=nuisances].iter().flatten().map(Vec::as_slice))
@@ -113,12 +131,12 @@ pub(super) fn separation(whole: &Loop<'_>, last: &Round, at: usize, others: &[us
         chosen.push(best);
     }
     let name = |effect: usize| whole.catalogue[effect].name.clone();
-    let joints = joints(&last.chain, &poses);
+    let joints = joints(&last.fitted.chain, &poses);
     let readings: Vec<&[f64]> = joints.iter().filter_map(|id| poses.column(*id)).collect();
     Some(Separation {
         effect: name(own),
         poses: chosen.iter().map(|&row| readings.iter().map(|column| column[row]).collect()).collect(),
-        joints: joints.iter().map(|id| last.chain.symbol(*id).name.clone()).collect(),
+        joints: joints.iter().map(|id| last.fitted.chain.symbol(*id).name.clone()).collect(),
         apart: apart
             .iter()
             .map(|other| Told { name: name(other.effect), now: other.before, then: other.difference })

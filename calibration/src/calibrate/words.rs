@@ -23,14 +23,15 @@ const FEW: f64 = 5.0;
 /// The lines to add to the declaration.
 pub(crate) fn additions(
     whole: &Loop<'_>,
-    last: &Round,
+    last: &Round<'_>,
     held_out: &HeldOut,
     rms: BeforeAfter,
 ) -> Vec<Addition> {
     let measure = whole.request.observations.series.first().map_or("rad", |series| series.measure.unit());
-    last.found
+    last.fitted
+        .found
         .iter()
-        .zip(&last.errors)
+        .zip(&last.fitted.errors)
         .flat_map(|(found, errors)| {
             let effect = &whole.catalogue[found.effect];
             let share = last.class_of(found.effect).map_or(0.0, |class| held_out.share(class));
@@ -49,7 +50,7 @@ pub(crate) fn additions(
                 p_in_words(found.p_value),
                 100.0 * share
             );
-            effect.texts(&last.chain, errors).into_iter().map(move |(body, role, factor)| Addition {
+            effect.texts(&last.fitted.chain, errors).into_iter().map(move |(body, role, factor)| Addition {
                 body,
                 role,
                 factor,
@@ -72,19 +73,20 @@ fn p_in_words(p: f64) -> String {
 }
 
 /// Inputs that accepted effects use and the declaration does not have.
-pub(crate) fn new_inputs(whole: &Loop<'_>, last: &Round) -> Vec<NewInput> {
+pub(crate) fn new_inputs(whole: &Loop<'_>, last: &Round<'_>) -> Vec<NewInput> {
     let declared = model_core::Chain::from_text(whole.request.text);
     let mut used: Vec<SymbolId> = last
+        .fitted
         .found
         .iter()
         .flat_map(|found| &whole.catalogue[found.effect].functions)
         .flat_map(Function::symbols)
-        .filter(|&symbol| last.chain.symbol(symbol).kind == SymbolKind::Input)
+        .filter(|&symbol| last.fitted.chain.symbol(symbol).kind == SymbolKind::Input)
         .collect();
     used.sort_unstable();
     used.dedup();
     used.into_iter()
-        .map(|symbol| last.chain.symbol(symbol))
+        .map(|symbol| last.fitted.chain.symbol(symbol))
         .filter(|symbol| declared.as_ref().is_ok_and(|chain| chain.find_symbol(&symbol.name).is_none()))
         .map(|symbol| NewInput {
             name: symbol.name.clone(),
@@ -97,7 +99,7 @@ pub(crate) fn new_inputs(whole: &Loop<'_>, last: &Round) -> Vec<NewInput> {
 /// Puts everything into the report.
 pub(crate) fn report(
     whole: &Loop<'_>,
-    last: &Round,
+    last: &Round<'_>,
     held_out: &HeldOut,
     rms: BeforeAfter,
     remaining: Remaining,
@@ -114,7 +116,7 @@ pub(crate) fn report(
         })
         .collect();
     let alone = effects.iter().all(|effect| effect.class.is_empty() && effect.rivals.is_empty());
-    let thin = last.found.iter().any(|found| evidence(last, found.effect) < FEW);
+    let thin = last.fitted.found.iter().any(|found| evidence(last, found.effect) < FEW);
     let verdict = if remaining.place.is_some() || remaining.p_value <= whole.options.false_alarm {
         Verdict::StructureRemains
     } else if thin {
@@ -126,11 +128,11 @@ pub(crate) fn report(
     } else {
         Verdict::UpToAClass
     };
-    let mut precision = precision(&last.chain, observations, &last.fit);
+    let mut precision = precision(&last.fitted.chain, observations, &last.fitted.fit);
     let stated = whole.request.plan.fit.noise.sigma.zip(observations.series.first());
     precision.noise.extend(stated.map(|(sigma, series)| stated_noise(sigma, series.measure)));
     let row_number = |row: usize| observations.row_numbers.get(row).copied().unwrap_or(row as u64 + 1);
-    let aside = &last.fit.set_aside;
+    let aside = &last.fitted.fit.set_aside;
     Report {
         verdict,
         observations: Used {
@@ -156,30 +158,32 @@ pub(crate) fn report(
 }
 
 /// How many observations an effect hangs on: the rows' share of its projected columns, as an effective number.
-fn evidence(last: &Round, effect: usize) -> f64 {
-    let rows = last.problem.rows();
+fn evidence(last: &Round<'_>, effect: usize) -> f64 {
+    let problem = last.posed.of_rows();
+    let rows = problem.rows();
     let mut by_row = BTreeMap::new();
-    for column in last.problem.columns(effect) {
-        for (i, &row) in last.columns.row.iter().enumerate() {
+    for column in problem.columns(effect) {
+        for (i, &row) in last.posed.rows.columns.row.iter().enumerate() {
             *by_row.entry(row).or_insert(0.0) += rows[(i, column)] * rows[(i, column)];
         }
     }
     let sum: f64 = by_row.values().sum();
     let squares: f64 = by_row.values().map(|share| share * share).sum();
-    if squares > 0.0 { sum * sum / squares } else { 0.0 }
+    if squares > 0.0 { last.posed.share() * sum * sum / squares } else { 0.0 }
 }
 
-fn errors(last: &Round) -> Vec<ErrorFound> {
-    last.fit
+fn errors(last: &Round<'_>) -> Vec<ErrorFound> {
+    last.fitted
+        .fit
         .parameters
         .iter()
-        .zip(&last.fit.separable)
+        .zip(&last.fitted.fit.separable)
         .map(|(&id, &separable)| {
-            let symbol = last.chain.symbol(id);
+            let symbol = last.fitted.chain.symbol(id);
             ErrorFound {
                 name: symbol.name.clone(),
-                value: last.fit.values[id.index()],
-                standard_uncertainty: last.fit.standard_uncertainty(id).unwrap_or(0.0),
+                value: last.fitted.fit.values[id.index()],
+                standard_uncertainty: last.fitted.fit.standard_uncertainty(id).unwrap_or(0.0),
                 unit: symbol.quantity.unit(),
                 separable,
             }
@@ -187,7 +191,6 @@ fn errors(last: &Round) -> Vec<ErrorFound> {
         .collect()
 }
 
-/// The poses that the study asks for; none if it asks for none, or if they cannot be computed.
 /// What became of the standard deviation that the study states, rad or m.
 fn stated_noise(sigma: f64, measure: Measure) -> String {
     let (unit, in_si) = told_in(measure);
@@ -197,10 +200,19 @@ fn stated_noise(sigma: f64, measure: Measure) -> String {
     )
 }
 
-fn next_poses(whole: &Loop<'_>, last: &Round) -> Vec<Proposal> {
+/// The poses that the study asks for; none if it asks for none, or if they cannot be computed.
+fn next_poses(whole: &Loop<'_>, last: &Round<'_>) -> Vec<Proposal> {
     let Some(next) = &whole.request.plan.next else { return Vec::new() };
     let proposal = |criterion| {
-        propose(&last.chain, whole.request.observations, &last.fit, next.count, &next.ranges, criterion).ok()
+        propose(
+            &last.fitted.chain,
+            whole.request.observations,
+            &last.fitted.fit,
+            next.count,
+            &next.ranges,
+            criterion,
+        )
+        .ok()
     };
     [Criterion::D, Criterion::A].into_iter().filter_map(proposal).collect()
 }
@@ -213,13 +225,14 @@ struct Others {
     rivals: Vec<usize>,
 }
 
-fn others(last: &Round) -> Vec<Others> {
+fn others(last: &Round<'_>) -> Vec<Others> {
     let accepted = last.accepted_classes();
-    let mut state = State::declared(&last.problem, |_| true);
-    let blocks = class_columns(&last.problem, &last.classes);
+    let mut state = State::declared(&last.posed.problem, |_| true);
+    let blocks = class_columns(&last.posed.problem, &last.classes);
     accepted.iter().for_each(|&class| state.add(&blocks[class]));
-    let mut rivals = rivals(&last.problem, &last.classes, &accepted, &state).into_iter();
-    last.found
+    let mut rivals = rivals(&last.posed.problem, &last.classes, &accepted, &state).into_iter();
+    last.fitted
+        .found
         .iter()
         .map(|found| {
             let class = last.class_of(found.effect);
@@ -236,11 +249,12 @@ fn others(last: &Round) -> Vec<Others> {
         .collect()
 }
 
-fn effects(whole: &Loop<'_>, last: &Round, held_out: &HeldOut, others: &[Others]) -> Vec<EffectFound> {
+fn effects(whole: &Loop<'_>, last: &Round<'_>, held_out: &HeldOut, others: &[Others]) -> Vec<EffectFound> {
     let name = |effect: &usize| whole.catalogue[*effect].name.clone();
-    last.found
+    last.fitted
+        .found
         .iter()
-        .zip(&last.errors)
+        .zip(&last.fitted.errors)
         .zip(others)
         .map(|((found, errors), others)| {
             let effect = &whole.catalogue[found.effect];
@@ -252,8 +266,8 @@ fn effects(whole: &Loop<'_>, last: &Round, held_out: &HeldOut, others: &[Others]
             names.dedup();
             names.extend(whole.names[found.effect].iter().map(ToString::to_string));
             EffectFound {
-                text: effect.text(&last.chain, errors),
-                body: last.chain.body(effect.place.body).name.clone(),
+                text: effect.text(&last.fitted.chain, errors),
+                body: last.fitted.chain.body(effect.place.body).name.clone(),
                 dof: effect.freedoms(),
                 driver: effect.driver.clone(),
                 form: effect.form.clone(),
@@ -262,7 +276,9 @@ fn effects(whole: &Loop<'_>, last: &Round, held_out: &HeldOut, others: &[Others]
                 rivals: others.rivals.iter().map(name).collect(),
                 coefficients: errors
                     .iter()
-                    .map(|&id| (last.chain.symbol(id).name.clone(), last.fit.values[id.index()]))
+                    .map(|&id| {
+                        (last.fitted.chain.symbol(id).name.clone(), last.fitted.fit.values[id.index()])
+                    })
                     .collect(),
                 p_value: found.p_value,
                 selected_in_folds: class.map_or(0.0, |class| held_out.share(class)),

@@ -5,26 +5,33 @@
 //! fitted errors, once, and is multiplied by the effect's functions of the readings.
 
 mod functions;
+mod seen;
 
 use faer::Mat;
 use model_core::algebra::Poly;
-use model_core::{Chain, Motion, SymbolId, SymbolKind};
+use model_core::{Chain, SymbolId, SymbolKind};
 
 use crate::effects::{Effect, Function, Place, add_error, insert};
 use crate::fit::{FitError, Model};
 use crate::observations::Observations;
 use functions::Functions;
+use seen::Extent;
 
-/// Values of a function more than this many times its RMS make the column hang on a single observation.
-const TOO_STEEP: f64 = 1e3;
-
-/// Functions of joints alone that stay this small are not what an instrument shows: gravity seen across a base that is
-/// all but level.
-const TOO_FLAT: f64 = 1e-2;
+pub use seen::Seen;
 
 /// A place that moves the observations this many times less than the place that moves them most is seen only
 /// through products of errors.
 const UNSEEN: f64 = 1e-3;
+
+/// A chain with a probe error at each place that effects use, at the values of a fit.
+#[derive(Debug, Clone)]
+pub struct Probed {
+    model: Model,
+    /// Of every symbol, probes included.
+    values: Vec<f64>,
+    parameters: usize,
+    places: Vec<Place>,
+}
 
 /// Everything before whitening, row by row, component by component.
 #[derive(Debug, Clone)]
@@ -39,12 +46,12 @@ pub struct Columns {
     probes: Mat<f64>,
 }
 
-impl Columns {
-    /// Evaluates at `values` (of the chain's symbols).
+impl Probed {
+    /// At `values` (of the chain's symbols), for observations of these series.
     ///
     /// # Errors
-    /// Missing readings, or values that do not fit the chain.
-    pub fn at(
+    /// Missing readings, or parameters that cannot be estimated.
+    pub fn new(
         chain: &Chain,
         observations: &Observations,
         parameters: &[SymbolId],
@@ -59,20 +66,29 @@ impl Columns {
             insert(&mut probed, place, Poly::symbol(id), String::new());
             wrt.push(id);
         }
-        let mut all = values.to_vec();
-        all.resize(probed.symbols.len(), 0.0);
+        let mut values = values.to_vec();
+        values.resize(probed.symbols.len(), 0.0);
         let model = Model::new(&probed, observations, &wrt)?;
-        let blocks = model.map_blocks(observations, &all, |_, rows, block| {
+        let places = places.iter().take(wrt.len() - parameters.len()).copied().collect();
+        Ok(Self { model, values, parameters: parameters.len(), places })
+    }
+
+    /// Evaluates some observations.
+    ///
+    /// # Errors
+    /// Values or observations that do not fit the chain.
+    pub fn columns(&self, observations: &Observations) -> Result<Columns, FitError> {
+        let blocks = self.model.map_blocks(observations, &self.values, |_, rows, block| {
             let by_row = |values| block.by_row(values).collect::<Vec<_>>();
             (rows, by_row(&block.residual), block.columns().map(by_row).collect::<Vec<_>>())
         })?;
         let n: usize = blocks.iter().map(|(_, residual, _)| residual.len()).sum();
-        let mut columns = Self {
+        let mut columns = Columns {
             residual: Vec::with_capacity(n),
-            declared: Mat::zeros(n, parameters.len()),
+            declared: Mat::zeros(n, self.parameters),
             row: Vec::with_capacity(n),
-            places: places.to_vec(),
-            probes: Mat::zeros(n, wrt.len() - parameters.len()),
+            places: self.places.clone(),
+            probes: Mat::zeros(n, self.places.len()),
         };
         let mut start = 0;
         for (rows, residual, derivatives) in blocks {
@@ -82,9 +98,9 @@ impl Columns {
             for row in rows {
                 columns.row.extend(std::iter::repeat_n(row as u32, components));
             }
-            for (j, column) in model.column_of().iter().enumerate() {
+            for (j, column) in self.model.column_of().iter().enumerate() {
                 let Some(column) = *column else { continue };
-                let target = match j.checked_sub(parameters.len()) {
+                let target = match j.checked_sub(self.parameters) {
                     None => &mut columns.declared.col_as_slice_mut(j)[start..start + count],
                     Some(probe) => &mut columns.probes.col_as_slice_mut(probe)[start..start + count],
                 };
@@ -93,6 +109,22 @@ impl Columns {
             start += count;
         }
         Ok(columns)
+    }
+}
+
+impl Columns {
+    /// Evaluates at `values` (of the chain's symbols).
+    ///
+    /// # Errors
+    /// Missing readings, or values that do not fit the chain.
+    pub fn at(
+        chain: &Chain,
+        observations: &Observations,
+        parameters: &[SymbolId],
+        values: &[f64],
+        places: &[Place],
+    ) -> Result<Self, FitError> {
+        Probed::new(chain, observations, parameters, values, places)?.columns(observations)
     }
 
     /// The derivative by a unit at a place; `None` where these observations hardly see it.
@@ -115,60 +147,53 @@ impl Columns {
         observations: &Observations,
         values: &[f64],
     ) -> Vec<Vec<Vec<f64>>> {
-        let mut readings = Functions::new(observations, values);
-        let strength: Vec<f64> = (0..self.probes.ncols()).map(|j| self.probes.col(j).norm_l2()).collect();
-        let strongest = |motion| {
-            let own = self.places.iter().zip(&strength).filter(|(place, _)| place.freedom.motion == motion);
-            own.map(|(_, &s)| s).fold(0.0, f64::max)
-        };
-        let (turn, shift) = (strongest(Motion::Rotation), strongest(Motion::Translation));
-        let seen = |place: Place| {
-            let number = self.places.iter().position(|known| *known == place)?;
-            let most = if place.freedom.motion == Motion::Rotation { turn } else { shift };
-            Some((number, strength[number] >= UNSEEN * most))
-        };
-        effects
-            .iter()
-            .map(|effect| {
-                let places: Option<Vec<(Place, usize, bool)>> = effect
-                    .places()
-                    .into_iter()
-                    .map(|place| seen(place).map(|(number, strong)| (place, number, strong)))
-                    .collect();
-                let Some(places) = places.filter(|places| places.iter().any(|&(.., strong)| strong)) else {
-                    return Vec::new();
-                };
-                let column = |function: &Function| {
-                    let mut sum = vec![0.0; self.row.len()];
-                    for &(place, number, _) in &places {
-                        let probe = self.probes.col_as_slice(number);
-                        for amount in function.at(effect.place, place) {
-                            let by_row = steady(&mut readings, chain, amount)?;
-                            let moved = probe.iter().zip(&self.row);
-                            sum.iter_mut()
-                                .zip(moved)
-                                .for_each(|(s, (p, &row))| *s += p * by_row[row as usize]);
-                        }
-                    }
-                    Some(sum)
-                };
-                effect.functions.iter().map(column).collect::<Option<_>>().unwrap_or_default()
-            })
-            .collect()
+        let (mut columns, seen) = self.of_part(chain, effects, observations, values);
+        for (columns, usable) in columns.iter_mut().zip(seen.usable(effects)) {
+            if !usable {
+                columns.clear();
+            }
+        }
+        columns
     }
-}
 
-/// A function's value at each row; `None` where it has none, or is no function that an instrument shows.
-fn steady(readings: &mut Functions<'_>, chain: &Chain, amount: &Poly) -> Option<Vec<f64>> {
-    let by_row = readings.column(amount)?;
-    if by_row.iter().any(|value| !value.is_finite()) {
-        return None;
+    /// The columns of each effect over a part of the rows, zero where there is no finite value; and what the part shows of
+    /// which effects are usable, which all parts together decide.
+    #[must_use]
+    pub fn of_part(
+        &self,
+        chain: &Chain,
+        effects: &[Effect],
+        observations: &Observations,
+        values: &[f64],
+    ) -> (Vec<Vec<Vec<f64>>>, Seen) {
+        let mut readings = Functions::new(observations, values);
+        let mut seen = Seen::of_probes(&self.places, &self.probes);
+        let mut columns = Vec::with_capacity(effects.len());
+        for effect in effects {
+            let places = effect.places();
+            let mut extents = Vec::new();
+            let column = |function: &Function| {
+                let mut sum = vec![0.0; self.row.len()];
+                for &place in &places {
+                    let Some(number) = self.places.iter().position(|known| *known == place) else { continue };
+                    let probe = self.probes.col_as_slice(number);
+                    for amount in function.at(effect.place, place) {
+                        let mut by_row = readings.column(amount);
+                        let symbols = amount.symbols();
+                        let of_joints = symbols.iter().all(|&id| chain.symbol(id).kind != SymbolKind::Input);
+                        extents.push(Extent::of(by_row.as_deref_mut(), of_joints));
+                        let Some(by_row) = by_row else { continue };
+                        let moved = probe.iter().zip(&self.row);
+                        sum.iter_mut().zip(moved).for_each(|(s, (p, &row))| *s += p * by_row[row as usize]);
+                    }
+                }
+                sum
+            };
+            columns.push(effect.functions.iter().map(column).collect());
+            seen.effects.push(extents);
+        }
+        (columns, seen)
     }
-    let rms = (by_row.iter().map(|v| v * v).sum::<f64>() / by_row.len() as f64).sqrt();
-    let of_joints = amount.symbols().iter().all(|&symbol| chain.symbol(symbol).kind != SymbolKind::Input);
-    let flat = of_joints && rms < TOO_FLAT;
-    let steep = by_row.iter().any(|value| value.abs() > TOO_STEEP * rms);
-    (!flat && !steep).then_some(by_row)
 }
 
 /// The places that some effects use, each once.

@@ -143,6 +143,19 @@ impl Noise {
         Self { sigma: self.sigma_without_memory().into_owned(), serial: None, ..self.clone() }
     }
 
+    /// The noise of some runs of components, put one after another: the first component of each remembers none.
+    #[must_use]
+    pub fn of_runs(&self, runs: &[Run]) -> Self {
+        let sigma = runs.iter().flat_map(|run| self.sigma.get(run.start..run.end).unwrap_or_default());
+        let mut start = 0;
+        let own = runs.iter().map(|&run| {
+            let own = Run { start, end: start + (run.end - run.start), stride: run.stride };
+            start = own.end;
+            own
+        });
+        Self { runs: own.collect(), sigma: sigma.copied().collect(), ..self.clone() }
+    }
+
     /// Per residual component its standard deviation, whatever the component before says of it.
     #[must_use]
     pub fn sigma_without_memory(&self) -> Cow<'_, [f64]> {

@@ -104,24 +104,20 @@ impl Observations {
         self.series.iter().flat_map(|series| std::iter::repeat_n(series.measure, series.rows.len()))
     }
 
-    /// These rows, in the order given, with all that belongs to them.
+    /// These rows, in the order given, with all that belongs to them. Every series is kept, though it may hold no rows.
     ///
-    /// Rows of one series must stay together; indices out of range are left out.
+    /// Rows must come series by series, in the order of the series; indices out of range are left out.
     #[must_use]
     pub fn select(&self, rows: &[usize]) -> Self {
+        let rows: Vec<usize> = rows.iter().copied().filter(|&row| row < self.rows()).collect();
         let pick = |values: &[f64]| rows.iter().filter_map(|&row| values.get(row).copied()).collect();
-        let mut series: Vec<Series> = Vec::new();
-        for (at, &row) in rows.iter().filter(|&&row| row < self.rows()).enumerate() {
-            let Some(from) = self.series.iter().find(|series| series.rows.contains(&row)) else {
-                continue;
-            };
-            match series.last_mut() {
-                Some(last) if last.source == from.source && last.observable == from.observable => {
-                    last.rows.end = at + 1;
-                }
-                _ => series.push(Series { rows: at..at + 1, ..from.clone() }),
-            }
-        }
+        let mut start = 0;
+        let series = self.series.iter().map(|from| {
+            let own = rows[start..].iter().take_while(|&&row| from.rows.contains(&row)).count();
+            start += own;
+            Series { rows: start - own..start, ..from.clone() }
+        });
+        let series = series.collect();
         Self {
             series,
             columns: self.columns.iter().map(|(id, values)| (*id, pick(values))).collect(),

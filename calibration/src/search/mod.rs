@@ -5,15 +5,19 @@
 //! place in the chain, a degree of freedom, a function) lives in [`crate::effects`]; the loop around the search
 //! (fit, whiten, search, amend, fit again) in [`crate::calibrate`].
 //!
-//! The pipeline reads from one place: project (`problem`), merge what coincides (`classes`), test
+//! The pipeline reads from one place: deal groups to folds (`folds`), merge rows where they are many (`cells`), project
+//! (`problem`), merge what coincides (`classes`), test
 //! (`tail`, `flips`), select (`select`), name the rivals (`rivals`), confirm on held-out folds
 //! (`nested`), and look for structure that no candidate explains (`remains`, `scan`, `contest`).
 
+pub mod cells;
 pub mod classes;
 pub mod contest;
 pub mod flips;
+pub mod folds;
 pub mod nested;
 pub mod problem;
+mod products;
 pub mod remains;
 pub mod rivals;
 pub mod scan;
@@ -21,7 +25,9 @@ pub mod select;
 pub mod sweep;
 pub mod tail;
 
+pub use cells::Cells;
 pub use classes::{Class, classes};
+pub use folds::Folds;
 pub use nested::{HeldOut, nested};
 pub use problem::{Problem, ProblemError};
 pub use rivals::{Rival, rivals};

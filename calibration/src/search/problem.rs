@@ -11,9 +11,9 @@ use std::ops::Range;
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
-use rand::Rng;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
+
+use super::folds::Folds;
+use super::products::{add_products, mirrored, picked};
 
 /// Share of a candidate's sum of squares that must be left by the declared columns for it to have any rank.
 const VISIBLE: f64 = 1e-4;
@@ -59,13 +59,9 @@ pub struct Problem {
     visible: Vec<f64>,
     /// The length of each candidate column after projection, before it was scaled to one.
     lengths: Vec<f64>,
-    /// Group of each row; groups are numbered from 0 in order of first appearance.
-    group_of_row: Vec<usize>,
-    groups: usize,
-    fold_of_group: Vec<usize>,
+    folds: Folds,
     /// Gram matrix of the rows of each fold.
     grams: Vec<Mat<f64>>,
-    rows_of_fold: Vec<usize>,
     /// T with U = J·T, p × u.
     right: Mat<f64>,
     /// UᵀZ and Uᵀr, u × (K + 1): what the declared columns took of each candidate column and of the residual.
@@ -90,11 +86,25 @@ impl Problem {
         folds: usize,
         seed: u64,
     ) -> Result<Self, ProblemError> {
+        Self::dealt(declared, candidates, blocks, residual, Folds::deal(groups, folds, seed))
+    }
+
+    /// The same, from groups that are dealt already.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn dealt(
+        declared: MatRef<'_, f64>,
+        candidates: MatRef<'_, f64>,
+        blocks: &[Range<usize>],
+        residual: &[f64],
+        folds: Folds,
+    ) -> Result<Self, ProblemError> {
         let n = residual.len();
         for (what, found) in [
             ("the declared columns", declared.nrows()),
             ("the candidates", candidates.nrows()),
-            ("the list of groups", groups.len()),
+            ("the list of groups", folds.rows()),
         ] {
             if found != n {
                 return Err(ProblemError::Rows { what, found, expected: n });
@@ -144,56 +154,23 @@ impl Problem {
             .collect();
         let blocks = blocks.iter().map(|block| block.start + u..block.end + u).collect();
 
-        let (group_of_row, group_count) = number_groups(groups);
-        let fold_of_group = deal(&group_of_row, group_count, folds, seed);
-        let mut problem = Self {
-            rows,
-            declared: u,
-            blocks,
-            visible,
-            lengths,
-            group_of_row,
-            groups: group_count,
-            fold_of_group,
-            grams: Vec::new(),
-            rows_of_fold: Vec::new(),
-            right,
-            absorbed,
-        };
+        let mut problem =
+            Self { rows, declared: u, blocks, visible, lengths, folds, grams: Vec::new(), right, absorbed };
         problem.form_grams();
         Ok(problem)
     }
 
     /// The Gram matrix of each fold's rows.
     fn form_grams(&mut self) {
-        let folds = self.fold_of_group.iter().max().map_or(1, |&last| last + 1);
         let width = self.rows.ncols();
-        self.grams.clear();
-        self.rows_of_fold.clear();
-        for fold in 0..folds {
-            let members = self.rows_of_folds(|f| f == fold);
-            let part = self.rows_at(&members);
-            let mut gram = Mat::zeros(width, width);
-            // Half of it; the other half is its mirror image.
-            faer::linalg::matmul::triangular::matmul(
-                &mut gram,
-                faer::linalg::matmul::triangular::BlockStructure::TriangularLower,
-                Accum::Replace,
-                part.transpose(),
-                faer::linalg::matmul::triangular::BlockStructure::Rectangular,
-                &part,
-                faer::linalg::matmul::triangular::BlockStructure::Rectangular,
-                1.0,
-                Par::Seq,
-            );
-            for j in 0..width {
-                for i in 0..j {
-                    gram[(i, j)] = gram[(j, i)];
-                }
-            }
-            self.grams.push(gram);
-            self.rows_of_fold.push(members.len());
-        }
+        self.grams = (0..self.folds())
+            .map(|fold| {
+                let mut gram = Mat::zeros(width, width);
+                add_products(&mut gram, self.rows_at(&self.rows_of_folds(|f| f == fold)).as_ref());
+                mirrored(&mut gram);
+                gram
+            })
+            .collect();
     }
 
     /// The rows that lie in the folds chosen, in order.
@@ -205,17 +182,10 @@ impl Problem {
     /// A copy of some rows.
     #[must_use]
     pub fn rows_at(&self, members: &[usize]) -> Mat<f64> {
-        let mut part = Mat::zeros(members.len(), self.rows.ncols());
-        for j in 0..self.rows.ncols() {
-            let column = self.rows.col_as_slice(j);
-            for (target, &row) in part.col_as_slice_mut(j).iter_mut().zip(members) {
-                *target = column[row];
-            }
-        }
-        part
+        picked(self.rows.as_ref(), members)
     }
 
-    /// The Gram matrix of the rows in the folds chosen, and how many rows those are.
+    /// The Gram matrix of the rows in the folds chosen, and how many rows those are (or were, before they were merged).
     #[must_use]
     pub fn gram(&self, chosen: impl Fn(usize) -> bool) -> (Mat<f64>, usize) {
         let width = self.rows.ncols();
@@ -223,7 +193,7 @@ impl Problem {
         let mut count = 0;
         for (fold, gram) in self.grams.iter().enumerate().filter(|&(fold, _)| chosen(fold)) {
             sum += gram;
-            count += self.rows_of_fold[fold];
+            count += self.folds.rows_of_fold[fold];
         }
         (sum, count)
     }
@@ -234,34 +204,28 @@ impl Problem {
         self.grams[fold].as_ref()
     }
 
-    /// Rows of one fold.
-    #[must_use]
-    pub fn fold_rows(&self, fold: usize) -> usize {
-        self.rows_of_fold[fold]
-    }
-
     /// How many folds there are.
     #[must_use]
     pub fn folds(&self) -> usize {
-        self.grams.len()
+        self.folds.count()
     }
 
     /// The fold that a row lies in.
     #[must_use]
     pub fn fold_of_row(&self, row: usize) -> usize {
-        self.fold_of_group[self.group_of_row[row]]
+        self.folds.of_row(row)
     }
 
     /// Group of each row, numbered from 0.
     #[must_use]
     pub fn group_of_row(&self) -> &[usize] {
-        &self.group_of_row
+        &self.folds.group_of_row
     }
 
     /// How many groups there are.
     #[must_use]
     pub fn groups(&self) -> usize {
-        self.groups
+        self.folds.groups()
     }
 
     /// `[U | Z̃ | r̃]`.
@@ -379,40 +343,4 @@ fn range(matrix: MatRef<'_, f64>) -> Result<(Mat<f64>, Mat<f64>), ProblemError> 
         }
     }
     Ok((svd.U().subcols(0, rank).to_owned(), right))
-}
-
-/// Numbers groups from 0 in order of first appearance.
-fn number_groups(groups: &[usize]) -> (Vec<usize>, usize) {
-    let mut numbers = std::collections::BTreeMap::new();
-    let of_row = groups
-        .iter()
-        .map(|&group| {
-            let next = numbers.len();
-            *numbers.entry(group).or_insert(next)
-        })
-        .collect();
-    (of_row, numbers.len())
-}
-
-/// Deals groups to folds: shuffled, then each to the fold with the fewest rows so far.
-fn deal(group_of_row: &[usize], groups: usize, folds: usize, seed: u64) -> Vec<usize> {
-    let folds = folds.clamp(1, groups.max(1));
-    let mut size = vec![0_usize; groups];
-    group_of_row.iter().for_each(|&group| size[group] += 1);
-    let mut order: Vec<usize> = (0..groups).collect();
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    for i in (1..order.len()).rev() {
-        let j = (random.next_u64() % (i as u64 + 1)) as usize;
-        order.swap(i, j);
-    }
-    // Large groups first, so that they cannot unbalance the end of the deal; equal ones stay shuffled.
-    order.sort_by_key(|&group| std::cmp::Reverse(size[group]));
-    let mut rows = vec![0_usize; folds];
-    let mut fold_of_group = vec![0; groups];
-    for group in order {
-        let fold = (0..folds).min_by_key(|&fold| rows[fold]).unwrap_or(0);
-        fold_of_group[group] = fold;
-        rows[fold] += size[group];
-    }
-    fold_of_group
 }

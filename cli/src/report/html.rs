@@ -168,7 +168,8 @@ fn remaining(report: &Report) -> Markup {
                 p {
                     "A function of " (place.driver) " at " (place.dof) " of body " (place.body)
                     " explains these data better than the catalogue does: a " (place.form)
-                    ". Chance from noise of what the catalogue leaves: "
+                    ". Chance from noise of what the catalogue leaves"
+                    (quantities::sampled(report.remaining.rows, report.observations.rows)) ": "
                     (quantities::chance(report.remaining.p_value)) "."
                 }
                 (PreEscaped(shape(report, &place.driver)))

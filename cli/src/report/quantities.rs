@@ -52,6 +52,11 @@ pub fn chance(p: f64) -> String {
     if p <= 0.001 { "at most 0.001".to_owned() } else { format!("{p:.3}") }
 }
 
+/// Where structure was looked for, if not in every row: ` in a sample of 6336 of 100000 rows`.
+pub fn sampled(rows: usize, of: usize) -> String {
+    if rows < of { format!(" in a sample of {rows} of {of} rows") } else { String::new() }
+}
+
 fn with_unit(number: &str, reading: Reading) -> String {
     format!("{number} {}", reading.name).trim_end().to_owned()
 }

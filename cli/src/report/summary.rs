@@ -232,11 +232,12 @@ fn remarks(text: &mut String, report: &Report) {
     }
     not_shown(text, report);
     let chance = quantities::chance(report.remaining.p_value);
+    let sampled = quantities::sampled(report.remaining.rows, used.rows);
     if let Some(place) = &report.remaining.place {
         let _ = writeln!(
             text,
             "\n{HEADING}what is left{HEADING:#} sits in body {}, {}, driven by {}: a {} fits better than the catalogue \
-             (chance from noise of what the catalogue leaves: {chance})",
+             (chance from noise of what the catalogue leaves{sampled}: {chance})",
             place.body, place.dof, place.driver, place.form
         );
     } else if report.verdict == Verdict::StructureRemains {
@@ -245,7 +246,7 @@ fn remarks(text: &mut String, report: &Report) {
             let _ = writeln!(
                 text,
                 "\n{HEADING}what is left{HEADING:#} has structure that no function at one place explains (chance from \
-                 noise: {chance}), most of all: {}",
+                 noise{sampled}: {chance}), most of all: {}",
                 most.at
             );
         }

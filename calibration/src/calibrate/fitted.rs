@@ -1,0 +1,86 @@
+//! The declaration with some effects, fitted.
+
+use faer::Mat;
+use model_core::{Chain, SymbolId};
+
+use super::{CalibrateError, Found, Loop, declared};
+use crate::columns::{Probed, places};
+use crate::fit::{FitOptions, FitResult, fit};
+use crate::noise::{Layout, NoiseOptions};
+use crate::search::ProblemError;
+
+/// A fit of the declaration with the effects accepted so far.
+pub(crate) struct Fitted {
+    /// The declaration with these effects.
+    pub chain: Chain,
+    /// The effects in the order they came in.
+    pub found: Vec<Found>,
+    /// The new errors of each effect.
+    pub errors: Vec<Vec<SymbolId>>,
+    /// The fit of that chain.
+    pub fit: FitResult,
+    /// Combinations of the declared errors that these data determine, one a column.
+    pub combinations: Mat<f64>,
+    /// That chain at the fit, with a probe at each place of the catalogue.
+    pub probed: Probed,
+    /// How the components of all rows lie.
+    pub layout: Layout,
+}
+
+impl Fitted {
+    /// The declaration as it is.
+    pub fn first(whole: &Loop<'_>) -> Result<Self, CalibrateError> {
+        let plan = whole.request.plan;
+        Self::of(whole, plan.chain.clone(), Vec::new(), Vec::new(), plan.fit.clone())
+    }
+
+    /// The declaration with some effects, fitted from where another fit ended.
+    pub fn with(whole: &Loop<'_>, found: Vec<Found>, last: &Self) -> Result<Self, CalibrateError> {
+        let plan = whole.request.plan;
+        let mut chain = plan.chain.clone();
+        let mut options = plan.fit.clone();
+        let mut errors = Vec::new();
+        let mut kept = Vec::new();
+        for found in found {
+            // A chain that has no room for more symbols takes no more effects.
+            let Some((amended, new)) = whole.catalogue[found.effect].add_to(&chain) else { continue };
+            chain = amended;
+            options.estimate.extend(&new);
+            errors.push(new);
+            kept.push(found);
+        }
+        for &parameter in &plan.fit.estimate {
+            options.start[parameter.index()] = last.fit.values[parameter.index()];
+        }
+        options.start.resize(chain.symbols.len(), 0.0);
+        Self::of(whole, chain, kept, errors, options)
+    }
+
+    fn of(
+        whole: &Loop<'_>,
+        chain: Chain,
+        found: Vec<Found>,
+        errors: Vec<Vec<SymbolId>>,
+        options: FitOptions,
+    ) -> Result<Self, CalibrateError> {
+        let observations = whole.request.observations;
+        // While something is missing, residuals are larger than the noise: weights go by what they are.
+        let noise = NoiseOptions { sigma: None, ..options.noise };
+        let options = FitOptions { noise, ..options };
+        let fit = fit(&chain, observations, &options)?;
+        let places = places(&whole.catalogue);
+        let probed = Probed::new(&chain, observations, declared(whole), &fit.values, &places)?;
+        let combinations = determined(&fit, declared(whole).len())?;
+        Ok(Self { chain, found, errors, fit, combinations, probed, layout: Layout::of(observations) })
+    }
+}
+
+/// An orthonormal basis of the declared errors' space without what the fit found undetermined; the rest would only
+/// be seen through products of errors.
+fn determined(fit: &FitResult, declared: usize) -> Result<Mat<f64>, ProblemError> {
+    let null = fit.null_space.subrows(0, declared);
+    let svd = null.svd().map_err(|_| ProblemError::Singular)?;
+    let values = svd.S().column_vector();
+    let rank = (0..values.nrows()).filter(|&i| values[i] > 1e-8).count();
+    Ok(svd.U().subcols(rank, declared - rank).to_owned())
+}

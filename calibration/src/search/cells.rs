@@ -1,0 +1,154 @@
+//! Many rows merged into few: a cell holds groups of one fold, and gives way to fewer rows with the same inner products.
+//!
+//! All that the search asks of rows is inner products of columns, over a fold or over what a sign flip turns; so rows
+//! come chunk by chunk and are forgotten, and a search costs the same however many they were.
+
+use faer::{Mat, MatRef};
+use rayon::prelude::*;
+
+use super::folds::Folds;
+use super::products::{add_products, mirrored, picked};
+
+/// What is left of a column, as a share of its sum of squares, below which it counts as explained by those before it.
+const NOTHING: f64 = 1e-13;
+
+/// Inner products of the rows seen so far, cell by cell.
+#[derive(Debug, Clone)]
+pub struct Cells {
+    cell_of_group: Vec<usize>,
+    fold_of_cell: Vec<usize>,
+    rows_of_fold: Vec<usize>,
+    /// The lower half.
+    grams: Vec<Mat<f64>>,
+}
+
+impl Cells {
+    /// No rows yet, of `width` columns: about `most` cells, at least one for each fold that has rows. Groups of a fold that
+    /// follow each other share a cell.
+    #[must_use]
+    pub fn new(folds: &Folds, most: usize, width: usize) -> Self {
+        let in_fold = (most / folds.count().max(1)).max(1);
+        let mut size = vec![0_usize; folds.count()];
+        folds.fold_of_group.iter().for_each(|&fold| size[fold] += 1);
+        let mut first = Vec::new();
+        let mut fold_of_cell = Vec::new();
+        for (fold, &groups) in size.iter().enumerate() {
+            first.push(fold_of_cell.len());
+            fold_of_cell.extend(std::iter::repeat_n(fold, groups.min(in_fold)));
+        }
+        let mut seen = vec![0_usize; folds.count()];
+        let cell_of_group = folds.fold_of_group.iter().map(|&fold| {
+            seen[fold] += 1;
+            first[fold] + (seen[fold] - 1) * size[fold].min(in_fold) / size[fold]
+        });
+        Self {
+            cell_of_group: cell_of_group.collect(),
+            rows_of_fold: folds.rows_of_fold.clone(),
+            grams: vec![Mat::zeros(width, width); fold_of_cell.len()],
+            fold_of_cell,
+        }
+    }
+
+    /// Takes in rows, whose groups are given as the folds number them.
+    pub fn add(&mut self, rows: MatRef<'_, f64>, group_of_row: &[usize]) {
+        let mut members = vec![Vec::new(); self.grams.len()];
+        for (row, &group) in group_of_row.iter().enumerate() {
+            members[self.cell_of_group[group]].push(row);
+        }
+        self.grams
+            .par_iter_mut()
+            .zip(members)
+            .filter(|(_, members)| !members.is_empty())
+            .for_each(|(gram, members)| add_products(gram, picked(rows, &members).as_ref()));
+    }
+
+    /// The rows that stand for all, with the columns `kept` alone, and the folds that they lie in.
+    #[must_use]
+    pub fn merged(self, kept: &[usize]) -> (Mat<f64>, Folds) {
+        let roots: Vec<Vec<Vec<f64>>> = self
+            .grams
+            .into_par_iter()
+            .map(|mut gram| {
+                mirrored(&mut gram);
+                root(&Mat::from_fn(kept.len(), kept.len(), |i, j| gram[(kept[i], kept[j])]))
+            })
+            .collect();
+        let group_of_row: Vec<usize> =
+            roots.iter().enumerate().flat_map(|(cell, rows)| std::iter::repeat_n(cell, rows.len())).collect();
+        let all: Vec<Vec<f64>> = roots.into_iter().flatten().collect();
+        let rows = Mat::from_fn(all.len(), kept.len(), |i, j| all[i][j]);
+        (rows, Folds { group_of_row, fold_of_group: self.fold_of_cell, rows_of_fold: self.rows_of_fold })
+    }
+}
+
+/// Rows R with RᵀR the matrix given (symmetric, both halves filled), as many as it has rank: Cholesky's, the column of which
+/// most is left always next.
+fn root(gram: &Mat<f64>) -> Vec<Vec<f64>> {
+    let width = gram.ncols();
+    let scale: Vec<f64> = (0..width).map(|j| gram[(j, j)]).collect();
+    let mut left = scale.clone();
+    let mut rows: Vec<Vec<f64>> = Vec::new();
+    while rows.len() < width {
+        let share = |j: usize| if scale[j] > 0.0 { left[j] / scale[j] } else { 0.0 };
+        let Some(pivot) = (0..width).max_by(|&a, &b| share(a).total_cmp(&share(b))) else { break };
+        if share(pivot) <= NOTHING {
+            break;
+        }
+        let mut row: Vec<f64> = gram.col_as_slice(pivot).to_vec();
+        for known in &rows {
+            let factor = known[pivot];
+            row.iter_mut().zip(known).for_each(|(r, k)| *r -= factor * k);
+        }
+        let length = left[pivot].sqrt();
+        for (value, left) in row.iter_mut().zip(&mut left) {
+            *value /= length;
+            *left -= *value * *value;
+        }
+        left[pivot] = 0.0;
+        rows.push(row);
+    }
+    rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Inner products of the rows of one fold.
+    fn products(rows: &Mat<f64>, folds: &Folds, fold: usize) -> Mat<f64> {
+        let members: Vec<usize> = (0..rows.nrows()).filter(|&row| folds.of_row(row) == fold).collect();
+        let part = picked(rows.as_ref(), &members);
+        part.transpose() * &part
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        /// Merging rows, in chunks of any size, changes no inner product of any fold, and the columns that depend on others
+        /// stay dependent.
+        #[test]
+        fn merged_rows_have_the_same_inner_products(
+            values in prop::collection::vec(-1.0f64..1.0, 240), chunk in 1usize..60, groups in 2usize..40, most in 1usize..12
+        ) {
+            let mut rows = Mat::from_fn(60, 5, |i, j| values.get(4 * i + j).copied().unwrap_or(0.0));
+            for i in 0..60 {
+                rows[(i, 4)] = 2.0 * rows[(i, 0)] - rows[(i, 3)];
+            }
+            let numbers: Vec<usize> = (0..60).map(|row| row * 7 % groups).collect();
+            let folds = Folds::deal(&numbers, 3, 1);
+            let mut cells = Cells::new(&folds, most, 5);
+            for start in (0..60).step_by(chunk) {
+                let end = (start + chunk).min(60);
+                cells.add(rows.subrows(start, end - start), &folds.group_of_row[start..end]);
+            }
+            let (merged, of_merged) = cells.merged(&[0, 1, 2, 3, 4]);
+            prop_assert!(merged.nrows() <= 4 * of_merged.groups());
+            prop_assert_eq!(&of_merged.rows_of_fold, &folds.rows_of_fold);
+            for fold in 0..folds.count() {
+                let apart = products(&merged, &of_merged, fold) - products(&rows, &folds, fold);
+                prop_assert!(apart.norm_max() < 1e-11);
+            }
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! Groups of rows, dealt to folds: rows of one group are not independent, and are held out together.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use rand::Rng;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+
+/// Which group each row belongs to, and which fold each group.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Folds {
+    /// Group of each row, numbered from 0 in order of first appearance.
+    pub(super) group_of_row: Vec<usize>,
+    pub(super) fold_of_group: Vec<usize>,
+    /// Rows of each fold. Where rows were merged, as many as there were before.
+    pub(super) rows_of_fold: Vec<usize>,
+}
+
+impl Folds {
+    /// Deals groups to `folds` folds at random (`seed`), evenly by rows; fewer folds where there are fewer groups.
+    #[must_use]
+    pub fn deal(groups: &[usize], folds: usize, seed: u64) -> Self {
+        let (group_of_row, count) = number(groups);
+        let folds = folds.clamp(1, count.max(1));
+        let mut size = vec![0_usize; count];
+        group_of_row.iter().for_each(|&group| size[group] += 1);
+        let mut order: Vec<usize> = (0..count).collect();
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        for i in (1..order.len()).rev() {
+            let j = (random.next_u64() % (i as u64 + 1)) as usize;
+            order.swap(i, j);
+        }
+        // Large groups first, so that they cannot unbalance the end of the deal; equal ones stay shuffled.
+        order.sort_by_key(|&group| std::cmp::Reverse(size[group]));
+        let mut rows_of_fold = vec![0_usize; folds];
+        let mut fold_of_group = vec![0; count];
+        for group in order {
+            let fold = (0..folds).min_by_key(|&fold| rows_of_fold[fold]).unwrap_or(0);
+            fold_of_group[group] = fold;
+            rows_of_fold[fold] += size[group];
+        }
+        Self { group_of_row, fold_of_group, rows_of_fold }
+    }
+
+    /// How many folds there are.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.rows_of_fold.len()
+    }
+
+    /// How many groups there are.
+    #[must_use]
+    pub fn groups(&self) -> usize {
+        self.fold_of_group.len()
+    }
+
+    /// How many rows there are.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.group_of_row.len()
+    }
+
+    /// The groups of some rows.
+    #[must_use]
+    pub fn groups_of(&self, rows: Range<usize>) -> &[usize] {
+        &self.group_of_row[rows]
+    }
+
+    /// The fold that a row lies in.
+    #[must_use]
+    pub fn of_row(&self, row: usize) -> usize {
+        self.fold_of_group[self.group_of_row[row]]
+    }
+}
+
+/// Numbers groups from 0 in order of first appearance.
+fn number(groups: &[usize]) -> (Vec<usize>, usize) {
+    let mut numbers = BTreeMap::new();
+    let of_row = groups
+        .iter()
+        .map(|&group| {
+            let next = numbers.len();
+            *numbers.entry(group).or_insert(next)
+        })
+        .collect();
+    (of_row, numbers.len())
+}

@@ -5,8 +5,9 @@ use std::fmt::Write;
 use model_core::SymbolId;
 
 use super::c::C;
+use super::c_block::block;
 use super::unit::{Function, form_name};
-use crate::vector::{self, Dialect, Line, Rows};
+use crate::vector::{self, Dialect, Rows};
 
 /// What a form declares for many poses, with what it needs: for Jacobians, the type of their blocks.
 pub(super) fn declarations(c: &C<'_>, function: &Function) -> String {
@@ -54,7 +55,7 @@ extern const {prefix}_{name}_places {prefix}_{name}_place;
 /// The definitions.
 pub(super) fn definitions(c: &C<'_>, function: &Function) -> String {
     let loops = loops(c, function);
-    let mut text = compute(c, function, &loops);
+    let mut text = block(c, function, &loops);
     text.push_str(&if function.form.is_jacobian() {
         blocks(c, function, &loops)
     } else {
@@ -81,64 +82,6 @@ fn block_signature(c: &C<'_>, function: &Function) -> String {
     format!(
         "void {prefix}_{name}_rows_of_block(const {prefix}_{name}_prepared *prepared, size_t rows,\n    const {prefix}_joints_rows *joints, {prefix}_{name}_block *block)"
     )
-}
-
-/// The function of one block.
-fn compute(c: &C<'_>, function: &Function, loops: &Rows) -> String {
-    let (prefix, name) = (&c.prefix, form_name(function.form));
-    let jacobian = function.form.is_jacobian();
-    let columns: String =
-        loops.columns.iter().map(|&id| format!(", const double *restrict column_{}", c.name(id))).collect();
-    let outs: String = if jacobian {
-        ", double (*restrict out)[72]".into()
-    } else {
-        (0..loops.places.len()).map(|index| format!(", double *restrict out{index}")).collect()
-    };
-    let mut text = format!(
-        "\nTRUEAXIS_INLINE void {prefix}_{name}_compute(const int fused, const double *p{columns}{outs})\n{{\n    int row;\n"
-    );
-    for index in 0..function.program.carried().len() {
-        let _ = writeln!(text, "    const double p{index} = p[{index}];");
-    }
-    text.push_str("    (void)p;\n    (void)fused;\n");
-    for angle in &loops.angles {
-        let name = &angle.name;
-        let source = match &angle.computed {
-            None => format!("column_{name}"),
-            Some((statements, value)) => {
-                let _ = writeln!(text, "    double angle_{name}[TRUEAXIS_ROWS];");
-                text.push_str("    for (row = 0; row < TRUEAXIS_ROWS; row++) {\n");
-                for statement in statements {
-                    let _ = writeln!(text, "        {statement}");
-                }
-                let _ = writeln!(text, "        angle_{name}[row] = {value};\n    }}");
-                format!("angle_{name}")
-            }
-        };
-        let _ = writeln!(
-            text,
-            "    TRUEAXIS_ALIGNED double sine_{name}[TRUEAXIS_ROWS], cosine_{name}[TRUEAXIS_ROWS];
-    trueaxis_sin_cos_rows(fused, {source}, sine_{name}, cosine_{name});"
-        );
-    }
-    text.push_str("    for (row = 0; row < TRUEAXIS_ROWS; row++) {\n");
-    for line in loops.fixed.iter().chain(&loops.statements) {
-        match line {
-            Line::Bind(statement) => {
-                let _ = writeln!(text, "        {statement}");
-            }
-            Line::Store { place, value } if jacobian => {
-                let _ = writeln!(text, "        out[{place}][row] = {value};");
-            }
-            Line::Store { place, value } => {
-                for (index, _) in loops.places.iter().enumerate().filter(|&(_, at)| at == place) {
-                    let _ = writeln!(text, "        out{index}[row] = {value};");
-                }
-            }
-        }
-    }
-    text.push_str("    }\n}\n");
-    text
 }
 
 /// A function for each path, all with the same parameters and the same body, and the choice between them.
@@ -298,7 +241,7 @@ TRUEAXIS_INLINE void {prefix}_{name}_on(const int fused, {parameters})
     for (start = 0; start < rows; start += TRUEAXIS_ROWS) {{
         const size_t count = rows - start < TRUEAXIS_ROWS ? rows - start : TRUEAXIS_ROWS;
         {prefix}_joints_rows part = *joints;
-        {prefix}_{name}_block block;
+        TRUEAXIS_ALIGNED {prefix}_{name}_block block;
 {part}        {prefix}_{name}_rows_of_block(prepared, count, &part, &block);
         for (component = 0; component < 3; component++) {{
             for (column = 0; column < {columns_out}; column++) {{

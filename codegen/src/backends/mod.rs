@@ -4,12 +4,14 @@
 //! writes names, statements and types.
 
 mod c;
+mod c_block;
 mod c_rows;
 mod javascript;
 mod latex;
 mod listing;
 mod numpy;
 mod rust;
+mod rust_block;
 mod rust_rows;
 mod unit;
 

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use model_core::SymbolId;
 
 use super::rust::shape;
+use super::rust_block::block;
 use super::unit::{Function, Unit, camel_case, form_name};
 use crate::vector::{self, Dialect, Line, Rows};
 
@@ -224,11 +225,7 @@ fn slices(unit: &Unit<'_>, function: &Function, loops: &Rows, names: &[&str], re
             "                    let Some({out}) = self.{out}[first..].first_chunk_mut() else {{ return }};\n"
         )),
         arguments = each_read(&|name| format!("column_{name}, ")) + &outs.join(", "),
-        block =
-            block(function, loops, read, &each_out(&|out| format!("{out}: &mut [f64; ROWS], ")), &|place| {
-                let indices = (0..loops.places.len()).filter(|&index| loops.places[index] == place);
-                indices.map(|index| format!("out{index}[row]")).collect()
-            }),
+        block = block(function, loops, read),
         work_values = each_read(&|name| format!("column_{name}: joints.{name}, ")) + &outs.join(", "),
     )
 }
@@ -299,13 +296,7 @@ fn blocks(unit: &Unit<'_>, function: &Function, loops: &Rows, names: &[&str], re
         arguments = each_read(&|name| format!("self.column_{name}, ")),
         work_values =
             each_read(&|name| format!("column_{name}: sine_cosine::whole(joints.{name}, &mut None), ")),
-        block = block(
-            function,
-            loops,
-            read,
-            &format!("out: &mut [[f64; ROWS + 8]; {}]", loops.distinct),
-            &|place| vec![format!("out[{place}][row]")],
-        ),
+        block = block(function, loops, read),
         shape = shape(unit, function.form, "&mut [f64]"),
         out_lengths = each_observable(&|name| format!(
             "\n            || out.{name}.iter().flatten().any(|column| differs(column.len()))"
@@ -328,62 +319,6 @@ fn blocks(unit: &Unit<'_>, function: &Function, loops: &Rows, names: &[&str], re
 
 const ACCURACY: &str = "Sines and
     /// cosines are at most 0.9 units in the last place off for angles up to 1e6 rad, and right for any angle.";
-
-/// The function of one block, inside the method that uses it. `targets` says where a value goes.
-fn block(
-    function: &Function,
-    loops: &Rows,
-    read: &[&str],
-    outs: &str,
-    targets: &dyn Fn(usize) -> Vec<String>,
-) -> String {
-    let carried: Vec<String> =
-        (0..function.program.carried().len()).map(|index| format!("p{index}")).collect();
-    let columns: String = read.iter().map(|name| format!("column_{name}: &[f64; ROWS], ")).collect();
-    let mut text = format!(
-        "        #[inline(always)]
-        fn compute<A: sine_cosine::Arithmetic>(arithmetic: A, &[{}]: &[f64; {}], {columns}{outs}) {{
-",
-        carried.join(", "),
-        carried.len()
-    );
-    for angle in &loops.angles {
-        let name = &angle.name;
-        let source = match &angle.computed {
-            None => format!("column_{name}"),
-            Some((statements, value)) => {
-                let _ = writeln!(text, "            let mut angle_{name} = [0.0; ROWS];");
-                text.push_str("            for row in 0..ROWS {\n");
-                for statement in statements {
-                    let _ = writeln!(text, "                {statement}");
-                }
-                let _ = writeln!(text, "                angle_{name}[row] = {value};\n            }}");
-                format!("&angle_{name}")
-            }
-        };
-        let _ = writeln!(
-            text,
-            "            let mut waves_{name} = sine_cosine::Waves::NEW;
-            let (sine_{name}, cosine_{name}) = sine_cosine::sin_cos_rows(arithmetic, {source}, &mut waves_{name});"
-        );
-    }
-    text.push_str("            for row in 0..ROWS {\n");
-    let fixed = if function.form.is_jacobian() { [].iter() } else { loops.fixed.iter() };
-    for line in fixed.chain(&loops.statements) {
-        match line {
-            Line::Bind(statement) => {
-                let _ = writeln!(text, "                {statement}");
-            }
-            Line::Store { place, value } => {
-                for target in targets(*place) {
-                    let _ = writeln!(text, "                {target} = {value};");
-                }
-            }
-        }
-    }
-    text.push_str("            }\n        }\n");
-    text
-}
 
 /// One pose of columns.
 fn pose(names: &[&str], index: &str) -> String {

@@ -285,10 +285,9 @@ TRUEAXIS_INLINE void trueaxis_sin_cos_with(const int fused, double x, double *si
     }
 }
 
-/* Sines and cosines of a block of angles, rad. One sum of squares tells a whole block: if it is small enough, so is every
- * angle in it. A block that fails is right too, only slower. */
-TRUEAXIS_INLINE void trueaxis_sin_cos_rows(const int fused, const double *restrict x, double *restrict sine,
-                                           double *restrict cosine)
+/* Whether all angles of a block are within TRUEAXIS_WIDEST, so that loops over them need no branches: one sum of squares
+ * tells, for if it is small enough, so is every angle. A block that fails is done right too, only slower. */
+TRUEAXIS_INLINE int trueaxis_is_narrow(const int fused, const double *restrict x)
 {
     double squares[8] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     double sum = 0.0;
@@ -298,11 +297,29 @@ TRUEAXIS_INLINE void trueaxis_sin_cos_rows(const int fused, const double *restri
             squares[lane] = trueaxis_mul_add(fused, x[row + lane], x[row + lane], squares[lane]);
     for (lane = 0; lane < 8; lane++)
         sum += squares[lane];
-    if (sum <= TRUEAXIS_WIDEST * TRUEAXIS_WIDEST) {
+    return sum <= TRUEAXIS_WIDEST * TRUEAXIS_WIDEST;
+}
+
+/* Sine and cosine of an angle, rad, inside a loop over rows; `narrow` is what trueaxis_is_narrow says, and a constant
+ * wherever this is inlined. */
+TRUEAXIS_INLINE void trueaxis_sin_cos_in_loop(const int fused, const int narrow, double x, double *sine, double *cosine)
+{
+    if (narrow)
+        trueaxis_sin_cos_narrow(fused, x, sine, cosine);
+    else
+        trueaxis_sin_cos_with(fused, x, sine, cosine);
+}
+
+/* Sines and cosines of a block of angles, rad. */
+TRUEAXIS_INLINE void trueaxis_sin_cos_rows(const int fused, const double *restrict x, double *restrict sine,
+                                           double *restrict cosine)
+{
+    int row;
+    if (trueaxis_is_narrow(fused, x)) {
         for (row = 0; row < TRUEAXIS_ROWS; row++)
-            trueaxis_sin_cos_narrow(fused, x[row], sine + row, cosine + row);
+            trueaxis_sin_cos_in_loop(fused, 1, x[row], sine + row, cosine + row);
     } else {
         for (row = 0; row < TRUEAXIS_ROWS; row++)
-            trueaxis_sin_cos_with(fused, x[row], sine + row, cosine + row);
+            trueaxis_sin_cos_in_loop(fused, 0, x[row], sine + row, cosine + row);
     }
 }

@@ -151,6 +151,26 @@ pub fn whole<'a>(column: &'a [f64], space: &'a mut Option<[f64; ROWS]>) -> &'a [
     space
 }
 
+/// Whether all angles of some blocks are within [`WIDEST`]: one answer for all rows, so that the loops over them have no
+/// branches. Blocks that hold another angle, or what is no number, are done right too, only slower.
+#[inline(always)]
+pub fn are_narrow<const COLUMNS: usize>(columns: [&[f64; ROWS]; COLUMNS]) -> bool {
+    // Bits of positive numbers are ordered as the numbers: a difference below zero sets the highest bit.
+    let mut differences = 0;
+    for column in columns {
+        for x in column {
+            differences |= WIDEST.to_bits().wrapping_sub(x.abs().to_bits());
+        }
+    }
+    differences >> 63 == 0
+}
+
+/// Sine and cosine of an angle, rad, inside a loop over rows: see [`sin_cos_with`]. `NARROW` is what [`are_narrow`] says.
+#[inline(always)]
+pub fn sin_cos_in_loop<A: Arithmetic, const NARROW: bool>(arithmetic: A, x: f64) -> (f64, f64) {
+    if NARROW { sin_cos_narrow(arithmetic, x) } else { sin_cos_with(arithmetic, x) }
+}
+
 /// Sines and cosines of a block of angles, rad: see [`sin_cos_with`].
 #[inline(always)]
 pub fn sin_cos_rows<'a, A: Arithmetic>(
@@ -158,24 +178,16 @@ pub fn sin_cos_rows<'a, A: Arithmetic>(
     x: &[f64; ROWS],
     waves: &'a mut Waves,
 ) -> (&'a [f64; ROWS], &'a [f64; ROWS]) {
-    // One answer for the whole block, so that the loops have no branches; a block that holds an angle beyond WIDEST, or
-    // what is no number, is right too, only slower. Bits of positive numbers are ordered as the numbers: a difference
-    // below zero sets the highest bit.
-    let mut differences = 0;
-    for x in x {
-        differences |= WIDEST.to_bits().wrapping_sub(x.abs().to_bits());
-    }
-    let is_narrow = differences >> 63 == 0;
     let Waves([sine, cosine]) = waves;
-    if is_narrow {
+    if are_narrow([x]) {
         for row in 0..ROWS {
-            let (s, c) = sin_cos_narrow(arithmetic, x[row]);
+            let (s, c) = sin_cos_in_loop::<A, true>(arithmetic, x[row]);
             sine[row].write(s);
             cosine[row].write(c);
         }
     } else {
         for row in 0..ROWS {
-            let (s, c) = sin_cos_with(arithmetic, x[row]);
+            let (s, c) = sin_cos_in_loop::<A, false>(arithmetic, x[row]);
             sine[row].write(s);
             cosine[row].write(c);
         }

@@ -18,7 +18,7 @@ mod sine_cosine {
     include!("wide.rs");
 }
 
-pub(crate) use rows::{Dialect, Line, Rows, rows};
+pub(crate) use rows::{Angle, Dialect, Line, Rows, rows};
 pub use sine_cosine::{
     Arithmetic, Path, Portable, ROWS, WIDEST, Waves, Work, path, run, sin_cos, sin_cos_rows, sin_cos_with,
     sin_cos_without_branch, whole,

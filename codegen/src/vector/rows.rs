@@ -1,13 +1,19 @@
 //! The evaluated stage of a program as loops over a block of rows, in words that Rust and C share.
 //!
 //! First come the angles: each column of angles, or angle computed from columns, goes through the vector sine and
-//! cosine into arrays of its own, so that large angles are dealt with by the block. What is left is one loop without
-//! calls or branches, which compilers turn into vector code. In it a product that only one sum reads is fused
-//! with that sum on processors that can; that is all that keeps the bits from being the interpreter's.
+//! cosine into arrays of its own. What is left is one loop without calls or branches, which compilers turn into vector
+//! code. Where that loop does little but store, sines and cosines are part of it, so that their arithmetic goes on while
+//! results are stored. A product that only one sum reads is fused with that sum on processors that can; that is all
+//! that keeps the bits from being the interpreter's.
 
 use model_core::SymbolId;
 
 use crate::program::{NodeId, Op, Program, Stage};
+
+/// The last loop takes sines and cosines in if it has at most so many operations for each value that it stores: about as
+/// many as a processor does in the time of a store. One that computes more is faster alone, for its values and the
+/// constants of sine and cosine do not fit into the registers together.
+const OPERATIONS_A_STORE: usize = 2;
 
 /// How a language writes what stands in the loops.
 pub(crate) struct Dialect<'a> {
@@ -28,12 +34,14 @@ pub(crate) struct Angle {
 }
 
 /// A program's evaluated stage. In statements, `row` is the row, `column_alpha` a column, `p3` the third carried
-/// value, and `sine_alpha` an angle's array.
+/// value, and `sine_alpha` an angle's array, or its value in this row if sines and cosines are in the last loop.
 pub(crate) struct Rows {
     /// The columns that are read.
     pub(crate) columns: Vec<SymbolId>,
     /// Angles, each after those that it depends on.
     pub(crate) angles: Vec<Angle>,
+    /// Whether sines and cosines belong into the last loop. All angles are columns then.
+    pub(crate) in_one_loop: bool,
     /// Values that are the same number in every row and for all errors.
     pub(crate) fixed: Vec<Line>,
     /// Statements of the last loop.
@@ -59,7 +67,9 @@ pub(crate) enum Line {
 
 /// Lists a program.
 pub(crate) fn rows(program: &Program, dialect: &Dialect<'_>) -> Rows {
-    Lister::new(program, dialect).list()
+    let lister = Lister::new(program, dialect);
+    let in_one_loop = lister.is_little_but_stores();
+    Lister { in_one_loop, ..lister }.list()
 }
 
 struct Lister<'a> {
@@ -68,6 +78,7 @@ struct Lister<'a> {
     /// How often each node is read, outputs included.
     readers: Vec<usize>,
     carried: Vec<NodeId>,
+    in_one_loop: bool,
 }
 
 impl<'a> Lister<'a> {
@@ -77,20 +88,54 @@ impl<'a> Lister<'a> {
         for node in operands.chain(program.outputs().iter().copied()) {
             readers[node.index()] += 1;
         }
-        Self { program, dialect, readers, carried: program.carried() }
+        Self { program, dialect, readers, carried: program.carried(), in_one_loop: false }
     }
 
-    fn list(&self) -> Rows {
-        let mut columns = Vec::new();
-        let mut angles: Vec<NodeId> = Vec::new();
+    /// The nodes whose sine or cosine is read.
+    fn angles(&self) -> Vec<NodeId> {
+        let mut angles = Vec::new();
         for (_, op) in self.program.stage(Stage::Evaluated) {
             match op {
-                Op::Input(symbol) => columns.push(symbol),
                 Op::Sin(angle) | Op::Cos(angle) if !angles.contains(&angle) => angles.push(angle),
                 _ => {}
             }
         }
-        let angles = angles
+        angles
+    }
+
+    /// The different values that come out, and for each output, which of them it is.
+    fn outputs(&self) -> (Vec<NodeId>, Vec<usize>) {
+        let mut distinct: Vec<NodeId> = Vec::new();
+        let mut places = Vec::new();
+        for &output in self.program.outputs() {
+            let place = distinct.iter().position(|&node| node == output).unwrap_or(distinct.len());
+            if place == distinct.len() {
+                distinct.push(output);
+            }
+            places.push(place);
+        }
+        (distinct, places)
+    }
+
+    /// Whether the last loop stores nearly as much as it computes, and can take in sines and cosines.
+    fn is_little_but_stores(&self) -> bool {
+        let angles = self.angles();
+        let (distinct, _) = self.outputs();
+        let stores = distinct.iter().filter(|&&node| !matches!(self.op(node), Op::Constant(_))).count();
+        let is_operation = |node| !matches!(self.op(node), Op::Sin(_) | Op::Cos(_) | Op::Input(_));
+        let operations = self.statements(&distinct).filter(|&(node, _)| is_operation(node)).count();
+        !angles.is_empty()
+            && angles.iter().all(|&angle| matches!(self.op(angle), Op::Input(_)))
+            && operations <= OPERATIONS_A_STORE * stores
+    }
+
+    fn list(&self) -> Rows {
+        let columns = self.program.stage(Stage::Evaluated).filter_map(|(_, op)| match op {
+            Op::Input(symbol) => Some(symbol),
+            _ => None,
+        });
+        let angles = self
+            .angles()
             .into_iter()
             .map(|angle| {
                 let computed = match self.op(angle) {
@@ -101,15 +146,7 @@ impl<'a> Lister<'a> {
             })
             .collect();
 
-        let mut distinct: Vec<NodeId> = Vec::new();
-        let mut places = Vec::new();
-        for &output in self.program.outputs() {
-            let place = distinct.iter().position(|&node| node == output).unwrap_or(distinct.len());
-            if place == distinct.len() {
-                distinct.push(output);
-            }
-            places.push(place);
-        }
+        let (distinct, places) = self.outputs();
         let store = |node: NodeId| {
             let place = distinct.iter().position(|&output| output == node)?;
             Some(Line::Store { place, value: self.text(node) })
@@ -125,10 +162,18 @@ impl<'a> Lister<'a> {
             // As soon as it is known, so that it need not be kept.
             statements.extend(store(node));
         }
-        Rows { columns, angles, fixed, statements, distinct: distinct.len(), places }
+        Rows {
+            columns: columns.collect(),
+            angles,
+            in_one_loop: self.in_one_loop,
+            fixed,
+            statements,
+            distinct: distinct.len(),
+            places,
+        }
     }
 
-    /// The statements that some nodes need, in order, sines and cosines read from their arrays.
+    /// The statements that some nodes need, in order, sines and cosines by their names.
     fn statements(&self, roots: &[NodeId]) -> impl Iterator<Item = (NodeId, String)> {
         let mut needed = vec![false; self.program.nodes().len()];
         for root in roots {
@@ -172,8 +217,8 @@ impl<'a> Lister<'a> {
             Op::Mul(a, b) => plain("*", a, b),
             Op::Div(a, b) => plain("/", a, b),
             Op::Neg(a) => (format!("-{}", self.text(a)), vec![a]),
-            Op::Sin(angle) => (format!("sine_{}[row]", self.angle_name(angle)), vec![]),
-            Op::Cos(angle) => (format!("cosine_{}[row]", self.angle_name(angle)), vec![]),
+            Op::Sin(angle) => (format!("sine_{}{}", self.angle_name(angle), self.of_row()), vec![]),
+            Op::Cos(angle) => (format!("cosine_{}{}", self.angle_name(angle), self.of_row()), vec![]),
             Op::Input(symbol) => (format!("column_{}[row]", (self.dialect.name)(symbol)), vec![]),
             Op::Constant(literal) => (format!("{:?}", literal.value()), vec![]),
         }
@@ -193,6 +238,11 @@ impl<'a> Lister<'a> {
 
     fn op(&self, node: NodeId) -> Op {
         self.program.nodes()[node.index()]
+    }
+
+    /// What follows the name of a sine or cosine.
+    fn of_row(&self) -> &'static str {
+        if self.in_one_loop { "" } else { "[row]" }
     }
 
     fn angle_name(&self, angle: NodeId) -> String {

@@ -3,8 +3,10 @@
 
 use std::fmt::Display;
 use std::io::Write as _;
+use std::time::Duration;
 
 use anstyle::{AnsiColor, Style};
+use indicatif::ProgressBar;
 
 use crate::failure::Failure;
 
@@ -37,6 +39,13 @@ pub fn warn(message: impl Display) {
 pub fn note(message: impl Display) {
     // Where standard error is closed there is nobody to tell.
     let _ = writeln!(anstream::stderr(), "{message}");
+}
+
+/// A line on standard error that says where a long run is, where a person looks; drop it to take it away.
+pub fn progress() -> ProgressBar {
+    let bar = ProgressBar::new_spinner();
+    bar.enable_steady_tick(Duration::from_millis(100));
+    bar
 }
 
 /// Says on standard error why the command stopped.

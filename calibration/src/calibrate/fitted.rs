@@ -3,7 +3,7 @@
 use faer::Mat;
 use model_core::{Chain, SymbolId};
 
-use super::{CalibrateError, Found, Loop, declared};
+use super::{CalibrateError, Found, Loop, Stage, declared};
 use crate::columns::{Probed, places};
 use crate::fit::{FitOptions, FitResult, fit};
 use crate::noise::{Layout, NoiseOptions};
@@ -67,6 +67,7 @@ impl Fitted {
         // While something is missing, residuals are larger than the noise: weights go by what they are.
         let noise = NoiseOptions { sigma: None, ..options.noise };
         let options = FitOptions { noise, ..options };
+        (whole.tell)(Stage::Fit { effects: found.len() });
         let fit = fit(&chain, observations, &options)?;
         let places = places(&whole.catalogue);
         let probed = Probed::new(&chain, observations, declared(whole), &fit.values, &places)?;

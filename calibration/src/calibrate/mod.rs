@@ -13,6 +13,7 @@ mod posed;
 mod remaining;
 mod round;
 mod separate;
+mod stage;
 mod words;
 
 use model_core::{Chain, ObservableId, SymbolId};
@@ -26,6 +27,8 @@ use crate::search::{HeldOut, Options, ProblemError, nested};
 use crate::study::Plan;
 use fitted::Fitted;
 use round::Round;
+
+pub use stage::Stage;
 
 /// Rounds of fit and search at most.
 const ROUNDS: usize = 8;
@@ -96,6 +99,8 @@ pub(crate) struct Loop<'a> {
     pub setting: Setting<'a>,
     /// Numbers that a matrix of the search holds at most.
     pub held: usize,
+    /// Is told of each stage.
+    pub tell: &'a (dyn Fn(Stage) + Sync),
 }
 
 impl<'a> Loop<'a> {
@@ -106,7 +111,7 @@ impl<'a> Loop<'a> {
             Options { false_alarm: plan.search.false_alarm, seed: plan.hold_out.seed, ..Options::default() };
         let catalogue = chosen(&setting, catalogue(&setting), &plan.search.only).unwrap_or_default();
         let names = known_names(&setting, &catalogue);
-        Self { request, catalogue, names, options, setting, held }
+        Self { request, catalogue, names, options, setting, held, tell: &|_| () }
     }
 }
 
@@ -115,13 +120,25 @@ impl<'a> Loop<'a> {
 /// # Errors
 /// What the caller did wrong; whatever the data say is in the report.
 pub fn calibrate(request: Request<'_>) -> Result<Calibration, CalibrateError> {
+    calibrate_telling(request, &|_| ())
+}
+
+/// Runs the loop, and tells `tell` of each stage as it begins.
+///
+/// # Errors
+/// As [`calibrate`].
+pub fn calibrate_telling(
+    request: Request<'_>,
+    tell: &(dyn Fn(Stage) + Sync),
+) -> Result<Calibration, CalibrateError> {
     let observables: Vec<_> = request.observations.series.iter().map(|series| series.observable).collect();
-    let whole = Loop::new(request, &observables, HELD);
+    let whole = Loop { tell, ..Loop::new(request, &observables, HELD) };
 
     let mut round = Round::at(&whole, Fitted::first(&whole)?)?;
     let before = round.fitted.fit.clone();
     let mut visited: Vec<Vec<usize>> = vec![Vec::new()];
     for _ in 0..ROUNDS {
+        tell(Stage::Search);
         let found = round.search(&whole);
         let mut names: Vec<usize> = found.iter().map(|f| f.effect).collect();
         names.sort_unstable();
@@ -133,11 +150,13 @@ pub fn calibrate(request: Request<'_>) -> Result<Calibration, CalibrateError> {
         let Some(next) = taken_up(&whole, found, &round)? else { break };
         round = next;
     }
+    tell(Stage::HeldOut);
     let held_out: HeldOut = nested(&round.posed.problem, &round.classes, &whole.options);
     let rms = held_out::rms(&whole, &before, &round, &held_out)?;
     let additions = words::additions(&whole, &round, &held_out, rms);
     let inputs = words::new_inputs(&whole, &round);
     let amended = amend(request.text, &round.fitted.chain, &additions, &inputs)?;
+    tell(Stage::Remaining);
     let remaining = remaining::remaining(&whole, &round)?;
     let report = words::report(&whole, &round, &held_out, rms, remaining);
     Ok(Calibration { report, amended, chain: round.fitted.chain, before, after: round.fitted.fit })

@@ -6,7 +6,7 @@ use faer::Mat;
 
 use super::fitted::Fitted;
 use super::portion::{Portion, all_rows, chunks, sample};
-use super::{CalibrateError, Loop};
+use super::{CalibrateError, Loop, Stage};
 use crate::columns::Seen;
 use crate::search::{Cells, Folds, Problem, ProblemError};
 
@@ -59,6 +59,7 @@ impl<'a> Posed<'a> {
         let mut seen: Option<Seen> = None;
         let mut start = 0;
         for chunk in chunks(observations) {
+            (whole.tell)(Stage::Columns { rows: chunk.start, of: observations.rows() });
             let portion = Portion::of(whole, fitted, &[chunk])?;
             let end = start + portion.without.len();
             cells.add(portion.whitened().as_ref(), folds.groups_of(start..end));

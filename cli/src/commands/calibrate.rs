@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use calibration::calibrate::{Request, calibrate};
+use calibration::calibrate::{Request, calibrate_telling};
 use calibration::formats::DataError;
 use calibration::study::{Plan, Study, StudyError};
 use model_core::Mistake;
@@ -61,7 +61,10 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         second: second.as_ref(),
         when: &date,
     };
-    let calibration = calibrate(request).map_err(|error| Failure::Input(error.to_string()))?;
+    let progress = terminal::progress();
+    let calibration = calibrate_telling(request, &|stage| progress.set_message(stage.to_string()));
+    progress.finish_and_clear();
+    let calibration = calibration.map_err(|error| Failure::Input(error.to_string()))?;
     let reported = Reported {
         calibration: &calibration,
         observations: &observations,

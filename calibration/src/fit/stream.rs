@@ -83,13 +83,20 @@ pub enum Next {
 }
 
 impl Streamed {
-    /// Starts from a sample of the rows that fits in memory: its first chunk, say.
+    /// Starts from a sample of the rows that fits in memory, with some rows of each series: its first chunk, say, or every
+    /// hundredth row.
     ///
-    /// Every chunk must have the series of the sample, in the same order (each may be empty).
+    /// Every chunk must have the series of the sample, in the same order (there, each may be empty), as
+    /// [`Observations::select`] gives them.
     ///
     /// # Errors
-    /// As [`fit`].
+    /// As [`fit`]; a sample without rows of some series.
     pub fn from_sample(chain: &Chain, sample: &Observations, options: &FitOptions) -> Result<Self, FitError> {
+        if let Some(at) = sample.series.iter().position(|series| series.rows.is_empty()) {
+            let source = &sample.series[at].source;
+            let why = format!("the sample has no rows of series {} ({source})", at + 1);
+            return Err(FitError::WrongShape { why });
+        }
         let mut options = options.clone();
         options.noise.variance = false;
         options.noise.serial = false;

@@ -174,6 +174,9 @@ pub struct Remaining {
     pub place: Option<Where>,
     /// The smooth function there: driver (rad or the input's unit), value (rad or m), two standard uncertainties.
     pub shape: Vec<Vec<f64>>,
+    /// Lines for the study that make the function there an effect of its own; absent for a bump, which no amount of a
+    /// declaration can follow.
+    pub offer: Option<String>,
 }
 
 /// One statistic of what is left.

@@ -6,6 +6,7 @@
 
 mod basis;
 mod fitted;
+mod function;
 mod held_out;
 mod hidden;
 mod portion;

@@ -1,10 +1,11 @@
 //! What is left after the last round: whether it has structure, where, and of what shape.
 
 use faer::Mat;
-use model_core::{Quantity, Role, SymbolId, SymbolKind};
+use model_core::{Quantity, Role, SymbolId, SymbolKind, print};
 use rayon::prelude::*;
 
 use super::basis::Basis;
+use super::function::{Function, Kind};
 use super::round::Round;
 use super::{CalibrateError, Loop, declared};
 use crate::columns::{self, Columns};
@@ -12,7 +13,7 @@ use crate::effects::{Effect, Freedom, Place, SmoothPlace, smooth, tensor};
 use crate::noise::Layout;
 use crate::observations::Observations;
 use crate::report::{Looked, Remaining, Where};
-use crate::search::contest::{Contender, Price, contender, criterion, most_telling};
+use crate::search::contest::{Price, contender, criterion, most_telling};
 use crate::search::flips::Signs;
 use crate::search::remains::{Statistic, along, combined, lagged, nearest};
 use crate::search::scan::{Left, Sheet};
@@ -30,9 +31,6 @@ const LAGS: std::ops::RangeInclusive<usize> = 1..=3;
 /// Penalised log-likelihood by which a smooth function must beat the catalogue's model: six units of Schwarz's
 /// criterion.
 const BETTER: f64 = 3.0;
-
-/// Points of the shape that is reported.
-const POINTS: usize = 61;
 
 /// Everything that the scans read.
 struct Scanned<'a> {
@@ -121,19 +119,16 @@ pub(crate) fn remaining(whole: &Loop<'_>, last: &Round<'_>) -> Result<Remaining,
     let most = most.and_then(|number| smooths.get(number)).copied();
     smooths.retain(|smooth| Some(*smooth) == most || spelt_out(whole, last, *smooth));
     let best = scanned.best_function(whole, &smooths, &left);
-    let (place, shape) = match best {
-        None => (None, Vec::new()),
-        Some(function) => {
-            let place = Where {
-                body: last.fitted.chain.body(function.place.body).name.clone(),
-                dof: function.place.freedom.word().to_owned(),
-                driver: function.driver.clone(),
-                form: function.form.clone(),
-            };
-            (Some(place), shape(&function))
-        }
-    };
-    Ok(Remaining { p_value, rows: observations.rows(), looked, place, shape })
+    let chain = &last.fitted.chain;
+    let place = best.as_ref().map(|function| Where {
+        body: chain.body(function.place.body).name.clone(),
+        dof: function.place.freedom.word().to_owned(),
+        driver: function.driver.clone(),
+        form: function.form.clone(),
+    });
+    let offer = best.as_ref().and_then(|function| function.offer(chain));
+    let shape = best.as_ref().map_or_else(Vec::new, Function::shape);
+    Ok(Remaining { p_value, rows: observations.rows(), looked, place, shape, offer })
 }
 
 /// Whether an effect was accepted at a place with the same driver: a function there may be what it spells out.
@@ -143,16 +138,6 @@ fn spelt_out(whole: &Loop<'_>, last: &Round<'_>, smooth: SmoothPlace) -> bool {
         .iter()
         .map(|found| &whole.catalogue[found.effect])
         .any(|effect| effect.place == smooth.place && effect.driver == whole.setting.name(smooth.driver))
-}
-
-/// A function at a place that explains the data better than the catalogue.
-struct Function {
-    place: Place,
-    driver: String,
-    form: String,
-    /// The functions of one reading: a bump, or else the first of a series; none for functions of two joints.
-    basis: Option<(Basis, Option<(f64, f64)>)>,
-    fitted: Contender,
 }
 
 /// Sheets of harmonics: the place, the joint, and the first order of each.
@@ -200,7 +185,9 @@ impl Scanned<'_> {
             place: effect.place,
             driver: effect.driver.clone(),
             form: effect.form.clone(),
-            basis: None,
+            kind: Kind::OfTwo(
+                effect.functions.iter().map(|f| print::text(&f.amount, whole.setting.chain)).collect(),
+            ),
             fitted: contender(left, columns.as_ref(), price),
         }));
         let least = criterion(left, price) + BETTER;
@@ -214,11 +201,11 @@ impl Scanned<'_> {
     fn at(&self, whole: &Loop<'_>, smooth: SmoothPlace, places: usize, left: &Left<'_>) -> Vec<Function> {
         let Some(driver) = self.driver(smooth.driver) else { return Vec::new() };
         let (basis, classes) = (driver.basis, self.last.classes.len());
-        let function = |form, bump, fitted| Function {
+        let function = |form, kind, fitted| Function {
             place: smooth.place,
             driver: whole.setting.name(smooth.driver).to_owned(),
             form,
-            basis: Some((basis, bump)),
+            kind,
             fitted,
         };
         let mut all = Vec::new();
@@ -227,7 +214,7 @@ impl Scanned<'_> {
         for &(order, width) in orders.iter().filter(|&&(_, width)| width <= series.ncols()) {
             let price = Price { classes, functions: places * orders.len(), parameters: 0 };
             let fitted = contender(left, series.subcols(0, width), price);
-            all.push(function(basis.words(order), None, fitted));
+            all.push(function(basis.words(order), Kind::Series(basis), fitted));
         }
         let columns = self.sheet(smooth.place, &driver.bumps);
         let bumps = basis.bumps();
@@ -235,7 +222,8 @@ impl Scanned<'_> {
             let (centre, width) = bumps[at];
             let price = Price { classes, functions: places, parameters: 2 };
             let fitted = contender(left, columns.subcols(at, 1), price);
-            all.push(function(format!("bump at {centre:.2}, of width {width:.2}"), Some(bumps[at]), fitted));
+            let form = format!("bump at {centre:.2}, of width {width:.2}");
+            all.push(function(form, Kind::Bump(basis, bumps[at]), fitted));
         }
         all
     }
@@ -297,25 +285,4 @@ fn neighbours(whole: &Loop<'_>, last: &Round<'_>, left: &Left<'_>, signs: &Signs
         }
     }
     statistics
-}
-
-/// Driver, value and two standard uncertainties over the range of the driver's readings.
-fn shape(function: &Function) -> Vec<Vec<f64>> {
-    let Some((basis, bump)) = function.basis else { return Vec::new() };
-    let fitted = &function.fitted;
-    let width = fitted.coefficients.len();
-    (0..POINTS)
-        .map(|point| {
-            let q = basis.low + (basis.high - basis.low) * point as f64 / (POINTS - 1) as f64;
-            let at = bump.map_or_else(|| basis.series(q), |bump| vec![basis.bump(bump, q)]);
-            let value: f64 = at.iter().zip(&fitted.coefficients).map(|(f, c)| f * c).sum();
-            let variance: f64 = (0..width)
-                .map(|i| {
-                    let row = &fitted.covariance[i * width..(i + 1) * width];
-                    at[i] * row.iter().zip(&at).map(|(c, f)| c * f).sum::<f64>()
-                })
-                .sum();
-            vec![q, value, 2.0 * variance.max(0.0).sqrt()]
-        })
-        .collect()
 }

@@ -7,4 +7,5 @@ mod examples;
 mod instruments;
 mod left_out;
 mod mistaken;
+mod offered;
 mod simulated;

@@ -15,7 +15,7 @@ use crate::data::root;
 const ARCSEC: f64 = std::f64::consts::PI / 180.0 / 3600.0;
 const NOISE: f64 = 2.0 * ARCSEC;
 
-fn lidar() -> String {
+pub(crate) fn lidar() -> String {
     std::fs::read_to_string(root().join("examples/mobile-lidar/mobile-lidar.chain")).unwrap()
 }
 
@@ -30,7 +30,12 @@ fn plan(chain: &Chain) -> Plan {
 
 /// Observations of a plan's chain at random poses: `truth` turns the readings (alpha, beta, gamma, temperature,
 /// direction of beta) into what the instrument does.
-fn measured(plan: &Plan, rows: usize, seed: u64, truth: impl Fn([f64; 5]) -> Vector3<f64>) -> Observations {
+pub(crate) fn measured(
+    plan: &Plan,
+    rows: usize,
+    seed: u64,
+    truth: impl Fn([f64; 5]) -> Vector3<f64>,
+) -> Observations {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let names = ["alpha", "beta", "gamma", "temperature", "beta_direction"];
     let mut columns: Vec<(SymbolId, Vec<f64>)> =
@@ -66,7 +71,7 @@ fn measured(plan: &Plan, rows: usize, seed: u64, truth: impl Fn([f64; 5]) -> Vec
 }
 
 /// The pointing of a chain text with some errors set, at some readings.
-fn pointing(chain: &Chain, errors: &[(&str, f64)], readings: [f64; 5]) -> Vector3<f64> {
+pub(crate) fn pointing(chain: &Chain, errors: &[(&str, f64)], readings: [f64; 5]) -> Vector3<f64> {
     let mut values = chain.nominal_values();
     let names = ["alpha", "beta", "gamma", "temperature", "beta_direction"];
     for (name, value) in names.into_iter().zip(readings).chain(errors.iter().copied()) {
@@ -77,7 +82,7 @@ fn pointing(chain: &Chain, errors: &[(&str, f64)], readings: [f64; 5]) -> Vector
     exact::value(chain, chain.find_observable("pointing").unwrap(), &values)
 }
 
-fn search(text: &str, plan: &Plan, observations: &Observations) -> Calibration {
+pub(crate) fn search(text: &str, plan: &Plan, observations: &Observations) -> Calibration {
     calibrate(Request { text, plan, observations, second: None, when: "2026-11-21" }).unwrap()
 }
 

@@ -173,6 +173,10 @@ fn remaining(report: &Report) -> Markup {
                     (quantities::chance(report.remaining.p_value)) "."
                 }
                 (PreEscaped(shape(report, &place.driver)))
+                @if let Some(offer) = &report.remaining.offer {
+                    p { "To let the declaration have it, write into the study and calibrate again:" }
+                    pre { (offer) }
+                }
             }
         }
     }

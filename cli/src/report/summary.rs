@@ -240,6 +240,15 @@ fn remarks(text: &mut String, report: &Report) {
              (chance from noise of what the catalogue leaves{sampled}: {chance})",
             place.body, place.dof, place.driver, place.form
         );
+        if let Some(offer) = &report.remaining.offer {
+            let _ = writeln!(
+                text,
+                "  to let the declaration have it, write into the study and calibrate again:\n"
+            );
+            offer.lines().for_each(|line| {
+                let _ = writeln!(text, "    {line}");
+            });
+        }
     } else if report.verdict == Verdict::StructureRemains {
         let looked = report.remaining.looked.iter();
         if let Some(most) = looked.min_by(|a, b| a.p_value.total_cmp(&b.p_value)) {

@@ -119,7 +119,7 @@ pub enum TableWriter<'a> {
         /// Where to.
         path: &'a Path,
         /// What writes the rows.
-        inner: ::csv::Writer<&'a mut dyn Write>,
+        inner: Box<::csv::Writer<&'a mut dyn Write>>,
     },
     /// Columns that are written when all rows are known.
     #[cfg(feature = "parquet")]
@@ -145,7 +145,7 @@ pub fn write(
         return write_parquet(path, write);
     }
     output::write_with(path, |file| {
-        let mut writer = TableWriter::Csv { path, inner: ::csv::Writer::from_writer(file) };
+        let mut writer = TableWriter::Csv { path, inner: Box::new(::csv::Writer::from_writer(file)) };
         write(&mut writer)?;
         match writer {
             TableWriter::Csv { mut inner, .. } => inner.flush().map_err(|error| Failure::write(path, &error)),

@@ -15,6 +15,7 @@ mod remaining;
 mod round;
 mod separate;
 mod stage;
+mod trusting;
 mod words;
 
 use model_core::{Chain, ObservableId, SymbolId};
@@ -91,6 +92,7 @@ pub(crate) struct Found {
 }
 
 /// What all rounds share.
+#[derive(Clone)]
 pub(crate) struct Loop<'a> {
     pub request: Request<'a>,
     pub catalogue: Vec<Effect>,
@@ -135,22 +137,9 @@ pub fn calibrate_telling(
     let observables: Vec<_> = request.observations.series.iter().map(|series| series.observable).collect();
     let whole = Loop { tell, ..Loop::new(request, &observables, HELD) };
 
-    let mut round = Round::at(&whole, Fitted::first(&whole)?)?;
-    let before = round.fitted.fit.clone();
-    let mut visited: Vec<Vec<usize>> = vec![Vec::new()];
-    for _ in 0..ROUNDS {
-        tell(Stage::Search);
-        let found = round.search(&whole);
-        let mut names: Vec<usize> = found.iter().map(|f| f.effect).collect();
-        names.sort_unstable();
-        let unchanged = round.holds(&names);
-        if unchanged || visited.contains(&names) {
-            break;
-        }
-        visited.push(names);
-        let Some(next) = taken_up(&whole, found, &round)? else { break };
-        round = next;
-    }
+    let first = Round::at(&whole, Fitted::first(&whole)?)?;
+    let before = first.fitted.fit.clone();
+    let round = trusting::reconsidered(&whole, rounds(&whole, first)?)?;
     tell(Stage::HeldOut);
     let held_out: HeldOut = nested(&round.posed.problem, &round.classes, &whole.options);
     let rms = held_out::rms(&whole, &before, &round, &held_out)?;
@@ -161,6 +150,30 @@ pub fn calibrate_telling(
     let remaining = remaining::remaining(&whole, &round)?;
     let report = words::report(&whole, &round, &held_out, rms, remaining);
     Ok(Calibration { report, amended, chain: round.fitted.chain, before, after: round.fitted.fit })
+}
+
+/// Rounds of search and fit from a first one, until one changes nothing.
+pub(crate) fn rounds<'a>(whole: &Loop<'a>, mut round: Round<'a>) -> Result<Round<'a>, CalibrateError> {
+    let mut visited: Vec<Vec<usize>> = vec![names(&round.fitted.found)];
+    for _ in 0..ROUNDS {
+        (whole.tell)(Stage::Search);
+        let found = round.search(whole);
+        let names = names(&found);
+        if visited.contains(&names) {
+            break;
+        }
+        visited.push(names);
+        let Some(next) = taken_up(whole, found, &round)? else { break };
+        round = next;
+    }
+    Ok(round)
+}
+
+/// The numbers of some effects, sorted.
+pub(crate) fn names(found: &[Found]) -> Vec<usize> {
+    let mut names: Vec<usize> = found.iter().map(|found| found.effect).collect();
+    names.sort_unstable();
+    names
 }
 
 /// The next round; with the later half of the effects left out, again and again, while the exact form cannot hold what

@@ -59,11 +59,4 @@ impl<'a> Round<'a> {
             })
             .collect()
     }
-
-    /// Whether these are the accepted effects.
-    pub fn holds(&self, sorted: &[usize]) -> bool {
-        let mut own: Vec<usize> = self.fitted.found.iter().map(|found| found.effect).collect();
-        own.sort_unstable();
-        own == sorted
-    }
 }

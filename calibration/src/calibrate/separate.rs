@@ -1,9 +1,12 @@
 //! Poses that would tell an accepted effect from the others that explain these data as well: greedy T-optimal design.
 //!
-//! If the accepted effect is the true one, how much would each other one leave of it, everything declared refitted? The
-//! poses are chosen one by one so that this difference grows for all of them.
+//! If one of them is the true one, how much would each other one leave of it, everything declared refitted? The poses are
+//! chosen one by one so that this difference grows for every pair: not the accepted effect alone may be the true one. What
+//! explains these data somewhat worse is kept in view, so that it does not explain the new poses better.
 //!
-//! Source: A. C. Atkinson and V. V. Fedorov, "The design of experiments for discriminating between two rival models",
+//! Everything about the data is in the search's Gram matrix, whatever their number.
+//!
+//! Source: A. C. Atkinson and V. V. Fedorov, "The design of experiments for discriminating between several models",
 //! Biometrika 62 (1975).
 
 use faer::Mat;
@@ -20,205 +23,315 @@ use crate::report::{Separation, Told};
 /// Poses that are proposed where the study does not say how many.
 const POSES: usize = 12;
 
-/// Others that poses are chosen for at most, the best explanations first.
-const MOST: usize = 12;
+/// Hypotheses at most, the accepted effect and the best explanations first.
+const MOST: usize = 16;
 
-/// Squared differences in σ² that even all poses together would not reach: those that cannot be told apart.
-const NEVER: f64 = 4.0;
+/// By how much, in σ², the poses must be able to raise the squared difference of two effects; less tells nothing apart.
+const TELLING: f64 = 4.0;
 
-/// The accepted effect as another one sees it.
-struct Other {
-    effect: usize,
-    /// Inverse of the normal matrix of what is refitted.
-    spread: DMatrix<f64>,
-    /// What is refitted, at its best against the accepted effect's prediction.
-    fitted: DVector<f64>,
-    /// Σ squared difference, σ².
-    difference: f64,
-    before: f64,
-    /// The columns of what is refitted at each pose that could be measured.
-    rows: Vec<DMatrix<f64>>,
+/// The data as the search sees them, and the poses that could be measured in the same units.
+struct Design {
+    /// Inner products of the problem's columns.
+    gram: Mat<f64>,
+    /// The problem's column that holds the residual.
+    residual: usize,
+    /// Components of an observation.
+    components: usize,
+    /// Columns that are refitted with every effect, each with its values at the poses.
+    base: Vec<Column>,
+    poses: usize,
 }
 
-/// Poses for the accepted effect number `at`, against the effects `others`.
+/// A column of the problem: its number, and its values at the poses.
+type Column = (usize, Vec<f64>);
+
+/// An effect that may be the true one.
+struct Hypothesis {
+    effect: usize,
+    columns: Vec<Column>,
+    /// What these data make of its columns' coefficients.
+    coefficients: DVector<f64>,
+}
+
+/// An effect as a model of what the others predict, everything declared refitted.
+struct Model {
+    /// The columns of what is refitted at each pose.
+    rows: Vec<DMatrix<f64>>,
+    /// With what has been measured.
+    before: State,
+    /// With the poses chosen so far as well.
+    now: State,
+}
+
+/// The regression of every hypothesis's prediction on a model.
+#[derive(Clone)]
+struct State {
+    /// Inverse of the normal matrix of what is refitted.
+    spread: DMatrix<f64>,
+    /// What is refitted, at its best against each prediction, one a column.
+    fitted: DMatrix<f64>,
+    /// Σ squared difference from each prediction, σ².
+    difference: Vec<f64>,
+}
+
+/// A model, and the prediction that it is to be told from.
+#[derive(Clone, Copy, PartialEq)]
+struct Pair {
+    model: usize,
+    truth: usize,
+}
+
+/// Poses for the accepted effect number `at`, to tell it from the effects `others`, with those in `behind` kept in view.
 pub(super) fn separation(
     whole: &Loop<'_>,
     last: &Round<'_>,
     at: usize,
     others: &[usize],
+    behind: &[usize],
 ) -> Option<Separation> {
     let plan = whole.request.plan;
-    let own = last.fitted.found.get(at)?.effect;
-    let others: Vec<usize> = others
-        .iter()
-        .copied()
-        .filter(|&other| !last.posed.rows.effects[other].is_empty())
-        .take(MOST)
-        .collect();
-    if others.is_empty() {
-        return None;
+    let found = &last.fitted.found;
+    let own = found.get(at)?.effect;
+    let mut candidates: Vec<usize> = Vec::new();
+    for &effect in [own].iter().chain(others).chain(behind) {
+        let visible = !last.posed.problem.columns(effect).is_empty();
+        if visible && candidates.len() < MOST && !candidates.contains(&effect) {
+            candidates.push(effect);
+        }
     }
     let ranges = plan.next.as_ref().map_or(&[][..], |next| &next.ranges);
     let count = plan.next.as_ref().map_or(POSES, |next| next.count);
     let poses = spread(&last.fitted.chain, whole.request.observations, ranges);
-
-    // Everything at the poses that could be measured, in units of the noise.
-    let kept: Vec<usize> = (0..last.fitted.found.len())
-        .filter(|&other| other != at)
-        .map(|i| last.fitted.found[i].effect)
+    let kept: Vec<usize> = (0..found.len()).filter(|&i| i != at).map(|i| found[i].effect).collect();
+    let columns = columns_at(whole, last, &poses, &[&kept[..], &candidates].concat())?;
+    let (known, open) = columns.effects.split_at(kept.len());
+    let base = columns.declared.into_iter().chain(known.iter().flatten().cloned()).collect();
+    let (gram, _) = last.posed.problem.gram(|_| true);
+    let residual = last.posed.problem.residual();
+    let design = Design { gram, residual, components: columns.components, base, poses: poses.rows() };
+    let hypotheses: Vec<Hypothesis> = candidates
+        .iter()
+        .zip(open)
+        .filter(|(_, columns)| !columns.is_empty())
+        .filter_map(|(&effect, columns)| design.hypothesis(effect, columns.clone()))
         .collect();
-    let involved: Vec<usize> = [own].into_iter().chain(kept).chain(others).collect();
-    let effects: Vec<Effect> = involved.iter().map(|&effect| whole.catalogue[effect].clone()).collect();
-    let values = &last.fitted.fit.values;
-    let columns = Columns::at(&last.fitted.chain, &poses, declared(whole), values, &places(&effects)).ok()?;
-    let there = columns.of_effects(&last.fitted.chain, &effects, &poses, values);
-    let m = poses.series.first()?.measure.components();
-    let sigma: Vec<f64> =
-        last.fitted.fit.noise.floor.iter().take(m).map(|f| f.max(f64::MIN_POSITIVE)).collect();
-    let combined = &columns.declared * &last.fitted.combinations;
-    let amplitude: Vec<f64> = last.fitted.errors.get(at)?.iter().map(|id| values[id.index()]).collect();
-
-    let nuisances = last.fitted.found.len() - 1;
-    let known = &involved[1..=nuisances];
-    let portion = &last.posed.rows;
-    // A row of a sample stands for as many as there are for each.
-    let weight = last.posed.share().sqrt();
-    let whiten = |column: &[f64]| -> Vec<f64> {
-        portion.whiten(column).into_iter().map(|value| weight * value).collect()
-    };
-    let declared_here =
-        (0..portion.columns.declared.ncols()).map(|j| portion.columns.declared.col_as_slice(j));
-    let known_here = known.iter().flat_map(|&effect| &portion.effects[effect]).map(Vec::as_slice);
-    let here: Vec<Vec<f64>> = declared_here.chain(known_here).map(whiten).collect();
-    let prediction = |columns: &[Vec<f64>]| -> Vec<f64> {
-        let n = columns.first().map_or(0, Vec::len);
-        (0..n).map(|i| columns.iter().zip(&amplitude).map(|(column, a)| a * column[i]).sum()).collect()
-    };
-    let measured = whiten(&prediction(&portion.effects[own]));
-    let target = prediction(&there[0]);
-    if target.is_empty() {
+    if hypotheses.first()?.effect != own {
         return None;
     }
-    let target: Vec<DVector<f64>> =
-        (0..poses.rows()).map(|row| DVector::from_fn(m, |c, _| target[row * m + c] / sigma[c])).collect();
-    let (mut apart, mut never) = (Vec::new(), Vec::new());
-    for (number, &effect) in involved.iter().enumerate().skip(1 + nuisances) {
-        let mut mine = here.clone();
-        mine.extend(portion.effects[effect].iter().map(|column| whiten(column)));
-        let refitted: Vec<&[f64]> = (0..combined.ncols())
-            .map(|j| combined.col_as_slice(j))
-            .chain(there[1..=nuisances].iter().flatten().map(Vec::as_slice))
-            .chain(there[number].iter().map(Vec::as_slice))
-            .collect();
-        if refitted.len() != mine.len() {
-            continue;
-        }
-        let rows = (0..poses.rows())
-            .map(|row| DMatrix::from_fn(m, refitted.len(), |c, j| refitted[j][row * m + c] / sigma[c]))
-            .collect();
-        let Some(other) = Other::new(effect, &mine, &measured, rows) else { continue };
-        let all =
-            target.iter().enumerate().fold(other.clone_state(), |state, (row, t)| other.with(state, row, t));
-        if all.2 - other.before < NEVER { never.push(other) } else { apart.push(other) }
-    }
+    let targets = design.targets(&hypotheses);
+    let mut models: Vec<Model> =
+        hypotheses.iter().map(|own| design.model(own, &hypotheses)).collect::<Option<_>>()?;
+
+    // A pair that no poses tell apart would draw all poses to itself, and leave none for the others.
+    let told: Vec<usize> =
+        (1..models.len()).filter(|&model| others.contains(&hypotheses[model].effect)).collect();
+    let (apart, never): (Vec<usize>, Vec<usize>) = told.iter().partition(|&&model| {
+        let pair = Pair { model, truth: 0 };
+        choose(&mut models, &[pair], &targets, count);
+        let gained = models[model].gained(0);
+        models.iter_mut().for_each(Model::forget);
+        gained >= TELLING
+    });
+    let pairs = (0..models.len())
+        .flat_map(|model| (0..models.len()).map(move |truth| Pair { model, truth }))
+        .filter(|pair| pair.model != pair.truth && (pair.truth != 0 || !never.contains(&pair.model)));
+    let mut pairs: Vec<Pair> = pairs.collect();
     let mut chosen = Vec::new();
-    while chosen.len() < count && !apart.is_empty() {
-        let Some(best) = best(&apart, &target) else { break };
-        for other in &mut apart {
-            let (spread, fitted, difference) = other.with(other.clone_state(), best, &target[best]);
-            (other.spread, other.fitted, other.difference) = (spread, fitted, difference);
+    while !apart.is_empty() {
+        chosen = choose(&mut models, &pairs, &targets, count);
+        let before = pairs.len();
+        pairs.retain(|&Pair { model, truth }| {
+            truth == 0 && apart.contains(&model) || models[model].gained(truth) >= TELLING
+        });
+        if pairs.len() == before {
+            break;
         }
-        chosen.push(best);
+        models.iter_mut().for_each(Model::forget);
     }
-    let name = |effect: usize| whole.catalogue[effect].name.clone();
+    let name = |model: usize| whole.catalogue[hypotheses[model].effect].name.clone();
     let joints = joints(&last.fitted.chain, &poses);
     let readings: Vec<&[f64]> = joints.iter().filter_map(|id| poses.column(*id)).collect();
-    Some(Separation {
-        effect: name(own),
+    (!told.is_empty()).then(|| Separation {
+        effect: name(0),
         poses: chosen.iter().map(|&row| readings.iter().map(|column| column[row]).collect()).collect(),
         joints: joints.iter().map(|id| last.fitted.chain.symbol(*id).name.clone()).collect(),
         apart: apart
             .iter()
-            .map(|other| Told { name: name(other.effect), now: other.before, then: other.difference })
+            .map(|&model| Told {
+                name: name(model),
+                now: models[model].before.difference[0],
+                then: models[model].now.difference[0],
+            })
             .collect(),
-        never: never.iter().map(|other| name(other.effect)).collect(),
+        never: never.iter().map(|&model| name(model)).collect(),
     })
 }
 
+/// The problem's columns at poses that could be measured, in units of the noise.
+struct There {
+    components: usize,
+    declared: Vec<Column>,
+    /// Of each effect; none where they cannot be had.
+    effects: Vec<Vec<Column>>,
+}
+
+fn columns_at(
+    whole: &Loop<'_>,
+    last: &Round<'_>,
+    poses: &crate::observations::Observations,
+    effects: &[usize],
+) -> Option<There> {
+    let (fitted, problem) = (&last.fitted, &last.posed.problem);
+    let values = &fitted.fit.values;
+    let list: Vec<Effect> = effects.iter().map(|&effect| whole.catalogue[effect].clone()).collect();
+    let columns = Columns::at(&fitted.chain, poses, declared(whole), values, &places(&list)).ok()?;
+    let own = columns.of_effects(&fitted.chain, &list, poses, values);
+    let components = poses.series.first()?.measure.components();
+    let sigma: Vec<f64> =
+        fitted.fit.noise.floor.iter().take(components).map(|floor| floor.max(f64::MIN_POSITIVE)).collect();
+    let whitened = |mut column: Vec<f64>| {
+        column.iter_mut().enumerate().for_each(|(i, value)| *value /= sigma[i % components]);
+        column
+    };
+    let combined = &columns.declared * &fitted.combinations;
+    let declared = (0..problem.declared())
+        .map(|column| (column, whitened(problem.basis_before_whitening(column, combined.as_ref()))));
+    let effects = effects.iter().zip(&own).map(|(&effect, own)| {
+        let (first, visible) = (problem.block(effect).start, problem.columns(effect));
+        let all = visible.into_iter().map(|column| {
+            let own = own.get(column - first)?;
+            Some((column, whitened(problem.before_whitening(column, combined.as_ref(), own))))
+        });
+        all.collect::<Option<Vec<Column>>>().unwrap_or_default()
+    });
+    Some(There { components, declared: declared.collect(), effects: effects.collect() })
+}
+
+impl Design {
+    /// Inverse of the normal matrix of some columns, and their inner products with others.
+    fn normal(&self, columns: &[&Column], others: &[usize]) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
+        let k = columns.len();
+        // What nothing determines so far counts as just about unknown.
+        let normal = DMatrix::from_fn(k, k, |i, j| {
+            self.gram[(columns[i].0, columns[j].0)] + if i == j { 1e-9 } else { 0.0 }
+        });
+        let right = DMatrix::from_fn(k, others.len(), |i, j| self.gram[(columns[i].0, others[j])]);
+        Some((normal.cholesky()?.inverse(), right))
+    }
+
+    fn hypothesis(&self, effect: usize, columns: Vec<Column>) -> Option<Hypothesis> {
+        let all: Vec<&Column> = self.base.iter().chain(&columns).collect();
+        let (spread, right) = self.normal(&all, &[self.residual])?;
+        let coefficients = (spread * right).column(0).rows(self.base.len(), columns.len()).into_owned();
+        Some(Hypothesis { effect, columns, coefficients })
+    }
+
+    /// What each hypothesis predicts at each pose, one a column.
+    fn targets(&self, hypotheses: &[Hypothesis]) -> Vec<DMatrix<f64>> {
+        let at = |row: usize| {
+            DMatrix::from_fn(self.components, hypotheses.len(), |component, truth| {
+                let Hypothesis { columns, coefficients, .. } = &hypotheses[truth];
+                let value = |(_, values): &Column| values[row * self.components + component];
+                columns.iter().zip(coefficients.iter()).map(|(column, c)| c * value(column)).sum()
+            })
+        };
+        (0..self.poses).map(at).collect()
+    }
+
+    fn model(&self, own: &Hypothesis, hypotheses: &[Hypothesis]) -> Option<Model> {
+        let all: Vec<&Column> = self.base.iter().chain(&own.columns).collect();
+        let numbers =
+            |truth: &Hypothesis| truth.columns.iter().map(|(number, _)| *number).collect::<Vec<_>>();
+        let (spread, _) = self.normal(&all, &[])?;
+        let mut fitted = DMatrix::zeros(all.len(), hypotheses.len());
+        let mut difference = Vec::new();
+        for (column, truth) in hypotheses.iter().enumerate() {
+            let (theirs, b) = (numbers(truth), &truth.coefficients);
+            let right =
+                DMatrix::from_fn(all.len(), theirs.len(), |i, j| self.gram[(all[i].0, theirs[j])]) * b;
+            let size = DMatrix::from_fn(theirs.len(), theirs.len(), |i, j| self.gram[(theirs[i], theirs[j])]);
+            let best = &spread * &right;
+            difference.push((b.dot(&(size * b)) - right.dot(&best)).max(0.0));
+            fitted.set_column(column, &best);
+        }
+        let rows = (0..self.poses)
+            .map(|row| {
+                DMatrix::from_fn(self.components, all.len(), |component, column| {
+                    all[column].1[row * self.components + component]
+                })
+            })
+            .collect();
+        let before = State { spread, fitted, difference };
+        Some(Model { rows, now: before.clone(), before })
+    }
+}
+
+/// Chooses so many poses one by one, and measures them.
+fn choose(models: &mut [Model], pairs: &[Pair], targets: &[DMatrix<f64>], count: usize) -> Vec<usize> {
+    let mut chosen = Vec::new();
+    while chosen.len() < count && !pairs.is_empty() {
+        let Some(best) = best(models, pairs, targets) else { break };
+        models.iter_mut().for_each(|model| model.measure(best, &targets[best]));
+        chosen.push(best);
+    }
+    chosen
+}
+
 /// The pose by which the differences grow most, the smallest counting most: −ln Σ exp(−difference/2), which is the log
-/// of the odds against all others together.
-fn best(others: &[Other], target: &[DVector<f64>]) -> Option<usize> {
+/// of the odds against all confusions together.
+fn best(models: &[Model], pairs: &[Pair], targets: &[DMatrix<f64>]) -> Option<usize> {
     let odds = |row: usize| {
-        let after: Vec<f64> = others.iter().map(|o| o.difference + o.gain(row, &target[row])).collect();
+        let gains: Vec<Option<Vec<f64>>> = models
+            .iter()
+            .enumerate()
+            .map(|(at, model)| pairs.iter().any(|p| p.model == at).then(|| model.gain(row, &targets[row])))
+            .collect();
+        let gain = |pair: &Pair| gains[pair.model].as_ref().map_or(0.0, |gains| gains[pair.truth]);
+        let after: Vec<f64> =
+            pairs.iter().map(|p| models[p.model].now.difference[p.truth] + gain(p)).collect();
         let least = after.iter().copied().fold(f64::INFINITY, f64::min);
         least / 2.0 - after.iter().map(|d| ((least - d) / 2.0).exp()).sum::<f64>().ln()
     };
-    let all: Vec<f64> = (0..target.len()).into_par_iter().map(odds).collect();
+    let all: Vec<f64> = (0..targets.len()).into_par_iter().map(odds).collect();
     all.iter()
         .enumerate()
-        .filter(|(_, o)| o.is_finite())
+        .filter(|(_, odds)| odds.is_finite())
         .max_by(|a, b| a.1.total_cmp(b.1))
         .map(|(row, _)| row)
 }
 
-/// Inverse of the normal matrix, coefficients, squared difference.
-type State = (DMatrix<f64>, DVector<f64>, f64);
-
-impl Other {
-    /// Regresses the prediction on columns, both whitened.
-    fn new(
-        effect: usize,
-        columns: &[Vec<f64>],
-        prediction: &[f64],
-        mut rows: Vec<DMatrix<f64>>,
-    ) -> Option<Self> {
-        let n = prediction.len();
-        let lengths: Vec<f64> = columns
-            .iter()
-            .map(|column| column.iter().map(|v| v * v).sum::<f64>().sqrt())
-            .map(|length| if length > 0.0 { length } else { 1.0 })
-            .collect();
-        let design = Mat::from_fn(n, columns.len(), |i, j| columns[j][i] / lengths[j]);
-        let target = Mat::from_fn(n, 1, |i, _| prediction[i]);
-        let (normal, right) = (design.transpose() * &design, design.transpose() * &target);
-        let k = columns.len();
-        // What nothing determines so far counts as just about unknown.
-        let normal = DMatrix::from_fn(k, k, |i, j| normal[(i, j)] + if i == j { 1e-9 } else { 0.0 });
-        let spread = normal.cholesky()?.inverse();
-        let fitted = &spread * DVector::from_fn(k, |j, _| right[(j, 0)]);
-        let left = |i: usize| prediction[i] - (0..k).map(|j| design[(i, j)] * fitted[j]).sum::<f64>();
-        let difference = (0..n).map(|i| left(i).powi(2)).sum();
-        for row in &mut rows {
-            for (j, length) in lengths.iter().enumerate() {
-                row.column_mut(j).scale_mut(1.0 / length);
-            }
-        }
-        Some(Self { effect, spread, fitted, difference, before: difference, rows })
+impl Model {
+    /// By how much a pose would raise each difference.
+    fn gain(&self, row: usize, target: &DMatrix<f64>) -> Vec<f64> {
+        let (x, State { spread, fitted, .. }) = (&self.rows[row], &self.now);
+        let left = target - x * fitted;
+        let own = DMatrix::identity(x.nrows(), x.nrows()) + x * spread * x.transpose();
+        let Some(factor) = own.cholesky() else { return vec![0.0; left.ncols()] };
+        left.column_iter().zip(factor.solve(&left).column_iter()).map(|(l, s)| l.dot(&s)).collect()
     }
 
-    fn clone_state(&self) -> State {
-        (self.spread.clone(), self.fitted.clone(), self.difference)
-    }
-
-    /// By how much a pose would raise the difference.
-    fn gain(&self, row: usize, target: &DVector<f64>) -> f64 {
-        let x = &self.rows[row];
-        let left = target - x * &self.fitted;
-        let own = DMatrix::identity(x.nrows(), x.nrows()) + x * &self.spread * x.transpose();
-        own.cholesky().map_or(0.0, |factor| left.dot(&factor.solve(&left)))
-    }
-
-    /// A state with a pose measured as well.
-    fn with(&self, (spread, fitted, difference): State, row: usize, target: &DVector<f64>) -> State {
-        let x = &self.rows[row];
-        let left = target - x * &fitted;
-        let across = x * &spread;
+    /// Counts a pose as measured.
+    fn measure(&mut self, row: usize, target: &DMatrix<f64>) {
+        let (x, State { spread, fitted, difference }) = (&self.rows[row], &mut self.now);
+        let left = target - x * &*fitted;
+        let across = x * &*spread;
         let own = DMatrix::identity(x.nrows(), x.nrows()) + &across * x.transpose();
-        let Some(factor) = own.cholesky() else { return (spread, fitted, difference) };
+        let Some(factor) = own.cholesky() else { return };
         let solved = factor.solve(&left);
-        let difference = difference + left.dot(&solved);
-        let fitted = fitted + across.transpose() * solved;
-        let spread = spread - across.transpose() * factor.solve(&across);
-        (spread, fitted, difference)
+        for (truth, difference) in difference.iter_mut().enumerate() {
+            *difference += left.column(truth).dot(&solved.column(truth));
+        }
+        *fitted += across.transpose() * solved;
+        *spread -= across.transpose() * factor.solve(&across);
+    }
+
+    /// By how much the poses chosen raise the difference from a prediction.
+    fn gained(&self, truth: usize) -> f64 {
+        self.now.difference[truth] - self.before.difference[truth]
+    }
+
+    /// Forgets the poses chosen.
+    fn forget(&mut self) {
+        self.now = self.before.clone();
     }
 }

@@ -15,10 +15,13 @@ use crate::observations::Measure;
 use crate::poses::{Criterion, Proposal, propose};
 use crate::report::{EffectFound, ErrorFound, Remaining, Report, SetAsideRow, Used, Verdict};
 use crate::search::select::{State, class_columns};
-use crate::search::{HeldOut, rivals};
+use crate::search::{AS_GOOD, HeldOut, Rival, rivals};
 
 /// Fewer observations than this are no evidence of an effect.
 const FEW: f64 = 5.0;
+
+/// Units of log-likelihood behind the best within which an explanation is kept in view when poses are chosen.
+const IN_VIEW: f64 = 10.0;
 
 /// The lines to add to the declaration.
 pub(crate) fn additions(
@@ -112,7 +115,7 @@ pub(crate) fn report(
         .enumerate()
         .filter_map(|(at, others)| {
             let all: Vec<usize> = others.alike.iter().chain(&others.rivals).copied().collect();
-            separation(whole, last, at, &all)
+            separation(whole, last, at, &all, &others.behind)
         })
         .collect();
     let alone = effects.iter().all(|effect| effect.class.is_empty() && effect.rivals.is_empty());
@@ -223,6 +226,8 @@ struct Others {
     alike: Vec<usize>,
     /// The first of each class that explains these data about as well.
     rivals: Vec<usize>,
+    /// The first of each class that explains them somewhat worse.
+    behind: Vec<usize>,
 }
 
 fn others(last: &Round<'_>) -> Vec<Others> {
@@ -230,7 +235,7 @@ fn others(last: &Round<'_>) -> Vec<Others> {
     let mut state = State::declared(&last.posed.problem, |_| true);
     let blocks = class_columns(&last.posed.problem, &last.classes);
     accepted.iter().for_each(|&class| state.add(&blocks[class]));
-    let mut rivals = rivals(&last.posed.problem, &last.classes, &accepted, &state).into_iter();
+    let mut rivals = rivals(&last.posed.problem, &last.classes, &accepted, &state, IN_VIEW).into_iter();
     last.fitted
         .found
         .iter()
@@ -243,8 +248,14 @@ fn others(last: &Round<'_>) -> Vec<Others> {
             alike.dedup();
             // An effect without a class has no rivals: these data do not show it any more.
             let rivals = class.and_then(|_| rivals.next()).unwrap_or_default();
-            let rivals = rivals.iter().map(|rival| last.classes[rival.class].members[0]).collect();
-            Others { alike, rivals }
+            let (rivals, behind): (Vec<Rival>, Vec<Rival>) =
+                rivals.into_iter().partition(|rival| rival.behind <= AS_GOOD);
+            let first = |rivals: Vec<Rival>| -> Vec<usize> {
+                let effects = rivals.iter().map(|rival| last.classes[rival.class].members[0]);
+                effects.filter(|effect| !alike.contains(effect)).collect()
+            };
+            let (rivals, behind) = (first(rivals), first(behind));
+            Others { alike, rivals, behind }
         })
         .collect()
 }

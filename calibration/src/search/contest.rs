@@ -38,7 +38,7 @@ pub struct Contender {
 #[must_use]
 pub fn criterion(left: &Left<'_>, price: Price) -> f64 {
     let rss = left.residual.iter().map(|r| r * r).sum();
-    penalised(rss, left.residual.len(), left.basis.ncols()) - chosen(price.classes, left.accepted.len())
+    penalised(rss, left.residual.len(), left.basis.ncols()) - ln_choices(price.classes, left.accepted.len())
 }
 
 /// The model with a function's columns in it, without those accepted effects that it makes idle.
@@ -66,7 +66,9 @@ pub fn contender(left: &Left<'_>, columns: MatRef<'_, f64>, price: Price) -> Con
         let mut sweep = Sweep::scaled(small.clone(), open.iter().map(|&column| before[column]).collect());
         let added = effects.iter().flatten().filter(|&&column| sweep.add(column)).count();
         let rss = sweep.entry(open.len() - 1, open.len() - 1);
-        penalised(rss, rows, count + added + price.parameters) - own - chosen(price.classes, effects.len())
+        penalised(rss, rows, count + added + price.parameters)
+            - own
+            - ln_choices(price.classes, effects.len())
     };
     let mut criterion = judged(&kept);
     loop {
@@ -123,6 +125,7 @@ fn penalised(rss: f64, rows: usize, count: usize) -> f64 {
 }
 
 /// The log of how many ways there are to choose so many of so many.
-fn chosen(of: usize, count: usize) -> f64 {
+#[must_use]
+pub fn ln_choices(of: usize, count: usize) -> f64 {
     if count > of { 0.0 } else { ln_binomial(of as u64, count as u64) }
 }

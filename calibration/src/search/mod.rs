@@ -30,7 +30,7 @@ pub use classes::{Class, classes};
 pub use folds::Folds;
 pub use nested::{HeldOut, nested};
 pub use problem::{Problem, ProblemError};
-pub use rivals::{Rival, rivals};
+pub use rivals::{AS_GOOD, Rival, rivals};
 pub use select::{Accepted, Options, Selection, select};
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use super::problem::Problem;
 use super::select::{State, class_columns};
 
 /// Units of log-likelihood within which two explanations are as good as each other.
-const AS_GOOD: f64 = 2.0;
+pub const AS_GOOD: f64 = 2.0;
 
 /// A class that could stand in an accepted one's place.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,16 +16,22 @@ pub struct Rival {
     pub behind: f64,
 }
 
-/// For each accepted class, the others within two units of penalised log-likelihood of it, best first, all other
-/// accepted classes kept.
+/// For each accepted class, the others within some units ([`AS_GOOD`]) of penalised log-likelihood of it, best first, all
+/// other accepted classes kept.
 #[must_use]
-pub fn rivals(problem: &Problem, classes: &[Class], accepted: &[usize], state: &State) -> Vec<Vec<Rival>> {
+pub fn rivals(
+    problem: &Problem,
+    classes: &[Class],
+    accepted: &[usize],
+    state: &State,
+    within: f64,
+) -> Vec<Vec<Rival>> {
     let blocks = class_columns(problem, classes);
     accepted
         .iter()
         .map(|&own| {
             let mut without = state.clone();
-            without.remove(&blocks[own]);
+            without.remove_among(own, accepted.iter().copied(), &blocks);
             let (gain, rank) = without.gain(&blocks[own]);
             let best = without.criterion(gain, rank);
             let mut rivals: Vec<Rival> = (0..classes.len())
@@ -33,7 +39,7 @@ pub fn rivals(problem: &Problem, classes: &[Class], accepted: &[usize], state: &
                 .filter_map(|class| {
                     let (gain, rank) = without.gain(&blocks[class]);
                     let behind = best - without.criterion(gain, rank);
-                    (rank > 0 && behind <= AS_GOOD).then_some(Rival { class, behind })
+                    (rank > 0 && behind <= within).then_some(Rival { class, behind })
                 })
                 .collect();
             rivals.sort_by(|a, b| a.behind.total_cmp(&b.behind).then(a.class.cmp(&b.class)));

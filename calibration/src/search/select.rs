@@ -2,7 +2,6 @@
 //! and drops.
 
 use faer::Mat;
-use faer::linalg::solvers::Solve;
 
 use super::classes::Class;
 use super::flips::{Family, Signs, familywise};
@@ -94,6 +93,17 @@ impl State {
         self.base.retain(|column| !block.contains(column));
     }
 
+    /// Takes out one of the blocks that are in; columns that the others share with it stay with them.
+    pub fn remove_among(
+        &mut self,
+        block: usize,
+        all: impl IntoIterator<Item = usize>,
+        blocks: &[Vec<usize>],
+    ) {
+        self.remove(&blocks[block]);
+        all.into_iter().filter(|&other| other != block).for_each(|other| self.add(&blocks[other]));
+    }
+
     /// The residual's sum of squares.
     #[must_use]
     pub fn rss(&self) -> f64 {
@@ -104,18 +114,6 @@ impl State {
     #[must_use]
     pub fn gain(&self, block: &[usize]) -> (f64, usize) {
         self.sweep.gain(block, self.residual)
-    }
-
-    /// What a swept block takes off the sum of squares, and its rank.
-    #[must_use]
-    pub fn loss(&self, block: &[usize]) -> (f64, usize) {
-        let inside: Vec<usize> = block.iter().copied().filter(|&c| self.sweep.contains(c)).collect();
-        let k = inside.len();
-        let inverse = Mat::from_fn(k, k, |i, j| -self.sweep.entry(inside[i], inside[j]));
-        let b = Mat::from_fn(k, 1, |i, _| self.sweep.entry(inside[i], self.residual));
-        let Ok(factor) = inverse.llt(faer::Side::Lower) else { return (0.0, 0) };
-        let scaled = factor.solve(&b);
-        ((0..k).map(|i| b[(i, 0)] * scaled[(i, 0)]).sum(), k)
     }
 
     /// The swept columns with their coefficients.
@@ -264,7 +262,7 @@ impl Search<'_> {
             let mut changed = false;
             for at in 0..accepted.len() {
                 let own = accepted[at].class;
-                state.remove(&self.blocks[own]);
+                state.remove_among(own, accepted.iter().map(|a| a.class), self.blocks);
                 let (gain, rank) = state.gain(&self.blocks[own]);
                 let mut best = (state.criterion(gain, rank), own);
                 for class in 0..self.blocks.len() {
@@ -302,9 +300,12 @@ impl Search<'_> {
         loop {
             let mut worst: Option<(f64, usize)> = None;
             for (at, own) in accepted.iter().enumerate().filter(|(_, a)| Some(a.class) != newest) {
-                let (gain, rank) = state.loss(&self.blocks[own.class]);
-                let tails = Tails::new([rank], state.df() + rank as f64);
-                let ln_p = tails.ln_p(rank, gain, state.rss() + gain) + (self.blocks.len() as f64).ln();
+                // What lies within the others gains nothing beside them.
+                state.remove_among(own.class, accepted.iter().map(|a| a.class), self.blocks);
+                let (gain, rank) = state.gain(&self.blocks[own.class]);
+                let tails = Tails::new([rank], state.df());
+                let ln_p = tails.ln_p(rank, gain, state.rss()) + (self.blocks.len() as f64).ln();
+                state.add(&self.blocks[own.class]);
                 let idle = rank == 0 || ln_p > options.false_alarm.ln();
                 if idle && worst.is_none_or(|(most, _)| ln_p > most) {
                     worst = Some((ln_p, at));
@@ -312,7 +313,8 @@ impl Search<'_> {
             }
             let Some((_, at)) = worst else { return dropped };
             let gone = accepted.remove(at);
-            state.remove(&self.blocks[gone.class]);
+            let left = accepted.iter().map(|a| a.class);
+            state.remove_among(gone.class, left, self.blocks);
             dropped.push(gone.class);
         }
     }

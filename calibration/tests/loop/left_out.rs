@@ -166,7 +166,8 @@ fn each_error_of_the_auxiliary_telescope_is_named_or_said_to_be_hidden() {
         let size = before.report.errors.iter().find(|e| e.name == name).unwrap().value.abs();
         let declared = &study.plan.chain.bodies[body];
         let freedom = Freedom { motion: declared.factors[at].motion, axis: declared.factors[at].axis };
-        let here = |e: &EffectFound| e.dof == freedom.word() && e.body == declared.name;
+        let moves = |e: &EffectFound| e.dof.split(", ").any(|word| word == freedom.word());
+        let here = |e: &EffectFound| moves(e) && e.body == declared.name;
         let placed = || report.effects.iter().any(here).then_some(Said::Placed);
         let said = said(&report, &wanted, size).or_else(placed).unwrap_or_else(|| {
             let found: Vec<_> = report.effects.iter().map(|e| (&e.names, &e.class, &e.rivals)).collect();

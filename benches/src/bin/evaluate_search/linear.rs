@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use calibration::search::{Options, rivals, select};
+use calibration::search::{AS_GOOD, Options, rivals, select};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -44,7 +44,7 @@ fn search(design: &Design, ratios: &[f64], seed: u64) -> Result<Outcome, Failure
     let options = Options { seed: random.random(), ..Options::default() };
     let found = select(&problem, &design.classes, &[], |_| true, &options);
     let accepted: Vec<usize> = found.accepted.iter().map(|a| a.class).collect();
-    let near = rivals(&problem, &design.classes, &accepted, &found.state);
+    let near = rivals(&problem, &design.classes, &accepted, &found.state, AS_GOOD);
     let first = accepted.first().copied();
     let near: Vec<usize> = near.first().into_iter().flatten().map(|rival| rival.class).collect();
     let set: Vec<usize> = first.into_iter().chain(near).collect();

@@ -1,0 +1,67 @@
+//! Rows that were set aside together: outliers, or the very rows that show what is missing?
+//!
+//! A few rows far from all others decide which of two effects is right, and while the wrong one is in the model they look
+//! like outliers: their weight is zero, and nothing that they say is heard. The same happens where a variance that depends
+//! on the joints takes them for noise. So the search is made once more with every row at its full weight and even noise;
+//! what it finds is fitted and searched on as always. Of the two models the likelier one stays, at its own noise and with
+//! outliers allowed, if it leaves fewer rows unexplained: real outliers are explained by no effect.
+//!
+//! Source of the price of a choice: J. Chen and Z. Chen, "Extended Bayesian information criteria for model selection with
+//! large model spaces", Biometrika 95 (2008).
+
+use super::fitted::Fitted;
+use super::round::Round;
+use super::{CalibrateError, Loop, Request, names, rounds};
+use crate::fit::robust;
+use crate::noise::Layout;
+use crate::search::contest::ln_choices;
+
+/// Rows below which there is nothing that they could show together.
+const FEWEST: usize = 2;
+
+/// The last round, or another one in its stead that explains the rows which it set aside.
+pub(super) fn reconsidered<'a>(whole: &Loop<'a>, last: Round<'a>) -> Result<Round<'a>, CalibrateError> {
+    let plan = whole.request.plan;
+    if !plan.fit.robust || doubts(&last) < FEWEST {
+        return Ok(last);
+    }
+    let mut trusting = plan.clone();
+    trusting.fit.robust = false;
+    trusting.fit.noise.variance = false;
+    let request = Request { plan: &trusting, ..whole.request };
+    let trusting = Loop { request, ..whole.clone() };
+    let found = rounds(&trusting, Round::at(&trusting, Fitted::first(&trusting)?)?)?.fitted;
+    if names(&found.found) == names(&last.fitted.found) {
+        return Ok(last);
+    }
+    let other = Fitted::with(whole, found.found.clone(), &found)?;
+    let other = rounds(whole, Round::at(whole, other)?)?;
+    let explains = doubts(&other) < doubts(&last) && criterion(whole, &other) > criterion(whole, &last);
+    Ok(if explains { other } else { last })
+}
+
+/// Rows that a round's model does not explain: those set aside, and as many as uneven noise could hide.
+fn doubts(round: &Round<'_>) -> usize {
+    let fit = &round.fitted.fit;
+    fit.set_aside.len() + if fit.noise.variance.is_some() { FEWEST } else { 0 }
+}
+
+/// Penalised log-likelihood of a round's model at its noise, where observations far from the rest count as just so far.
+fn criterion(whole: &Loop<'_>, round: &Round) -> f64 {
+    let observations = whole.request.observations;
+    let noise = round.fitted.fit.noise.without_memory();
+    let mut white = round.fitted.fit.residuals.raw.clone();
+    noise.whiten(&mut white);
+    let layout = Layout::of(observations);
+    let loss: f64 = layout
+        .norms(&white)
+        .zip(observations.measures())
+        .filter(|(norm, _)| norm.is_finite())
+        .map(|(norm, measure)| robust::loss(norm, measure.components()))
+        .sum();
+    let spread: f64 = noise.sigma.iter().map(|sigma| sigma.ln()).sum();
+    let terms = noise.variance.map_or(0, |model| model.terms.len());
+    let parameters = (round.fitted.fit.rank + terms) as f64;
+    let choice = ln_choices(round.classes.len(), round.fitted.found.len());
+    -spread - loss / 2.0 - parameters / 2.0 * (white.len() as f64).ln() - choice
+}

@@ -4,6 +4,7 @@
 mod again;
 mod data;
 mod examples;
+mod few;
 mod instruments;
 mod left_out;
 mod mistaken;

@@ -1,0 +1,50 @@
+//! An effect that hangs on a handful of observations is told as one.
+
+use calibration::observations::Observations;
+use calibration::report::{Report, Verdict};
+use calibration::study::Study;
+use model_core::Chain;
+
+use crate::simulated::{lidar, measured, pointing, search};
+
+const ARCSEC: f64 = std::f64::consts::PI / 180.0 / 3600.0;
+
+/// The report on 300 poses, of which the first ones belong to a second session: there the middle frame stands otherwise.
+fn report(second: usize) -> Report {
+    let text = lidar();
+    let study = "chain = \"c\"\nobservable = \"pointing\"\ndata = \"d\"\n\
+                 [columns]\ntemperature = { column = \"t\" }\nbeta_direction = { column = \"b\" }\n\
+                 session_2 = { column = \"s\" }\n\
+                 [observed]\nkind = \"direction\"\n[search]\ninputs = [\"session_2\", \"temperature\", \"beta_direction\"]\n";
+    let plan = Study::from_text(study).unwrap().plan(&Chain::from_text(&text).unwrap()).unwrap();
+    let chain = Chain::from_text(&text).unwrap();
+    let moved = |by: f64| {
+        let shifted = |mut readings: [f64; 5]| {
+            readings[1] += by;
+            pointing(&chain, &[], readings)
+        };
+        measured(&plan, 300, 11, shifted)
+    };
+    let (first, other) = (moved(0.0), moved(60.0 * ARCSEC));
+    let measured = (0..300).map(|row| if row < second { &other } else { &first }.measured[row]).collect();
+    let mut columns = first.columns.clone();
+    let session = (0..300).map(|row| if row < second { 1.0 } else { 0.0 }).collect();
+    columns.push((plan.chain.find_symbol("session_2").unwrap(), session));
+    columns.sort_by_key(|(id, _)| *id);
+    search(&text, &plan, &Observations { measured, columns, ..first }).report
+}
+
+#[test]
+fn an_offset_of_three_rows_is_told_as_resting_on_few() {
+    let report = report(3);
+    assert_eq!(report.verdict, Verdict::FewObservations, "{:?} {:?}", report.effects, report.observations);
+    assert!(report.effects[0].driver == "session_2", "{:?}", report.effects);
+}
+
+#[test]
+fn the_same_offset_of_thirty_rows_is_explained() {
+    let report = report(30);
+    assert_eq!(report.effects.len(), 1, "{:?}", report.effects);
+    assert!(report.effects[0].driver == "session_2", "{:?}", report.effects);
+    assert_eq!(report.verdict, Verdict::UpToAClass);
+}

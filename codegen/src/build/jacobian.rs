@@ -1,13 +1,17 @@
 //! Jacobians from what lies below and above each step: with `P` the turn from the ground up to the step and
-//! `s` the vector from the device down to it, a turn about axis `a` moves the observable by `P (a × s)`, a
+//! `s` the vector from the step to the observable, a turn about axis `a` moves the observable by `P (a × s)`, a
 //! shift along it by `P a`.
+//!
+//! With errors, that turn is written `P a × P s`: in the ground's axes a direction is the same vector for all steps, and
+//! a point's differs by the shifts between them, so that no turn need be applied to it. Without errors `a × s` has
+//! zeros and equal columns that products of the columns of `P` would hide.
 
-use model_core::{Chain, Motion, SymbolId};
+use model_core::{Axis, Chain, Motion, SymbolId};
 
 use super::amount::{lower, small_turn, turn};
 use super::exact::{component_errors, components};
 use super::path::{Path, Split, Step, is_error};
-use super::vectors::{Matrix, NOTHING, Turn, Vector, add, affine, along, axis_cross};
+use super::vectors::{Matrix, NOTHING, Turn, Vector, add, affine, along, axis_cross, cross};
 use crate::builder::Builder;
 
 /// Where the derivative is taken.
@@ -28,6 +32,7 @@ pub(super) fn columns(b: &mut Builder, chain: &Chain, path: &Path, at: At, wrt: 
 /// What lies below and above each step; the last is the device, with nothing above but the observable itself.
 struct Places {
     below: Vec<Matrix>,
+    /// In the axes of the step where errors are zero, in those of the ground elsewhere.
     above: Vec<Vector>,
 }
 
@@ -49,10 +54,14 @@ fn places(b: &mut Builder, path: &Path, at: At) -> Places {
     if at == At::Errors {
         let errors = component_errors(b, path);
         suffix = add(b, &suffix, &errors);
+        suffix = affine(b, &prefix, &suffix, &NOTHING);
     }
     let mut above = vec![suffix];
-    for step in path.steps.iter().rev() {
-        suffix = lowered(b, step, at, &suffix);
+    for (step, below) in path.steps.iter().zip(&below).rev() {
+        suffix = match at {
+            At::Errors => seen_from(b, step, below, &suffix),
+            At::Nominal => lowered(b, step, &suffix),
+        };
         above.push(suffix);
     }
     above.reverse();
@@ -70,11 +79,17 @@ fn column(b: &mut Builder, chain: &Chain, path: &Path, places: &Places, at: At, 
     let mut sum = NOTHING;
     for ((step, below), above) in path.steps.iter().zip(&places.below).zip(&places.above) {
         let rate = derivative(b, &step.amount);
-        let moved = match step.motion {
-            Motion::Rotation => axis_cross(step.axis, above).map(|component| b.mul(rate, component)),
-            Motion::Translation => along(step.axis, rate),
+        let moved = match (step.motion, at) {
+            (Motion::Rotation, At::Errors) => {
+                let axis = column_of(below, step.axis);
+                cross(b, &axis, above).map(|component| b.mul(rate, component))
+            }
+            (Motion::Rotation, At::Nominal) => {
+                let moved = axis_cross(step.axis, above).map(|component| b.mul(rate, component));
+                affine(b, below, &moved, &NOTHING)
+            }
+            (Motion::Translation, _) => affine(b, below, &along(step.axis, rate), &NOTHING),
         };
-        let moved = affine(b, below, &moved, &NOTHING);
         sum = add(b, &sum, &moved);
     }
     let own = std::array::from_fn(|i| derivative(b, &path.components[i]));
@@ -100,22 +115,34 @@ fn turns(b: &mut Builder, step: &Step, at: At) -> Vec<Turn> {
     turns
 }
 
-/// A vector above a step as it is below it.
-fn lowered(b: &mut Builder, step: &Step, at: At, vector: &Vector) -> Vector {
+/// The perfect instrument's vector above a step as it is below it.
+fn lowered(b: &mut Builder, step: &Step, vector: &Vector) -> Vector {
     match step.motion {
         Motion::Rotation => {
-            turns(b, step, at).into_iter().fold(*vector, |v, turn| turn.apply(b, step.axis, &v))
+            turns(b, step, At::Nominal).into_iter().fold(*vector, |v, turn| turn.apply(b, step.axis, &v))
         }
         Motion::Translation => {
             let nominal = lower(b, &step.amount.nominal);
-            let shifted = add(b, vector, &along(step.axis, nominal));
-            if at == At::Nominal {
-                return shifted;
-            }
-            let error = lower(b, &step.amount.error);
-            add(b, &shifted, &along(step.axis, error))
+            add(b, vector, &along(step.axis, nominal))
         }
     }
+}
+
+/// The ground's vector from above a step as it is from below it.
+fn seen_from(b: &mut Builder, step: &Step, below: &Matrix, vector: &Vector) -> Vector {
+    match step.motion {
+        Motion::Rotation => *vector,
+        Motion::Translation => {
+            let (nominal, error) = (lower(b, &step.amount.nominal), lower(b, &step.amount.error));
+            let shift = b.add(nominal, error);
+            affine(b, below, &along(step.axis, shift), vector)
+        }
+    }
+}
+
+/// An axis of a step in the ground's axes.
+fn column_of(below: &Matrix, axis: Axis) -> Vector {
+    below.map(|row| row[axis.index()])
 }
 
 fn along_x() -> Vector {

@@ -157,7 +157,12 @@ impl Builder {
         let mut nodes = Vec::new();
         let mut prepared = 0;
         for stage in [Stage::Prepared, Stage::Evaluated] {
-            for index in (0..self.nodes.len()).filter(|&index| needed[index] && self.stages[index] == stage) {
+            let mut order: Vec<usize> =
+                (0..self.nodes.len()).filter(|&index| needed[index] && self.stages[index] == stage).collect();
+            if stage == Stage::Evaluated {
+                order = crate::order::order(&self.nodes, &outputs, &order);
+            }
+            for index in order {
                 place[index] = next_id(&nodes);
                 nodes.push(self.nodes[index].map(|operand| place[operand.index()]));
             }

@@ -6,6 +6,7 @@ pub mod backends;
 pub mod build;
 mod builder;
 pub mod interpreter;
+mod order;
 pub mod program;
 pub mod vector;
 

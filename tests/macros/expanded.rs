@@ -185,31 +185,31 @@ pub mod thermal {
             let t7 = self.constants.column * self.errors.growth;
             let (t11, t12) = ComplexField::sin_cos(joints.pan);
             let (t14, t15) = ComplexField::sin_cos(joints.tilt);
-            let t17 = inputs.temperature * inputs.temperature;
-            let t18 = t17 * t3;
-            let t20 = inputs.temperature * self.errors.drift;
-            let t21 = inputs.reversal * self.errors.backlash;
-            let t22 = t20 + t21;
-            let t23 = inputs.temperature * t7;
-            let t24 = inputs.temperature * self.errors.lean;
-            let t25 = t15 * self.errors.sag;
+            let t18 = inputs.temperature * inputs.temperature;
+            let t19 = t18 * t3;
+            let t21 = inputs.temperature * self.errors.drift;
+            let t22 = inputs.reversal * self.errors.backlash;
+            let t23 = t21 + t22;
+            let t24 = t15 * t23;
+            let t25 = t14 * t19;
             let t26 = t24 + t25;
-            let t27 = t15 * t22;
-            let t28 = t14 * t18;
-            let t29 = t27 + t28;
-            let t31 = t29 * inputs.range;
-            let t32 = t26 * inputs.range;
-            let t33 = t15 * t32;
-            let t34 = t14 * t32;
-            let t35 = t23 - t33;
-            let t36 = t12 * t34;
-            let t37 = t11 * t31;
+            let t27 = t26 * inputs.range;
+            let t28 = inputs.temperature * self.errors.lean;
+            let t29 = t15 * self.errors.sag;
+            let t30 = t28 + t29;
+            let t31 = t30 * inputs.range;
+            let t32 = inputs.temperature * t7;
+            let t33 = t15 * t31;
+            let t34 = t32 - t33;
+            let t35 = t14 * t31;
+            let t36 = t12 * t35;
+            let t37 = t11 * t27;
             let t38 = t36 + t37;
-            let t39 = t11 * t34;
-            let t40 = t12 * t31;
-            let t41 = -t38;
-            let t42 = t40 - t39;
-            Vector3::new(t41, t42, t35)
+            let t39 = -t38;
+            let t40 = t11 * t35;
+            let t41 = t12 * t27;
+            let t42 = t41 - t40;
+            Vector3::new(t39, t42, t34)
         }
         /// [`spot_first_order`](Self::spot_first_order) of many poses.
         ///
@@ -238,33 +238,33 @@ pub mod thermal {
                 let inputs = &inputs.at(pose);
                 let (t11, t12) = ComplexField::sin_cos(joints.pan);
                 let (t14, t15) = ComplexField::sin_cos(joints.tilt);
-                let t17 = inputs.temperature * inputs.temperature;
-                let t18 = t17 * t3;
-                let t20 = inputs.temperature * self.errors.drift;
-                let t21 = inputs.reversal * self.errors.backlash;
-                let t22 = t20 + t21;
-                let t23 = inputs.temperature * t7;
-                let t24 = inputs.temperature * self.errors.lean;
-                let t25 = t15 * self.errors.sag;
+                let t18 = inputs.temperature * inputs.temperature;
+                let t19 = t18 * t3;
+                let t21 = inputs.temperature * self.errors.drift;
+                let t22 = inputs.reversal * self.errors.backlash;
+                let t23 = t21 + t22;
+                let t24 = t15 * t23;
+                let t25 = t14 * t19;
                 let t26 = t24 + t25;
-                let t27 = t15 * t22;
-                let t28 = t14 * t18;
-                let t29 = t27 + t28;
-                let t31 = t29 * inputs.range;
-                let t32 = t26 * inputs.range;
-                let t33 = t15 * t32;
-                let t34 = t14 * t32;
-                let t35 = t23 - t33;
-                let t36 = t12 * t34;
-                let t37 = t11 * t31;
+                let t27 = t26 * inputs.range;
+                let t28 = inputs.temperature * self.errors.lean;
+                let t29 = t15 * self.errors.sag;
+                let t30 = t28 + t29;
+                let t31 = t30 * inputs.range;
+                let t32 = inputs.temperature * t7;
+                let t33 = t15 * t31;
+                let t34 = t32 - t33;
+                let t35 = t14 * t31;
+                let t36 = t12 * t35;
+                let t37 = t11 * t27;
                 let t38 = t36 + t37;
-                let t39 = t11 * t34;
-                let t40 = t12 * t31;
-                let t41 = -t38;
-                let t42 = t40 - t39;
-                x[pose] = t41;
+                let t39 = -t38;
+                let t40 = t11 * t35;
+                let t41 = t12 * t27;
+                let t42 = t41 - t40;
+                x[pose] = t39;
                 y[pose] = t42;
-                z[pose] = t35;
+                z[pose] = t34;
             }
             Ok(())
         }
@@ -281,42 +281,42 @@ pub mod thermal {
             let (t7, t8) = ComplexField::sin_cos(joints.tilt);
             let t9 = t5 * t7;
             let t10 = t4 * t7;
-            let t12 = t7 * inputs.range;
-            let t13 = t8 * inputs.range;
-            let t15 = t13 * inputs.reversal;
-            let t16 = t4 * t15;
-            let t17 = t5 * t15;
-            let t19 = t13 * inputs.temperature;
-            let t20 = t4 * t19;
-            let t21 = t5 * t19;
-            let t22 = self.constants.column * inputs.temperature;
-            let t23 = inputs.temperature * inputs.temperature;
-            let t24 = 0.01 * t23;
-            let t25 = t12 * t24;
-            let t26 = t4 * t25;
-            let t27 = t5 * t25;
-            let t28 = t9 * t13;
-            let t29 = t10 * t13;
-            let t30 = t8 * t13;
-            let t31 = inputs.range * inputs.temperature;
-            let t32 = t9 * t31;
-            let t33 = t10 * t31;
-            let t34 = t8 * t31;
-            let t35 = -t16;
-            let t36 = -t20;
-            let t37 = -t26;
-            let t38 = -t28;
-            let t39 = -t32;
-            let t40 = -t29;
-            let t41 = -t33;
-            let t42 = -t30;
-            let t43 = -t34;
+            let t12 = t8 * inputs.range;
+            let t13 = t9 * t12;
+            let t14 = -t13;
+            let t15 = t10 * t12;
+            let t16 = -t15;
+            let t17 = t8 * t12;
+            let t18 = -t17;
+            let t20 = t12 * inputs.reversal;
+            let t21 = t5 * t20;
+            let t22 = t4 * t20;
+            let t23 = -t22;
+            let t25 = self.constants.column * inputs.temperature;
+            let t26 = t12 * inputs.temperature;
+            let t27 = t5 * t26;
+            let t28 = t4 * t26;
+            let t29 = -t28;
+            let t30 = t7 * inputs.range;
+            let t31 = inputs.temperature * inputs.temperature;
+            let t32 = 0.01 * t31;
+            let t33 = t30 * t32;
+            let t34 = t5 * t33;
+            let t35 = t4 * t33;
+            let t36 = -t35;
+            let t37 = inputs.range * inputs.temperature;
+            let t38 = t9 * t37;
+            let t39 = -t38;
+            let t40 = t10 * t37;
+            let t41 = -t40;
+            let t42 = t8 * t37;
+            let t43 = -t42;
             SMatrix::from([
-                [t35, t17, 0.0],
-                [t36, t21, 0.0],
-                [0.0, 0.0, t22],
-                [t37, t27, 0.0],
-                [t38, t40, t42],
+                [t23, t21, 0.0],
+                [t29, t27, 0.0],
+                [0.0, 0.0, t25],
+                [t36, t34, 0.0],
+                [t14, t16, t18],
                 [t39, t41, t43],
             ])
         }
@@ -444,28 +444,28 @@ pub mod thermal {
             let t2 = 0.01 * self.errors.bend;
             let (t8, t9) = ComplexField::sin_cos(joints.pan);
             let (t11, t12) = ComplexField::sin_cos(joints.tilt);
-            let t14 = inputs.temperature * inputs.temperature;
-            let t15 = t14 * t2;
-            let t17 = inputs.temperature * self.errors.drift;
-            let t18 = inputs.reversal * self.errors.backlash;
-            let t19 = t17 + t18;
-            let t20 = inputs.temperature * self.errors.lean;
-            let t21 = t12 * self.errors.sag;
-            let t22 = t20 + t21;
-            let t23 = t12 * t22;
-            let t24 = t11 * t22;
-            let t25 = t12 * t19;
-            let t26 = t11 * t15;
-            let t27 = t25 + t26;
-            let t28 = t9 * t24;
-            let t29 = t8 * t27;
-            let t30 = t28 + t29;
-            let t31 = t8 * t24;
-            let t32 = t9 * t27;
-            let t33 = -t30;
-            let t34 = t32 - t31;
-            let t35 = -t23;
-            Vector3::new(t33, t34, t35)
+            let t14 = inputs.temperature * self.errors.lean;
+            let t15 = t12 * self.errors.sag;
+            let t16 = t14 + t15;
+            let t17 = t12 * t16;
+            let t18 = -t17;
+            let t19 = t11 * t16;
+            let t20 = inputs.temperature * inputs.temperature;
+            let t21 = t20 * t2;
+            let t23 = inputs.temperature * self.errors.drift;
+            let t24 = inputs.reversal * self.errors.backlash;
+            let t25 = t23 + t24;
+            let t26 = t12 * t25;
+            let t27 = t11 * t21;
+            let t28 = t26 + t27;
+            let t29 = t9 * t19;
+            let t30 = t8 * t28;
+            let t31 = t29 + t30;
+            let t32 = -t31;
+            let t33 = t8 * t19;
+            let t34 = t9 * t28;
+            let t35 = t34 - t33;
+            Vector3::new(t32, t35, t18)
         }
         /// [`line_first_order`](Self::line_first_order) of many poses.
         ///
@@ -493,30 +493,30 @@ pub mod thermal {
                 let inputs = &inputs.at(pose);
                 let (t8, t9) = ComplexField::sin_cos(joints.pan);
                 let (t11, t12) = ComplexField::sin_cos(joints.tilt);
-                let t14 = inputs.temperature * inputs.temperature;
-                let t15 = t14 * t2;
-                let t17 = inputs.temperature * self.errors.drift;
-                let t18 = inputs.reversal * self.errors.backlash;
-                let t19 = t17 + t18;
-                let t20 = inputs.temperature * self.errors.lean;
-                let t21 = t12 * self.errors.sag;
-                let t22 = t20 + t21;
-                let t23 = t12 * t22;
-                let t24 = t11 * t22;
-                let t25 = t12 * t19;
-                let t26 = t11 * t15;
-                let t27 = t25 + t26;
-                let t28 = t9 * t24;
-                let t29 = t8 * t27;
-                let t30 = t28 + t29;
-                let t31 = t8 * t24;
-                let t32 = t9 * t27;
-                let t33 = -t30;
-                let t34 = t32 - t31;
-                let t35 = -t23;
-                x[pose] = t33;
-                y[pose] = t34;
-                z[pose] = t35;
+                let t14 = inputs.temperature * self.errors.lean;
+                let t15 = t12 * self.errors.sag;
+                let t16 = t14 + t15;
+                let t17 = t12 * t16;
+                let t18 = -t17;
+                let t19 = t11 * t16;
+                let t20 = inputs.temperature * inputs.temperature;
+                let t21 = t20 * t2;
+                let t23 = inputs.temperature * self.errors.drift;
+                let t24 = inputs.reversal * self.errors.backlash;
+                let t25 = t23 + t24;
+                let t26 = t12 * t25;
+                let t27 = t11 * t21;
+                let t28 = t26 + t27;
+                let t29 = t9 * t19;
+                let t30 = t8 * t28;
+                let t31 = t29 + t30;
+                let t32 = -t31;
+                let t33 = t8 * t19;
+                let t34 = t9 * t28;
+                let t35 = t34 - t33;
+                x[pose] = t32;
+                y[pose] = t35;
+                z[pose] = t18;
             }
             Ok(())
         }
@@ -531,40 +531,40 @@ pub mod thermal {
         ) -> SMatrix<f64, 3, 6> {
             let (t3, t4) = ComplexField::sin_cos(joints.pan);
             let (t6, t7) = ComplexField::sin_cos(joints.tilt);
-            let t8 = t4 * t6;
-            let t9 = t3 * t6;
-            let t11 = t7 * inputs.reversal;
-            let t12 = t3 * t11;
-            let t13 = t4 * t11;
-            let t15 = t7 * inputs.temperature;
-            let t16 = t3 * t15;
-            let t17 = t4 * t15;
-            let t18 = inputs.temperature * inputs.temperature;
-            let t19 = 0.01 * t18;
-            let t20 = t6 * t19;
-            let t21 = t3 * t20;
-            let t22 = t4 * t20;
-            let t23 = t7 * t8;
-            let t24 = t7 * t9;
-            let t25 = t7 * t7;
-            let t26 = t8 * inputs.temperature;
-            let t27 = t9 * inputs.temperature;
-            let t28 = -t12;
-            let t29 = -t16;
-            let t30 = -t21;
-            let t31 = -t23;
-            let t32 = -t26;
-            let t33 = -t24;
-            let t34 = -t27;
-            let t35 = -t25;
-            let t36 = -t15;
+            let t8 = t7 * t7;
+            let t9 = -t8;
+            let t10 = t4 * t6;
+            let t11 = t7 * t10;
+            let t12 = -t11;
+            let t13 = t3 * t6;
+            let t14 = t7 * t13;
+            let t15 = -t14;
+            let t17 = t7 * inputs.reversal;
+            let t18 = t4 * t17;
+            let t19 = t3 * t17;
+            let t20 = -t19;
+            let t22 = t10 * inputs.temperature;
+            let t23 = -t22;
+            let t24 = t13 * inputs.temperature;
+            let t25 = -t24;
+            let t26 = t7 * inputs.temperature;
+            let t27 = t4 * t26;
+            let t28 = t3 * t26;
+            let t29 = -t28;
+            let t30 = -t26;
+            let t31 = inputs.temperature * inputs.temperature;
+            let t32 = 0.01 * t31;
+            let t33 = t6 * t32;
+            let t34 = t4 * t33;
+            let t35 = t3 * t33;
+            let t36 = -t35;
             SMatrix::from([
-                [t28, t13, 0.0],
-                [t29, t17, 0.0],
+                [t20, t18, 0.0],
+                [t29, t27, 0.0],
                 [0.0, 0.0, 0.0],
-                [t30, t22, 0.0],
-                [t31, t33, t35],
-                [t32, t34, t36],
+                [t36, t34, 0.0],
+                [t12, t15, t9],
+                [t23, t25, t30],
             ])
         }
         /// [`line_jacobian`](Self::line_jacobian) of many poses.

@@ -290,13 +290,14 @@ TRUEAXIS_INLINE void trueaxis_sin_cos_with(const int fused, double x, double *si
 TRUEAXIS_INLINE int trueaxis_is_narrow(const int fused, const double *restrict x)
 {
     double squares[8] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-    double sum = 0.0;
+    double sum;
     int row, lane;
     for (row = 0; row < TRUEAXIS_ROWS; row += 8)
         for (lane = 0; lane < 8; lane++)
             squares[lane] = trueaxis_mul_add(fused, x[row + lane], x[row + lane], squares[lane]);
-    for (lane = 0; lane < 8; lane++)
-        sum += squares[lane];
+    for (lane = 0; lane < 4; lane++)
+        squares[lane] += squares[lane + 4];
+    sum = (squares[0] + squares[2]) + (squares[1] + squares[3]);
     return sum <= TRUEAXIS_WIDEST * TRUEAXIS_WIDEST;
 }
 

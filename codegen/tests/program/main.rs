@@ -8,6 +8,7 @@ mod support;
 mod batches;
 mod counts;
 mod jacobians;
+mod order;
 mod random_chains;
 mod reference;
 mod texts;

@@ -145,12 +145,10 @@ impl Jacobian {
             let ground = [all::<L>(self.ground[0]), all(self.ground[1]), all(self.ground[2])];
             let zero = L::all(0.0);
             for row in (0..ROWS).step_by(L::ROWS) {
-                let alpha = L::load(joints[0].as_ptr().add(row));
-                let beta = L::load(joints[1].as_ptr().add(row));
-                let gamma = L::load(joints[2].as_ptr().add(row));
-                let (sa, ca) = sin_cos(alpha);
-                let (sb, cb) = sin_cos(beta);
-                let (sg, cg) = sin_cos(gamma);
+                let (sa, ca) = sin_cos(L::load(joints[0].as_ptr().add(row)));
+                let (sb, cb) = sin_cos(L::load(joints[1].as_ptr().add(row)));
+                let (sg, cg) = sin_cos(L::load(joints[2].as_ptr().add(row)));
+                // Each column is stored as soon as it is known, so that few values wait.
                 // Axes after α (Ry·Rx has no y in its first column), after β, after γ.
                 let ax = [
                     ground[0][0].times_plus(ca, ground[1][0].times(sa)),
@@ -163,23 +161,37 @@ impl Jacobian {
                     ground[1][2].times_minus(ca, ground[0][2].times(sa)),
                 ];
                 let a = [ax, ay, ground[2]];
+                put(out, 25, row, ax);
+                put(out, 26, row, ay);
                 let shift_x2 = along(&a, self.shift_x2);
+                put(out, 27, row, shift_x2);
                 let shift_y2 = across(a[1], self.shift_y2[1], a[2], self.shift_y2[2]);
+                put(out, 28, row, shift_y2);
                 let bx = along(&a, self.middle[0]);
                 let my = along(&a, self.middle[1]);
                 let z2 = along(&a, self.middle[2]);
                 let (by, bz) = turned(my, z2, sb, cb);
                 let b = [bx, by, bz];
+                put(out, 29, row, bx);
+                put(out, 30, row, by);
+                put(out, 31, row, bz);
                 let g2 = across(b[0], self.g2[0], b[2], self.g2[2]);
                 let shift_y3 = along(&b, self.shift_y3);
+                put(out, 32, row, shift_y3);
                 let x3 = along(&b, self.inner[0]);
                 let iy = along(&b, self.inner[1]);
                 let cz = along(&b, self.inner[2]);
                 let (cx, cy) = turned(x3, iy, sg, cg);
                 let c = [cx, cy, cz];
+                put(out, 33, row, cx);
+                put(out, 34, row, cy);
+                put(out, 35, row, cz);
                 let x4 = along(&c, self.shift_4[0]);
+                put(out, 36, row, x4);
                 let y4 = across(c[1], self.shift_4[1][1], c[2], self.shift_4[1][2]);
+                put(out, 37, row, y4);
                 let z4 = along(&c, self.shift_4[2]);
+                put(out, 38, row, z4);
                 let b4 = along(&c, self.b4);
 
                 let d = along(&c, self.direction);
@@ -208,12 +220,22 @@ impl Jacobian {
 
                 // The point as seen from each origin.
                 let from_3 = along(&c, self.above_4);
+                put(out, 23, row, cross(cx, from_3));
+                put(out, 24, row, cross(y4, from_3));
                 let from_y3 = along(&c, self.above_3);
+                put(out, 21, row, cross(shift_y3, from_y3));
+                put(out, 22, row, cross(x3, from_y3));
                 let from_b2 = times_plus(shift_y3, L::all(self.delta_y3), from_y3);
+                put(out, 19, row, cross(by, from_b2));
+                put(out, 20, row, cross(g2, from_b2));
                 let [x, y, z] = all::<L>(self.middle_shift);
                 let from_y2 = times_plus(b[0], x, times_plus(b[1], y, times_plus(b[2], z, from_b2)));
+                put(out, 17, row, cross(shift_y2, from_y2));
+                put(out, 18, row, cross(z2, from_y2));
                 let [x2, y2] = self.intersection;
                 let from_1 = times_plus(shift_x2, L::all(x2), times_plus(shift_y2, L::all(y2), from_y2));
+                put(out, 15, row, cross(ax, from_1));
+                put(out, 16, row, cross(shift_y2, from_1));
                 let [x, y, z] = all::<L>(self.outer_shift);
                 let p = times_plus(a[0], x, times_plus(a[1], y, times_plus(a[2], z, from_1)));
                 put(out, 13, row, [p[2], zero, zero.minus(p[0])]);
@@ -227,30 +249,6 @@ impl Jacobian {
                         x1[0].times(p[1]),
                     ],
                 );
-                put(out, 15, row, cross(ax, from_1));
-                put(out, 16, row, cross(shift_y2, from_1));
-                put(out, 17, row, cross(shift_y2, from_y2));
-                put(out, 18, row, cross(z2, from_y2));
-                put(out, 19, row, cross(by, from_b2));
-                put(out, 20, row, cross(g2, from_b2));
-                put(out, 21, row, cross(shift_y3, from_y3));
-                put(out, 22, row, cross(x3, from_y3));
-                put(out, 23, row, cross(cx, from_3));
-                put(out, 24, row, cross(y4, from_3));
-                put(out, 25, row, ax);
-                put(out, 26, row, ay);
-                put(out, 27, row, shift_x2);
-                put(out, 28, row, shift_y2);
-                put(out, 29, row, bx);
-                put(out, 30, row, by);
-                put(out, 31, row, bz);
-                put(out, 32, row, shift_y3);
-                put(out, 33, row, cx);
-                put(out, 34, row, cy);
-                put(out, 35, row, cz);
-                put(out, 36, row, x4);
-                put(out, 37, row, y4);
-                put(out, 38, row, z4);
             }
         }
     }

@@ -1,6 +1,7 @@
 /* The generated functions of one path behind names of their own, for `candidates.rs`. */
 #define mobile_lidar_exact_jacobian_place SPEED(exact_jacobian_place)
 #define mobile_lidar_first_order_jacobian_place SPEED(first_order_jacobian_place)
+#define mobile_lidar_path_taken SPEED(path_taken)
 #define mobile_lidar_first_order_error_prepare SPEED(foe_prepare)
 #define mobile_lidar_first_order_error SPEED(foe)
 #define mobile_lidar_first_order_error_without_branch SPEED(foe_without_branch)

@@ -99,6 +99,7 @@ void {prefix}_{name}(const {prefix}_{name}_prepared *prepared, const {prefix}_jo
                 c_rows::declarations(self, function),
             );
         }
+        text.push_str(&c_rows::declaration_of_path(self));
         text.push_str("\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n");
         text
     }
@@ -110,6 +111,7 @@ void {prefix}_{name}(const {prefix}_{name}_prepared *prepared, const {prefix}_jo
             text.push_str(&self.one_pose(function));
             text.push_str(&c_rows::definitions(self, function));
         }
+        text.push_str(&c_rows::definition_of_path(self));
         text
     }
 

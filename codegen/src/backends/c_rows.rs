@@ -9,6 +9,41 @@ use super::c_block::block;
 use super::unit::{Function, form_name};
 use crate::vector::{self, Dialect, Rows};
 
+const ACCURACY: &str = "Sines and cosines are at
+// most 0.9 units in the last place off for angles up to 1e6 rad, and right for any angle.";
+
+/// How a caller asks for the path that functions of many poses take.
+pub(super) fn declaration_of_path(c: &C<'_>) -> String {
+    format!(
+        "
+// The instructions that functions of many poses run on here: \"portable\" (those of every processor of the target),
+// \"x86-64-v3\" (AVX2 and FMA) or \"x86-64-v4\" (AVX-512 too).
+const char *{}_path_taken(void);
+",
+        c.prefix
+    )
+}
+
+/// Its definition.
+pub(super) fn definition_of_path(c: &C<'_>) -> String {
+    format!(
+        "
+const char *{}_path_taken(void)
+{{
+    switch (trueaxis_path()) {{
+    case TRUEAXIS_V4:
+        return \"x86-64-v4\";
+    case TRUEAXIS_V3:
+        return \"x86-64-v3\";
+    default:
+        return \"portable\";
+    }}
+}}
+",
+        c.prefix
+    )
+}
+
 /// What a form declares for many poses, with what it needs: for Jacobians, the type of their blocks.
 pub(super) fn declarations(c: &C<'_>, function: &Function) -> String {
     let mut text = String::new();
@@ -33,7 +68,7 @@ typedef struct {{
 {fields}}} {prefix}_{name}_places;
 extern const {prefix}_{name}_places {prefix}_{name}_place;
 
-// At most 64 poses, left in a block, so that they are still in the cache when they are used.
+// At most 64 poses, left in a block, so that they are still in the cache when they are used. {ACCURACY}
 {};
 ",
             loops.distinct,
@@ -43,8 +78,7 @@ extern const {prefix}_{name}_places {prefix}_{name}_place;
     let _ = write!(
         text,
         "
-// The same for many poses, but products may be fused with sums. Sines and cosines are at most 0.9 units in the last place
-// off for angles up to 1e6 rad, and right for any angle. Arrays must not overlap.
+// The same for many poses, but products may be fused with sums. {ACCURACY} Arrays must not overlap.
 {};
 ",
         rows_signature(c, function)

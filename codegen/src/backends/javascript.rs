@@ -80,7 +80,7 @@ export function {name}(p, joints) {{
         "
 /**
  * The same for many poses: `joints` holds an array for each joint, `out` has the shape of what {name} returns, with an
- * array in place of each number.
+ * array in place of each number. Sines and cosines, and their accuracy, are those of Math.
  */
 export function {name}Rows(p, joints, out) {{
   const rows = joints.{first}.length;

@@ -88,7 +88,7 @@ def prepare_{name}(errors):
 def {name}(p, joints):
     \"\"\"{about}
 
-    `p` is what prepare_{name} returned.
+    `p` is what prepare_{name} returned. Sines and cosines, and their accuracy, are NumPy's.
     \"\"\"
     poses = _poses(joints)
 {}    return Observed(

@@ -268,7 +268,7 @@ fn blocks(unit: &Unit<'_>, function: &Function, loops: &Rows, names: &[&str], re
         Ok(())
     }}
 
-    /// Many poses: as [`Self::eval_block`], block by block.
+    /// Many poses: as [`Self::eval_block`], block by block. {ACCURACY}
     ///
     /// # Errors
     /// If the slices of `joints` and `out` are not all equally long; nothing is written then.

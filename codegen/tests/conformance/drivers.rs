@@ -96,11 +96,13 @@ pub fn c(cases: &[Case]) -> String {
     for case in cases {
         writeln!(text, "#include \"{}.h\"", case.name).unwrap();
     }
-    let mut main = String::from("int main(void)\n{\n");
+    // Called with the path that should be taken.
+    let mut main = String::from("int main(int count, char **arguments)\n{\n");
     let compared = COMPARED.map(|row| row.to_string()).join(", ");
     for case in cases {
         let name = case.name;
-        writeln!(main, "    {name}();").unwrap();
+        let prefix = codegen_prefix(case);
+        writeln!(main, "    if (count != 2 || strcmp({prefix}_path_taken(), arguments[1]) != 0)\n        return 1;\n    {name}();").unwrap();
         writeln!(text, "static void {name}(void)\n{{").unwrap();
         for (index, &id) in case.joints.iter().enumerate() {
             writeln!(
@@ -113,7 +115,6 @@ pub fn c(cases: &[Case]) -> String {
         let list =
             |of: &dyn Fn(usize) -> String| (0..case.joints.len()).map(of).collect::<Vec<_>>().join(", ");
         let errors: Vec<String> = case.errors().iter().map(|&id| case.column(id)[0].clone()).collect();
-        let prefix = codegen_prefix(case);
         write!(
             text,
             "    const {prefix}_errors errors = {{{}}};

@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use case::Case;
-use codegen::Language;
+use codegen::{Language, vector};
 
 /// A folder of its own for each language.
 fn folder(name: &str) -> PathBuf {
@@ -95,7 +95,12 @@ fn c() {
             ])
             .args(sources),
     );
-    compare(&cases, &output(&mut Command::new(folder.join("main"))), true);
+    let path = match vector::path() {
+        vector::Path::Portable => "portable",
+        vector::Path::V3 => "x86-64-v3",
+        vector::Path::V4 => "x86-64-v4",
+    };
+    compare(&cases, &output(Command::new(folder.join("main")).arg(path)), true);
 }
 
 /// Nothing to warn of either where there is little: no joints, no errors.

@@ -58,7 +58,7 @@ pub fn propose(
     let candidates = spread(chain, observations, ranges);
     let model = Model::new(chain, &candidates, &fit.parameters)?;
     let m = candidates.series.first().map_or(1, |series| series.measure.components());
-    let sigma: Vec<f64> = fit.noise.floor.iter().take(m).map(|floor| floor.max(f64::MIN_POSITIVE)).collect();
+    let sigma = fit.noise.expected(observations);
     let p = fit.parameters.len();
     // In units in which every column of the Jacobian so far has length one.
     let scale: Vec<f64> = (0..p)

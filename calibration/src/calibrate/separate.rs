@@ -17,6 +17,7 @@ use super::round::Round;
 use super::{Loop, declared};
 use crate::columns::{Columns, places};
 use crate::effects::Effect;
+use crate::observations::Observations;
 use crate::poses::{joints, spread};
 use crate::report::{Separation, Told};
 
@@ -175,20 +176,14 @@ struct There {
     effects: Vec<Vec<Column>>,
 }
 
-fn columns_at(
-    whole: &Loop<'_>,
-    last: &Round<'_>,
-    poses: &crate::observations::Observations,
-    effects: &[usize],
-) -> Option<There> {
+fn columns_at(whole: &Loop<'_>, last: &Round<'_>, poses: &Observations, effects: &[usize]) -> Option<There> {
     let (fitted, problem) = (&last.fitted, &last.posed.problem);
     let values = &fitted.fit.values;
     let list: Vec<Effect> = effects.iter().map(|&effect| whole.catalogue[effect].clone()).collect();
     let columns = Columns::at(&fitted.chain, poses, declared(whole), values, &places(&list)).ok()?;
     let own = columns.of_effects(&fitted.chain, &list, poses, values);
     let components = poses.series.first()?.measure.components();
-    let sigma: Vec<f64> =
-        fitted.fit.noise.floor.iter().take(components).map(|floor| floor.max(f64::MIN_POSITIVE)).collect();
+    let sigma = fitted.fit.noise.expected(whole.request.observations);
     let whitened = |mut column: Vec<f64>| {
         column.iter_mut().enumerate().for_each(|(i, value)| *value /= sigma[i % components]);
         column

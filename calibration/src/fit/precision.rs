@@ -236,7 +236,7 @@ fn noise(chain: &Chain, observations: &Observations, fit: &FitResult) -> Vec<Str
     let mut floors = fit.noise.floor.iter();
     for series in &observations.series {
         let (unit, in_si) = match series.measure {
-            _ if !observations.sigma.is_empty() => ("times what the data state", 1.0),
+            _ if observations.states_sigma(series) => ("times what the data state", 1.0),
             measure => told_in(measure),
         };
         let own = floors.by_ref().take(series.measure.components());

@@ -13,6 +13,9 @@ use std::borrow::Cow;
 
 use model_core::SymbolId;
 
+use crate::fit::robust::median;
+use crate::observations::Observations;
+
 pub use estimate::{estimate, from_medians, of_floors, resolution};
 pub use layout::{Layout, Run};
 
@@ -154,6 +157,19 @@ impl Noise {
             own
         });
         Self { runs: own.collect(), sigma: sigma.copied().collect(), ..self.clone() }
+    }
+
+    /// For each component of the first series the median of its standard deviations: what one more observation is to be
+    /// expected to have, rad or m.
+    #[must_use]
+    pub fn expected(&self, observations: &Observations) -> Vec<f64> {
+        let Some(first) = observations.series.first() else { return vec![1.0] };
+        let (components, sigma) = (first.measure.components(), self.sigma_without_memory());
+        let own = sigma.get(..first.rows.len() * components).unwrap_or_default();
+        (0..components)
+            .map(|component| median(own.iter().skip(component).step_by(components).copied().collect()))
+            .map(|sigma| sigma.max(f64::MIN_POSITIVE))
+            .collect()
     }
 
     /// Per residual component its standard deviation, whatever the component before says of it.

@@ -60,6 +60,9 @@ pub struct Series {
     pub source: String,
 }
 
+/// What stands for the standard uncertainties of a row that states none.
+pub const UNSTATED: [f64; 3] = [1.0; 3];
+
 /// Observations as a structure of arrays; rows are in order of acquisition where [`Self::in_sequence`] says so.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Observations {
@@ -69,7 +72,8 @@ pub struct Observations {
     pub columns: Vec<(SymbolId, Vec<f64>)>,
     /// What was measured: a unit vector, a point in m, `[range_m, 0, 0]` or `[azimuth_rad, 0, 0]`.
     pub measured: Vec<[f64; 3]>,
-    /// Stated standard uncertainties of the residual components in rad or m; empty if none were stated.
+    /// Stated standard uncertainties of the residual components in rad or m; empty if none were stated, [`UNSTATED`] in
+    /// the rows of a series that states none.
     pub sigma: Vec<[f64; 3]>,
     /// Group of each row: rows of one group are not independent and are held out together.
     pub groups: Vec<u32>,
@@ -84,6 +88,12 @@ impl Observations {
     #[must_use]
     pub fn rows(&self) -> usize {
         self.measured.len()
+    }
+
+    /// Whether the rows of a series state their standard uncertainties.
+    #[must_use]
+    pub fn states_sigma(&self, series: &Series) -> bool {
+        self.sigma.get(series.rows.clone()).is_some_and(|own| own.iter().any(|sigma| *sigma != UNSTATED))
     }
 
     /// The readings of a joint or input, one value a row.

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use super::plan::{ColumnPlan, Plan, Reading, SourcePlan};
 use super::written::Kind;
 use crate::formats::{self, Cells, DataError, TableReader, Wanted, find_column};
-use crate::observations::{Observations, Series, direction_from_offset, direction_from_spherical};
+use crate::observations::{Observations, Series, UNSTATED, direction_from_offset, direction_from_spherical};
 
 /// Opens a data file of a study by its path as the study writes it.
 pub type Open<'a> = dyn FnMut(&str) -> Result<Box<dyn Read>, DataError> + 'a;
@@ -116,7 +116,10 @@ impl Plan {
         }
         all.measured.extend(measured);
         if !columns.sigma.is_empty() {
+            all.sigma.resize(start, UNSTATED);
             all.sigma.extend(sigma(&columns, &rows, &file)?);
+        } else if !all.sigma.is_empty() {
+            all.sigma.resize(start + count, UNSTATED);
         }
         let grouping = columns.labels.len() - usize::from(self.order.is_some());
         for row in 0..count {

@@ -8,6 +8,7 @@ mod effects;
 mod inputs;
 mod load;
 mod plan;
+mod sigma;
 mod written;
 
 use std::ops::Range;

@@ -6,7 +6,7 @@ use model_core::{Chain, ObservableId, Quantity, Symbol, SymbolId, SymbolKind, na
 use toml::Spanned;
 
 use super::StudyError;
-use super::written::{Column, HoldOut, Kind, Observed, SearchTable, Sigma, Study, Table};
+use super::written::{Column, HoldOut, Kind, Observed, SearchTable, Study, Table};
 use crate::effects::Effect;
 use crate::fit::FitOptions;
 use crate::formats::csv;
@@ -101,28 +101,25 @@ impl Study {
     /// The first name that the chain does not declare, or value that cannot be.
     pub fn plan(&self, chain: &Chain) -> Result<Plan, StudyError> {
         let chain = self.with_inputs(chain)?;
-        let sigma = self.noise.sigma.as_ref().map(|sigma| (sigma.get_ref(), sigma.span()));
-        let first = (&self.observable, &self.data, &self.columns, &self.observed);
-        let also = self.also.iter().map(|also| (&also.observable, &also.data, &also.columns, &also.observed));
-        let mut sources = Vec::new();
-        for (observable, data, columns, observed) in std::iter::once(first).chain(also) {
+        let first = (&self.observable, &self.data, &self.columns, &self.observed, &None);
+        let also = self
+            .also
+            .iter()
+            .map(|also| (&also.observable, &also.data, &also.columns, &also.observed, &also.sigma));
+        let mut sources: Vec<SourcePlan> = Vec::new();
+        for (observable, data, columns, observed, own) in std::iter::once(first).chain(also) {
             let observable = self.observable(&chain, observable.as_ref())?;
             let (kind, measure, observed) = observed_columns(&chain, observable, observed)?;
             let paths = data.get_ref().0.clone();
             if paths.is_empty() {
                 return Err(StudyError::new(data.span(), "no data file", "name one, or a list of them"));
             }
-            let sigma = match sigma.clone() {
-                Some((Sigma::Columns(columns), place)) => sigma_columns(columns, &place, measure)?,
-                _ => Vec::new(),
-            };
+            let first = sources.first().map_or(measure, |first| first.measure);
+            let sigma = self.sigma_columns(own.as_ref(), measure, first)?;
             let readings = self.readings(&chain, observable, columns)?;
             sources.push(SourcePlan { paths, observable, measure, readings, observed, kind, sigma });
         }
-        let sigma = match sigma {
-            Some((Sigma::Amount(amount), place)) => Some(sigma_amount(*amount, &place, &sources)?),
-            _ => None,
-        };
+        let sigma = self.stated_sigma(&sources)?;
         let observables: Vec<ObservableId> = sources.iter().map(|source| source.observable).collect();
         let search = self.search(&chain, &observables)?;
         let noise = NoiseOptions { sigma, variance: self.noise.variance, serial: self.noise.serial };
@@ -306,7 +303,11 @@ fn needed(chain: &Chain, observable: ObservableId) -> Vec<SymbolId> {
         .collect()
 }
 
-fn column_plan(column: &Column, quantity: Quantity, place: &Range<usize>) -> Result<ColumnPlan, StudyError> {
+pub(super) fn column_plan(
+    column: &Column,
+    quantity: Quantity,
+    place: &Range<usize>,
+) -> Result<ColumnPlan, StudyError> {
     let unit = column.unit.as_deref().map(Unit::parse).transpose();
     let unit = unit.map_err(|error| StudyError::new(place.clone(), error.to_string(), ""))?;
     match &column.column {
@@ -377,47 +378,6 @@ fn observed_columns(
     Ok((observed.kind, measure, columns))
 }
 
-fn residual_quantity(measure: Measure) -> Quantity {
-    match measure {
-        Measure::Direction | Measure::Azimuth => Quantity::Angle,
-        Measure::Point | Measure::Range => Quantity::Length,
-    }
-}
-
-fn sigma_amount(amount: Amount, place: &Range<usize>, sources: &[SourcePlan]) -> Result<f64, StudyError> {
-    let mut quantities = sources.iter().map(|source| residual_quantity(source.measure));
-    let quantity = quantities.next().unwrap_or(Quantity::Angle);
-    if quantities.any(|other| other != quantity) {
-        return Err(StudyError::new(
-            place.clone(),
-            "one standard deviation cannot stand for both angles and lengths",
-            "leave `sigma` out to have each estimated, or write it into a column of each file",
-        ));
-    }
-    let sigma = si(&amount, quantity, place)?;
-    if sigma > 0.0 {
-        return Ok(sigma);
-    }
-    Err(StudyError::new(
-        place.clone(),
-        "a standard deviation is positive",
-        "leave `sigma` out to have it estimated",
-    ))
-}
-
-fn sigma_columns(
-    columns: &[Column],
-    place: &Range<usize>,
-    measure: Measure,
-) -> Result<Vec<ColumnPlan>, StudyError> {
-    if columns.len() != 1 && columns.len() != measure.components() {
-        let message = format!("{} columns for {} residual components", columns.len(), measure.components());
-        return Err(StudyError::new(place.clone(), message, "name one column for all, or one for each"));
-    }
-    let plan = |column| column_plan(column, residual_quantity(measure), place);
-    columns.iter().map(plan).collect()
-}
-
-fn si(amount: &Amount, quantity: Quantity, place: &Range<usize>) -> Result<f64, StudyError> {
+pub(super) fn si(amount: &Amount, quantity: Quantity, place: &Range<usize>) -> Result<f64, StudyError> {
     amount.to_si(quantity).map_err(|error| StudyError::new(place.clone(), error.to_string(), ""))
 }

@@ -63,6 +63,7 @@ pub(super) struct Also {
     #[serde(default)]
     pub columns: Table<Column>,
     pub observed: Spanned<Observed>,
+    pub sigma: Option<Spanned<Sigma>>,
 }
 
 /// `[[effect]]`: one of the user's own.

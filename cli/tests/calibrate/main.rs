@@ -6,6 +6,7 @@ mod support;
 mod bad_studies;
 mod instruments;
 mod observations;
+mod ranges;
 
 use serde_json::Value;
 use support::{Folder, trueaxis};

@@ -4,16 +4,17 @@ use std::fmt::Write;
 
 use super::c::C;
 use super::unit::{Function, form_name};
-use crate::vector::{Angle, Line, Rows};
+use crate::vector::{Angle, Rows};
 
 /// The function `…_compute`. With sines and cosines in the loop over rows, that loop is a function of its own, and
 /// `…_compute` asks first whether all angles are narrow.
 pub(super) fn block(c: &C<'_>, function: &Function, loops: &Rows) -> String {
     let (prefix, name) = (&c.prefix, form_name(function.form));
+    let is_jacobian = function.form.is_jacobian();
     let columns: Vec<String> = loops.columns.iter().map(|&id| format!("column_{}", c.name(id))).collect();
     let mut parameters: String =
         columns.iter().map(|column| format!(", const double *restrict {column}")).collect();
-    let outs: Vec<String> = if function.form.is_jacobian() {
+    let outs: Vec<String> = if is_jacobian {
         parameters.push_str(", double (*restrict out)[72]");
         vec!["out".into()]
     } else {
@@ -44,7 +45,9 @@ pub(super) fn block(c: &C<'_>, function: &Function, loops: &Rows) -> String {
             );
         }
     }
-    statements(&mut text, function, loops);
+    for statement in loops.in_row(loops.fixed.iter().chain(&loops.statements), is_jacobian) {
+        let _ = writeln!(text, "        {statement}");
+    }
     text.push_str("    }\n}\n");
 
     if loops.in_one_loop {
@@ -92,24 +95,4 @@ fn waves_of_block(Angle { name, computed }: &Angle) -> String {
     trueaxis_sin_cos_rows(fused, {source}, sine_{name}, cosine_{name});"
     );
     text
-}
-
-/// What the last loop does.
-fn statements(text: &mut String, function: &Function, loops: &Rows) {
-    for line in loops.fixed.iter().chain(&loops.statements) {
-        let mut write = |statement: &str| {
-            let _ = writeln!(text, "        {statement}");
-        };
-        match line {
-            Line::Bind(statement) => write(statement),
-            Line::Store { place, value } if function.form.is_jacobian() => {
-                write(&format!("out[{place}][row] = {value};"));
-            }
-            Line::Store { place, value } => {
-                for (index, _) in loops.places.iter().enumerate().filter(|&(_, at)| at == place) {
-                    write(&format!("out{index}[row] = {value};"));
-                }
-            }
-        }
-    }
 }

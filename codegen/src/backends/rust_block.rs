@@ -3,15 +3,16 @@
 use std::fmt::Write;
 
 use super::unit::Function;
-use crate::vector::{Angle, Line, Rows};
+use crate::vector::{Angle, Rows};
 
 /// The function `compute`, inside the method that uses it. With sines and cosines in the loop over rows, that loop is a
 /// function of its own, and `compute` asks first whether all angles are narrow.
 pub(super) fn block(function: &Function, loops: &Rows, read: &[&str]) -> String {
+    let is_jacobian = function.form.is_jacobian();
     let count = function.program.carried().len();
     let carried: Vec<String> = (0..count).map(|index| format!("p{index}")).collect();
     let carried = format!("&[{}]: &[f64; {count}]", carried.join(", "));
-    let (outs, kind): (Vec<String>, _) = if function.form.is_jacobian() {
+    let (outs, kind): (Vec<String>, _) = if is_jacobian {
         (vec!["out".into()], format!("[[f64; ROWS + 8]; {}]", loops.distinct))
     } else {
         let outs = (0..loops.places.len()).map(|index| format!("out{index}"));
@@ -60,7 +61,11 @@ pub(super) fn block(function: &Function, loops: &Rows, read: &[&str]) -> String 
             );
         }
     }
-    statements(&mut text, function, loops);
+    // A Jacobian's block has its fixed values from the start.
+    let fixed = if is_jacobian { &[] } else { loops.fixed.as_slice() };
+    for statement in loops.in_row(fixed.iter().chain(&loops.statements), is_jacobian) {
+        let _ = writeln!(text, "                {statement}");
+    }
     text.push_str("            }\n        }\n");
     text
 }
@@ -86,24 +91,4 @@ fn waves_of_block(Angle { name, computed }: &Angle) -> String {
             let (sine_{name}, cosine_{name}) = sine_cosine::sin_cos_rows(arithmetic, {source}, &mut waves_{name});"
     );
     text
-}
-
-/// What the last loop does. A Jacobian's block has its fixed values from the start.
-fn statements(text: &mut String, function: &Function, loops: &Rows) {
-    let is_jacobian = function.form.is_jacobian();
-    let fixed = if is_jacobian { &[] } else { loops.fixed.as_slice() };
-    for line in fixed.iter().chain(&loops.statements) {
-        let mut write = |statement: &str| {
-            let _ = writeln!(text, "                {statement}");
-        };
-        match line {
-            Line::Bind(statement) => write(statement),
-            Line::Store { place, value } if is_jacobian => write(&format!("out[{place}][row] = {value};")),
-            Line::Store { place, value } => {
-                for (index, _) in loops.places.iter().enumerate().filter(|&(_, at)| at == place) {
-                    write(&format!("out{index}[row] = {value};"));
-                }
-            }
-        }
-    }
 }

@@ -65,6 +65,31 @@ pub(crate) enum Line {
     },
 }
 
+impl Rows {
+    /// What lines of the last loop say in a row, in Rust and C alike: values of a Jacobian are stored in its block, others
+    /// in the array of each output.
+    pub(crate) fn in_row<'a>(
+        &self,
+        lines: impl IntoIterator<Item = &'a Line>,
+        is_jacobian: bool,
+    ) -> Vec<String> {
+        let mut statements = Vec::new();
+        for line in lines {
+            match line {
+                Line::Bind(statement) => statements.push(statement.clone()),
+                Line::Store { place, value } if is_jacobian => {
+                    statements.push(format!("out[{place}][row] = {value};"));
+                }
+                Line::Store { place, value } => {
+                    let outputs = self.places.iter().enumerate().filter(|&(_, at)| at == place);
+                    statements.extend(outputs.map(|(index, _)| format!("out{index}[row] = {value};")));
+                }
+            }
+        }
+        statements
+    }
+}
+
 /// Lists a program.
 pub(crate) fn rows(program: &Program, dialect: &Dialect<'_>) -> Rows {
     let lister = Lister::new(program, dialect);

@@ -29,7 +29,20 @@ struct Arguments {
     command: commands::Command,
 }
 
+/// A spoiled Parquet file makes the crate that reads it panic; that becomes an error like any other, and is told as one.
+#[cfg(feature = "parquet")]
+fn tell_panics_of_readers_as_errors() {
+    let told = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        if !calibration::formats::parquet::is_reading() {
+            told(panic);
+        }
+    }));
+}
+
 fn main() -> ExitCode {
+    #[cfg(feature = "parquet")]
+    tell_panics_of_readers_as_errors();
     match Arguments::parse().command.run() {
         Ok(commands::Answer::Done) => ExitCode::SUCCESS,
         Ok(commands::Answer::No) => ExitCode::from(1),

@@ -3,6 +3,7 @@
 //! Names of columns carry units as the headers of separated values do. The format keeps its table of contents at the end, so
 //! a file is held in memory whole.
 
+use std::cell;
 use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -128,10 +129,25 @@ impl TableReader for Reader {
     }
 }
 
+thread_local! {
+    /// Whether this thread is in a part of the crate's reader.
+    static READING: cell::Cell<bool> = const { cell::Cell::new(false) };
+}
+
+/// Whether a panic of this thread would be one of the crate's reader: it becomes an error, and a program's panic hook need
+/// say nothing of it.
+#[must_use]
+pub fn is_reading() -> bool {
+    READING.get()
+}
+
 /// Runs a part of the crate's reader, which panics at some spoiled files instead of saying so.
 fn guarded<T>(source: &str, read: impl FnOnce() -> Result<T, ParquetError>) -> Result<T, DataError> {
     let unreadable = |why: String| DataError::Unreadable { file: source.to_string(), why };
-    match catch_unwind(AssertUnwindSafe(read)) {
+    READING.set(true);
+    let outcome = catch_unwind(AssertUnwindSafe(read));
+    READING.set(false);
+    match outcome {
         Ok(result) => result.map_err(|error| unreadable(error.to_string())),
         Err(_) => Err(unreadable("the file is spoiled: write it again".to_string())),
     }

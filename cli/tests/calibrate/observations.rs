@@ -273,6 +273,29 @@ fn parquet_is_read_and_written_as_separated_values_are() {
     assert_eq!(parquet.1, separated.1);
 }
 
+/// A spoiled file is told as any wrong input is, also where the crate that reads it panics.
+#[cfg(feature = "parquet")]
+#[test]
+fn spoiled_parquet_is_no_panic() {
+    let folder = Folder::new("spoiled-parquet");
+    folder
+        .write("encoder.chain", ENCODER.replace("reading", "az"))
+        .write("errors.toml", "index = \"11 arcsec\"\n");
+    let good = concat!(env!("CARGO_MANIFEST_DIR"), "/../calibration/tests/reference/snappy.parquet");
+    let good = std::fs::read(good).expect("the file");
+    // Bits of the page headers at which the crate panics.
+    for at in [273, 278, 376, 382] {
+        let mut bytes = good.clone();
+        bytes[at] ^= 1;
+        folder.write("run.parquet", bytes);
+        let data = ["--data", "run.parquet", "--out", "out.csv"];
+        let run =
+            folder.trueaxis(&[&["eval", "encoder.chain", "--errors", "errors.toml"], &data[..]].concat());
+        assert_eq!(run.code, 2, "byte {at}: {run}");
+        assert_eq!(run.stderr, "error: run.parquet: the file is spoiled: write it again\n", "byte {at}");
+    }
+}
+
 /// Degrees that nobody declared as such: the data are read as radians, and the residual is no small error.
 #[test]
 fn misread_data_are_told_before_all_else() {

@@ -2,6 +2,7 @@
 //! and drops.
 
 use faer::Mat;
+use faer::linalg::solvers::Solve;
 
 use super::classes::Class;
 use super::flips::{Family, Signs, familywise};
@@ -116,6 +117,18 @@ impl State {
         self.sweep.gain(block, self.residual)
     }
 
+    /// What a swept block takes off the sum of squares, and its rank, if no other block shares its columns.
+    #[must_use]
+    pub fn loss(&self, block: &[usize]) -> (f64, usize) {
+        let inside: Vec<usize> = block.iter().copied().filter(|&c| self.sweep.contains(c)).collect();
+        let k = inside.len();
+        let inverse = Mat::from_fn(k, k, |i, j| -self.sweep.entry(inside[i], inside[j]));
+        let b = Mat::from_fn(k, 1, |i, _| self.sweep.entry(inside[i], self.residual));
+        let Ok(factor) = inverse.llt(faer::Side::Lower) else { return (0.0, 0) };
+        let scaled = factor.solve(&b);
+        ((0..k).map(|i| b[(i, 0)] * scaled[(i, 0)]).sum(), k)
+    }
+
     /// The swept columns with their coefficients.
     #[must_use]
     pub fn coefficients(&self) -> Vec<(usize, f64)> {
@@ -197,6 +210,12 @@ struct Test {
     class: usize,
     p_value: f64,
     criterion: f64,
+}
+
+/// What a regression leaves.
+struct Left {
+    rss: f64,
+    df: f64,
 }
 
 /// What every step of one search reads.
@@ -287,6 +306,21 @@ impl Search<'_> {
         }
     }
 
+    /// What an accepted class takes off the sum of squares beside the others, its rank there, and what is left without it.
+    fn taken_off(&self, state: &mut State, accepted: &[Accepted], own: usize) -> (f64, usize, Left) {
+        let all = || accepted.iter().map(|a| a.class);
+        if all().flat_map(|class| &self.blocks[class]).all(|&column| state.sweep.contains(column)) {
+            let (gain, rank) = state.loss(&self.blocks[own]);
+            return (gain, rank, Left { rss: state.rss() + gain, df: state.df() + rank as f64 });
+        }
+        // Some share columns: what lies within the others gains nothing beside them.
+        state.remove_among(own, all(), self.blocks);
+        let (gain, rank) = state.gain(&self.blocks[own]);
+        let left = Left { rss: state.rss(), df: state.df() };
+        state.add(&self.blocks[own]);
+        (gain, rank, left)
+    }
+
     /// Drops accepted classes, `newest` aside, that later ones have made idle: their Bonferroni p is above the
     /// false-alarm rate. Returns them.
     fn drop_idle(
@@ -300,12 +334,9 @@ impl Search<'_> {
         loop {
             let mut worst: Option<(f64, usize)> = None;
             for (at, own) in accepted.iter().enumerate().filter(|(_, a)| Some(a.class) != newest) {
-                // What lies within the others gains nothing beside them.
-                state.remove_among(own.class, accepted.iter().map(|a| a.class), self.blocks);
-                let (gain, rank) = state.gain(&self.blocks[own.class]);
-                let tails = Tails::new([rank], state.df());
-                let ln_p = tails.ln_p(rank, gain, state.rss()) + (self.blocks.len() as f64).ln();
-                state.add(&self.blocks[own.class]);
+                let (gain, rank, left) = self.taken_off(state, accepted, own.class);
+                let tails = Tails::new([rank], left.df);
+                let ln_p = tails.ln_p(rank, gain, left.rss) + (self.blocks.len() as f64).ln();
                 let idle = rank == 0 || ln_p > options.false_alarm.ln();
                 if idle && worst.is_none_or(|(most, _)| ln_p > most) {
                     worst = Some((ln_p, at));

@@ -69,10 +69,11 @@ struct Model {
 struct State {
     /// Inverse of the normal matrix of what is refitted.
     spread: DMatrix<f64>,
-    /// What is refitted, at its best against each prediction, one a column.
-    fitted: DMatrix<f64>,
     /// Σ squared difference from each prediction, σ².
     difference: Vec<f64>,
+    /// Of each pose that could be measured: the variance of what would be seen there, and what each prediction would
+    /// differ by. Kept up to date, so that a pose is weighed without the whole regression.
+    seen: Vec<(DMatrix<f64>, DMatrix<f64>)>,
 }
 
 /// A model, and the prediction that it is to be told from.
@@ -121,14 +122,14 @@ pub(super) fn separation(
     }
     let targets = design.targets(&hypotheses);
     let mut models: Vec<Model> =
-        hypotheses.iter().map(|own| design.model(own, &hypotheses)).collect::<Option<_>>()?;
+        hypotheses.iter().map(|own| design.model(own, &hypotheses, &targets)).collect::<Option<_>>()?;
 
     // A pair that no poses tell apart would draw all poses to itself, and leave none for the others.
     let told: Vec<usize> =
         (1..models.len()).filter(|&model| others.contains(&hypotheses[model].effect)).collect();
     let (apart, never): (Vec<usize>, Vec<usize>) = told.iter().partition(|&&model| {
         let pair = Pair { model, truth: 0 };
-        choose(&mut models, &[pair], &targets, count);
+        choose(&mut models, &[pair], count);
         let gained = models[model].gained(0);
         models.iter_mut().for_each(Model::forget);
         gained >= TELLING
@@ -139,7 +140,7 @@ pub(super) fn separation(
     let mut pairs: Vec<Pair> = pairs.collect();
     let mut chosen = Vec::new();
     while !apart.is_empty() {
-        chosen = choose(&mut models, &pairs, &targets, count);
+        chosen = choose(&mut models, &pairs, count);
         let before = pairs.len();
         pairs.retain(|&Pair { model, truth }| {
             truth == 0 && apart.contains(&model) || models[model].gained(truth) >= TELLING
@@ -233,7 +234,7 @@ impl Design {
         (0..self.poses).map(at).collect()
     }
 
-    fn model(&self, own: &Hypothesis, hypotheses: &[Hypothesis]) -> Option<Model> {
+    fn model(&self, own: &Hypothesis, hypotheses: &[Hypothesis], targets: &[DMatrix<f64>]) -> Option<Model> {
         let all: Vec<&Column> = self.base.iter().chain(&own.columns).collect();
         let numbers =
             |truth: &Hypothesis| truth.columns.iter().map(|(number, _)| *number).collect::<Vec<_>>();
@@ -249,24 +250,33 @@ impl Design {
             difference.push((b.dot(&(size * b)) - right.dot(&best)).max(0.0));
             fitted.set_column(column, &best);
         }
-        let rows = (0..self.poses)
+        let rows: Vec<DMatrix<f64>> = (0..self.poses)
             .map(|row| {
                 DMatrix::from_fn(self.components, all.len(), |component, column| {
                     all[column].1[row * self.components + component]
                 })
             })
             .collect();
-        let before = State { spread, fitted, difference };
+        let seen = rows.iter().zip(targets).map(|(x, target)| {
+            let noise = DMatrix::identity(x.nrows(), x.nrows());
+            (noise + x * &spread * x.transpose(), target - x * &fitted)
+        });
+        let seen = seen.collect();
+        let before = State { spread, difference, seen };
         Some(Model { rows, now: before.clone(), before })
     }
 }
 
 /// Chooses so many poses one by one, and measures them.
-fn choose(models: &mut [Model], pairs: &[Pair], targets: &[DMatrix<f64>], count: usize) -> Vec<usize> {
+fn choose(models: &mut [Model], pairs: &[Pair], count: usize) -> Vec<usize> {
     let mut chosen = Vec::new();
     while chosen.len() < count && !pairs.is_empty() {
-        let Some(best) = best(models, pairs, targets) else { break };
-        models.iter_mut().for_each(|model| model.measure(best, &targets[best]));
+        let Some(best) = best(models, pairs) else { break };
+        models.par_iter_mut().enumerate().for_each(|(at, model)| {
+            if pairs.iter().any(|pair| pair.model == at) {
+                model.measure(best);
+            }
+        });
         chosen.push(best);
     }
     chosen
@@ -274,12 +284,13 @@ fn choose(models: &mut [Model], pairs: &[Pair], targets: &[DMatrix<f64>], count:
 
 /// The pose by which the differences grow most, the smallest counting most: −ln Σ exp(−difference/2), which is the log
 /// of the odds against all confusions together.
-fn best(models: &[Model], pairs: &[Pair], targets: &[DMatrix<f64>]) -> Option<usize> {
+fn best(models: &[Model], pairs: &[Pair]) -> Option<usize> {
+    let poses = models.first().map_or(0, |model| model.rows.len());
     let odds = |row: usize| {
         let gains: Vec<Option<Vec<f64>>> = models
             .iter()
             .enumerate()
-            .map(|(at, model)| pairs.iter().any(|p| p.model == at).then(|| model.gain(row, &targets[row])))
+            .map(|(at, model)| pairs.iter().any(|p| p.model == at).then(|| model.gain(row)))
             .collect();
         let gain = |pair: &Pair| gains[pair.model].as_ref().map_or(0.0, |gains| gains[pair.truth]);
         let after: Vec<f64> =
@@ -287,7 +298,7 @@ fn best(models: &[Model], pairs: &[Pair], targets: &[DMatrix<f64>]) -> Option<us
         let least = after.iter().copied().fold(f64::INFINITY, f64::min);
         least / 2.0 - after.iter().map(|d| ((least - d) / 2.0).exp()).sum::<f64>().ln()
     };
-    let all: Vec<f64> = (0..targets.len()).into_par_iter().map(odds).collect();
+    let all: Vec<f64> = (0..poses).into_par_iter().map(odds).collect();
     all.iter()
         .enumerate()
         .filter(|(_, odds)| odds.is_finite())
@@ -297,27 +308,29 @@ fn best(models: &[Model], pairs: &[Pair], targets: &[DMatrix<f64>]) -> Option<us
 
 impl Model {
     /// By how much a pose would raise each difference.
-    fn gain(&self, row: usize, target: &DMatrix<f64>) -> Vec<f64> {
-        let (x, State { spread, fitted, .. }) = (&self.rows[row], &self.now);
-        let left = target - x * fitted;
-        let own = DMatrix::identity(x.nrows(), x.nrows()) + x * spread * x.transpose();
-        let Some(factor) = own.cholesky() else { return vec![0.0; left.ncols()] };
-        left.column_iter().zip(factor.solve(&left).column_iter()).map(|(l, s)| l.dot(&s)).collect()
+    fn gain(&self, row: usize) -> Vec<f64> {
+        let (variance, left) = &self.now.seen[row];
+        let Some(factor) = variance.clone().cholesky() else { return vec![0.0; left.ncols()] };
+        left.column_iter().zip(factor.solve(left).column_iter()).map(|(l, s)| l.dot(&s)).collect()
     }
 
     /// Counts a pose as measured.
-    fn measure(&mut self, row: usize, target: &DMatrix<f64>) {
-        let (x, State { spread, fitted, difference }) = (&self.rows[row], &mut self.now);
-        let left = target - x * &*fitted;
-        let across = x * &*spread;
-        let own = DMatrix::identity(x.nrows(), x.nrows()) + &across * x.transpose();
-        let Some(factor) = own.cholesky() else { return };
-        let solved = factor.solve(&left);
+    fn measure(&mut self, row: usize) {
+        let State { spread, difference, seen } = &mut self.now;
+        let (variance, left) = &seen[row];
+        let Some(factor) = variance.clone().cholesky() else { return };
+        let across = &self.rows[row] * &*spread;
+        let solved = factor.solve(left);
         for (truth, difference) in difference.iter_mut().enumerate() {
             *difference += left.column(truth).dot(&solved.column(truth));
         }
-        *fitted += across.transpose() * solved;
-        *spread -= across.transpose() * factor.solve(&across);
+        let gained = factor.solve(&across);
+        *spread -= across.transpose() * &gained;
+        for (x, (variance, left)) in self.rows.iter().zip(seen) {
+            let shared = x * across.transpose();
+            *left -= &shared * &solved;
+            *variance -= shared * (&gained * x.transpose());
+        }
     }
 
     /// By how much the poses chosen raise the difference from a prediction.

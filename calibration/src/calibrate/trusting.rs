@@ -16,13 +16,16 @@ use crate::fit::robust;
 use crate::noise::Layout;
 use crate::search::contest::ln_choices;
 
-/// Rows below which there is nothing that they could show together.
-const FEWEST: usize = 2;
+/// Rows below which there is nothing that they could show together: two, or one in a thousand, since of many rows some are
+/// set aside by chance.
+fn fewest(round: &Round<'_>) -> usize {
+    (round.fitted.fit.residuals.weight.len() / 1000).max(2)
+}
 
 /// The last round, or another one in its stead that explains the rows which it set aside.
 pub(super) fn reconsidered<'a>(whole: &Loop<'a>, last: Round<'a>) -> Result<Round<'a>, CalibrateError> {
     let plan = whole.request.plan;
-    if !plan.fit.robust || doubts(&last) < FEWEST {
+    if !plan.fit.robust || doubts(&last) < fewest(&last) {
         return Ok(last);
     }
     let mut trusting = plan.clone();
@@ -43,11 +46,11 @@ pub(super) fn reconsidered<'a>(whole: &Loop<'a>, last: Round<'a>) -> Result<Roun
 /// Rows that a round's model does not explain: those set aside, and as many as uneven noise could hide.
 fn doubts(round: &Round<'_>) -> usize {
     let fit = &round.fitted.fit;
-    fit.set_aside.len() + if fit.noise.variance.is_some() { FEWEST } else { 0 }
+    fit.set_aside.len() + if fit.noise.variance.is_some() { fewest(round) } else { 0 }
 }
 
 /// Penalised log-likelihood of a round's model at its noise, where observations far from the rest count as just so far.
-fn criterion(whole: &Loop<'_>, round: &Round) -> f64 {
+fn criterion(whole: &Loop<'_>, round: &Round<'_>) -> f64 {
     let observations = whole.request.observations;
     let noise = round.fitted.fit.noise.without_memory();
     let mut white = round.fitted.fit.residuals.raw.clone();

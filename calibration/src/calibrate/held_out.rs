@@ -9,7 +9,6 @@ use super::round::Round;
 use super::{CalibrateError, Loop, declared};
 use crate::columns::Columns;
 use crate::fit::{FitResult, robust};
-use crate::noise::Layout;
 use crate::report::Rms;
 use crate::search::HeldOut;
 
@@ -90,7 +89,7 @@ fn within_reach(whole: &Loop<'_>, last: &Round<'_>, residual: &[f64]) -> Vec<boo
     }
     let mut white = residual.to_vec();
     last.fitted.fit.noise.without_memory().whiten(&mut white);
-    let norms: Vec<f64> = Layout::of(observations).norms(&white).collect();
+    let norms: Vec<f64> = last.fitted.layout.norms(&white).collect();
     norms.iter().zip(observations.measures()).map(|(&n, m)| n < robust::cutoff(m.components())).collect()
 }
 

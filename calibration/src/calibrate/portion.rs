@@ -10,7 +10,7 @@ use rand_chacha::rand_core::SeedableRng;
 
 use super::fitted::Fitted;
 use super::{CalibrateError, Loop};
-use crate::columns::{Columns, Seen};
+use crate::columns::{Columns, Seen, keep};
 use crate::noise::{Layout, Noise, Run};
 use crate::observations::Observations;
 
@@ -81,11 +81,7 @@ impl<'a> Portion<'a> {
 
     /// Forgets the columns of effects that are not usable.
     pub fn keep(&mut self, usable: &[bool]) {
-        for (columns, usable) in self.effects.iter_mut().zip(usable) {
-            if !usable {
-                columns.clear();
-            }
-        }
+        keep(&mut self.effects, usable);
     }
 
     /// A column of residual components, whitened as the fit whitened its own.
@@ -117,6 +113,11 @@ fn runs(observations: &Observations, layout: &Layout, stretches: &[Range<usize>]
         Run { start: layout.first[stretch.start], end: layout.first[stretch.end], stride }
     };
     stretches.iter().map(run).collect()
+}
+
+/// The group of each component, by its row.
+pub(crate) fn groups(observations: &Observations, row: &[u32]) -> Vec<usize> {
+    row.iter().map(|&row| observations.groups[row as usize] as usize).collect()
 }
 
 /// All rows, one stretch a series.

@@ -5,7 +5,7 @@ use std::ops::Range;
 use faer::Mat;
 
 use super::fitted::Fitted;
-use super::portion::{Portion, all_rows, chunks, sample};
+use super::portion::{Portion, all_rows, chunks, groups, sample};
 use super::{CalibrateError, Loop, Stage};
 use crate::columns::Seen;
 use crate::search::{Cells, Folds, Problem, ProblemError};
@@ -31,8 +31,7 @@ impl<'a> Posed<'a> {
     /// At a fit.
     pub fn at(whole: &Loop<'a>, fitted: &Fitted) -> Result<Self, CalibrateError> {
         let hold_out = &whole.request.plan.hold_out;
-        let groups = &whole.request.observations.groups;
-        let groups: Vec<usize> = fitted.layout.row.iter().map(|&row| groups[row as usize] as usize).collect();
+        let groups = groups(whole.request.observations, &fitted.layout.row);
         let folds = Folds::deal(&groups, hold_out.folds, hold_out.seed);
         let functions: usize = whole.catalogue.iter().map(|effect| effect.functions.len()).sum();
         let width = fitted.combinations.ncols() + functions + 1;
@@ -57,18 +56,15 @@ impl<'a> Posed<'a> {
         let observations = whole.request.observations;
         let mut cells = Cells::new(&folds, CELLS.min(whole.held / (2 * width * width)), width);
         let mut seen: Option<Seen> = None;
-        let mut start = 0;
-        for chunk in chunks(observations) {
-            (whole.tell)(Stage::Columns { rows: chunk.start, of: observations.rows() });
-            let portion = Portion::of(whole, fitted, &[chunk])?;
-            let end = start + portion.without.len();
-            cells.add(portion.whitened().as_ref(), folds.groups_of(start..end));
-            start = end;
+        each_chunk(whole, fitted, |components, portion| {
+            let rows = fitted.layout.row[components.start] as usize;
+            (whole.tell)(Stage::Columns { rows, of: observations.rows() });
+            cells.add(portion.whitened().as_ref(), folds.groups_of(components));
             match &mut seen {
                 None => seen = Some(portion.seen),
                 Some(seen) => seen.merge(&portion.seen),
             }
-        }
+        })?;
         let usable = seen.map_or_else(Vec::new, |seen| seen.usable(&whole.catalogue));
         let functions = whole
             .catalogue
@@ -88,8 +84,7 @@ impl<'a> Posed<'a> {
         let mut rows =
             Portion::of(whole, fitted, &sample(observations, few, whole.request.plan.hold_out.seed))?;
         rows.keep(&usable);
-        let groups: Vec<usize> =
-            rows.columns.row.iter().map(|&row| rows.observations.groups[row as usize] as usize).collect();
+        let groups = groups(&rows.observations, &rows.columns.row);
         let sampled = problem(whole, fitted, &usable, &rows.whitened(), Folds::deal(&groups, 1, 0))?;
         Ok(Self { problem: problem_of_all, rows, sampled: Some(sampled), folds, usable })
     }
@@ -120,16 +115,27 @@ impl<'a> Posed<'a> {
             f(0..self.folds.rows(), &self.rows);
             return Ok(());
         }
-        let mut start = 0;
-        for chunk in chunks(whole.request.observations) {
-            let mut portion = Portion::of(whole, fitted, &[chunk])?;
+        each_chunk(whole, fitted, |components, mut portion| {
             portion.keep(&self.usable);
-            let end = start + portion.without.len();
-            f(start..end, &portion);
-            start = end;
-        }
-        Ok(())
+            f(components, &portion);
+        })
     }
+}
+
+/// Lets `f` have all rows, one chunk after another, each with its components.
+fn each_chunk<'a>(
+    whole: &Loop<'a>,
+    fitted: &Fitted,
+    mut f: impl FnMut(Range<usize>, Portion<'a>),
+) -> Result<(), CalibrateError> {
+    let mut start = 0;
+    for chunk in chunks(whole.request.observations) {
+        let portion = Portion::of(whole, fitted, &[chunk])?;
+        let end = start + portion.without.len();
+        f(start..end, portion);
+        start = end;
+    }
+    Ok(())
 }
 
 /// The problem of some whitened rows, which hold the columns of usable effects alone.

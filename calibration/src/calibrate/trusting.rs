@@ -13,7 +13,6 @@ use super::fitted::Fitted;
 use super::round::Round;
 use super::{CalibrateError, Loop, Request, names, rounds};
 use crate::fit::robust;
-use crate::noise::Layout;
 use crate::search::contest::ln_choices;
 
 /// Rows below which there is nothing that they could show together: two, or one in a thousand, since of many rows some are
@@ -55,8 +54,9 @@ fn criterion(whole: &Loop<'_>, round: &Round<'_>) -> f64 {
     let noise = round.fitted.fit.noise.without_memory();
     let mut white = round.fitted.fit.residuals.raw.clone();
     noise.whiten(&mut white);
-    let layout = Layout::of(observations);
-    let loss: f64 = layout
+    let loss: f64 = round
+        .fitted
+        .layout
         .norms(&white)
         .zip(observations.measures())
         .filter(|(norm, _)| norm.is_finite())

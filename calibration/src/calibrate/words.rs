@@ -10,7 +10,7 @@ use super::separate::separation;
 use super::{Loop, hidden};
 use crate::amend::{Addition, NewInput};
 use crate::effects::Function;
-use crate::fit::{precision, told_in};
+use crate::fit::precision;
 use crate::observations::Measure;
 use crate::poses::{Criterion, Proposal, propose};
 use crate::report::{EffectFound, ErrorFound, Remaining, Report, SetAsideRow, Used, Verdict};
@@ -196,10 +196,9 @@ fn errors(last: &Round<'_>) -> Vec<ErrorFound> {
 
 /// What became of the standard deviation that the study states, rad or m.
 fn stated_noise(sigma: f64, measure: Measure) -> String {
-    let (unit, in_si) = told_in(measure);
     format!(
-        "the study states {:.4} {unit}; weights and uncertainties go by what the residuals show, since something may be missing",
-        sigma / in_si
+        "the study states {}; weights and uncertainties go by what the residuals show, since something may be missing",
+        in_words(sigma, measure.unit())
     )
 }
 

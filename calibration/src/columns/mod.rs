@@ -148,11 +148,7 @@ impl Columns {
         values: &[f64],
     ) -> Vec<Vec<Vec<f64>>> {
         let (mut columns, seen) = self.of_part(chain, effects, observations, values);
-        for (columns, usable) in columns.iter_mut().zip(seen.usable(effects)) {
-            if !usable {
-                columns.clear();
-            }
-        }
+        keep(&mut columns, &seen.usable(effects));
         columns
     }
 
@@ -193,6 +189,15 @@ impl Columns {
             seen.effects.push(extents);
         }
         (columns, seen)
+    }
+}
+
+/// Forgets the columns of effects that are not usable.
+pub(crate) fn keep(columns: &mut [Vec<Vec<f64>>], usable: &[bool]) {
+    for (columns, usable) in columns.iter_mut().zip(usable) {
+        if !usable {
+            columns.clear();
+        }
     }
 }
 

@@ -22,7 +22,6 @@ use sweep::Weighting;
 
 pub use model::{Block, Model};
 pub use partial::{Partial, Rows};
-pub(crate) use precision::told_in;
 pub use precision::{Determined, NotSeparable, Precision, precision};
 pub use solve::fit;
 pub use stream::{Next, Pass, Streamed, StreamedResult};

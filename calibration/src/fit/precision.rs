@@ -224,7 +224,7 @@ fn leverages(chain: &Chain, observations: &Observations, fit: &FitResult) -> Res
 }
 
 /// The unit in which noise is told, and its size, rad or m.
-pub(crate) fn told_in(measure: Measure) -> (&'static str, f64) {
+fn told_in(measure: Measure) -> (&'static str, f64) {
     match measure {
         Measure::Direction | Measure::Azimuth => ("arcsec", ARCSEC_RAD),
         Measure::Point | Measure::Range => ("mm", 1e-3),

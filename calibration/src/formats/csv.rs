@@ -127,13 +127,7 @@ impl<R: Read> TableReader for Reader<R> {
     }
 
     fn read(&mut self, wanted: &[Wanted], at_most: usize) -> Result<Chunk, DataError> {
-        let mut columns: Vec<Cells> = wanted
-            .iter()
-            .map(|want| match want.factor {
-                Some(_) => Cells::Numbers(Vec::new()),
-                None => Cells::Labels(Vec::new()),
-            })
-            .collect();
+        let mut columns = super::no_cells(wanted);
         let mut rows = Vec::new();
         while rows.len() < at_most {
             let more = self

@@ -62,6 +62,15 @@ pub trait TableReader {
     fn read(&mut self, wanted: &[Wanted], at_most: usize) -> Result<Chunk, DataError>;
 }
 
+/// A column without cells for each that is wanted: numbers where there is a factor, labels else.
+fn no_cells(wanted: &[Wanted]) -> Vec<Cells> {
+    let empty = |want: &Wanted| match want.factor {
+        Some(_) => Cells::Numbers(Vec::new()),
+        None => Cells::Labels(Vec::new()),
+    };
+    wanted.iter().map(empty).collect()
+}
+
 /// Opens a table by the ending of its name.
 ///
 /// # Errors

@@ -102,13 +102,7 @@ impl TableReader for Reader {
     }
 
     fn read(&mut self, wanted: &[Wanted], at_most: usize) -> Result<Chunk, DataError> {
-        let mut columns: Vec<Cells> = wanted
-            .iter()
-            .map(|want| match want.factor {
-                Some(_) => Cells::Numbers(Vec::new()),
-                None => Cells::Labels(Vec::new()),
-            })
-            .collect();
+        let mut columns = super::no_cells(wanted);
         let mut rows = Vec::new();
         while rows.len() < at_most {
             let Some(row) = guarded(&self.source, || self.rows.next().transpose())? else { break };

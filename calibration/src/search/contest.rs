@@ -9,7 +9,8 @@
 use faer::{Mat, MatRef};
 use statrs::function::factorial::ln_binomial;
 
-use super::scan::{Left, VISIBLE};
+use super::problem::VISIBLE;
+use super::scan::Left;
 use super::sweep::Sweep;
 
 /// What a model pays, beside its columns.

@@ -92,6 +92,19 @@ impl Signs {
         &self.bucket_of_row
     }
 
+    /// Σ column × residual within each bucket, buckets × columns.
+    #[must_use]
+    pub fn scores(&self, columns: MatRef<'_, f64>, residual: &[f64]) -> Mat<f64> {
+        let mut scores = Mat::zeros(self.buckets(), columns.ncols());
+        for (j, column) in columns.col_iter().enumerate() {
+            let target = scores.col_as_slice_mut(j);
+            for ((&bucket, &e), &z) in self.bucket_of_row.iter().zip(residual).zip(column.iter()) {
+                target[bucket] += z * e;
+            }
+        }
+        scores
+    }
+
     /// Sums within buckets, then their signed sums: flips × columns.
     #[must_use]
     pub fn flip(&self, bucket_scores: MatRef<'_, f64>) -> Mat<f64> {
@@ -160,7 +173,7 @@ impl Family<'_> {
     pub fn smallest(&self, signs: &Signs) -> Vec<f64> {
         let left = self.left();
         let total: f64 = left.iter().map(|e| e * e).sum();
-        let scores = self.bucket_scores(&left, signs);
+        let scores = signs.scores(self.rows, &left);
         let whiteners: Vec<Mat<f64>> = self.blocks.iter().map(|block| self.sweep.whitener(block)).collect();
         let ranks: Vec<usize> = whiteners.iter().map(Mat::ncols).collect();
         let p = self.base.len();
@@ -205,18 +218,6 @@ impl Family<'_> {
             Mat::from_fn(self.base.len(), block.len(), |j, c| self.sweep.entry(self.base[j], block[c]));
         matmul(&mut own, Accum::Add, base_scores, &coefficients, -1.0, Par::Seq);
         own * whitener
-    }
-
-    /// Σ column × residual within each bucket.
-    fn bucket_scores(&self, left: &[f64], signs: &Signs) -> Mat<f64> {
-        let mut scores = Mat::zeros(signs.buckets(), self.rows.ncols());
-        for j in 0..self.rows.ncols() {
-            let column = scores.col_as_slice_mut(j);
-            for ((&bucket, &e), &z) in signs.bucket_of_row().iter().zip(left).zip(self.rows.col(j).iter()) {
-                column[bucket] += z * e;
-            }
-        }
-        scores
     }
 }
 

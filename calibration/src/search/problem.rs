@@ -15,8 +15,9 @@ use faer::{Accum, Mat, MatRef, Par};
 use super::folds::Folds;
 use super::products::{add_products, mirrored, picked};
 
-/// Share of a candidate's sum of squares that must be left by the declared columns for it to have any rank.
-const VISIBLE: f64 = 1e-4;
+/// Share of a column's sum of squares that must be left by those before it (the declared ones, for a candidate) for it to
+/// count.
+pub(super) const VISIBLE: f64 = 1e-4;
 /// Singular values of the scaled declared columns below this share of the largest count as zero.
 const RANK: f64 = 1e-9;
 

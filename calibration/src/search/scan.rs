@@ -9,12 +9,9 @@ use faer::{Mat, MatRef};
 use rayon::prelude::*;
 
 use super::flips::{Chance, Signs};
-use super::problem::Problem;
+use super::problem::{Problem, VISIBLE};
 use super::sweep::Sweep;
 use super::tail::Tails;
-
-/// Share of a column's sum of squares that the model before it must leave for the column to count.
-pub(super) const VISIBLE: f64 = 1e-4;
 
 /// Columns to scan, and which of them belong together.
 pub struct Sheet {
@@ -130,27 +127,14 @@ impl<'a> Left<'a> {
             signs,
             rss,
         };
-        left.known_scores = left.bucket_scores(left.known.as_ref());
+        left.known_scores = signs.scores(left.known.as_ref(), &left.flipped);
         let total: f64 = left.flipped.iter().map(|e| e * e).sum();
         left.rss = vec![total; signs.flips()];
-        let sums = signs.flip(left.bucket_scores(left.basis.as_ref()).as_ref());
+        let sums = signs.flip(signs.scores(left.basis.as_ref(), &left.flipped).as_ref());
         for column in sums.col_iter() {
             left.rss.iter_mut().zip(column.iter()).for_each(|(r, s)| *r -= s * s);
         }
         left
-    }
-
-    /// Σ column × flipped residual within each bucket.
-    fn bucket_scores(&self, columns: MatRef<'_, f64>) -> Mat<f64> {
-        let mut scores = Mat::zeros(self.signs.buckets(), columns.ncols());
-        for (j, column) in columns.col_iter().enumerate() {
-            let target = scores.col_as_slice_mut(j);
-            for ((&bucket, &e), &z) in self.signs.bucket_of_row().iter().zip(&self.flipped).zip(column.iter())
-            {
-                target[bucket] += z * e;
-            }
-        }
-        scores
     }
 
     /// The Gram matrix of the known columns, others, and the residual, in this order.
@@ -186,7 +170,7 @@ impl<'a> Left<'a> {
                 let base: Vec<usize> = (0..q).filter(|&column| sweep.add(column)).collect();
                 let (residual, df) = (q + sheet.columns.ncols(), (rows - base.len()) as f64);
                 let tails = Tails::new(sheet.blocks.iter().map(ExactSizeIterator::len), df);
-                let scores = self.bucket_scores(sheet.columns.as_ref());
+                let scores = self.signs.scores(sheet.columns.as_ref(), &self.flipped);
                 let known = &self.known_scores;
                 let mut chance = Chance::new(self.signs.flips());
                 let mut found = Vec::new();

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 use std::time::{Duration, Instant};
 
 use calibration::calibrate::{Request, calibrate};
+use calibration::effects::Effect;
 use calibration::observations::Observations;
 use calibration::report::{EffectFound, Report, Verdict};
 use calibration::study::NextPoses;
@@ -93,19 +94,30 @@ fn called(effect: &EffectFound, name: &str) -> bool {
     effect.names.iter().chain(&effect.class).any(|known| known == name)
 }
 
+/// An effect drawn from the catalogue in a random direction of its coefficients: itself, the chain with it, and the value of
+/// every symbol.
+fn planted<'a>(
+    design: &'a Design,
+    snr: f64,
+    random: &mut ChaCha8Rng,
+) -> Result<(&'a Effect, Chain, Vec<f64>), Failure> {
+    let (_, member) = design.draw(random);
+    let effect = &design.catalogue[member];
+    let (coefficients, _) = design.amplitudes(member, snr, random);
+    let (chain, errors) = effect.add_to(&design.plan.chain).ok_or("no room for the effect")?;
+    let mut values = declared(design, &chain, random);
+    for (error, coefficient) in errors.iter().zip(coefficients) {
+        values[error.index()] = coefficient;
+    }
+    Ok((effect, chain, values))
+}
+
 /// One effect of the catalogue among outliers.
 pub fn outliers(count: usize) -> Result<Vec<Line>, Failure> {
     let (seed, rows, snr) = (800_000, 300, 0.3);
     let design = Design::new(rows, Poses::Random(1.0), seed)?;
     let (right, took) = runs(count, seed, |random| {
-        let (_, member) = design.draw(random);
-        let effect = &design.catalogue[member];
-        let (coefficients, _) = design.amplitudes(member, snr, random);
-        let (chain, errors) = effect.add_to(&design.plan.chain).ok_or("no room for the effect")?;
-        let mut values = declared(&design, &chain, random);
-        for (error, coefficient) in errors.iter().zip(coefficients) {
-            values[error.index()] = coefficient;
-        }
+        let (effect, chain, values) = planted(&design, snr, random)?;
         let sampled = Noise::Outliers.sample(design.readings_of("beta"), random);
         let report =
             calibrated(&design, &design.observe(&design.readings, &chain, values, &sampled, |_, q| q))?;
@@ -124,14 +136,7 @@ pub fn next_poses(count: usize) -> Result<Vec<Line>, Failure> {
     let ranges = ranges.into_iter().filter_map(|(id, range)| Some((id?, range))).collect();
     design.plan.next = Some(NextPoses { count: 12, ranges });
     let (left, took) = runs(count, seed, |random| {
-        let (_, member) = design.draw(random);
-        let effect = &design.catalogue[member];
-        let (coefficients, _) = design.amplitudes(member, snr, random);
-        let (chain, errors) = effect.add_to(&design.plan.chain).ok_or("no room for the effect")?;
-        let mut values = declared(&design, &chain, random);
-        for (error, coefficient) in errors.iter().zip(coefficients) {
-            values[error.index()] = coefficient;
-        }
+        let (effect, chain, values) = planted(&design, snr, random)?;
         let mut sampled = Noise::Even.sample(design.readings_of("beta"), random);
         let first = design.observe(&design.readings, &chain, values.clone(), &sampled, |_, q| q);
         let report = calibrated(&design, &first)?;
@@ -161,14 +166,7 @@ pub fn time(count: usize) -> Result<Vec<Line>, Failure> {
     let mut least = f64::INFINITY;
     for run in 0..count as u64 {
         let random = &mut ChaCha8Rng::seed_from_u64(seed + run);
-        let (_, member) = design.draw(random);
-        let (coefficients, _) = design.amplitudes(member, 0.2, random);
-        let effect = &design.catalogue[member];
-        let (chain, errors) = effect.add_to(&design.plan.chain).ok_or("no room for the effect")?;
-        let mut values = declared(&design, &chain, random);
-        for (error, coefficient) in errors.iter().zip(coefficients) {
-            values[error.index()] = coefficient;
-        }
+        let (_, chain, values) = planted(&design, 0.2, random)?;
         let sampled = Noise::Even.sample(design.readings_of("beta"), random);
         let observations = design.observe(&design.readings, &chain, values, &sampled, |_, q| q);
         let begun = Instant::now();

@@ -2,14 +2,14 @@
 
 pub mod amend;
 pub mod calibrate;
-pub mod columns;
+pub mod candidate;
+pub mod catalogue;
+pub mod data;
+pub mod design;
+pub mod diagnose;
 pub mod effects;
 pub mod fit;
 pub mod formats;
-pub mod noise;
-pub mod observations;
-pub mod poses;
 pub mod report;
 pub mod search;
 pub mod study;
-pub mod units;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
 
-use calibration::units::Amount;
+use calibration::data::units::Amount;
 use model_core::mistake::Mistake;
 use model_core::{Chain, Quantity, SymbolId, SymbolKind, names};
 use toml::Spanned;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use calibration::units;
+use calibration::data::units;
 use model_core::algebra::Rational;
 use model_core::budget::{JointRange, Path, PathError};
 use model_core::expr::{Expr, Node};

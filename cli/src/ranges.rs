@@ -1,6 +1,6 @@
 //! Ranges of joints and inputs on the command line: `--range "elevation=10 deg..80 deg"`.
 
-use calibration::units::Amount;
+use calibration::data::units::Amount;
 use model_core::{Chain, SymbolId, SymbolKind, names};
 
 use crate::failure::Failure;

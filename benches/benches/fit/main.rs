@@ -10,8 +10,8 @@ use std::io::Write as _;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
+use calibration::data::{Measure, Observations, Series, direction_from_offset};
 use calibration::fit::{FitOptions, Next, Streamed, StreamedResult, fit};
-use calibration::observations::{Measure, Observations, Series, direction_from_offset};
 use model_core::{Chain, SymbolId, SymbolKind, exact};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

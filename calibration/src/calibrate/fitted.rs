@@ -4,10 +4,10 @@ use faer::Mat;
 use model_core::{Chain, SymbolId};
 
 use super::{CalibrateError, Found, Loop, Stage, declared};
-use crate::columns::{Probed, places};
+use crate::fit::noise::{Layout, NoiseOptions};
 use crate::fit::{FitOptions, FitResult, fit};
-use crate::noise::{Layout, NoiseOptions};
 use crate::search::ProblemError;
+use crate::search::columns::{Probed, places};
 
 /// A fit of the declaration with the effects accepted so far.
 pub(crate) struct Fitted {

@@ -4,13 +4,13 @@
 //! fold's search predicts of it lies as far off as where the robust weights end. The same rows count before and after,
 //! and the figure over every row stands beside.
 
-use super::portion::Portion;
 use super::round::Round;
 use super::{CalibrateError, Loop, declared};
-use crate::columns::Columns;
 use crate::fit::{FitResult, robust};
 use crate::report::Rms;
 use crate::search::HeldOut;
+use crate::search::columns::Columns;
+use crate::search::row_set::Portion;
 
 /// RMS before and after.
 #[derive(Debug, Clone, Copy)]
@@ -97,7 +97,7 @@ fn within_reach(whole: &Loop<'_>, last: &Round<'_>, residual: &[f64]) -> Vec<boo
 type Coefficients = [Vec<(usize, f64)>];
 
 /// What each row's fold, fitted without it, leaves of it, before whitening, by either set of coefficients.
-pub(super) fn predicted<const N: usize>(
+pub(crate) fn predicted<const N: usize>(
     whole: &Loop<'_>,
     last: &Round<'_>,
     coefficients: [&Coefficients; N],

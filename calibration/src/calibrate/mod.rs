@@ -4,27 +4,22 @@
 //! (`posed`, from rows as `portion` has them) and searches from there; rounds go on until one changes nothing. Then the search is repeated in every fold (`held_out`), and everything is put into
 //! words (`words`).
 
-mod basis;
-mod fitted;
-mod function;
-mod held_out;
-mod hidden;
-mod portion;
-mod posed;
-mod remaining;
-mod round;
-mod separate;
+pub(crate) mod fitted;
+pub(crate) mod held_out;
+mod outliers;
+pub(crate) mod round;
 mod stage;
-mod trusting;
-mod words;
 
 use model_core::{Chain, ObservableId, SymbolId};
 
 use crate::amend::{AmendError, amend};
-use crate::effects::{Effect, Name, Setting, catalogue, chosen, known_names};
+use crate::candidate::{Effect, Setting};
+use crate::catalogue::{Name, catalogue, chosen, known_names};
+use crate::data::Observations;
+use crate::diagnose;
 use crate::fit::{FitError, FitResult, Outcome};
-use crate::observations::Observations;
 use crate::report::Report;
+use crate::report::words;
 use crate::search::{HeldOut, Options, ProblemError, nested};
 use crate::study::Plan;
 use fitted::Fitted;
@@ -107,7 +102,7 @@ pub(crate) struct Loop<'a> {
 }
 
 impl<'a> Loop<'a> {
-    fn new(request: Request<'a>, observables: &'a [ObservableId], held: usize) -> Self {
+    pub fn new(request: Request<'a>, observables: &'a [ObservableId], held: usize) -> Self {
         let plan = request.plan;
         let setting = plan.search.setting(&plan.chain, observables);
         let options =
@@ -139,7 +134,7 @@ pub fn calibrate_telling(
 
     let first = Round::at(&whole, Fitted::first(&whole)?)?;
     let before = first.fitted.fit.clone();
-    let round = trusting::reconsidered(&whole, rounds(&whole, first)?)?;
+    let round = outliers::reconsidered(&whole, rounds(&whole, first)?)?;
     tell(Stage::HeldOut);
     let held_out: HeldOut = nested(&round.posed.problem, &round.classes, &whole.options);
     let rms = held_out::rms(&whole, &before, &round, &held_out)?;
@@ -147,7 +142,7 @@ pub fn calibrate_telling(
     let inputs = words::new_inputs(&whole, &round);
     let amended = amend(request.text, &round.fitted.chain, &additions, &inputs)?;
     tell(Stage::Remaining);
-    let remaining = remaining::remaining(&whole, &round)?;
+    let remaining = diagnose::remaining::remaining(&whole, &round)?;
     let report = words::report(&whole, &round, &held_out, rms, remaining);
     Ok(Calibration { report, amended, chain: round.fitted.chain, before, after: round.fitted.fit })
 }

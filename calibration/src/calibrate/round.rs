@@ -1,8 +1,8 @@
 //! One round: the declaration with the effects accepted so far is fitted, and the search starts from there.
 
 use super::fitted::Fitted;
-use super::posed::Posed;
 use super::{CalibrateError, Found, Loop};
+use crate::search::posed::Posed;
 use crate::search::{Accepted, Class, Selection, classes, select};
 
 /// A fit, and the search that starts from it.

@@ -3,7 +3,7 @@
 use model_core::algebra::Poly;
 use model_core::{Motion, Role};
 
-use super::{Effect, Family, Freedom, Function, Place, Setting};
+use crate::candidate::{Effect, Family, Freedom, Function, Place, Setting};
 
 pub(super) const FAMILY: Family = Family {
     name: "assembly",

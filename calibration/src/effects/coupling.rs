@@ -1,6 +1,6 @@
 //! Coupling: a degree of freedom of one body driven by another joint.
 
-use super::{Effect, Family, Freedom, Setting, harmonic};
+use crate::candidate::{Effect, Family, Freedom, Setting, harmonic};
 
 /// Harmonics of the other joint.
 const HARMONICS: std::ops::RangeInclusive<u32> = 1..=2;

@@ -1,7 +1,8 @@
 //! Drift: a degree of freedom that moves in proportion to time.
 
-use super::kind::Kind;
-use super::{Effect, Family, Setting, driven};
+use super::driven;
+use crate::candidate::Kind;
+use crate::candidate::{Effect, Family, Setting};
 
 pub(super) const FAMILY: Family = Family {
     name: "drift",

@@ -3,7 +3,7 @@
 use model_core::algebra::Poly;
 use model_core::{Role, SymbolId};
 
-use super::{Effect, Freedom, Function, Place, Setting};
+use crate::candidate::{Effect, Freedom, Function, Place, Setting};
 
 /// Every degree of freedom of every body, and of the axis that it turns about, in proportion to an input. `stem` and
 /// `name` start the names of the errors and of the effects.

@@ -2,9 +2,9 @@
 
 use model_core::algebra::Poly;
 
-use super::{Effect, Family, Function, JointAxis, Setting, harmonic};
+use crate::candidate::{Effect, Family, Function, JointAxis, Setting, harmonic};
 
-pub(super) const FAMILY: Family = Family {
+pub(crate) const FAMILY: Family = Family {
     name: "encoder",
     what: "The joint is not quite where its encoder says, by a function of the reading.",
     causes: "The graduated disc sits off centre (once a turn) or is oval or tilted (twice); four readout \

@@ -1,7 +1,8 @@
 //! Flop: a body that rests on one side or the other.
 
-use super::kind::Kind;
-use super::{Effect, Family, Setting, driven};
+use super::driven;
+use crate::candidate::Kind;
+use crate::candidate::{Effect, Family, Setting};
 
 pub(super) const FAMILY: Family = Family {
     name: "flop",

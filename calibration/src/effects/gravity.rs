@@ -3,9 +3,9 @@
 use model_core::algebra::Poly;
 use model_core::{ObservableId, Role};
 
-use super::{Effect, Family, Freedom, Function, Place, Setting, seen};
+use crate::candidate::{Effect, Family, Freedom, Function, Place, Setting, seen};
 
-pub(super) const FAMILY: Family = Family {
+pub(crate) const FAMILY: Family = Family {
     name: "gravity",
     what: "A body bends in proportion to a component of gravity as the body sees it.",
     causes: "The tube, the arm or the fork bends under its own weight, or under what it carries.",

@@ -3,7 +3,9 @@
 use model_core::SymbolId;
 use model_core::algebra::{AngleSum, Poly};
 
-use super::{Effect, Family, Freedom, Function, JointAxis, Place, Setting, harmonic, per_turn, seen, whole};
+use crate::candidate::{
+    Effect, Family, Freedom, Function, JointAxis, Place, Setting, harmonic, per_turn, seen, whole,
+};
 
 /// The highest harmonic of the turn in the catalogue.
 const HARMONICS: u32 = 8;
@@ -11,7 +13,7 @@ const HARMONICS: u32 = 8;
 /// Tilts about one axis of the turning frame alone: a shaft clamped askew, an oval race.
 const ONE_SIDED: u32 = 2;
 
-pub(super) const FAMILY: Family = Family {
+pub(crate) const FAMILY: Family = Family {
     name: "joint motion",
     what: "The axis of a joint tilts or shifts as the joint turns, in step with the turn. Its tip moves on a circle, \
            forward with the turn or backward against it (a whirl); two circles of one order make an ellipse or a line.",

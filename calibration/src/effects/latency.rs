@@ -3,8 +3,8 @@
 use model_core::Motion;
 use model_core::algebra::Poly;
 
-use super::kind::Kind;
-use super::{Effect, Family, Function, Setting};
+use crate::candidate::Kind;
+use crate::candidate::{Effect, Family, Function, Setting};
 
 pub(super) const FAMILY: Family = Family {
     name: "latency",

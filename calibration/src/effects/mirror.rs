@@ -3,7 +3,7 @@
 use model_core::algebra::{AngleSum, Poly};
 use model_core::{Axis, Motion};
 
-use super::{Effect, Family, Freedom, Function, JointAxis, Setting, seen, whole};
+use crate::candidate::{Effect, Family, Freedom, Function, JointAxis, Setting, seen, whole};
 
 pub(super) const FAMILY: Family = Family {
     name: "mirror tilt",

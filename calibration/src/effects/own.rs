@@ -5,7 +5,7 @@ use std::ops::Range;
 use model_core::algebra::{AlgebraError, LowerError, Poly};
 use model_core::{Chain, Quantity, SymbolId, SymbolKind, names, syntax};
 
-use super::{Effect, Family, Freedom, Function, Place, Setting};
+use crate::candidate::{Effect, Family, Freedom, Function, Place, Setting};
 
 pub(super) const FAMILY: Family = Family {
     name: "own",

@@ -3,8 +3,8 @@
 use model_core::algebra::Poly;
 use model_core::{ObservableKind, Role};
 
-use super::kind::Kind;
-use super::{Effect, Family, Freedom, Function, Place, Setting};
+use crate::candidate::Kind;
+use crate::candidate::{Effect, Family, Freedom, Function, Place, Setting};
 
 pub(super) const FAMILY: Family = Family {
     name: "parallax",

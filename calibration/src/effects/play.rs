@@ -2,8 +2,8 @@
 
 use model_core::algebra::Poly;
 
-use super::kind::Kind;
-use super::{Effect, Family, Freedom, Function, Setting};
+use crate::candidate::Kind;
+use crate::candidate::{Effect, Family, Freedom, Function, Setting};
 
 pub(super) const FAMILY: Family = Family {
     name: "play",

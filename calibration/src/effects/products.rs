@@ -2,7 +2,7 @@
 
 use model_core::algebra::{AngleSum, Poly};
 
-use super::{Effect, Family, Function, JointAxis, Setting};
+use crate::candidate::{Effect, Family, Function, JointAxis, Setting};
 
 pub(super) const FAMILY: Family = Family {
     name: "products",

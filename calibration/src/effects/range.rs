@@ -3,8 +3,8 @@
 use model_core::algebra::Poly;
 use model_core::{ObservableKind, Quantity, Role};
 
-use super::kind::Kind;
-use super::{Effect, Family, Freedom, Function, Place, Setting, harmonic};
+use crate::candidate::Kind;
+use crate::candidate::{Effect, Family, Freedom, Function, Place, Setting, harmonic};
 
 /// Harmonics of the phase of the modulation.
 const HARMONICS: std::ops::RangeInclusive<u32> = 1..=2;

@@ -2,7 +2,7 @@
 
 use model_core::algebra::{AngleSum, Poly};
 
-use super::{Effect, Family, Function, Setting};
+use crate::candidate::{Effect, Family, Function, Setting};
 
 pub(super) const FAMILY: Family = Family {
     name: "refraction",

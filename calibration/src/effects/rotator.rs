@@ -3,8 +3,8 @@
 use model_core::{Quantity, Role, SymbolId};
 
 use super::joint_motion::{Turn, whirl};
-use super::kind::Kind;
-use super::{Effect, Family, Freedom, Place, Setting, per_turn, seen};
+use crate::candidate::Kind;
+use crate::candidate::{Effect, Family, Freedom, Place, Setting, per_turn, seen};
 
 pub(super) const FAMILY: Family = Family {
     name: "rotator",

@@ -1,7 +1,8 @@
 //! Sessions: what was set up anew from one session to the next.
 
-use super::kind::Kind;
-use super::{Effect, Family, Setting, driven};
+use super::driven;
+use crate::candidate::Kind;
+use crate::candidate::{Effect, Family, Setting};
 
 pub(super) const FAMILY: Family = Family {
     name: "session",

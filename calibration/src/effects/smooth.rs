@@ -2,7 +2,7 @@
 
 use model_core::{Role, SymbolId};
 
-use super::{Freedom, Place, Setting};
+use crate::candidate::{Freedom, Place, Setting};
 
 /// A place in the chain, and what drives the function there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

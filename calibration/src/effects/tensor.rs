@@ -2,7 +2,7 @@
 
 use model_core::algebra::{AngleSum, Poly};
 
-use super::{Effect, Freedom, Function, JointAxis, Setting};
+use crate::candidate::{Effect, Freedom, Function, JointAxis, Setting};
 
 /// The order of the series in each joint.
 const ORDER: u32 = 2;

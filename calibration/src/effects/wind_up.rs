@@ -1,7 +1,7 @@
 //! Wind-up: a joint gives way under the torque of gravity about its own axis.
 
 use super::gravity::changing;
-use super::{Effect, Family, Function, Setting};
+use crate::candidate::{Effect, Family, Function, Setting};
 
 pub(super) const FAMILY: Family = Family {
     name: "wind-up",

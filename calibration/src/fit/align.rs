@@ -11,8 +11,8 @@ use nalgebra::{Matrix3, Vector3};
 use super::model::Model;
 use super::sweep::residuals;
 use super::{FitError, FitOptions, robust};
-use crate::noise::Layout;
-use crate::observations::{Measure, Observations, Series};
+use crate::data::{Measure, Observations, Series};
+use crate::fit::noise::Layout;
 
 const AXES: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
 

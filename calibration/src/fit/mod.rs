@@ -5,24 +5,23 @@
 
 mod align;
 mod model;
+pub mod noise;
 mod partial;
-mod precision;
 mod residual;
 pub mod robust;
 mod solve;
 mod stream;
 mod subspace;
-mod sweep;
+pub(crate) mod sweep;
 
 use faer::Mat;
 use model_core::{Chain, SymbolId, SymbolKind};
 
-use crate::noise::{Noise, NoiseOptions};
+use crate::fit::noise::{Noise, NoiseOptions};
 use sweep::Weighting;
 
 pub use model::{Block, Model};
 pub use partial::{Partial, Rows};
-pub use precision::{Determined, NotSeparable, Precision, precision};
 pub use solve::fit;
 pub use stream::{Next, Pass, Streamed, StreamedResult};
 pub use subspace::{Step, Subspace};

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::FitError;
 use super::residual::components;
-use crate::observations::{Observations, Series};
+use crate::data::{Observations, Series};
 
 /// Rows evaluated at a time: what a block holds stays in the second-level cache.
 pub const BLOCK_ROWS: usize = 256;

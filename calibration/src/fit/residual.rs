@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::observations::{Measure, tangent_frame};
+use crate::data::{Measure, tangent_frame};
 
 /// The most components of any measure.
 pub const MOST: usize = 3;

@@ -8,8 +8,8 @@ use model_core::{Chain, SymbolId};
 use super::align::starting_values;
 use super::sweep::{Sweep, Weighting, coloured, residuals, sweep};
 use super::{FitError, FitOptions, FitResult, Model, Outcome, Partial, Residuals, SetAside, Subspace};
-use crate::noise::{self, Layout, Noise};
-use crate::observations::Observations;
+use crate::data::Observations;
+use crate::fit::noise::{self, Layout, Noise};
 
 /// A step is negligible when it moves the prediction by this many standard deviations in all.
 const NEGLIGIBLE: f64 = 1e-7;

@@ -13,8 +13,8 @@ use super::partial::Partial;
 use super::subspace::Subspace;
 use super::sweep::{Tally, Weighting, residuals, tally};
 use super::{FitError, FitOptions, fit, robust};
-use crate::noise::{self, Layout, NoiseOptions};
-use crate::observations::Observations;
+use crate::data::Observations;
+use crate::fit::noise::{self, Layout, NoiseOptions};
 
 /// A step this short, in standard uncertainties, ends the passes.
 const NEGLIGIBLE: f64 = 1e-4;

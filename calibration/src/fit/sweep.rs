@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 use super::model::{Block, Model};
 use super::partial::{Partial, Rows};
 use super::{FitError, robust};
-use crate::noise::{Layout, Noise};
-use crate::observations::Observations;
+use crate::data::Observations;
+use crate::fit::noise::{Layout, Noise};
 
 /// How much a row counts, by the norm of its whitened components.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,7 +50,7 @@ pub struct Tally {
     /// Rows with weight.
     pub(super) kept: u64,
     /// The factor of the rows, whitened and weighted, by the model's columns.
-    pub(super) partial: Partial,
+    pub(crate) partial: Partial,
     /// Per kind of component: weights, and weights times squares of the whitened residual.
     pub(super) kinds: Vec<[f64; 2]>,
     /// What the weights make small.

@@ -3,7 +3,7 @@
 use model_core::{Quantity, names};
 
 use super::DataError;
-use crate::units::{Amount, Unit};
+use crate::data::units::{Amount, Unit};
 
 /// The name of one column.
 #[derive(Debug, Clone, PartialEq)]

@@ -12,14 +12,17 @@
 
 pub mod cells;
 pub mod classes;
+pub mod columns;
 pub mod contest;
 pub mod flips;
 pub mod folds;
 pub mod nested;
+pub(crate) mod posed;
 pub mod problem;
 mod products;
 pub mod remains;
 pub mod rivals;
+pub(crate) mod row_set;
 pub mod scan;
 pub mod select;
 pub mod sweep;

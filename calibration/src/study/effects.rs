@@ -6,7 +6,9 @@ use toml::Spanned;
 use super::StudyError;
 use super::plan::Search;
 use super::written::{OwnEffect, Study};
-use crate::effects::{Effect, Freedom, Place, Setting, catalogue, chosen, own};
+use crate::candidate::{Effect, Freedom, Place, Setting};
+use crate::catalogue::{catalogue, chosen};
+use crate::effects::own;
 
 /// The parts of a body that an effect can be in.
 const PARTS: [(&str, Role); 2] =

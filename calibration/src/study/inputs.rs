@@ -5,8 +5,8 @@ use model_core::{Chain, Quantity, Symbol, SymbolKind};
 
 use super::StudyError;
 use super::written::Study;
-use crate::observations::{Derived, parse_derived};
-use crate::units::Unit;
+use crate::data::units::Unit;
+use crate::data::{Derived, parse_derived};
 
 impl Study {
     /// The chain with an input for each side quantity that it does not declare.

@@ -8,8 +8,8 @@ use nalgebra::Vector3;
 
 use super::plan::{ColumnPlan, Plan, Reading, SourcePlan};
 use super::written::Kind;
+use crate::data::{Observations, Series, UNSTATED, direction_from_offset, direction_from_spherical};
 use crate::formats::{self, Cells, DataError, TableReader, Wanted, find_column};
-use crate::observations::{Observations, Series, UNSTATED, direction_from_offset, direction_from_spherical};
 
 /// Opens a data file of a study by its path as the study writes it.
 pub type Open<'a> = dyn FnMut(&str) -> Result<Box<dyn Read>, DataError> + 'a;

@@ -1,7 +1,7 @@
 //! The study file: which chain, which data, what was observed, what to estimate and what to look for.
 //!
 //! [`Study`] is the file as written (`written`); with a chain it becomes a [`Plan`] in which every name is
-//! resolved (`plan`); with the data files the plan becomes [`Observations`](crate::observations::Observations)
+//! resolved (`plan`); with the data files the plan becomes [`Observations`](crate::data::Observations)
 //! (`load`).
 
 mod effects;

@@ -7,12 +7,12 @@ use toml::Spanned;
 
 use super::StudyError;
 use super::written::{Column, HoldOut, Kind, Observed, SearchTable, Study, Table};
-use crate::effects::Effect;
+use crate::candidate::Effect;
+use crate::data::units::{Amount, Unit};
+use crate::data::{Measure, derive::Derived, derive::parse_derived};
 use crate::fit::FitOptions;
+use crate::fit::noise::NoiseOptions;
 use crate::formats::csv;
-use crate::noise::NoiseOptions;
-use crate::observations::{Measure, derive::Derived, derive::parse_derived};
-use crate::units::{Amount, Unit};
 
 /// What a study asks for, ready to read data and fit.
 #[derive(Debug, Clone)]

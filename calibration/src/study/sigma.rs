@@ -11,7 +11,7 @@ use toml::Spanned;
 use super::StudyError;
 use super::plan::{ColumnPlan, SourcePlan, column_plan, si};
 use super::written::{Sigma, Study};
-use crate::observations::Measure;
+use crate::data::Measure;
 
 impl Study {
     /// The standard deviation of every residual component, SI, if the study states one.

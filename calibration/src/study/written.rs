@@ -10,7 +10,7 @@ use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
 use super::StudyError;
-use crate::units::Amount;
+use crate::data::units::Amount;
 
 /// Names with what is said of them, in the order of the alphabet.
 pub(super) type Table<T> = BTreeMap<Spanned<String>, Spanned<T>>;

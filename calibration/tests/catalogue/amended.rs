@@ -2,7 +2,7 @@
 //! means what was found.
 
 use calibration::amend::{Addition, NewInput, amend};
-use calibration::effects::Effect;
+use calibration::candidate::Effect;
 use model_core::{Chain, Quantity, Role, print};
 use proptest::prelude::*;
 

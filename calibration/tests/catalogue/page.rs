@@ -5,7 +5,9 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use calibration::effects::{Effect, FAMILIES, known_names, published};
+use calibration::candidate::Effect;
+use calibration::catalogue::{known_names, published};
+use calibration::effects::FAMILIES;
 
 use crate::pattern;
 use crate::support::{Asked, example, mounts, root};

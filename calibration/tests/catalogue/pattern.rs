@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use calibration::effects::Effect;
-use calibration::observations::tangent_frame;
+use calibration::candidate::Effect;
+use calibration::data::tangent_frame;
 use model_core::{Chain, SymbolKind, exact};
 
 /// Half the width of a picture.

@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use calibration::effects::{Effect, Setting, catalogue};
+use calibration::candidate::{Effect, Setting};
+use calibration::catalogue::catalogue;
 use calibration::study::{Plan, Study};
 use model_core::{Chain, ObservableId};
 

@@ -4,7 +4,8 @@
 use std::collections::BTreeMap;
 use std::io::Read;
 
-use calibration::fit::{FitResult, Outcome, fit, precision};
+use calibration::diagnose::precision;
+use calibration::fit::{FitResult, Outcome, fit};
 use calibration::formats::DataError;
 use calibration::study::Study;
 use nalgebra::{DMatrix, DVector};

@@ -1,7 +1,8 @@
 //! Data as they should not be: an outcome that names the trouble, never a panic, never a silent wrong answer.
 
-use calibration::fit::{FitOptions, FitResult, Outcome, fit, precision};
-use calibration::observations::Observations;
+use calibration::data::Observations;
+use calibration::diagnose::precision;
+use calibration::fit::{FitOptions, FitResult, Outcome, fit};
 use rand::RngExt;
 
 use crate::simulated::Simulation;

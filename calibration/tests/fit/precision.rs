@@ -1,7 +1,8 @@
 //! What the data can say, and where to measure next.
 
-use calibration::fit::{FitOptions, fit, precision};
-use calibration::poses::{Criterion, propose};
+use calibration::design::{Criterion, propose};
+use calibration::diagnose::precision;
+use calibration::fit::{FitOptions, fit};
 
 use model_core::identify::identify;
 use model_core::{Chain, ObservableId, ObservableKind, SymbolId, SymbolKind};
@@ -80,7 +81,7 @@ fn a_narrow_range_inflates_variances_and_new_poses_mend_it() {
 
 #[test]
 fn wrong_units_and_signs_are_hinted_at() {
-    let said = |change: &dyn Fn(&mut calibration::observations::Observations)| {
+    let said = |change: &dyn Fn(&mut calibration::data::Observations)| {
         let mut simulation = mount(0.2, 1.3, 100);
         let mut observations = simulation.directions("sight", 2.0 * ARCSEC);
         change(&mut observations);
@@ -90,7 +91,7 @@ fn wrong_units_and_signs_are_hinted_at() {
     };
     assert_eq!(said(&|_| {}), "");
     let column = |at: usize, factor: f64| {
-        move |observations: &mut calibration::observations::Observations| {
+        move |observations: &mut calibration::data::Observations| {
             observations.columns[at].1.iter_mut().for_each(|value| *value *= factor);
         }
     };

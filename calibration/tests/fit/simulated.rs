@@ -1,6 +1,6 @@
 //! Instruments with known errors at random poses, observed with known noise.
 
-use calibration::observations::{Measure, Observations, Series, direction_from_offset};
+use calibration::data::{Measure, Observations, Series, direction_from_offset};
 use model_core::{Chain, SymbolId, SymbolKind, exact, names};
 use nalgebra::Vector3;
 use rand::{Rng, RngExt, SeedableRng};

@@ -1,7 +1,7 @@
 //! Rows in chunks give what all rows at once give.
 
+use calibration::data::{Observations, Series};
 use calibration::fit::{FitError, FitOptions, FitResult, Next, Streamed, StreamedResult, fit};
-use calibration::observations::{Observations, Series};
 
 use crate::simulated::Simulation;
 

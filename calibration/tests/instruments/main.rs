@@ -7,9 +7,9 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use calibration::data::Observations;
 use calibration::fit::{FitOptions, FitResult, Outcome, fit};
 use calibration::formats::DataError;
-use calibration::observations::Observations;
 use calibration::study::{Plan, Study};
 use model_core::Chain;
 

@@ -5,8 +5,8 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use calibration::calibrate::{Calibration, Request, calibrate};
+use calibration::data::Observations;
 use calibration::formats::DataError;
-use calibration::observations::Observations;
 use calibration::study::{Plan, Study};
 use model_core::Chain;
 

@@ -1,6 +1,6 @@
 //! An effect that hangs on a handful of observations is told as one.
 
-use calibration::observations::Observations;
+use calibration::data::Observations;
 use calibration::report::{Report, Verdict};
 use calibration::study::Study;
 use model_core::Chain;

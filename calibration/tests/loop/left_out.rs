@@ -2,8 +2,9 @@
 //! says that the data cannot show it.
 
 use calibration::calibrate::{Request, calibrate};
-use calibration::effects::{Freedom, assembly_name};
-use calibration::observations::{Measure, Observations, Series, tangent_frame};
+use calibration::candidate::Freedom;
+use calibration::data::{Measure, Observations, Series, tangent_frame};
+use calibration::effects::assembly_name;
 use calibration::report::{EffectFound, Report};
 use calibration::study::{Plan, Study};
 use model_core::algebra::Poly;

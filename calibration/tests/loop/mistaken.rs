@@ -2,7 +2,7 @@
 //! simulated data that have the effect.
 
 use calibration::calibrate::{Calibration, Request, calibrate};
-use calibration::observations::{Measure, Observations, Series, direction_from_spherical, tangent_frame};
+use calibration::data::{Measure, Observations, Series, direction_from_spherical, tangent_frame};
 use calibration::study::Study;
 use model_core::{Chain, SymbolId};
 use rand::{RngExt, SeedableRng};

@@ -1,7 +1,7 @@
 //! Planted effects: eight kinds are named, two at once, none gives nothing, a bump in no catalogue is placed.
 
 use calibration::calibrate::{Calibration, Request, calibrate};
-use calibration::observations::{Measure, Observations, Series, tangent_frame};
+use calibration::data::{Measure, Observations, Series, tangent_frame};
 use calibration::report::{EffectFound, Report, Verdict};
 use calibration::study::{Plan, Study};
 use model_core::{Chain, SymbolId, exact};

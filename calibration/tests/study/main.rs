@@ -3,8 +3,8 @@
 
 use std::io::Read;
 
+use calibration::data::{Measure, Observations};
 use calibration::formats::DataError;
-use calibration::observations::{Measure, Observations};
 use calibration::study::Study;
 use model_core::Chain;
 

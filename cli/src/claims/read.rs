@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use calibration::units;
+use calibration::data::units;
 use model_core::budget::{Measure, Poses};
 use model_core::checker::{Claim, ClosedForm, Comparison, Count, PrintedVector, errors_named, lower};
 use model_core::expr::Node;

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::path::PathBuf;
 
-use calibration::units::Amount;
+use calibration::data::units::Amount;
 use model_core::{Chain, ObservableId, ObservableKind, Quantity as Measures, SymbolId};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;

@@ -12,7 +12,7 @@ mod residuals;
 mod summary;
 
 use calibration::calibrate::Calibration;
-use calibration::observations::Observations;
+use calibration::data::Observations;
 
 pub use files::{json, write_all};
 pub use summary::{as_text, diff};

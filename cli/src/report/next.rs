@@ -1,6 +1,6 @@
 //! Where to measure next, as tables: poses that determine the errors best, and poses that tell effects apart.
 
-use calibration::poses::{Criterion, Proposal};
+use calibration::design::{Criterion, Proposal};
 use calibration::report::Separation;
 
 use super::{Reported, quantities};

@@ -1,7 +1,7 @@
 //! Residuals row by row: before and after, beside the readings.
 
+use calibration::data::Measure;
 use calibration::fit::FitResult;
-use calibration::observations::Measure;
 use model_core::SymbolId;
 
 use super::Reported;

@@ -3,9 +3,10 @@
 use std::error::Error;
 use std::f64::consts::TAU;
 
-use calibration::columns::{Columns, places};
-use calibration::effects::{Effect, catalogue};
-use calibration::observations::{Measure, Observations, Series, tangent_frame};
+use calibration::candidate::Effect;
+use calibration::catalogue::catalogue;
+use calibration::data::{Measure, Observations, Series, tangent_frame};
+use calibration::search::columns::{Columns, places};
 use calibration::search::{Class, Problem, classes};
 use calibration::study::{Plan, Study};
 use faer::Mat;

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 use std::time::{Duration, Instant};
 
 use calibration::calibrate::{Request, calibrate};
-use calibration::effects::Effect;
-use calibration::observations::Observations;
+use calibration::candidate::Effect;
+use calibration::data::Observations;
 use calibration::report::{EffectFound, Report, Verdict};
 use calibration::study::NextPoses;
 use model_core::{Chain, Motion, Role, SymbolId};

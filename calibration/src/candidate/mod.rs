@@ -1,0 +1,17 @@
+//! What an effect is: a place in the chain, a degree of freedom there, and functions of joints and inputs, one new error
+//! to each. The families themselves are in [`crate::effects`].
+
+mod effect;
+mod family;
+mod functions;
+mod kind;
+pub(crate) mod seen;
+mod setting;
+
+pub use effect::{Effect, Freedom, Function, Place};
+pub(crate) use effect::{add_error, insert};
+pub use family::Family;
+pub use functions::harmonic;
+pub(crate) use functions::{per_turn, whole};
+pub(crate) use kind::Kind;
+pub use setting::{JointAxis, Setting};

@@ -1,0 +1,10 @@
+//! The catalogue for one chain: the members of every family, what a study chooses of them, and what other fields call
+//! them.
+
+mod chosen;
+mod members;
+mod names;
+
+pub use chosen::chosen;
+pub use members::catalogue;
+pub use names::{Name, Published, known_names, published};

@@ -1,0 +1,152 @@
+//! Names that other fields have for effects of the catalogue: TPOINT terms, parameters of laser scanners.
+//!
+//! A name is published with a formula, across and along the line of sight; it belongs to every effect of a chain whose
+//! first-order column is that formula up to a factor, which the algebra decides. So it holds for chains whose line of
+//! sight runs as theirs does: azimuth (or hour angle) from y through x, elevation (or declination) from the xy plane
+//! towards z. Signs are not part of a name: they follow each field's own conventions.
+
+mod mount;
+mod scanner;
+mod tpoint;
+
+use model_core::algebra::{BasisFunction, Poly};
+use model_core::{Motion, SymbolId, SymbolKind, syntax};
+
+use crate::candidate::{Effect, Setting, seen};
+use mount::{Kind, Mount};
+
+/// A formula that was published under a name.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Published {
+    /// Whose name it is: `TPOINT`.
+    pub field: &'static str,
+    /// `TF`
+    pub name: String,
+    /// `flexure of the tube`
+    pub meaning: &'static str,
+    /// For which instruments.
+    kind: Kind,
+    /// Change across the line of sight, towards growing azimuth (on the sky, or in metres); `A`, `E` and `R` are azimuth,
+    /// elevation and range, `h` and `d` hour angle and declination.
+    pub across: String,
+    /// Along it, towards growing elevation.
+    pub along: String,
+    /// In range; empty where no range is measured.
+    pub radial: String,
+}
+
+/// A name of an effect.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Name {
+    /// `TPOINT`
+    pub field: &'static str,
+    /// `TF`
+    pub name: String,
+}
+
+impl std::fmt::Display for Name {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} {}", self.field, self.name)
+    }
+}
+
+/// Every published formula, whatever the chain.
+#[must_use]
+pub fn published() -> Vec<Published> {
+    [tpoint::alt_azimuth(), tpoint::equatorial(), scanner::additional(), scanner::nist()].concat()
+}
+
+/// The names of each of some effects, that is of any of its functions; none for chains whose line of sight runs in
+/// another way.
+#[must_use]
+pub fn known_names(setting: &Setting<'_>, effects: &[Effect]) -> Vec<Vec<Name>> {
+    let Some(mount) = Mount::of(setting) else { return vec![Vec::new(); effects.len()] };
+    let shapes: Vec<(Name, Shape)> = published()
+        .into_iter()
+        .filter(|published| published.kind == mount.kind)
+        .filter_map(|published| {
+            let shape = mount.formula(&published)?;
+            Some((Name { field: published.field, name: published.name }, shape))
+        })
+        .collect();
+    let names_of = |effect: &Effect| {
+        let own = effect.functions.iter().filter_map(|function| {
+            let mut sum = [Poly::zero(), Poly::zero(), Poly::zero()];
+            for place in effect.places() {
+                let unit = mount.unit(setting, place)?;
+                for amount in function.at(effect.place, place) {
+                    for (sum, unit) in sum.iter_mut().zip(&unit) {
+                        *sum = &*sum + &(unit * amount);
+                    }
+                }
+            }
+            Some(sum)
+        });
+        let own: Vec<Shape> = own.collect();
+        let names =
+            shapes.iter().filter(|(_, shape)| own.iter().any(|own| proportional(setting, own, shape)));
+        names.map(|(name, _)| name.clone()).collect()
+    };
+    effects.iter().map(names_of).collect()
+}
+
+/// A first-order change of what is observed: across, along and in range.
+type Shape = [Poly; 3];
+
+/// Whether two shapes are one another's multiples by something that no joint or input moves, and not zero.
+fn proportional(setting: &Setting<'_>, a: &Shape, b: &Shape) -> bool {
+    let moves = |id: SymbolId| matches!(setting.chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input);
+    let parts = |shape: &Shape| shape.each_ref().map(|part| part.split_by(moves));
+    let (a, b) = (parts(a), parts(b));
+    let functions = |parts: &[Vec<(BasisFunction, Poly)>; 3]| {
+        parts.each_ref().map(|part| part.iter().map(|(function, _)| function.clone()).collect::<Vec<_>>())
+    };
+    if functions(&a) != functions(&b) {
+        return false;
+    }
+    let pairs: Vec<(&Poly, &Poly)> =
+        a.iter().flatten().zip(b.iter().flatten()).map(|((_, a), (_, b))| (a, b)).collect();
+    let Some(&(of_a, of_b)) = pairs.first() else { return false };
+    pairs.iter().all(|&(a, b)| a * of_b == b * of_a)
+}
+
+impl Mount {
+    /// A published formula with the chain's own symbols; `None` if the language cannot say it.
+    fn formula(&self, published: &Published) -> Option<Shape> {
+        let resolve = |name: &str| -> Option<SymbolId> {
+            match name {
+                "A" | "h" => Some(self.azimuth),
+                "E" | "d" => Some(self.elevation),
+                "R" => self.range,
+                "latitude" => self.latitude,
+                _ => None,
+            }
+        };
+        let amount = |text: &str| {
+            let expression = syntax::parse_amount(if text.is_empty() { "0" } else { text }).ok()?;
+            Poly::from_expr(&expression, resolve, |_| true).ok()
+        };
+        Some([amount(&published.across)?, amount(&published.along)?, amount(&published.radial)?])
+    }
+
+    /// What a unit motion at a place does to what is observed.
+    fn unit(&self, setting: &Setting<'_>, place: crate::candidate::Place) -> Option<Shape> {
+        let axis = place.freedom.axis;
+        let mut motion = [Poly::zero(), Poly::zero(), Poly::zero()];
+        match place.freedom.motion {
+            // The cross product of the axis and what is observed.
+            Motion::Rotation => {
+                let seen = seen::observed(setting, self.observable, place)?;
+                let (a, b) = seen::others(axis);
+                motion[a.index()] = -&seen[b.index()];
+                motion[b.index()] = seen[a.index()].clone();
+            }
+            Motion::Translation if self.range.is_some() => motion[axis.index()] = Poly::one(),
+            Motion::Translation => return Some(motion),
+        }
+        let project = |direction| Some(seen::dot(&seen::from_ground(setting, direction, place)?, &motion));
+        let [across, along, radial] = &self.frame;
+        let radial = if self.range.is_some() { project(radial)? } else { Poly::zero() };
+        Some([project(across)?, project(along)?, radial])
+    }
+}

@@ -1,0 +1,121 @@
+//! What these data hide: effects that they could not have shown, and what those would do to the declared errors.
+
+use std::collections::BTreeMap;
+
+use model_core::algebra::Poly;
+use model_core::{Chain, SymbolId, SymbolKind};
+
+use crate::calibrate::held_out::BeforeAfter;
+use crate::calibrate::round::Round;
+use crate::calibrate::{Loop, declared};
+use crate::candidate::{Effect, Place};
+use crate::effects::assembly_name;
+use crate::report::NotShown;
+
+/// Standard deviations at which an effect is found four times out of five, corrected for the size of the catalogue.
+const FOUND: f64 = 4.4;
+
+/// Shifts of declared errors this many times smaller than the largest are not told.
+const TOLD: f64 = 0.05;
+
+/// How far one standard uncertainty of an accepted effect, left out, would move each declared error, SI.
+pub(crate) fn bias(
+    whole: &Loop<'_>,
+    last: &Round<'_>,
+    effect: usize,
+    errors: &[SymbolId],
+) -> BTreeMap<String, f64> {
+    let columns = last.posed.problem.block(effect);
+    let sigmas = errors.iter().map(|&error| last.fitted.fit.standard_uncertainty(error).unwrap_or(0.0));
+    moved(whole, last, columns.zip(sigmas))
+}
+
+/// The largest shift of each declared error by functions of some sizes whose signs are not known: columns of the problem,
+/// each with its size.
+fn moved(
+    whole: &Loop<'_>,
+    last: &Round<'_>,
+    sizes: impl Iterator<Item = (usize, f64)>,
+) -> BTreeMap<String, f64> {
+    let combinations = &last.fitted.combinations;
+    let mut squares = vec![0.0; combinations.nrows()];
+    for (column, size) in sizes {
+        let share = last.posed.problem.share(column);
+        for (i, square) in squares.iter_mut().enumerate() {
+            let moved: f64 = share.iter().enumerate().map(|(j, s)| combinations[(i, j)] * s).sum();
+            *square += (size * moved).powi(2);
+        }
+    }
+    declared(whole)
+        .iter()
+        .zip(squares)
+        .filter(|&(_, square)| square > 0.0)
+        .map(|(&id, square)| (last.fitted.chain.symbol(id).name.clone(), square.sqrt()))
+        .collect()
+}
+
+/// Effects that could be as large as the residual without these data showing them.
+pub(crate) fn not_shown(whole: &Loop<'_>, last: &Round<'_>, rms: BeforeAfter) -> Vec<NotShown> {
+    let problem = &last.posed.problem;
+    let accepted: Vec<usize> = last.fitted.found.iter().map(|found| found.effect).collect();
+    let unmoved = whole.setting.unmoved().into_iter().map(|place| NotShown {
+        name: assembly_name(whole.setting.body_name(place.body), place.role, place.freedom),
+        smallest: None,
+        unit: place.freedom.quantity().unit(),
+        absorbed: 0.0,
+        mistaken_for: BTreeMap::new(),
+    });
+    let mut list: Vec<NotShown> = unmoved.collect();
+    for (number, effect) in whole.catalogue.iter().enumerate() {
+        if accepted.contains(&number) || is_declared(&whole.request.plan.chain, effect) {
+            continue;
+        }
+        let unit = effect.place.freedom.quantity().unit();
+        let name = effect.name.clone();
+        if problem.block(number).is_empty() {
+            list.push(NotShown { name, smallest: None, unit, absorbed: 0.0, mistaken_for: BTreeMap::new() });
+            continue;
+        }
+        let columns = problem.columns(number);
+        let shortest = columns.iter().map(|&column| problem.length(column)).fold(f64::INFINITY, f64::min);
+        let smallest = (!columns.is_empty()).then(|| FOUND / shortest);
+        if smallest.is_none_or(|smallest| smallest > rms.after.rms) {
+            let absorbed = 1.0 - problem.visible(number);
+            list.push(NotShown {
+                name,
+                smallest,
+                unit,
+                absorbed,
+                mistaken_for: mistaken_for(whole, last, number),
+            });
+        }
+    }
+    list
+}
+
+/// Whether the declaration has this very effect: an error of its own for each function, at the same place.
+fn is_declared(chain: &Chain, effect: &Effect) -> bool {
+    let Place { body, role, freedom } = effect.place;
+    let factors =
+        chain.body(body).factors.iter().filter(|factor| {
+            (factor.role, factor.motion, factor.axis) == (role, freedom.motion, freedom.axis)
+        });
+    let declared: Vec<Poly> = factors
+        .flat_map(|factor| factor.amount.collect_by(|symbol| chain.symbol(symbol).kind == SymbolKind::Error))
+        .filter(|(errors, _)| matches!(errors.as_slice(), [(_, 1)]))
+        .map(|(_, function)| function)
+        .collect();
+    effect.functions.iter().all(|function| {
+        let negative = -&function.amount;
+        function.elsewhere.is_empty()
+            && declared.iter().any(|own| *own == function.amount || *own == negative)
+    })
+}
+
+/// The declared errors that would take an effect of amplitude one upon them, and how far each would move.
+fn mistaken_for(whole: &Loop<'_>, last: &Round<'_>, effect: usize) -> BTreeMap<String, f64> {
+    let mut moved = moved(whole, last, last.posed.problem.block(effect).map(|column| (column, 1.0)));
+    let largest = moved.values().copied().fold(0.0, f64::max);
+    moved.retain(|_, shift| *shift > TOLD * largest);
+    moved
+}

@@ -1,0 +1,289 @@
+//! What is left after the last round: whether it has structure, where, and of what shape.
+
+use faer::Mat;
+use model_core::{Quantity, Role, SymbolId, SymbolKind, print};
+use rayon::prelude::*;
+
+use super::basis::Basis;
+use super::function::{Function, Kind};
+use crate::calibrate::round::Round;
+use crate::calibrate::{CalibrateError, Loop, declared};
+use crate::candidate::{Effect, Freedom, Place};
+use crate::data::Observations;
+use crate::effects::{SmoothPlace, smooth, tensor};
+use crate::fit::noise::Layout;
+use crate::report::{Looked, Remaining, Where};
+use crate::search::columns::{self, Columns};
+use crate::search::contest::{Price, contender, criterion, most_telling};
+use crate::search::flips::Signs;
+use crate::search::remains::{Statistic, along, combined, lagged, nearest};
+use crate::search::scan::{Left, Sheet};
+use crate::search::select::class_columns;
+
+/// Harmonics of each joint that are scanned, unless the study asks for more.
+const HARMONICS: u32 = 32;
+
+/// Harmonics on one sheet.
+const A_SHEET: u32 = 16;
+
+/// Rows between observations that are compared in order of acquisition.
+const LAGS: std::ops::RangeInclusive<usize> = 1..=3;
+
+/// Penalised log-likelihood by which a smooth function must beat the catalogue's model: six units of Schwarz's
+/// criterion.
+const BETTER: f64 = 3.0;
+
+/// Everything that the scans read.
+struct Scanned<'a> {
+    last: &'a Round<'a>,
+    columns: Columns,
+    drivers: Vec<Driver>,
+    /// Functions of two joints together, and their whitened columns.
+    tensors: Vec<(Effect, Mat<f64>)>,
+}
+
+/// A joint or input that functions may hang on, and what they are at its readings.
+struct Driver {
+    symbol: SymbolId,
+    basis: Basis,
+    series: Mat<f64>,
+    bumps: Mat<f64>,
+}
+
+impl Driver {
+    fn new(whole: &Loop<'_>, observations: &Observations, symbol: SymbolId) -> Option<Self> {
+        let basis = Basis::of(whole.setting.chain, observations, symbol)?;
+        let readings = observations.column(symbol)?;
+        let series = tabulated(readings, |q| basis.series(q));
+        let bumps = basis.bumps();
+        let bumps = tabulated(readings, |q| bumps.iter().map(|&bump| basis.bump(bump, q)).collect());
+        Some(Self { symbol, basis, series, bumps })
+    }
+}
+
+/// Functions at readings, one row a reading.
+fn tabulated(readings: &[f64], functions: impl Fn(f64) -> Vec<f64> + Sync) -> Mat<f64> {
+    let values: Vec<Vec<f64>> = readings.par_iter().map(|&q| functions(q)).collect();
+    let width = values.first().map_or(0, Vec::len);
+    Mat::from_fn(values.len(), width, |row, j| values[row][j])
+}
+
+/// Looks for structure in the last residual.
+pub(crate) fn remaining(whole: &Loop<'_>, last: &Round<'_>) -> Result<Remaining, CalibrateError> {
+    let observations = &*last.posed.rows.observations;
+    let mut smooths = smooth(&whole.setting);
+    let mut symbols: Vec<SymbolId> = smooths.iter().map(|smooth| smooth.driver).collect();
+    symbols.sort_unstable();
+    symbols.dedup();
+    let drivers: Vec<Driver> =
+        symbols.into_iter().filter_map(|id| Driver::new(whole, observations, id)).collect();
+    let harmonics = harmonics(whole);
+    let mut places: Vec<Place> = smooths.iter().map(|smooth| smooth.place).collect();
+    places.extend(harmonics.iter().map(|(place, ..)| *place));
+    let tensors = tensor(&whole.setting);
+    places.extend(columns::places(&tensors));
+    places.sort_unstable();
+    places.dedup();
+    let values = &last.fitted.fit.values;
+    let columns = Columns::at(&last.fitted.chain, observations, declared(whole), values, &places)?;
+    let of_tensors = columns.of_effects(&last.fitted.chain, &tensors, observations, values);
+    let tensors = tensors.into_iter().zip(of_tensors).map(|(effect, own)| {
+        let white: Vec<Vec<f64>> = own.iter().map(|column| last.posed.rows.whiten(column)).collect();
+        (effect, Mat::from_fn(last.posed.rows.columns.residual.len(), white.len(), |i, j| white[j][i]))
+    });
+    let tensors = tensors.filter(|(_, own)| own.ncols() > 0).collect();
+    let scanned = Scanned { last, columns, drivers, tensors };
+    smooths.retain(|smooth| {
+        scanned.columns.probe(smooth.place).is_some() && scanned.driver(smooth.driver).is_some()
+    });
+
+    let blocks = class_columns(last.posed.of_rows(), &last.classes);
+    let accepted: Vec<Vec<usize>> =
+        last.accepted_classes().into_iter().filter_map(|class| blocks.get(class).cloned()).collect();
+    let options = &whole.options;
+    let signs = Signs::scattered(last.posed.of_rows().group_of_row(), options.flips, options.seed);
+    let left = Left::new(last.posed.of_rows(), &accepted, &signs);
+
+    let mut statistics = neighbours(whole, last, &left, &signs);
+    let waves = left.scan(harmonics.len(), |number| scanned.harmonics(observations, harmonics[number]));
+    statistics.push(Statistic::of_scan("harmonics of a joint", &waves));
+    let functions = left.scan(smooths.len(), |number| scanned.smooth(smooths[number]));
+    statistics.push(Statistic::of_scan("smooth functions of a joint or input", &functions));
+    let pairs = left.scan(scanned.tensors.len(), |number| Sheet::of(scanned.tensors[number].1.clone()));
+    statistics.push(Statistic::of_scan("smooth functions of two joints", &pairs));
+    let (p_value, alone) = combined(&statistics);
+    let looked =
+        statistics.iter().zip(alone).map(|(s, p_value)| Looked { at: s.what.clone(), p_value }).collect();
+
+    // Either in place of what was accepted there, or the most conspicuous of what is left.
+    let most = if p_value <= options.false_alarm { functions.most_conspicuous() } else { None };
+    let most = most.and_then(|number| smooths.get(number)).copied();
+    smooths.retain(|smooth| Some(*smooth) == most || spelt_out(whole, last, *smooth));
+    let best = scanned.best_function(whole, &smooths, &left);
+    let chain = &last.fitted.chain;
+    let place = best.as_ref().map(|function| Where {
+        body: chain.body(function.place.body).name.clone(),
+        dof: function.place.freedom.word().to_owned(),
+        driver: function.driver.clone(),
+        form: function.form.clone(),
+    });
+    let offer = best.as_ref().and_then(|function| function.offer(chain));
+    let shape = best.as_ref().map_or_else(Vec::new, Function::shape);
+    Ok(Remaining { p_value, rows: observations.rows(), looked, place, shape, offer })
+}
+
+/// Whether an effect was accepted at a place with the same driver: a function there may be what it spells out.
+fn spelt_out(whole: &Loop<'_>, last: &Round<'_>, smooth: SmoothPlace) -> bool {
+    last.fitted
+        .found
+        .iter()
+        .map(|found| &whole.catalogue[found.effect])
+        .any(|effect| effect.place == smooth.place && effect.driver == whole.setting.name(smooth.driver))
+}
+
+/// Sheets of harmonics: the place, the joint, and the first order of each.
+fn harmonics(whole: &Loop<'_>) -> Vec<(Place, SymbolId, u32)> {
+    let most = HARMONICS.max(whole.setting.harmonics);
+    let mut sheets = Vec::new();
+    for joint in whole.setting.joints().into_iter().filter(crate::candidate::JointAxis::turns) {
+        for freedom in Freedom::ALL.into_iter().filter(|freedom| freedom.motion == joint.freedom.motion) {
+            let place = Place { body: joint.body, role: Role::MotionError, freedom };
+            sheets.extend((1..=most).step_by(A_SHEET as usize).map(|first| (place, joint.symbol, first)));
+        }
+    }
+    sheets
+}
+
+impl Scanned<'_> {
+    /// A function's columns at a place: the place's derivative times the function's values, whitened.
+    fn sheet(&self, place: Place, values: &Mat<f64>) -> Mat<f64> {
+        let row = &self.last.posed.rows.columns.row;
+        let mut sheet = Mat::zeros(row.len(), values.ncols());
+        let Some(probe) = self.columns.probe(place) else { return sheet };
+        let serial = self.last.fitted.fit.noise.serial.is_some();
+        // Without memory whitening is a factor to each component.
+        let probe = if serial { probe.to_vec() } else { self.last.posed.rows.whiten(probe) };
+        for j in 0..values.ncols() {
+            let (column, values) = (sheet.col_as_slice_mut(j), values.col_as_slice(j));
+            for ((target, p), &row) in column.iter_mut().zip(&probe).zip(row) {
+                *target = p * values[row as usize];
+            }
+            if serial {
+                let whitened = self.last.posed.rows.whiten(column);
+                column.copy_from_slice(&whitened);
+            }
+        }
+        sheet
+    }
+
+    /// The function that beats the catalogue's model by most; the likelier place of two that are the same.
+    fn best_function(&self, whole: &Loop<'_>, smooths: &[SmoothPlace], left: &Left<'_>) -> Option<Function> {
+        let places = smooths.len();
+        let mut each: Vec<Function> =
+            smooths.par_iter().flat_map_iter(|smooth| self.at(whole, *smooth, places, left)).collect();
+        let price = Price { classes: self.last.classes.len(), functions: self.tensors.len(), parameters: 0 };
+        each.par_extend(self.tensors.par_iter().map(|(effect, columns)| Function {
+            place: effect.place,
+            driver: effect.driver.clone(),
+            form: effect.form.clone(),
+            kind: Kind::OfTwo(
+                effect.functions.iter().map(|f| print::text(&f.amount, whole.setting.chain)).collect(),
+            ),
+            fitted: contender(left, columns.as_ref(), price),
+        }));
+        let least = criterion(left, price) + BETTER;
+        each.into_iter().fold(None, |best: Option<Function>, other| {
+            let to_beat = best.as_ref().map_or(least, |best| best.fitted.criterion + 1e-6);
+            if other.fitted.criterion > to_beat { Some(other) } else { best }
+        })
+    }
+
+    /// The functions at one place of so many.
+    fn at(&self, whole: &Loop<'_>, smooth: SmoothPlace, places: usize, left: &Left<'_>) -> Vec<Function> {
+        let Some(driver) = self.driver(smooth.driver) else { return Vec::new() };
+        let (basis, classes) = (driver.basis, self.last.classes.len());
+        let function = |form, kind, fitted| Function {
+            place: smooth.place,
+            driver: whole.setting.name(smooth.driver).to_owned(),
+            form,
+            kind,
+            fitted,
+        };
+        let mut all = Vec::new();
+        let series = self.sheet(smooth.place, &driver.series);
+        let orders: Vec<(u32, usize)> = basis.orders().collect();
+        for &(order, width) in orders.iter().filter(|&&(_, width)| width <= series.ncols()) {
+            let price = Price { classes, functions: places * orders.len(), parameters: 0 };
+            let fitted = contender(left, series.subcols(0, width), price);
+            all.push(function(basis.words(order), Kind::Series(basis), fitted));
+        }
+        let columns = self.sheet(smooth.place, &driver.bumps);
+        let bumps = basis.bumps();
+        for at in most_telling(left, columns.as_ref()) {
+            let (centre, width) = bumps[at];
+            let price = Price { classes, functions: places, parameters: 2 };
+            let fitted = contender(left, columns.subcols(at, 1), price);
+            let form = format!("bump at {centre:.2}, of width {width:.2}");
+            all.push(function(form, Kind::Bump(basis, bumps[at]), fitted));
+        }
+        all
+    }
+
+    fn driver(&self, symbol: SymbolId) -> Option<&Driver> {
+        self.drivers.iter().find(|driver| driver.symbol == symbol)
+    }
+
+    fn smooth(&self, smooth: SmoothPlace) -> Sheet {
+        let columns = self.driver(smooth.driver).map(|driver| self.sheet(smooth.place, &driver.series));
+        Sheet::of(columns.unwrap_or_else(|| Mat::zeros(self.last.posed.rows.columns.residual.len(), 0)))
+    }
+
+    fn harmonics(&self, observations: &Observations, sheet: (Place, SymbolId, u32)) -> Sheet {
+        let (place, joint, first) = sheet;
+        let wave = |q: f64, order: u32| [(f64::from(order) * q).cos(), (f64::from(order) * q).sin()];
+        let values = tabulated(observations.column(joint).unwrap_or_default(), |q| {
+            (first..first + A_SHEET).flat_map(|order| wave(q, order)).collect()
+        });
+        let columns = self.sheet(place, &values);
+        let blocks = (0..columns.ncols() / 2).map(|at| 2 * at..2 * at + 2).collect();
+        Sheet { columns, blocks }
+    }
+}
+
+/// Products of neighbours: in the space of all joints, along each joint, and in order of acquisition.
+fn neighbours(whole: &Loop<'_>, last: &Round<'_>, left: &Left<'_>, signs: &Signs) -> Vec<Statistic> {
+    let portion = &last.posed.rows;
+    let observations = &*portion.observations;
+    let chain = whole.setting.chain;
+    let first = Layout::of(observations).first;
+    let joints: Vec<(SymbolId, &[f64])> = observations
+        .columns
+        .iter()
+        .filter(|(id, _)| chain.symbol(*id).kind == SymbolKind::Joint)
+        .map(|(id, readings)| (*id, readings.as_slice()))
+        .collect();
+    let mut points = vec![Vec::new(); observations.rows()];
+    let mut statistics = Vec::new();
+    for (id, readings) in &joints {
+        let symbol = chain.symbol(*id);
+        let angle = symbol.quantity == Quantity::Angle;
+        // Angles on a circle of radius one, lengths in units of their spread.
+        let mean = readings.iter().sum::<f64>() / readings.len().max(1) as f64;
+        let spread = readings.iter().map(|q| (q - mean).powi(2)).sum::<f64>() / readings.len().max(1) as f64;
+        let unit = spread.sqrt().max(f64::MIN_POSITIVE);
+        for (point, q) in points.iter_mut().zip(*readings) {
+            if angle { point.extend([q.cos(), q.sin()]) } else { point.push((q - mean) / unit) }
+        }
+        let what = format!("neighbours along {}", symbol.name);
+        statistics.push(Statistic::of_pairs(what, &along(readings), &first, left, signs));
+    }
+    let what = "neighbours in the space of all joints".to_owned();
+    statistics.insert(0, Statistic::of_pairs(what, &nearest(&points), &first, left, signs));
+    if observations.in_sequence {
+        for lag in LAGS {
+            let what = format!("observations {lag} rows apart");
+            statistics.push(Statistic::of_pairs(what, &lagged(&portion.stretches, lag), &first, left, signs));
+        }
+    }
+    statistics
+}

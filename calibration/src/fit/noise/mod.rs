@@ -1,0 +1,250 @@
+//! The noise of the observations: how large in each component, how it varies with the joints, and how it
+//! remembers the observation before.
+//!
+//! `σ²` of a component = floor² of its kind · exp(variance model of the joints); in order of acquisition the values
+//! so scaled follow ARMA(1,1). Each part is taken up only if the data bear it out.
+
+mod estimate;
+mod layout;
+mod serial;
+mod variance;
+
+use std::borrow::Cow;
+
+use model_core::SymbolId;
+
+use crate::data::Observations;
+use crate::fit::robust::median;
+
+pub use estimate::{estimate, from_medians, of_floors, resolution};
+pub use layout::{Layout, Run};
+
+/// What is known of the noise, and what to find out about it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NoiseOptions {
+    /// The standard deviation of every residual component, rad or m; estimated if `None`.
+    pub sigma: Option<f64>,
+    /// Whether to look for a variance that depends on the joints.
+    pub variance: bool,
+    /// Whether to look for serial correlation, where the rows are in sequence.
+    pub serial: bool,
+}
+
+impl NoiseOptions {
+    /// The standard deviation that is stated for all components.
+    pub(crate) fn known(&self) -> Option<f64> {
+        self.sigma.filter(|sigma| *sigma > 0.0)
+    }
+}
+
+impl Default for NoiseOptions {
+    fn default() -> Self {
+        Self { sigma: None, variance: true, serial: true }
+    }
+}
+
+/// The noise that a fit assumed and found.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Noise {
+    /// Standard deviation of each kind of component (series by series, component by component): rad or m, or a
+    /// factor on the standard uncertainties that the data state.
+    pub floor: Vec<f64>,
+    /// The dependence of the variance on the joints, if one was found.
+    pub variance: Option<VarianceModel>,
+    /// The serial correlation, if one was found.
+    pub serial: Option<Serial>,
+    /// Per residual component the standard deviation that whitening divides by, rad or m, length n. With serial
+    /// correlation, that of what the value before does not explain.
+    pub sigma: Vec<f64>,
+    /// Components that follow each other in order of acquisition.
+    pub runs: Vec<Run>,
+}
+
+/// log variance = Σ coefficient · function of joints and ranges, above the floor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct VarianceModel {
+    /// Functions with their coefficients.
+    pub terms: Vec<(VarianceTerm, f64)>,
+}
+
+/// A function in the variance model, less its mean over the rows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum VarianceTerm {
+    /// Cosine of a multiple of a joint.
+    Cos(SymbolId, u8),
+    /// Sine of a multiple of a joint.
+    Sin(SymbolId, u8),
+    /// The logarithm of an input of length: a measured range.
+    LogRange(SymbolId),
+}
+
+/// ARMA(1,1): x_t = autoregressive · x_{t−1} + e_t + moving_average · e_{t−1}.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Serial {
+    /// Coefficient of the value before.
+    pub autoregressive: f64,
+    /// Coefficient of the innovation before.
+    pub moving_average: f64,
+}
+
+impl Serial {
+    /// Standard deviation of the values in units of that of the innovations.
+    ///
+    /// Source: G. E. P. Box, G. M. Jenkins, Time Series Analysis, section 3.4.3.
+    #[must_use]
+    pub fn gain(self) -> f64 {
+        let (phi, theta) = (self.autoregressive, self.moving_average);
+        ((1.0 + 2.0 * phi * theta + theta * theta) / (1.0 - phi * phi)).sqrt()
+    }
+
+    /// Turns values into innovations in place; the first value of the run, which nothing precedes, is scaled to the
+    /// same variance.
+    pub fn whiten(self, column: &mut [f64], run: Run) {
+        let gain = self.gain();
+        for component in 0..run.stride {
+            let (mut x_before, mut e_before) = (0.0, 0.0);
+            for at in (run.start + component..run.end).step_by(run.stride) {
+                let Some(value) = column.get_mut(at) else { return };
+                let x = *value;
+                if at == run.start + component {
+                    // Nothing precedes the first value: it is scaled, and tells this much of its innovation.
+                    *value = x / gain;
+                    e_before = x / (gain * gain);
+                } else {
+                    e_before = x - self.autoregressive * x_before - self.moving_average * e_before;
+                    *value = e_before;
+                }
+                x_before = x;
+            }
+        }
+    }
+}
+
+impl Serial {
+    /// Multiplies a column by the transpose of what turns innovations into values of variance one, in place.
+    fn colour(self, column: &mut [f64], run: Run) {
+        let gain = self.gain();
+        for component in 0..run.stride {
+            // Backwards through x_t = φ x_{t−1} + e_t + θ e_{t−1}: what each innovation has part in.
+            let (mut after, mut carried) = (0.0, 0.0);
+            for at in (run.start + component..run.end).step_by(run.stride).rev() {
+                let Some(value) = column.get_mut(at) else { return };
+                after = *value + self.autoregressive * after;
+                let remembered = self.moving_average * carried;
+                let first = at == run.start + component;
+                *value = if first { after + remembered / (gain * gain) } else { (after + remembered) / gain };
+                carried = after;
+            }
+        }
+    }
+}
+
+impl Noise {
+    /// The same noise as if no observation remembered the one before.
+    #[must_use]
+    pub fn without_memory(&self) -> Self {
+        Self { sigma: self.sigma_without_memory().into_owned(), serial: None, ..self.clone() }
+    }
+
+    /// The noise of some runs of components, put one after another: the first component of each remembers none.
+    #[must_use]
+    pub fn of_runs(&self, runs: &[Run]) -> Self {
+        let sigma = runs.iter().flat_map(|run| self.sigma.get(run.start..run.end).unwrap_or_default());
+        let mut start = 0;
+        let own = runs.iter().map(|&run| {
+            let own = Run { start, end: start + (run.end - run.start), stride: run.stride };
+            start = own.end;
+            own
+        });
+        Self { runs: own.collect(), sigma: sigma.copied().collect(), ..self.clone() }
+    }
+
+    /// For each component of the first series the median of its standard deviations: what one more observation is to be
+    /// expected to have, rad or m.
+    #[must_use]
+    pub fn expected(&self, observations: &Observations) -> Vec<f64> {
+        let Some(first) = observations.series.first() else { return vec![1.0] };
+        let (components, sigma) = (first.measure.components(), self.sigma_without_memory());
+        let own = sigma.get(..first.rows.len() * components).unwrap_or_default();
+        (0..components)
+            .map(|component| median(own.iter().skip(component).step_by(components).copied().collect()))
+            .map(|sigma| sigma.max(f64::MIN_POSITIVE))
+            .collect()
+    }
+
+    /// Per residual component its standard deviation, whatever the component before says of it.
+    #[must_use]
+    pub fn sigma_without_memory(&self) -> Cow<'_, [f64]> {
+        match self.serial {
+            None => Cow::Borrowed(&self.sigma),
+            Some(serial) => self.sigma.iter().map(|sigma| sigma * serial.gain()).collect(),
+        }
+    }
+
+    /// Multiplies a column that was whitened [without memory](Self::without_memory) by a root of the correlation
+    /// matrix, in place.
+    pub fn colour(&self, column: &mut [f64]) {
+        if let Some(serial) = self.serial {
+            for &run in &self.runs {
+                serial.colour(column, run);
+            }
+        }
+    }
+
+    /// Whitens a column of residual components (length n, SI) in place: divides by the standard deviations and
+    /// takes out what the observation before it explains. Robust weights are not part of it.
+    pub fn whiten(&self, column: &mut [f64]) {
+        for (value, sigma) in column.iter_mut().zip(&self.sigma) {
+            *value /= sigma;
+        }
+        if let Some(serial) = self.serial {
+            for &run in &self.runs {
+                serial.whiten(column, run);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    /// Colouring multiplies by a root of the correlation matrix, so the coloured columns of a basis have the
+    /// correlations of the process as their products, once its start is forgotten.
+    #[test]
+    fn colouring_gives_the_correlations_of_the_process() {
+        let serial = Serial { autoregressive: 0.8, moving_average: -0.3 };
+        let run = Run { start: 0, end: 200, stride: 2 };
+        let unit = |at: usize| {
+            let mut column = vec![0.0; 200];
+            column[at] = 1.0;
+            serial.colour(&mut column, run);
+            column
+        };
+        let product = |a: usize, b: usize| unit(a).iter().zip(unit(b)).map(|(x, y)| x * y).sum::<f64>();
+        // Source: Box and Jenkins, Time Series Analysis, equation (3.4.7).
+        let first = (1.0 + 0.8 * -0.3) * (0.8 - 0.3) / (1.0 + 2.0 * 0.8 * -0.3 + 0.09);
+        assert_relative_eq!(product(0, 0), 1.0, epsilon = 1e-12);
+        assert_relative_eq!(product(180, 180), 1.0, epsilon = 1e-12);
+        assert_relative_eq!(product(180, 182), first, epsilon = 1e-12);
+        assert_relative_eq!(product(180, 186), first * 0.8 * 0.8, epsilon = 1e-12);
+        assert_relative_eq!(product(180, 183), 0.0, epsilon = 1e-12);
+    }
+
+    #[test]
+    fn whitening_undoes_colour() {
+        let serial = Serial { autoregressive: 0.9, moving_average: 0.4 };
+        let run = Run { start: 0, end: 5, stride: 1 };
+        let innovations = [1.0, -0.5, 0.25, 2.0, -1.0];
+        let mut values = vec![serial.gain() * innovations[0]];
+        for at in 1..5 {
+            let before = if at == 1 { innovations[0] / serial.gain() } else { innovations[at - 1] };
+            values.push(0.9 * values[at - 1] + innovations[at] + 0.4 * before);
+        }
+        serial.whiten(&mut values, run);
+        for (value, innovation) in values.iter().zip(innovations) {
+            assert_relative_eq!(*value, innovation, epsilon = 1e-12);
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! Amounts evaluated over all rows at once, sines and cosines computed once a joint and harmonic.
+
+use std::collections::BTreeMap;
+
+use model_core::SymbolId;
+use model_core::algebra::{Poly, Wave};
+
+use crate::data::Observations;
+
+/// Evaluates functions of joints and inputs over the rows of some observations.
+pub(super) struct Functions<'a> {
+    observations: &'a Observations,
+    /// Of every symbol, for those without readings.
+    values: &'a [f64],
+    waves: BTreeMap<(SymbolId, u32, Wave), Vec<f64>>,
+}
+
+impl<'a> Functions<'a> {
+    pub(super) fn new(observations: &'a Observations, values: &'a [f64]) -> Self {
+        Self { observations, values, waves: BTreeMap::new() }
+    }
+
+    /// The function's value at each row; `None` if a symbol has neither readings nor a value.
+    pub(super) fn column(&mut self, amount: &Poly) -> Option<Vec<f64>> {
+        let mut sum = vec![0.0; self.observations.rows()];
+        for term in amount.terms() {
+            let mut product = vec![term.coefficient.to_f64(); sum.len()];
+            for &(symbol, power) in &term.powers {
+                let reading = self.reading(symbol)?;
+                let power = i32::try_from(power).ok()?;
+                product.iter_mut().zip(&reading).for_each(|(p, x)| *p *= x.powi(power));
+            }
+            for factor in &term.waves {
+                let wave = self.wave(factor.symbol, factor.harmonic, factor.wave)?;
+                product.iter_mut().zip(wave).for_each(|(p, w)| *p *= w);
+            }
+            for pole in &term.poles {
+                for (wave, power) in [(Wave::Sin, pole.sin_power), (Wave::Cos, pole.cos_power)] {
+                    let power = i32::try_from(power).ok()?;
+                    let wave = self.wave(pole.symbol, 1, wave)?;
+                    product.iter_mut().zip(wave).for_each(|(p, w)| *p /= w.powi(power));
+                }
+            }
+            sum.iter_mut().zip(&product).for_each(|(s, p)| *s += p);
+        }
+        Some(sum)
+    }
+
+    fn reading(&self, symbol: SymbolId) -> Option<Vec<f64>> {
+        match self.observations.column(symbol) {
+            Some(readings) => Some(readings.to_vec()),
+            None => self.values.get(symbol.index()).map(|&value| vec![value; self.observations.rows()]),
+        }
+    }
+
+    fn wave(&mut self, symbol: SymbolId, harmonic: u32, wave: Wave) -> Option<&[f64]> {
+        let key = (symbol, harmonic, wave);
+        if !self.waves.contains_key(&key) {
+            let mut column = self.reading(symbol)?;
+            for value in &mut column {
+                let angle = f64::from(harmonic) * *value;
+                *value = match wave {
+                    Wave::Sin => angle.sin(),
+                    Wave::Cos => angle.cos(),
+                };
+            }
+            self.waves.insert(key, column);
+        }
+        self.waves.get(&key).map(Vec::as_slice)
+    }
+}

@@ -1,0 +1,211 @@
+//! The columns of a search: what a unit of each declared error, and of each effect, would do to every residual
+//! component.
+//!
+//! One probe error for each place in the chain that an effect uses; its derivative comes from the exact form at the
+//! fitted errors, once, and is multiplied by the effect's functions of the readings.
+
+mod functions;
+mod seen;
+
+use faer::Mat;
+use model_core::algebra::Poly;
+use model_core::{Chain, SymbolId, SymbolKind};
+
+use crate::candidate::{Effect, Function, Place, add_error, insert};
+use crate::data::Observations;
+use crate::fit::{FitError, Model};
+use functions::Functions;
+use seen::Extent;
+
+pub use seen::Seen;
+
+/// A place that moves the observations this many times less than the place that moves them most is seen only
+/// through products of errors.
+const UNSEEN: f64 = 1e-3;
+
+/// A chain with a probe error at each place that effects use, at the values of a fit.
+#[derive(Debug, Clone)]
+pub struct Probed {
+    model: Model,
+    /// Of every symbol, probes included.
+    values: Vec<f64>,
+    parameters: usize,
+    places: Vec<Place>,
+}
+
+/// Everything before whitening, row by row, component by component.
+#[derive(Debug, Clone)]
+pub struct Columns {
+    /// Measured minus predicted, rad or m.
+    pub residual: Vec<f64>,
+    /// Derivative by each declared parameter.
+    pub declared: Mat<f64>,
+    /// Row of the observations that each component belongs to.
+    pub row: Vec<u32>,
+    places: Vec<Place>,
+    probes: Mat<f64>,
+}
+
+impl Probed {
+    /// At `values` (of the chain's symbols), for observations of these series.
+    ///
+    /// # Errors
+    /// Missing readings, or parameters that cannot be estimated.
+    pub fn new(
+        chain: &Chain,
+        observations: &Observations,
+        parameters: &[SymbolId],
+        values: &[f64],
+        places: &[Place],
+    ) -> Result<Self, FitError> {
+        let mut probed = chain.clone();
+        let mut wrt = parameters.to_vec();
+        for (number, &place) in places.iter().enumerate() {
+            let name = format!("probe {number}");
+            let Some(id) = add_error(&mut probed, name, place.freedom.quantity()) else { break };
+            insert(&mut probed, place, Poly::symbol(id), String::new());
+            wrt.push(id);
+        }
+        let mut values = values.to_vec();
+        values.resize(probed.symbols.len(), 0.0);
+        let model = Model::new(&probed, observations, &wrt)?;
+        let places = places.iter().take(wrt.len() - parameters.len()).copied().collect();
+        Ok(Self { model, values, parameters: parameters.len(), places })
+    }
+
+    /// Evaluates some observations.
+    ///
+    /// # Errors
+    /// Values or observations that do not fit the chain.
+    pub fn columns(&self, observations: &Observations) -> Result<Columns, FitError> {
+        let blocks = self.model.map_blocks(observations, &self.values, |_, rows, block| {
+            let by_row = |values| block.by_row(values).collect::<Vec<_>>();
+            (rows, by_row(&block.residual), block.columns().map(by_row).collect::<Vec<_>>())
+        })?;
+        let n: usize = blocks.iter().map(|(_, residual, _)| residual.len()).sum();
+        let mut columns = Columns {
+            residual: Vec::with_capacity(n),
+            declared: Mat::zeros(n, self.parameters),
+            row: Vec::with_capacity(n),
+            places: self.places.clone(),
+            probes: Mat::zeros(n, self.places.len()),
+        };
+        let mut start = 0;
+        for (rows, residual, derivatives) in blocks {
+            let count = residual.len();
+            let components = count / rows.len().max(1);
+            columns.residual.extend(residual);
+            for row in rows {
+                columns.row.extend(std::iter::repeat_n(row as u32, components));
+            }
+            for (j, column) in self.model.column_of().iter().enumerate() {
+                let Some(column) = *column else { continue };
+                let target = match j.checked_sub(self.parameters) {
+                    None => &mut columns.declared.col_as_slice_mut(j)[start..start + count],
+                    Some(probe) => &mut columns.probes.col_as_slice_mut(probe)[start..start + count],
+                };
+                target.copy_from_slice(&derivatives[column]);
+            }
+            start += count;
+        }
+        Ok(columns)
+    }
+}
+
+impl Columns {
+    /// Evaluates at `values` (of the chain's symbols).
+    ///
+    /// # Errors
+    /// Missing readings, or values that do not fit the chain.
+    pub fn at(
+        chain: &Chain,
+        observations: &Observations,
+        parameters: &[SymbolId],
+        values: &[f64],
+        places: &[Place],
+    ) -> Result<Self, FitError> {
+        Probed::new(chain, observations, parameters, values, places)?.columns(observations)
+    }
+
+    /// The derivative by a unit at a place; `None` where these observations hardly see it.
+    #[must_use]
+    pub fn probe(&self, place: Place) -> Option<&[f64]> {
+        let at = self.places.iter().position(|known| *known == place)?;
+        let alike = self.places.iter().zip(self.probes.col_iter());
+        let alike = alike.filter(|(other, _)| other.freedom.motion == place.freedom.motion);
+        let most = alike.map(|(_, probe)| probe.norm_l2()).fold(0.0, f64::max);
+        (self.probes.col(at).norm_l2() > UNSEEN * most).then(|| self.probes.col_as_slice(at))
+    }
+
+    /// The columns of each effect, one for each of its functions; empty where a reading is missing, or a function
+    /// is not finite, or it hangs on a single row.
+    #[must_use]
+    pub fn of_effects(
+        &self,
+        chain: &Chain,
+        effects: &[Effect],
+        observations: &Observations,
+        values: &[f64],
+    ) -> Vec<Vec<Vec<f64>>> {
+        let (mut columns, seen) = self.of_part(chain, effects, observations, values);
+        keep(&mut columns, &seen.usable(effects));
+        columns
+    }
+
+    /// The columns of each effect over a part of the rows, zero where there is no finite value; and what the part shows of
+    /// which effects are usable, which all parts together decide.
+    #[must_use]
+    pub fn of_part(
+        &self,
+        chain: &Chain,
+        effects: &[Effect],
+        observations: &Observations,
+        values: &[f64],
+    ) -> (Vec<Vec<Vec<f64>>>, Seen) {
+        let mut readings = Functions::new(observations, values);
+        let mut seen = Seen::of_probes(&self.places, &self.probes);
+        let mut columns = Vec::with_capacity(effects.len());
+        for effect in effects {
+            let places = effect.places();
+            let mut extents = Vec::new();
+            let column = |function: &Function| {
+                let mut sum = vec![0.0; self.row.len()];
+                for &place in &places {
+                    let Some(number) = self.places.iter().position(|known| *known == place) else { continue };
+                    let probe = self.probes.col_as_slice(number);
+                    for amount in function.at(effect.place, place) {
+                        let mut by_row = readings.column(amount);
+                        let symbols = amount.symbols();
+                        let of_joints = symbols.iter().all(|&id| chain.symbol(id).kind != SymbolKind::Input);
+                        extents.push(Extent::of(by_row.as_deref_mut(), of_joints));
+                        let Some(by_row) = by_row else { continue };
+                        let moved = probe.iter().zip(&self.row);
+                        sum.iter_mut().zip(moved).for_each(|(s, (p, &row))| *s += p * by_row[row as usize]);
+                    }
+                }
+                sum
+            };
+            columns.push(effect.functions.iter().map(column).collect());
+            seen.effects.push(extents);
+        }
+        (columns, seen)
+    }
+}
+
+/// Forgets the columns of effects that are not usable.
+pub(crate) fn keep(columns: &mut [Vec<Vec<f64>>], usable: &[bool]) {
+    for (columns, usable) in columns.iter_mut().zip(usable) {
+        if !usable {
+            columns.clear();
+        }
+    }
+}
+
+/// The places that some effects use, each once.
+#[must_use]
+pub fn places(effects: &[Effect]) -> Vec<Place> {
+    let mut places: Vec<Place> = effects.iter().flat_map(Effect::places).collect();
+    places.sort_unstable();
+    places.dedup();
+    places
+}

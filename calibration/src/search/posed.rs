@@ -1,0 +1,264 @@
+//! The search's problem at a fit: row by row, or from merged rows where they are many.
+
+use std::ops::Range;
+
+use faer::Mat;
+
+use super::row_set::{Portion, all_rows, chunks, groups, sample};
+use crate::calibrate::fitted::Fitted;
+use crate::calibrate::{CalibrateError, Loop, Stage};
+use crate::search::columns::Seen;
+use crate::search::{Cells, Folds, Problem, ProblemError};
+
+/// Cells of merged rows at most: as many as sign flips tell apart.
+const CELLS: usize = 400;
+
+/// The whitened problem at a fit, and the rows behind it.
+pub(crate) struct Posed<'a> {
+    /// Of all rows. Candidates are the catalogue's effects in order.
+    pub problem: Problem,
+    /// All rows, or a sample where they are many.
+    pub rows: Portion<'a>,
+    /// The whitened problem of the sample; none where `rows` are all.
+    sampled: Option<Problem>,
+    /// The folds that the components of all rows were dealt to.
+    folds: Folds,
+    /// Per effect, whether these data let one use it.
+    usable: Vec<bool>,
+}
+
+impl<'a> Posed<'a> {
+    /// At a fit.
+    pub fn at(whole: &Loop<'a>, fitted: &Fitted) -> Result<Self, CalibrateError> {
+        let hold_out = &whole.request.plan.hold_out;
+        let groups = groups(whole.request.observations, &fitted.layout.row);
+        let folds = Folds::deal(&groups, hold_out.folds, hold_out.seed);
+        let functions: usize = whole.catalogue.iter().map(|effect| effect.functions.len()).sum();
+        let width = fitted.combinations.ncols() + functions + 1;
+        if folds.rows() * width <= whole.held {
+            Self::held(whole, fitted, folds)
+        } else {
+            Self::merged(whole, fitted, folds, width)
+        }
+    }
+
+    /// With every row in memory.
+    fn held(whole: &Loop<'a>, fitted: &Fitted, folds: Folds) -> Result<Self, CalibrateError> {
+        let mut rows = Portion::of(whole, fitted, &all_rows(whole.request.observations))?;
+        let usable = rows.seen.usable(&whole.catalogue);
+        rows.keep(&usable);
+        let problem = problem(whole, fitted, &usable, &rows.whitened(), folds.clone())?;
+        Ok(Self { problem, rows, sampled: None, folds, usable })
+    }
+
+    /// With chunk after chunk merged into what is left of those before, and a sample in memory.
+    fn merged(whole: &Loop<'a>, fitted: &Fitted, folds: Folds, width: usize) -> Result<Self, CalibrateError> {
+        let observations = whole.request.observations;
+        let mut cells = Cells::new(&folds, CELLS.min(whole.held / (2 * width * width)), width);
+        let mut seen: Option<Seen> = None;
+        each_chunk(whole, fitted, |components, portion| {
+            let rows = fitted.layout.row[components.start] as usize;
+            (whole.tell)(Stage::Columns { rows, of: observations.rows() });
+            cells.add(portion.whitened().as_ref(), folds.groups_of(components));
+            match &mut seen {
+                None => seen = Some(portion.seen),
+                Some(seen) => seen.merge(&portion.seen),
+            }
+        })?;
+        let usable = seen.map_or_else(Vec::new, |seen| seen.usable(&whole.catalogue));
+        let functions = whole
+            .catalogue
+            .iter()
+            .zip(&usable)
+            .flat_map(|(effect, &usable)| std::iter::repeat_n(usable, effect.functions.len()));
+        let declared = fitted.combinations.ncols();
+        let kept: Vec<usize> = (0..width)
+            .zip(std::iter::repeat_n(true, declared).chain(functions).chain([true]))
+            .filter(|&(_, kept)| kept)
+            .map(|(column, _)| column)
+            .collect();
+        let (merged, of_merged) = cells.merged(&kept);
+        let problem_of_all = problem(whole, fitted, &usable, &merged, of_merged)?;
+
+        let few = whole.held / 4 / width * observations.rows() / folds.rows();
+        let mut rows =
+            Portion::of(whole, fitted, &sample(observations, few, whole.request.plan.hold_out.seed))?;
+        rows.keep(&usable);
+        let groups = groups(&rows.observations, &rows.columns.row);
+        let sampled = problem(whole, fitted, &usable, &rows.whitened(), Folds::deal(&groups, 1, 0))?;
+        Ok(Self { problem: problem_of_all, rows, sampled: Some(sampled), folds, usable })
+    }
+
+    /// The problem of [`Self::rows`].
+    pub fn of_rows(&self) -> &Problem {
+        self.sampled.as_ref().unwrap_or(&self.problem)
+    }
+
+    /// How many rows there are for each of [`Self::rows`].
+    pub fn share(&self) -> f64 {
+        self.folds.rows() as f64 / self.rows.without.len() as f64
+    }
+
+    /// The fold that a component of all rows lies in.
+    pub fn fold_of(&self, component: usize) -> usize {
+        self.folds.of_row(component)
+    }
+
+    /// Lets `f` see all rows, one portion after another, each with its components.
+    pub fn each_portion(
+        &self,
+        whole: &Loop<'a>,
+        fitted: &Fitted,
+        mut f: impl FnMut(Range<usize>, &Portion<'_>),
+    ) -> Result<(), CalibrateError> {
+        if self.sampled.is_none() {
+            f(0..self.folds.rows(), &self.rows);
+            return Ok(());
+        }
+        each_chunk(whole, fitted, |components, mut portion| {
+            portion.keep(&self.usable);
+            f(components, &portion);
+        })
+    }
+}
+
+/// Lets `f` have all rows, one chunk after another, each with its components.
+fn each_chunk<'a>(
+    whole: &Loop<'a>,
+    fitted: &Fitted,
+    mut f: impl FnMut(Range<usize>, Portion<'a>),
+) -> Result<(), CalibrateError> {
+    let mut start = 0;
+    for chunk in chunks(whole.request.observations) {
+        let portion = Portion::of(whole, fitted, &[chunk])?;
+        let end = start + portion.without.len();
+        f(start..end, portion);
+        start = end;
+    }
+    Ok(())
+}
+
+/// The problem of some whitened rows, which hold the columns of usable effects alone.
+fn problem(
+    whole: &Loop<'_>,
+    fitted: &Fitted,
+    usable: &[bool],
+    rows: &Mat<f64>,
+    folds: Folds,
+) -> Result<Problem, ProblemError> {
+    let mut count = 0;
+    let blocks = whole.catalogue.iter().zip(usable).map(|(effect, &usable)| {
+        let start = count;
+        count += if usable { effect.functions.len() } else { 0 };
+        start..count
+    });
+    let blocks: Vec<Range<usize>> = blocks.collect();
+    let declared = fitted.combinations.ncols();
+    let residual = rows.col_as_slice(declared + count);
+    Problem::dealt(rows.subcols(0, declared), rows.subcols(declared, count), &blocks, residual, folds)
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use std::fmt::Write as _;
+    use std::io::Read;
+
+    use approx::assert_relative_eq;
+    use model_core::{Chain, exact};
+
+    use super::*;
+    use crate::calibrate::Request;
+    use crate::calibrate::round::Round;
+    use crate::formats::DataError;
+    use crate::search::nested;
+    use crate::study::Study;
+
+    const MOUNT: &str = include_str!("../../../examples/alt-azimuth/alt-azimuth.chain");
+    const ROWS: usize = 20_000;
+    const STUDY: &str = r#"
+        chain = "mount.chain"
+        data  = "measured.csv"
+        [columns]
+        azimuth   = { column = "azimuth", unit = "rad" }
+        elevation = { column = "elevation", unit = "rad" }
+        [observed]
+        kind = "direction"
+        x = "x"
+        y = "y"
+        z = "z"
+        [noise]
+        group = ["night"]
+    "#;
+
+    /// Pointings of a mount that sags, in fifty nights.
+    fn measured() -> String {
+        let sagging = MOUNT.replace("Rx(elevation_index)", "Rx(elevation_index), Rx(sag*cos(elevation))");
+        let chain = Chain::from_text(&sagging).unwrap();
+        let path = exact::Path::new(&chain, chain.find_observable("sight").unwrap());
+        let [azimuth, elevation, sag] =
+            ["azimuth", "elevation", "sag"].map(|name| chain.find_symbol(name).unwrap().index());
+        let mut values = chain.nominal_values();
+        values[sag] = 1e-4;
+        let mut text = String::from("azimuth,elevation,x,y,z,night\n");
+        for row in 0..ROWS {
+            let turn = |step: f64| (row as f64 * step).fract();
+            values[azimuth] = 6.2 * turn(0.754_877_666) - 3.1;
+            values[elevation] = 0.2 + 1.2 * turn(0.569_840_291);
+            let sight = path.value(&values);
+            let noise = |step: f64| 1e-4 * (turn(step) - 0.5);
+            let [x, y, z] = [sight.x + noise(0.31), sight.y + noise(0.47), sight.z + noise(0.73)];
+            let (a, e) = (values[azimuth], values[elevation]);
+            let _ = writeln!(text, "{a},{e},{x},{y},{z},{}", row * 7 % 50);
+        }
+        text
+    }
+
+    /// Merged chunk by chunk, the rows tell the search what they tell it one by one.
+    #[test]
+    fn merged_rows_find_what_all_rows_find() {
+        let chain = Chain::from_text(MOUNT).unwrap();
+        let plan = Study::from_text(STUDY).unwrap().plan(&chain).unwrap();
+        let data = measured();
+        let mut open = |_: &str| -> Result<Box<dyn Read>, DataError> {
+            Ok(Box::new(std::io::Cursor::new(data.clone().into_bytes())))
+        };
+        let observations = plan.observations(&mut open).unwrap();
+        let request = Request {
+            text: MOUNT,
+            plan: &plan,
+            observations: &observations,
+            second: None,
+            when: "2026-11-21",
+        };
+        let observables = [observations.series[0].observable];
+        let [all, merged] = [1 << 24, 1 << 19].map(|held| Loop::new(request, &observables, held));
+        let of_all = Round::at(&all, Fitted::first(&all).unwrap()).unwrap();
+        let of_merged = Round::at(&merged, Fitted::first(&merged).unwrap()).unwrap();
+        assert!(of_merged.posed.problem.rows().nrows() < ROWS / 2);
+        assert!(of_merged.posed.rows.observations.rows() < ROWS / 4);
+
+        assert_eq!(of_all.classes, of_merged.classes);
+        let found = of_all.search(&all);
+        assert_eq!(all.catalogue[found[0].effect].driver, "gravity");
+        assert_eq!(found, of_merged.search(&merged));
+        for fold in 0..of_all.posed.problem.folds() {
+            let [one, other] = [&of_all, &of_merged].map(|round| round.posed.problem.fold_gram(fold));
+            let candidates = of_all.posed.problem.declared()..one.ncols();
+            for (i, j) in candidates.clone().flat_map(|i| candidates.clone().map(move |j| (i, j))) {
+                assert_relative_eq!(
+                    one[(i, j)],
+                    other[(i, j)],
+                    epsilon = 1e-9 * one[(j, j)].max(one[(i, i)])
+                );
+            }
+        }
+        let left = [(&all, &of_all), (&merged, &of_merged)].map(|(whole, round)| {
+            let held = nested(&round.posed.problem, &round.classes, &whole.options);
+            crate::calibrate::held_out::predicted(whole, round, [&held.after]).unwrap()
+        });
+        for (one, other) in left[0][0].iter().zip(&left[1][0]) {
+            assert_relative_eq!(one, other, epsilon = 1e-12);
+        }
+    }
+}

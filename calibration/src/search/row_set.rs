@@ -1,0 +1,157 @@
+//! Some rows of the data with everything that the search reads of them: all rows, a chunk of them, or a sample.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use faer::Mat;
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+
+use crate::calibrate::fitted::Fitted;
+use crate::calibrate::{CalibrateError, Loop};
+use crate::data::Observations;
+use crate::fit::noise::{Layout, Noise, Run};
+use crate::search::columns::{Columns, Seen, keep};
+
+/// Rows of a chunk.
+const CHUNK: usize = 8192;
+
+/// Consecutive rows of a sample that stay together, so that what follows each other can still be compared.
+const STRETCH: usize = 64;
+
+/// Some rows, with their columns at a fit.
+pub(crate) struct Portion<'a> {
+    pub observations: Cow<'a, Observations>,
+    /// Rows of this portion that follow each other in the data.
+    pub stretches: Vec<Range<usize>>,
+    /// Columns before whitening of the declared combinations and of the effects' places.
+    pub columns: Columns,
+    /// The columns of each effect of the catalogue before whitening.
+    pub effects: Vec<Vec<Vec<f64>>>,
+    /// Which of them these rows let one use.
+    pub seen: Seen,
+    /// Measured minus predicted without the accepted effects, before whitening.
+    pub without: Vec<f64>,
+    noise: Noise,
+    /// Root of the robust weight of each component.
+    root_weight: Vec<f64>,
+}
+
+impl<'a> Portion<'a> {
+    /// Of rows that follow each other stretch by stretch, each within one series, in order.
+    pub fn of(whole: &Loop<'a>, fitted: &Fitted, stretches: &[Range<usize>]) -> Result<Self, CalibrateError> {
+        let all = whole.request.observations;
+        let rows: usize = stretches.iter().map(ExactSizeIterator::len).sum();
+        let observations = if rows == all.rows() {
+            Cow::Borrowed(all)
+        } else {
+            Cow::Owned(all.select(&stretches.iter().flat_map(Clone::clone).collect::<Vec<_>>()))
+        };
+        let mut columns = fitted.probed.columns(&observations)?;
+        columns.declared = &columns.declared * &fitted.combinations;
+        let values = &fitted.fit.values;
+        let (effects, seen) = columns.of_part(&fitted.chain, &whole.catalogue, &observations, values);
+        let mut without = columns.residual.clone();
+        for (found, new) in fitted.found.iter().zip(&fitted.errors) {
+            for (column, error) in effects[found.effect].iter().zip(new) {
+                let value = values[error.index()];
+                without.iter_mut().zip(column).for_each(|(r, z)| *r += value * z);
+            }
+        }
+        let weight = stretches.iter().flat_map(|stretch| &fitted.fit.residuals.weight[stretch.clone()]);
+        let weight: Vec<f64> = weight.map(|weight| weight.sqrt()).collect();
+        let root_weight = columns.row.iter().map(|&row| weight[row as usize]).collect();
+        let mut end = 0;
+        let of_portion = stretches.iter().map(|stretch| {
+            end += stretch.len();
+            end - stretch.len()..end
+        });
+        Ok(Self {
+            stretches: of_portion.collect(),
+            noise: fitted.fit.noise.of_runs(&runs(all, &fitted.layout, stretches)),
+            observations,
+            columns,
+            effects,
+            seen,
+            without,
+            root_weight,
+        })
+    }
+
+    /// Forgets the columns of effects that are not usable.
+    pub fn keep(&mut self, usable: &[bool]) {
+        keep(&mut self.effects, usable);
+    }
+
+    /// A column of residual components, whitened as the fit whitened its own.
+    pub fn whiten(&self, column: &[f64]) -> Vec<f64> {
+        let mut column = column.to_vec();
+        self.noise.whiten(&mut column);
+        column.iter_mut().zip(&self.root_weight).for_each(|(value, root)| *value *= root);
+        column
+    }
+
+    /// Declared combinations, the columns of each effect, and the residual, whitened.
+    pub fn whitened(&self) -> Mat<f64> {
+        let declared = (0..self.columns.declared.ncols()).map(|j| self.columns.declared.col_as_slice(j));
+        let effects = self.effects.iter().flatten().map(Vec::as_slice);
+        let columns: Vec<&[f64]> = declared.chain(effects).chain([self.without.as_slice()]).collect();
+        let mut rows = Mat::zeros(self.without.len(), columns.len());
+        for (j, column) in columns.into_iter().enumerate() {
+            rows.col_as_slice_mut(j).copy_from_slice(&self.whiten(column));
+        }
+        rows
+    }
+}
+
+/// The components of some stretches of rows.
+fn runs(observations: &Observations, layout: &Layout, stretches: &[Range<usize>]) -> Vec<Run> {
+    let run = |stretch: &Range<usize>| {
+        let series = observations.series.iter().find(|series| series.rows.contains(&stretch.start));
+        let stride = series.map_or(1, |series| series.measure.components());
+        Run { start: layout.first[stretch.start], end: layout.first[stretch.end], stride }
+    };
+    stretches.iter().map(run).collect()
+}
+
+/// The group of each component, by its row.
+pub(crate) fn groups(observations: &Observations, row: &[u32]) -> Vec<usize> {
+    row.iter().map(|&row| observations.groups[row as usize] as usize).collect()
+}
+
+/// All rows, one stretch a series.
+pub(crate) fn all_rows(observations: &Observations) -> Vec<Range<usize>> {
+    let rows = observations.series.iter().map(|series| series.rows.clone());
+    rows.filter(|rows| !rows.is_empty()).collect()
+}
+
+/// All rows chunk by chunk.
+pub(crate) fn chunks(observations: &Observations) -> Vec<Range<usize>> {
+    pieces(observations, CHUNK)
+}
+
+/// About so many rows from all over the data: of each of equally long parts, one stretch from a random place in it.
+pub(crate) fn sample(observations: &Observations, rows: usize, seed: u64) -> Vec<Range<usize>> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let part = observations.rows().div_ceil((rows / STRETCH).max(1)).max(STRETCH);
+    pieces(observations, part)
+        .into_iter()
+        .map(|part| {
+            let length = part.len().min(STRETCH);
+            let start = part.start + random.random_range(0..=part.len() - length);
+            start..start + length
+        })
+        .collect()
+}
+
+/// Each series cut into pieces of so many rows.
+fn pieces(observations: &Observations, length: usize) -> Vec<Range<usize>> {
+    let series = observations.series.iter().map(|series| series.rows.clone());
+    series
+        .flat_map(|rows| {
+            let end = rows.end;
+            rows.step_by(length).map(move |start| start..(start + length).min(end))
+        })
+        .collect()
+}

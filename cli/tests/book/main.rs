@@ -6,6 +6,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod interactive;
 mod page;
 
 use std::fs;

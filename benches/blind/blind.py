@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+"""Blind trials of the whole command: coverage of its ±, false acceptances, held-out figure over new data.
+
+    cargo build --release -p trueaxis-cli
+    python3 benches/blind/blind.py --runs 100 [--only "few rows"] > table.md
+
+Each trial simulates an instrument with `simulate.py`, which shares no code with the project, calibrates it with the command, and
+compares what the report says with the truth. Intervals are of 95 % (Wilson).
+"""
+import argparse
+import concurrent.futures
+import json
+import math
+import pathlib
+import random
+import subprocess
+import tempfile
+
+from simulate import AltAzimuth, Arm, Scanner, measured, poses, serial
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def student(p, dof):
+    """The quantile of Student's t by bisection on its distribution (incomplete beta by a continued fraction)."""
+    if not dof or dof > 1e6:
+        return 1.959964
+    def cdf(t):
+        x = dof / (dof + t * t)
+        a, b = dof / 2, 0.5
+        front = math.exp(a * math.log(x) + b * math.log(1 - x) + math.lgamma(a + b) - math.lgamma(a) - math.lgamma(b)) if 0 < x < 1 else 0
+        flip = x > (a + 1) / (a + b + 2)
+        if flip:
+            a, b, x = b, a, 1 - x
+        f = c = 1.0
+        d = 0.0
+        for i in range(400):
+            m = i // 2
+            n = 1.0 if i == 0 else (m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m)) if i % 2 == 0
+                                    else -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1)))
+            d = 1 / max(1 + n * d, 1e-300)
+            c = 1 + n / c
+            f *= c * d
+            if abs(1 - c * d) < 1e-13:
+                break
+        part = front * (f - 1) / a
+        if flip:
+            part = 1 - part
+        return 1 - part / 2
+    low, high = 0.0, 1e4
+    for _ in range(80):
+        middle = (low + high) / 2
+        low, high = (middle, high) if cdf(middle) < p else (low, middle)
+    return low
+
+
+def trial(cell, seed):
+    rng = random.Random(f"{cell['name']} {seed}")
+    instrument, rows = cell["instrument"], cell["rows"]
+    size = cell.get("size", 1.0)
+    e = {name: size * rng.gauss(0, scale) for name, scale in instrument.errors.items()}
+    where = poses(instrument, rows, cell.get("trajectory", False), rng)
+    columns = [serial(cell["noise"], rows, rng) for _ in range(3)]
+    sessions = cell.get("sessions")
+    shift = [[rng.gauss(0, 1) for _ in range(3)] for _ in range(sessions or 1)]
+    session = [row * (sessions or 1) // rows for row in range(rows)]
+    if sessions:
+        for row, q in enumerate(where):
+            # Each session in a band of the first joint of its own.
+            low, high = instrument.ranges[instrument.joints[0]]
+            q[instrument.joints[0]] = low + (high - low) * (session[row] + rng.random()) / sessions
+    unit = [[instrument.noise * (columns[k][row] + (shift[session[row]][k] if sessions else 0)) for k in range(3)] for row in range(rows)]
+    data = [measured(instrument, e, q, n) for q, n in zip(where, unit)]
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        (folder / "i.chain").write_text(instrument.chain)
+        names = [f"{j}" for j in instrument.joints]
+        with open(folder / "d.csv", "w") as file:
+            file.write(",".join(names + ["x", "y", "z", "night"]) + "\n")
+            for q, v, s in zip(where, data, session):
+                file.write(",".join([repr(q[j]) for j in names] + [repr(c) for c in v] + [f"n{s}"]) + "\n")
+        kind = "point" if instrument.point else "direction"
+        unit_of = lambda j: "m" if j == "range" else "rad"
+        study = ['chain = "i.chain"', 'observable = "observed"', 'data = "d.csv"', "[columns]"]
+        study += [f'{j} = {{ column = "{j}", unit = "{unit_of(j)}" }}' for j in names]
+        told = (lambda c: f'{c} = {{ column = "{c}", unit = "m" }}') if instrument.point else (lambda c: f'{c} = "{c}"')
+        study += ["[observed]", f'kind = "{kind}"'] + [told(c) for c in "xyz"]
+        noise = []
+        if sessions and cell.get("declared", True):
+            noise.append('group = ["night"]')
+        if cell.get("stated"):
+            noise.append(f'sigma = "{instrument.noise!r} {"m" if instrument.point else "rad"}"')
+        if noise:
+            study += ["[noise]"] + noise
+        (folder / "s.toml").write_text("\n".join(study) + "\n")
+        run = subprocess.run([cell["command"], "calibrate", "s.toml", "--format", "json"], cwd=folder, capture_output=True, text=True)
+        if run.returncode not in (0, 1):
+            return {"failed": run.stderr.strip()[-300:]}
+        try:
+            report = json.loads(run.stdout)
+        except json.JSONDecodeError:
+            return {"failed": run.stdout[:200] + run.stderr[-200:]}
+    result = {"verdict": report["verdict"], "found": len(report["effects"]), "inside": 0, "of": 0}
+    for entry in report["errors"]:
+        sigma = entry.get("standard_uncertainty")
+        if not entry.get("separable") or entry.get("shown") is False or entry["name"] not in e or not sigma:
+            continue
+        wide = student(0.975, entry.get("degrees_of_freedom")) * sigma
+        result["of"] += 1
+        result["inside"] += abs(entry["value"] - e[entry["name"]]) <= wide
+    return result
+
+
+def wilson(k, n):
+    if n == 0:
+        return "–"
+    z, p = 1.96, k / n
+    middle = (p + z * z / 2 / n) / (1 + z * z / n)
+    half = z * math.sqrt(p * (1 - p) / n + z * z / 4 / n / n) / (1 + z * z / n)
+    return f"{p:.3f} ({max(0.0, middle - half):.3f} to {min(1.0, middle + half):.3f})"
+
+
+def cells(command):
+    mount, directions, targets, arm = AltAzimuth(), Scanner(False), Scanner(True), Arm()
+    out = []
+    def add(group, instrument, rows, noise, **more):
+        words = ", ".join([f"N = {rows}", noise] + [f"{k} {v}" if v is not True else k for k, v in more.items()])
+        out.append({"name": f"{group}: {instrument.name}, {words}", "instrument": instrument, "rows": rows, "noise": noise, "command": command, **more})
+    for rows in (5, 6, 8, 10, 15):
+        add("few rows", mount, rows, "independent")
+    for rows in (6, 8, 12):
+        add("few rows", arm, rows, "independent")
+    for rows in (8, 12, 20):
+        add("few rows", targets, rows, "independent")
+    for instrument in (mount, directions, targets, arm):
+        add("independent", instrument, 200, "independent")
+    add("large errors", targets, 200, "independent", size=20.0)
+    for noise in ("AR(0.5)", "AR(0.9)", "walk"):
+        add("undeclared memory", mount, 300, noise, trajectory=True)
+        add("undeclared memory", directions, 300, noise, trajectory=True)
+    for noise in ("t3", "outliers"):
+        add("uneven", mount, 200, noise)
+    for sessions in (6, 12, 60):
+        add("sessions", mount, 300, "independent", sessions=sessions)
+    return out
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--runs", type=int, default=50)
+    parser.add_argument("--only", default="")
+    parser.add_argument("--command", default=str(ROOT / "target/release/trueaxis"))
+    arguments = parser.parse_args()
+    print("| design | 95 % intervals that hold the truth | an effect accepted, none there | verdicts |\n|---|---|---|---|")
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        for cell in cells(arguments.command):
+            if arguments.only not in cell["name"]:
+                continue
+            results = list(pool.map(lambda seed: trial(cell, seed), range(arguments.runs)))
+            good = [r for r in results if "failed" not in r]
+            verdicts = {}
+            for r in results:
+                key = r.get("verdict") or f"error: {r['failed'].splitlines()[0][:60] if r['failed'] else '?'}"
+                verdicts[key] = verdicts.get(key, 0) + 1
+            print(f"| {cell['name']} | {wilson(sum(r['inside'] for r in good), sum(r['of'] for r in good))} | "
+                  f"{wilson(sum(r['found'] > 0 for r in good), len(good))} | "
+                  f"{', '.join(f'{k} {v}' for k, v in sorted(verdicts.items(), key=lambda p: -p[1]))} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()

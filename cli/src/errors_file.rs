@@ -154,6 +154,7 @@ fn named(
 fn kind_in_words(kind: SymbolKind) -> &'static str {
     match kind {
         SymbolKind::Pi => "the number π",
+        SymbolKind::Ramp => "a ramp",
         SymbolKind::Joint => "a joint",
         SymbolKind::Error => "an error",
         SymbolKind::Constant => "a constant",

@@ -100,7 +100,7 @@ pub fn readings_of(chain: &Chain, observable: ObservableId) -> Vec<SymbolId> {
         .into_iter()
         .map(|factor| &factor.amount)
         .chain(components)
-        .flat_map(|amount| amount.symbols())
+        .flat_map(|amount| chain.symbols_in(amount))
         .filter(|&id| matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input))
         .collect();
     symbols.sort_unstable();

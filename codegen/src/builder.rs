@@ -5,6 +5,7 @@
 
 use std::collections::HashMap;
 
+use model_core::ramp::Ramp;
 use model_core::{Chain, SymbolId, SymbolKind};
 
 use crate::program::{Layout, Literal, NodeId, Op, Program, Stage};
@@ -31,6 +32,7 @@ pub(crate) struct Builder {
     stages: Vec<Stage>,
     shared: HashMap<Op, NodeId>,
     symbol_stages: Vec<Stage>,
+    ramps: Vec<Ramp>,
 }
 
 impl Builder {
@@ -46,11 +48,16 @@ impl Builder {
             .iter()
             .map(|symbol| match symbol.kind {
                 SymbolKind::Pi | SymbolKind::Error | SymbolKind::Constant => Stage::Prepared,
-                SymbolKind::Joint | SymbolKind::Input => Stage::Evaluated,
+                SymbolKind::Joint | SymbolKind::Input | SymbolKind::Ramp => Stage::Evaluated,
             })
             .collect();
-        let mut builder =
-            Self { nodes: Vec::new(), stages: Vec::new(), shared: HashMap::new(), symbol_stages };
+        let mut builder = Self {
+            nodes: Vec::new(),
+            stages: Vec::new(),
+            shared: HashMap::new(),
+            symbol_stages,
+            ramps: chain.ramps.clone(),
+        };
         builder.constant(0.0);
         builder.constant(1.0);
         builder
@@ -70,8 +77,40 @@ impl Builder {
         if symbol == SymbolId::PI {
             return self.constant(std::f64::consts::PI);
         }
+        if let Some(ramp) = self.ramp(symbol) {
+            return crate::build::ramp(self, &ramp);
+        }
         let node = self.node(Op::Input(symbol));
         Value { node, negative: false }
+    }
+
+    /// The ramp that a symbol stands for.
+    pub(crate) fn ramp(&self, symbol: SymbolId) -> Option<Ramp> {
+        self.ramps.iter().find(|ramp| ramp.symbol == symbol).cloned()
+    }
+
+    /// The ramps that depend on a symbol.
+    pub(crate) fn ramps_of(&self, symbol: SymbolId) -> Vec<Ramp> {
+        self.ramps.iter().filter(|ramp| ramp.depends_on().any(|id| id == symbol)).cloned().collect()
+    }
+
+    /// A value between 0 and 1, and the nearer of the two outside.
+    pub(crate) fn saturate(&mut self, a: Value) -> Value {
+        let a = self.unsigned(a);
+        let node = self.node(Op::Saturate(a));
+        Value { node, negative: false }
+    }
+
+    /// 1 from zero on, 0 below.
+    pub(crate) fn step(&mut self, a: Value) -> Value {
+        let a = self.unsigned(a);
+        let node = self.node(Op::Step(a));
+        Value { node, negative: false }
+    }
+
+    /// The node of a value with its sign applied.
+    fn unsigned(&mut self, a: Value) -> NodeId {
+        if a.negative { self.node(Op::Neg(a.node)) } else { a.node }
     }
 
     pub(crate) fn add(&mut self, a: Value, b: Value) -> Value {

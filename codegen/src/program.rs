@@ -63,6 +63,10 @@ pub enum Op {
     Sin(NodeId),
     /// Cosine of an angle in radians.
     Cos(NodeId),
+    /// `a` between 0 and 1, and the nearer of the two outside; NaN stays NaN.
+    Saturate(NodeId),
+    /// 1 from `a = 0` on, 0 below; NaN stays NaN.
+    Step(NodeId),
 }
 
 impl Op {
@@ -70,7 +74,7 @@ impl Op {
     pub fn operands(self) -> impl Iterator<Item = NodeId> {
         let (first, second) = match self {
             Self::Constant(_) | Self::Input(_) => (None, None),
-            Self::Neg(a) | Self::Sin(a) | Self::Cos(a) => (Some(a), None),
+            Self::Neg(a) | Self::Sin(a) | Self::Cos(a) | Self::Saturate(a) | Self::Step(a) => (Some(a), None),
             Self::Add(a, b) | Self::Sub(a, b) | Self::Mul(a, b) | Self::Div(a, b) => (Some(a), Some(b)),
         };
         first.into_iter().chain(second)
@@ -83,6 +87,8 @@ impl Op {
             Self::Neg(a) => Self::Neg(f(a)),
             Self::Sin(a) => Self::Sin(f(a)),
             Self::Cos(a) => Self::Cos(f(a)),
+            Self::Saturate(a) => Self::Saturate(f(a)),
+            Self::Step(a) => Self::Step(f(a)),
             Self::Add(a, b) => Self::Add(f(a), f(b)),
             Self::Sub(a, b) => Self::Sub(f(a), f(b)),
             Self::Mul(a, b) => Self::Mul(f(a), f(b)),
@@ -227,7 +233,13 @@ impl Program {
             };
             match op {
                 Op::Constant(_) | Op::Input(_) => {}
-                Op::Neg(_) | Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Div(..) => tally.operations += 1,
+                Op::Neg(_)
+                | Op::Add(..)
+                | Op::Sub(..)
+                | Op::Mul(..)
+                | Op::Div(..)
+                | Op::Saturate(_)
+                | Op::Step(_) => tally.operations += 1,
                 Op::Sin(_) | Op::Cos(_) => tally.sines_and_cosines += 1,
             }
         }

@@ -3,6 +3,7 @@
 //! It has no places in a source text; those stay in [`crate::syntax`].
 
 use crate::algebra::Poly;
+use crate::ramp::Ramp;
 use crate::symbol::{Symbol, SymbolId, SymbolKind};
 
 /// A body of one chain: an index into [`Chain::bodies`].
@@ -26,6 +27,8 @@ pub struct Chain {
     pub bodies: Vec<Body>,
     /// Observables in order of declaration.
     pub observables: Vec<Observable>,
+    /// The ramps that amounts use, in order; each is a symbol of its own.
+    pub ramps: Vec<Ramp>,
     /// Where down is, in the ground frame; need not be of length one. −z unless declared.
     pub gravity: [Poly; 3],
 }

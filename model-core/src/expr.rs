@@ -4,6 +4,8 @@
 //! `S` is the place in the source: a token's span or a byte range.
 
 use crate::algebra::Rational;
+use crate::ramp::{saturated, step};
+use crate::unit::Unit;
 
 /// An expression as written, every node with its place.
 #[derive(Debug, Clone)]
@@ -19,6 +21,8 @@ pub struct Expr<S> {
 pub enum Node<S> {
     /// An exact rational number; decimals are read exactly.
     Number(Rational),
+    /// A number with a unit: `53 deg`.
+    Measured(Rational, Unit),
     /// The number π.
     Pi,
     /// A name, as declared (LaTeX readers have already translated printed symbols).
@@ -35,6 +39,8 @@ pub enum Node<S> {
     Pow(Box<Expr<S>>, i32),
     /// `sin(a)`, and so on.
     Call(Function, Box<Expr<S>>),
+    /// `ramp(x, from, to)`: 0 before `from`, 1 behind `to`, linear between.
+    Ramp(Box<[Expr<S>; 3]>),
 }
 
 /// The functions of the language of amounts.
@@ -71,12 +77,26 @@ impl<S> Expr<S> {
         S: Clone,
     {
         match &self.node {
-            Node::Number(_) | Node::Pi => {}
+            Node::Number(_) | Node::Measured(..) | Node::Pi => {}
+            Node::Ramp(parts) => parts.iter().for_each(|part| part.collect_names(names)),
             Node::Symbol(name) => names.push((name, self.place.clone())),
             Node::Neg(inner) | Node::Pow(inner, _) | Node::Call(_, inner) => inner.collect_names(names),
             Node::Add(left, right) | Node::Mul(left, right) | Node::Div(left, right) => {
                 left.collect_names(names);
                 right.collect_names(names);
+            }
+        }
+    }
+
+    /// Every ramp, from left to right: its variable and its two thresholds.
+    pub fn ramps<'a>(&'a self, ramps: &mut Vec<&'a [Self; 3]>) {
+        match &self.node {
+            Node::Number(_) | Node::Measured(..) | Node::Pi | Node::Symbol(_) => {}
+            Node::Ramp(parts) => ramps.push(parts),
+            Node::Neg(inner) | Node::Pow(inner, _) | Node::Call(_, inner) => inner.ramps(ramps),
+            Node::Add(left, right) | Node::Mul(left, right) | Node::Div(left, right) => {
+                left.ramps(ramps);
+                right.ramps(ramps);
             }
         }
     }
@@ -87,7 +107,9 @@ impl<S> Expr<S> {
         let inner = |inner: &Self| Box::new(inner.map_place(translate));
         let node = match &self.node {
             Node::Number(value) => Node::Number(value.clone()),
+            Node::Measured(value, unit) => Node::Measured(value.clone(), *unit),
             Node::Pi => Node::Pi,
+            Node::Ramp(parts) => Node::Ramp(Box::new(parts.each_ref().map(|part| part.map_place(translate)))),
             Node::Symbol(name) => Node::Symbol(name.clone()),
             Node::Neg(a) => Node::Neg(inner(a)),
             Node::Add(a, b) => Node::Add(inner(a), inner(b)),
@@ -104,7 +126,13 @@ impl<S> Expr<S> {
     pub fn eval(&self, resolve: &impl Fn(&str) -> Option<f64>) -> Option<f64> {
         Some(match &self.node {
             Node::Number(value) => value.to_f64(),
+            Node::Measured(value, unit) => unit.amount(value).eval(&[std::f64::consts::PI]),
             Node::Pi => std::f64::consts::PI,
+            Node::Ramp(parts) => {
+                let [at, from, to] = parts.each_ref().map(|part| part.eval(resolve));
+                let (at, from, to) = (at?, from?, to?);
+                if from == to { step(at - from) } else { saturated((at - from) / (to - from)) }
+            }
             Node::Symbol(name) => resolve(name)?,
             Node::Neg(a) => -a.eval(resolve)?,
             Node::Add(a, b) => a.eval(resolve)? + b.eval(resolve)?,

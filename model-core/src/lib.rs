@@ -16,9 +16,11 @@ pub mod latex;
 pub mod mistake;
 pub mod names;
 pub mod print;
+pub mod ramp;
 pub mod remainder;
 pub mod symbol;
 pub mod syntax;
+pub mod unit;
 
 pub use chain::{Axis, Body, BodyId, Chain, Factor, Motion, Observable, ObservableId, ObservableKind, Role};
 pub use mistake::{Mistake, Mistakes};

@@ -30,6 +30,8 @@ pub enum SymbolKind {
     Constant,
     /// A measured side quantity: range, temperature, time, rate, direction of motion.
     Input,
+    /// A ramp of a joint or input: see [`Ramp`](crate::ramp::Ramp).
+    Ramp,
 }
 
 /// What a symbol measures; it fixes the SI unit.

@@ -12,6 +12,7 @@ trueaxis::chain_file!("tests/chains/gantry.chain");
 trueaxis::chain_file!("tests/chains/binocular.chain");
 trueaxis::chain_file!("tests/chains/encoder.chain");
 trueaxis::chain_file!("tests/chains/thermal.chain");
+trueaxis::chain_file!("codegen/tests/chains/ramps.chain");
 
 /// What the module of a chain says of one observable at one pose.
 pub struct Answers {
@@ -83,7 +84,7 @@ macro_rules! case {
 
 /// Every observable of every chain.
 #[rustfmt::skip]
-pub const CASES: [Case; 16] = [
+pub const CASES: [Case; 18] = [
     case!("tests/chains/turntable.chain", turntable::Turntable(Joints), edge edge_error edge_first_order edge_jacobian),
     case!("tests/chains/turntable.chain", turntable::Turntable(Joints), corner corner_error corner_first_order corner_jacobian),
     case!("examples/alt-azimuth/alt-azimuth.chain", alt_azimuth::AltAzimuth(Joints), sight sight_error sight_first_order sight_jacobian),
@@ -100,6 +101,8 @@ pub const CASES: [Case; 16] = [
     case!("tests/chains/encoder.chain", encoder::Encoder(Joints), prism prism_error prism_first_order prism_jacobian),
     case!("tests/chains/thermal.chain", thermal::Thermal(Joints, Inputs), spot spot_error spot_first_order spot_jacobian),
     case!("tests/chains/thermal.chain", thermal::Thermal(Joints, Inputs), line line_error line_first_order line_jacobian),
+    case!("codegen/tests/chains/ramps.chain", ramps::Ramps(Joints, Inputs), axis axis_error axis_first_order axis_jacobian),
+    case!("codegen/tests/chains/ramps.chain", ramps::Ramps(Joints, Inputs), focus focus_error focus_first_order focus_jacobian),
 ];
 
 /// Numbers from −1 to 1 that a seed decides: a linear congruential generator.

@@ -81,6 +81,7 @@ impl Model {
                 SymbolKind::Joint => "a joint",
                 SymbolKind::Input => "an input",
                 SymbolKind::Pi => "a number",
+                SymbolKind::Ramp => "a ramp",
             };
             return Err(FitError::NotEstimable { name: symbol.name.clone(), kind });
         }

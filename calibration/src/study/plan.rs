@@ -298,7 +298,7 @@ fn needed(chain: &Chain, observable: ObservableId) -> Vec<SymbolId> {
     let amounts = chain.factors_to(observable).into_iter().map(|factor| &factor.amount);
     amounts
         .chain(&chain.observable(observable).components)
-        .flat_map(|amount| amount.symbols())
+        .flat_map(|amount| chain.symbols_in(amount))
         .filter(|&id| matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input))
         .collect()
 }

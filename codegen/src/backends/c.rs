@@ -274,6 +274,7 @@ impl Words for Names<'_> {
         let symbol = self.c.unit.chain.symbol(id);
         match symbol.kind {
             SymbolKind::Error => format!("errors->{}", self.c.name(id)),
+            SymbolKind::Ramp => unreachable!("a ramp is computed from its joint or input"),
             SymbolKind::Joint | SymbolKind::Input => format!("joints->{}{}", self.c.name(id), self.row),
             SymbolKind::Pi | SymbolKind::Constant => self.number(symbol.value.unwrap_or(f64::NAN)),
         }
@@ -281,6 +282,14 @@ impl Words for Names<'_> {
 
     fn wave_of_symbol(&self, wave: &str, id: SymbolId) -> String {
         format!("{wave}_{}", self.c.name(id))
+    }
+
+    fn saturate(&self, a: &str) -> String {
+        format!("trueaxis_saturate({a})")
+    }
+
+    fn step(&self, a: &str) -> String {
+        format!("trueaxis_step({a})")
     }
 
     fn carried(&self, index: usize) -> String {

@@ -100,7 +100,13 @@ pub(super) fn definitions(c: &C<'_>, function: &Function) -> String {
 
 fn loops(c: &C<'_>, function: &Function) -> Rows {
     let name = |id: SymbolId| c.name(id);
-    let dialect = Dialect { name: &name, binding: "const double", mul_add: "trueaxis_mul_add(fused, " };
+    let dialect = Dialect {
+        name: &name,
+        binding: "const double",
+        mul_add: "trueaxis_mul_add(fused, ",
+        saturate: "trueaxis_saturate(",
+        step: "trueaxis_step(",
+    };
     vector::rows(&function.program, &dialect)
 }
 

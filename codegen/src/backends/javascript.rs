@@ -6,7 +6,7 @@ use model_core::{Chain, SymbolId, SymbolKind};
 
 use super::listing::{Listing, Statement, Words, list};
 use super::unit::{Function, Unit, camel_case, describe_form, form_name};
-use crate::program::Form;
+use crate::program::{Form, Op};
 
 /// The text of the file.
 pub(crate) fn write(unit: &Unit<'_>) -> String {
@@ -31,8 +31,23 @@ pub(crate) fn write(unit: &Unit<'_>) -> String {
     for function in &functions {
         text.push_str(&one_form(unit, function, &joints));
     }
+    let is_of_ramps = |op: &Op| matches!(op, Op::Saturate(_) | Op::Step(_));
+    if functions.iter().any(|function| function.program.nodes().iter().any(is_of_ramps)) {
+        text.push_str(RAMPS);
+    }
     text
 }
+
+/// What ramps are made of.
+const RAMPS: &str = "
+function saturate(x) {
+  return x <= 0 ? 0 : x >= 1 ? 1 : x;
+}
+
+function step(x) {
+  return x >= 0 ? 1 : x < 0 ? 0 : x;
+}
+";
 
 fn property_docs(text: &mut String, unit: &Unit<'_>, ids: &[SymbolId]) {
     for &id in ids {
@@ -155,6 +170,7 @@ impl Words for Names<'_> {
         let symbol = self.chain.symbol(id);
         match symbol.kind {
             SymbolKind::Error => format!("errors.{}", symbol.name),
+            SymbolKind::Ramp => unreachable!("a ramp is computed from its joint or input"),
             SymbolKind::Joint | SymbolKind::Input => format!("joints.{}{}", symbol.name, self.row),
             SymbolKind::Pi | SymbolKind::Constant => self.number(symbol.value.unwrap_or(f64::NAN)),
         }
@@ -162,6 +178,14 @@ impl Words for Names<'_> {
 
     fn wave_of_symbol(&self, wave: &str, id: SymbolId) -> String {
         format!("{wave}_{}", self.chain.symbol(id).name)
+    }
+
+    fn saturate(&self, a: &str) -> String {
+        format!("saturate({a})")
+    }
+
+    fn step(&self, a: &str) -> String {
+        format!("step({a})")
     }
 
     fn carried(&self, index: usize) -> String {

@@ -100,6 +100,14 @@ impl Words for Names<'_> {
         format!("\\{wave} {}", self.chain.symbol(id).latex)
     }
 
+    fn saturate(&self, a: &str) -> String {
+        format!("\\operatorname{{ramp}}({a}, 0, 1)")
+    }
+
+    fn step(&self, a: &str) -> String {
+        format!("\\operatorname{{ramp}}({a}, 0, 0)")
+    }
+
     fn carried(&self, index: usize) -> String {
         format!("p_{{{index}}}")
     }

@@ -29,6 +29,12 @@ pub(crate) trait Words {
         format!("{value:?}")
     }
 
+    /// An expression between 0 and 1, and the nearer of the two outside.
+    fn saturate(&self, a: &str) -> String;
+
+    /// 1 where an expression is at least 0, else 0.
+    fn step(&self, a: &str) -> String;
+
     /// A product of two expressions, already in parentheses where they need them.
     fn product(&self, a: &str, b: &str) -> String {
         format!("{a} * {b}")
@@ -208,6 +214,8 @@ impl<'a, W: Words> Lister<'a, W> {
                 text: self.words.quotient(&at(a, Binding::Product), &at(b, Binding::Sign)),
                 binding: Binding::Product,
             },
+            Op::Saturate(a) => Text::atom(self.words.saturate(&self.text(a))),
+            Op::Step(a) => Text::atom(self.words.step(&self.text(a))),
             // Named by `sin_cos`.
             Op::Sin(a) | Op::Cos(a) => self.texts[a.index()].clone(),
         }

@@ -144,6 +144,7 @@ impl Words for Names<'_> {
         let symbol = self.chain.symbol(id);
         match symbol.kind {
             SymbolKind::Error => format!("errors.{}", name(self.chain, id)),
+            SymbolKind::Ramp => unreachable!("a ramp is computed from its joint or input"),
             SymbolKind::Joint | SymbolKind::Input => format!("joints.{}", name(self.chain, id)),
             SymbolKind::Pi | SymbolKind::Constant => self.number(symbol.value.unwrap_or(f64::NAN)),
         }
@@ -151,6 +152,14 @@ impl Words for Names<'_> {
 
     fn wave_of_symbol(&self, wave: &str, id: SymbolId) -> String {
         format!("{wave}_{}", self.chain.symbol(id).name)
+    }
+
+    fn saturate(&self, a: &str) -> String {
+        format!("np.clip({a}, 0.0, 1.0)")
+    }
+
+    fn step(&self, a: &str) -> String {
+        format!("np.heaviside({a}, 1.0)")
     }
 
     fn carried(&self, index: usize) -> String {

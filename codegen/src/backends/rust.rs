@@ -198,6 +198,14 @@ impl Words for Names<'_> {
         format!("{wave}_{}", self.chain.symbol(symbol).name)
     }
 
+    fn saturate(&self, a: &str) -> String {
+        format!("sine_cosine::saturate({a})")
+    }
+
+    fn step(&self, a: &str) -> String {
+        format!("sine_cosine::step({a})")
+    }
+
     fn carried(&self, index: usize) -> String {
         (self.carried)(index)
     }
@@ -213,6 +221,7 @@ fn fields(chain: &Chain) -> impl Fn(SymbolId) -> String {
         let symbol = chain.symbol(id);
         match symbol.kind {
             SymbolKind::Error => format!("errors.{}", symbol.name),
+            SymbolKind::Ramp => unreachable!("a ramp is computed from its joint or input"),
             SymbolKind::Joint | SymbolKind::Input => format!("joints.{}", symbol.name),
             SymbolKind::Pi | SymbolKind::Constant => format!("{:?}", symbol.value.unwrap_or(f64::NAN)),
         }

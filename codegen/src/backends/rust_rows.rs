@@ -11,7 +11,14 @@ use crate::vector::{self, Dialect, Line, Rows};
 
 fn loops(unit: &Unit<'_>, function: &Function) -> Rows {
     let name = |id: SymbolId| unit.chain.symbol(id).name.clone();
-    vector::rows(&function.program, &Dialect { name: &name, binding: "let", mul_add: "arithmetic.mul_add(" })
+    let dialect = Dialect {
+        name: &name,
+        binding: "let",
+        mul_add: "arithmetic.mul_add(",
+        saturate: "sine_cosine::saturate(",
+        step: "sine_cosine::step(",
+    };
+    vector::rows(&function.program, &dialect)
 }
 
 /// What all functions of many poses share: the columns of joints, and what is known of the paths.

@@ -56,7 +56,7 @@ impl Unit<'_> {
             .filter(|&id| match self.chain.symbol(id).kind {
                 SymbolKind::Joint => true,
                 SymbolKind::Input => is_read(id),
-                SymbolKind::Pi | SymbolKind::Error | SymbolKind::Constant => false,
+                SymbolKind::Pi | SymbolKind::Error | SymbolKind::Constant | SymbolKind::Ramp => false,
             })
             .collect()
     }

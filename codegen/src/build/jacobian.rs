@@ -11,6 +11,7 @@ use model_core::{Axis, Chain, Motion, SymbolId};
 use super::amount::{lower, small_turn, turn};
 use super::exact::{component_errors, components};
 use super::path::{Path, Split, Step, is_error};
+use super::ramp::slope;
 use super::vectors::{Matrix, NOTHING, Turn, Vector, add, affine, along, axis_cross, cross};
 use crate::builder::Builder;
 
@@ -69,12 +70,24 @@ fn places(b: &mut Builder, path: &Path, at: At) -> Places {
 }
 
 fn column(b: &mut Builder, chain: &Chain, path: &Path, places: &Places, at: At, symbol: SymbolId) -> Vector {
+    let ramps = b.ramps_of(symbol);
     let derivative = |b: &mut Builder, amount: &Split| {
-        let derivative = (&amount.nominal + &amount.error).derivative(symbol);
-        match at {
-            At::Errors => lower(b, &derivative),
-            At::Nominal => lower(b, &derivative.graded_part(|id| is_error(chain, id), 0)),
+        let amount = &amount.nominal + &amount.error;
+        let partial = |b: &mut Builder, symbol| {
+            let derivative = amount.derivative(symbol);
+            match at {
+                At::Errors => lower(b, &derivative),
+                At::Nominal => lower(b, &derivative.graded_part(|id| is_error(chain, id), 0)),
+            }
+        };
+        let mut sum = partial(b, symbol);
+        for ramp in &ramps {
+            let of_ramp = partial(b, ramp.symbol);
+            let slope = slope(b, ramp, symbol);
+            let part = b.mul(of_ramp, slope);
+            sum = b.add(sum, part);
         }
+        sum
     };
     let mut sum = NOTHING;
     for ((step, below), above) in path.steps.iter().zip(&places.below).zip(&places.above) {

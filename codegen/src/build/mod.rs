@@ -8,6 +8,7 @@ mod exact;
 mod first_order;
 mod jacobian;
 mod path;
+mod ramp;
 mod vectors;
 
 use model_core::{Chain, ObservableId, SymbolId};
@@ -15,6 +16,7 @@ use model_core::{Chain, ObservableId, SymbolId};
 use crate::builder::{Builder, Value};
 use crate::program::{Form, Layout, Program};
 use path::Path;
+pub(crate) use ramp::ramp;
 
 /// The program of one form of some observables. `wrt` are the columns of Jacobians; other forms ignore it.
 ///

@@ -8,7 +8,7 @@ mod tape;
 use model_core::SymbolId;
 
 use crate::program::{NodeId, Op, Program, Stage};
-use crate::vector::sin_cos;
+use crate::vector::{saturate, sin_cos, step};
 use tape::Tape;
 
 /// Runs one program, on its own working memory: no call allocates.
@@ -132,6 +132,8 @@ impl Interpreter {
                 Op::Div(a, b) => at(a) / at(b),
                 Op::Sin(a) => sin_cos(at(a)).0,
                 Op::Cos(a) => sin_cos(at(a)).1,
+                Op::Saturate(a) => saturate(at(a)),
+                Op::Step(a) => step(at(a)),
             };
         }
     }

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use model_core::SymbolId;
 
 use crate::program::{NodeId, Op, Program, Stage};
-use crate::vector::{self, Arithmetic, Portable, ROWS, sin_cos_rows};
+use crate::vector::{self, Arithmetic, Portable, ROWS, saturate, sin_cos_rows, step};
 
 /// Rows that are loaded before any is stored.
 const LANES: usize = 8;
@@ -26,6 +26,14 @@ enum Instruction {
         to: usize,
     },
     Neg {
+        a: usize,
+        to: usize,
+    },
+    Saturate {
+        a: usize,
+        to: usize,
+    },
+    Step {
         a: usize,
         to: usize,
     },
@@ -135,6 +143,8 @@ impl Blocks<'_, '_> {
                 None => fill(slot(to), self.constants[symbol.index()]),
             },
             Instruction::Neg { a, to } => map(slot(a), slot(a), slot(to), |a, _| -a),
+            Instruction::Saturate { a, to } => map(slot(a), slot(a), slot(to), |a, _| saturate(a)),
+            Instruction::Step { a, to } => map(slot(a), slot(a), slot(to), |a, _| step(a)),
             Instruction::Add { a, b, to } => map(slot(a), slot(b), slot(to), |a, b| a + b),
             Instruction::Sub { a, b, to } => map(slot(a), slot(b), slot(to), |a, b| a - b),
             Instruction::Mul { a, b, to } => map(slot(a), slot(b), slot(to), |a, b| a * b),
@@ -249,21 +259,24 @@ impl<'p> Planner<'p> {
         if let Op::Sin(angle) | Op::Cos(angle) = op {
             return self.sin_cos(node, angle);
         }
-        let mut operands = op.operands().map(|operand| self.slot(operand));
-        let (a, b) = (operands.next().unwrap_or(0), operands.next().unwrap_or(0));
+        let operands: Vec<usize> = op.operands().map(|operand| self.slot(operand)).collect();
         for operand in op.operands() {
             self.release(operand);
         }
         let to = self.take();
         self.slot_of[node.index()] = Some(to);
-        self.instructions.push(match op {
-            Op::Input(symbol) => Instruction::Load { symbol, to },
-            Op::Add(..) => Instruction::Add { a, b, to },
-            Op::Sub(..) => Instruction::Sub { a, b, to },
-            Op::Mul(..) => Instruction::Mul { a, b, to },
-            Op::Div(..) => Instruction::Div { a, b, to },
-            // Numbers are prepared, sines and cosines are dealt with above.
-            Op::Neg(_) | Op::Constant(_) | Op::Sin(_) | Op::Cos(_) => Instruction::Neg { a, to },
+        self.instructions.push(match (op, operands.as_slice()) {
+            (Op::Input(symbol), []) => Instruction::Load { symbol, to },
+            (Op::Neg(_), &[a]) => Instruction::Neg { a, to },
+            (Op::Saturate(_), &[a]) => Instruction::Saturate { a, to },
+            (Op::Step(_), &[a]) => Instruction::Step { a, to },
+            (Op::Add(..), &[a, b]) => Instruction::Add { a, b, to },
+            (Op::Sub(..), &[a, b]) => Instruction::Sub { a, b, to },
+            (Op::Mul(..), &[a, b]) => Instruction::Mul { a, b, to },
+            (Op::Div(..), &[a, b]) => Instruction::Div { a, b, to },
+            _ => unreachable!(
+                "{op:?}: numbers are prepared, and sines and cosines have instructions of their own"
+            ),
         });
         to
     }
@@ -273,7 +286,9 @@ impl<'p> Planner<'p> {
         if let Some(slot) = self.slot_of[node.index()] {
             return slot;
         }
-        let waves = self.waves.remove(&angle).unwrap_or_default();
+        let Some(waves) = self.waves.remove(&angle) else {
+            unreachable!("the first sine or cosine of an angle gives both their slots")
+        };
         let from = self.slot(angle);
         let (sin, cos) = (self.take(), self.take());
         for (wave, slot) in [(waves.sin, sin), (waves.cos, cos)] {
@@ -291,7 +306,10 @@ impl<'p> Planner<'p> {
 
     /// Where a node is; every operand has been computed before it is read.
     fn slot(&self, node: NodeId) -> usize {
-        self.slot_of[node.index()].unwrap_or(0)
+        let Some(slot) = self.slot_of[node.index()] else {
+            unreachable!("a node is read only after it has been computed")
+        };
+        slot
     }
 
     /// Counts one read of a node; its slot is free after the last, unless every block reads it.

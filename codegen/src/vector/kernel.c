@@ -194,6 +194,18 @@ TRUEAXIS_INLINE void trueaxis_sin_cos_without_branch(double x, double *sine, dou
     trueaxis_with_signs(sine_bits ^ swapped, cosine_bits ^ swapped, quarters, sine, cosine);
 }
 
+/* `x` between 0 and 1, and the nearer of the two outside; NaN stays NaN. */
+TRUEAXIS_INLINE double trueaxis_saturate(double x)
+{
+    return x <= 0.0 ? 0.0 : x >= 1.0 ? 1.0 : x;
+}
+
+/* 1 from 0 on, 0 below; NaN stays NaN. */
+TRUEAXIS_INLINE double trueaxis_step(double x)
+{
+    return x >= 0.0 ? 1.0 : x < 0.0 ? 0.0 : x;
+}
+
 /* Upper half of the product. */
 TRUEAXIS_INLINE uint64_t trueaxis_product_high(uint64_t a, uint64_t b)
 {

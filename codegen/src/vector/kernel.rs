@@ -195,3 +195,27 @@ pub fn sin_cos_rows<'a, A: Arithmetic>(
     // SAFETY: either loop has written every row of both, and a `MaybeUninit<f64>` is laid out as an f64.
     unsafe { (&*core::ptr::from_ref(sine).cast(), &*core::ptr::from_ref(cosine).cast()) }
 }
+
+/// `x` between 0 and 1, and the nearer of the two outside; NaN stays NaN.
+#[inline(always)]
+pub fn saturate(x: f64) -> f64 {
+    if x <= 0.0 {
+        0.0
+    } else if x >= 1.0 {
+        1.0
+    } else {
+        x
+    }
+}
+
+/// 1 from 0 on, 0 below; NaN stays NaN.
+#[inline(always)]
+pub fn step(x: f64) -> f64 {
+    if x >= 0.0 {
+        1.0
+    } else if x < 0.0 {
+        0.0
+    } else {
+        x
+    }
+}

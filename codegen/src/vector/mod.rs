@@ -20,8 +20,8 @@ mod sine_cosine {
 
 pub(crate) use rows::{Angle, Dialect, Line, Rows, rows};
 pub use sine_cosine::{
-    Arithmetic, Path, Portable, ROWS, WIDEST, Waves, Work, path, run, sin_cos, sin_cos_rows, sin_cos_with,
-    sin_cos_without_branch, whole,
+    Arithmetic, Path, Portable, ROWS, WIDEST, Waves, Work, path, run, saturate, sin_cos, sin_cos_rows,
+    sin_cos_with, sin_cos_without_branch, step, whole,
 };
 
 /// The parts of the module `sine_cosine` in generated Rust, in order.

@@ -23,6 +23,10 @@ pub(crate) struct Dialect<'a> {
     pub(crate) binding: &'static str,
     /// The call of a·b + c up to the first operand.
     pub(crate) mul_add: &'static str,
+    /// The call that puts a value between 0 and 1, up to the value.
+    pub(crate) saturate: &'static str,
+    /// The call that is 1 from 0 on and 0 below, up to the value.
+    pub(crate) step: &'static str,
 }
 
 /// One angle whose sine or cosine is read.
@@ -242,6 +246,8 @@ impl<'a> Lister<'a> {
             Op::Mul(a, b) => plain("*", a, b),
             Op::Div(a, b) => plain("/", a, b),
             Op::Neg(a) => (format!("-{}", self.text(a)), vec![a]),
+            Op::Saturate(a) => (format!("{}{})", self.dialect.saturate, self.text(a)), vec![a]),
+            Op::Step(a) => (format!("{}{})", self.dialect.step, self.text(a)), vec![a]),
             Op::Sin(angle) => (format!("sine_{}{}", self.angle_name(angle), self.of_row()), vec![]),
             Op::Cos(angle) => (format!("cosine_{}{}", self.angle_name(angle), self.of_row()), vec![]),
             Op::Input(symbol) => (format!("column_{}[row]", (self.dialect.name)(symbol)), vec![]),

@@ -1,4 +1,4 @@
-//! Generated code, compiled or run, against the interpreter: twelve chains, all forms, every language that runs.
+//! Generated code, compiled or run, against the interpreter: thirteen chains, all forms, every language that runs.
 //!
 //! Rust and C compute one pose as the interpreter does, bit by bit: the same operations, the same sine and cosine. Many
 //! poses at once may fuse products and sums inside sine and cosine, and the other languages have their own; these agree

@@ -4,8 +4,8 @@ use model_core::{Chain, SymbolId, SymbolKind};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Twelve chains: every feature of the language, every kind of amount.
-pub const CHAINS: [(&str, &str); 12] = [
+/// Thirteen chains: every feature of the language, every kind of amount.
+pub const CHAINS: [(&str, &str); 13] = [
     ("mobile_lidar", include_str!("../../../examples/mobile-lidar/mobile-lidar.chain")),
     ("alt_azimuth", include_str!("../../../examples/alt-azimuth/alt-azimuth.chain")),
     ("equatorial", include_str!("../chains/equatorial.chain")),
@@ -17,6 +17,7 @@ pub const CHAINS: [(&str, &str); 12] = [
     ("tracker", include_str!("../chains/tracker.chain")),
     ("higher_order", include_str!("../chains/higher_order.chain")),
     ("hysteresis", include_str!("../chains/hysteresis.chain")),
+    ("ramps", include_str!("../chains/ramps.chain")),
     ("words", include_str!("../chains/words.chain")),
 ];
 
@@ -27,7 +28,7 @@ pub fn read(name: &str, text: &str) -> Chain {
 /// Values of every symbol: errors up to `size`, constants as declared, angles over the circle and away from the
 /// zeros of their sines, so that cotangents stay moderate.
 pub fn pose(chain: &Chain, random: &mut ChaCha8Rng, size: f64) -> Vec<f64> {
-    chain
+    let mut values: Vec<f64> = chain
         .symbols
         .iter()
         .map(|symbol| match symbol.kind {
@@ -36,8 +37,11 @@ pub fn pose(chain: &Chain, random: &mut ChaCha8Rng, size: f64) -> Vec<f64> {
             SymbolKind::Error => size * random.random_range(-1.0..1.0),
             SymbolKind::Joint => random.random_range(0.2..1.3) + 1.5 * f64::from(random.random_range(-2..2)),
             SymbolKind::Input => random.random_range(-3.0..3.0),
+            SymbolKind::Ramp => f64::NAN,
         })
-        .collect()
+        .collect();
+    chain.set_ramps(&mut values);
+    values
 }
 
 pub fn random(seed: u64) -> ChaCha8Rng {

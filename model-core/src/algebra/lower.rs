@@ -4,8 +4,9 @@ use super::AlgebraError;
 use super::angle::AngleSum;
 use super::multiply::Budget;
 use super::poly::Poly;
+use crate::chain::Chain;
 use crate::expr::{Expr, Function, Node};
-use crate::symbol::SymbolId;
+use crate::symbol::{Quantity, SymbolId, SymbolKind};
 
 /// Why an expression as written has no canonical form, and where.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -24,6 +25,14 @@ pub enum LowerError<S> {
         /// The name as written.
         name: String,
         /// Where the argument of the sine or cosine stands.
+        place: S,
+    },
+    /// A ramp that the chain does not use, or of something other than a joint or input.
+    #[error(
+        "the chain has no such ramp: write `ramp(joint, from, to)` with the thresholds that its declaration has"
+    )]
+    UnknownRamp {
+        /// Where it stands.
         place: S,
     },
     /// A division by zero.
@@ -48,6 +57,7 @@ impl<S> LowerError<S> {
         match self {
             Self::UnknownSymbol { place, .. }
             | Self::SineOf { place, .. }
+            | Self::UnknownRamp { place }
             | Self::DivisionByZero { place }
             | Self::Algebra { place, .. } => place,
         }
@@ -55,7 +65,8 @@ impl<S> LowerError<S> {
 }
 
 impl Poly {
-    /// The canonical form of an expression. `resolve` finds a name, `is_angle` says what may stand in a sine.
+    /// The canonical form of an expression without ramps. `resolve` finds a name, `is_angle` says what may stand in a
+    /// sine.
     ///
     /// # Errors
     /// The first [`LowerError`] from the left.
@@ -64,22 +75,63 @@ impl Poly {
         resolve: impl Fn(&str) -> Option<SymbolId>,
         is_angle: impl Fn(SymbolId) -> bool,
     ) -> Result<Self, LowerError<S>> {
-        Lowering { resolve, is_angle, budget: Budget::new() }.value(expression)
+        Self::from_expr_with_ramps(expression, resolve, is_angle, |_, _, _| None)
+    }
+
+    /// The canonical form of an expression; `ramp` finds the symbol of a ramp by its variable and its thresholds.
+    ///
+    /// # Errors
+    /// The first [`LowerError`] from the left.
+    pub fn from_expr_with_ramps<S: Clone>(
+        expression: &Expr<S>,
+        resolve: impl Fn(&str) -> Option<SymbolId>,
+        is_angle: impl Fn(SymbolId) -> bool,
+        ramp: impl Fn(SymbolId, &Self, &Self) -> Option<SymbolId>,
+    ) -> Result<Self, LowerError<S>> {
+        Lowering { resolve, is_angle, ramp, budget: Budget::new() }.value(expression)
     }
 }
 
-struct Lowering<R, A> {
+impl Chain {
+    /// The canonical form of an expression in the chain's names and ramps. Sines can be taken of its angles, errors
+    /// excepted.
+    ///
+    /// # Errors
+    /// The first [`LowerError`] from the left.
+    pub fn amount<S: Clone>(&self, expression: &Expr<S>) -> Result<Poly, LowerError<S>> {
+        let is_angle = |id: SymbolId| {
+            let symbol = self.symbol(id);
+            symbol.quantity == Quantity::Angle && symbol.kind != SymbolKind::Error
+        };
+        Poly::from_expr_with_ramps(
+            expression,
+            |name| self.find_symbol(name),
+            is_angle,
+            |of, from, to| self.find_ramp(of, from, to),
+        )
+    }
+}
+
+struct Lowering<R, A, F> {
     resolve: R,
     is_angle: A,
+    ramp: F,
     budget: Budget,
 }
 
-impl<R: Fn(&str) -> Option<SymbolId>, A: Fn(SymbolId) -> bool> Lowering<R, A> {
+impl<R, A, F> Lowering<R, A, F>
+where
+    R: Fn(&str) -> Option<SymbolId>,
+    A: Fn(SymbolId) -> bool,
+    F: Fn(SymbolId, &Poly, &Poly) -> Option<SymbolId>,
+{
     fn value<S: Clone>(&self, expression: &Expr<S>) -> Result<Poly, LowerError<S>> {
         let refuse = |error| LowerError::Algebra { error, place: expression.place.clone() };
         match &expression.node {
             Node::Number(value) => Ok(Poly::constant(value.clone())),
+            Node::Measured(value, unit) => Ok(unit.amount(value)),
             Node::Pi => Ok(Poly::symbol(SymbolId::PI)),
+            Node::Ramp(parts) => self.ramp(parts, expression),
             Node::Symbol(name) => (self.resolve)(name).map(Poly::symbol).ok_or_else(|| {
                 LowerError::UnknownSymbol { name: name.clone(), place: expression.place.clone() }
             }),
@@ -165,8 +217,11 @@ impl<R: Fn(&str) -> Option<SymbolId>, A: Fn(SymbolId) -> bool> Lowering<R, A> {
             AngleSum::from_poly(&angle).map_err(|error| LowerError::Algebra { error, place: place() })?;
         for &(symbol, _) in angle.multiples() {
             if !(self.is_angle)(symbol) {
-                let name = self.name_of(symbol, argument).unwrap_or_default();
-                return Err(LowerError::SineOf { name, place: place() });
+                return Err(match self.name_of(symbol, argument) {
+                    Some(name) => LowerError::SineOf { name, place: place() },
+                    // A ramp has no name, and is no angle.
+                    None => LowerError::Algebra { error: AlgebraError::NotAnAngle, place: place() },
+                });
             }
         }
         let (cosine, sine) = angle.cos_sin();
@@ -187,11 +242,21 @@ impl<R: Fn(&str) -> Option<SymbolId>, A: Fn(SymbolId) -> bool> Lowering<R, A> {
         })
     }
 
+    /// The symbol of a ramp.
+    fn ramp<S: Clone>(&self, [of, from, to]: &[Expr<S>; 3], whole: &Expr<S>) -> Result<Poly, LowerError<S>> {
+        let unknown = || LowerError::UnknownRamp { place: whole.place.clone() };
+        let Node::Symbol(name) = &of.node else { return Err(unknown()) };
+        let symbol = (self.resolve)(name)
+            .ok_or_else(|| LowerError::UnknownSymbol { name: name.clone(), place: of.place.clone() })?;
+        let (from, to) = (self.value(from)?, self.value(to)?);
+        (self.ramp)(symbol, &from, &to).map(Poly::symbol).ok_or_else(unknown)
+    }
+
     /// The name by which an expression calls a symbol.
     fn name_of<S>(&self, symbol: SymbolId, expression: &Expr<S>) -> Option<String> {
         match &expression.node {
             Node::Symbol(name) => ((self.resolve)(name) == Some(symbol)).then(|| name.clone()),
-            Node::Number(_) | Node::Pi => None,
+            Node::Number(_) | Node::Measured(..) | Node::Pi | Node::Ramp(_) => None,
             Node::Neg(a) | Node::Pow(a, _) | Node::Call(_, a) => self.name_of(symbol, a),
             Node::Add(a, b) | Node::Mul(a, b) | Node::Div(a, b) => {
                 self.name_of(symbol, a).or_else(|| self.name_of(symbol, b))

@@ -224,7 +224,7 @@ fn needed(chain: &Chain, observable: ObservableId) -> Vec<SymbolId> {
     let amounts = chain.factors_to(observable).into_iter().map(|factor| &factor.amount);
     let mut symbols: Vec<SymbolId> = amounts
         .chain(&chain.observable(observable).components)
-        .flat_map(Poly::symbols)
+        .flat_map(|amount| chain.symbols_in(amount))
         .filter(|&id| matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input))
         .collect();
     symbols.sort_unstable();

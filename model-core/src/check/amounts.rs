@@ -88,13 +88,18 @@ pub fn collect<'a>(
 
 /// The canonical form of an amount. Unknown names and wrong arguments of functions have rules of their own.
 fn canonical(written: &Expr<Span>, scope: &Scope, mistakes: &mut Vec<Mistake<Span>>) -> Option<Poly> {
-    let lowered = Poly::from_expr(written, |name| scope.find(name), |id| scope.is_angle(id));
+    let lowered = Poly::from_expr_with_ramps(
+        written,
+        |name| scope.find(name),
+        |id| scope.is_angle(id),
+        |of, from, to| scope.find_ramp(of, from, to),
+    );
     let error = match lowered {
         Ok(value) => return Some(value),
         Err(error) => error,
     };
     match error {
-        LowerError::UnknownSymbol { .. } | LowerError::SineOf { .. } => {}
+        LowerError::UnknownSymbol { .. } | LowerError::SineOf { .. } | LowerError::UnknownRamp { .. } => {}
         LowerError::DivisionByZero { place } => {
             mistakes.push(Mistake::new(place, "division by zero"));
         }

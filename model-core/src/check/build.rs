@@ -18,7 +18,7 @@ pub fn chain(subject: &Subject<'_>) -> Chain {
     let bodies = in_order(subject.declaration.bodies().collect());
     let ids: BTreeMap<String, BodyId> =
         (0u16..).zip(&bodies).map(|(index, body)| (body.name.to_string(), BodyId(index))).collect();
-    Chain {
+    let mut chain = Chain {
         name: subject.declaration.name.to_string(),
         documentation: subject.declaration.documentation.clone(),
         symbols: symbols(subject),
@@ -44,8 +44,14 @@ pub fn chain(subject: &Subject<'_>) -> Chain {
                 })
             })
             .collect(),
+        ramps: Vec::new(),
         gravity: gravity(subject),
+    };
+    for ramp in subject.scope.ramps() {
+        let symbol = chain.add_ramp(ramp.of, ramp.from.clone(), ramp.to.clone());
+        assert_eq!(symbol, Some(ramp.symbol), "the ramps are the last names of the scope, in order");
     }
+    chain
 }
 
 /// The bodies, each after its lower body, otherwise in the order of the text.
@@ -122,6 +128,7 @@ fn symbols(subject: &Subject<'_>) -> Vec<Symbol> {
     (0u16..)
         .map(SymbolId)
         .zip(scope.entries())
+        .filter(|(_, entry)| entry.kind != SymbolKind::Ramp)
         .map(|(id, entry)| Symbol {
             name: entry.name.clone(),
             kind: entry.kind,

@@ -7,8 +7,13 @@
 
 use std::collections::BTreeMap;
 
+use proc_macro2::Span;
+
 use super::words;
+use crate::algebra::Poly;
 use crate::chain::Role;
+use crate::expr::{Expr, Node};
+use crate::ramp::Ramp;
 use crate::symbol::{Quantity, SymbolId, SymbolKind};
 use crate::syntax::Declaration;
 use crate::syntax::declaration::{BodyStatement, FactorGroup, FactorTerm, Statement};
@@ -29,6 +34,7 @@ pub struct Entry {
 pub struct Scope {
     entries: Vec<Entry>,
     ids: BTreeMap<String, SymbolId>,
+    ramps: Vec<Ramp>,
     /// Whether every amount and role could be read, so that a name which is missing here is really missing.
     pub is_complete: bool,
 }
@@ -36,7 +42,8 @@ pub struct Scope {
 impl Scope {
     /// Collects the names of a declaration.
     pub fn collect(declaration: &Declaration) -> Self {
-        let mut scope = Self { entries: Vec::new(), ids: BTreeMap::new(), is_complete: true };
+        let mut scope =
+            Self { entries: Vec::new(), ids: BTreeMap::new(), ramps: Vec::new(), is_complete: true };
         scope.declare(Entry {
             name: "pi".to_owned(),
             kind: SymbolKind::Pi,
@@ -67,6 +74,7 @@ impl Scope {
                 scope.entries[id.index()].documentation.clone_from(&symbol.documentation);
             }
         }
+        scope.declare_ramps(declaration);
         scope
     }
 
@@ -99,6 +107,54 @@ impl Scope {
                 }
             }
         }
+    }
+
+    /// The ramps that amounts use, each a symbol of its own. One that is none is left out, and a rule says why.
+    fn declare_ramps(&mut self, declaration: &Declaration) {
+        let mut written = Vec::new();
+        declaration.amounts().for_each(|amount| amount.ramps(&mut written));
+        for parts in written {
+            let Some((of, [from, to])) = self.ramp_parts(parts) else { continue };
+            if self.find_ramp(of, &from, &to).is_some() {
+                continue;
+            }
+            let name = format!("ramp {}", self.ramps.len());
+            self.declare(Entry {
+                name: name.clone(),
+                kind: SymbolKind::Ramp,
+                quantity: Some(Quantity::Number),
+                documentation: String::new(),
+            });
+            if let Some(symbol) = self.find(&name) {
+                self.ramps.push(Ramp { symbol, of, from, to });
+            }
+        }
+    }
+
+    /// The joint or input and the thresholds of a ramp as written.
+    pub fn ramp_parts(&self, [of, from, to]: &[Expr<Span>; 3]) -> Option<(SymbolId, [Poly; 2])> {
+        let Node::Symbol(name) = &of.node else { return None };
+        let of = self.find(name)?;
+        let is_movable = matches!(self.entry(of).kind, SymbolKind::Joint | SymbolKind::Input);
+        is_movable.then_some((of, [self.threshold(from)?, self.threshold(to)?]))
+    }
+
+    /// A threshold of a ramp: a polynomial in numbers and constants.
+    pub fn threshold(&self, written: &Expr<Span>) -> Option<Poly> {
+        let value = Poly::from_expr(written, |name| self.find(name), |_| false).ok()?;
+        let is_fixed = |id: &SymbolId| matches!(self.entry(*id).kind, SymbolKind::Pi | SymbolKind::Constant);
+        value.symbols().iter().all(is_fixed).then_some(value)
+    }
+
+    /// The symbol of a ramp.
+    pub fn find_ramp(&self, of: SymbolId, from: &Poly, to: &Poly) -> Option<SymbolId> {
+        let same = |ramp: &&Ramp| ramp.of == of && ramp.from == *from && ramp.to == *to;
+        self.ramps.iter().find(same).map(|ramp| ramp.symbol)
+    }
+
+    /// The ramps of the declaration.
+    pub fn ramps(&self) -> &[Ramp] {
+        &self.ramps
     }
 
     /// A joint's quantity and documentation come from the first motion that it drives.

@@ -86,6 +86,7 @@ pub fn is_reserved(word: &str) -> bool {
     word == "_"
         || word == "pi"
         || word == GROUND
+        || word == crate::syntax::RAMP
         || crate::syntax::FUNCTIONS.iter().any(|(function, _)| *function == word)
         || RUST.contains(&word)
 }

@@ -8,7 +8,7 @@ use crate::expr::Expr;
 use crate::latex::{self, PrintedSymbols};
 use crate::mistake::Mistake;
 use crate::names;
-use crate::symbol::{Quantity, SymbolId, SymbolKind};
+use crate::symbol::SymbolKind;
 use crate::syntax;
 
 /// The three components of a printed formula.
@@ -138,11 +138,7 @@ fn in_text(text_index: usize, mistake: Mistake<Range<usize>>) -> Mistake<TextPla
 /// # Errors
 /// A name that the chain does not have, with the nearest one, or what the algebra refuses.
 pub fn lower(chain: &Chain, expression: &Expr<Range<usize>>) -> Result<Poly, Mistake<Range<usize>>> {
-    let is_angle = |id: SymbolId| {
-        let symbol = chain.symbol(id);
-        symbol.quantity == Quantity::Angle && symbol.kind != SymbolKind::Error
-    };
-    Poly::from_expr(expression, |name| chain.find_symbol(name), is_angle).map_err(|error| {
+    chain.amount(expression).map_err(|error| {
         let mistake = Mistake::new(error.place().clone(), error.to_string());
         match &error {
             LowerError::UnknownSymbol { name, .. } => {

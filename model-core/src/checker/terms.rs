@@ -58,7 +58,13 @@ pub(super) fn expand(formula: &Expr<Range<usize>>) -> Option<Vec<PrintedTerm<'_>
             }
             terms
         }
-        Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Pow(..) | Node::Call(..) => single(false),
+        Node::Number(_)
+        | Node::Measured(..)
+        | Node::Pi
+        | Node::Symbol(_)
+        | Node::Pow(..)
+        | Node::Call(..)
+        | Node::Ramp(_) => single(false),
     })
 }
 

@@ -9,6 +9,7 @@ use nalgebra::Vector3;
 use crate::algebra::Poly;
 use crate::chain::{Axis, Chain, Motion, ObservableId, ObservableKind};
 use crate::forms::error_table;
+use crate::ramp::Ramp;
 use crate::symbol::{SymbolId, SymbolKind};
 
 /// The factors of one observable, with every amount split by degree in the errors.
@@ -17,6 +18,8 @@ pub struct Path {
     /// From the device to the ground.
     steps: Vec<Step>,
     vector: [Split; 3],
+    /// The ramps that the amounts use.
+    ramps: Vec<Ramp>,
 }
 
 #[derive(Debug, Clone)]
@@ -62,12 +65,23 @@ impl Path {
             .filter(|factor| moves(factor.motion))
             .map(|factor| Step { motion: factor.motion, axis: factor.axis, amount: split(&factor.amount) })
             .collect();
-        Self { steps, vector: observable.components.each_ref().map(split) }
+        let mut path = Self { steps, vector: observable.components.each_ref().map(split), ramps: Vec::new() };
+        path.ramps = path.own_symbols().into_iter().filter_map(|id| chain.ramp(id).cloned()).collect();
+        path
     }
 
-    /// The symbols that the observable depends on, in order.
+    /// The symbols that the observable depends on, in order; in place of ramps those that they are made of.
     #[must_use]
     pub fn symbols(&self) -> Vec<SymbolId> {
+        let mut symbols = self.own_symbols();
+        symbols.retain(|&id| self.ramps.iter().all(|ramp| ramp.symbol != id));
+        symbols.extend(self.ramps.iter().flat_map(Ramp::depends_on));
+        symbols.sort_unstable();
+        symbols.dedup();
+        symbols
+    }
+
+    fn own_symbols(&self) -> Vec<SymbolId> {
         let amounts = self.steps.iter().map(|step| &step.amount).chain(&self.vector);
         let mut symbols: Vec<SymbolId> = amounts
             .flat_map(|split| [&split.nominal, &split.linear, &split.beyond])
@@ -79,7 +93,7 @@ impl Path {
     }
 
     /// The observable with errors, in the ground frame. `values` is indexed by
-    /// [`SymbolId`], in SI units, π included.
+    /// [`SymbolId`], in SI units, π included; ramps follow from the others.
     #[must_use]
     pub fn value(&self, values: &[f64]) -> Vector3<f64> {
         let parts = self.parts(values);
@@ -100,6 +114,19 @@ impl Path {
     }
 
     fn parts(&self, values: &[f64]) -> Parts {
+        let mut with_ramps;
+        let values = if self.ramps.is_empty() {
+            values
+        } else {
+            with_ramps = values.to_vec();
+            for ramp in &self.ramps {
+                let value = ramp.value(values);
+                if let Some(slot) = with_ramps.get_mut(ramp.symbol.index()) {
+                    *slot = value;
+                }
+            }
+            &with_ramps
+        };
         let start =
             |part: fn(&Split) -> &Poly| Vector3::from_fn(|axis, _| part(&self.vector[axis]).eval(values));
         let mut parts = Parts {

@@ -94,10 +94,12 @@ impl Candidate {
                 value: None,
             });
         }
-        let amount = Poly::from_expr(
+        extended.add_ramps_of(&amount);
+        let amount = Poly::from_expr_with_ramps(
             &amount,
             |name| extended.find_symbol(name),
-            |symbol| extended.symbol(symbol).kind != SymbolKind::Error,
+            |symbol| !matches!(extended.symbol(symbol).kind, SymbolKind::Error | SymbolKind::Ramp),
+            |of, from, to| extended.find_ramp(of, from, to),
         )
         .map_err(|error| fail(Mistake::new(shift(error.place()), error.to_string())))?;
         let factors = &mut extended.bodies[usize::from(body.0)].factors;
@@ -173,7 +175,8 @@ fn head(text: &str) -> Option<(Motion, Axis, &str, usize)> {
 fn collect_names<S>(expression: &Expr<S>, names: &mut Vec<String>) {
     match &expression.node {
         Node::Symbol(name) if !names.contains(name) => names.push(name.clone()),
-        Node::Symbol(_) | Node::Number(_) | Node::Pi => {}
+        Node::Symbol(_) | Node::Number(_) | Node::Measured(..) | Node::Pi => {}
+        Node::Ramp(parts) => parts.iter().for_each(|part| collect_names(part, names)),
         Node::Neg(a) | Node::Pow(a, _) | Node::Call(_, a) => collect_names(a, names),
         Node::Add(a, b) | Node::Mul(a, b) | Node::Div(a, b) => {
             collect_names(a, names);

@@ -124,8 +124,9 @@ fn equations(
     errors: &[SymbolId],
     mut echelon: Echelon,
 ) -> Result<Echelon, FormError> {
-    let varies =
-        |symbol: SymbolId| matches!(chain.symbol(symbol).kind, SymbolKind::Joint | SymbolKind::Input);
+    let varies = |symbol: SymbolId| {
+        matches!(chain.symbol(symbol).kind, SymbolKind::Joint | SymbolKind::Input | SymbolKind::Ramp)
+    };
     for &observable in observables {
         let columns = forms::derive(chain, observable, 1)?.columns(chain);
         for axis in 0..3 {

@@ -52,7 +52,9 @@ impl PrintedSymbols {
     pub fn of_chain(chain: &Chain) -> Self {
         let mut table = Self::default();
         // π is read as itself unless the user declares `\pi` to be something else.
-        for symbol in chain.symbols.iter().filter(|symbol| symbol.kind != SymbolKind::Pi) {
+        for symbol in
+            chain.symbols.iter().filter(|symbol| !matches!(symbol.kind, SymbolKind::Pi | SymbolKind::Ramp))
+        {
             let Ok(glyphs) = symbol_glyphs(&symbol.latex) else { continue };
             let meaning = match table.entries.remove(&glyphs).map(|entry| entry.meaning) {
                 None => Meaning::Amount(name(&symbol.name)),

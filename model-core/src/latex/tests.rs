@@ -7,7 +7,9 @@ use crate::expr::{Function, Node};
 fn shown(formula: &Expr<Range<usize>>) -> String {
     match &formula.node {
         Node::Number(value) => value.to_string(),
+        Node::Measured(value, unit) => format!("{value} {}", unit.name()),
         Node::Pi => "pi".to_owned(),
+        Node::Ramp(parts) => format!("ramp{:?}", parts.each_ref().map(shown)),
         Node::Symbol(name) => name.clone(),
         Node::Neg(a) => format!("-{}", shown(a)),
         Node::Add(a, b) => format!("({} + {})", shown(a), shown(b)),

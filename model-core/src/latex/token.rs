@@ -87,6 +87,9 @@ const TYPEFACES: [&str; 10] = [
 /// The functions of the language of amounts, as control words.
 pub(super) const FUNCTIONS: [&str; 6] = ["sin", "cos", "tan", "cot", "sec", "csc"];
 
+/// The function of three arguments, `\operatorname{ramp}(x, from, to)`.
+pub(super) const RAMP: &str = "ramp";
+
 /// Characters that may be typed in place of a control word.
 pub(super) const TYPED: [(char, &str); 34] = [
     ('α', "alpha"),
@@ -232,7 +235,7 @@ impl Lexer<'_> {
             self.skip_while(|c| c.is_alphanumeric() || c == ' ');
             let word = self.text[word_start..self.at].trim();
             if self.peek() == Some('}') && word.chars().all(char::is_alphabetic) && !word.is_empty() {
-                let kind = if FUNCTIONS.contains(&word) {
+                let kind = if FUNCTIONS.contains(&word) || word == RAMP {
                     Kind::Command(word.to_owned())
                 } else {
                     Kind::Word(word.to_owned())

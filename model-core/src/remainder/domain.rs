@@ -54,6 +54,7 @@ impl Domain {
             SymbolKind::Pi => Some([std::f64::consts::PI, std::f64::consts::PI.next_up()]),
             SymbolKind::Error => Some([0.0, 0.0]),
             SymbolKind::Constant => symbol.value.map(|value| [value, value]),
+            SymbolKind::Ramp => Some([0.0, 1.0]),
             SymbolKind::Joint | SymbolKind::Input => None,
         };
         Self { ranges: chain.symbols.iter().map(range).collect() }

@@ -40,7 +40,8 @@ pub fn search(
     for id in path.symbols() {
         let symbol = chain.symbol(id);
         match (symbol.kind, domain.range(id)) {
-            (SymbolKind::Pi | SymbolKind::Constant, _) => {}
+            // The path gives ramps their values.
+            (SymbolKind::Pi | SymbolKind::Constant | SymbolKind::Ramp, _) => {}
             (SymbolKind::Error, Some([low, high])) if low < high => cornered.push((id, [low, high])),
             (SymbolKind::Error, _) => {}
             (_, Some(range)) => climbed.push((id, range)),

@@ -10,6 +10,7 @@ use super::tokens::{Reader, join};
 use crate::expr::{Expr, Function, Node};
 use crate::mistake::Mistake;
 use crate::names::nearest;
+use crate::unit::Unit;
 
 /// Powers above this are refused: an exact polynomial with them would not fit in memory.
 const MAX_POWER: i32 = 32;
@@ -23,6 +24,11 @@ pub const FUNCTIONS: [(&str, Function); 6] = [
     ("sec", Function::Sec),
     ("csc", Function::Csc),
 ];
+
+/// The function of three arguments.
+pub const RAMP: &str = "ramp";
+const RAMP_HELP: &str =
+    "write `ramp(elevation, 39 deg, 53 deg)`: a joint or input, where it is still 0, and where it becomes 1";
 
 type Amount = Expr<Span>;
 
@@ -148,6 +154,10 @@ fn atom(reader: &mut Reader<'_, '_>) -> Read {
         let place = name.span();
         let name = name.to_string();
         if let Some((inside, parentheses)) = reader.group(Delimiter::Parenthesis) {
+            if name == RAMP {
+                let parts = reader.inside(inside, parentheses.close, ramp_parts)?;
+                return Ok(Expr { node: Node::Ramp(Box::new(parts)), place: join(place, parentheses.close) });
+            }
             let argument = reader.inside(inside, parentheses.close, enclosed)?;
             let function = function(reader, &name, place)?;
             let place = join(place, parentheses.close);
@@ -157,7 +167,7 @@ fn atom(reader: &mut Reader<'_, '_>) -> Read {
         return Ok(Expr { node, place });
     }
     match reader.literal() {
-        Some(literal) => number::read(&literal),
+        Some(literal) => Ok(measured(reader, number::read(&literal)?)),
         None if reader.mark('+').is_some() => {
             Err(Mistake::new(reader.last, "a `+` without a term before it").with_help("leave the `+` out"))
         }
@@ -165,6 +175,28 @@ fn atom(reader: &mut Reader<'_, '_>) -> Read {
             Err(reader.expected("an amount").with_help("write a number, a name, `pi`, or `sin(…)` and so on"))
         }
     }
+}
+
+/// A number with the unit that follows it, if one does.
+fn measured(reader: &mut Reader<'_, '_>, number: Amount) -> Amount {
+    let unit = reader.peek_word().and_then(|word| Unit::find(&word.to_string()));
+    let (Some(unit), Node::Number(value)) = (unit, &number.node) else { return number };
+    let node = Node::Measured(value.clone(), unit);
+    reader.word();
+    Expr { node, place: join(number.place, reader.last) }
+}
+
+/// The variable and the thresholds of a ramp.
+fn ramp_parts(reader: &mut Reader<'_, '_>) -> Result<[Amount; 3], Mistake<Span>> {
+    let of = sum(reader)?;
+    reader.expect_mark(',', RAMP_HELP)?;
+    let from = sum(reader)?;
+    reader.expect_mark(',', RAMP_HELP)?;
+    let to = sum(reader)?;
+    if reader.is_at_end() {
+        return Ok([of, from, to]);
+    }
+    Err(reader.expected("`)`").with_help(RAMP_HELP))
 }
 
 /// What stands in parentheses, up to their end.
@@ -180,10 +212,13 @@ fn function(reader: &mut Reader<'_, '_>, name: &str, place: Span) -> Result<Func
     if let Some((_, function)) = FUNCTIONS.iter().find(|(known, _)| *known == name) {
         return Ok(*function);
     }
-    let help = match nearest(name, FUNCTIONS.map(|(known, _)| known)) {
+    let known = FUNCTIONS.iter().map(|(known, _)| *known).chain([RAMP]);
+    let help = match nearest(name, known) {
         Some(near) => format!("did you mean `{near}`?"),
-        None => "write one of sin, cos, tan, cot, sec, csc, or `*` before the parenthesis for a product"
-            .to_owned(),
+        None => {
+            "write one of sin, cos, tan, cot, sec, csc, ramp, or `*` before the parenthesis for a product"
+                .to_owned()
+        }
     };
     // The rest of the amount can still be read.
     reader.mistakes.push(Mistake::new(place, format!("unknown function `{name}`")).with_help(help));

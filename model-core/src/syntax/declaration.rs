@@ -185,6 +185,21 @@ impl Declaration {
         })
     }
 
+    /// Every amount of a factor, an observable or gravity, in order, as far as it could be read.
+    pub fn amounts(&self) -> impl Iterator<Item = &Expr<Span>> {
+        self.statements.iter().flat_map(|statement| -> Vec<&Expr<Span>> {
+            match statement {
+                Statement::Body(body) => {
+                    let factors = body.groups.iter().flat_map(|group| &group.factors);
+                    factors.filter_map(|factor| factor.amount.as_ref()).collect()
+                }
+                Statement::Observe(observe) => observe.components.iter().flatten().collect(),
+                Statement::Gravity(gravity) => gravity.components.iter().flatten().collect(),
+                Statement::Constant(_) | Statement::Input(_) | Statement::Symbol(_) => Vec::new(),
+            }
+        })
+    }
+
     /// The `gravity` statements, in order; the rules allow one.
     pub fn gravities(&self) -> impl Iterator<Item = &GravityStatement> {
         self.statements.iter().filter_map(|statement| match statement {

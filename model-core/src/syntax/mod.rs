@@ -15,7 +15,7 @@ use std::ops::Range;
 use proc_macro2::{Span, TokenStream};
 use syn::buffer::TokenBuffer;
 
-pub use amount::FUNCTIONS;
+pub use amount::{FUNCTIONS, RAMP};
 pub use declaration::Declaration;
 
 use crate::expr::Expr;

@@ -3,7 +3,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use super::amount::FUNCTIONS;
+use super::amount::{FUNCTIONS, RAMP};
 use super::declaration::{
     BodyStatement, ConstantStatement, Declaration, FactorGroup, FactorTerm, GravityStatement, InputStatement,
     ObserveStatement, Statement, SymbolStatement,
@@ -106,7 +106,19 @@ fn write_amount<S>(f: &mut Formatter<'_>, amount: &Expr<S>, place: Binding) -> f
     }
     match &amount.node {
         Node::Number(value) => write!(f, "{value}")?,
+        Node::Measured(value, unit) if value.to_integer().is_some() => write!(f, "{value} {}", unit.name())?,
+        Node::Measured(value, unit) => {
+            write!(f, "{} {}/{}", value.numerator(), unit.name(), value.denominator())?;
+        }
         Node::Pi => write!(f, "pi")?,
+        Node::Ramp(parts) => {
+            write!(f, "{RAMP}(")?;
+            for (index, part) in parts.iter().enumerate() {
+                write!(f, "{}", if index > 0 { ", " } else { "" })?;
+                write_amount(f, part, Binding::Sum)?;
+            }
+            write!(f, ")")?;
+        }
         Node::Symbol(name) => write!(f, "{name}")?,
         Node::Neg(inner) => {
             write!(f, "-")?;
@@ -165,6 +177,12 @@ fn binding<S>(amount: &Expr<S>) -> Binding {
         Node::Number(value) if value.to_string().contains('/') => Binding::Product,
         Node::Neg(_) => Binding::Sign,
         Node::Pow(..) => Binding::Power,
-        Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Call(..) => Binding::Atom,
+        Node::Measured(value, _) if value.to_integer().is_none() => Binding::Product,
+        Node::Number(_)
+        | Node::Measured(..)
+        | Node::Pi
+        | Node::Symbol(_)
+        | Node::Call(..)
+        | Node::Ramp(_) => Binding::Atom,
     }
 }

@@ -10,6 +10,7 @@ mod printed;
 use model_core::Chain;
 
 const MOBILE_LIDAR: &str = include_str!("../../../examples/mobile-lidar/mobile-lidar.chain");
+const RAMPS: &str = include_str!("../reference/ramps.chain");
 const GIMBAL: &str = include_str!("../reference/gimbal.chain");
 
 /// The chain that a reference file calls by this name.
@@ -17,6 +18,7 @@ fn chain(name: &str) -> Chain {
     let text = match name {
         "mobile-lidar" => MOBILE_LIDAR,
         "gimbal" => GIMBAL,
+        "ramps" => RAMPS,
         other => panic!("no chain {other}"),
     };
     Chain::from_text(text).unwrap_or_else(|mistakes| panic!("{}", mistakes.render(name, text)))

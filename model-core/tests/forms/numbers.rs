@@ -14,7 +14,8 @@ struct Line {
 }
 
 fn lines() -> impl Iterator<Item = Line> {
-    include_str!("../reference/numbers.csv").lines().skip(1).map(|line| {
+    let ramps = include_str!("../reference/ramps.csv").lines().skip(1);
+    include_str!("../reference/numbers.csv").lines().skip(1).chain(ramps).map(|line| {
         let fields: Vec<&str> = line.split(',').collect();
         let numbers: Vec<f64> = fields[4..].iter().map(|field| field.parse().unwrap()).collect();
         let value = |pair: &'static str| {
@@ -52,7 +53,7 @@ fn validate_the_exact_error_to_thirteen_digits_of_the_errors() {
             count += 1;
         }
     }
-    assert_eq!(count, 162);
+    assert_eq!(count, 216);
 }
 
 #[test]
@@ -67,6 +68,7 @@ fn validate_the_parts_of_degree_one_two_and_three() {
             let error = chain.symbol(id).kind == SymbolKind::Error;
             values[id.index()] = if error { value / line.size } else { *value };
         }
+        chain.set_ramps(&mut values);
         let mut lower = [0.0; 3];
         for order in 1..=3 {
             let form = forms::derive(&chain, observable, order).unwrap();
@@ -81,5 +83,5 @@ fn validate_the_parts_of_degree_one_two_and_three() {
             }
         }
     }
-    assert_eq!(count, 486);
+    assert_eq!(count, 648);
 }

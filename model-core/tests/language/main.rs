@@ -4,3 +4,4 @@ mod examples;
 mod joints;
 mod mistakes;
 mod properties;
+mod ramps;

@@ -24,7 +24,7 @@ SIZES = [1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-3, 1e-2, 1e-1]
 
 
 def vector(factors, homogeneous, values):
-    names = {**values, "cos": cos, "sin": sin, "pi": +pi}
+    names = {**values, "mpf": mpf, "cos": cos, "sin": sin, "ramp": ramp, "pi": +pi}
     result = [eval(str(part), names) * mpf(1) for part in homogeneous]
     for transform, amount in reversed(factors):
         rows = matrix(transform, eval(amount, names) * mpf(1), cos, sin, mpf(1), mpf(0))
@@ -37,13 +37,23 @@ def fraction(text):
     return mpf(int(above)) / int(below or 1)
 
 
-def main():
+def ramp(x, begins, ends):
+    """0 before, 1 behind, linear between, in either direction; equal thresholds are a step."""
+    if begins == ends:
+        return mpf(1) if x >= begins else mpf(0)
+    gone, way = x - begins, ends - begins
+    if gone * way <= 0:
+        return mpf(0)
+    return mpf(1) if abs(gone) >= abs(way) else gone / way
+
+
+def main(chains=CHAINS, path="numbers.csv"):
     rng = random.Random(20260705)
-    with open("numbers.csv", "w", newline="") as file:
+    with open(path, "w", newline="") as file:
         out = csv.writer(file, lineterminator="\n")
         parts = [f"{part}_{axis}" for part in ("exact", "degree1", "degree2", "degree3") for axis in "xyz"]
         out.writerow(["chain", "observable", "size", "values", *parts])
-        for chain, (varying, constants, errors, observables) in CHAINS.items():
+        for chain, (varying, constants, errors, observables) in chains.items():
             for size in SIZES:
                 for name, (factors, homogeneous) in observables.items():
                     # Doubles, so that both programs start from the same numbers.

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use model_core::algebra::{Poly, Rational, Term, Wave};
+use model_core::ramp::Ramp;
 use model_core::{SymbolId, SymbolKind};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -40,8 +41,33 @@ pub fn symbol(context: &Context<'_>, id: SymbolId) -> TokenStream {
             let field = &group.field;
             quote! { #field.#name }
         }
+        (SymbolKind::Ramp, _) => match context.chain.ramp(id) {
+            Some(of) => ramp(context, of),
+            None => unreachable!("every symbol of this kind is a ramp of its chain"),
+        },
         _ => quote! { ::core::f64::consts::PI },
     }
+}
+
+/// The value of a ramp.
+fn ramp(context: &Context<'_>, ramp: &Ramp) -> TokenStream {
+    let (at, from, to) =
+        (symbol(context, ramp.of), expression(context, &ramp.from), expression(context, &ramp.to));
+    if ramp.is_step() {
+        step(&quote! { #at - (#from) })
+    } else {
+        saturate(&quote! { (#at - (#from)) / (#to - (#from)) })
+    }
+}
+
+/// A value between 0 and 1, and the nearer of the two outside; NaN stays NaN.
+pub fn saturate(value: &TokenStream) -> TokenStream {
+    quote! { { let ramp: f64 = #value; if ramp <= 0.0 { 0.0 } else if ramp >= 1.0 { 1.0 } else { ramp } } }
+}
+
+/// 1 where a value is at least 0, else 0; NaN stays NaN.
+pub fn step(value: &TokenStream) -> TokenStream {
+    quote! { { let ramp: f64 = #value; if ramp >= 0.0 { 1.0 } else if ramp < 0.0 { 0.0 } else { ramp } } }
 }
 
 /// The sines and cosines that amounts use: angles with their multiples.

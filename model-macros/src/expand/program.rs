@@ -5,7 +5,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::Context;
-use super::amount::{number, symbol};
+use super::amount::{number, saturate, step, symbol};
 
 /// The statements of one stage; nodes of the other are known by name.
 pub fn statements(context: &Context<'_>, program: &Program, stage: Stage) -> TokenStream {
@@ -53,6 +53,14 @@ fn statement(context: &Context<'_>, program: &Program, id: NodeId, op: Op) -> To
         Op::Div(a, b) => {
             let (a, b) = (read(a), read(b));
             quote! { #a / #b }
+        }
+        Op::Saturate(a) => {
+            let a = read(a);
+            saturate(&a)
+        }
+        Op::Step(a) => {
+            let a = read(a);
+            step(&a)
         }
         Op::Sin(angle) => match other_wave(program, id, Op::Cos(angle)) {
             Some(cos) if cos < id => return TokenStream::new(),

@@ -71,7 +71,7 @@ fn no_angle(subject: &Subject<'_>, id: SymbolId, place: Span) -> Mistake<Span> {
             Mistake::new(place, format!("`{name}` is no angle, and stands inside a sine or cosine"))
                 .with_help(format!("declare it as an angle: `const {name}: angle = …;`"))
         }
-        SymbolKind::Pi | SymbolKind::Input => {
+        SymbolKind::Pi | SymbolKind::Input | SymbolKind::Ramp => {
             Mistake::new(place, format!("`{name}` is no angle, and stands inside a sine or cosine"))
                 .with_help(format!("declare it as an angle: `input {name}: angle;`"))
         }
@@ -80,7 +80,7 @@ fn no_angle(subject: &Subject<'_>, id: SymbolId, place: Span) -> Mistake<Span> {
 
 fn arguments_in<'a>(amount: &'a Expr<Span>, arguments: &mut Vec<&'a Expr<Span>>) {
     match &amount.node {
-        Node::Number(_) | Node::Pi | Node::Symbol(_) => {}
+        Node::Number(_) | Node::Measured(..) | Node::Pi | Node::Symbol(_) | Node::Ramp(_) => {}
         Node::Call(_, argument) => arguments.push(argument),
         Node::Neg(inner) | Node::Pow(inner, _) => arguments_in(inner, arguments),
         Node::Add(left, right) | Node::Mul(left, right) | Node::Div(left, right) => {
@@ -107,6 +107,7 @@ pub fn position_is_constant(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Sp
             let Some(entry) = subject.scope.lookup(name) else { continue };
             let (what, help) = match entry.kind {
                 SymbolKind::Pi | SymbolKind::Constant => continue,
+                SymbolKind::Ramp => unreachable!("no name that can be written is that of a ramp"),
                 SymbolKind::Joint => {
                     ("joint", "write factors with joints in `motion`, or in `motion_error`".to_owned())
                 }
@@ -196,6 +197,7 @@ pub fn motion_is_linear(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>
             Motion::Translation => {
                 let joints = value.symbols().into_iter().filter(|&id| is_joint(id));
                 value.degree_in(is_joint) <= 1
+                    && value.symbols().iter().all(|&id| subject.scope.entry(id).kind != SymbolKind::Ramp)
                     && joints.into_iter().all(|joint| value.derivative(joint).as_constant().is_some())
             }
         };

@@ -6,6 +6,7 @@ mod factors;
 mod names;
 mod observables;
 mod quantities;
+mod ramps;
 
 use proc_macro2::Span;
 
@@ -26,6 +27,7 @@ pub const RULES: &[(&str, Rule)] = &[
     ("a factor is one of the six elementary transforms", factors::axis_is_known),
     ("an amount uses declared names", amounts::names_are_declared),
     ("sines and cosines are taken of angles", amounts::functions_of_angles),
+    ("a ramp is of a joint or input, between thresholds", ramps::ramp_has_its_parts),
     ("a position is made of constants", amounts::position_is_constant),
     ("a position turns by angles", amounts::position_turns_by_angles),
     ("a motion is moved by joints, linearly", amounts::motion_is_linear),

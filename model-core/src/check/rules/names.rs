@@ -8,6 +8,7 @@ use super::super::Subject;
 use super::super::words::is_reserved;
 use crate::mistake::Mistake;
 use crate::names::nearest;
+use crate::symbol::SymbolKind;
 use crate::syntax::declaration::Statement;
 
 pub fn not_reserved(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
@@ -86,7 +87,8 @@ pub fn printed_names_exist(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Spa
 
 /// The mistake that a name is not declared: the nearest name that is, or other advice.
 pub fn unknown_name(subject: &Subject<'_>, name: &str, place: Span, otherwise: &str) -> Mistake<Span> {
-    let known = subject.scope.entries().iter().map(|entry| entry.name.as_str());
+    let named = subject.scope.entries().iter().filter(|entry| entry.kind != SymbolKind::Ramp);
+    let known = named.map(|entry| entry.name.as_str());
     let help = match nearest(name, known) {
         Some(near) => format!("did you mean `{near}`?"),
         None => otherwise.to_owned(),

@@ -34,6 +34,14 @@ pub fn constant_has_a_value(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Sp
     for constant in subject.declaration.constants() {
         let Some(value) = &constant.value else { continue };
         let names = value.names();
+        let mut ramps = Vec::new();
+        value.ramps(&mut ramps);
+        if !ramps.is_empty() {
+            mistakes.push(
+                Mistake::new(value.place, "a ramp stands in the value of a constant")
+                    .with_help("write a value of numbers and `pi`: `0.25`, `30*pi/180`"),
+            );
+        }
         for (name, place) in &names {
             mistakes.push(
                 Mistake::new(*place, format!("the name `{name}` stands in the value of a constant"))

@@ -36,6 +36,24 @@ impl Parser<'_> {
         }
     }
 
+    /// `\operatorname{ramp}(x, from, to)`.
+    pub(super) fn ramp(&mut self) -> Result<Formula, Unreadable> {
+        let start = self.here().start;
+        self.advance();
+        if !self.is_at_mark('(') {
+            return Err(self.unexpected("`(`").with_help(r"write `\operatorname{ramp}(x, from, to)`"));
+        }
+        self.advance();
+        let of = self.formula()?;
+        self.expect_closer(&Kind::Mark(','))?;
+        let from = self.formula()?;
+        self.expect_closer(&Kind::Mark(','))?;
+        let to = self.formula()?;
+        let end = self.here().end;
+        self.expect_closer(&Kind::Mark(')'))?;
+        self.powered(Expr { node: Node::Ramp(Box::new([of, from, to])), place: start..end })
+    }
+
     /// What a function takes: a group, or numbers and one symbol.
     pub(super) fn function_argument(&mut self) -> Result<Formula, Unreadable> {
         let start = self.here().start;

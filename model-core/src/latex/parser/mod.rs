@@ -5,7 +5,7 @@ mod powers;
 
 use std::ops::Range;
 
-use super::token::{Kind, Token};
+use super::token::{Kind, RAMP, Token};
 use super::{PrintedSymbols, Unreadable, glyph};
 use crate::algebra::Rational;
 use crate::expr::{Expr, Node};
@@ -230,7 +230,7 @@ impl<'a> Parser<'a> {
         self.peek().is_some_and(|token| match &token.kind {
             Kind::Digit(_) | Kind::OpenBrace | Kind::Mark('(' | '[' | '{' | '.') => true,
             Kind::Command(name) => {
-                function(name).is_some() || is_fraction(name) || glyph::starts(&token.kind)
+                function(name).is_some() || is_fraction(name) || name == RAMP || glyph::starts(&token.kind)
             }
             kind => glyph::starts(kind),
         })
@@ -257,6 +257,9 @@ impl<'a> Parser<'a> {
                 if is_fraction(name) {
                     let fraction = self.fraction()?;
                     return self.powered(fraction);
+                }
+                if name == RAMP {
+                    return self.ramp();
                 }
                 self.symbol()
             }

@@ -1,0 +1,159 @@
+//! Ramps: functions of a joint or input that are 0 before one threshold, 1 behind another, and linear between.
+//!
+//! Each ramp that a chain uses is a symbol of its own, so that the algebra treats it as one more free variable. What
+//! follows from that: two formulas that differ by a relation *between* ramps (a step is its own square, say) have
+//! different canonical forms.
+
+use crate::algebra::Poly;
+use crate::chain::Chain;
+use crate::expr::{Expr, Node};
+use crate::print;
+use crate::symbol::{Quantity, Symbol, SymbolId, SymbolKind};
+
+/// A ramp of one chain.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ramp {
+    /// The symbol that stands for it in amounts; its value is without unit, from 0 to 1.
+    pub symbol: SymbolId,
+    /// The joint or input that it is a function of.
+    pub of: SymbolId,
+    /// Where it is still 0; a polynomial in π and constants, SI.
+    pub from: Poly,
+    /// Where it becomes 1. Below `from`, the ramp rises as its variable falls; equal to it, the ramp is a step.
+    pub to: Poly,
+}
+
+impl Ramp {
+    /// Whether it jumps: 0 below its threshold, 1 at it and beyond.
+    #[must_use]
+    pub fn is_step(&self) -> bool {
+        self.from == self.to
+    }
+
+    /// The value where the symbols have these values, by [`SymbolId`], SI.
+    #[must_use]
+    pub fn value(&self, values: &[f64]) -> f64 {
+        let at = values.get(self.of.index()).copied().unwrap_or(f64::NAN);
+        if self.is_step() {
+            step(at - self.from.eval(values))
+        } else {
+            let (from, to) = (self.from.eval(values), self.to.eval(values));
+            saturated((at - from) / (to - from))
+        }
+    }
+
+    /// The symbols that its value depends on.
+    pub fn depends_on(&self) -> impl Iterator<Item = SymbolId> {
+        std::iter::once(self.of).chain(self.from.symbols()).chain(self.to.symbols())
+    }
+}
+
+/// `fraction` between 0 and 1, and the nearer of the two outside; NaN stays NaN.
+#[must_use]
+#[inline]
+pub fn saturated(fraction: f64) -> f64 {
+    if fraction <= 0.0 {
+        0.0
+    } else if fraction >= 1.0 {
+        1.0
+    } else {
+        fraction
+    }
+}
+
+/// 1 from zero on, 0 below; NaN stays NaN.
+#[must_use]
+#[inline]
+pub fn step(distance: f64) -> f64 {
+    if distance >= 0.0 {
+        1.0
+    } else if distance < 0.0 {
+        0.0
+    } else {
+        distance
+    }
+}
+
+impl Chain {
+    /// The ramp that a symbol stands for.
+    #[must_use]
+    pub fn ramp(&self, symbol: SymbolId) -> Option<&Ramp> {
+        self.ramps.iter().find(|ramp| ramp.symbol == symbol)
+    }
+
+    /// The symbol of the ramp of a joint or input between two thresholds, if the chain uses it.
+    #[must_use]
+    pub fn find_ramp(&self, of: SymbolId, from: &Poly, to: &Poly) -> Option<SymbolId> {
+        let same = |ramp: &&Ramp| ramp.of == of && ramp.from == *from && ramp.to == *to;
+        self.ramps.iter().find(same).map(|ramp| ramp.symbol)
+    }
+
+    /// The symbol of a ramp, new if the chain does not use it yet; `None` if a chain cannot have more symbols.
+    pub fn add_ramp(&mut self, of: SymbolId, from: Poly, to: Poly) -> Option<SymbolId> {
+        if let Some(known) = self.find_ramp(of, &from, &to) {
+            return Some(known);
+        }
+        let symbol = SymbolId(u16::try_from(self.symbols.len()).ok()?);
+        let documentation = "0 before its first threshold, 1 behind its second, linear between.".to_owned();
+        self.symbols.push(Symbol {
+            name: format!(
+                "ramp({}, {}, {})",
+                self.symbol(of).name,
+                print::text(&from, self),
+                print::text(&to, self)
+            ),
+            kind: SymbolKind::Ramp,
+            quantity: Quantity::Number,
+            documentation,
+            latex: format!(
+                "\\operatorname{{ramp}}\\left({}, {}, {}\\right)",
+                self.symbol(of).latex,
+                print::latex(&from, self),
+                print::latex(&to, self)
+            ),
+            value: None,
+        });
+        self.ramps.push(Ramp { symbol, of, from, to });
+        Some(symbol)
+    }
+
+    /// Adds every ramp that an expression uses and whose names the chain knows, so that the expression has a canonical
+    /// form.
+    pub fn add_ramps_of<S: Clone>(&mut self, expression: &Expr<S>) {
+        let mut found = Vec::new();
+        expression.ramps(&mut found);
+        for [of, from, to] in found {
+            let Node::Symbol(name) = &of.node else { continue };
+            let (Some(of), Ok(from), Ok(to)) = (self.find_symbol(name), self.amount(from), self.amount(to))
+            else {
+                continue;
+            };
+            self.add_ramp(of, from, to);
+        }
+    }
+
+    /// Gives the ramps the values that follow from those of the other symbols; `values` by [`SymbolId`], SI.
+    pub fn set_ramps(&self, values: &mut [f64]) {
+        for ramp in &self.ramps {
+            let value = ramp.value(values);
+            if let Some(slot) = values.get_mut(ramp.symbol.index()) {
+                *slot = value;
+            }
+        }
+    }
+
+    /// The symbols that an amount depends on, in order: those in it, and in place of a ramp those that it is made of.
+    #[must_use]
+    pub fn symbols_in(&self, amount: &Poly) -> Vec<SymbolId> {
+        let mut symbols: Vec<SymbolId> = Vec::new();
+        for symbol in amount.symbols() {
+            match self.ramp(symbol) {
+                Some(ramp) => symbols.extend(ramp.depends_on()),
+                None => symbols.push(symbol),
+            }
+        }
+        symbols.sort_unstable();
+        symbols.dedup();
+        symbols
+    }
+}

@@ -52,13 +52,7 @@ impl Ramp {
 #[must_use]
 #[inline]
 pub fn saturated(fraction: f64) -> f64 {
-    if fraction <= 0.0 {
-        0.0
-    } else if fraction >= 1.0 {
-        1.0
-    } else {
-        fraction
-    }
+    fraction.clamp(0.0, 1.0)
 }
 
 /// 1 from zero on, 0 below; NaN stays NaN.

@@ -4,7 +4,7 @@ chain RampOfNoJoint {
     input ambient;
     body arm_body on ground {
         motion: Rz(alpha);
-        motion_error: Rx(give*ramp(arm, 0, 1)), Ry(flop*ramp(alpha, ambient, 1)), Rz(hinge*ramp(-alpha, 0, flop));
+        motion_error: Rx(give*ramp(arm, 0, 1)), Ry(flop*ramp(alpha, ambient, 1)), Rz(hinge*ramp(alpha, 0, flop));
     }
 }
 }

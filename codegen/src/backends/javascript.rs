@@ -41,7 +41,7 @@ pub(crate) fn write(unit: &Unit<'_>) -> String {
 /// What ramps are made of.
 const RAMPS: &str = "
 function saturate(x) {
-  return x <= 0 ? 0 : x >= 1 ? 1 : x;
+  return x < 0 ? 0 : x > 1 ? 1 : x;
 }
 
 function step(x) {

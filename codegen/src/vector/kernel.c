@@ -197,7 +197,7 @@ TRUEAXIS_INLINE void trueaxis_sin_cos_without_branch(double x, double *sine, dou
 /* `x` between 0 and 1, and the nearer of the two outside; NaN stays NaN. */
 TRUEAXIS_INLINE double trueaxis_saturate(double x)
 {
-    return x <= 0.0 ? 0.0 : x >= 1.0 ? 1.0 : x;
+    return x < 0.0 ? 0.0 : x > 1.0 ? 1.0 : x;
 }
 
 /* 1 from 0 on, 0 below; NaN stays NaN. */

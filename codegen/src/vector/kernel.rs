@@ -199,13 +199,7 @@ pub fn sin_cos_rows<'a, A: Arithmetic>(
 /// `x` between 0 and 1, and the nearer of the two outside; NaN stays NaN.
 #[inline(always)]
 pub fn saturate(x: f64) -> f64 {
-    if x <= 0.0 {
-        0.0
-    } else if x >= 1.0 {
-        1.0
-    } else {
-        x
-    }
+    x.clamp(0.0, 1.0)
 }
 
 /// 1 from 0 on, 0 below; NaN stays NaN.

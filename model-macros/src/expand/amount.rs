@@ -62,7 +62,7 @@ fn ramp(context: &Context<'_>, ramp: &Ramp) -> TokenStream {
 
 /// A value between 0 and 1, and the nearer of the two outside; NaN stays NaN.
 pub fn saturate(value: &TokenStream) -> TokenStream {
-    quote! { { let ramp: f64 = #value; if ramp <= 0.0 { 0.0 } else if ramp >= 1.0 { 1.0 } else { ramp } } }
+    quote! { f64::clamp(#value, 0.0, 1.0) }
 }
 
 /// 1 where a value is at least 0, else 0; NaN stays NaN.

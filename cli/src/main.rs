@@ -11,6 +11,7 @@ mod output;
 mod poses;
 mod ranges;
 mod report;
+mod sha256;
 mod source;
 mod tables;
 mod terminal;

@@ -19,6 +19,16 @@ pub const GOOD: Style = AnsiColor::Green.on_default().bold();
 /// Style of headings.
 pub const HEADING: Style = Style::new().bold();
 
+/// Letters that a line of text has: as many as the variable `COLUMNS` says, within reason.
+#[must_use]
+pub fn width() -> usize {
+    let columns = std::env::var("COLUMNS").ok().and_then(|columns| columns.parse::<usize>().ok());
+    columns.unwrap_or(WIDTH).clamp(40, WIDTH)
+}
+
+/// Letters of a line that reads well.
+const WIDTH: usize = 100;
+
 /// Writes a result to standard output.
 ///
 /// # Errors

@@ -1,26 +1,20 @@
-//! Before and after, on the data that were fitted and on data that no stage saw, in physical units.
+//! Before and after, on the data that were fitted and on data that no stage saw, in physical units: over every row, and
+//! over the rows kept.
 //!
-//! Which held-out rows are gross outliers is for the searches that did not see them to say: a row counts unless what its
-//! fold's search predicts of it lies as far off as where the robust weights end. The same rows count before and after,
-//! and the figure over every row stands beside.
+//! Which held-out rows are gross outliers is for the searches that did not see them to say: a row is kept if what its
+//! fold's search predicts of it lies nearer than where the robust weights end. The same rows are kept before and after.
 
+use super::fitted::Fitted;
 use super::round::Round;
 use super::{CalibrateError, Loop, declared};
+use crate::diagnose::Rms;
+use crate::diagnose::rms::BeforeAfter;
 use crate::fit::{FitResult, robust};
-use crate::report::Rms;
 use crate::search::HeldOut;
 use crate::search::columns::Columns;
 use crate::search::row_set::Portion;
 
-/// RMS before and after.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct BeforeAfter {
-    pub before: Rms,
-    pub after: Rms,
-}
-
-/// In sample over the rows with weight in the last fit; held out from the study's second file, or else from the nested
-/// folds over the same rows.
+/// In sample; and held out from the study's second file, or else from the nested folds.
 pub(crate) fn rms(
     whole: &Loop<'_>,
     before: &FitResult,
@@ -28,15 +22,11 @@ pub(crate) fn rms(
     held_out: &HeldOut,
 ) -> Result<BeforeAfter, CalibrateError> {
     let rows = &last.fitted.layout.row;
-    let weight = &last.fitted.fit.residuals.weight;
-    let in_sample = |residual: &[f64]| {
-        length(residual, rows, |row| weight[row as usize] > 0.0).map_or(0.0, |(rms, _)| rms)
-    };
     let (held_before, held_after) = match whole.request.second {
         Some(second) => {
             let residual = |chain, values: &[f64]| {
                 Columns::at(chain, second, declared(whole), values, &[])
-                    .map(|columns| Held::of(&columns.residual, &columns.row, |_| true))
+                    .map(|columns| Figures::of(&columns.residual, &columns.row, |_| true))
             };
             (
                 residual(&whole.request.plan.chain, &before.values)?,
@@ -46,37 +36,55 @@ pub(crate) fn rms(
         None if last.posed.problem.folds() > 1 => {
             let [before, after] = predicted(whole, last, [&held_out.before, &held_out.after])?;
             let within = within_reach(whole, last, &after);
-            let of = |residual: &[f64]| Held::of(residual, rows, |row| within[row as usize]);
+            let of = |residual: &[f64]| Figures::of(residual, rows, |row| within[row as usize]);
             (of(&before), of(&after))
         }
-        None => (Held::default(), Held::default()),
+        None => (Figures::default(), Figures::default()),
     };
+    let weight = &last.fitted.fit.residuals.weight;
+    let kept = |row: u32| weight[row as usize] > 0.0;
+    let in_sample = |fit: &FitResult| Figures::of(&fit.residuals.raw, rows, kept);
     Ok(BeforeAfter {
-        before: held_before.beside(in_sample(&before.residuals.raw)),
-        after: held_after.beside(in_sample(&last.fitted.fit.residuals.raw)),
+        before: held_before.beside(in_sample(before)),
+        after: held_after.beside(in_sample(&last.fitted.fit)),
     })
 }
 
-/// RMS of residuals that no stage saw.
-#[derive(Default)]
-struct Held {
-    /// Over the rows that count, and how many those are.
-    counted: Option<(f64, usize)>,
-    /// Over every row.
-    all: Option<(f64, usize)>,
+/// In sample alone, where no search was made.
+pub(crate) fn of_fit(fitted: &Fitted) -> BeforeAfter {
+    let residuals = &fitted.fit.residuals;
+    let kept = |row: u32| residuals.weight.get(row as usize).is_some_and(|&weight| weight > 0.0);
+    let rms = Figures::default().beside(Figures::of(&residuals.raw, &residuals.row, kept));
+    BeforeAfter { before: rms, after: rms }
 }
 
-impl Held {
-    fn of(residual: &[f64], rows: &[u32], counts: impl Fn(u32) -> bool) -> Self {
-        Self { counted: length(residual, rows, counts), all: length(residual, rows, |_| true) }
+/// RMS of some residuals, each with how many rows it is over; none without rows.
+#[derive(Default)]
+struct Figures {
+    /// Over every row.
+    all: Option<(f64, usize)>,
+    /// Over the rows kept.
+    kept: Option<(f64, usize)>,
+}
+
+impl Figures {
+    fn of(residual: &[f64], rows: &[u32], kept: impl Fn(u32) -> bool) -> Self {
+        Self { all: length(residual, rows, |_| true), kept: length(residual, rows, kept) }
     }
 
-    fn beside(self, rms: f64) -> Rms {
+    /// These as held out, beside those in sample.
+    fn beside(self, in_sample: Self) -> Rms {
+        let rms = |figure: Option<(f64, usize)>| figure.map(|(rms, _)| rms);
+        let count = |figure: Option<(f64, usize)>| figure.map_or(0, |(_, rows)| rows);
         Rms {
-            rms,
-            held_out_rms: self.counted.map(|(rms, _)| rms),
-            held_out_rows: self.counted.map_or(0, |(_, rows)| rows),
-            held_out_rms_of_all: self.all.map(|(rms, _)| rms),
+            rms: rms(in_sample.all).unwrap_or(f64::NAN),
+            rms_kept: rms(in_sample.kept).unwrap_or(f64::NAN),
+            held_out_rms: rms(self.all),
+            held_out_rms_kept: rms(self.kept),
+            held_out_rows: count(self.all),
+            held_out_rows_kept: count(self.kept),
+            elsewhere_rms: None,
+            elsewhere_rms_kept: None,
         }
     }
 }
@@ -141,15 +149,20 @@ fn predicted_of(
     left
 }
 
-/// RMS over observations of the length of the residual, and how many they are; `None` without observations.
+/// RMS over observations of the length of the residual, and how many they are; `None` without observations. Rows at which
+/// the chain has no finite value have no residual, and do not count.
 fn length(residual: &[f64], rows: &[u32], used: impl Fn(u32) -> bool) -> Option<(f64, usize)> {
-    let (mut squares, mut count, mut last) = (0.0, 0_u32, None);
-    for (value, &row) in residual.iter().zip(rows).filter(|&(_, &row)| used(row)) {
-        squares += value * value;
-        if last != Some(row) {
+    let (mut squares, mut count) = (0.0, 0_u32);
+    let mut at = 0;
+    while at < residual.len() {
+        let row = rows[at];
+        let end = at + rows[at..].iter().take_while(|&&other| other == row).count();
+        let square: f64 = residual[at..end].iter().map(|value| value * value).sum();
+        if used(row) && square.is_finite() {
+            squares += square;
             count += 1;
-            last = Some(row);
         }
+        at = end;
     }
     (count > 0).then(|| (f64::sqrt(squares / f64::from(count)), count as usize))
 }

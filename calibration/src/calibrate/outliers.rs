@@ -11,12 +11,13 @@
 
 use super::fitted::Fitted;
 use super::round::Round;
-use super::{CalibrateError, Loop, Request, names, rounds};
+use super::rounds::{names, rounds};
+use super::{CalibrateError, Loop, Request};
 use crate::fit::robust;
 use crate::search::contest::ln_choices;
 
-/// Rows below which there is nothing that they could show together: two, or one in a thousand, since of many rows some are
-/// set aside by chance.
+/// How many rows must be set aside before they are looked at together: two, or one in a thousand of many rows, of which
+/// some are set aside by chance.
 fn fewest(round: &Round<'_>) -> usize {
     (round.fitted.fit.residuals.weight.len() / 1000).max(2)
 }
@@ -48,7 +49,7 @@ fn doubts(round: &Round<'_>) -> usize {
     fit.set_aside.len() + if fit.noise.variance.is_some() { fewest(round) } else { 0 }
 }
 
-/// Penalised log-likelihood of a round's model at its noise, where observations far from the rest count as just so far.
+/// Penalised log-likelihood of a round's model at its noise, where the robust loss bounds what a row far from the rest costs.
 fn criterion(whole: &Loop<'_>, round: &Round<'_>) -> f64 {
     let observations = whole.request.observations;
     let noise = round.fitted.fit.noise.without_memory();

@@ -3,10 +3,12 @@
 //! Files become observations in [`crate::study`]; nothing here knows a file's format.
 
 pub mod derive;
+mod si_unit;
 mod tangent;
 pub mod units;
 
 pub use derive::{DeriveError, Derived, parse_derived};
+pub use si_unit::SiUnit;
 pub use tangent::{direction_from_offset, direction_from_spherical, tangent_frame};
 
 use std::ops::Range;
@@ -40,10 +42,21 @@ impl Measure {
 
     /// The SI unit of a residual.
     #[must_use]
-    pub fn unit(self) -> &'static str {
+    pub fn unit(self) -> SiUnit {
         match self {
-            Self::Direction | Self::Azimuth => "rad",
-            Self::Point | Self::Range => "m",
+            Self::Direction | Self::Azimuth => SiUnit::RAD,
+            Self::Point | Self::Range => SiUnit::METRE,
+        }
+    }
+
+    /// What the residual components are called.
+    #[must_use]
+    pub fn component_names(self) -> &'static [&'static str] {
+        match self {
+            Self::Direction => &["across", "along"],
+            Self::Point => &["x", "y", "z"],
+            Self::Range => &["range"],
+            Self::Azimuth => &["azimuth"],
         }
     }
 }

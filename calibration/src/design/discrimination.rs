@@ -12,13 +12,13 @@
 use faer::Mat;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
+use serde::Serialize;
 
 use crate::calibrate::round::Round;
 use crate::calibrate::{Loop, declared};
 use crate::candidate::Effect;
 use crate::data::Observations;
 use crate::design::{joints, spread};
-use crate::report::{Separation, Told};
 use crate::search::columns::{Columns, places};
 
 /// Poses that are proposed where the study does not say how many.
@@ -29,6 +29,32 @@ const MOST: usize = 16;
 
 /// By how much, in σ², the poses must be able to raise the squared difference of two effects; less tells nothing apart.
 const TELLING: f64 = 4.0;
+
+/// Poses that would tell an accepted effect from its class and its rivals.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Separation {
+    /// The name of the effect.
+    pub effect: String,
+    /// The joints, in the order of the poses' values.
+    pub joints: Vec<String>,
+    /// One list of joint values a pose, rad or m, the most telling first.
+    pub poses: Vec<Vec<f64>>,
+    /// The others that they tell it from.
+    pub apart: Vec<Told>,
+    /// The others that no pose within the ranges tells from it.
+    pub never: Vec<String>,
+}
+
+/// How well an effect can be told from another.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Told {
+    /// The name of the other.
+    pub name: String,
+    /// Sum of squares, in units of the noise, that the other leaves of the effect in the data so far, all else refitted.
+    pub now: f64,
+    /// The same once the poses are measured too; twice the log-likelihood to expect between the two.
+    pub then: f64,
+}
 
 /// The data as the search sees them, and the poses that could be measured in the same units.
 struct Design {

@@ -14,6 +14,8 @@ use serde::Serialize;
 use crate::data::Observations;
 use crate::fit::{FitError, FitResult, Model};
 
+pub use discrimination::{Separation, Told};
+
 /// Poses that are compared.
 const CANDIDATES: usize = 600;
 

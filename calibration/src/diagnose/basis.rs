@@ -83,9 +83,8 @@ impl Basis {
         (-0.5 * (from / width).powi(2)).exp()
     }
 
-    /// What a series is.
-    pub fn words(self, order: u32) -> String {
-        let kind = if self.turns { "Fourier series" } else { "series of cosines" };
-        format!("{kind} of order {order}")
+    /// Whether the driver turns all around.
+    pub fn turns(self) -> bool {
+        self.turns
     }
 }

@@ -4,19 +4,39 @@ use std::collections::BTreeMap;
 
 use model_core::algebra::Poly;
 use model_core::{Chain, SymbolId, SymbolKind};
+use serde::Serialize;
 
-use crate::calibrate::held_out::BeforeAfter;
+use super::rms::BeforeAfter;
 use crate::calibrate::round::Round;
 use crate::calibrate::{Loop, declared};
 use crate::candidate::{Effect, Place};
+use crate::data::SiUnit;
 use crate::effects::assembly_name;
-use crate::report::NotShown;
 
 /// Standard deviations at which an effect is found four times out of five, corrected for the size of the catalogue.
 const FOUND: f64 = 4.4;
 
 /// Shifts of declared errors this many times smaller than the largest are not told.
 const TOLD: f64 = 0.05;
+
+/// An effect that these data would not show below some size.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct NotShown {
+    /// Its name.
+    pub name: String,
+    /// The body that it moves.
+    pub body: String,
+    /// `Rx` to `Tz`.
+    pub dof: String,
+    /// The smallest amplitude that would be found four times out of five, SI; absent if no size would show.
+    pub smallest: Option<f64>,
+    /// `rad` or `m`.
+    pub unit: SiUnit,
+    /// The share of it that the declared errors absorb, 0 to 1.
+    pub absorbed: f64,
+    /// The bias that it would put into the declared errors: how far an effect of amplitude 1 SI would move each at most, SI.
+    pub mistaken_for: BTreeMap<String, f64>,
+}
 
 /// How far one standard uncertainty of an accepted effect, left out, would move each declared error, SI.
 pub(crate) fn bias(
@@ -26,7 +46,10 @@ pub(crate) fn bias(
     errors: &[SymbolId],
 ) -> BTreeMap<String, f64> {
     let columns = last.posed.problem.block(effect);
-    let sigmas = errors.iter().map(|&error| last.fitted.fit.standard_uncertainty(error).unwrap_or(0.0));
+    let sigmas = errors.iter().map(|&error| {
+        let sigma = last.fitted.fit.standard_uncertainty(error);
+        sigma.unwrap_or_else(|| unreachable!("the errors of an accepted effect are estimated"))
+    });
     moved(whole, last, columns.zip(sigmas))
 }
 
@@ -55,41 +78,42 @@ fn moved(
 }
 
 /// Effects that could be as large as the residual without these data showing them.
-pub(crate) fn not_shown(whole: &Loop<'_>, last: &Round<'_>, rms: BeforeAfter) -> Vec<NotShown> {
+pub(crate) fn not_shown(whole: &Loop<'_>, last: &Round<'_>, rms: &BeforeAfter) -> Vec<NotShown> {
     let problem = &last.posed.problem;
     let accepted: Vec<usize> = last.fitted.found.iter().map(|found| found.effect).collect();
-    let unmoved = whole.setting.unmoved().into_iter().map(|place| NotShown {
-        name: assembly_name(whole.setting.body_name(place.body), place.role, place.freedom),
+    let hidden = |name: String, place: Place| NotShown {
+        name,
+        body: whole.setting.body_name(place.body).to_owned(),
+        dof: place.freedom.word().to_owned(),
         smallest: None,
-        unit: place.freedom.quantity().unit(),
+        unit: place.freedom.quantity().into(),
         absorbed: 0.0,
         mistaken_for: BTreeMap::new(),
+    };
+    let unmoved = whole.setting.unmoved().into_iter().map(|place| {
+        hidden(assembly_name(whole.setting.body_name(place.body), place.role, place.freedom), place)
     });
     let mut list: Vec<NotShown> = unmoved.collect();
     for (number, effect) in whole.catalogue.iter().enumerate() {
         if accepted.contains(&number) || is_declared(&whole.request.plan.chain, effect) {
             continue;
         }
-        let unit = effect.place.freedom.quantity().unit();
-        let name = effect.name.clone();
+        let unseen = hidden(effect.name.clone(), effect.place);
         if problem.block(number).is_empty() {
-            list.push(NotShown { name, smallest: None, unit, absorbed: 0.0, mistaken_for: BTreeMap::new() });
+            list.push(unseen);
             continue;
         }
         let columns = problem.columns(number);
         let shortest = columns.iter().map(|&column| problem.length(column)).fold(f64::INFINITY, f64::min);
         let smallest = (!columns.is_empty()).then(|| FOUND / shortest);
-        if smallest.is_none_or(|smallest| smallest > rms.after.rms) {
+        if smallest.is_none_or(|smallest| smallest > rms.after.rms_kept) {
             let absorbed = 1.0 - problem.visible(number);
-            list.push(NotShown {
-                name,
-                smallest,
-                unit,
-                absorbed,
-                mistaken_for: mistaken_for(whole, last, number),
-            });
+            let mistaken_for = mistaken_for(whole, last, number);
+            list.push(NotShown { smallest, absorbed, mistaken_for, ..unseen });
         }
     }
+    let mut told = std::collections::BTreeSet::new();
+    list.retain(|effect| told.insert(effect.name.clone()));
     list
 }
 

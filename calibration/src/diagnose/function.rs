@@ -3,9 +3,11 @@
 use faer::Mat;
 use faer::linalg::solvers::SolveLstsq;
 use model_core::{Chain, Quantity};
+use serde::Serialize;
 
 use super::basis::Basis;
 use crate::candidate::Place;
+use crate::data::SiUnit;
 use crate::search::contest::Contender;
 
 /// Points of the shape that is reported.
@@ -19,30 +21,72 @@ const HIGHEST: usize = 12;
 
 /// What kind of function.
 pub(super) enum Kind {
-    /// The first of a series.
-    Series(Basis),
+    /// The first of a series, up to an order.
+    Series(Basis, u32),
     /// A bump, by its centre and width.
     Bump(Basis, (f64, f64)),
-    /// Of two joints, as the plain syntax of amounts has its functions.
-    OfTwo(Vec<String>),
+    /// Of two joints: its form in the catalogue, and its functions in the plain syntax of amounts.
+    OfTwo(String, Vec<String>),
+}
+
+/// The kind of a function, as the report has it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+pub enum Form {
+    /// Sines and cosines of a joint that turns all around.
+    Fourier {
+        /// The highest order.
+        order: u32,
+    },
+    /// Cosines over the range of the readings.
+    Cosines {
+        /// The highest order.
+        order: u32,
+    },
+    /// A bump.
+    Bump {
+        /// Where it is highest, SI.
+        centre: f64,
+        /// Its standard width, SI.
+        width: f64,
+        /// Their unit.
+        unit: SiUnit,
+    },
+    /// Products of harmonics or powers of two joints.
+    Product {
+        /// As the catalogue has it.
+        form: String,
+    },
 }
 
 /// A function at a place that explains the data better than the catalogue.
 pub(super) struct Function {
     pub place: Place,
     pub driver: String,
-    pub form: String,
+    pub driver_unit: SiUnit,
     pub kind: Kind,
     pub fitted: Contender,
 }
 
 impl Function {
+    /// What kind of function it is.
+    pub fn form(&self) -> Form {
+        match &self.kind {
+            Kind::Series(basis, order) if basis.turns() => Form::Fourier { order: *order },
+            Kind::Series(_, order) => Form::Cosines { order: *order },
+            Kind::Bump(_, (centre, width)) => {
+                Form::Bump { centre: *centre, width: *width, unit: self.driver_unit }
+            }
+            Kind::OfTwo(form, _) => Form::Product { form: form.clone() },
+        }
+    }
+
     /// Driver, value and two standard uncertainties over the range of the driver's readings; nothing for two drivers.
     pub fn shape(&self) -> Vec<Vec<f64>> {
         let (basis, at): (Basis, &dyn Fn(f64) -> Vec<f64>) = match &self.kind {
-            Kind::Series(basis) => (*basis, &|q| basis.series(q)),
+            Kind::Series(basis, _) => (*basis, &|q| basis.series(q)),
             Kind::Bump(basis, bump) => (*basis, &|q| vec![basis.bump(*bump, q)]),
-            Kind::OfTwo(_) => return Vec::new(),
+            Kind::OfTwo(..) => return Vec::new(),
         };
         let width = self.fitted.coefficients.len();
         (0..POINTS)
@@ -64,9 +108,9 @@ impl Function {
     /// The lines by which a study makes it an effect of its own; `None` for a bump, which no amount can follow.
     pub fn offer(&self, chain: &Chain) -> Option<String> {
         let functions = match &self.kind {
-            Kind::Series(basis) => self.in_words(chain, *basis)?,
+            Kind::Series(basis, _) => self.in_words(chain, *basis)?,
             Kind::Bump(..) => return None,
-            Kind::OfTwo(functions) => functions.clone(),
+            Kind::OfTwo(_, functions) => functions.clone(),
         };
         let quoted: Vec<String> = functions.iter().map(|function| format!("    \"{function}\",\n")).collect();
         let body = &chain.body(self.place.body).name;

@@ -1,9 +1,295 @@
-//! What a calibration means: what the data determine, what they would not show, and what structure is left.
+//! What a calibration means, as data: the verdict and everything that decides it, without a sentence.
+//!
+//! English is made of it in [`crate::report`]; `report.json` is this data itself.
 
 mod basis;
+mod caution;
 pub(crate) mod detectability;
+mod effects;
+mod ended;
+mod errors;
 mod function;
+mod instrument;
+mod noise;
 mod precision;
 pub(crate) mod remaining;
+pub(crate) mod rms;
+mod units;
+mod verdict;
 
+use serde::Serialize;
+
+use crate::calibrate::fitted::Fitted;
+use crate::calibrate::round::Round;
+use crate::calibrate::{CalibrateError, Loop, Stage};
+use crate::data::SiUnit;
+use crate::design::discrimination::separation;
+use crate::design::{Criterion, Proposal, Separation, propose};
+use crate::fit::FitResult;
+use crate::search::HeldOut;
+use effects::Others;
+use rms::BeforeAfter;
+use verdict::Evidence;
+
+pub use caution::{Caution, of_data};
+pub use detectability::NotShown;
+pub use effects::{Cause, EffectFound, Relation, Side};
+pub use ended::Ended;
+pub use errors::{ErrorFound, Estimable, Part};
+pub use function::Form;
+pub use instrument::{
+    BodyShown, ErrorShown, ErrorState, Instrument, JointShown, ObservedShown, ReadingShown,
+};
+pub use noise::{NoiseFound, SerialFound, SeriesNoise, VarianceFound};
 pub use precision::{Determined, NotSeparable, Precision, precision};
+pub use remaining::{Looked, Remaining, Where};
+pub use rms::Rms;
+pub use verdict::Verdict;
+
+/// Fewer observations than this are no evidence of an effect.
+const FEW: f64 = 5.0;
+
+/// What a calibration comes to, and everything that it found: `report.json`, whose keys are a promise.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Diagnosis {
+    /// The conclusion.
+    pub verdict: Verdict,
+    /// What casts doubt on it.
+    pub cautions: Vec<Caution>,
+    /// How the fits ended.
+    pub fit: Fits,
+    /// What was used.
+    pub observations: Used,
+    /// The declared and the new errors.
+    pub errors: Vec<ErrorFound>,
+    /// Combinations that these data determine of errors that they do not determine one by one.
+    pub estimable: Vec<Estimable>,
+    /// Errors that these data cannot tell apart: only combinations of those in one list are determined.
+    pub not_separable: Vec<Vec<String>>,
+    /// How well each error is determined, and which rows carry the fit.
+    pub precision: Precision,
+    /// The noise.
+    pub noise: NoiseFound,
+    /// Where to measure next, if the study asks: D-optimal, then A-optimal.
+    pub next_poses: Vec<Proposal>,
+    /// Where to measure next to tell accepted effects from others that explain these data as well.
+    pub separating: Vec<Separation>,
+    /// The effects that were accepted, in the order they came in.
+    pub effects: Vec<EffectFound>,
+    /// How the search was made; absent where none was, because the fit failed.
+    pub search: Option<Searching>,
+    /// What is left after the effects; absent where no search was made.
+    pub remaining: Option<Remaining>,
+    /// What these data could not have shown.
+    pub not_shown: Vec<NotShown>,
+    /// Residuals of the declaration as it was.
+    pub before: Rms,
+    /// Residuals of the amended one.
+    pub after: Rms,
+    /// Unit of the residuals: `rad` or `m`.
+    pub unit: SiUnit,
+    /// The chain with the effects that were found.
+    pub instrument: Instrument,
+}
+
+/// How the fits ended.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Fits {
+    /// That of the declaration as it was.
+    pub declared: Ended,
+    /// That of the amended one.
+    pub amended: Ended,
+    /// Combinations that the data determine, of how many parameters.
+    pub rank: [usize; 2],
+    /// Degrees of freedom of the residual.
+    pub degrees_of_freedom: f64,
+}
+
+/// How many observations were used, and which were not.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Used {
+    /// Observations read.
+    pub rows: usize,
+    /// Observations with weight.
+    pub used: usize,
+    /// Groups of rows that are not independent.
+    pub groups: usize,
+    /// The others.
+    pub set_aside: Vec<SetAsideRow>,
+}
+
+/// An observation that has no weight.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SetAsideRow {
+    /// Its number in its file, from 1.
+    pub row: u64,
+    /// Why.
+    pub why: String,
+}
+
+/// How a search was made.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Searching {
+    /// Candidate effects.
+    pub candidates: usize,
+    /// Classes of them that these data could tell apart.
+    pub classes: usize,
+    /// Folds that the search was repeated without.
+    pub folds: usize,
+    /// Sign flips behind a familywise p.
+    pub flips: usize,
+    /// Seed of folds and flips.
+    pub seed: u64,
+    /// The chance of any effect where there is none that was accepted.
+    pub false_alarm: f64,
+}
+
+/// A search with what confirms it.
+pub(crate) struct Confirmed<'a> {
+    pub round: &'a Round<'a>,
+    pub held_out: &'a HeldOut,
+    pub rms: BeforeAfter,
+}
+
+/// What fits and search come to. Without a search the fit alone is told: it failed, or had too few observations.
+pub(crate) fn diagnose(
+    whole: &Loop<'_>,
+    before: &FitResult,
+    last: &Fitted,
+    confirmed: Result<Confirmed<'_>, BeforeAfter>,
+) -> Result<Diagnosis, CalibrateError> {
+    let request = whole.request;
+    let (observations, fit) = (request.observations, &last.fit);
+    let ended = Ended::from(&fit.outcome);
+    let noise = noise::noise(&last.chain, observations, fit, request.plan.fit.noise.sigma);
+    let errors = errors::errors(whole, last);
+    let precision = precision(&last.chain, observations, fit);
+    let found = match &confirmed {
+        Ok(confirmed) => Found::of(whole, confirmed)?,
+        Err(_) => Found::default(),
+    };
+    let rms = confirmed.as_ref().map_or_else(|rms| *rms, |confirmed| confirmed.rms);
+    let mut cautions = cautions(&found, whole, &rms);
+    if let (Ended::NotConverged { steps }, true) = (Ended::from(&before.outcome), !found.effects.is_empty()) {
+        cautions.push(Caution::DeclarationNotFitted { steps });
+    }
+    cautions.extend(caution::of_noise(&noise, fit.degrees_of_freedom));
+    cautions.extend(caution::of_data(&last.chain, observations, fit));
+    let remaining = found.remaining.as_ref();
+    let alone = found.effects.iter().all(|effect| effect.class.is_empty() && effect.rivals.is_empty());
+    let verdict = verdict::verdict(Evidence {
+        ended: &ended,
+        unnamed: remaining.is_some_and(|remaining| remaining.place.is_some()),
+        structure: remaining.is_some_and(|remaining| remaining.p_value <= whole.options.false_alarm),
+        effects: !found.effects.is_empty(),
+        alone,
+        cautions: &cautions,
+    });
+    Ok(Diagnosis {
+        verdict,
+        cautions,
+        fit: Fits {
+            declared: Ended::from(&before.outcome),
+            amended: ended,
+            rank: [fit.rank, fit.parameters.len()],
+            degrees_of_freedom: fit.degrees_of_freedom,
+        },
+        observations: used(whole, fit),
+        instrument: instrument::instrument(&whole.setting, &last.chain, observations, &errors),
+        errors,
+        estimable: Vec::new(),
+        not_separable: precision.not_separable.iter().map(|set| set.names.clone()).collect(),
+        next_poses: if verdict.is_usable() { next_poses(whole, last) } else { Vec::new() },
+        separating: found.separating,
+        precision,
+        noise,
+        effects: found.effects,
+        search: found.search,
+        remaining: found.remaining,
+        not_shown: found.not_shown,
+        before: rms.before,
+        after: rms.after,
+        unit: observations.series.first().map_or(SiUnit::RAD, |series| series.measure.unit()),
+    })
+}
+
+/// What a search found.
+#[derive(Default)]
+struct Found {
+    effects: Vec<EffectFound>,
+    separating: Vec<Separation>,
+    remaining: Option<Remaining>,
+    not_shown: Vec<NotShown>,
+    search: Option<Searching>,
+}
+
+impl Found {
+    fn of(whole: &Loop<'_>, confirmed: &Confirmed<'_>) -> Result<Self, CalibrateError> {
+        let last = confirmed.round;
+        let others = effects::others(last);
+        let effects = effects::effects(whole, last, confirmed.held_out, &others);
+        let separating = |(at, others): (usize, &Others)| {
+            let all: Vec<usize> = others.alike.iter().chain(&others.rivals).copied().collect();
+            separation(whole, last, at, &all, &others.behind)
+        };
+        (whole.tell)(Stage::Remaining);
+        Ok(Self {
+            separating: others.iter().enumerate().filter_map(separating).collect(),
+            effects,
+            remaining: Some(remaining::remaining(whole, last)?),
+            not_shown: detectability::not_shown(whole, last, &confirmed.rms),
+            search: Some(Searching {
+                candidates: whole.catalogue.len(),
+                classes: last.classes.len(),
+                folds: confirmed.held_out.chosen.len(),
+                flips: whole.options.flips,
+                seed: whole.options.seed,
+                false_alarm: whole.options.false_alarm,
+            }),
+        })
+    }
+}
+
+/// What was found that casts doubt on itself.
+fn cautions(found: &Found, whole: &Loop<'_>, rms: &BeforeAfter) -> Vec<Caution> {
+    let mut cautions = Vec::new();
+    if !found.effects.is_empty() {
+        cautions.extend(caution::of_rms(rms));
+    }
+    for effect in found.effects.iter().filter(|effect| effect.observations < FEW) {
+        let (effect, observations) = (effect.names[0].clone(), effect.observations);
+        cautions.push(Caution::FewBehindAnEffect { effect, observations });
+    }
+    if found.effects.len() >= whole.options.most {
+        cautions.push(Caution::LimitOfEffects { effects: found.effects.len() });
+    }
+    cautions
+}
+
+fn used(whole: &Loop<'_>, fit: &FitResult) -> Used {
+    let observations = whole.request.observations;
+    let row_number = |row: usize| observations.row_numbers.get(row).copied().unwrap_or(row as u64 + 1);
+    let mut groups = observations.groups.clone();
+    groups.sort_unstable();
+    groups.dedup();
+    Used {
+        rows: observations.rows(),
+        used: observations.rows() - fit.set_aside.len(),
+        groups: groups.len(),
+        set_aside: fit
+            .set_aside
+            .iter()
+            .map(|aside| SetAsideRow { row: row_number(aside.row), why: aside.why.clone() })
+            .collect(),
+    }
+}
+
+/// The poses that the study asks for; none if it asks for none, or if they cannot be computed.
+fn next_poses(whole: &Loop<'_>, last: &Fitted) -> Vec<Proposal> {
+    let Some(next) = &whole.request.plan.next else { return Vec::new() };
+    let proposal = |criterion| {
+        let observations = whole.request.observations;
+        propose(&last.chain, observations, &last.fit, next.count, &next.ranges, criterion).ok()
+    };
+    [Criterion::D, Criterion::A].into_iter().filter_map(proposal).collect()
+}

@@ -3,16 +3,17 @@
 use faer::Mat;
 use model_core::{Quantity, Role, SymbolId, SymbolKind, print};
 use rayon::prelude::*;
+use serde::Serialize;
 
 use super::basis::Basis;
-use super::function::{Function, Kind};
+use super::function::{Form, Function, Kind};
+use super::units::of_reading;
 use crate::calibrate::round::Round;
 use crate::calibrate::{CalibrateError, Loop, declared};
 use crate::candidate::{Effect, Freedom, Place};
-use crate::data::Observations;
+use crate::data::{Observations, SiUnit};
 use crate::effects::{SmoothPlace, smooth, tensor};
 use crate::fit::noise::Layout;
-use crate::report::{Looked, Remaining, Where};
 use crate::search::columns::{self, Columns};
 use crate::search::contest::{Price, contender, criterion, most_telling};
 use crate::search::flips::Signs;
@@ -32,6 +33,47 @@ const LAGS: std::ops::RangeInclusive<usize> = 1..=3;
 /// Penalised log-likelihood by which a smooth function must beat the catalogue's model: six units of Schwarz's
 /// criterion.
 const BETTER: f64 = 3.0;
+
+/// What is left of structure in the residual.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Remaining {
+    /// Chance of at least as much structure in noise, all that was looked at taken together.
+    pub p_value: f64,
+    /// The rows that were looked at: all, or a sample from all over the data where they are many.
+    pub rows: usize,
+    /// What was looked at.
+    pub looked: Vec<Looked>,
+    /// Where it sits, if one smooth function at one place explains the data better than the catalogue does.
+    #[serde(rename = "where")]
+    pub place: Option<Where>,
+    /// The smooth function there, whole: driver, value and two standard uncertainties, SI.
+    pub shape: Vec<Vec<f64>>,
+    /// Lines for the study that make the function there an effect of its own; absent for a bump, which no amount of a
+    /// declaration can follow.
+    pub offer: Option<String>,
+}
+
+/// One statistic of what is left.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Looked {
+    /// What it looks at: `neighbours along beta`.
+    pub at: String,
+    /// Chance of as much in noise, of this statistic alone.
+    pub p_value: f64,
+}
+
+/// A place in the chain.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Where {
+    /// The body.
+    pub body: String,
+    /// `Rx` to `Tz`.
+    pub dof: String,
+    /// The joint or input.
+    pub driver: String,
+    /// The kind of function.
+    pub form: Form,
+}
 
 /// Everything that the scans read.
 struct Scanned<'a> {
@@ -125,7 +167,7 @@ pub(crate) fn remaining(whole: &Loop<'_>, last: &Round<'_>) -> Result<Remaining,
         body: chain.body(function.place.body).name.clone(),
         dof: function.place.freedom.word().to_owned(),
         driver: function.driver.clone(),
-        form: function.form.clone(),
+        form: function.form(),
     });
     let offer = best.as_ref().and_then(|function| function.offer(chain));
     let shape = best.as_ref().map_or_else(Vec::new, Function::shape);
@@ -185,8 +227,9 @@ impl Scanned<'_> {
         each.par_extend(self.tensors.par_iter().map(|(effect, columns)| Function {
             place: effect.place,
             driver: effect.driver.clone(),
-            form: effect.form.clone(),
+            driver_unit: SiUnit::ONE,
             kind: Kind::OfTwo(
+                effect.form.clone(),
                 effect.functions.iter().map(|f| print::text(&f.amount, whole.setting.chain)).collect(),
             ),
             fitted: contender(left, columns.as_ref(), price),
@@ -202,10 +245,10 @@ impl Scanned<'_> {
     fn at(&self, whole: &Loop<'_>, smooth: SmoothPlace, places: usize, left: &Left<'_>) -> Vec<Function> {
         let Some(driver) = self.driver(smooth.driver) else { return Vec::new() };
         let (basis, classes) = (driver.basis, self.last.classes.len());
-        let function = |form, kind, fitted| Function {
+        let function = |kind, fitted| Function {
             place: smooth.place,
             driver: whole.setting.name(smooth.driver).to_owned(),
-            form,
+            driver_unit: of_reading(&whole.setting, whole.setting.chain, smooth.driver),
             kind,
             fitted,
         };
@@ -215,16 +258,14 @@ impl Scanned<'_> {
         for &(order, width) in orders.iter().filter(|&&(_, width)| width <= series.ncols()) {
             let price = Price { classes, functions: places * orders.len(), parameters: 0 };
             let fitted = contender(left, series.subcols(0, width), price);
-            all.push(function(basis.words(order), Kind::Series(basis), fitted));
+            all.push(function(Kind::Series(basis, order), fitted));
         }
         let columns = self.sheet(smooth.place, &driver.bumps);
         let bumps = basis.bumps();
         for at in most_telling(left, columns.as_ref()) {
-            let (centre, width) = bumps[at];
             let price = Price { classes, functions: places, parameters: 2 };
             let fitted = contender(left, columns.subcols(at, 1), price);
-            let form = format!("bump at {centre:.2}, of width {width:.2}");
-            all.push(function(form, Kind::Bump(basis, bumps[at]), fitted));
+            all.push(function(Kind::Bump(basis, bumps[at]), fitted));
         }
         all
     }

@@ -232,7 +232,7 @@ mod tests {
             when: "2026-11-21",
         };
         let observables = [observations.series[0].observable];
-        let [all, merged] = [1 << 24, 1 << 19].map(|held| Loop::new(request, &observables, held));
+        let [all, merged] = [1 << 24, 1 << 19].map(|held| Loop::new(request, &observables, held).unwrap());
         let of_all = Round::at(&all, Fitted::first(&all).unwrap()).unwrap();
         let of_merged = Round::at(&merged, Fitted::first(&merged).unwrap()).unwrap();
         assert!(of_merged.posed.problem.rows().nrows() < ROWS / 2);

@@ -1,7 +1,7 @@
 //! What the data can say, and where to measure next.
 
 use calibration::design::{Criterion, propose};
-use calibration::diagnose::precision;
+use calibration::diagnose::{Caution, of_data, precision};
 use calibration::fit::{FitOptions, fit};
 
 use model_core::identify::identify;
@@ -87,19 +87,23 @@ fn wrong_units_and_signs_are_hinted_at() {
         change(&mut observations);
         let result =
             fit(&simulation.chain, &observations, &FitOptions::for_chain(&simulation.chain)).unwrap();
-        precision(&simulation.chain, &observations, &result).hints.join("\n")
+        of_data(&simulation.chain, &observations, &result)
     };
-    assert_eq!(said(&|_| {}), "");
+    let any = |said: &[Caution], is: fn(&Caution) -> bool| assert!(said.iter().any(is), "{said:?}");
+    assert_eq!(said(&|_| {}), []);
     let column = |at: usize, factor: f64| {
         move |observations: &mut calibration::data::Observations| {
             observations.columns[at].1.iter_mut().for_each(|value| *value *= factor);
         }
     };
-    assert!(said(&column(0, 57.295_779_513)).contains("degrees taken for radians"));
-    assert!(said(&column(1, 0.017_453_292_5)).contains("radians taken for degrees"));
-    assert!(said(&column(0, -1.0)).contains("a swapped sign"));
-    let swapped = said(&|observations| observations.measured.iter_mut().for_each(|u| u.swap(0, 2)));
-    assert!(swapped.contains("swapped axes") || swapped.contains("an axis"), "{swapped}");
+    any(&said(&column(0, 57.295_779_513)), |caution| matches!(caution, Caution::DegreesAsRadians { .. }));
+    any(&said(&column(1, 0.017_453_292_5)), |caution| matches!(caution, Caution::RadiansAsDegrees { .. }));
+    any(&said(&column(0, -1.0)), |caution| {
+        matches!(caution, Caution::OutOfPlace { .. } | Caution::ErrorNotSmall { .. })
+    });
+    any(&said(&|observations| observations.measured.iter_mut().for_each(|u| u.swap(0, 2))), |caution| {
+        matches!(caution, Caution::OutOfPlace { .. } | Caution::ErrorNotSmall { .. })
+    });
 }
 
 /// What these data cannot tell apart is what no data could, set by set, when poses go all round.

@@ -10,13 +10,14 @@ use crate::data::{load, observations, study};
 fn nothing_more(path: &str) {
     let Some(loaded) = load(path) else { return };
     let first = loaded.calibrate();
-    assert!(!first.report.effects.is_empty(), "{path}: something is found");
-    let chain = Chain::from_text(&first.amended)
-        .unwrap_or_else(|mistakes| panic!("{}", mistakes.render("amended", &first.amended)));
+    assert!(!first.diagnosis.effects.is_empty(), "{path}: something is found");
+    let amended = first.amended.unwrap();
+    let chain = Chain::from_text(&amended)
+        .unwrap_or_else(|mistakes| panic!("{}", mistakes.render("amended", &amended)));
     let plan = study(path).plan(&chain).unwrap();
     for series in &loaded.observations.series {
         let form = forms::derive(&chain, series.observable, 1).unwrap();
-        for name in first.report.effects.iter().flat_map(|effect| effect.coefficients.keys()) {
+        for name in first.diagnosis.effects.iter().flat_map(|effect| effect.coefficients.keys()) {
             let id = chain.find_symbol(name).unwrap();
             let (_, column) = form.columns(&chain).into_iter().find(|(error, _)| *error == id).unwrap();
             assert!(
@@ -30,16 +31,17 @@ fn nothing_more(path: &str) {
         assert!(!program.inputs().is_empty());
     }
     let again = calibrate(Request {
-        text: &first.amended,
+        text: &amended,
         plan: &plan,
         observations: &observations(path, &plan),
         second: None,
         when: "2026-11-22",
     })
     .unwrap();
-    let found: Vec<_> = again.report.effects.iter().map(|effect| (&effect.names, effect.p_value)).collect();
+    let found: Vec<_> =
+        again.diagnosis.effects.iter().map(|effect| (&effect.names, effect.p_value)).collect();
     assert!(found.is_empty(), "{path}: {found:?}");
-    assert_eq!(again.amended, first.amended);
+    assert_eq!(again.amended, Some(amended));
 }
 
 #[test]

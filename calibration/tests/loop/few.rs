@@ -1,7 +1,7 @@
 //! An effect that hangs on a handful of observations is told as one.
 
 use calibration::data::Observations;
-use calibration::report::{Report, Verdict};
+use calibration::diagnose::{Diagnosis, Verdict};
 use calibration::study::Study;
 use model_core::Chain;
 
@@ -10,7 +10,7 @@ use crate::simulated::{lidar, measured, pointing, search};
 const ARCSEC: f64 = std::f64::consts::PI / 180.0 / 3600.0;
 
 /// The report on 300 poses, of which the first ones belong to a second session: there the middle frame stands otherwise.
-fn report(second: usize) -> Report {
+fn report(second: usize) -> Diagnosis {
     let text = lidar();
     let study = "chain = \"c\"\nobservable = \"pointing\"\ndata = \"d\"\n\
                  [columns]\ntemperature = { column = \"t\" }\nbeta_direction = { column = \"b\" }\n\
@@ -31,13 +31,13 @@ fn report(second: usize) -> Report {
     let session = (0..300).map(|row| if row < second { 1.0 } else { 0.0 }).collect();
     columns.push((plan.chain.find_symbol("session_2").unwrap(), session));
     columns.sort_by_key(|(id, _)| *id);
-    search(&text, &plan, &Observations { measured, columns, ..first }).report
+    search(&text, &plan, &Observations { measured, columns, ..first }).diagnosis
 }
 
 #[test]
 fn an_offset_of_three_rows_is_told_as_resting_on_few() {
     let report = report(3);
-    assert_eq!(report.verdict, Verdict::FewObservations, "{:?} {:?}", report.effects, report.observations);
+    assert_eq!(report.verdict, Verdict::TooFewObservations, "{:?} {:?}", report.effects, report.observations);
     assert!(report.effects[0].driver == "session_2", "{:?}", report.effects);
 }
 
@@ -46,5 +46,5 @@ fn the_same_offset_of_thirty_rows_is_explained() {
     let report = report(30);
     assert_eq!(report.effects.len(), 1, "{:?}", report.effects);
     assert!(report.effects[0].driver == "session_2", "{:?}", report.effects);
-    assert_eq!(report.verdict, Verdict::UpToAClass);
+    assert_eq!(report.verdict, Verdict::Confounded);
 }

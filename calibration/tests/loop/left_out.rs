@@ -4,8 +4,8 @@
 use calibration::calibrate::{Request, calibrate};
 use calibration::candidate::Freedom;
 use calibration::data::{Measure, Observations, Series, tangent_frame};
+use calibration::diagnose::{Diagnosis, EffectFound};
 use calibration::effects::assembly_name;
-use calibration::report::{EffectFound, Report};
 use calibration::study::{Plan, Study};
 use model_core::algebra::Poly;
 use model_core::{Chain, Factor, Motion, Role, SymbolId, SymbolKind, exact};
@@ -28,7 +28,7 @@ enum Said {
 }
 
 /// What a report says of an effect of this name and size; `None` if nothing.
-fn said(report: &Report, wanted: &str, size: f64) -> Option<Said> {
+fn said(report: &Diagnosis, wanted: &str, size: f64) -> Option<Said> {
     let named = report.effects.iter().any(|effect| {
         [&effect.names, &effect.class, &effect.rivals].into_iter().flatten().any(|name| name == wanted)
     });
@@ -138,7 +138,7 @@ fn each_of_the_scanners_30_errors_is_named_or_said_to_be_hidden() {
             second: None,
             when: "2026-11-21",
         };
-        let report = calibrate(request).unwrap().report;
+        let report = calibrate(request).unwrap().diagnosis;
         let name = full.symbol(error).name.clone();
         let said = said(&report, &wanted, size);
         let said = said.unwrap_or_else(|| panic!("{name}: {wanted} not among {:#?}", report.effects));
@@ -162,9 +162,9 @@ fn each_error_of_the_auxiliary_telescope_is_named_or_said_to_be_hidden() {
             second: None,
             when: "2026-11-21",
         };
-        let report = calibrate(request).unwrap().report;
+        let report = calibrate(request).unwrap().diagnosis;
         let name = study.plan.chain.symbol(error).name.clone();
-        let size = before.report.errors.iter().find(|e| e.name == name).unwrap().value.abs();
+        let size = before.diagnosis.errors.iter().find(|e| e.name == name).unwrap().value.abs();
         let declared = &study.plan.chain.bodies[body];
         let freedom = Freedom { motion: declared.factors[at].motion, axis: declared.factors[at].axis };
         let moves = |e: &EffectFound| e.dof.split(", ").any(|word| word == freedom.word());

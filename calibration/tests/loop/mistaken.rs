@@ -63,15 +63,16 @@ fn calibrated(droop: f64) -> Calibration {
 fn an_effect_that_does_not_show_shifts_the_errors_as_the_report_says() {
     let (plain, shifted) = (calibrated(0.0), calibrated(2.0 * ARCSEC));
     for found in [&plain, &shifted] {
-        assert!(found.report.effects.is_empty(), "{:?}", found.report.effects);
+        assert!(found.diagnosis.effects.is_empty(), "{:?}", found.diagnosis.effects);
     }
-    let hidden = plain.report.not_shown.iter().find(|effect| effect.name == "refraction, cot of elevation");
+    let hidden =
+        plain.diagnosis.not_shown.iter().find(|effect| effect.name == "refraction, cot of elevation");
     let hidden = hidden.expect("over so few degrees it does not show");
     assert!(hidden.absorbed > 0.95, "{hidden:?}");
     let largest = hidden.mistaken_for.values().copied().fold(0.0, f64::max);
     assert!(largest > 0.5, "{hidden:?}");
     let error = |found: &Calibration, name: &str| {
-        found.report.errors.iter().find(|error| error.name == name).unwrap().value
+        found.diagnosis.errors.iter().find(|error| error.name == name).unwrap().value
     };
     for name in
         ["elevation_index", "azimuth_index", "collimation", "nonperpendicularity", "tilt_east", "tilt_north"]

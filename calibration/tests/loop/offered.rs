@@ -1,6 +1,6 @@
 //! A function that no effect of the catalogue is, offered for the study: written there, it is found and declared.
 
-use calibration::report::Verdict;
+use calibration::diagnose::Verdict;
 use calibration::study::{Plan, Study};
 use model_core::Chain;
 
@@ -28,15 +28,16 @@ fn again_with_the_offer(driver: &str, moved: impl Fn([f64; 5]) -> f64 + Copy) {
     let turned = Chain::from_text(&turned).unwrap();
     let observations =
         measured(&first, 600, 8, |readings| pointing(&turned, &[("planted", moved(readings))], readings));
-    let report = search(&text, &first, &observations).report;
-    assert_eq!(report.verdict, Verdict::StructureRemains, "{:?} {:?}", report.effects, report.remaining);
-    assert_eq!(report.remaining.place.as_ref().unwrap().driver, driver, "{:?}", report.remaining.place);
-    let offer = report.remaining.offer.unwrap();
+    let report = search(&text, &first, &observations).diagnosis;
+    assert_eq!(report.verdict, Verdict::UnnamedFunction, "{:?} {:?}", report.effects, report.remaining);
+    let remaining = report.remaining.unwrap();
+    assert_eq!(remaining.place.as_ref().unwrap().driver, driver, "{:?}", remaining.place);
+    let offer = remaining.offer.unwrap();
 
     let second = plan(&chain, &offer);
-    let report = search(&text, &second, &observations).report;
+    let report = search(&text, &second, &observations).diagnosis;
     assert!(
-        matches!(report.verdict, Verdict::Explained | Verdict::UpToAClass),
+        matches!(report.verdict, Verdict::Explained | Verdict::Confounded),
         "{:?} {:?}\n{offer}",
         report.verdict,
         report.remaining

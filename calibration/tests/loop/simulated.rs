@@ -2,7 +2,7 @@
 
 use calibration::calibrate::{Calibration, Request, calibrate};
 use calibration::data::{Measure, Observations, Series, tangent_frame};
-use calibration::report::{EffectFound, Report, Verdict};
+use calibration::diagnose::{Diagnosis, EffectFound, Verdict};
 use calibration::study::{Plan, Study};
 use model_core::{Chain, SymbolId, exact};
 use nalgebra::Vector3;
@@ -98,14 +98,14 @@ fn planted(lines: &str) -> Chain {
 }
 
 /// What a search reports after planting.
-fn found(lines: &str, errors: &[(&str, f64)], seed: u64) -> Report {
+fn found(lines: &str, errors: &[(&str, f64)], seed: u64) -> Diagnosis {
     let text = lidar();
     let plan = plan(&Chain::from_text(&text).unwrap());
     let truth = planted(lines);
     let declared = [("dtheta_y1", 20.0 * ARCSEC), ("dtheta_x3", -15.0 * ARCSEC)];
     let all: Vec<(&str, f64)> = declared.iter().chain(errors).copied().collect();
     let observations = measured(&plan, 300, seed, |readings| pointing(&truth, &all, readings));
-    search(&text, &plan, &observations).report
+    search(&text, &plan, &observations).diagnosis
 }
 
 /// Whether an effect goes by a name, alone or in its class.
@@ -124,14 +124,14 @@ fn eight_kinds_are_named_right() {
             "encoder eccentricity of beta",
             // A coupling into the outer frame about the parallel axis does the very same, and beside the declared errors
             // gravity that winds the joint up.
-            Verdict::UpToAClass,
+            Verdict::Confounded,
         ),
         (
             "Rx(p*cos(2*beta) + q*sin(2*beta))",
             both(),
             "encoder ellipticity of beta",
             // A coupling into the outer frame about the parallel axis does the same.
-            Verdict::UpToAClass,
+            Verdict::Confounded,
         ),
         ("Rx(p*cos(5*beta))", vec![("p", six)], "encoder error of beta, 5 per turn", Verdict::Explained),
         (
@@ -140,14 +140,14 @@ fn eight_kinds_are_named_right() {
             "tilt about y of the beta axis, 2 per turn",
             // Both move the beam along x of the outer frame; about its y or z, a wave of once a turn is multiplied by the
             // beam's own sine or cosine.
-            Verdict::UpToAClass,
+            Verdict::Confounded,
         ),
         (
             "Rx(p*temperature)",
             vec![("p", six / 5.0)],
             "temperature in middle about x",
             // The x axes of the outer frame, of the middle one and of the inner one's bearing are parallel.
-            Verdict::UpToAClass,
+            Verdict::Confounded,
         ),
         ("Rx(p*beta_direction)", vec![("p", six)], "backlash of beta", Verdict::Explained),
         ("Rx(p*beta)", vec![("p", six)], "encoder scale of beta", Verdict::Explained),
@@ -156,7 +156,7 @@ fn eight_kinds_are_named_right() {
             vec![("p", six)],
             "coupling of gamma into middle about x, harmonic 2",
             // The outer frame's x axis is parallel.
-            Verdict::UpToAClass,
+            Verdict::Confounded,
         ),
     ] {
         let report = found(line, &errors, 5);
@@ -175,7 +175,7 @@ fn two_at_once_are_both_named() {
     for name in ["encoder ellipticity of beta", "temperature in middle about x"] {
         assert!(report.effects.iter().any(|effect| called(effect, name)), "{name}: {:?}", report.effects);
     }
-    assert_eq!(report.verdict, Verdict::UpToAClass);
+    assert_eq!(report.verdict, Verdict::Confounded);
 }
 
 #[test]
@@ -195,8 +195,8 @@ fn a_bump_in_no_catalogue_is_placed() {
         readings[1] += 25.0 * ARCSEC * (-0.5 * width * width).exp();
         pointing(&chain, &[], readings)
     });
-    let report = search(&text, &plan, &observations).report;
-    assert_eq!(report.verdict, Verdict::StructureRemains, "{:?} {:?}", report.effects, report.remaining);
-    let place = report.remaining.place.unwrap();
+    let report = search(&text, &plan, &observations).diagnosis;
+    assert_eq!(report.verdict, Verdict::UnnamedFunction, "{:?} {:?}", report.effects, report.remaining);
+    let place = report.remaining.unwrap().place.unwrap();
     assert_eq!((place.driver.as_str(), place.dof.as_str()), ("beta", "Rx"));
 }

@@ -1,25 +1,27 @@
 //! `trueaxis calibrate`: fit, residual, trace, amend, report.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use calibration::calibrate::{Request, calibrate_telling};
+use calibration::calibrate::{Calibration, Request, calibrate_telling};
 use calibration::formats::DataError;
 use calibration::study::{Plan, Study, StudyError};
 use model_core::Mistake;
 
 use super::{Answer, TextOrJson};
 use crate::failure::Failure;
-use crate::report::{self, Reported};
+use crate::report::{self, FileRead, Layout, Provenance, Reported};
 use crate::source::Source;
-use crate::{date, source, tables, terminal};
+use crate::{date, sha256, source, tables, terminal};
 
 /// Fit the errors to measured data, and find what the declaration lacks.
 ///
 /// Fits the declared errors, looks for structure in the residual, names the effect that explains it, amends the
 /// declaration, and judges the error before and after on data that nobody fitted. The study file names the chain,
 /// the data, their columns and what was observed.
+///
+/// Exit code 1, and no amended declaration, where no usable model came out.
 ///
 /// Example: trueaxis calibrate examples/mobile-lidar/study.toml --out result
 #[derive(Debug, clap::Args)]
@@ -32,6 +34,9 @@ pub struct Arguments {
     /// Only print how the declaration would change; write nothing
     #[arg(long, conflicts_with = "out")]
     dry_run: bool,
+    /// Tell everything: evidence, noise, poses to measure, what these data could not have shown
+    #[arg(long)]
+    verbose: bool,
     /// How to print
     #[arg(long, value_enum, default_value_t = TextOrJson::Text)]
     format: TextOrJson,
@@ -65,26 +70,59 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let calibration = calibrate_telling(request, &|stage| progress.set_message(stage.to_string()));
     progress.finish_and_clear();
     let calibration = calibration.map_err(|error| Failure::Input(error.to_string()))?;
+    let folder = arguments.out.as_ref().map(|folder| folder.display().to_string());
     let reported = Reported {
         calibration: &calibration,
         observations: &observations,
         chain_file: study.chain.get_ref(),
         chain_text: &chain_source.text,
-        date: &date,
+        folder: folder.as_deref(),
+        provenance: Provenance {
+            version: env!("CARGO_PKG_VERSION"),
+            command: std::env::args().collect::<Vec<_>>().join(" "),
+            date: date.clone(),
+            study: study_source.text.clone(),
+            files: files_read(arguments, &study_source, study.chain.get_ref(), &plan)?,
+        },
     };
     if arguments.dry_run {
         terminal::print(&report::diff(&reported))?;
-        return Ok(Answer::Done);
+        return Ok(answer(&calibration));
     }
     if let Some(folder) = &arguments.out {
         report::write_all(&reported, folder)?;
         terminal::note(format_args!("the report is in {}", folder.join("report.html").display()));
     }
+    let layout = Layout { width: terminal::width(), verbose: arguments.verbose };
     terminal::print(&match arguments.format {
-        TextOrJson::Text => report::as_text(&reported),
+        TextOrJson::Text => report::as_text(&reported, layout),
         TextOrJson::Json => report::json(&reported)?,
     })?;
-    Ok(Answer::Done)
+    Ok(answer(&calibration))
+}
+
+/// No, where no usable model came out.
+fn answer(calibration: &Calibration) -> Answer {
+    if calibration.diagnosis.verdict.is_usable() { Answer::Done } else { Answer::No }
+}
+
+/// The study, the declaration and the data with their checksums.
+fn files_read(
+    arguments: &Arguments,
+    study: &Source,
+    chain: &str,
+    plan: &Plan,
+) -> Result<Vec<FileRead>, Failure> {
+    let data = plan.sources.iter().flat_map(|source| &source.paths).chain(&plan.hold_out.file);
+    let mut files = vec![(arguments.study.display().to_string(), arguments.study.clone())];
+    for path in std::iter::once(chain).chain(data.map(String::as_str)) {
+        files.push((path.to_owned(), study.beside(Path::new(path))));
+    }
+    let read = |(path, place): (String, PathBuf)| {
+        let bytes = fs::read(&place).map_err(|error| source::not_readable(&place, &error))?;
+        Ok(FileRead { path, sha256: sha256::hex(&bytes) })
+    };
+    files.into_iter().map(read).collect()
 }
 
 /// `400 observations; fitting 30 errors, searching, and repeating the search in 10 folds`

@@ -1,27 +1,60 @@
 //! The files of a calibration, each written whole.
 
-use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-use model_core::SymbolKind;
+use calibration::data::SiUnit;
+use calibration::diagnose::Diagnosis;
+use serde::Serialize;
 
-use super::{Reported, html, quantities, residuals};
+use super::errors::errors_toml;
+use super::{Provenance, Reported, diff, html, residuals};
 use crate::failure::Failure;
-use crate::{output, tables};
+use crate::{output, tables, terminal};
 
-/// Writes `report.html`, `report.json`, `amended.chain`, `errors.toml` and `residuals.csv` into a folder, which is
-/// made if it is not there.
+/// The number of the promise that the keys of `report.json` are.
+const SCHEMA: u32 = 2;
+
+/// Writes `report.html`, `report.json` and `residuals.csv` into a folder, which is made if it is not there; and, where a
+/// usable model came out, `amended.chain` and `errors.toml`.
 ///
 /// # Errors
 /// The folder or a file cannot be written.
 pub fn write_all(reported: &Reported<'_>, folder: &Path) -> Result<(), Failure> {
     fs::create_dir_all(folder).map_err(|error| Failure::write(folder, &error))?;
     output::write_text(&folder.join("report.json"), &json(reported)?)?;
-    output::write_text(&folder.join("amended.chain"), &reported.calibration.amended)?;
-    output::write_text(&folder.join("errors.toml"), &errors(reported))?;
+    let calibration = reported.calibration;
+    for (name, text) in [
+        ("amended.chain", calibration.amended.clone()),
+        ("errors.toml", calibration.amended.as_ref().map(|_| errors(reported))),
+    ] {
+        match text {
+            Some(text) => output::write_text(&folder.join(name), &text)?,
+            None if folder.join(name).exists() => {
+                terminal::warn(format_args!("{name} in {} is from an earlier run", folder.display()));
+            }
+            None => {}
+        }
+    }
     write_residuals(reported, &folder.join("residuals.csv"))?;
     output::write_text(&folder.join("report.html"), &html::page(reported))
+}
+
+fn errors(reported: &Reported<'_>) -> String {
+    let calibration = reported.calibration;
+    let date = &reported.provenance.date;
+    errors_toml(&calibration.diagnosis, &calibration.chain, &calibration.after.values, date)
+}
+
+/// `report.json`: the diagnosis, and what it was made with.
+#[derive(Serialize)]
+struct Json<'a> {
+    schema: u32,
+    #[serde(flatten)]
+    diagnosis: &'a Diagnosis,
+    /// The declaration's change, as a unified diff; empty where nothing was added.
+    diff: String,
+    provenance: &'a Provenance,
 }
 
 /// The report for programs.
@@ -29,42 +62,15 @@ pub fn write_all(reported: &Reported<'_>, folder: &Path) -> Result<(), Failure> 
 /// # Errors
 /// A number in it is none.
 pub fn json(reported: &Reported<'_>) -> Result<String, Failure> {
-    serde_json::to_string_pretty(&reported.calibration.report)
+    let json = Json {
+        schema: SCHEMA,
+        diagnosis: &reported.calibration.diagnosis,
+        diff: diff(reported),
+        provenance: &reported.provenance,
+    };
+    serde_json::to_string_pretty(&json)
         .map(|text| text + "\n")
         .map_err(|error| Failure::Input(format!("the report cannot be written as JSON: {error}")))
-}
-
-/// Estimates as an errors file, each with a remark for people.
-fn errors(reported: &Reported<'_>) -> String {
-    let calibration = reported.calibration;
-    let mut text = format!(
-        "# Errors of {}, calibrated on {}; for `trueaxis eval`, `trueaxis apply` and amended.chain.\n",
-        calibration.chain.name, reported.date
-    );
-    let found = &calibration.report.errors;
-    let width = found.iter().map(|error| error.name.len()).max().unwrap_or_default();
-    for error in found {
-        let quantity = match error.unit {
-            "1" => format!("{:?}", error.value),
-            unit => format!("\"{:?} {unit}\"", error.value),
-        };
-        let told = quantities::estimate(error.value, error.standard_uncertainty, error.unit);
-        let alone = if error.separable { "" } else { ", determined only together with others" };
-        let _ = writeln!(text, "{:width$} = {quantity:32} # {told}{alone}", error.name);
-    }
-    // Errors that were held at a value belong to the model as much as those that were estimated.
-    for (symbol, &value) in calibration.chain.symbols.iter().zip(&calibration.after.values) {
-        let estimated = found.iter().any(|error| error.name == symbol.name);
-        if symbol.kind == SymbolKind::Error && value != 0.0 && !estimated {
-            let _ = writeln!(
-                text,
-                "{:width$} = {value:?} # held fixed, in {}",
-                symbol.name,
-                symbol.quantity.unit()
-            );
-        }
-    }
-    text
 }
 
 /// One row an observation: its number, the readings, and the residual components before and after, in SI.
@@ -78,7 +84,7 @@ fn write_residuals(reported: &Reported<'_>, path: &Path) -> Result<(), Failure> 
     let weights = &reported.calibration.after.residuals.weight;
     tables::write(path, |writer| {
         let readings = residuals::readings(reported).map(|(name, unit, _)| match unit {
-            "1" => name.to_owned(),
+            SiUnit::ONE => name.to_owned(),
             unit => format!("{name} [{unit}]"),
         });
         writer

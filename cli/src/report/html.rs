@@ -1,12 +1,13 @@
 //! A calibration as one page for a browser: nothing in it comes from elsewhere, no script runs.
 
-use calibration::report::Report;
+use calibration::diagnose::Diagnosis;
+use calibration::report as words;
+use calibration::report::numbers as quantities;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::pictures::{self, Axes};
 use super::residuals::{self, Component};
-use super::summary::{cautions, diff, evidence, not_separable, what_it_means};
-use super::{Reported, hidden, next, quantities};
+use super::{Reported, diff};
 
 /// How the page looks.
 const STYLE: &str = "
@@ -25,7 +26,7 @@ ins { background: #e2f3e4; text-decoration: none; } del { background: #fbe4e1; t
 /// The whole page.
 #[must_use]
 pub fn page(reported: &Reported<'_>) -> String {
-    let report = &reported.calibration.report;
+    let report = &reported.calibration.diagnosis;
     let name = &reported.calibration.chain.name;
     html! {
         (DOCTYPE)
@@ -39,14 +40,13 @@ pub fn page(reported: &Reported<'_>) -> String {
             body {
                 h1 { "Calibration of " (name) }
                 p.quiet {
-                    (reported.date) ", " (reported.chain_file) ", " (report.observations.used) " of "
+                    (reported.provenance.date) ", " (reported.chain_file) ", " (report.observations.used) " of "
                     (report.observations.rows) " observations used"
                 }
                 section {
-                    p.verdict { (report.verdict.words()) }
-                    p { (what_it_means(report)) }
+                    p.verdict { (words::answers(report, reported.folder).happened) }
                     (before_and_after(report))
-                    @for line in cautions(report) { p.caution { (line) } }
+                    @for caution in &report.cautions { p.caution { (words::caution(caution, report)) } }
                 }
                 (effects(report))
                 (residual_pictures(reported))
@@ -63,7 +63,7 @@ pub fn page(reported: &Reported<'_>) -> String {
     .into_string()
 }
 
-fn before_and_after(report: &Report) -> Markup {
+fn before_and_after(report: &Diagnosis) -> Markup {
     let told = |si: Option<f64>| si.map_or_else(|| "none".to_owned(), |si| quantities::told(si, report.unit));
     html! {
         table {
@@ -78,18 +78,18 @@ fn before_and_after(report: &Report) -> Markup {
                 td.number { (told(report.before.held_out_rms)) }
                 td.number { (told(report.after.held_out_rms)) }
             }
-            @if report.after.held_out_rms_of_all != report.after.held_out_rms {
+            @if report.after.held_out_rms_kept != report.after.held_out_rms {
                 tr {
-                    td { "the same with the outliers there" }
-                    td.number { (told(report.before.held_out_rms_of_all)) }
-                    td.number { (told(report.after.held_out_rms_of_all)) }
+                    td { "the same without rows out of reach" }
+                    td.number { (told(report.before.held_out_rms_kept)) }
+                    td.number { (told(report.after.held_out_rms_kept)) }
                 }
             }
         }
     }
 }
 
-fn effects(report: &Report) -> Markup {
+fn effects(report: &Diagnosis) -> Markup {
     html! {
         @if !report.effects.is_empty() {
             section {
@@ -97,7 +97,7 @@ fn effects(report: &Report) -> Markup {
                 @for effect in &report.effects {
                     h3 { code { (effect.text) } " in body " (effect.body) }
                     p { (effect.names.join(", ")) }
-                    ul { @for line in evidence(effect, report) { li { (line) } } }
+                    ul { @for line in words::evidence(effect, report) { li { (line) } } }
                 }
             }
         }
@@ -132,7 +132,12 @@ fn unit_of(component: &Component) -> quantities::Reading {
     quantities::reading(component.unit, largest)
 }
 
-fn over_a_reading(component: &Component, name: &str, unit: &str, values: &[f64]) -> String {
+fn over_a_reading(
+    component: &Component,
+    name: &str,
+    unit: calibration::data::SiUnit,
+    values: &[f64],
+) -> String {
     let drawn = unit_of(component);
     let reading = quantities::reading(unit, values.iter().fold(0.0, |a: f64, b| a.max(b.abs())));
     let points = |residuals: &[Option<f64>]| -> Vec<(f64, f64)> {
@@ -141,8 +146,8 @@ fn over_a_reading(component: &Component, name: &str, unit: &str, values: &[f64])
     };
     let axes = Axes {
         title: &format!("{} over {name}", component.name),
-        x: &quantities::name_with_unit(name, reading.name),
-        y: &quantities::name_with_unit(component.name, drawn.name),
+        x: &quantities::name_with_unit(name, &reading.name),
+        y: &quantities::name_with_unit(component.name, &drawn.name),
     };
     pictures::before_and_after(&axes, &points(&component.before), &points(&component.after))
 }
@@ -155,79 +160,46 @@ fn normal(component: &Component) -> String {
     let axes = Axes {
         title: &format!("{} against normal noise", component.name),
         x: "quantile of the normal distribution",
-        y: &quantities::name_with_unit(component.name, drawn.name),
+        y: &quantities::name_with_unit(component.name, &drawn.name),
     };
     pictures::normal_quantiles(&axes, &numbers(&component.before), &numbers(&component.after))
 }
 
-fn remaining(report: &Report) -> Markup {
+fn remaining(report: &Diagnosis) -> Markup {
     html! {
-        @if let Some(place) = &report.remaining.place {
-            section {
-                h2 { "What is left" }
-                p {
-                    "A function of " (place.driver) " at " (place.dof) " of body " (place.body)
-                    " explains these data better than the catalogue does: a " (place.form)
-                    ". Chance from noise of what the catalogue leaves"
-                    (quantities::sampled(report.remaining.rows, report.observations.rows)) ": "
-                    (quantities::chance(report.remaining.p_value)) "."
-                }
-                (PreEscaped(shape(report, &place.driver)))
-                @if let Some(offer) = &report.remaining.offer {
-                    p { "To let the declaration have it, write into the study and calibrate again:" }
-                    pre { (offer) }
-                }
-            }
+        section {
+            h2 { "What is left" }
+            @for line in words::remaining(report) { p { (line) } }
         }
     }
 }
 
-/// The smooth function that is left, with its band.
-fn shape(report: &Report, driver: &str) -> String {
-    let rows: Vec<[f64; 3]> =
-        report.remaining.shape.iter().filter_map(|row| row.as_slice().try_into().ok()).collect();
-    if rows.is_empty() {
-        return String::new();
-    }
-    let largest = rows.iter().fold(0.0, |a: f64, row| a.max(row[1].abs() + row[2]));
-    let drawn = quantities::reading(report.unit, largest);
-    let rows: Vec<[f64; 3]> =
-        rows.iter().map(|row| [row[0], row[1] / drawn.in_si, row[2] / drawn.in_si]).collect();
-    let axes = Axes { title: "its shape, ± 2 standard uncertainties", x: driver, y: drawn.name };
-    pictures::shape(&axes, &rows)
-}
-
-fn errors(report: &Report) -> Markup {
+fn errors(report: &Diagnosis) -> Markup {
     html! {
         section {
             h2 { "Errors" }
             table {
                 tr { th { "error" } th.number { "estimate ± standard uncertainty" } }
-                @for error in report.errors.iter().filter(|error| error.separable) {
-                    tr {
-                        td { code { (error.name) } }
-                        td.number {
-                            (quantities::estimate(error.value, error.standard_uncertainty, error.unit))
-                        }
-                    }
+                @for line in words::estimates(report).lines {
+                    tr { td { code { (line.what) } } td.number { (line.estimate) } }
                 }
             }
-            @for line in not_separable(report) { p { (line) } }
+            @for line in words::estimates(report).notes { p { (line) } }
         }
     }
 }
 
-fn noise(report: &Report) -> Markup {
+fn noise(report: &Diagnosis) -> Markup {
     html! {
         section {
             h2 { "Noise" }
-            ul { @for line in &report.precision.noise { li { (line) } } }
+            ul { @for line in words::noise(report) { li { (line) } } }
         }
     }
 }
 
 fn measure_next(reported: &Reported<'_>) -> Markup {
-    let tables = next::tables(reported);
+    let tables = words::pose_tables(&reported.calibration.diagnosis);
     html! {
         @if !tables.is_empty() {
             section {
@@ -247,7 +219,7 @@ fn measure_next(reported: &Reported<'_>) -> Markup {
     }
 }
 
-fn set_aside(report: &Report) -> Markup {
+fn set_aside(report: &Diagnosis) -> Markup {
     html! {
         @if !report.observations.set_aside.is_empty() {
             section {
@@ -263,7 +235,7 @@ fn set_aside(report: &Report) -> Markup {
     }
 }
 
-fn not_shown(report: &Report) -> Markup {
+fn not_shown(report: &Diagnosis) -> Markup {
     html! {
         @if !report.not_shown.is_empty() {
             section {
@@ -273,8 +245,8 @@ fn not_shown(report: &Report) -> Markup {
                     @for effect in &report.not_shown {
                         tr {
                             td { (effect.name) }
-                            td { (hidden::size(effect)) }
-                            td { (hidden::fate(effect)) }
+                            td { (words::size(effect)) }
+                            td { (words::fate(effect)) }
                         }
                     }
                 }

@@ -1,21 +1,20 @@
 //! A calibration set in type: for the terminal, as a page for a browser, and as files for the next command.
 //!
-//! Every number and every word of judgement comes from `calibration`; here they only get a form.
+//! Every number comes from `calibration`'s diagnosis and every sentence from its report; here they only get a form.
 
+mod errors;
 mod files;
-mod hidden;
 mod html;
-mod next;
 mod pictures;
-mod quantities;
 mod residuals;
-mod summary;
+mod text;
+mod wrap;
 
 use calibration::calibrate::Calibration;
 use calibration::data::Observations;
 
 pub use files::{json, write_all};
-pub use summary::{as_text, diff};
+pub use text::{Layout, as_text, diff};
 
 /// A calibration and what it was made from.
 pub struct Reported<'a> {
@@ -27,6 +26,32 @@ pub struct Reported<'a> {
     pub chain_file: &'a str,
     /// The user's declaration as written.
     pub chain_text: &'a str,
+    /// The folder that the files go to, if they are written.
+    pub folder: Option<&'a str>,
+    /// What it was made with.
+    pub provenance: Provenance,
+}
+
+/// What a calibration was made with: enough to make it again.
+#[derive(Debug, Clone, serde::Serialize)]
+pub struct Provenance {
+    /// Version of the command.
+    pub version: &'static str,
+    /// The command line.
+    pub command: String,
     /// The date, as `2026-11-21`.
-    pub date: &'a str,
+    pub date: String,
+    /// The study's text as written.
+    pub study: String,
+    /// Every file that was read.
+    pub files: Vec<FileRead>,
+}
+
+/// A file that was read.
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
+pub struct FileRead {
+    /// Its path as the study, or the command line, names it.
+    pub path: String,
+    /// SHA-256 of its bytes.
+    pub sha256: String,
 }

@@ -1,6 +1,6 @@
 //! Pictures of residuals and shapes, each an SVG that stands in the page itself.
 
-use kuva::prelude::{BandPlot, Layout, LinePlot, Plot, ScatterPlot, render_to_svg};
+use kuva::prelude::{Layout, Plot, ScatterPlot, render_to_svg};
 use statrs::distribution::{ContinuousCDF as _, Normal};
 
 /// Colour of what was before.
@@ -32,17 +32,6 @@ pub fn normal_quantiles(axes: &Axes<'_>, before: &[f64], after: &[f64]) -> Strin
     let plots = [(before, BEFORE, "before"), (after, AFTER, "after")]
         .map(|(residuals, colour, name)| points(&quantiles(residuals), colour, name));
     draw(axes, plots.into())
-}
-
-/// A function with its band of two standard uncertainties: rows of place, value, two standard uncertainties.
-#[must_use]
-pub fn shape(axes: &Axes<'_>, rows: &[[f64; 3]]) -> String {
-    let places = rows.iter().map(|row| row[0]);
-    let low = rows.iter().map(|row| row[1] - row[2]);
-    let high = rows.iter().map(|row| row[1] + row[2]);
-    let band = BandPlot::new(places, low, high).with_color(AFTER).with_opacity(0.2);
-    let line = LinePlot::new().with_data(rows.iter().map(|row| (row[0], row[1]))).with_color(AFTER);
-    draw(axes, vec![band.into(), line.with_stroke_width(2.0).into()])
 }
 
 fn points(points: &[(f64, f64)], colour: &str, name: &str) -> Plot {

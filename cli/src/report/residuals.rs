@@ -1,6 +1,6 @@
 //! Residuals row by row: before and after, beside the readings.
 
-use calibration::data::Measure;
+use calibration::data::SiUnit;
 use calibration::fit::FitResult;
 use model_core::SymbolId;
 
@@ -11,21 +11,11 @@ pub struct Component {
     /// `across`, `along`, `x`, …
     pub name: &'static str,
     /// `rad` or `m`.
-    pub unit: &'static str,
+    pub unit: SiUnit,
     /// Of the declaration as it was, one a row.
     pub before: Vec<Option<f64>>,
     /// Of the amended one, one a row.
     pub after: Vec<Option<f64>>,
-}
-
-/// What the components of a measure are called.
-fn names(measure: Measure) -> &'static [&'static str] {
-    match measure {
-        Measure::Direction => &["across", "along"],
-        Measure::Point => &["x", "y", "z"],
-        Measure::Range => &["range"],
-        Measure::Azimuth => &["azimuth"],
-    }
 }
 
 /// Every component that the observations have, in order of first appearance.
@@ -36,7 +26,7 @@ pub fn components(reported: &Reported<'_>) -> Vec<Component> {
     let after = by_row(&reported.calibration.after, rows);
     let mut components: Vec<Component> = Vec::new();
     for (row, measure) in reported.observations.measures().enumerate() {
-        for (index, &name) in names(measure).iter().enumerate() {
+        for (index, &name) in measure.component_names().iter().enumerate() {
             let at = components.iter().position(|component| component.name == name).unwrap_or_else(|| {
                 let absent = vec![None; rows];
                 components.push(Component {
@@ -66,10 +56,10 @@ fn by_row(fit: &FitResult, rows: usize) -> Vec<Vec<f64>> {
 }
 
 /// The joints and inputs that were read, with their names and units.
-pub fn readings<'a>(reported: &'a Reported<'_>) -> impl Iterator<Item = (&'a str, &'static str, &'a [f64])> {
+pub fn readings<'a>(reported: &'a Reported<'_>) -> impl Iterator<Item = (&'a str, SiUnit, &'a [f64])> {
     let chain = &reported.calibration.chain;
     reported.observations.columns.iter().map(move |(id, values): &(SymbolId, Vec<f64>)| {
         let symbol = chain.symbol(*id);
-        (symbol.name.as_str(), symbol.quantity.unit(), values.as_slice())
+        (symbol.name.as_str(), symbol.quantity.into(), values.as_slice())
     })
 }

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use calibration::calibrate::{Request, calibrate};
 use calibration::candidate::Effect;
 use calibration::data::Observations;
-use calibration::report::{EffectFound, Report, Verdict};
+use calibration::diagnose::{Diagnosis, EffectFound, Verdict};
 use calibration::study::NextPoses;
 use model_core::{Chain, Motion, Role, SymbolId};
 use rand::{RngExt, SeedableRng};
@@ -21,9 +21,9 @@ use crate::rate::{Line, Rate, Target};
 /// Standard deviation of the declared errors, in σ of the noise.
 const DECLARED: f64 = 10.0;
 
-fn calibrated(design: &Design, observations: &Observations) -> Result<Report, Failure> {
+fn calibrated(design: &Design, observations: &Observations) -> Result<Diagnosis, Failure> {
     let request = Request { text: TEXT, plan: &design.plan, observations, second: None, when: "2026-11-21" };
-    Ok(calibrate(request)?.report)
+    Ok(calibrate(request)?.diagnosis)
 }
 
 /// Values of a chain's symbols with the declared errors drawn.
@@ -200,9 +200,9 @@ pub fn local_defect(count: usize) -> Result<Vec<Line>, Failure> {
                 &design.observe(&design.readings, &design.plan.chain, values, &sampled, bent),
             )?;
             let alarm = report.verdict != Verdict::NothingDetectable;
-            let place = report.remaining.place.as_ref();
+            let place = report.remaining.as_ref().and_then(|left| left.place.as_ref());
             let right = place.is_some_and(|place| (&place.driver, &place.dof) == (&bump.driver, &bump.dof));
-            let explained = matches!(report.verdict, Verdict::Explained | Verdict::UpToAClass);
+            let explained = matches!(report.verdict, Verdict::Explained | Verdict::Confounded);
             Ok((alarm, right, explained))
         })?;
         let local = format!("local defect in a joint, N = 1000, SNR {snr}");

@@ -1,0 +1,55 @@
+//! What every stage of one calibration shares: the request, the catalogue for its chain, and how a search decides.
+
+use model_core::{ObservableId, SymbolId};
+
+use super::{CalibrateError, Request, Stage};
+use crate::candidate::{Effect, Setting};
+use crate::catalogue::{Name, catalogue, chosen, known_names};
+use crate::search::Options;
+
+/// An accepted effect: its number in the catalogue, and the evidence for it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Found {
+    pub effect: usize,
+    pub p_value: f64,
+    /// Its class when it was accepted, itself included.
+    pub alike: Vec<usize>,
+}
+
+/// What all rounds share.
+#[derive(Clone)]
+pub(crate) struct Loop<'a> {
+    pub request: Request<'a>,
+    pub catalogue: Vec<Effect>,
+    /// What other fields call each effect of the catalogue.
+    pub names: Vec<Vec<Name>>,
+    pub options: Options,
+    pub setting: Setting<'a>,
+    /// Numbers that a matrix of the search holds at most.
+    pub held: usize,
+    /// Is told of each stage.
+    pub tell: &'a (dyn Fn(Stage) + Sync),
+}
+
+impl<'a> Loop<'a> {
+    pub fn new(
+        request: Request<'a>,
+        observables: &'a [ObservableId],
+        held: usize,
+    ) -> Result<Self, CalibrateError> {
+        let plan = request.plan;
+        let setting = plan.search.setting(&plan.chain, observables);
+        let options =
+            Options { false_alarm: plan.search.false_alarm, seed: plan.hold_out.seed, ..Options::default() };
+        let catalogue = chosen(&setting, catalogue(&setting), &plan.search.only).map_err(|(number, _)| {
+            CalibrateError::NoSuchEffect { name: plan.search.only.get(number).cloned().unwrap_or_default() }
+        })?;
+        let names = known_names(&setting, &catalogue);
+        Ok(Self { request, catalogue, names, options, setting, held, tell: &|_| () })
+    }
+}
+
+/// The symbols that the study estimates.
+pub(crate) fn declared<'a>(whole: &Loop<'a>) -> &'a [SymbolId] {
+    &whole.request.plan.fit.estimate
+}

@@ -1,0 +1,54 @@
+//! Rounds of fit and search, from a first one until one changes nothing.
+
+use super::fitted::Fitted;
+use super::round::Round;
+use super::{CalibrateError, Found, Loop, Stage};
+use crate::fit::Outcome;
+
+/// Rounds of fit and search at most.
+const ROUNDS: usize = 8;
+
+/// Rounds of search and fit from a first one, until one changes nothing.
+pub(crate) fn rounds<'a>(whole: &Loop<'a>, mut round: Round<'a>) -> Result<Round<'a>, CalibrateError> {
+    let mut visited: Vec<Vec<usize>> = vec![names(&round.fitted.found)];
+    for _ in 0..ROUNDS {
+        (whole.tell)(Stage::Search);
+        let found = round.search(whole);
+        let names = names(&found);
+        if visited.contains(&names) {
+            break;
+        }
+        visited.push(names);
+        let Some(next) = taken_up(whole, found, &round)? else { break };
+        round = next;
+    }
+    Ok(round)
+}
+
+/// The numbers of some effects, sorted.
+pub(crate) fn names(found: &[Found]) -> Vec<usize> {
+    let mut names: Vec<usize> = found.iter().map(|found| found.effect).collect();
+    names.sort_unstable();
+    names
+}
+
+/// The next round; with the later half of the effects left out, again and again, while the exact form cannot hold what
+/// the linear search likes. `None` if it can hold nothing new.
+fn taken_up<'a>(
+    whole: &Loop<'a>,
+    mut found: Vec<Found>,
+    last: &Round<'a>,
+) -> Result<Option<Round<'a>>, CalibrateError> {
+    while found.len() > last.fitted.found.len() {
+        let next = Fitted::with(whole, found.clone(), &last.fitted)?;
+        let failed = matches!(next.fit.outcome, Outcome::NotConverged { .. });
+        if !failed || next.fit.rms < last.fitted.fit.rms {
+            return Round::at(whole, next).map(Some);
+        }
+        found.truncate(found.len().div_ceil(2).min(found.len() - 1));
+    }
+    if found.is_empty() {
+        return Ok(None);
+    }
+    Round::at(whole, Fitted::with(whole, found, &last.fitted)?).map(Some)
+}

@@ -1,0 +1,221 @@
+//! Cautions: what casts doubt on a calibration, or on the data that it was made from.
+
+use model_core::{Chain, Quantity, SymbolKind};
+use serde::Serialize;
+
+use super::noise::NoiseFound;
+use super::rms::BeforeAfter;
+use crate::data::{Measure, Observations, Series, SiUnit};
+use crate::fit::noise::Layout;
+use crate::fit::{FitResult, robust};
+
+/// Residuals of this share of what was measured (of a radian for directions) are no noise: something is read wrongly.
+const OUT_OF_PLACE: f64 = 0.2;
+
+/// Joints that turn further than this, in radians, are likely degrees; those that stay within less, radians read as
+/// degrees.
+const FURTHEST_RAD: f64 = 4.0 * std::f64::consts::TAU;
+const NEAREST_RAD: f64 = 0.12;
+
+/// An angle that is no small error.
+const LARGE_RAD: f64 = 0.5;
+
+/// Noise that is so many times what was stated is larger than stated, or smaller, if chance does not explain it.
+const LARGER: f64 = 1.3;
+const SMALLER: f64 = 0.6;
+
+/// Standard deviations of the found noise beyond which chance does not explain it.
+const SURE: f64 = 3.0;
+
+/// Something to be careful about.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "kind")]
+pub enum Caution {
+    /// Effects make it worse on rows that no stage saw.
+    #[serde(rename = "worse on held-out data")]
+    WorseHeldOut {
+        /// RMS before, SI.
+        before: f64,
+        /// RMS after, SI.
+        after: f64,
+    },
+    /// Effects make it worse in regions of the joints that no stage saw.
+    #[serde(rename = "worse elsewhere")]
+    WorseElsewhere {
+        /// RMS before, SI.
+        before: f64,
+        /// RMS after, SI.
+        after: f64,
+    },
+    /// An effect hangs on fewer than five observations.
+    #[serde(rename = "few observations behind an effect")]
+    FewBehindAnEffect {
+        /// Its name.
+        effect: String,
+        /// How many, as an effective number.
+        observations: f64,
+    },
+    /// As many effects were accepted as a search may accept.
+    #[serde(rename = "limit of effects reached")]
+    LimitOfEffects {
+        /// How many.
+        effects: usize,
+    },
+    /// Rows that were set aside have something in common.
+    #[serde(rename = "rows set aside share something")]
+    SetAsideShare {
+        /// The joint, input, side or group.
+        reading: String,
+        /// From where, SI.
+        from: f64,
+        /// To where, SI.
+        to: f64,
+        /// Rows set aside there, of how many there.
+        rows: [usize; 2],
+    },
+    /// The declaration as it was could not be fitted: the figures before mean little.
+    #[serde(rename = "declaration not fitted")]
+    DeclarationNotFitted {
+        /// Steps taken.
+        steps: usize,
+    },
+    /// The noise is larger than the study or the data state.
+    #[serde(rename = "noise exceeds stated")]
+    NoiseExceedsStated {
+        /// So many times.
+        ratio: f64,
+    },
+    /// The noise is much smaller than the study or the data state.
+    #[serde(rename = "stated uncertainties too large")]
+    StatedTooLarge {
+        /// What was found over what is stated.
+        ratio: f64,
+    },
+    /// A joint turns many times: degrees taken for radians?
+    #[serde(rename = "degrees read as radians")]
+    DegreesAsRadians {
+        /// The file.
+        source: String,
+        /// The joint.
+        joint: String,
+        /// Its largest reading, rad.
+        largest_rad: f64,
+    },
+    /// A joint hardly moves: radians taken for degrees?
+    #[serde(rename = "radians read as degrees")]
+    RadiansAsDegrees {
+        /// The file.
+        source: String,
+        /// The joint.
+        joint: String,
+        /// Its largest reading, rad.
+        largest_rad: f64,
+    },
+    /// The residual is no small part of what was measured: a sign, an axis or a unit.
+    #[serde(rename = "residual out of place")]
+    OutOfPlace {
+        /// The file.
+        source: String,
+        /// RMS of the residual, SI.
+        rms: f64,
+        /// Its unit.
+        unit: SiUnit,
+        /// The usual distance that was measured, m; none for directions.
+        measured_m: Option<f64>,
+    },
+    /// An angle that is no small error.
+    #[serde(rename = "error not small")]
+    ErrorNotSmall {
+        /// Its name.
+        error: String,
+        /// Its estimate, rad.
+        value_rad: f64,
+    },
+}
+
+/// What the noise says about what was stated of it.
+pub(super) fn of_noise(noise: &NoiseFound, degrees_of_freedom: f64) -> Option<Caution> {
+    let ratio = noise.over_stated?;
+    let chance = SURE / (2.0 * degrees_of_freedom.max(1.0)).sqrt();
+    if ratio > LARGER && ratio * (1.0 - chance) > 1.0 {
+        Some(Caution::NoiseExceedsStated { ratio })
+    } else if ratio < SMALLER && ratio * (1.0 + chance) < 1.0 {
+        Some(Caution::StatedTooLarge { ratio })
+    } else {
+        None
+    }
+}
+
+/// What effects do to rows that no stage saw.
+pub(super) fn of_rms(rms: &BeforeAfter) -> impl Iterator<Item = Caution> {
+    let worse = |before: Option<f64>, after: Option<f64>| before.zip(after).filter(|(b, a)| a > b);
+    let held_out = worse(rms.before.held_out_rms, rms.after.held_out_rms);
+    let elsewhere = worse(rms.before.elsewhere_rms, rms.after.elsewhere_rms);
+    held_out
+        .map(|(before, after)| Caution::WorseHeldOut { before, after })
+        .into_iter()
+        .chain(elsewhere.map(|(before, after)| Caution::WorseElsewhere { before, after }))
+}
+
+/// What the data and the size of the residual suggest: a wrong unit, a sign, swapped axes.
+#[must_use]
+pub fn of_data(chain: &Chain, observations: &Observations, fit: &FitResult) -> Vec<Caution> {
+    let mut cautions = Vec::new();
+    for series in &observations.series {
+        cautions.extend(of_joints(chain, observations, series));
+        cautions.extend(out_of_place(observations, series, fit));
+    }
+    for (&parameter, &separable) in fit.parameters.iter().zip(&fit.separable) {
+        let (symbol, value_rad) = (chain.symbol(parameter), fit.values[parameter.index()]);
+        let angle = symbol.kind == SymbolKind::Error && symbol.quantity == Quantity::Angle;
+        if angle && separable && value_rad.abs() > LARGE_RAD {
+            cautions.push(Caution::ErrorNotSmall { error: symbol.name.clone(), value_rad });
+        }
+    }
+    cautions
+}
+
+/// Joints whose readings look like another unit.
+fn of_joints(chain: &Chain, observations: &Observations, series: &Series) -> Vec<Caution> {
+    let mut cautions = Vec::new();
+    for (id, values) in &observations.columns {
+        let symbol = chain.symbol(*id);
+        if symbol.kind != SymbolKind::Joint || symbol.quantity != Quantity::Angle {
+            continue;
+        }
+        let readings = values.get(series.rows.clone()).unwrap_or_default();
+        let largest_rad = readings.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+        let (source, joint) = (series.source.clone(), symbol.name.clone());
+        if largest_rad > FURTHEST_RAD {
+            cautions.push(Caution::DegreesAsRadians { source, joint, largest_rad });
+        } else if readings.len() > 10 && largest_rad > 0.0 && largest_rad < NEAREST_RAD {
+            cautions.push(Caution::RadiansAsDegrees { source, joint, largest_rad });
+        }
+    }
+    cautions
+}
+
+fn out_of_place(observations: &Observations, series: &Series, fit: &FitResult) -> Option<Caution> {
+    let rms = rms_of(series, observations, fit);
+    let measured_m = match series.measure {
+        Measure::Direction | Measure::Azimuth => None,
+        Measure::Point | Measure::Range => {
+            let distance = |row: usize| nalgebra::Vector3::from(observations.measured[row]).norm();
+            Some(robust::median(series.rows.clone().map(distance).collect()))
+        }
+    };
+    (rms > OUT_OF_PLACE * measured_m.unwrap_or(1.0)).then(|| Caution::OutOfPlace {
+        source: series.source.clone(),
+        rms,
+        unit: series.measure.unit(),
+        measured_m,
+    })
+}
+
+/// RMS of the residuals' lengths over the rows of one series, with weight or without.
+fn rms_of(series: &Series, observations: &Observations, fit: &FitResult) -> f64 {
+    let layout = Layout::of(observations);
+    let own = layout.first[series.rows.start]..layout.first[series.rows.end];
+    let squares: f64 = fit.residuals.raw[own].iter().map(|residual| residual * residual).sum();
+    (squares / (series.rows.len() as f64).max(1.0)).sqrt()
+}

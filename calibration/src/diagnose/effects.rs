@@ -1,0 +1,265 @@
+//! The accepted effects: what each does, how sure it is, and which physical causes these data cannot tell apart.
+
+use std::collections::BTreeMap;
+
+use model_core::{Role, SymbolId};
+use serde::Serialize;
+
+use super::detectability;
+use super::units::unit_of;
+use crate::calibrate::Loop;
+use crate::calibrate::round::Round;
+use crate::candidate::Effect;
+use crate::data::SiUnit;
+use crate::effects::FAMILIES;
+use crate::search::select::{State, class_columns};
+use crate::search::{AS_GOOD, HeldOut, Rival, rivals};
+
+/// Units of log-likelihood behind the best within which an explanation is kept in view when poses are chosen.
+const IN_VIEW: f64 = 10.0;
+
+/// An accepted effect.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct EffectFound {
+    /// As the amended declaration writes it.
+    pub text: String,
+    /// The body it sits in.
+    pub body: String,
+    /// `Rx` to `Tz`.
+    pub dof: String,
+    /// Before the joint moves the body, or after.
+    pub side: Side,
+    /// The joint or input behind it.
+    pub driver: String,
+    /// The kind of function.
+    pub form: String,
+    /// What it may be called.
+    pub names: Vec<String>,
+    /// Effects that no data at these poses could tell from it.
+    pub class: Vec<String>,
+    /// Effects that explain these data about as well.
+    pub rivals: Vec<String>,
+    /// The physical causes that it may have, in the order in which to check them: its own, its class's, its rivals'.
+    pub causes: Vec<Cause>,
+    /// The new errors and their estimates, SI.
+    pub coefficients: BTreeMap<String, f64>,
+    /// The SI unit of each.
+    pub coefficient_units: BTreeMap<String, SiUnit>,
+    /// The most that it moves an observation of these data, rad or m.
+    pub amplitude: f64,
+    /// Root mean square over observations of what it moves, rad or m.
+    pub amplitude_rms: f64,
+    /// Familywise p when it was accepted.
+    pub p_value: f64,
+    /// The share of the searches without one fold each that chose it too.
+    pub selected_in_folds: f64,
+    /// How many observations it hangs on, as an effective number.
+    pub observations: f64,
+    /// How far one standard uncertainty of it, left out, would move each declared error, SI.
+    pub bias: BTreeMap<String, f64>,
+}
+
+/// On which side of the joint an effect sits in its body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Side {
+    /// Before the joint moves the body: it stays with the body below.
+    Before,
+    /// After it: it turns with the body.
+    After,
+}
+
+/// A physical cause that an effect may have.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Cause {
+    /// Its name in the catalogue.
+    pub name: String,
+    /// Its family in the catalogue.
+    pub family: &'static str,
+    /// The body that it moves.
+    pub body: String,
+    /// How it stands to what was accepted.
+    pub relation: Relation,
+    /// What other fields call it.
+    pub published: Vec<String>,
+    /// What usually causes it.
+    pub causes: &'static str,
+    /// What it looks like in residuals.
+    pub looks: &'static str,
+    /// What to check at the instrument.
+    pub check: &'static str,
+}
+
+/// How a cause stands to the effect that was accepted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Relation {
+    /// It is that effect.
+    Accepted,
+    /// No data at these poses could tell it from that effect: it makes the same correction there.
+    Same,
+    /// It explains these data about as well, by another correction.
+    Rival,
+}
+
+/// What an accepted effect could be instead.
+pub(super) struct Others {
+    /// Effects of its class, as it was when it came in or as it is at the last fit.
+    pub alike: Vec<usize>,
+    /// The first of each class that explains these data about as well.
+    pub rivals: Vec<usize>,
+    /// The first of each class that explains them somewhat worse.
+    pub behind: Vec<usize>,
+}
+
+/// What each accepted effect could be instead.
+pub(super) fn others(last: &Round<'_>) -> Vec<Others> {
+    let accepted = last.accepted_classes();
+    let mut state = State::declared(&last.posed.problem, |_| true);
+    let blocks = class_columns(&last.posed.problem, &last.classes);
+    accepted.iter().for_each(|&class| state.add(&blocks[class]));
+    let mut rivals = rivals(&last.posed.problem, &last.classes, &accepted, &state, IN_VIEW).into_iter();
+    last.fitted
+        .found
+        .iter()
+        .map(|found| {
+            let class = last.class_of(found.effect);
+            let mut alike = found.alike.clone();
+            alike.extend(class.iter().flat_map(|&class| &last.classes[class].members));
+            alike.retain(|&member| member != found.effect);
+            alike.sort_unstable();
+            alike.dedup();
+            // An effect without a class has no rivals: these data do not show it any more.
+            let rivals = class.and_then(|_| rivals.next()).unwrap_or_default();
+            let (rivals, behind): (Vec<Rival>, Vec<Rival>) =
+                rivals.into_iter().partition(|rival| rival.behind <= AS_GOOD);
+            let first = |rivals: Vec<Rival>| -> Vec<usize> {
+                let effects = rivals.iter().map(|rival| last.classes[rival.class].members[0]);
+                effects.filter(|effect| !alike.contains(effect)).collect()
+            };
+            let (rivals, behind) = (first(rivals), first(behind));
+            Others { alike, rivals, behind }
+        })
+        .collect()
+}
+
+/// The accepted effects, in the order they came in.
+pub(super) fn effects(
+    whole: &Loop<'_>,
+    last: &Round<'_>,
+    held_out: &HeldOut,
+    others: &[Others],
+) -> Vec<EffectFound> {
+    let accepted = last.fitted.found.iter().zip(&last.fitted.errors).zip(others);
+    accepted
+        .map(|((found, errors), others)| {
+            let effect = &whole.catalogue[found.effect];
+            let chain = &last.fitted.chain;
+            let class = last.class_of(found.effect);
+            let (amplitude, amplitude_rms) = amplitude(last, found.effect, errors);
+            let name_of = |&id: &SymbolId| chain.symbol(id).name.clone();
+            EffectFound {
+                text: effect.text(chain, errors),
+                body: chain.body(effect.place.body).name.clone(),
+                dof: effect.freedoms(),
+                side: if effect.place.role == Role::MotionError { Side::After } else { Side::Before },
+                driver: effect.driver.clone(),
+                form: effect.form.clone(),
+                names: names(whole, effect, found.effect, &others.alike),
+                class: others.alike.iter().map(|&other| whole.catalogue[other].name.clone()).collect(),
+                rivals: others.rivals.iter().map(|&other| whole.catalogue[other].name.clone()).collect(),
+                causes: causes(whole, found.effect, others),
+                coefficients: errors
+                    .iter()
+                    .map(|id| (name_of(id), last.fitted.fit.values[id.index()]))
+                    .collect(),
+                coefficient_units: errors
+                    .iter()
+                    .map(|id| (name_of(id), unit_of(&whole.setting, chain, *id)))
+                    .collect(),
+                amplitude,
+                amplitude_rms,
+                p_value: found.p_value,
+                selected_in_folds: class.map_or(0.0, |class| held_out.share(class)),
+                observations: observations_behind(last, found.effect),
+                bias: detectability::bias(whole, last, found.effect, errors),
+            }
+        })
+        .collect()
+}
+
+/// Its own name, those of its class at the same place (the same function by another name), and those of other fields.
+fn names(whole: &Loop<'_>, effect: &Effect, number: usize, alike: &[usize]) -> Vec<String> {
+    let mut names = vec![effect.name.clone()];
+    let here =
+        alike.iter().map(|&member| &whole.catalogue[member]).filter(|other| other.place == effect.place);
+    names.extend(here.map(|other| other.name.clone()));
+    names.dedup();
+    names.extend(whole.names[number].iter().map(ToString::to_string));
+    names
+}
+
+/// Every cause once.
+fn causes(whole: &Loop<'_>, own: usize, others: &Others) -> Vec<Cause> {
+    let mut causes: Vec<Cause> = Vec::new();
+    let all = [
+        (Relation::Accepted, &[own][..]),
+        (Relation::Same, &others.alike),
+        (Relation::Rival, &others.rivals),
+    ];
+    for (relation, effects) in all {
+        for &number in effects {
+            let effect = &whole.catalogue[number];
+            if causes.iter().any(|cause| cause.name == effect.name) {
+                continue;
+            }
+            let Some(family) = FAMILIES.iter().find(|family| family.name == effect.family) else {
+                unreachable!("an effect names its family in the table of families");
+            };
+            causes.push(Cause {
+                name: effect.name.clone(),
+                family: family.name,
+                body: whole.setting.body_name(effect.place.body).to_owned(),
+                relation,
+                published: whole.names[number].iter().map(ToString::to_string).collect(),
+                causes: family.causes,
+                looks: family.looks,
+                check: family.check,
+            });
+        }
+    }
+    causes
+}
+
+/// The most that an effect moves an observation, and the root mean square over observations.
+fn amplitude(last: &Round<'_>, effect: usize, errors: &[SymbolId]) -> (f64, f64) {
+    let rows = &last.posed.rows;
+    let mut by_row: BTreeMap<u32, f64> = BTreeMap::new();
+    let columns: Vec<(&Vec<f64>, f64)> = rows.effects[effect]
+        .iter()
+        .zip(errors)
+        .map(|(column, error)| (column, last.fitted.fit.values[error.index()]))
+        .collect();
+    for (component, &row) in rows.columns.row.iter().enumerate() {
+        let moved: f64 = columns.iter().map(|(column, value)| column[component] * value).sum();
+        *by_row.entry(row).or_insert(0.0) += moved * moved;
+    }
+    let most = by_row.values().copied().fold(0.0, f64::max);
+    let mean = by_row.values().sum::<f64>() / (by_row.len() as f64).max(1.0);
+    (most.sqrt(), mean.sqrt())
+}
+
+/// How many observations an effect hangs on: the rows' share of its projected columns, as an effective number.
+fn observations_behind(last: &Round<'_>, effect: usize) -> f64 {
+    let problem = last.posed.of_rows();
+    let rows = problem.rows();
+    let mut by_row = BTreeMap::new();
+    for column in problem.columns(effect) {
+        for (i, &row) in last.posed.rows.columns.row.iter().enumerate() {
+            *by_row.entry(row).or_insert(0.0) += rows[(i, column)] * rows[(i, column)];
+        }
+    }
+    let sum: f64 = by_row.values().sum();
+    let squares: f64 = by_row.values().map(|share| share * share).sum();
+    if squares > 0.0 { last.posed.share() * sum * sum / squares } else { 0.0 }
+}

@@ -1,0 +1,43 @@
+//! How a fit ended, as the report has it.
+
+use serde::Serialize;
+
+use crate::fit::Outcome;
+
+/// How a fit ended.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(tag = "how")]
+pub enum Ended {
+    /// At a minimum.
+    #[serde(rename = "converged")]
+    Converged {
+        /// Steps taken.
+        steps: usize,
+    },
+    /// Short of a minimum.
+    #[serde(rename = "not converged")]
+    NotConverged {
+        /// Steps taken.
+        steps: usize,
+    },
+    /// With fewer residual components than it takes to determine what was asked for.
+    #[serde(rename = "too few observations")]
+    TooFewObservations {
+        /// Residual components there are.
+        components: usize,
+        /// What was to be estimated.
+        parameters: usize,
+    },
+}
+
+impl From<&Outcome> for Ended {
+    fn from(outcome: &Outcome) -> Self {
+        match *outcome {
+            Outcome::Converged { iterations } => Self::Converged { steps: iterations },
+            Outcome::NotConverged { iterations } => Self::NotConverged { steps: iterations },
+            Outcome::TooFewObservations { components, parameters } => {
+                Self::TooFewObservations { components, parameters }
+            }
+        }
+    }
+}

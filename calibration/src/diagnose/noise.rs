@@ -1,0 +1,126 @@
+//! The noise that was found, as numbers: how large, how it varies with the joints, how it remembers, and what was stated.
+
+use model_core::{Chain, SymbolId};
+use serde::Serialize;
+
+use crate::data::{Observations, SiUnit};
+use crate::fit::FitResult;
+use crate::fit::noise::{Layout, VarianceTerm};
+
+/// The noise.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct NoiseFound {
+    /// File by file.
+    pub series: Vec<SeriesNoise>,
+    /// RMS over rows of the length of the residual that noise alone would leave, SI.
+    pub expected_rms: f64,
+    /// The standard deviation of each component that the study states, SI; none where it states none.
+    pub stated: Option<f64>,
+    /// What was found over what the study or the data state; none where nothing is stated.
+    pub over_stated: Option<f64>,
+    /// How the logarithm of the variance depends on joints and ranges: a sum of these.
+    pub variance: Vec<VarianceFound>,
+    /// What a row keeps of the row before, if the rows remember.
+    pub serial: Option<SerialFound>,
+}
+
+/// The noise of one file.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SeriesNoise {
+    /// The file.
+    pub source: String,
+    /// The residual components.
+    pub components: Vec<&'static str>,
+    /// Standard deviation of each, SI; a factor on what the data state where they do.
+    pub sigma: Vec<f64>,
+    /// `rad`, `m`, or `1` for a factor.
+    pub unit: SiUnit,
+    /// Whether it is a factor on the standard uncertainties that the data state.
+    pub of_stated: bool,
+}
+
+/// A term of the logarithm of the variance.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct VarianceFound {
+    /// `cos`, `sin` or `ln`.
+    pub function: &'static str,
+    /// The joint or range.
+    pub of: String,
+    /// How many times a turn; 1 for `ln`.
+    pub multiple: u8,
+    /// Its coefficient.
+    pub coefficient: f64,
+}
+
+/// ARMA(1,1) from row to row.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct SerialFound {
+    /// Coefficient of the value before.
+    pub autoregressive: f64,
+    /// Coefficient of the innovation before.
+    pub moving_average: f64,
+}
+
+/// The noise of a fit; `stated` is the study's own figure for every component, SI.
+pub(super) fn noise(
+    chain: &Chain,
+    observations: &Observations,
+    fit: &FitResult,
+    stated: Option<f64>,
+) -> NoiseFound {
+    let mut floors = fit.noise.floor.iter().copied();
+    let series: Vec<SeriesNoise> = observations
+        .series
+        .iter()
+        .map(|series| {
+            let of_stated = observations.states_sigma(series);
+            SeriesNoise {
+                source: series.source.clone(),
+                components: series.measure.component_names().to_vec(),
+                sigma: floors.by_ref().take(series.measure.components()).collect(),
+                unit: if of_stated { SiUnit::ONE } else { series.measure.unit() },
+                of_stated,
+            }
+        })
+        .collect();
+    let over_stated = over_stated(&series, stated);
+    let expected_rms = expected_rms(observations, fit);
+    let variance = fit.noise.variance.iter().flat_map(|model| &model.terms);
+    let variance = variance.map(|&(term, coefficient)| {
+        let (function, id, multiple): (_, SymbolId, _) = match term {
+            VarianceTerm::Cos(id, multiple) => ("cos", id, multiple),
+            VarianceTerm::Sin(id, multiple) => ("sin", id, multiple),
+            VarianceTerm::LogRange(id) => ("ln", id, 1),
+        };
+        VarianceFound { function, of: chain.symbol(id).name.clone(), multiple, coefficient }
+    });
+    NoiseFound {
+        expected_rms,
+        stated,
+        over_stated,
+        variance: variance.collect(),
+        serial: fit.noise.serial.map(|serial| SerialFound {
+            autoregressive: serial.autoregressive,
+            moving_average: serial.moving_average,
+        }),
+        series,
+    }
+}
+
+/// Root mean square over components of what was found over what is stated.
+fn over_stated(series: &[SeriesNoise], stated: Option<f64>) -> Option<f64> {
+    let ratios = series.iter().flat_map(|series| {
+        let divisor = if series.of_stated { Some(1.0) } else { stated };
+        series.sigma.iter().filter_map(move |sigma| Some(sigma / divisor?))
+    });
+    let (squares, count) = ratios.fold((0.0, 0.0), |(sum, count), ratio| (sum + ratio * ratio, count + 1.0));
+    (count > 0.0).then(|| f64::sqrt(squares / count))
+}
+
+/// RMS over rows of the length that the noise gives a residual.
+fn expected_rms(observations: &Observations, fit: &FitResult) -> f64 {
+    let sigma = fit.noise.sigma_without_memory();
+    let squares: f64 = sigma.iter().map(|sigma| sigma * sigma).sum();
+    let rows = Layout::of(observations).first.len().saturating_sub(1);
+    (squares / (rows as f64).max(1.0)).sqrt()
+}

@@ -1,0 +1,57 @@
+//! The lines of the amended declaration: what was found and when; the statistics stay in the report.
+
+use model_core::{Chain, SymbolId, SymbolKind};
+
+use crate::amend::{Addition, NewInput};
+use crate::calibrate::{Found, Loop};
+use crate::candidate::Function;
+use crate::diagnose::Diagnosis;
+
+/// The lines to add to the declaration, for the effects of a chain that has them.
+pub(crate) fn additions(
+    whole: &Loop<'_>,
+    diagnosis: &Diagnosis,
+    chain: &Chain,
+    found: &[Found],
+    errors: &[Vec<SymbolId>],
+) -> Vec<Addition> {
+    let each = found.iter().zip(errors).zip(&diagnosis.effects);
+    each.flat_map(|((found, errors), told)| {
+        let effect = &whole.catalogue[found.effect];
+        let others = match told.causes.len() - 1 {
+            0 => String::new(),
+            1 => ", or one other cause that fits as well".to_owned(),
+            others => format!(", or one of {others} other causes that fit as well"),
+        };
+        let documentation = format!("Found {} by calibration: {}{others}.", whole.request.when, effect.name);
+        effect.texts(chain, errors).into_iter().map(move |(body, role, factor)| Addition {
+            body,
+            role,
+            factor,
+            documentation: vec![documentation.clone()],
+        })
+    })
+    .collect()
+}
+
+/// Inputs that accepted effects use and the declaration does not have.
+pub(crate) fn new_inputs(whole: &Loop<'_>, chain: &Chain, found: &[Found]) -> Vec<NewInput> {
+    let declared = Chain::from_text(whole.request.text);
+    let mut used: Vec<SymbolId> = found
+        .iter()
+        .flat_map(|found| &whole.catalogue[found.effect].functions)
+        .flat_map(Function::symbols)
+        .filter(|&symbol| chain.symbol(symbol).kind == SymbolKind::Input)
+        .collect();
+    used.sort_unstable();
+    used.dedup();
+    used.into_iter()
+        .map(|symbol| chain.symbol(symbol))
+        .filter(|symbol| declared.as_ref().is_ok_and(|chain| chain.find_symbol(&symbol.name).is_none()))
+        .map(|symbol| NewInput {
+            name: symbol.name.clone(),
+            quantity: symbol.quantity,
+            documentation: "Measured beside the joints, in the unit of the data.".to_owned(),
+        })
+        .collect()
+}

@@ -1,0 +1,353 @@
+//! The five answers that stand first: what happened, what it is, where, how much better, what to do next.
+
+use super::causes::{cause, sentence_case};
+use super::effects::{chance_of, headline, place};
+use super::left::{function_form, remaining};
+use super::numbers::{short, times};
+use crate::diagnose::{Caution, Diagnosis, Ended, Relation, Verdict};
+
+/// How good the news is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tone {
+    /// Found, or nothing to find.
+    Good,
+    /// Found, but more than one cause fits.
+    Ambiguous,
+    /// Something is left to do before this can be relied on.
+    Careful,
+    /// Nothing here can be used.
+    Bad,
+}
+
+/// The answers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Answers {
+    /// How good the news is.
+    pub tone: Tone,
+    /// What happened, in a word or two: `Cause found`.
+    pub badge: String,
+    /// What happened, in a sentence.
+    pub happened: String,
+    /// How sure it is; absent where nothing was found.
+    pub chance: Option<String>,
+    /// What it is, in a sentence for each effect, the largest first.
+    pub what: Vec<String>,
+    /// The causes that fit, of all effects, each once.
+    pub causes: Vec<String>,
+    /// Where, one for each effect.
+    pub places: Vec<String>,
+    /// How much better, in a sentence.
+    pub better: String,
+    /// What to do next, in order.
+    pub next: Vec<Step>,
+}
+
+/// Something to do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Step {
+    /// What, in a few words.
+    pub title: String,
+    /// Why and how.
+    pub text: String,
+    /// A command line that does it.
+    pub command: Option<String>,
+}
+
+/// The answers to a diagnosis; `folder` is where its files are, if they were written.
+#[must_use]
+pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>) -> Answers {
+    let mut effects: Vec<_> = diagnosis.effects.iter().collect();
+    effects.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+    let mut causes: Vec<String> = Vec::new();
+    for named in effects.iter().flat_map(|effect| &effect.causes).map(cause) {
+        if !causes.contains(&named) {
+            causes.push(named);
+        }
+    }
+    let usable = diagnosis.verdict.is_usable();
+    let what = match (usable, &diagnosis.remaining) {
+        (false, _) => Vec::new(),
+        (true, Some(left)) if effects.is_empty() => left
+            .place
+            .iter()
+            .map(|place| {
+                format!(
+                    "The body {} moves in {} as {} changes: a {}.",
+                    place.body,
+                    place.dof,
+                    place.driver,
+                    function_form(&place.form)
+                )
+            })
+            .collect(),
+        (true, _) => effects.iter().map(|effect| headline(effect, diagnosis)).collect(),
+    };
+    Answers {
+        tone: tone(diagnosis),
+        badge: badge(diagnosis),
+        happened: happened(diagnosis),
+        chance: effects.first().filter(|_| usable).map(|effect| chance_of(effect, diagnosis)),
+        what,
+        causes,
+        places: effects.iter().map(|effect| place(effect, diagnosis)).collect(),
+        better: better(diagnosis),
+        next: next(diagnosis, folder),
+    }
+}
+
+fn is_worse(diagnosis: &Diagnosis) -> bool {
+    diagnosis.cautions.iter().any(|caution| matches!(caution, Caution::WorseHeldOut { .. }))
+}
+
+fn tone(diagnosis: &Diagnosis) -> Tone {
+    match diagnosis.verdict {
+        Verdict::FitFailed | Verdict::TooFewObservations => Tone::Bad,
+        _ if is_worse(diagnosis) => Tone::Bad,
+        Verdict::Explained | Verdict::NothingDetectable => Tone::Good,
+        Verdict::Confounded => Tone::Ambiguous,
+        Verdict::UnnamedFunction | Verdict::StructureRemains | Verdict::NoiseExceedsStated => Tone::Careful,
+    }
+}
+
+fn badge(diagnosis: &Diagnosis) -> String {
+    let count = diagnosis.effects.len();
+    match diagnosis.verdict {
+        _ if is_worse(diagnosis) => "Worse on data that nobody fitted".to_owned(),
+        Verdict::Explained | Verdict::Confounded if count > 1 => format!("{count} causes found"),
+        Verdict::Explained | Verdict::Confounded => "Cause found".to_owned(),
+        Verdict::UnnamedFunction => "Place found, cause unknown".to_owned(),
+        Verdict::StructureRemains => "Something is left".to_owned(),
+        Verdict::NoiseExceedsStated => "Noisier than stated".to_owned(),
+        Verdict::NothingDetectable => "Nothing missing found".to_owned(),
+        Verdict::TooFewObservations => "Too few observations".to_owned(),
+        Verdict::FitFailed => "The fit failed".to_owned(),
+    }
+}
+
+/// The verdict in a sentence.
+fn happened(diagnosis: &Diagnosis) -> String {
+    let count = diagnosis.effects.len();
+    match diagnosis.verdict {
+        Verdict::Explained if count == 1 => {
+            "Cause found; it alone explains what the declaration left over.".to_owned()
+        }
+        Verdict::Explained => {
+            format!("{count} causes found; together they explain what the declaration left over.")
+        }
+        Verdict::Confounded if count == 1 => {
+            let fit = diagnosis.effects[0].causes.len();
+            format!("Cause found; these data fit {fit} physical causes equally well.")
+        }
+        Verdict::Confounded => {
+            let several = diagnosis.effects.iter().filter(|effect| effect.causes.len() > 1).count();
+            format!(
+                "{count} effects found; for {several} of them these data fit several physical causes equally well."
+            )
+        }
+        Verdict::UnnamedFunction if count > 0 => format!(
+            "{count} {} found, but one function at one place fits better than the catalogue, which has no name for it.",
+            if count == 1 { "effect" } else { "effects" }
+        ),
+        Verdict::UnnamedFunction => {
+            "Something moves at one place, as a function that the catalogue has no name for.".to_owned()
+        }
+        Verdict::StructureRemains if count > 0 => format!(
+            "{count} {} found, but what is left has structure that nothing in the catalogue explains.",
+            if count == 1 { "effect" } else { "effects" }
+        ),
+        Verdict::StructureRemains => {
+            "What the declaration leaves over has structure that nothing in the catalogue explains."
+                .to_owned()
+        }
+        Verdict::NoiseExceedsStated => {
+            let ratio =
+                diagnosis.noise.over_stated.map_or_else(String::new, |ratio| format!("{} ", times(ratio)));
+            format!(
+                "The residual is {ratio}as large as the stated noise, and nothing in the catalogue explains it."
+            )
+        }
+        Verdict::NothingDetectable => {
+            "No effect that the declaration lacks stands out from the noise.".to_owned()
+        }
+        Verdict::TooFewObservations => too_few(diagnosis),
+        Verdict::FitFailed => {
+            let steps = match diagnosis.fit.amended {
+                Ended::NotConverged { steps } => format!(" in {steps} steps"),
+                Ended::Converged { .. } | Ended::TooFewObservations { .. } => String::new(),
+            };
+            format!("The fit reached no minimum{steps}: its numbers mean nothing, and no search was made.")
+        }
+    }
+}
+
+fn too_few(diagnosis: &Diagnosis) -> String {
+    match diagnosis.fit.amended {
+        Ended::TooFewObservations { components, .. } => format!(
+            "{} observations have {components} measured components, and these data determine {} combinations of {} \
+             errors: nothing is left to judge them by.",
+            diagnosis.observations.rows, diagnosis.fit.rank[0], diagnosis.fit.rank[1]
+        ),
+        Ended::Converged { .. } | Ended::NotConverged { .. } => {
+            "An effect stands out, but it rests on fewer than five observations.".to_owned()
+        }
+    }
+}
+
+/// How much better.
+fn better(diagnosis: &Diagnosis) -> String {
+    let told = |si: f64| short(si, diagnosis.unit);
+    let observed = diagnosis.instrument.observed.first().map_or("residual", |seen| &seen.name);
+    if !diagnosis.verdict.is_usable() {
+        return format!("No better: the {observed} error is {} (RMS) as fitted.", told(diagnosis.before.rms));
+    }
+    if diagnosis.effects.is_empty() {
+        let held_out = diagnosis
+            .after
+            .held_out_rms
+            .map_or_else(String::new, |rms| format!("; {} on data that nobody fitted", told(rms)));
+        return format!(
+            "The {observed} error of the fitted declaration is {} (RMS){held_out}.",
+            told(diagnosis.after.rms)
+        );
+    }
+    let (where_, before, after) = match (diagnosis.before.held_out_rms, diagnosis.after.held_out_rms) {
+        (Some(before), Some(after)) => ("on data that nobody fitted", before, after),
+        _ => ("on the data that were fitted", diagnosis.before.rms, diagnosis.after.rms),
+    };
+    let ratio = match before / after {
+        ratio if ratio >= 1.05 => format!(", {} smaller", times(ratio)),
+        ratio if ratio < 1.0 => ": it gets worse".to_owned(),
+        _ => ", hardly smaller".to_owned(),
+    };
+    let left = remaining(diagnosis)
+        .into_iter()
+        .next()
+        .map_or_else(String::new, |left| format!(" {}.", sentence_case(&left)));
+    format!("The {observed} error (RMS) {where_} goes from {} to {}{ratio}.{left}", told(before), told(after))
+}
+
+/// What to do next.
+fn next(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
+    let step = |title: &str, text: String| Step { title: title.to_owned(), text, command: None };
+    let mut steps = Vec::new();
+    match diagnosis.verdict {
+        Verdict::FitFailed => {
+            steps.push(step(
+                "Check units, signs and axes",
+                "A fit that reaches no minimum has mostly been given a column in another unit, a sign or an axis the other \
+                 way round, or starting values far off: compare the study with the file, row by row."
+                    .to_owned(),
+            ));
+            return steps;
+        }
+        Verdict::TooFewObservations => {
+            let text = match diagnosis.fit.amended {
+                Ended::TooFewObservations { .. } => format!(
+                    "At least {} observations more, at poses spread over the joints; or fix errors that are known \
+                     (`[fit] fix`).",
+                    missing(diagnosis)
+                ),
+                _ => "Repeat the observations that the effect rests on.".to_owned(),
+            };
+            steps.push(step("Measure more", text));
+            return steps;
+        }
+        _ => {}
+    }
+    if is_worse(diagnosis) {
+        steps.push(step(
+            "Do not correct with it",
+            "On data that nobody fitted the effects make it worse. Measure more poses, or allow fewer effects \
+             (`[search] effects`)."
+                .to_owned(),
+        ));
+    } else {
+        steps.push(correct(diagnosis, folder));
+    }
+    if let Some(effect) = diagnosis.effects.iter().max_by(|a, b| a.amplitude.total_cmp(&b.amplitude)) {
+        let more = match effect.causes.len() {
+            0 | 1 => String::new(),
+            count => format!(" The other {} causes that fit have checks of their own.", count - 1),
+        };
+        steps.push(step(
+            "To repair, check the likeliest cause first",
+            format!("{}: {}{more}", sentence_case(&cause(&effect.causes[0])), effect.causes[0].check),
+        ));
+    }
+    steps.extend(measure(diagnosis));
+    if let Some(offer) = diagnosis.remaining.as_ref().and_then(|left| left.offer.as_ref()) {
+        let lines = offer.trim_end().to_owned();
+        steps.push(Step {
+            title: "To let the declaration have what is left".to_owned(),
+            text: "Write this into the study, and calibrate again:".to_owned(),
+            command: Some(lines),
+        });
+    }
+    if diagnosis.verdict == Verdict::NoiseExceedsStated {
+        steps.push(step(
+            "Look at the noise",
+            "State a larger noise if it was stated too small; else record what else may move the instrument (temperature, \
+             time, direction of motion, load) and name it under `[search] inputs`."
+                .to_owned(),
+        ));
+    }
+    steps
+}
+
+/// Observations that are missing for one degree of freedom.
+fn missing(diagnosis: &Diagnosis) -> usize {
+    let components = diagnosis.instrument.observed.first().map_or(1, |seen| seen.components.len().max(1));
+    let there = diagnosis.observations.used * components;
+    (diagnosis.fit.rank[1] + 2).saturating_sub(there).div_ceil(components).max(1)
+}
+
+fn correct(diagnosis: &Diagnosis, folder: Option<&str>) -> Step {
+    let rivals = diagnosis
+        .effects
+        .iter()
+        .flat_map(|effect| &effect.causes)
+        .any(|cause| cause.relation == Relation::Rival);
+    let several = diagnosis.effects.iter().any(|effect| effect.causes.len() > 1);
+    let text = match (diagnosis.effects.is_empty(), rivals, several) {
+        (true, ..) => "The declared errors were estimated; nothing was added.",
+        (false, true, _) => "Where these data lie, the causes that fit make about the same correction.",
+        (false, false, true) => "The correction is the same whichever cause it is, where these data lie.",
+        (false, false, false) => "The effect is in the amended declaration.",
+    };
+    let folder = folder.unwrap_or("DIR").trim_end_matches('/');
+    let command = format!(
+        "trueaxis apply {folder}/amended.chain --errors {folder}/errors.toml --data new.csv --out corrected.csv"
+    );
+    Step { title: "Correct with it now".to_owned(), text: text.to_owned(), command: Some(command) }
+}
+
+/// Poses that would tell causes apart, or that none would.
+fn measure(diagnosis: &Diagnosis) -> Vec<Step> {
+    let mut steps = Vec::new();
+    let telling = diagnosis.separating.iter().filter(|s| !s.poses.is_empty()).count();
+    if telling > 0 {
+        let poses: usize = diagnosis.separating.iter().map(|separation| separation.poses.len()).sum();
+        steps.push(Step {
+            title: "To tell the causes apart, measure".to_owned(),
+            text: format!(
+                "{poses} poses are listed below; they make the causes differ by more than the noise."
+            ),
+            command: None,
+        });
+    } else if diagnosis.separating.iter().any(|separation| !separation.never.is_empty()) {
+        steps.push(Step {
+            title: "More poses will not tell".to_owned(),
+            text: "No pose within the ranges sets the causes apart; a check at the instrument does."
+                .to_owned(),
+            command: None,
+        });
+    }
+    if !diagnosis.next_poses.is_empty() {
+        steps.push(Step {
+            title: "To make the errors surer, measure".to_owned(),
+            text: "The poses that the study asks for are listed below.".to_owned(),
+            command: None,
+        });
+    }
+    steps
+}

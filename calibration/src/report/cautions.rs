@@ -1,0 +1,68 @@
+//! Cautions in words.
+
+use super::numbers::{short, times, told};
+use crate::data::SiUnit;
+use crate::diagnose::{Caution, Diagnosis};
+
+/// A caution in a sentence.
+#[must_use]
+pub fn caution(caution: &Caution, diagnosis: &Diagnosis) -> String {
+    let residual = |si: f64| short(si, diagnosis.unit);
+    match caution {
+        Caution::WorseHeldOut { before, after } => format!(
+            "On data that nobody fitted it is worse with the effects: {} before, {} after. Do not correct with it.",
+            residual(*before),
+            residual(*after)
+        ),
+        Caution::WorseElsewhere { before, after } => format!(
+            "In regions of the joints that were left out it is worse with the effects: {} before, {} after. Correct only \
+             where these data lie.",
+            residual(*before),
+            residual(*after)
+        ),
+        Caution::FewBehindAnEffect { effect, observations } => {
+            format!("{effect}: it rests on about {observations:.1} observations. Measure more there first.")
+        }
+        Caution::LimitOfEffects { effects } => {
+            format!("The search stopped at {effects} effects, as many as it may accept; there may be more.")
+        }
+        Caution::SetAsideShare { reading, from, to, rows: [aside, there] } => format!(
+            "{aside} of the {there} rows with {reading} from {from:.3} to {to:.3} (SI) were set aside: they share \
+             something that the declaration lacks."
+        ),
+        Caution::DeclarationNotFitted { steps } => format!(
+            "The declaration as it was could not be fitted in {steps} steps: figures before mean little."
+        ),
+        Caution::NoiseExceedsStated { ratio } => {
+            format!("The residual is {} as large as the stated noise.", times(*ratio))
+        }
+        Caution::StatedTooLarge { ratio } => {
+            format!("Your stated uncertainties are {} too large.", times(1.0 / ratio))
+        }
+        Caution::DegreesAsRadians { source, joint, largest_rad } => format!(
+            "{source}: `{joint}` reaches {largest_rad:.0} rad, {:.0} turns: are these degrees taken for radians?",
+            largest_rad / std::f64::consts::TAU
+        ),
+        Caution::RadiansAsDegrees { source, joint, largest_rad } => format!(
+            "{source}: `{joint}` stays within {:.1} deg: were radians taken for degrees?",
+            largest_rad.to_degrees()
+        ),
+        Caution::OutOfPlace { source, rms, unit, measured_m } => match measured_m {
+            None => format!(
+                "{source}: the residual is {}: a swapped sign, swapped axes or a wrong unit is likely.",
+                short(*rms, *unit)
+            ),
+            Some(measured) => format!(
+                "{source}: the residual is {} where {} were measured: a wrong unit, a swapped sign or swapped axes are \
+                 likely.",
+                short(*rms, *unit),
+                told(*measured, SiUnit::METRE)
+            ),
+        },
+        Caution::ErrorNotSmall { error, value_rad } => format!(
+            "`{error}` comes out at {:.0} deg, which is no small error: a swapped sign, an axis or an offset in the \
+             declaration?",
+            value_rad.to_degrees()
+        ),
+    }
+}

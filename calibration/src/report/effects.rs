@@ -1,0 +1,126 @@
+//! An accepted effect in words: what it does, where it sits, how sure it is.
+
+use std::collections::BTreeMap;
+
+use super::causes::{form, sentence_case};
+use super::numbers;
+use crate::diagnose::{Diagnosis, EffectFound, Side};
+
+/// Errors that are named for one effect.
+const NAMED: usize = 3;
+
+/// What an effect does, in one sentence: `The body middle is up to 10.1″ off about x, once per turn of beta.`
+#[must_use]
+pub fn headline(effect: &EffectFound, diagnosis: &Diagnosis) -> String {
+    let amplitude = numbers::short(effect.amplitude, diagnosis.unit);
+    let what = sentence_case(&body_in_words(&effect.body));
+    format!("{what} is up to {amplitude} off {}, {}.", axis(&effect.dof), form(&effect.form, &effect.driver))
+}
+
+/// `the body middle`; a name of the instrument's own stands as it is.
+fn body_in_words(body: &str) -> String {
+    format!("the body {}", body.replace('_', " "))
+}
+
+/// `about x`, `along z`, `about x and y`.
+fn axis(dof: &str) -> String {
+    let words: Vec<&str> = dof.split(", ").collect();
+    let turns = words.iter().all(|word| word.starts_with('R'));
+    let axes: Vec<String> = words.iter().map(|word| word[1..].to_owned()).collect();
+    format!("{} {}", if turns { "about" } else { "along" }, axes.join(" and "))
+}
+
+/// Where an effect sits: `in body middle, after the turn of beta: a rotation about x`.
+#[must_use]
+pub fn place(effect: &EffectFound, diagnosis: &Diagnosis) -> String {
+    let joints: Vec<&str> = diagnosis
+        .instrument
+        .bodies
+        .iter()
+        .filter(|body| body.name == effect.body)
+        .flat_map(|body| &body.joints)
+        .map(|joint| joint.name.as_str())
+        .collect();
+    let side = match (joints.as_slice(), effect.side) {
+        ([], _) => String::new(),
+        (joints, Side::Before) => format!(", before {} moves it", joints.join(" and ")),
+        (joints, Side::After) => format!(", behind {}", joints.join(" and ")),
+    };
+    let kind = if effect.dof.contains('R') { "rotation" } else { "translation" };
+    format!("in body {}{side}: a {kind} {}", effect.body, axis(&effect.dof))
+}
+
+/// How sure it is: `very unlikely to be chance (p ≤ 0.001); found again in 10 of 10 repeats`.
+#[must_use]
+pub fn chance_of(effect: &EffectFound, diagnosis: &Diagnosis) -> String {
+    let words = if effect.p_value < 0.0015 {
+        "very unlikely to be chance"
+    } else if effect.p_value < 0.011 {
+        "unlikely to be chance"
+    } else {
+        "could be chance"
+    };
+    let sure = format!("{words} ({})", numbers::chance(effect.p_value));
+    match diagnosis.search.map(|search| search.folds) {
+        Some(folds) if folds > 1 => {
+            // A share of a few folds, rounded to the number it came from.
+            let times = (effect.selected_in_folds * folds as f64).round();
+            format!("{sure}; found again in {times} of {folds} repeats")
+        }
+        _ => sure,
+    }
+}
+
+/// What speaks for an effect, and what cannot be told from it, a line each.
+#[must_use]
+pub fn evidence(effect: &EffectFound, diagnosis: &Diagnosis) -> Vec<String> {
+    let mut lines = Vec::new();
+    for (name, &value) in &effect.coefficients {
+        let found = diagnosis.errors.iter().find(|error| error.name == *name);
+        let told = found.map_or_else(
+            || format!("{value:?}"),
+            |error| match error.standard_uncertainty {
+                Some(sigma) => numbers::estimate(error.value, sigma, error.unit),
+                None => format!("{}, determined only together with others", numbers::told(value, error.unit)),
+            },
+        );
+        lines.push(format!("{name} = {told}"));
+    }
+    let observed = diagnosis.instrument.observed.first().map_or("the observations", |seen| &seen.name);
+    lines.push(format!(
+        "at most {} of {observed}, {} on average",
+        numbers::told(effect.amplitude, diagnosis.unit),
+        numbers::told(effect.amplitude_rms, diagnosis.unit)
+    ));
+    lines.push(chance_of(effect, diagnosis));
+    lines.extend(bias(effect, diagnosis));
+    if !effect.class.is_empty() {
+        lines.push(format!("these data cannot tell it from: {}", effect.class.join("; ")));
+    }
+    if !effect.rivals.is_empty() {
+        lines.push(format!("explains these data about as well: {}", effect.rivals.join("; ")));
+    }
+    lines
+}
+
+/// What its uncertainty adds to declared errors; `None` if nothing.
+#[must_use]
+pub fn bias(effect: &EffectFound, diagnosis: &Diagnosis) -> Option<String> {
+    let added: Vec<String> = largest(&effect.bias)
+        .into_iter()
+        .filter_map(|(name, shift)| {
+            let error = diagnosis.errors.iter().find(|error| error.name == name)?;
+            Some(format!("{} to {name}", numbers::told(shift, error.unit)))
+        })
+        .collect();
+    (!added.is_empty())
+        .then(|| format!("its uncertainty adds this much to other errors: {}", added.join(", ")))
+}
+
+/// The errors that move most, largest first.
+pub(super) fn largest(moved: &BTreeMap<String, f64>) -> Vec<(&str, f64)> {
+    let mut moved: Vec<(&str, f64)> = moved.iter().map(|(name, &shift)| (name.as_str(), shift)).collect();
+    moved.sort_by(|a, b| b.1.total_cmp(&a.1));
+    moved.truncate(NAMED);
+    moved
+}

@@ -1,0 +1,47 @@
+//! The noise in words.
+
+use super::numbers::{times, told};
+use crate::diagnose::{Diagnosis, VarianceFound};
+
+/// What was found of the noise, a sentence each.
+#[must_use]
+pub fn noise(diagnosis: &Diagnosis) -> Vec<String> {
+    let noise = &diagnosis.noise;
+    let mut said = Vec::new();
+    for series in &noise.series {
+        let each = series.components.iter().zip(&series.sigma);
+        let each: Vec<String> = each
+            .map(|(name, &sigma)| match series.of_stated {
+                true => format!("{} what the data state {name}", times(sigma)),
+                false => format!("{} {name}", told(sigma, series.unit)),
+            })
+            .collect();
+        said.push(format!("{}: standard deviation {}", series.source, each.join(", ")));
+    }
+    if let Some(stated) = noise.stated {
+        let stated = told(stated, diagnosis.unit);
+        said.push(format!(
+            "the study states {stated}; weights and uncertainties go by what the residuals show, since something may be \
+             missing"
+        ));
+    }
+    if !noise.variance.is_empty() {
+        let terms: Vec<String> = noise.variance.iter().map(term).collect();
+        said.push(format!(
+            "the noise depends on the joints: the logarithm of its variance is {}",
+            terms.join(" ")
+        ));
+    }
+    if let Some(serial) = noise.serial {
+        said.push(format!(
+            "rows remember the row before: ARMA(1,1) with {:.3} and {:.3}",
+            serial.autoregressive, serial.moving_average
+        ));
+    }
+    said
+}
+
+fn term(term: &VarianceFound) -> String {
+    let multiple = if term.multiple == 1 { String::new() } else { format!("{}", term.multiple) };
+    format!("{:+.2} {}({multiple}{})", term.coefficient, term.function, term.of)
+}

@@ -91,9 +91,10 @@ fn mean(values: &[f64], weight: impl Fn(usize) -> f64) -> f64 {
     sum(&|at| weight(at) * values[at]) / sum(&weight)
 }
 
-fn noise(report: &Value) -> Vec<String> {
-    let said = report["precision"]["noise"].as_array().expect("a list");
-    said.iter().map(|line| line.as_str().expect("a text").to_owned()).collect()
+/// Of each series the unit of its noise, and whether that is a factor on what the data state.
+fn noise(report: &Value) -> Vec<(&str, bool)> {
+    let series = report["noise"]["series"].as_array().expect("a list").iter();
+    series.map(|one| (one["unit"].as_str().expect("a unit"), one["of_stated"] == true)).collect()
 }
 
 /// Ranges know the zero alone: it is their mean, and no direction shows in them.
@@ -118,11 +119,10 @@ fn each_series_states_its_own_uncertainties() {
     let report = report(&folder, &format!("{SIGHTS}{stated}{FIT}{}", beside(own)));
     let expected = mean(&LEFT_MM, |at| STD_MM[at].powi(-2)) / 1e3;
     assert!((zero(&report) / expected - 1.0).abs() < 1e-9, "{} is not {expected}", zero(&report));
-    assert!(noise(&report)[0].contains("times what the data state"), "{:?}", noise(&report));
-    assert!(noise(&report)[1].contains("times what the data state"), "{:?}", noise(&report));
+    assert_eq!(noise(&report), [("1", true), ("1", true)]);
 }
 
-/// Standard deviations of angles say nothing of ranges: those count alike, and their noise is told in mm.
+/// Standard deviations of angles say nothing of ranges: those count alike, and their noise is one of lengths.
 #[test]
 fn uncertainties_of_angles_are_not_those_of_ranges() {
     let folder = folder("ranges-unstated");
@@ -130,8 +130,7 @@ fn uncertainties_of_angles_are_not_those_of_ranges() {
     let report = report(&folder, &format!("{SIGHTS}{stated}{FIT}{}", beside("")));
     let expected = mean(&LEFT_MM, |_| 1.0) / 1e3;
     assert!((zero(&report) / expected - 1.0).abs() < 1e-9, "{} is not {expected}", zero(&report));
-    let said = noise(&report);
-    assert!(said[0].contains("times what the data state") && said[1].ends_with(" mm"), "{said:?}");
+    assert_eq!(noise(&report), [("1", true), ("m", false)]);
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! The `trueaxis` command: arguments in, exit code out. What a command does stands in [`commands`].
 
+mod certificates;
 mod claims;
 mod commands;
 mod curves;

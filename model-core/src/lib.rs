@@ -5,6 +5,7 @@
 
 pub mod algebra;
 pub mod budget;
+pub mod certificate;
 pub mod chain;
 pub mod check;
 pub mod checker;

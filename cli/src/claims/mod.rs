@@ -22,7 +22,9 @@ pub use strings::place_in_string;
 pub struct ClaimsFile {
     /// The file itself.
     pub source: Source,
-    /// The chain that the claims are about.
+    /// The declaration that the claims are about.
+    pub declaration: Source,
+    /// What it means.
     pub chain: Chain,
     /// The same chain with the printed forms of the file's table, for output in the paper's own symbols.
     pub printed: Chain,
@@ -54,20 +56,17 @@ impl ClaimsFile {
         let source = Source::read(path)?;
         let file: table::File = source.toml()?;
         let chain_path = file.chain.get_ref();
-        let chain = source
-            .read_beside(Path::new(chain_path))
-            .map_err(|failure| match failure {
-                Failure::Read { why, .. } => {
-                    let path = source.beside(Path::new(chain_path));
-                    let message = format!("cannot read `{}`: {why}", path.display());
-                    source.mistake(
-                        Mistake::new(file.chain.span(), message)
-                            .with_help("name a declaration, relative to this file"),
-                    )
-                }
-                other => other,
-            })?
-            .chain()?;
-        read::claims(source, chain, &file)
+        let declaration = source.read_beside(Path::new(chain_path)).map_err(|failure| match failure {
+            Failure::Read { why, .. } => {
+                let path = source.beside(Path::new(chain_path));
+                let message = format!("cannot read `{}`: {why}", path.display());
+                source.mistake(
+                    Mistake::new(file.chain.span(), message)
+                        .with_help("name a declaration, relative to this file"),
+                )
+            }
+            other => other,
+        })?;
+        read::claims(source, declaration, &file)
     }
 }

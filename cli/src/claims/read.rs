@@ -22,11 +22,12 @@ use crate::source::{Source, listed};
 
 type Place = Range<usize>;
 
-/// Reads the claims of a file about a chain.
+/// Reads the claims of a file about a declaration.
 ///
 /// # Errors
 /// Every mistake, each with its place.
-pub(super) fn claims(source: Source, chain: Chain, file: &File) -> Result<ClaimsFile, Failure> {
+pub(super) fn claims(source: Source, declaration: Source, file: &File) -> Result<ClaimsFile, Failure> {
+    let chain = declaration.chain()?;
     let mut reader = Reader {
         text: &source.text,
         chain: &chain,
@@ -42,7 +43,7 @@ pub(super) fn claims(source: Source, chain: Chain, file: &File) -> Result<Claims
     if !mistakes.is_empty() {
         return Err(source.mistakes(&Mistakes::locate(&source.text, mistakes)));
     }
-    Ok(ClaimsFile { source, chain, printed, claims })
+    Ok(ClaimsFile { source, declaration, chain, printed, claims })
 }
 
 struct Reader<'a> {

@@ -3,13 +3,16 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use model_core::certificate::{Certificate, Declared};
 use model_core::checker::{Checker, Claim, Counted, Difference, FormVerdict, Measured, Verdict};
 use model_core::{Chain, Mistake, budget, print};
 use serde_json::{Value, json};
 
 use super::{Answer, TextOrJson};
+use crate::certificates::CertificateArguments;
 use crate::claims::{ClaimsFile, NamedClaim};
 use crate::failure::Failure;
+use crate::output;
 use crate::terminal::{self, BAD, GOOD, HEADING};
 
 /// Check published claims: is the printed formula what the chain implies?
@@ -26,6 +29,8 @@ pub struct Arguments {
     /// How to print the verdicts
     #[arg(long, value_enum, default_value_t = TextOrJson::Text)]
     format: TextOrJson,
+    #[command(flatten)]
+    certificate: CertificateArguments,
 }
 
 /// A claim and what is said of it.
@@ -36,6 +41,7 @@ struct Checked<'a> {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
+    let certificate = arguments.certificate.wanted()?;
     let file = ClaimsFile::read(&arguments.claims)?;
     let mut checker = Checker::new(&file.chain);
     let mut checked = Vec::with_capacity(file.claims.len());
@@ -52,9 +58,45 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
             format!("{:#}\n", json!({ "claims": claims }))
         }
     };
+    if let Some(path) = certificate {
+        output::write_text(path, &certify(&file, &checked)?)?;
+    }
+    arguments.certificate.write_library()?;
     terminal::print(&output)?;
     let all_hold = checked.iter().all(|checked| checked.verdict.holds());
     Ok(if all_hold { Answer::Done } else { Answer::No })
+}
+
+/// The verdicts as a certificate.
+fn certify(file: &ClaimsFile, checked: &[Checked<'_>]) -> Result<String, Failure> {
+    let declaration = &file.declaration;
+    let declared =
+        Declared::from_text(&declaration.text).map_err(|mistakes| declaration.mistakes(&mistakes))?;
+    let mut certificate = Certificate::new(&declared);
+    for Checked { claim, verdict } in checked {
+        match (&claim.claim, verdict) {
+            (Claim::ClosedForm(form), Verdict::ClosedForm(verdict)) => {
+                certificate.closed_form(&claim.name, form, verdict).map_err(|refusal| {
+                    let message = format!("no certificate of this claim: {refusal}; nothing is written");
+                    file.source.mistake(Mistake::new(claim.place.clone(), message))
+                })?;
+            }
+            (_, Verdict::Comparison(_)) => {
+                certificate
+                    .not_certified(&claim.name, "influences are measured in floating point, not proved");
+            }
+            _ => certificate
+                .not_certified(&claim.name, "a count is of names in the declaration, and no formula"),
+        }
+    }
+    for note in certificate.notes() {
+        terminal::note(format_args!("not certified: {note}"));
+    }
+    if certificate.is_empty() {
+        let why = "no claim of this file is a formula; there is nothing to certify, and nothing is written";
+        return Err(Failure::Input(why.to_owned()));
+    }
+    Ok(certificate.finish(&file.source.path.display().to_string()))
 }
 
 fn as_text(file: &ClaimsFile, checked: &[Checked<'_>]) -> String {

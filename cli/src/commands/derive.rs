@@ -2,12 +2,15 @@
 
 use std::path::PathBuf;
 
+use model_core::certificate::{Certificate, Declared};
 use model_core::forms::{self, Form};
 use model_core::{Chain, ObservableKind, print};
 use serde_json::json;
 
 use super::Answer;
+use crate::certificates::CertificateArguments;
 use crate::failure::Failure;
+use crate::output;
 use crate::source::{Source, observables};
 use crate::terminal::{self, HEADING};
 
@@ -30,6 +33,8 @@ pub struct Arguments {
     /// How to print the formulas
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    #[command(flatten)]
+    certificate: CertificateArguments,
 }
 
 /// How a formula is printed.
@@ -47,9 +52,13 @@ enum Format {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let chain = Source::read(&arguments.chain)?.chain()?;
-    let forms: Vec<Form> = observables(&chain, &arguments.observable)?
-        .into_iter()
+    let certificate = arguments.certificate.wanted()?;
+    let source = Source::read(&arguments.chain)?;
+    let chain = source.chain()?;
+    let chosen = observables(&chain, &arguments.observable)?;
+    let forms: Vec<Form> = chosen
+        .iter()
+        .copied()
         .map(|observable| forms::derive(&chain, observable, arguments.order))
         .collect::<Result<_, _>>()
         .map_err(|error| Failure::Input(error.to_string()))?;
@@ -61,6 +70,18 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         Format::Latex => sections(&chain, &forms, print::Style::Latex, |title| format!("% {title}")),
         Format::Markdown => sections(&chain, &forms, print::Style::Markdown, |title| format!("## {title}\n")),
     };
+    if let Some(path) = certificate {
+        let declared = Declared::from_text(&source.text).map_err(|mistakes| source.mistakes(&mistakes))?;
+        let mut certificate = Certificate::new(&declared);
+        for &observable in &chosen {
+            certificate.derived(observable, arguments.order).map_err(|refusal| {
+                let name = &chain.observable(observable).name;
+                Failure::Input(format!("no certificate of `{name}`: {refusal}; nothing is written"))
+            })?;
+        }
+        output::write_text(path, &certificate.finish(&source.path.display().to_string()))?;
+    }
+    arguments.certificate.write_library()?;
     terminal::print(&printed)?;
     Ok(Answer::Done)
 }

@@ -2,12 +2,15 @@
 
 use std::path::PathBuf;
 
+use model_core::certificate::{Certificate, Declared, Refusal};
 use model_core::identify::{self, Candidate, Identifiability, Mistaken, Ratio, Verdict};
 use model_core::{BodyId, Chain, Mistakes, ObservableId, Role, names, print};
 use serde_json::{Value, json};
 
 use super::{Answer, TextOrJson};
+use crate::certificates::CertificateArguments;
 use crate::failure::Failure;
+use crate::output;
 use crate::source::{Source, listed, observables};
 use crate::terminal;
 
@@ -31,11 +34,15 @@ pub struct Arguments {
     /// How to print
     #[arg(long, value_enum, default_value_t = TextOrJson::Text)]
     format: TextOrJson,
+    #[command(flatten)]
+    certificate: CertificateArguments,
 }
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let chain = Source::read(&arguments.chain)?.chain()?;
+    let certificate = arguments.certificate.wanted()?;
+    let source = Source::read(&arguments.chain)?;
+    let chain = source.chain()?;
     let chosen = observables(&chain, &arguments.observable)?;
     let sets = if arguments.observable.is_empty() && chosen.len() > 1 {
         chosen.iter().map(|&id| vec![id]).chain([chosen.clone()]).collect()
@@ -45,6 +52,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let candidate = arguments.candidate.as_deref().map(|text| candidate(&chain, text)).transpose()?;
     let mut texts = Vec::new();
     let mut answers = Vec::new();
+    let mut certified = Vec::new();
     for set in &sets {
         let failure = |error: model_core::forms::FormError| Failure::Input(error.to_string());
         let found = identify::identify(&chain, set).map_err(failure)?;
@@ -58,12 +66,48 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         }
         texts.push(text);
         answers.push(answer);
+        certified.push(found);
     }
+    if let Some(path) = certificate {
+        output::write_text(path, &certify(&source, &certified)?)?;
+    }
+    arguments.certificate.write_library()?;
     terminal::print(&match arguments.format {
         TextOrJson::Text => texts.join("\n"),
         TextOrJson::Json => format!("{:#}\n", json!({ "identifiability": answers })),
     })?;
     Ok(Answer::Done)
+}
+
+/// What has no influence, and what is one and the same, as a certificate.
+fn certify(source: &Source, certified: &[Identifiability]) -> Result<String, Failure> {
+    let declared = Declared::from_text(&source.text).map_err(|mistakes| source.mistakes(&mistakes))?;
+    let mut certificate = Certificate::new(&declared);
+    let refused = |refusal: Refusal| Failure::Input(format!("no certificate: {refusal}; nothing is written"));
+    for found in certified {
+        for &observable in &found.observables {
+            for &error in &found.invisible {
+                certificate.without_influence(observable, error).map_err(refused)?;
+            }
+            for group in &found.alike {
+                let Some((first, others)) = group.split_first() else { continue };
+                for other in others {
+                    certificate.alike(observable, first.error, other.error, &other.ratio).map_err(refused)?;
+                }
+            }
+        }
+    }
+    if certificate.is_empty() {
+        let why =
+            "every error has an influence of its own; there is nothing to certify, and nothing is written";
+        return Err(Failure::Input(why.to_owned()));
+    }
+    certificate
+        .not_certified("which combinations can be estimated", "that needs more than a formula for each");
+    for note in certificate.notes() {
+        terminal::note(format_args!("not certified: {note}"));
+    }
+    Ok(certificate.finish(&source.path.display().to_string()))
 }
 
 /// Reads `middle Rx(x*cos(beta))`.

@@ -1,0 +1,109 @@
+//! A declaration as written and what it means, side by side: a certificate states amounts as the user wrote them.
+
+use crate::algebra::Poly;
+use crate::chain::{Axis, BodyId, Chain, Motion, ObservableId, Role};
+use crate::check;
+use crate::expr::Expr;
+use crate::mistake::Mistakes;
+use crate::symbol::{SymbolId, SymbolKind};
+use crate::syntax;
+
+/// A declaration with its chain.
+#[derive(Debug, Clone)]
+pub struct Declared {
+    chain: Chain,
+    bodies: Vec<Vec<WrittenFactor>>,
+    observables: Vec<[Expr<()>; 3]>,
+}
+
+/// A factor as written.
+#[derive(Debug, Clone)]
+pub(super) struct WrittenFactor {
+    pub role: Role,
+    pub motion: Motion,
+    pub axis: Axis,
+    /// As the user wrote it.
+    pub written: Expr<()>,
+    /// What it says.
+    pub amount: Poly,
+}
+
+impl Declared {
+    /// Reads and checks the text of a `.chain` file.
+    ///
+    /// # Errors
+    /// Every mistake in it, sorted by place.
+    pub fn from_text(text: &str) -> Result<Self, Mistakes> {
+        let tokens = syntax::tokens_of(text).map_err(|mistake| syntax::located(text, vec![mistake]))?;
+        let (declaration, chain) = check::read(tokens).map_err(|mistakes| syntax::located(text, mistakes))?;
+        let mut bodies = Vec::with_capacity(chain.bodies.len());
+        for body in &chain.bodies {
+            let statement = declaration.bodies().find(|statement| statement.name == body.name);
+            let amounts = statement
+                .into_iter()
+                .flat_map(|statement| &statement.groups)
+                .flat_map(|group| &group.factors);
+            let factors = body.factors.iter().zip(amounts.filter_map(|factor| factor.amount.as_ref()));
+            bodies.push(
+                factors
+                    .map(|(factor, written)| WrittenFactor {
+                        role: factor.role,
+                        motion: factor.motion,
+                        axis: factor.axis,
+                        written: without_places(written),
+                        amount: factor.amount.clone(),
+                    })
+                    .collect(),
+            );
+        }
+        let observables = declaration
+            .observables()
+            .filter_map(|observe| match &observe.components {
+                [Some(x), Some(y), Some(z)] => Some([x, y, z].map(without_places)),
+                _ => None,
+            })
+            .collect();
+        Ok(Self { chain, bodies, observables })
+    }
+
+    /// What the declaration means.
+    #[must_use]
+    pub fn chain(&self) -> &Chain {
+        &self.chain
+    }
+
+    /// The factors of a body.
+    pub(super) fn body(&self, body: BodyId) -> &[WrittenFactor] {
+        &self.bodies[usize::from(body.0)]
+    }
+
+    /// The components of an observable.
+    pub(super) fn observable(&self, observable: ObservableId) -> &[Expr<()>; 3] {
+        &self.observables[usize::from(observable.0)]
+    }
+
+    /// Whether a symbol is an error.
+    pub(super) fn is_error(&self, symbol: SymbolId) -> bool {
+        self.chain.symbol(symbol).kind == SymbolKind::Error
+    }
+
+    /// The canonical form of an expression; `None` if it has none.
+    pub(super) fn lower(&self, expression: &Expr<()>) -> Option<Poly> {
+        Poly::from_expr(expression, |name| self.chain.find_symbol(name), |_| true).ok()
+    }
+
+    /// The symbols in an expression, in order, each once.
+    pub(super) fn symbols_of(&self, expression: &Expr<()>) -> Vec<SymbolId> {
+        let names = expression.names();
+        let mut found: Vec<SymbolId> =
+            names.iter().filter_map(|(name, ())| self.chain.find_symbol(name)).collect();
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+}
+
+/// An expression without its places.
+pub(super) fn without_places<S>(expression: &Expr<S>) -> Expr<()> {
+    expression.map_place(&|_| ())
+}

@@ -1,0 +1,120 @@
+//! Powers of t, where every error is multiplied by t: what the observable's vector is after each factor, by degree.
+
+use super::Refusal;
+use super::declared::WrittenFactor;
+use crate::algebra::{AngleSum, Poly, Rational};
+use crate::chain::{Axis, Motion, ObservableKind};
+use crate::forms::FormError;
+
+/// Terms that a vector may have on its way: what Coq calculates with in reasonable time.
+const TERMS_LIMIT: usize = 20_000;
+
+/// A function of t by its powers, lowest first.
+pub(super) type Jet = Vec<Poly>;
+
+/// x, y and z by powers of t.
+pub(super) type VectorJet = [Jet; 3];
+
+/// A component of the observable: it has no errors.
+pub(super) fn constant(value: &Poly, order: u32) -> Jet {
+    let mut jet = vec![Poly::zero(); order as usize + 1];
+    jet[0] = value.clone();
+    jet
+}
+
+/// The vector after one more factor, whose amount is given by powers of t.
+pub(super) fn moved(
+    before: &VectorJet,
+    kind: ObservableKind,
+    factor: &WrittenFactor,
+    amount: &Jet,
+    body: &str,
+) -> Result<VectorJet, Refusal> {
+    let mut vector = before.clone();
+    match factor.motion {
+        Motion::Translation if kind == ObservableKind::Direction => {}
+        Motion::Translation => {
+            let component = &mut vector[factor.axis.index()];
+            *component = component.iter().zip(amount).map(|(a, b)| a + b).collect();
+        }
+        Motion::Rotation => {
+            let angle = AngleSum::from_poly(&amount[0]).map_err(|error| FormError {
+                body: body.to_owned(),
+                axis: letter(factor.axis),
+                error,
+            })?;
+            let (cosine, sine) = waves(&angle, amount);
+            let (a, b) = ((factor.axis.index() + 1) % 3, (factor.axis.index() + 2) % 3);
+            vector[a] = combined(&product(&before[a], &cosine), &product(&before[b], &sine), true);
+            vector[b] = combined(&product(&before[a], &sine), &product(&before[b], &cosine), false);
+        }
+    }
+    let terms: usize = vector.iter().flatten().map(Poly::len).sum();
+    if terms > TERMS_LIMIT { Err(Refusal::TooLarge { terms, limit: TERMS_LIMIT }) } else { Ok(vector) }
+}
+
+/// An amount by powers of t: its degrees in the errors that are kept; the others are zero.
+pub(super) fn amount(
+    amount: &Poly,
+    order: u32,
+    is_error: impl Fn(usize) -> bool,
+    is_kept: impl Fn(usize) -> bool,
+) -> Jet {
+    let kept = amount.graded_part(|symbol| is_error(symbol.index()) && !is_kept(symbol.index()), 0);
+    let highest = kept.degree_in(|symbol| is_error(symbol.index())).max(order);
+    (0..=highest).map(|degree| kept.graded_part(|symbol| is_error(symbol.index()), degree)).collect()
+}
+
+/// Cosine and sine of an amount whose part without t is `angle`.
+///
+/// Source: k·cₖ = −Σ j·aⱼ·sₖ₋ⱼ and k·sₖ = Σ j·aⱼ·cₖ₋ⱼ, from cos′ = −sin · a′ and sin′ = cos · a′.
+pub(super) fn waves(angle: &AngleSum, amount: &Jet) -> (Jet, Jet) {
+    let (cosine, sine) = angle.cos_sin();
+    let (mut cosines, mut sines) = (vec![cosine], vec![sine]);
+    for k in 1..amount.len() {
+        let sum = |other: &Jet| {
+            let terms = (1..=k).map(|j| (&amount[j] * &other[k - j]).scale(&whole(j)));
+            let total = terms.fold(Poly::zero(), |sum, term| &sum + &term);
+            whole(k).recip().map_or(Poly::zero(), |inverse| total.scale(&inverse))
+        };
+        let (next_cosine, next_sine) = (-&sum(&sines), sum(&cosines));
+        cosines.push(next_cosine);
+        sines.push(next_sine);
+    }
+    (cosines, sines)
+}
+
+fn whole(n: usize) -> Rational {
+    Rational::from(i64::try_from(n).unwrap_or(i64::MAX))
+}
+
+fn product(a: &Jet, b: &Jet) -> Jet {
+    (0..a.len())
+        .map(|degree| {
+            let parts = (0..=degree).filter(|&j| degree - j < b.len());
+            parts.fold(Poly::zero(), |sum, j| &sum + &(&a[j] * &b[degree - j]))
+        })
+        .collect()
+}
+
+fn combined(a: &Jet, b: &Jet, subtract: bool) -> Jet {
+    a.iter().zip(b).map(|(a, b)| if subtract { a - b } else { a + b }).collect()
+}
+
+fn letter(axis: Axis) -> char {
+    ['x', 'y', 'z'][axis.index()]
+}
+
+/// The derivatives at t = 0 from the powers of t: times 1, 1, 2, 6.
+pub(super) fn derivatives(jet: &Jet) -> Vec<Poly> {
+    let mut factorial = Rational::ONE;
+    (0..)
+        .zip(jet)
+        .map(|(k, part): (usize, &Poly)| {
+            if k > 0 {
+                factorial = &factorial * &whole(k);
+            }
+            part.scale(&factorial)
+        })
+        .collect()
+}

@@ -1,0 +1,309 @@
+//! One statement of a certificate: the way from the ground to an observable, formulas for its error, and proofs.
+
+use std::fmt::Write as _;
+
+use super::angles::Angles;
+use super::expanded::Expanded;
+use super::expression::{self, Level, Term};
+use super::jets::{self, Jet, VectorJet};
+use super::names::comment;
+use super::{Certificate, Refusal};
+use crate::algebra::{Poly, Wave};
+use crate::chain::{BodyId, ObservableId, ObservableKind};
+use crate::expr::Expr;
+use crate::symbol::SymbolId;
+
+/// What a statement is about.
+#[derive(Debug, Clone)]
+pub(super) struct Question {
+    pub observable: ObservableId,
+    pub order: u32,
+    /// The errors that are not zero, in order.
+    pub kept: Vec<SymbolId>,
+    /// Constants that are zero.
+    pub zeros: Vec<SymbolId>,
+}
+
+/// A statement that is being written.
+pub(super) struct Section<'c> {
+    pub certificate: &'c Certificate<'c>,
+    pub question: &'c Question,
+    pub kind: ObservableKind,
+    pub path: Vec<BodyId>,
+    /// The symbols that the statement is for all values of, in order.
+    pub used: Vec<SymbolId>,
+    /// The sines and cosines that are divided by, and so are not zero.
+    pub conditions: Vec<(SymbolId, Wave)>,
+    pub angles: Angles,
+    /// Every factor on the way, with its amount by powers of t.
+    pub factors: Vec<(BodyId, usize, Jet)>,
+    /// The vector by powers of t: of the observable itself, then after each factor from the last to the first.
+    pub states: Vec<VectorJet>,
+    pub out: String,
+}
+
+impl<'c> Section<'c> {
+    /// A statement with these formulas in it, before anything is written.
+    pub(super) fn new(
+        certificate: &'c Certificate<'c>,
+        question: &'c Question,
+        formulas: &[&[Expr<()>; 3]],
+    ) -> Result<Self, Refusal> {
+        let declared = certificate.declared;
+        let chain = declared.chain();
+        let observable = chain.observable(question.observable);
+        let path = chain.path(observable.body);
+        let mut section = Self {
+            certificate,
+            question,
+            kind: observable.kind,
+            path,
+            used: Vec::new(),
+            conditions: Vec::new(),
+            angles: Angles::default(),
+            factors: Vec::new(),
+            states: Vec::new(),
+            out: String::new(),
+        };
+        let name = |name: &str| section_name(certificate, question, name);
+        let lower = |expression: &Expr<()>| lower(certificate, question, expression);
+        let mut angles = Angles::default();
+        let mut divisors = Vec::new();
+        let vector = declared.observable(question.observable);
+        for expression in vector.iter().chain(formulas.iter().copied().flatten()) {
+            section.used.extend(declared.symbols_of(expression));
+            angles.add_all(&lower, expression, &name)?;
+            expression::divisors(expression, &mut divisors);
+        }
+        for body in &section.path {
+            let kept = |symbol: &SymbolId| {
+                !declared.is_error(*symbol) || question.kept.binary_search(symbol).is_ok()
+            };
+            section.used.extend(certificate.body_symbols(*body).into_iter().filter(kept));
+            for (index, factor) in declared.body(*body).iter().enumerate() {
+                let is_error = |symbol: usize| declared.is_error(SymbolId(symbol as u16));
+                let is_kept = |symbol: usize| section.is_kept(SymbolId(symbol as u16));
+                let amount =
+                    jets::amount(&put_zeros(question, &factor.amount)?, question.order, is_error, is_kept);
+                section.factors.push((*body, index, amount));
+                angles.add_all(&lower, &factor.written, &name)?;
+                expression::divisors(&factor.written, &mut divisors);
+                let is_nominal = factor.amount.symbols().iter().all(|symbol| !declared.is_error(*symbol));
+                if is_nominal && factor.motion == crate::chain::Motion::Rotation {
+                    angles.add(&lower, &factor.written, &name)?;
+                }
+            }
+        }
+        section.used.sort_unstable();
+        section.used.dedup();
+        section.used.retain(|symbol| !question.zeros.contains(symbol));
+        section.angles = angles;
+        for divisor in divisors {
+            section.add_conditions(&divisor)?;
+        }
+        section.run()?;
+        Ok(section)
+    }
+
+    fn is_kept(&self, symbol: SymbolId) -> bool {
+        self.question.kept.binary_search(&symbol).is_ok()
+    }
+
+    /// What has to differ from zero for a quotient to exist.
+    fn add_conditions(&mut self, divisor: &Expr<()>) -> Result<(), Refusal> {
+        let poly = lower(self.certificate, self.question, divisor)?;
+        for pole in poly.recip().ok_or(Refusal::Divisor)?.terms().flat_map(|term| term.poles) {
+            let wave = if pole.sin_power > 0 { Wave::Sin } else { Wave::Cos };
+            if !self.conditions.contains(&(pole.symbol, wave)) {
+                self.conditions.push((pole.symbol, wave));
+            }
+        }
+        self.conditions.sort_unstable();
+        Ok(())
+    }
+
+    /// The vector, from the observable itself to the ground.
+    fn run(&mut self) -> Result<(), Refusal> {
+        let declared = self.certificate.declared;
+        let chain = declared.chain();
+        let components = &chain.observable(self.question.observable).components;
+        let [x, y, z] = components.each_ref().map(|component| put_zeros(self.question, component));
+        self.states.push([x?, y?, z?].map(|component| jets::constant(&component, self.question.order)));
+        for (body, index, amount) in self.factors.iter().rev() {
+            let factor = &declared.body(*body)[*index];
+            let Some(before) = self.states.last() else { continue };
+            let after = jets::moved(before, self.kind, factor, amount, &chain.body(*body).name)?;
+            self.states.push(after);
+        }
+        Ok(())
+    }
+
+    /// The name of a symbol.
+    pub(super) fn name(&self, symbol: SymbolId) -> String {
+        self.certificate.symbol(symbol).to_owned()
+    }
+
+    /// A canonical form in Coq's syntax.
+    pub(super) fn poly(&self, poly: &Poly) -> Result<String, Refusal> {
+        Ok(Expanded::new(poly)?.write(&|symbol| self.name(symbol)))
+    }
+
+    /// An expression as written, in the names of the certificate.
+    pub(super) fn written(&self, expression: &Expr<()>) -> String {
+        expression::write(expression, &|name| section_name(self.certificate, self.question, name))
+    }
+
+    /// What an error is where every error is multiplied by t: nothing if it is neglected.
+    pub(super) fn scaled(&self, symbol: SymbolId) -> Term {
+        if self.question.zeros.contains(&symbol) {
+            return Term::new("0", Level::Atom);
+        }
+        let name = self.name(symbol);
+        match (self.certificate.declared.is_error(symbol), self.is_kept(symbol)) {
+            (false, _) => Term::new(name, Level::Atom),
+            (true, true) => Term::new(format!("t * {name}"), Level::Product),
+            (true, false) => Term::new("0", Level::Atom),
+        }
+    }
+
+    pub(super) fn kind_name(&self) -> &'static str {
+        match self.kind {
+            ObservableKind::Direction => "Direction",
+            ObservableKind::Point => "Point",
+        }
+    }
+
+    /// `error_to_order 1 (fun t => shown Direction (instrument t) vector) formula`
+    pub(super) fn statement(&self, formula: &str) -> String {
+        let (order, kind) = (self.question.order, self.kind_name());
+        format!("error_to_order {order} (fun t => shown {kind} (instrument t) vector) {formula}")
+    }
+
+    /// The heading, the variables and the instrument.
+    pub(super) fn open(&mut self, module: &str, title: &str) {
+        let certificate = self.certificate;
+        let chain = certificate.declared.chain();
+        let observable = chain.observable(self.question.observable);
+        let _ = writeln!(self.out, "(* {} *)\nModule {module}.\nSection for_all.", comment(title));
+        let names: Vec<String> = self.used.iter().map(|symbol| self.name(*symbol)).collect();
+        if !names.is_empty() {
+            let _ = writeln!(self.out, "Variables {} : R.", names.join(" "));
+        }
+        self.write_conditions();
+        let body = &chain.body(observable.body).name;
+        let _ = writeln!(
+            self.out,
+            "(* From the ground to body {}, every error multiplied by t; what is neglected is 0. *)\n\
+             Definition instrument (t : R) : list motion :=",
+            comment(body)
+        );
+        for (index, body) in self.path.iter().enumerate() {
+            let symbols = certificate.body_symbols(*body).into_iter();
+            let arguments: Vec<String> =
+                symbols.map(|symbol| format!(" {}", self.scaled(symbol).at(Level::Atom))).collect();
+            let end = if index + 1 == self.path.len() { "." } else { " ++" };
+            let _ = writeln!(
+                self.out,
+                "  {}{}{end}",
+                certificate.bodies[usize::from(body.0)],
+                arguments.concat()
+            );
+        }
+        let what = match self.kind {
+            ObservableKind::Direction => "direction",
+            ObservableKind::Point => "point",
+        };
+        let _ = writeln!(self.out, "(* {}: a {what} in the frame of that body *)", comment(&observable.name));
+        self.formula("vector", certificate.declared.observable(self.question.observable));
+    }
+
+    /// The heading, the variables with one more, and the rules of calculation, for a statement about numbers.
+    pub(super) fn open_plain(&mut self, module: &str, title: &str, size: &str) -> Result<(), Refusal> {
+        let names: Vec<String> = self
+            .used
+            .iter()
+            .filter(|symbol| !self.is_kept(**symbol))
+            .map(|symbol| self.name(*symbol))
+            .collect();
+        let _ = writeln!(
+            self.out,
+            "(* {} *)\nModule {module}.\nSection for_all.\nVariables {} {size} : R.",
+            comment(title),
+            names.join(" ")
+        );
+        self.write_conditions();
+        let mut lemmas = String::new();
+        self.angles.write(&mut lemmas, &|symbol| self.name(symbol))?;
+        self.out.push_str(&lemmas);
+        Ok(())
+    }
+
+    fn write_conditions(&mut self) {
+        for (index, condition) in self.conditions.iter().enumerate() {
+            let _ = writeln!(self.out, "Hypothesis defined_{index} : {}.", self.condition(*condition));
+        }
+    }
+
+    /// `sin e <> 0`
+    pub(super) fn condition(&self, (symbol, wave): (SymbolId, Wave)) -> String {
+        let wave = if wave == Wave::Sin { "sin" } else { "cos" };
+        format!("{wave} {} <> 0", self.name(symbol))
+    }
+
+    /// A vector as written.
+    pub(super) fn formula(&mut self, name: &str, components: &[Expr<()>; 3]) {
+        let [x, y, z] = components.each_ref().map(|component| self.written(component));
+        let _ = writeln!(self.out, "Definition {name} : vec := V\n  ({x})\n  ({y})\n  ({z}).");
+    }
+
+    /// What a formula says.
+    pub(super) fn claim(&mut self, formula: &str) {
+        let statement = self.statement(formula);
+        let _ = writeln!(self.out, "Definition claim : Prop :=\n  {statement}.");
+    }
+
+    /// The whole proof that a formula is the error.
+    pub(super) fn prove(&mut self, formula: &str, theorem: &str, statement: &str) -> Result<(), Refusal> {
+        self.prepare()?;
+        self.canonical(formula)?;
+        self.reach(formula, theorem, statement)
+    }
+
+    /// The end of the section and of the statement.
+    pub(super) fn close_all(mut self, module: &str) -> String {
+        self.close_section();
+        self.close(module)
+    }
+
+    /// The end of the section; what follows is for all values of its variables.
+    pub(super) fn close_section(&mut self) {
+        self.out.push_str("End for_all.\n");
+    }
+
+    /// The whole text of the statement.
+    pub(super) fn close(mut self, module: &str) -> String {
+        let _ = writeln!(self.out, "End {module}.");
+        self.out
+    }
+}
+
+/// What stands for a name of the declaration.
+fn section_name(certificate: &Certificate<'_>, question: &Question, name: &str) -> Term {
+    match certificate.declared.chain().find_symbol(name) {
+        Some(symbol) if question.zeros.contains(&symbol) => Term::new("0", Level::Atom),
+        Some(symbol) => Term::new(certificate.symbol(symbol), Level::Atom),
+        None => Term::new(name, Level::Atom),
+    }
+}
+
+/// What an expression says, with zero for what is zero.
+fn lower(certificate: &Certificate<'_>, question: &Question, expression: &Expr<()>) -> Result<Poly, Refusal> {
+    put_zeros(question, &certificate.declared.lower(expression).ok_or(Refusal::Divisor)?)
+}
+
+/// A formula with zero for what is zero.
+fn put_zeros(question: &Question, poly: &Poly) -> Result<Poly, Refusal> {
+    question.zeros.iter().try_fold(poly.clone(), |poly, symbol| {
+        poly.substitute(*symbol, &Poly::zero()).map_err(|_| Refusal::Divisor)
+    })
+}

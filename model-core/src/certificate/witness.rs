@@ -1,0 +1,179 @@
+//! Witnesses: values at which a formula is a number other than zero, exactly.
+
+use std::collections::BTreeMap;
+
+use super::expanded::{Expanded, Key, Part};
+use crate::algebra::{Rational, Wave};
+use crate::symbol::SymbolId;
+
+/// Values that are tried before the search is given up.
+const TRIES_LIMIT: usize = 20_000;
+
+/// A value of a symbol.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Value {
+    /// In Coq's syntax.
+    pub text: String,
+    /// As a rational number, or as a rational multiple of π; `None` if it is neither.
+    pub number: Option<(Rational, bool)>,
+    /// Cosine and sine; `None` if they are not rational.
+    pub wave: Option<(Rational, Rational)>,
+}
+
+impl Value {
+    /// A whole number.
+    pub(super) fn whole(n: i64) -> Self {
+        let text = if n < 0 { format!("- {}", n.unsigned_abs()) } else { n.to_string() };
+        let wave = (n == 0).then_some((Rational::ONE, Rational::ZERO));
+        Self { text, number: Some((Rational::from(n), false)), wave }
+    }
+
+    /// Some quarter turns, 1 to 3.
+    fn quarters(n: i64) -> Self {
+        let (text, number, cosine, sine) = match n {
+            1 => ("PI / 2", Rational::half(), 0, 1),
+            2 => ("PI", Rational::ONE, -1, 0),
+            _ => ("- (PI / 2)", -&Rational::half(), 0, -1),
+        };
+        let wave = Some((Rational::from(cosine), Rational::from(sine)));
+        Self { text: text.to_owned(), number: Some((number, true)), wave }
+    }
+
+    /// 2 atan u: an angle with rational cosine and sine.
+    fn circle(numerator: i64, denominator: i64) -> Self {
+        let (p, q) = (numerator, denominator);
+        let squares = p * p + q * q;
+        let text = if q == 1 { format!("2 * atan {p}") } else { format!("2 * atan ({p} / {q})") };
+        let ratio = |above| Rational::new(above, squares).unwrap_or_default();
+        Self { text, number: None, wave: Some((ratio(q * q - p * p), ratio(2 * p * q))) }
+    }
+}
+
+/// What is tried: quarter turns before anything else for an angle, small whole numbers.
+fn candidates(is_angle: bool) -> Vec<Value> {
+    if is_angle {
+        let circle = [(1, 2), (1, 3), (2, 1), (3, 1), (2, 3), (1, 4), (3, 2), (1, 5)]
+            .map(|(p, q)| Value::circle(p, q));
+        let quarters = [Value::whole(0)].into_iter().chain((1..=3).map(Value::quarters));
+        quarters.chain(circle).collect()
+    } else {
+        [1, 0, 2, -1, 3, -2, 5].map(Value::whole).to_vec()
+    }
+}
+
+/// The formula with a value put in for a symbol; `None` if it has none there.
+pub(super) fn substitute(formula: &Expanded, symbol: SymbolId, value: &Value) -> Option<Expanded> {
+    let mut result: BTreeMap<Key, Rational> = BTreeMap::new();
+    for (key, coefficient) in &formula.0 {
+        let mut coefficient = coefficient.clone();
+        let mut rest: Key = Vec::new();
+        let mut turns = 0;
+        for &(other, part, power) in key {
+            if other != symbol {
+                rest.push((other, part, power));
+                continue;
+            }
+            let base = match part {
+                Part::Value => {
+                    let (number, of_pi) = value.number.clone()?;
+                    turns += if of_pi { power } else { 0 };
+                    number
+                }
+                Part::Cos => value.wave.clone()?.0,
+                Part::Sin => value.wave.clone()?.1,
+                Part::OverCos => value.wave.clone()?.0.recip()?,
+                Part::OverSin => value.wave.clone()?.1.recip()?,
+            };
+            coefficient = (0..power).fold(coefficient, |product, _| &product * &base);
+        }
+        if turns > 0 {
+            match rest.iter_mut().find(|(other, ..)| *other == SymbolId::PI) {
+                Some((_, _, power)) => *power += turns,
+                None => rest.push((SymbolId::PI, Part::Value, turns)),
+            }
+            rest.sort_unstable();
+        }
+        let sum = result.remove(&rest).map_or_else(|| coefficient.clone(), |before| &before + &coefficient);
+        if !sum.is_zero() {
+            result.insert(rest, sum);
+        }
+    }
+    Some(Expanded(result))
+}
+
+/// Whether a number, a polynomial in π, is seen not to be zero from 0 < π ≤ 4: Coq's library proves that much by its axioms
+/// of real numbers alone.
+fn is_seen(number: &Expanded) -> bool {
+    let (mut at_0, mut at_4) = (Rational::ZERO, Rational::ZERO);
+    for (key, coefficient) in &number.0 {
+        match key.as_slice() {
+            [] => (at_0, at_4) = (&at_0 + coefficient, &at_4 + coefficient),
+            [(SymbolId::PI, Part::Value, 1)] => at_4 = &at_4 + &(coefficient * &Rational::from(4)),
+            _ => return false,
+        }
+    }
+    !at_4.is_zero() && (at_0.is_zero() || at_0.is_negative() == at_4.is_negative())
+}
+
+/// A search for values of some symbols, others staying as they are given.
+pub(super) struct Search<'a> {
+    /// The sines and cosines that must not be zero.
+    pub conditions: &'a [(SymbolId, Wave)],
+    /// Which symbols are angles in some formula.
+    pub is_angle: &'a dyn Fn(SymbolId) -> bool,
+    /// Which symbols stand in some formula as they are.
+    pub is_number: &'a dyn Fn(SymbolId) -> bool,
+}
+
+impl Search<'_> {
+    /// What may be put in for a symbol.
+    pub(super) fn values(&self, symbol: SymbolId) -> Vec<Value> {
+        let is_angle = (self.is_angle)(symbol);
+        let is_number = (self.is_number)(symbol);
+        let mut values = candidates(is_angle);
+        values.retain(|value| {
+            let wave = |wanted| match (&value.wave, wanted) {
+                (Some((cosine, _)), Wave::Cos) => !cosine.is_zero(),
+                (Some((_, sine)), Wave::Sin) => !sine.is_zero(),
+                (None, _) => false,
+            };
+            let defined =
+                self.conditions.iter().filter(|(other, _)| *other == symbol).all(|(_, wanted)| wave(*wanted));
+            defined && (!is_number || value.number.is_some())
+        });
+        values
+    }
+
+    /// Values of these symbols at which the formula is a number that is seen not to be zero.
+    pub(super) fn find(&self, formula: &Expanded, symbols: &[SymbolId]) -> Option<Vec<(SymbolId, Value)>> {
+        let mut tries = 0;
+        let mut found = Vec::new();
+        self.go_on(formula, symbols, &mut found, &mut tries).then_some(found)
+    }
+
+    fn go_on(
+        &self,
+        formula: &Expanded,
+        symbols: &[SymbolId],
+        found: &mut Vec<(SymbolId, Value)>,
+        tries: &mut usize,
+    ) -> bool {
+        let Some((&symbol, rest)) = symbols.split_first() else { return is_seen(formula) };
+        for value in self.values(symbol) {
+            *tries += 1;
+            if *tries > TRIES_LIMIT {
+                return false;
+            }
+            let Some(there) = substitute(formula, symbol, &value) else { continue };
+            if there.0.is_empty() {
+                continue;
+            }
+            found.push((symbol, value));
+            if self.go_on(&there, rest, found, tries) {
+                return true;
+            }
+            found.pop();
+        }
+        false
+    }
+}

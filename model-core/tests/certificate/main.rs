@@ -1,0 +1,6 @@
+//! Certificates, checked by Coq itself.
+
+mod alterations;
+mod coq;
+mod statements;
+mod support;

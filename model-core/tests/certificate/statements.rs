@@ -1,0 +1,176 @@
+//! What is certified, and that Coq accepts it on the axioms of its real numbers alone.
+
+#![allow(clippy::expect_used, clippy::panic, reason = "a test may fail loudly")]
+
+use model_core::certificate::{Certificate, Refusal};
+use model_core::identify;
+
+use crate::coq;
+use crate::support::{
+    ALT_AZIMUTH, AXIOMS, Claim, MOBILE_LIDAR, declared, observable, of_chain, of_claim, paper,
+};
+
+/// Coq accepts a certificate of so many statements, and says that each rests on nothing but its real numbers.
+fn accepted(name: &str, text: &str, statements: usize) {
+    let Some(folder) = coq::folder() else { return };
+    match coq::check(folder, name, text) {
+        Ok(assumptions) => assert_eq!(assumptions, AXIOMS.repeat(statements), "{name}"),
+        Err(why) => panic!("{name}: {why}"),
+    }
+}
+
+#[test]
+fn of_the_papers_equations_6_is_refuted_and_7_is_proved() {
+    let text = paper();
+    assert!(text.contains("Theorem differs : ~ (forall"), "{text}");
+    accepted("paper", &text, 2);
+}
+
+#[test]
+fn what_is_derived_is_proved_to_first_and_to_second_order() {
+    accepted("alt_azimuth", &of_chain(ALT_AZIMUTH, 1).expect("a certificate"), 1);
+    accepted(
+        "turntable_2",
+        &of_chain(include_str!("../../../examples/turntable/turntable.chain"), 2).expect("a certificate"),
+        1,
+    );
+}
+
+/// Harmonics, inputs, constants, tangents and their like, products of errors, turned and shifted joints, a tree, and
+/// names that mean something to Coq.
+const EVERYTHING: &str = "chain Everything {
+    const arm: length = 0.25;
+    const lean: angle = pi/6;
+    input temperature;
+    input heading: angle;
+    body base on ground {
+        position: Tz(arm), Rx(lean + pi/2), Ry(-pi);
+        position_error: Rz(t), Tx(x*temperature*0.5);
+        motion: Rz(2*alpha - beta + 3*pi/2);
+        motion_error: Rx(a2*cos(2*alpha) + b3*sin(3*alpha)), Ty(end*fun + end), Ry(k*tan(beta)/2 + c*sec(heading));
+    }
+    body slide on base {
+        motion: Tx(travel/2 + arm);
+        motion_error: Rz(from_0*travel), Tz(squares*csc(beta)*cot(beta - pi/2));
+    }
+    body other on base { motion_error: Ry(last/sin(2*heading)); }
+    observe aim: direction(sin(lean), 0, cos(lean)) of slide;
+    observe tip: point(0, temperature, arm) of slide;
+    observe vector: direction(0, 1, 0) of other;
+}";
+
+#[test]
+fn every_amount_of_the_language_is_certified() {
+    accepted("everything", &of_chain(EVERYTHING, 1).expect("a certificate"), 3);
+}
+
+/// A difference that vanishes at every quarter turn, and one that is a multiple of π there.
+#[test]
+fn witnesses_are_found_where_quarter_turns_do_not_serve() {
+    let chain = "chain C {
+        body a on ground { motion: Rz(alpha); motion_error: Ry(s*alpha + p*sin(2*alpha)); }
+        observe o: direction(0, 0, 1) of a;
+    }";
+    let claim = |components| Claim { observable: "o", order: 1, keep: &["*"], components };
+    let (holds, text) = of_claim(
+        chain,
+        &claim([
+            "s*alpha*cos(alpha) + 2*p*sin(alpha)*cos(alpha)^2",
+            "s*alpha*sin(alpha) + p*sin(alpha)*sin(2*alpha)",
+            "0",
+        ]),
+    );
+    assert!(holds);
+    accepted("witness_none", &text, 1);
+    let (holds, text) = of_claim(
+        chain,
+        &claim([
+            "2*s*alpha*cos(alpha) + p*sin(2*alpha)*cos(alpha)",
+            "s*alpha*sin(alpha) + p*sin(alpha)*sin(2*alpha)",
+            "0",
+        ]),
+    );
+    assert!(!holds && text.contains("alpha = PI"), "{text}");
+    accepted("witness_pi", &text, 1);
+    let (holds, text) = of_claim(
+        chain,
+        &Claim {
+            observable: "o",
+            order: 1,
+            keep: &["p"],
+            components: ["0", "p*sin(alpha)*sin(2*alpha)", "0"],
+        },
+    );
+    assert!(!holds && text.contains("alpha = 2 * atan (1 / 2)"), "{text}");
+    let Some(folder) = coq::folder() else { return };
+    // Coq's arctangent brings classical logic with it.
+    let classical = format!("{AXIOMS}Classical_Prop.classic : forall P : Prop, P \\/ ~ P\n");
+    assert_eq!(coq::check(folder, "witness_circle", &text), Ok(classical));
+}
+
+#[test]
+fn second_order_is_checked_as_printed() {
+    let claim = Claim {
+        observable: "pointing",
+        order: 2,
+        keep: &["db2"],
+        components: [
+            "db2*cos(alpha) - db2^2/2*sin(alpha)*sin(beta)",
+            "db2*sin(alpha) + db2^2/2*cos(alpha)*sin(beta)",
+            "-db2^2/2*cos(beta)",
+        ],
+    };
+    let (holds, text) = of_claim(MOBILE_LIDAR, &claim);
+    assert!(holds);
+    accepted("second_order", &text, 1);
+    let wrong = Claim { components: [claim.components[0], claim.components[1], "-db2^2*cos(beta)"], ..claim };
+    let (holds, text) = of_claim(MOBILE_LIDAR, &wrong);
+    assert!(!holds);
+    accepted("second_order_wrong", &text, 1);
+}
+
+#[test]
+fn what_identify_says_of_single_errors_is_proved() {
+    let text = "chain C {
+        const arm: length = 0.5;
+        const nothing: angle = 0;
+        body a on ground { position: Rx(nothing); motion: Rz(alpha); motion_error: Ry(tilt), Tx(shift), Rz(roll); }
+        observe o: direction(0, 0, 1) of a;
+        observe p: point(0, 0, arm) of a;
+    }";
+    let declared = declared(text);
+    let mut certificate = Certificate::new(&declared);
+    for name in ["o", "p"] {
+        let id = observable(&declared, name);
+        let found = identify::identify(declared.chain(), &[id]).expect("a closed form");
+        for &error in &found.invisible {
+            certificate.without_influence(id, error).expect("a certificate");
+        }
+        for group in &found.alike {
+            for other in &group[1..] {
+                certificate.alike(id, group[0].error, other.error, &other.ratio).expect("a certificate");
+            }
+        }
+    }
+    // Without influence: shift and roll on the direction, roll on the point; alike on the point: tilt and shift, with
+    // what each of them does.
+    let text = certificate.finish("test");
+    assert_eq!(text.matches("Print Assumptions").count(), 6, "{text}");
+    accepted("identify", &text, 6);
+}
+
+#[test]
+fn what_cannot_be_certified_is_refused_with_the_reason() {
+    let chain = |amount: &str| {
+        format!(
+            "chain C {{ body a on ground {{ motion: Rz(alpha); motion_error: Rx({amount}); }} observe o: direction(0, 1, 0) of a; }}"
+        )
+    };
+    assert!(of_chain(&chain("e*cos(24*alpha)"), 1).is_ok());
+    let refused = of_chain(&chain("e*cos(25*alpha)"), 1);
+    assert_eq!(refused, Err(Refusal::Harmonic { multiple: 25 }));
+    assert_eq!(
+        refused.map_err(|refusal| refusal.to_string()),
+        Err("the sine or cosine of 25 times an angle; certificates go up to 24 times".to_owned())
+    );
+}

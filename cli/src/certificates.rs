@@ -1,6 +1,6 @@
 //! `--certificate`: where a certificate and the library that it stands on are written.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use model_core::certificate::{LIBRARY, LIBRARY_FILE};
 
@@ -19,12 +19,12 @@ pub struct CertificateArguments {
 }
 
 impl CertificateArguments {
-    /// Where a certificate is wanted, if one is.
+    /// Whether a certificate is wanted.
     ///
     /// # Errors
     /// Coq would not read a file of that name.
-    pub fn wanted(&self) -> Result<Option<&Path>, Failure> {
-        let Some(path) = &self.certificate else { return Ok(None) };
+    pub fn is_wanted(&self) -> Result<bool, Failure> {
+        let Some(path) = &self.certificate else { return Ok(false) };
         let is_word = |name: &str| {
             name.starts_with(|c: char| c.is_ascii_alphabetic())
                 && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
@@ -42,14 +42,22 @@ impl CertificateArguments {
                 path.display()
             )));
         }
-        Ok(Some(path))
+        Ok(true)
     }
 
-    /// Writes the library, if a certificate or the library itself is wanted.
+    /// Writes a certificate, if there is one, and the library, if that or a certificate is wanted.
     ///
     /// # Errors
-    /// The place cannot be written, or something else lies there.
-    pub fn write_library(&self) -> Result<(), Failure> {
+    /// A place cannot be written, or something else lies where the library belongs; then there is no certificate either.
+    pub fn write(&self, certificate: Option<&str>) -> Result<(), Failure> {
+        self.write_library()?;
+        match (&self.certificate, certificate) {
+            (Some(path), Some(text)) => output::write_text(path, text),
+            _ => Ok(()),
+        }
+    }
+
+    fn write_library(&self) -> Result<(), Failure> {
         let path = match (&self.certificate_library, &self.certificate) {
             (Some(path), _) => path.clone(),
             (None, Some(certificate)) => certificate.with_file_name(LIBRARY_FILE),

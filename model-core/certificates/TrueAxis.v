@@ -45,6 +45,10 @@ Definition cot (a : R) : R := cos a / sin a.
 Definition sec (a : R) : R := / cos a.
 Definition csc (a : R) : R := / sin a.
 
+(* 0 before one threshold, 1 behind the other, linear between; a step where the two are one. *)
+Definition ramp (a from to : R) : R :=
+  if Req_EM_T from to then (if Rle_dec from a then 1 else 0) else Rmax 0 (Rmin 1 ((a - from) / (to - from))).
+
 (* ---------------------------------------------------------------------------------------------------------------- *)
 (* 2. First order, and orders above it *)
 
@@ -396,7 +400,8 @@ Lemma taylor_2 a b c : taylor [a; b; c] = b + c / 2.
 Proof. unfold taylor; cbn; field. Qed.
 Lemma taylor_3 a b c d : taylor [a; b; c; d] = b + c / 2 + d / 6.
 Proof. unfold taylor; cbn; field. Qed.
-Ltac totals := rewrite ?taylor_1, ?taylor_2, ?taylor_3.
+Ltac total :=
+  rewrite ?taylor_1, ?taylor_2, ?taylor_3; match goal with |- ?a = ?a => reflexivity | _ => settle end.
 (* Numbers: quarter turns and angles with rational sine and cosine. *)
 Ltac values :=
   rewrite ?cos_neg, ?sin_neg, ?cos_0, ?sin_0, ?cos_PI2, ?sin_PI2, ?cos_PI, ?sin_PI, ?cos_2_atan, ?sin_2_atan;

@@ -12,7 +12,6 @@ use super::{Answer, TextOrJson};
 use crate::certificates::CertificateArguments;
 use crate::claims::{ClaimsFile, NamedClaim};
 use crate::failure::Failure;
-use crate::output;
 use crate::terminal::{self, BAD, GOOD, HEADING};
 
 /// Check published claims: is the printed formula what the chain implies?
@@ -41,7 +40,7 @@ struct Checked<'a> {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let certificate = arguments.certificate.wanted()?;
+    let is_certified = arguments.certificate.is_wanted()?;
     let file = ClaimsFile::read(&arguments.claims)?;
     let mut checker = Checker::new(&file.chain);
     let mut checked = Vec::with_capacity(file.claims.len());
@@ -58,10 +57,8 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
             format!("{:#}\n", json!({ "claims": claims }))
         }
     };
-    if let Some(path) = certificate {
-        output::write_text(path, &certify(&file, &checked)?)?;
-    }
-    arguments.certificate.write_library()?;
+    let certificate = is_certified.then(|| certify(&file, &checked)).transpose()?;
+    arguments.certificate.write(certificate.as_deref())?;
     terminal::print(&output)?;
     let all_hold = checked.iter().all(|checked| checked.verdict.holds());
     Ok(if all_hold { Answer::Done } else { Answer::No })

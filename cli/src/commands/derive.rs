@@ -4,13 +4,12 @@ use std::path::PathBuf;
 
 use model_core::certificate::{Certificate, Declared};
 use model_core::forms::{self, Form};
-use model_core::{Chain, ObservableKind, print};
+use model_core::{Chain, ObservableId, ObservableKind, print};
 use serde_json::json;
 
 use super::Answer;
 use crate::certificates::CertificateArguments;
 use crate::failure::Failure;
-use crate::output;
 use crate::source::{Source, observables};
 use crate::terminal::{self, HEADING};
 
@@ -52,7 +51,7 @@ enum Format {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let certificate = arguments.certificate.wanted()?;
+    let is_certified = arguments.certificate.is_wanted()?;
     let source = Source::read(&arguments.chain)?;
     let chain = source.chain()?;
     let chosen = observables(&chain, &arguments.observable)?;
@@ -70,20 +69,23 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         Format::Latex => sections(&chain, &forms, print::Style::Latex, |title| format!("% {title}")),
         Format::Markdown => sections(&chain, &forms, print::Style::Markdown, |title| format!("## {title}\n")),
     };
-    if let Some(path) = certificate {
-        let declared = Declared::from_text(&source.text).map_err(|mistakes| source.mistakes(&mistakes))?;
-        let mut certificate = Certificate::new(&declared);
-        for &observable in &chosen {
-            certificate.derived(observable, arguments.order).map_err(|refusal| {
-                let name = &chain.observable(observable).name;
-                Failure::Input(format!("no certificate of `{name}`: {refusal}; nothing is written"))
-            })?;
-        }
-        output::write_text(path, &certificate.finish(&source.path.display().to_string()))?;
-    }
-    arguments.certificate.write_library()?;
+    let certificate = is_certified.then(|| certify(&source, &chosen, arguments.order)).transpose()?;
+    arguments.certificate.write(certificate.as_deref())?;
     terminal::print(&printed)?;
     Ok(Answer::Done)
+}
+
+/// What is derived, as a certificate.
+fn certify(source: &Source, chosen: &[ObservableId], order: u32) -> Result<String, Failure> {
+    let declared = Declared::from_text(&source.text).map_err(|mistakes| source.mistakes(&mistakes))?;
+    let mut certificate = Certificate::new(&declared);
+    for &observable in chosen {
+        certificate.derived(observable, order).map_err(|refusal| {
+            let name = &declared.chain().observable(observable).name;
+            Failure::Input(format!("no certificate of `{name}`: {refusal}; nothing is written"))
+        })?;
+    }
+    Ok(certificate.finish(&source.path.display().to_string()))
 }
 
 /// The forms one after the other, each below its title.

@@ -10,7 +10,6 @@ use serde_json::{Value, json};
 use super::{Answer, TextOrJson};
 use crate::certificates::CertificateArguments;
 use crate::failure::Failure;
-use crate::output;
 use crate::source::{Source, listed, observables};
 use crate::terminal;
 
@@ -40,7 +39,7 @@ pub struct Arguments {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let certificate = arguments.certificate.wanted()?;
+    let is_certified = arguments.certificate.is_wanted()?;
     let source = Source::read(&arguments.chain)?;
     let chain = source.chain()?;
     let chosen = observables(&chain, &arguments.observable)?;
@@ -68,10 +67,8 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         answers.push(answer);
         certified.push(found);
     }
-    if let Some(path) = certificate {
-        output::write_text(path, &certify(&source, &certified)?)?;
-    }
-    arguments.certificate.write_library()?;
+    let certificate = is_certified.then(|| certify(&source, &certified)).transpose()?;
+    arguments.certificate.write(certificate.as_deref())?;
     terminal::print(&match arguments.format {
         TextOrJson::Text => texts.join("\n"),
         TextOrJson::Json => format!("{:#}\n", json!({ "identifiability": answers })),

@@ -25,7 +25,7 @@ impl Angles {
         &mut self,
         lower: &dyn Fn(&Expr<()>) -> Result<Poly, Refusal>,
         angle: &Expr<()>,
-        symbol: &dyn Fn(&str) -> Term,
+        leaf: &dyn Fn(&Expr<()>) -> Term,
     ) -> Result<(), Refusal> {
         let sum = lower(angle)?;
         for term in sum.terms() {
@@ -42,7 +42,7 @@ impl Angles {
             *highest = multiple.max(*highest);
         }
         if !matches!(angle.node, Node::Symbol(_)) || sum.is_zero() {
-            let text = expression::argument(angle, symbol);
+            let text = expression::argument(angle, leaf);
             if (sum.is_zero() || !is_multiple(angle)) && self.sums.iter().all(|(other, _)| *other != text) {
                 self.sums.push((text, sum));
             }
@@ -55,11 +55,11 @@ impl Angles {
         &mut self,
         lower: &dyn Fn(&Expr<()>) -> Result<Poly, Refusal>,
         expression: &Expr<()>,
-        symbol: &dyn Fn(&str) -> Term,
+        leaf: &dyn Fn(&Expr<()>) -> Term,
     ) -> Result<(), Refusal> {
         let mut found = Vec::new();
         expression::arguments(expression, &mut found);
-        found.into_iter().try_for_each(|angle| self.add(lower, angle, symbol))
+        found.into_iter().try_for_each(|angle| self.add(lower, angle, leaf))
     }
 
     /// The symbols in angles.

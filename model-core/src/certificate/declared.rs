@@ -5,6 +5,7 @@ use crate::chain::{Axis, BodyId, Chain, Motion, ObservableId, Role};
 use crate::check;
 use crate::expr::Expr;
 use crate::mistake::Mistakes;
+use crate::ramp::Ramp;
 use crate::symbol::{SymbolId, SymbolKind};
 use crate::syntax;
 
@@ -89,7 +90,13 @@ impl Declared {
 
     /// The canonical form of an expression; `None` if it has none.
     pub(super) fn lower(&self, expression: &Expr<()>) -> Option<Poly> {
-        Poly::from_expr(expression, |name| self.chain.find_symbol(name), |_| true).ok()
+        let ramp = |of, from: &Poly, to: &Poly| self.chain.find_ramp(of, from, to);
+        Poly::from_expr_with_ramps(expression, |name| self.chain.find_symbol(name), |_| true, ramp).ok()
+    }
+
+    /// The ramp that an expression is, if it is one of the chain's.
+    pub(super) fn ramp(&self, expression: &Expr<()>) -> Option<&Ramp> {
+        self.lower(expression)?.symbols().into_iter().find_map(|symbol| self.chain.ramp(symbol))
     }
 
     /// The symbols in an expression, in order, each once.

@@ -45,7 +45,7 @@ impl Section<'_> {
         let axis = difference.component.to_string();
         let (printed, derived) =
             (Expanded::new(&printed[component])?, Expanded::new(&verdict.derived[component])?);
-        let mut differs = Expanded::new(&(&claimed(verdict, component)))?;
+        let mut differs = Expanded::new(&claimed(verdict, component))?;
         let circles = self.angles.symbols();
         let numbers: BTreeSet<SymbolId> = printed
             .0
@@ -77,6 +77,9 @@ impl Section<'_> {
             .map(|(symbol, ..)| *symbol)
             .filter(|symbol| *symbol != SymbolId::PI)
             .collect();
+        if involved.iter().any(|symbol| declared.chain().ramp(*symbol).is_some()) {
+            return Err(Refusal::Ramp);
+        }
         let involved: Vec<SymbolId> = involved.into_iter().collect();
         values.extend(search.find(&differs, &involved).ok_or(Refusal::NoWitness)?);
         for &symbol in &self.used {

@@ -31,24 +31,29 @@ impl Term {
         Self { text: text.into(), level }
     }
 
+    /// A single word.
+    pub(super) fn word(text: impl Into<String>) -> Self {
+        Self::new(text, Level::Atom)
+    }
+
     /// The text where at least `level` is wanted.
     pub(super) fn at(self, level: Level) -> String {
         if self.level < level { format!("({})", self.text) } else { self.text }
     }
 }
 
-/// An expression in Coq's syntax; `symbol` says what stands for a name.
-pub(super) fn write(expression: &Expr<()>, symbol: &dyn Fn(&str) -> Term) -> String {
-    term(expression, symbol).text
+/// An expression in Coq's syntax; `leaf` says what stands for a name, a number with a unit, or a ramp.
+pub(super) fn write(expression: &Expr<()>, leaf: &dyn Fn(&Expr<()>) -> Term) -> String {
+    term(expression, leaf).text
 }
 
 /// The same where one argument stands, in parentheses unless it is a single word.
-pub(super) fn argument(expression: &Expr<()>, symbol: &dyn Fn(&str) -> Term) -> String {
-    term(expression, symbol).at(Level::Atom)
+pub(super) fn argument(expression: &Expr<()>, leaf: &dyn Fn(&Expr<()>) -> Term) -> String {
+    term(expression, leaf).at(Level::Atom)
 }
 
-fn term(expression: &Expr<()>, symbol: &dyn Fn(&str) -> Term) -> Term {
-    let inner = |inner: &Expr<()>, level| term(inner, symbol).at(level);
+fn term(expression: &Expr<()>, leaf: &dyn Fn(&Expr<()>) -> Term) -> Term {
+    let inner = |inner: &Expr<()>, level| term(inner, leaf).at(level);
     match &expression.node {
         Node::Number(value) => {
             let text = value.to_string();
@@ -60,7 +65,7 @@ fn term(expression: &Expr<()>, symbol: &dyn Fn(&str) -> Term) -> Term {
             Term::new(text.replace('-', "- ").replace('/', " / "), level)
         }
         Node::Pi => Term::new("PI", Level::Atom),
-        Node::Symbol(name) => symbol(name),
+        Node::Symbol(_) | Node::Measured(..) | Node::Ramp(_) => leaf(expression),
         Node::Neg(a) => Term::new(format!("- {}", inner(a, Level::Power)), Level::Sign),
         Node::Add(..) => {
             let mut addends = Vec::new();
@@ -123,7 +128,7 @@ fn flatten<'a>(expression: &'a Expr<()>, negative: bool, addends: &mut Vec<(bool
 /// What sines, cosines and their like are taken of.
 pub(super) fn arguments<'a>(expression: &'a Expr<()>, found: &mut Vec<&'a Expr<()>>) {
     match &expression.node {
-        Node::Number(_) | Node::Pi | Node::Symbol(_) => {}
+        Node::Number(_) | Node::Measured(..) | Node::Pi | Node::Symbol(_) | Node::Ramp(_) => {}
         Node::Call(_, inner) => found.push(inner),
         Node::Neg(inner) | Node::Pow(inner, _) => arguments(inner, found),
         Node::Add(a, b) | Node::Mul(a, b) | Node::Div(a, b) => {
@@ -136,7 +141,7 @@ pub(super) fn arguments<'a>(expression: &'a Expr<()>, found: &mut Vec<&'a Expr<(
 /// What is divided by, written out or in the name of a function: one expression for each divisor.
 pub(super) fn divisors(expression: &Expr<()>, found: &mut Vec<Expr<()>>) {
     match &expression.node {
-        Node::Number(_) | Node::Pi | Node::Symbol(_) => {}
+        Node::Number(_) | Node::Measured(..) | Node::Pi | Node::Symbol(_) | Node::Ramp(_) => {}
         Node::Call(function, angle) => {
             let below = match function {
                 Function::Sin | Function::Cos => return,

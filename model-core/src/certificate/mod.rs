@@ -12,6 +12,7 @@ mod expanded;
 mod expression;
 mod influence;
 mod jets;
+mod leaf;
 mod names;
 mod section;
 mod steps;
@@ -27,6 +28,7 @@ use crate::forms::{self, FormError};
 use crate::print;
 use crate::symbol::{SymbolId, SymbolKind};
 use crate::syntax;
+use expression::Term;
 use influence::Influence;
 use names::{Names, comment};
 use section::{Question, Section};
@@ -70,6 +72,11 @@ pub enum Refusal {
         /// The formula.
         text: String,
     },
+    /// A difference that only values of a ramp would show.
+    #[error(
+        "printed and derived differ in what stands beside a ramp; certificates do not put numbers into ramps"
+    )]
+    Ramp,
     /// A quotient that exists nowhere, or not where the claim is looked at.
     #[error("it divides by something other than numbers, sines and cosines of single angles")]
     Divisor,
@@ -99,11 +106,12 @@ impl<'a> Certificate<'a> {
         let symbols = chain
             .symbols
             .iter()
-            .map(
-                |symbol| {
-                    if symbol.kind == SymbolKind::Pi { "PI".to_owned() } else { names.give(&symbol.name) }
-                },
-            )
+            .map(|symbol| match symbol.kind {
+                SymbolKind::Pi => "PI".to_owned(),
+                // A ramp is written out, and has no name.
+                SymbolKind::Ramp => String::new(),
+                _ => names.give(&symbol.name),
+            })
             .collect();
         let bodies = chain.bodies.iter().map(|body| names.give_own("body_", &body.name)).collect();
         Self {
@@ -256,10 +264,9 @@ impl<'a> Certificate<'a> {
         for (index, factor) in factors.iter().enumerate() {
             let begin = if index == 0 { "  [ " } else { "    " };
             let end = if index + 1 == factors.len() { " ]." } else { ";" };
-            let amount = expression::argument(&factor.written, &|name| {
-                let symbol = chain.find_symbol(name).map_or(name, |symbol| self.symbol(symbol));
-                expression::Term::new(symbol, expression::Level::Atom)
-            });
+            let symbol = |symbol| self.term(symbol);
+            let leaf = |expression: &Expr<()>| leaf::leaf(self.declared, expression, &symbol);
+            let amount = expression::argument(&factor.written, &leaf);
             let head = motion(factor.motion, factor.axis);
             let _ = writeln!(out, "{begin}{head} {amount}{end} (* {} *)", role(factor.role));
         }
@@ -278,6 +285,14 @@ impl<'a> Certificate<'a> {
 
     fn symbol(&self, symbol: SymbolId) -> &str {
         &self.symbols[symbol.index()]
+    }
+
+    /// What stands for a symbol: its name, or a ramp written out.
+    fn term(&self, symbol: SymbolId) -> Term {
+        match self.declared.chain().ramp(symbol) {
+            Some(ramp) => leaf::ramp(ramp, &|symbol| self.term(symbol)),
+            None => Term::word(self.symbol(symbol)),
+        }
     }
 
     fn observable(&self, observable: ObservableId) -> &str {

@@ -6,6 +6,7 @@ use super::angles::Angles;
 use super::expanded::Expanded;
 use super::expression::{self, Level, Term};
 use super::jets::{self, Jet, VectorJet};
+use super::leaf;
 use super::names::comment;
 use super::{Certificate, Refusal};
 use crate::algebra::{Poly, Wave};
@@ -65,7 +66,7 @@ impl<'c> Section<'c> {
             states: Vec::new(),
             out: String::new(),
         };
-        let name = |name: &str| section_name(certificate, question, name);
+        let name = |expression: &Expr<()>| section_leaf(certificate, question, expression);
         let lower = |expression: &Expr<()>| lower(certificate, question, expression);
         let mut angles = Angles::default();
         let mut divisors = Vec::new();
@@ -138,9 +139,9 @@ impl<'c> Section<'c> {
         Ok(())
     }
 
-    /// The name of a symbol.
+    /// What stands for a symbol where a single word is wanted.
     pub(super) fn name(&self, symbol: SymbolId) -> String {
-        self.certificate.symbol(symbol).to_owned()
+        section_term(self.certificate, self.question, symbol).at(Level::Atom)
     }
 
     /// A canonical form in Coq's syntax.
@@ -150,19 +151,16 @@ impl<'c> Section<'c> {
 
     /// An expression as written, in the names of the certificate.
     pub(super) fn written(&self, expression: &Expr<()>) -> String {
-        expression::write(expression, &|name| section_name(self.certificate, self.question, name))
+        expression::write(expression, &|leaf| section_leaf(self.certificate, self.question, leaf))
     }
 
     /// What an error is where every error is multiplied by t: nothing if it is neglected.
     pub(super) fn scaled(&self, symbol: SymbolId) -> Term {
-        if self.question.zeros.contains(&symbol) {
-            return Term::new("0", Level::Atom);
-        }
-        let name = self.name(symbol);
+        let term = section_term(self.certificate, self.question, symbol);
         match (self.certificate.declared.is_error(symbol), self.is_kept(symbol)) {
-            (false, _) => Term::new(name, Level::Atom),
-            (true, true) => Term::new(format!("t * {name}"), Level::Product),
-            (true, false) => Term::new("0", Level::Atom),
+            (false, _) => term,
+            (true, true) => Term::new(format!("t * {}", term.at(Level::Atom)), Level::Product),
+            (true, false) => Term::word("0"),
         }
     }
 
@@ -287,13 +285,20 @@ impl<'c> Section<'c> {
     }
 }
 
-/// What stands for a name of the declaration.
-fn section_name(certificate: &Certificate<'_>, question: &Question, name: &str) -> Term {
-    match certificate.declared.chain().find_symbol(name) {
-        Some(symbol) if question.zeros.contains(&symbol) => Term::new("0", Level::Atom),
-        Some(symbol) => Term::new(certificate.symbol(symbol), Level::Atom),
-        None => Term::new(name, Level::Atom),
+/// What stands for a symbol: nothing for what is zero.
+fn section_term(certificate: &Certificate<'_>, question: &Question, symbol: SymbolId) -> Term {
+    if question.zeros.contains(&symbol) {
+        return Term::word("0");
     }
+    match certificate.declared.chain().ramp(symbol) {
+        Some(ramp) => leaf::ramp(ramp, &|symbol| section_term(certificate, question, symbol)),
+        None => certificate.term(symbol),
+    }
+}
+
+/// What stands for a name, a number with a unit, or a ramp.
+fn section_leaf(certificate: &Certificate<'_>, question: &Question, expression: &Expr<()>) -> Term {
+    leaf::leaf(certificate.declared, expression, &|symbol| section_term(certificate, question, symbol))
 }
 
 /// What an expression says, with zero for what is zero.

@@ -2,12 +2,14 @@
 
 use std::fmt::Write as _;
 
-use super::expression::{self, Term};
+use super::expression;
 use super::jets::{self, Jet};
+use super::leaf;
 use super::section::Section;
 use super::{Refusal, motion};
 use crate::algebra::{AngleSum, Poly};
 use crate::chain::{Motion, ObservableKind};
+use crate::expr::Expr;
 
 impl Section<'_> {
     /// What angles come to, and that the instrument is the list of factors that the proof goes through.
@@ -82,7 +84,8 @@ impl Section<'_> {
         let _ = writeln!(
             self.out,
             "\nTheorem {theorem} : {statement}.\nProof.\n  try unfold claim. rewrite same_chain.\n  apply (reached {} _ _ _ _ {formula} \
-             step_0); try reflexivity;\n    rewrite ?x_of_formula, ?y_of_formula, ?z_of_formula; totals; settle.\nQed.",
+             step_0); [reflexivity | reflexivity | reflexivity | rewrite x_of_formula | rewrite y_of_formula | rewrite z_of_formula];\n    \
+             total.\nQed.",
             self.question.order
         );
         Ok(())
@@ -146,10 +149,8 @@ impl Section<'_> {
     fn amount_text(&self, index: usize, as_argument: bool) -> String {
         let (body, at, _) = &self.factors[index];
         let declared = self.certificate.declared;
-        let symbol = |name: &str| {
-            let symbol = declared.chain().find_symbol(name);
-            symbol.map_or_else(|| Term::new(name, expression::Level::Atom), |symbol| self.scaled(symbol))
-        };
+        let scaled = |symbol| self.scaled(symbol);
+        let symbol = |leaf: &Expr<()>| leaf::leaf(declared, leaf, &scaled);
         let written = &declared.body(*body)[*at].written;
         if as_argument { expression::argument(written, &symbol) } else { expression::write(written, &symbol) }
     }

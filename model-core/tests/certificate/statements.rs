@@ -7,7 +7,7 @@ use model_core::identify;
 
 use crate::coq;
 use crate::support::{
-    ALT_AZIMUTH, AXIOMS, Claim, MOBILE_LIDAR, declared, observable, of_chain, of_claim, paper,
+    ALT_AZIMUTH, AXIOMS, Claim, MOBILE_LIDAR, add, declared, observable, of_chain, of_claim, paper,
 };
 
 /// Coq accepts a certificate of so many statements, and says that each rests on nothing but its real numbers.
@@ -47,7 +47,7 @@ const EVERYTHING: &str = "chain Everything {
         position: Tz(arm), Rx(lean + pi/2), Ry(-pi);
         position_error: Rz(t), Tx(x*temperature*0.5);
         motion: Rz(2*alpha - beta + 3*pi/2);
-        motion_error: Rx(a2*cos(2*alpha) + b3*sin(3*alpha)), Ty(end*fun + end), Ry(k*tan(beta)/2 + c*sec(heading));
+        motion_error: Rx(a2*cos(2*alpha) + b3*sin(3*alpha)), Ty(end*fun + end), Rz(stuck*ramp(temperature, 10, 20) - stuck*ramp(alpha, 39 deg, lean/2)), Ry(k*tan(beta)/2 + c*sec(heading));
     }
     body slide on base {
         motion: Tx(travel/2 + arm);
@@ -157,6 +157,28 @@ fn what_identify_says_of_single_errors_is_proved() {
     let text = certificate.finish("test");
     assert_eq!(text.matches("Print Assumptions").count(), 6, "{text}");
     accepted("identify", &text, 6);
+}
+
+/// A wrong term beside a ramp is refuted; a wrong ramp is not: no numbers are put into it.
+#[test]
+fn ramps_are_certified_as_functions_of_their_own() {
+    let chain = "chain C {
+        input temperature;
+        body a on ground { motion: Rz(alpha); motion_error: Rx(e*ramp(temperature, 10, 20) + d); }
+        observe o: direction(0, 1, 0) of a;
+    }";
+    let claim = |z| Claim { observable: "o", order: 1, keep: &["*"], components: ["0", "0", z] };
+    let (holds, text) = of_claim(chain, &claim("d + e*ramp(temperature, 10, 20)"));
+    assert!(holds);
+    accepted("ramp", &text, 1);
+    let (holds, text) = of_claim(chain, &claim("e*ramp(temperature, 10, 20) - d"));
+    assert!(!holds);
+    accepted("ramp_beside", &text, 1);
+    let declared = declared(chain);
+    let mut certificate = Certificate::new(&declared);
+    let refused = add(&mut certificate, &declared, "a wrong ramp", &claim("d - e*ramp(temperature, 10, 20)"));
+    assert_eq!(refused, Err(Refusal::Ramp));
+    assert!(certificate.is_empty());
 }
 
 #[test]

@@ -1,0 +1,103 @@
+//! `--certificate` as users run it: what is written, and what is refused. That Coq accepts what is written is tested in
+//! `model-core/tests/certificate` and by `.ci/certificates`.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+use support::{Folder, Run};
+
+fn folder(name: &str) -> Folder {
+    let folder = Folder::new(&format!("certificate_{name}"));
+    folder.copy("examples/mobile-lidar/mobile-lidar.chain").copy("examples/mobile-lidar/paper.toml");
+    folder
+}
+
+fn refused(run: &Run, why: &str) {
+    assert_eq!((run.code, run.stdout.as_str()), (2, ""), "{}", run.stderr);
+    assert!(run.stderr.contains(why), "{}", run.stderr);
+}
+
+#[test]
+fn the_papers_equations_are_written_with_their_verdicts_and_the_library_beside_them() {
+    let folder = folder("paper");
+    let run = folder.trueaxis(&["check", "paper.toml", "--certificate", "paper.v"]);
+    assert_eq!(run.code, 1, "{}", run.stderr);
+    assert_eq!(folder.names(), ["TrueAxis.v", "mobile-lidar.chain", "paper.toml", "paper.v"]);
+    let text = folder.read("paper.v");
+    assert!(
+        text.contains("Module equation_6.") && text.contains("Print Assumptions equation_6.differs."),
+        "{text}"
+    );
+    assert!(
+        text.contains("Module equation_7.") && text.contains("Print Assumptions equation_7.holds."),
+        "{text}"
+    );
+    // The other ten claims are comparisons and counts, and both the file and the command say so.
+    assert_eq!(text.matches("(* Not certified: ").count(), 10, "{text}");
+    assert_eq!(run.stderr.matches("not certified: ").count(), 10, "{}", run.stderr);
+    assert_eq!(folder.read("TrueAxis.v"), model_core::certificate::LIBRARY);
+}
+
+#[test]
+fn the_library_goes_where_it_is_wanted() {
+    let folder = folder("library");
+    let run = folder.trueaxis(&["derive", "mobile-lidar.chain", "--certificate-library", "Lib.v"]);
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    assert_eq!(folder.read("Lib.v"), model_core::certificate::LIBRARY);
+    let arguments = ["identify", "mobile-lidar.chain", "--observable", "pointing", "--certificate", "c.v"];
+    let run = folder.trueaxis(&[&arguments[..], &["--certificate-library", "Lib.v"]].concat());
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert_eq!(folder.names(), ["Lib.v", "c.v", "mobile-lidar.chain", "paper.toml"]);
+}
+
+#[test]
+fn nothing_is_written_where_nothing_can_be_certified() {
+    let folder = folder("nothing");
+    folder.write(
+        "counts.toml",
+        "chain = \"mobile-lidar.chain\"\n[[claim]]\nname = \"30\"\ncount = { errors = \"*\", equals = 30 }\n",
+    );
+    folder.write(
+        "steep.chain",
+        "chain C { body a on ground { motion: Rz(q); motion_error: Rx(e*cos(25*q)); } observe o: direction(0, 1, 0) of a; }",
+    );
+    let names = folder.names();
+    refused(
+        &folder.trueaxis(&["check", "counts.toml", "--certificate", "c.v"]),
+        "there is nothing to certify",
+    );
+    refused(
+        &folder.trueaxis(&["derive", "steep.chain", "--certificate", "c.v"]),
+        "no certificate of `o`: the sine or cosine of 25 times an angle; certificates go up to 24 times; nothing is written",
+    );
+    assert_eq!(folder.names(), names);
+}
+
+#[test]
+fn names_that_coq_does_not_read_are_refused() {
+    let folder = folder("names");
+    let names = folder.names();
+    for name in ["my-proof.v", "proof.txt", "1.v", "-"] {
+        refused(
+            &folder.trueaxis(&["derive", "mobile-lidar.chain", "--certificate", name]),
+            "a word of letters",
+        );
+    }
+    refused(
+        &folder.trueaxis(&["derive", "mobile-lidar.chain", "--certificate", "TrueAxis.v"]),
+        "name the certificate otherwise",
+    );
+    assert_eq!(folder.names(), names);
+}
+
+#[test]
+fn a_file_of_the_users_is_not_taken_for_the_library() {
+    let folder = folder("in_the_way");
+    folder.write("TrueAxis.v", "(* my own work *)\n");
+    let names = folder.names();
+    refused(
+        &folder.trueaxis(&["derive", "mobile-lidar.chain", "--certificate", "c.v"]),
+        "is in the way of the library",
+    );
+    assert_eq!((folder.names(), folder.read("TrueAxis.v").as_str()), (names, "(* my own work *)\n"));
+}

@@ -17,7 +17,7 @@ use model_core::{Chain, Mistakes};
 
 use crate::amend::{AmendError, amend};
 use crate::data::Observations;
-use crate::diagnose::{Confirmed, Diagnosis, diagnose};
+use crate::diagnose::{Confirmed, Diagnosis, Trace, diagnose, trace};
 use crate::fit::{FitError, FitResult, Outcome};
 use crate::report::amendment;
 use crate::search::{ProblemError, nested};
@@ -54,6 +54,10 @@ pub struct Calibration {
     pub diagnosis: Diagnosis,
     /// The user's text with lines added (the text itself if nothing was found); none where no usable model came out.
     pub amended: Option<String>,
+    /// The rows that pictures draw: all, or a part of many.
+    pub drawn: Vec<usize>,
+    /// Each accepted effect over those rows, in the order of the diagnosis.
+    pub traces: Vec<Trace>,
     /// The chain with the effects that were found; what each of its symbols measures is as the amended text says.
     pub chain: Chain,
     /// The fit of the declaration as it was.
@@ -117,6 +121,8 @@ pub fn calibrate_telling(
     let rms = held_out::rms(&whole, &before, &round, &held_out)?;
     let confirmed = Confirmed { round: &round, held_out: &held_out, rms };
     let diagnosis = diagnose(&whole, &before, &round.fitted, Ok(confirmed))?;
+    let drawn = trace::drawn(request.observations, &round.fitted.fit);
+    let traces = trace::traces(&whole, &round, &drawn)?;
     let mut chain = round.fitted.chain;
     let mut amended = None;
     if diagnosis.verdict.is_usable() {
@@ -127,7 +133,7 @@ pub fn calibrate_telling(
         chain = with_quantities_of(chain, &text)?;
         amended = Some(text);
     }
-    Ok(Calibration { diagnosis, amended, chain, before, after: round.fitted.fit })
+    Ok(Calibration { diagnosis, amended, drawn, traces, chain, before, after: round.fitted.fit })
 }
 
 /// What a first fit that cannot be gone on with comes to.
@@ -135,7 +141,16 @@ fn unusable(whole: &Loop<'_>, first: Fitted) -> Result<Calibration, CalibrateErr
     let rms = held_out::of_fit(&first);
     let diagnosis = diagnose(whole, &first.fit, &first, Err(rms))?;
     let Fitted { chain, fit, .. } = first;
-    Ok(Calibration { diagnosis, amended: None, chain, before: fit.clone(), after: fit })
+    let drawn = trace::drawn(whole.request.observations, &fit);
+    Ok(Calibration {
+        diagnosis,
+        amended: None,
+        drawn,
+        traces: Vec::new(),
+        chain,
+        before: fit.clone(),
+        after: fit,
+    })
 }
 
 /// A chain whose symbols measure what the language says that they do in the amended text: a coefficient that multiplies an

@@ -9,11 +9,13 @@ mod effects;
 mod ended;
 mod errors;
 mod function;
+mod harmonics;
 mod instrument;
 mod noise;
 mod precision;
 pub(crate) mod remaining;
 pub(crate) mod rms;
+pub(crate) mod trace;
 mod units;
 mod verdict;
 
@@ -37,6 +39,7 @@ pub use effects::{Cause, EffectFound, Relation, Side};
 pub use ended::Ended;
 pub use errors::{ErrorFound, Estimable, Part};
 pub use function::Form;
+pub use harmonics::Harmonics;
 pub use instrument::{
     BodyShown, ErrorShown, ErrorState, Instrument, JointShown, ObservedShown, ReadingShown,
 };
@@ -44,6 +47,7 @@ pub use noise::{NoiseFound, SerialFound, SeriesNoise, VarianceFound};
 pub use precision::{Determined, NotSeparable, Precision, precision};
 pub use remaining::{Looked, Remaining, Where};
 pub use rms::Rms;
+pub use trace::Trace;
 pub use verdict::Verdict;
 
 /// Fewer observations than this are no evidence of an effect.
@@ -80,6 +84,8 @@ pub struct Diagnosis {
     pub search: Option<Searching>,
     /// What is left after the effects; absent where no search was made.
     pub remaining: Option<Remaining>,
+    /// Harmonics of each joint in the residual, with what noise alone would make.
+    pub harmonics: Vec<Harmonics>,
     /// What these data could not have shown.
     pub not_shown: Vec<NotShown>,
     /// Residuals of the declaration as it was.
@@ -174,7 +180,7 @@ pub(crate) fn diagnose(
         cautions.push(Caution::DeclarationNotFitted { steps });
     }
     cautions.extend(caution::of_noise(&noise, fit.degrees_of_freedom));
-    cautions.extend(caution::of_data(&last.chain, observations, fit));
+    cautions.extend(of_data(&last.chain, observations, fit));
     let remaining = found.remaining.as_ref();
     let alone = found.effects.iter().all(|effect| effect.class.is_empty() && effect.rivals.is_empty());
     let verdict = verdict::verdict(Evidence {
@@ -206,6 +212,7 @@ pub(crate) fn diagnose(
         effects: found.effects,
         search: found.search,
         remaining: found.remaining,
+        harmonics: harmonics::harmonics(&last.chain, observations, before, fit),
         not_shown: found.not_shown,
         before: rms.before,
         after: rms.after,

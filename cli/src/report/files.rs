@@ -8,7 +8,7 @@ use calibration::diagnose::Diagnosis;
 use serde::Serialize;
 
 use super::errors::errors_toml;
-use super::{Provenance, Reported, diff, html, residuals};
+use super::{Provenance, Reported, diff, page, residuals};
 use crate::failure::Failure;
 use crate::{output, tables, terminal};
 
@@ -37,7 +37,7 @@ pub fn write_all(reported: &Reported<'_>, folder: &Path) -> Result<(), Failure> 
         }
     }
     write_residuals(reported, &folder.join("residuals.csv"))?;
-    output::write_text(&folder.join("report.html"), &html::page(reported))
+    output::write_text(&folder.join("report.html"), &page::page(reported))
 }
 
 fn errors(reported: &Reported<'_>) -> String {

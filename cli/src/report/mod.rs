@@ -4,8 +4,7 @@
 
 mod errors;
 mod files;
-mod html;
-mod pictures;
+mod page;
 mod residuals;
 mod text;
 mod wrap;

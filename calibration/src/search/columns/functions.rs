@@ -8,7 +8,7 @@ use model_core::algebra::{Poly, Wave};
 use crate::data::Observations;
 
 /// Evaluates functions of joints and inputs over the rows of some observations.
-pub(super) struct Functions<'a> {
+pub(crate) struct Functions<'a> {
     observations: &'a Observations,
     /// Of every symbol, for those without readings.
     values: &'a [f64],
@@ -16,12 +16,12 @@ pub(super) struct Functions<'a> {
 }
 
 impl<'a> Functions<'a> {
-    pub(super) fn new(observations: &'a Observations, values: &'a [f64]) -> Self {
+    pub(crate) fn new(observations: &'a Observations, values: &'a [f64]) -> Self {
         Self { observations, values, waves: BTreeMap::new() }
     }
 
     /// The function's value at each row; `None` if a symbol has neither readings nor a value.
-    pub(super) fn column(&mut self, amount: &Poly) -> Option<Vec<f64>> {
+    pub(crate) fn column(&mut self, amount: &Poly) -> Option<Vec<f64>> {
         let mut sum = vec![0.0; self.observations.rows()];
         for term in amount.terms() {
             let mut product = vec![term.coefficient.to_f64(); sum.len()];

@@ -4,7 +4,7 @@
 //! One probe error for each place in the chain that an effect uses; its derivative comes from the exact form at the
 //! fitted errors, once, and is multiplied by the effect's functions of the readings.
 
-mod functions;
+pub(crate) mod functions;
 mod seen;
 
 use faer::Mat;

@@ -1,0 +1,159 @@
+//! Accepted effects row by row, as pictures draw them: what moves at an effect's place without it, what is left with it,
+//! and the fitted function with its uncertainty.
+
+use model_core::{SymbolId, SymbolKind};
+use rand::seq::SliceRandom;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+
+use super::units::of_reading;
+use crate::calibrate::round::Round;
+use crate::calibrate::{CalibrateError, Loop};
+use crate::candidate::Effect;
+use crate::data::{Observations, SiUnit};
+use crate::fit::FitResult;
+use crate::search::columns::functions::Functions;
+
+/// Rows that pictures show at most.
+const DRAWN: usize = 2000;
+
+/// Of so many rows that are shown, those set aside and those with the largest residuals come first.
+const FIRST: usize = 500;
+
+/// Points of a curve.
+const POINTS: usize = 73;
+
+/// Rows at which a place moves the observation less than this share of the most are left out: they say nothing of it.
+const SEEN: f64 = 0.3;
+
+/// An accepted effect over the rows that are drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trace {
+    /// The one joint or input that its function follows; none where there are more.
+    pub driver: Option<SymbolId>,
+    /// Unit of the driver.
+    pub driver_unit: SiUnit,
+    /// Unit of the motion at its place: rad or m.
+    pub unit: SiUnit,
+    /// What each row says that its place moves, all else declared: without this effect. None where the row hardly sees it.
+    pub without: Vec<Option<f64>>,
+    /// The same with the effect: what is left.
+    pub left: Vec<Option<f64>>,
+    /// The fitted function: driver, value, two standard uncertainties, SI; empty where it follows more than one reading.
+    pub curve: Vec<[f64; 3]>,
+}
+
+/// The rows that pictures draw, in order: every row, or of many those set aside, those with the largest residuals, and a
+/// sample of the others with a fixed seed.
+pub(crate) fn drawn(observations: &Observations, fit: &FitResult) -> Vec<usize> {
+    let rows = observations.rows();
+    if rows <= DRAWN {
+        return (0..rows).collect();
+    }
+    let mut length = vec![0.0; rows];
+    for (&row, residual) in fit.residuals.row.iter().zip(&fit.residuals.raw) {
+        length[row as usize] += residual * residual;
+    }
+    let weight = |row: usize| fit.residuals.weight.get(row).copied().unwrap_or(1.0);
+    let mut order: Vec<usize> = (0..rows).collect();
+    order.sort_by(|&a, &b| {
+        (weight(a) > 0.0).cmp(&(weight(b) > 0.0)).then(length[b].total_cmp(&length[a])).then(a.cmp(&b))
+    });
+    let mut rest = order.split_off(FIRST);
+    rest.shuffle(&mut ChaCha8Rng::seed_from_u64(1));
+    order.extend(rest.into_iter().take(DRAWN - FIRST));
+    order.sort_unstable();
+    order
+}
+
+/// Every accepted effect over some rows.
+pub(crate) fn traces(
+    whole: &Loop<'_>,
+    last: &Round<'_>,
+    rows: &[usize],
+) -> Result<Vec<Trace>, CalibrateError> {
+    let fitted = &last.fitted;
+    let observations = whole.request.observations.select(rows);
+    let columns = fitted.probed.columns(&observations)?;
+    let values = &fitted.fit.values;
+    let effects: Vec<Effect> =
+        fitted.found.iter().map(|found| whole.catalogue[found.effect].clone()).collect();
+    let (of_effects, _) = columns.of_part(&fitted.chain, &effects, &observations, values);
+    let mut traces = Vec::new();
+    for ((effect, own), errors) in effects.iter().zip(&of_effects).zip(&fitted.errors) {
+        let mut trace = Trace {
+            driver: None,
+            driver_unit: SiUnit::ONE,
+            unit: effect.place.freedom.quantity().into(),
+            without: vec![None; rows.len()],
+            left: vec![None; rows.len()],
+            curve: Vec::new(),
+        };
+        if let Some(probe) = columns.probe(effect.place) {
+            let mut sums = vec![[0.0; 3]; rows.len()];
+            for (at, &row) in columns.row.iter().enumerate() {
+                let moved: f64 =
+                    own.iter().zip(errors).map(|(column, error)| column[at] * values[error.index()]).sum();
+                let [square, left, effect] = &mut sums[row as usize];
+                *square += probe[at] * probe[at];
+                *left += probe[at] * columns.residual[at];
+                *effect += probe[at] * moved;
+            }
+            let most = sums.iter().map(|sum| sum[0]).fold(0.0, f64::max);
+            for (row, [square, left, effect]) in sums.into_iter().enumerate() {
+                if square > SEEN * SEEN * most && left.is_finite() {
+                    trace.left[row] = Some(left / square);
+                    trace.without[row] = Some((left + effect) / square);
+                }
+            }
+        }
+        curve(whole, last, effect, errors, &mut trace);
+        traces.push(trace);
+    }
+    Ok(traces)
+}
+
+/// The function of an effect that follows one reading.
+fn curve(whole: &Loop<'_>, last: &Round<'_>, effect: &Effect, errors: &[SymbolId], trace: &mut Trace) {
+    let (chain, fit) = (&last.fitted.chain, &last.fitted.fit);
+    let mut readings: Vec<SymbolId> =
+        effect.functions.iter().flat_map(|function| function.symbols()).collect();
+    readings.retain(|&id| matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input));
+    readings.sort_unstable();
+    readings.dedup();
+    let [driver] = readings[..] else { return };
+    if effect.functions.iter().any(|function| !function.elsewhere.is_empty()) {
+        return;
+    }
+    let Some(read) = whole.request.observations.column(driver) else { return };
+    let (low, high) =
+        read.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &q| (low.min(q), high.max(q)));
+    let grid: Vec<f64> =
+        (0..POINTS).map(|point| low + (high - low) * point as f64 / (POINTS - 1) as f64).collect();
+    let over = Observations {
+        columns: vec![(driver, grid.clone())],
+        measured: vec![[0.0; 3]; POINTS],
+        ..Observations::default()
+    };
+    let mut functions = Functions::new(&over, &fit.values);
+    let columns: Option<Vec<Vec<f64>>> =
+        effect.functions.iter().map(|function| functions.column(&function.amount)).collect();
+    let at: Option<Vec<usize>> =
+        errors.iter().map(|error| fit.parameters.iter().position(|id| id == error)).collect();
+    let (Some(columns), Some(at)) = (columns, at) else { return };
+    trace.driver = Some(driver);
+    trace.driver_unit = of_reading(&whole.setting, chain, driver);
+    trace.curve = grid
+        .into_iter()
+        .enumerate()
+        .map(|(point, q)| {
+            let f: Vec<f64> = columns.iter().map(|column| column[point]).collect();
+            let value: f64 = f.iter().zip(errors).map(|(f, error)| f * fit.values[error.index()]).sum();
+            let variance: f64 = (0..f.len())
+                .flat_map(|i| (0..f.len()).map(move |j| (i, j)))
+                .map(|(i, j)| f[i] * f[j] * fit.covariance[(at[i], at[j])])
+                .sum();
+            [q, value, 2.0 * variance.max(0.0).sqrt()]
+        })
+        .collect();
+}

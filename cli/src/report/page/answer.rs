@@ -1,0 +1,127 @@
+//! The first screen: what happened, what it is, where, how much better, what to do next.
+
+use calibration::diagnose::Diagnosis;
+use calibration::report::{self as words, Answers, Tone, numbers};
+use maud::{Markup, PreEscaped, html};
+
+use super::chain;
+
+/// The five answers.
+pub fn first_screen(diagnosis: &Diagnosis, answers: &Answers) -> Markup {
+    let (tone, sign) = match answers.tone {
+        // What was found is good news; that several causes fit has a badge of its own.
+        Tone::Good | Tone::Ambiguous => ("tone good", "●"),
+        Tone::Careful => ("tone careful", "▲"),
+        Tone::Bad => ("tone bad", "■"),
+    };
+    html! {
+        section id="answer" {
+            ul.badges {
+                li class=(tone) { span aria-hidden="true" { (sign) " " } (answers.badge) }
+                @if answers.causes.len() > 1 {
+                    li.tone.ambiguous { span aria-hidden="true" { "◐ " } (answers.causes.len()) " physical causes fit" }
+                }
+                @if let Some(chance) = &answers.chance { li { (chance) } }
+            }
+            h1 { (answers.what.first().unwrap_or(&answers.happened)) }
+            p.lead {
+                @if answers.what.is_empty() { (answers.better) } @else { (answers.happened) }
+            }
+            @if answers.what.len() > 1 {
+                ul { @for what in &answers.what[1..] { li { (what) } } }
+            }
+            @if !answers.causes.is_empty() {
+                ul.chips aria-label="Causes that fit" {
+                    @for cause in answers.causes.iter().take(10) { li { (words::sentence_case(cause)) } }
+                    @if answers.causes.len() > 10 { li { a href="#causes" { "and " (answers.causes.len() - 10) " more" } } }
+                }
+            }
+            @for caution in &diagnosis.cautions {
+                p.caution role="note" { b { "Caution. " } (words::caution(caution, diagnosis)) }
+            }
+            div.grid {
+                section.card aria-label="Where it sits" {
+                    h2 { "Where it sits" }
+                    (chain::chain(diagnosis))
+                }
+                section.card aria-label="How much better" {
+                    h2 { "How much better" }
+                    (better(diagnosis, answers))
+                }
+                section.card aria-label="What to do next" {
+                    h2 { "What to do next" }
+                    ol.steps {
+                        @for step in &answers.next {
+                            li {
+                                b { (step.title) } br; (step.text)
+                                @if let Some(command) = &step.command { pre.copy { (command) } }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Figures and bars.
+fn better(diagnosis: &Diagnosis, answers: &Answers) -> Markup {
+    let told = |si: f64| numbers::short(si, diagnosis.unit);
+    let (before, after) = (diagnosis.before, diagnosis.after);
+    let pairs: Vec<(&str, f64, f64)> = [
+        ("On data that nobody fitted", before.held_out_rms, after.held_out_rms),
+        ("On the data that were fitted", Some(before.rms), Some(after.rms)),
+        ("In regions of the joints left out", before.elsewhere_rms, after.elsewhere_rms),
+    ]
+    .into_iter()
+    .filter_map(|(name, before, after)| Some((name, before?, after?)))
+    .filter(|(_, before, after)| before.is_finite() && after.is_finite())
+    .collect();
+    let noise = diagnosis.noise.expected_rms;
+    let most = pairs.iter().map(|pair| pair.1.max(pair.2)).fold(noise, f64::max).max(f64::MIN_POSITIVE);
+    html! {
+        @if let (Some(&(_, before, after)), false) = (pairs.first(), diagnosis.effects.is_empty()) {
+            p.figure { span.b { (told(before)) } " → " span.a { (told(after)) } }
+        }
+        p { (answers.better) }
+        @for &(name, before, after) in &pairs {
+            (bars(name, [before, after].map(|si| (si / most, told(si))), noise / most))
+        }
+        p.quiet {
+            "Hatched: before. Filled: after. Dotted line: the noise, " (told(noise)) " (measured). RMS of the residual's \
+             length over every row"
+            @if !diagnosis.observations.set_aside.is_empty() {
+                "; without the " (diagnosis.observations.set_aside.len()) " rows set aside "
+                (told(before.rms_kept)) " → " (told(after.rms_kept)) " on the data that were fitted"
+            }
+            "."
+        }
+    }
+}
+
+/// Two bars, before above after, with the noise across them.
+fn bars(name: &str, [before, after]: [(f64, String); 2], noise: f64) -> Markup {
+    let width = |share: f64| 2.0 + 228.0 * share;
+    let label = format!("{name}: {} before, {} after", before.1, after.1);
+    let bar = |class: &str, y: i32, (share, told): &(f64, String)| {
+        format!(
+            "<path class=\"bar {class}\" d=\"M1 {y}h{:.1}v18h-{:.1}z\"/><text x=\"{:.1}\" y=\"{}\" class=\"label\">{}</text>",
+            width(*share),
+            width(*share),
+            width(*share) + 8.0,
+            y + 14,
+            super::svg::escaped(told)
+        )
+    };
+    let svg = format!(
+        "<svg viewBox=\"0 0 310 50\" role=\"img\" aria-label=\"{}\">{}{}<path class=\"tick\" d=\"M{:.1} 0V50\"/></svg>",
+        super::svg::escaped(&label),
+        bar("b", 4, &before),
+        bar("a", 27, &after),
+        1.0 + width(noise)
+    );
+    html! {
+        p.quiet style="margin:10px 0 2px" { (name) }
+        (PreEscaped(svg))
+    }
+}

@@ -1,0 +1,104 @@
+//! The report in a browser: it renders, says no error, and answers to hover, marking and the choice of before and after.
+//!
+//! Without Chromium the tests say so and pass, except where `CI` is set.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+use std::path::PathBuf;
+use std::process::Command;
+
+use support::{Folder, trueaxis};
+
+/// Bytes that the page of a study of 400 rows may have: those of 1,000 rows are at most a megabyte.
+const MOST_BYTES: usize = 1_000_000;
+
+/// Does what a person would, and writes what came of it into the page.
+const ACTIONS: &str = r##"<script>
+addEventListener("load", () => {
+  const said = [];
+  const say = (name, value) => said.push(`${name}=${value}`);
+  try {
+    say("wide", document.documentElement.scrollWidth <= innerWidth);
+    const svg = document.querySelector("svg.rows");
+    svg.scrollIntoView();
+    const box = svg.getBoundingClientRect();
+    const at = (type, x, y) => svg.dispatchEvent(new PointerEvent(type,
+      { clientX: box.left + x * box.width, clientY: box.top + y * box.height, pointerId: 1, bubbles: true }));
+    svg.setPointerCapture = () => {};
+    const tip = document.getElementById("tip");
+    let named = "";
+    for (let x = 0.15; x < 0.95 && !named; x += 0.02) for (let y = 0.1; y < 0.85; y += 0.02) {
+      at("pointermove", x, y);
+      if (!tip.hidden) { named = tip.textContent; break; }
+    }
+    say("hover", /^Row \d+.*residual/.test(named));
+    at("pointerdown", 0.2, 0.1); at("pointermove", 0.5, 0.8); at("pointerup", 0.5, 0.8);
+    const drawn = [...document.querySelectorAll("svg.rows .over")];
+    say("brushed", drawn.filter((over) => over.querySelector(".marked")).length === drawn.length);
+    say("told", /\d+ of \d+ rows marked/.test(document.getElementById("state").textContent));
+    document.getElementById("show-after").click();
+    say("toggle", getComputedStyle(document.querySelector("path.before")).display === "none"
+      && getComputedStyle(document.querySelector("path.after")).display !== "none");
+    document.getElementById("clear").click();
+    say("cleared", !document.querySelector(".over .marked"));
+    say("names", [...document.querySelectorAll("svg")].every((s) => s.getAttribute("aria-hidden") || s.getAttribute("aria-label")));
+    say("ids", new Set([...document.querySelectorAll("[id]")].map((e) => e.id)).size === document.querySelectorAll("[id]").length);
+  } catch (error) { say("error", error); }
+  const out = document.createElement("output");
+  out.id = "said"; out.textContent = said.join(" ");
+  document.body.append(out);
+});
+</script></body>"##;
+
+/// The browser; `None`, with a word about it, where there is none.
+#[allow(clippy::print_stdout, reason = "a skipped test says so")]
+fn browser() -> Option<PathBuf> {
+    let names = ["chromium", "chromium-browser", "google-chrome"];
+    let found = std::env::split_paths(&std::env::var_os("PATH")?)
+        .flat_map(|folder| names.map(|name| folder.join(name)))
+        .find(|path| path.is_file());
+    if found.is_none() {
+        assert!(std::env::var_os("CI").is_none(), "Chromium is missing");
+        println!("skipped: Chromium is missing");
+    }
+    found
+}
+
+/// What the browser makes of a page at a width, and what it says meanwhile.
+fn rendered(browser: &PathBuf, folder: &Folder, page: &str, width: u32) -> (String, String) {
+    let profile = folder.0.join(format!("profile-{width}"));
+    let out = Command::new(browser)
+        .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"])
+        .args(["--disable-background-networking", "--disable-component-update", "--disable-sync"])
+        .args(["--enable-logging=stderr", "--virtual-time-budget=4000", "--dump-dom"])
+        .arg(format!("--window-size={width},900"))
+        .arg(format!("--user-data-dir={}", profile.display()))
+        .arg(folder.0.join(page))
+        .output()
+        .expect("the browser runs");
+    (String::from_utf8_lossy(&out.stdout).into_owned(), String::from_utf8_lossy(&out.stderr).into_owned())
+}
+
+#[test]
+fn the_page_answers_to_a_person() {
+    let Some(browser) = browser() else { return };
+    let folder = Folder::new("page-in-a-browser");
+    let out = folder.0.to_str().expect("UTF-8");
+    let run = trueaxis(&["calibrate", "examples/mobile-lidar/study.toml", "--out", out]);
+    assert_eq!(run.code, 0, "{run}");
+    let page = folder.read("report.html");
+    assert!(page.len() <= MOST_BYTES, "{} bytes", page.len());
+    folder.write("acted.html", page.replace("</body>", ACTIONS));
+    for width in [1280, 500] {
+        let (dom, said) = rendered(&browser, &folder, "acted.html", width);
+        let console: Vec<&str> = said.lines().filter(|line| line.contains("CONSOLE")).collect();
+        assert!(console.is_empty(), "{width}: {console:?}");
+        let (_, answers) =
+            dom.split_once("id=\"said\">").unwrap_or_else(|| panic!("{width}: nothing said: {said}"));
+        let answers = answers.split('<').next().unwrap_or_default();
+        for name in ["wide", "hover", "brushed", "told", "toggle", "cleared", "names", "ids"] {
+            assert!(answers.contains(&format!("{name}=true")), "{width}: {answers}");
+        }
+    }
+}

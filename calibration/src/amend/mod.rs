@@ -91,6 +91,21 @@ pub fn amend(
     Ok(amended)
 }
 
+/// A chain whose symbols measure what the language says that they do in a text: a coefficient that multiplies an angle is a
+/// number there. So what is written of them can be read again.
+///
+/// # Errors
+/// A text that is no declaration.
+pub fn with_quantities_of(mut chain: Chain, text: &str) -> Result<Chain, Mistakes> {
+    let read = Chain::from_text(text)?;
+    for symbol in &mut chain.symbols {
+        if let Some(id) = read.find_symbol(&symbol.name) {
+            symbol.quantity = read.symbol(id).quantity;
+        }
+    }
+    Ok(chain)
+}
+
 /// The difference of two texts as a unified diff.
 #[must_use]
 pub fn diff(before: &str, after: &str, name: &str) -> String {

@@ -15,7 +15,7 @@ mod stage;
 
 use model_core::{Chain, Mistakes};
 
-use crate::amend::{AmendError, amend};
+use crate::amend::{AmendError, amend, with_quantities_of};
 use crate::data::Observations;
 use crate::diagnose::{Confirmed, Diagnosis, Trace, diagnose, trace};
 use crate::fit::{FitError, FitResult, Outcome};
@@ -130,7 +130,7 @@ pub fn calibrate_telling(
             amendment::additions(&whole, &diagnosis, &chain, &round.fitted.found, &round.fitted.errors);
         let inputs = amendment::new_inputs(&whole, &chain, &round.fitted.found);
         let text = amend(request.text, &chain, &additions, &inputs)?;
-        chain = with_quantities_of(chain, &text)?;
+        chain = with_quantities_of(chain, &text).map_err(CalibrateError::Amended)?;
         amended = Some(text);
     }
     Ok(Calibration { diagnosis, amended, drawn, traces, chain, before, after: round.fitted.fit })
@@ -151,16 +151,4 @@ fn unusable(whole: &Loop<'_>, first: Fitted) -> Result<Calibration, CalibrateErr
         before: fit.clone(),
         after: fit,
     })
-}
-
-/// A chain whose symbols measure what the language says that they do in the amended text: a coefficient that multiplies an
-/// angle is a number there. So what is written of them can be read again.
-fn with_quantities_of(mut chain: Chain, text: &str) -> Result<Chain, CalibrateError> {
-    let read = Chain::from_text(text).map_err(CalibrateError::Amended)?;
-    for symbol in &mut chain.symbols {
-        if let Some(id) = read.find_symbol(&symbol.name) {
-            symbol.quantity = read.symbol(id).quantity;
-        }
-    }
-    Ok(chain)
 }

@@ -115,12 +115,16 @@ fn files_read(
 ) -> Result<Vec<FileRead>, Failure> {
     let data = plan.sources.iter().flat_map(|source| &source.paths).chain(&plan.hold_out.file);
     let mut files = vec![(arguments.study.display().to_string(), arguments.study.clone())];
+    // What is no file, a pipe say, has been read already.
     for path in std::iter::once(chain).chain(data.map(String::as_str)) {
         files.push((path.to_owned(), study.beside(Path::new(path))));
     }
     let read = |(path, place): (String, PathBuf)| {
+        if !fs::metadata(&place).is_ok_and(|metadata| metadata.is_file()) {
+            return Ok(FileRead { path, sha256: None });
+        }
         let bytes = fs::read(&place).map_err(|error| source::not_readable(&place, &error))?;
-        Ok(FileRead { path, sha256: sha256::hex(&bytes) })
+        Ok(FileRead { path, sha256: Some(sha256::hex(&bytes)) })
     };
     files.into_iter().map(read).collect()
 }

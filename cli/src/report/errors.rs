@@ -2,19 +2,18 @@
 
 use std::fmt::Write as _;
 
-use calibration::diagnose::{Diagnosis, ErrorFound};
+use calibration::diagnose::ErrorFound;
 use calibration::report::numbers;
 use model_core::{Chain, Quantity, SymbolKind};
 
 /// Every value of a calibrated model that differs from what its declaration says, each with a remark for people.
 #[must_use]
-pub fn errors_toml(diagnosis: &Diagnosis, chain: &Chain, values: &[f64], date: &str) -> String {
+pub fn errors_toml(found: &[ErrorFound], chain: &Chain, values: &[f64], date: &str) -> String {
     let mut text = format!(
         "# Errors of {}, calibrated on {date}; for `trueaxis eval`, `trueaxis apply` and amended.chain.\n",
         chain.name
     );
-    let found = &diagnosis.errors;
-    let width = found.iter().map(|error| error.name.len()).max().unwrap_or_default();
+    let width = found.iter().map(|error| key(&error.name).chars().count()).max().unwrap_or_default();
     for error in found {
         // The unit is that of the language's quantity, which is what reads the file again.
         let quantity =
@@ -22,7 +21,7 @@ pub fn errors_toml(diagnosis: &Diagnosis, chain: &Chain, values: &[f64], date: &
         let _ = writeln!(
             text,
             "{:width$} = {:32} # {}",
-            error.name,
+            key(&error.name),
             written(error.value, quantity),
             remark(error)
         );
@@ -34,12 +33,21 @@ pub fn errors_toml(diagnosis: &Diagnosis, chain: &Chain, values: &[f64], date: &
             let _ = writeln!(
                 text,
                 "{:width$} = {:32} # held at this value",
-                symbol.name,
+                key(&symbol.name),
                 written(value, symbol.quantity)
             );
         }
     }
     text
+}
+
+/// A name as a key of TOML: quoted where it has letters that a bare key cannot have.
+fn key(name: &str) -> String {
+    if name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_') {
+        name.to_owned()
+    } else {
+        format!("\"{name}\"")
+    }
 }
 
 /// A value as TOML has it: a number, or a string with a unit.
@@ -57,5 +65,90 @@ fn remark(error: &ErrorFound) -> String {
             format!("{}, determined only together with others", numbers::told(error.value, error.unit))
         }
         (None, false) => "not shown by the data".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use calibration::amend::{Addition, amend, with_quantities_of};
+    use calibration::candidate::Setting;
+    use calibration::catalogue::catalogue;
+    use calibration::data::SiUnit;
+    use model_core::SymbolId;
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::errors_file;
+    use crate::source::Source;
+
+    /// Declarations that have side quantities beside their joints.
+    const CHAINS: [(&str, &str); 5] = [
+        (include_str!("../../../examples/mobile-lidar/mobile-lidar.chain"), "pointing"),
+        (include_str!("../../../examples/mobile-lidar/mobile-lidar.chain"), "target"),
+        (include_str!("../../../examples/alt-azimuth/alt-azimuth.chain"), "sight"),
+        (include_str!("../../../examples/equatorial/equatorial.chain"), "sight"),
+        (include_str!("../../../examples/turntable/turntable.chain"), "pointing"),
+    ];
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 96, failure_persistence: None, ..ProptestConfig::default() })]
+        /// Whatever effect was added, and whatever its coefficients, the file is read to the last bit.
+        #[test]
+        fn what_is_written_is_read_again(
+            which in 0..CHAINS.len(),
+            picks in proptest::collection::vec(any::<prop::sample::Index>(), 1..4),
+            values in proptest::collection::vec(-1e9_f64..1e9, 8),
+            scale in -20_i32..3,
+        ) {
+            let (text, observable) = CHAINS[which];
+            let text = text.replacen('{', "{ input temperature; input elapsed; input night_2; input δ; ", 1);
+            let chain = Chain::from_text(&text).unwrap();
+            let observables = [chain.find_observable(observable).unwrap()];
+            let inputs: Vec<SymbolId> = chain.symbols_of(SymbolKind::Input).collect();
+            let setting = Setting {
+                chain: &chain,
+                observables: &observables,
+                inputs: &inputs,
+                harmonics: 3,
+                lines: &[],
+                own: &[],
+            };
+            let catalogue = catalogue(&setting);
+            let mut amended = chain.clone();
+            let mut additions = Vec::new();
+            for pick in picks {
+                let effect = &catalogue[pick.index(catalogue.len())];
+                let (with, errors) = effect.add_to(&amended).unwrap();
+                amended = with;
+                additions.extend(effect.texts(&amended, &errors).into_iter().map(|(body, role, factor)| {
+                    Addition { body, role, factor, documentation: Vec::new() }
+                }));
+            }
+            let text = amend(&text, &amended, &additions, &[]).unwrap();
+            let amended = with_quantities_of(amended, &text).unwrap();
+            let found: Vec<ErrorFound> = amended
+                .symbols_of(SymbolKind::Error)
+                .zip(values.iter().cycle())
+                .map(|(id, value)| ErrorFound {
+                    name: amended.symbol(id).name.clone(),
+                    value: value * 10_f64.powi(scale),
+                    standard_uncertainty: Some(1e-6),
+                    unit: SiUnit::RAD.per(SiUnit::KELVIN),
+                    separable: true,
+                    shown: true,
+                })
+                .collect();
+            let nominal = amended.nominal_values();
+            let written = errors_toml(&found, &amended, &nominal, "2026-11-21");
+            let read = Chain::from_text(&text).unwrap();
+            let source = Source { path: PathBuf::from("errors.toml"), text: written.clone() };
+            let values = errors_file::values(&source, &read).map_err(|error| TestCaseError::fail(format!("{error}\n{written}")))?;
+            for error in &found {
+                let id = read.find_symbol(&error.name).unwrap();
+                prop_assert_eq!(values[id.index()], error.value, "{}", error.name);
+            }
+        }
     }
 }

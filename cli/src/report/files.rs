@@ -43,7 +43,7 @@ pub fn write_all(reported: &Reported<'_>, folder: &Path) -> Result<(), Failure> 
 fn errors(reported: &Reported<'_>) -> String {
     let calibration = reported.calibration;
     let date = &reported.provenance.date;
-    errors_toml(&calibration.diagnosis, &calibration.chain, &calibration.after.values, date)
+    errors_toml(&calibration.diagnosis.errors, &calibration.chain, &calibration.after.values, date)
 }
 
 /// `report.json`: the diagnosis, and what it was made with.

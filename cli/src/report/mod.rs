@@ -51,6 +51,6 @@ pub struct Provenance {
 pub struct FileRead {
     /// Its path as the study, or the command line, names it.
     pub path: String,
-    /// SHA-256 of its bytes.
-    pub sha256: String,
+    /// SHA-256 of its bytes; none for what is no file and can be read once only.
+    pub sha256: Option<String>,
 }

@@ -82,7 +82,7 @@ fn provenance(reported: &Reported<'_>) -> Markup {
                     table {
                         thead { tr { th scope="col" { "file" } th scope="col" { "SHA-256" } } }
                         tbody {
-                            @for file in &made.files { tr { td { (file.path) } td { code { (file.sha256) } } } }
+                            @for file in &made.files { tr { td { (file.path) } td { code { (file.sha256.as_deref().unwrap_or("no file")) } } } }
                         }
                     }
                 }

@@ -79,10 +79,10 @@ fn read(source: &Source, chain: &Chain, kinds: &[SymbolKind]) -> Result<Settings
     ranked.sort_by_key(|&(rank, ..)| rank);
     let mut settings = Settings::new();
     let mut set_by: BTreeMap<SymbolId, (usize, &str)> = BTreeMap::new();
+    let mut winners = BTreeMap::new();
     for (rank, name, amount) in ranked {
         for id in named(source, chain, kinds, name)? {
             let symbol = chain.symbol(id);
-            let place = amount.span();
             if let Some((_, other)) =
                 set_by.insert(id, (rank, name.get_ref())).filter(|&(other, _)| other == rank)
             {
@@ -90,11 +90,17 @@ fn read(source: &Source, chain: &Chain, kinds: &[SymbolKind]) -> Result<Settings
                 let help = format!("write `{} = …` as well: a plain name wins", symbol.name);
                 return Err(source.mistake(Mistake::new(name.span(), message).with_help(help)));
             }
-            let value = amount.get_ref().to_si(symbol.quantity).map_err(|why| {
-                source.mistake(Mistake::new(place.clone(), format!("{}: {why}", symbol.name)))
-            })?;
-            settings.insert(id, (value, place));
+            winners.insert(id, amount);
         }
+    }
+    // What is overruled need not fit: `"*" = "10 arcsec"` beside a plain name for a length.
+    for (id, amount) in winners {
+        let symbol = chain.symbol(id);
+        let value = amount
+            .get_ref()
+            .to_si(symbol.quantity)
+            .map_err(|why| source.mistake(Mistake::new(amount.span(), format!("{}: {why}", symbol.name))))?;
+        settings.insert(id, (value, amount.span()));
     }
     warn_of_missing_units(chain, &entries, &settings);
     Ok(settings)

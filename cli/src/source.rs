@@ -11,6 +11,7 @@ use model_core::{Chain, ObservableId, names};
 use serde::de::DeserializeOwned;
 
 use crate::failure::Failure;
+use crate::terminal;
 
 /// A text and where it came from.
 #[derive(Debug, Clone)]
@@ -61,7 +62,11 @@ impl Source {
     /// # Errors
     /// Every mistake of the declaration, each with its place.
     pub fn chain(&self) -> Result<Chain, Failure> {
-        Chain::from_text(&self.text).map_err(|mistakes| self.mistakes(&mistakes))
+        let chain = Chain::from_text(&self.text).map_err(|mistakes| self.mistakes(&mistakes))?;
+        for caution in model_core::caution::cautions(&chain) {
+            terminal::warn(format_args!("{}: {caution}", self.path.display()));
+        }
+        Ok(chain)
     }
 
     /// The text read as TOML.

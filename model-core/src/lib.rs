@@ -5,6 +5,7 @@
 
 pub mod algebra;
 pub mod budget;
+pub mod caution;
 pub mod certificate;
 pub mod chain;
 pub mod check;
@@ -25,4 +26,4 @@ pub mod unit;
 
 pub use chain::{Axis, Body, BodyId, Chain, Factor, Motion, Observable, ObservableId, ObservableKind, Role};
 pub use mistake::{Mistake, Mistakes};
-pub use symbol::{Quantity, Symbol, SymbolId, SymbolKind};
+pub use symbol::{Meaning, Quantity, Symbol, SymbolId, SymbolKind};

@@ -98,6 +98,7 @@ impl Chain {
             ),
             kind: SymbolKind::Ramp,
             quantity: Quantity::Number,
+            meaning: None,
             documentation,
             latex: format!(
                 "\\operatorname{{ramp}}\\left({}, {}, {}\\right)",

@@ -57,6 +57,71 @@ impl Quantity {
     }
 }
 
+/// What an input is, as its statement says; nothing is guessed from names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Meaning {
+    /// `angle`: any angle, in radians.
+    Angle,
+    /// `length`: any length, in metres.
+    Length,
+    /// `range`: a measured distance to what is observed, in metres.
+    Range,
+    /// `temperature`: kelvin, or degrees Celsius, which differ by a constant only.
+    Temperature,
+    /// `time`: seconds from any origin.
+    Time,
+    /// `rate`: how fast a joint moves, in radians (or metres) per second.
+    Rate,
+    /// `direction`: which way a joint moves: 1 upwards, −1 downwards, 0 at rest.
+    Direction,
+    /// `side`: which of two sides or faces the instrument is on: 1 or −1.
+    Side,
+    /// `pressure`: pascal.
+    Pressure,
+    /// `humidity`: relative, from 0 to 1.
+    Humidity,
+}
+
+impl Meaning {
+    /// What it measures, as far as amounts care: angles can stand in sines, the rest are lengths and numbers.
+    #[must_use]
+    pub fn quantity(self) -> Quantity {
+        match self {
+            Self::Angle => Quantity::Angle,
+            Self::Length | Self::Range => Quantity::Length,
+            Self::Temperature
+            | Self::Time
+            | Self::Rate
+            | Self::Direction
+            | Self::Side
+            | Self::Pressure
+            | Self::Humidity => Quantity::Number,
+        }
+    }
+
+    /// The unit as printed. The rate of a joint that shifts is in `m/s`, which the joint says and not the input.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Angle => "rad",
+            Self::Length | Self::Range => "m",
+            Self::Temperature => "K",
+            Self::Time => "s",
+            Self::Rate => "rad/s",
+            Self::Direction | Self::Side | Self::Humidity => "1",
+            Self::Pressure => "Pa",
+        }
+    }
+}
+
+impl Symbol {
+    /// The unit as printed: that of its declared meaning, else that of its quantity.
+    #[must_use]
+    pub fn unit(&self) -> &'static str {
+        self.meaning.map_or_else(|| self.quantity.unit(), Meaning::unit)
+    }
+}
+
 /// One named quantity of a chain.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Symbol {
@@ -66,6 +131,8 @@ pub struct Symbol {
     pub kind: SymbolKind,
     /// What it measures.
     pub quantity: Quantity,
+    /// What it is, for inputs whose statement says so.
+    pub meaning: Option<Meaning>,
     /// Documentation from the declaration's `///` lines; empty if there is none.
     pub documentation: String,
     /// The printed form, declared by `symbol` or derived from the name: `\Delta\theta_{y1}^0`.

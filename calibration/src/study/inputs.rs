@@ -1,7 +1,7 @@
 //! Inputs that a study brings with it: side quantities that the chain does not declare, and what follows from the
 //! sequence of the rows.
 
-use model_core::{Chain, Quantity, Symbol, SymbolKind};
+use model_core::{Chain, Meaning, Quantity, Symbol, SymbolKind};
 
 use super::StudyError;
 use super::written::Study;
@@ -16,7 +16,7 @@ impl Study {
         let wanted = self.search.inputs.iter().chain(derived.map(|(name, _)| name));
         for name in wanted {
             match chain.find_symbol(name.get_ref()).map(|id| chain.symbol(id).kind) {
-                None => chain.symbols.push(input(name.get_ref(), self.quantity_of(name.get_ref()))),
+                None => chain.symbols.push(input(name.get_ref(), self.quantity_of(name.get_ref()), None)),
                 Some(SymbolKind::Input | SymbolKind::Joint) => {}
                 Some(_) => {
                     let message =
@@ -27,7 +27,7 @@ impl Study {
         }
         for (name, derived) in self.implied(&chain) {
             if chain.find_symbol(&name).is_none() {
-                chain.symbols.push(input(&name, derived.quantity()));
+                chain.symbols.push(input(&name, derived.quantity(), Some(meaning(&derived))));
             }
         }
         Ok(chain)
@@ -70,12 +70,22 @@ impl Study {
     }
 }
 
+/// What an input is that follows from the rows.
+fn meaning(derived: &Derived) -> Meaning {
+    match derived {
+        Derived::Direction { .. } => Meaning::Direction,
+        Derived::Rate { .. } => Meaning::Rate,
+        Derived::Elapsed { .. } => Meaning::Time,
+    }
+}
+
 /// An input that a study brings with it.
-fn input(name: &str, quantity: Quantity) -> Symbol {
+fn input(name: &str, quantity: Quantity, meaning: Option<Meaning>) -> Symbol {
     Symbol {
         name: name.to_owned(),
         kind: SymbolKind::Input,
         quantity,
+        meaning,
         documentation: String::new(),
         latex: format!("\\mathrm{{{}}}", name.replace('_', "\\_")),
         value: None,

@@ -98,7 +98,7 @@ fn failure(error: &BudgetError) -> Failure {
         BudgetError::NoValue { name, .. } => {
             format!("{error}: name {name} in --path, or say --range \"{name}=lo..hi\"")
         }
-        BudgetError::NotFinite { .. } => error.to_string(),
+        BudgetError::NotFinite { .. } | BudgetError::Form(_) => error.to_string(),
     })
 }
 

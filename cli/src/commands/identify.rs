@@ -53,7 +53,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut answers = Vec::new();
     let mut certified = Vec::new();
     for set in &sets {
-        let failure = |error: model_core::forms::FormError| Failure::Input(error.to_string());
+        let failure = |error: identify::IdentifyError| Failure::Input(error.to_string());
         let found = identify::identify(&chain, set).map_err(failure)?;
         let mut text = identify::text(&found, &chain);
         let mut answer = as_json(&chain, set, &found);

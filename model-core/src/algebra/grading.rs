@@ -10,6 +10,12 @@ use crate::symbol::SymbolId;
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct BasisFunction(Vec<Atom>);
 
+impl BasisFunction {
+    pub(super) fn atoms(&self) -> &[Atom] {
+        &self.0
+    }
+}
+
 impl Poly {
     /// The highest total power of the chosen symbols in any term; sines and cosines do not count.
     #[must_use]

@@ -10,6 +10,8 @@ mod angle;
 mod atom;
 mod calculus;
 mod circle;
+mod divide;
+mod fourier;
 mod grading;
 mod lower;
 mod multiply;
@@ -28,6 +30,8 @@ pub use terms::{Pole, Term, Wave, WaveFactor};
 pub const SIZE_LIMIT: usize = 200_000;
 /// The highest power of a symbol, or of a sine or cosine in a denominator, that a checked product may lead to.
 pub const DEGREE_LIMIT: u32 = 1000;
+/// The most bits that numerator and denominator of a coefficient may have together; an `f64` ends at about 2100.
+pub const BITS_LIMIT: usize = 20_000;
 /// The highest multiple of an angle that a sine or cosine may be taken of.
 pub const HARMONIC_LIMIT: u32 = 1_000_000;
 
@@ -43,7 +47,7 @@ pub enum AlgebraError {
     /// A division by something other than numbers, sines and cosines of single angles.
     #[error("only numbers, and sines and cosines of a single angle, can be divided by")]
     NotDivisible,
-    /// A power or product beyond [`SIZE_LIMIT`], [`DEGREE_LIMIT`] or [`HARMONIC_LIMIT`].
+    /// A power or product beyond [`SIZE_LIMIT`], [`DEGREE_LIMIT`], [`BITS_LIMIT`] or [`HARMONIC_LIMIT`].
     #[error("the expression is too large when multiplied out")]
     TooLarge,
 }

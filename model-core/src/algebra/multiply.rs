@@ -7,7 +7,7 @@ use super::atom::{Atom, Circle, Meaning};
 use super::circle::{self, Combination};
 use super::poly::Poly;
 use super::rational::Rational;
-use super::{AlgebraError, DEGREE_LIMIT, SIZE_LIMIT};
+use super::{AlgebraError, BITS_LIMIT, DEGREE_LIMIT, SIZE_LIMIT};
 
 impl Mul for &Poly {
     type Output = Poly;
@@ -80,6 +80,9 @@ impl Poly {
         budget.spend(self.len().saturating_mul(other.len()).saturating_mul(each))?;
         let product = self * other;
         budget.spend(product.atoms.len() / 8)?;
+        if product.terms.iter().any(|head| head.coefficient.bits() > BITS_LIMIT) {
+            return Err(AlgebraError::TooLarge);
+        }
         Ok(product)
     }
 

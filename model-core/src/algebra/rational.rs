@@ -5,6 +5,7 @@ use std::fmt;
 use std::num::NonZeroI64;
 use std::ops::{Add, Mul, Neg, Sub};
 
+use dashu_int::ops::BitTest;
 use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
 
@@ -141,6 +142,33 @@ impl Rational {
             Repr::Small { numerator, .. } => *numerator < 0,
             Repr::Big(big) => **big < RBig::ZERO,
         }
+    }
+
+    /// How many bits numerator and denominator have together, at most.
+    #[must_use]
+    pub fn bits(&self) -> usize {
+        match &self.0 {
+            Repr::Small { .. } => 128,
+            Repr::Big(big) => {
+                let (numerator, denominator) = (**big).clone().into_parts();
+                numerator.bit_len() + denominator.bit_len()
+            }
+        }
+    }
+
+    /// Numerator and denominator modulo a prime below 2⁶².
+    #[must_use]
+    pub fn residues(&self, prime: u64) -> (u64, u64) {
+        let (numerator, denominator) = self.to_big().into_parts();
+        let modulus = IBig::from(prime);
+        let residue = |number: IBig| {
+            let positive = ((number % &modulus) + &modulus) % &modulus;
+            match u64::try_from(positive) {
+                Ok(residue) => residue,
+                Err(_) => unreachable!("a residue is smaller than its modulus"),
+            }
+        };
+        (residue(numerator), residue(IBig::from(denominator)))
     }
 
     /// The numerator, as text.

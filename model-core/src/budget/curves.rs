@@ -1,5 +1,6 @@
 //! Influences point by point along a path, as figures show them.
 
+use super::first_order::FirstOrder;
 use super::poses::{Path, Poses, Space};
 use super::probe::Probe;
 use super::{BudgetError, sized};
@@ -42,7 +43,8 @@ impl Curves {
     ) -> Result<Self, BudgetError> {
         let poses = Poses::Path(path.clone());
         // Says what the path leaves open.
-        let space = Space::new(chain, observable, &poses)?;
+        let first_order = FirstOrder::new(chain, observable, &sized(chain, sizes))?;
+        let space = Space::new(chain, observable, &poses, &first_order)?;
         let probe = Probe::new(chain, observable);
         let range = Path::PARAMETER;
         let last = points.max(2) - 1;

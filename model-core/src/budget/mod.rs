@@ -1,6 +1,7 @@
 //! The error budget: what each error alone does to an observable over a set of poses, and what all of them do together.
 //!
-//! Everything is measured on the exact form. The influence of an error at a pose is the angle between the direction with
+//! Largest values are measured on the exact form, and so are means over ranges and paths. The root mean square over full
+//! turns of all joints is that of the first-order influence, which the canonical form gives without any nodes. The influence of an error at a pose is the angle between the direction with
 //! the error and the one without (rad), or the distance of the two points (m). Over the poses it is summed up by its
 //! largest value and its root mean square.
 //!
@@ -9,6 +10,7 @@
 //! - [`Curves::along`]: the influences point by point along a path, for plots.
 
 mod curves;
+mod first_order;
 mod poses;
 mod probe;
 mod quadrature;
@@ -18,7 +20,9 @@ mod summary;
 mod tests;
 
 use crate::chain::{Chain, ObservableId, ObservableKind};
+use crate::forms::FormError;
 use crate::symbol::SymbolId;
+use first_order::FirstOrder;
 use poses::Space;
 use probe::Probe;
 use summary::summarise;
@@ -40,6 +44,9 @@ pub struct Budget {
     pub worst_case: Summary,
     /// The root of the sum of the squared influences at each pose: what to expect of independent errors.
     pub root_sum_square: Summary,
+    /// Whether some root mean square comes from scattered poses and is right to about a percent only: the influences have
+    /// more waves over the poses than a rule has nodes for. That of `worst_case` does so wherever that is the case.
+    pub is_sampled: bool,
 }
 
 /// What one error alone does.
@@ -64,6 +71,9 @@ pub enum BudgetError {
         /// The joint or input.
         name: String,
     },
+    /// The observable has no first-order form.
+    #[error(transparent)]
+    Form(#[from] FormError),
     /// The observable has no finite value at a pose.
     #[error("{observable} has no finite value at {pose}")]
     NotFinite {
@@ -85,9 +95,10 @@ impl Budget {
         sizes: &[f64],
         poses: &Poses,
     ) -> Result<Self, BudgetError> {
-        let space = Space::new(chain, observable, poses)?;
-        let probe = Probe::new(chain, observable);
         let errors = sized(chain, sizes);
+        let first_order = FirstOrder::new(chain, observable, &errors)?;
+        let space = Space::new(chain, observable, poses, &first_order)?;
+        let probe = Probe::new(chain, observable);
         let mut single: Vec<Vec<f64>> = errors.iter().map(|_| Vec::new()).collect();
         let mut values = chain.nominal_values();
         let nodes = space.nodes();
@@ -116,30 +127,42 @@ impl Budget {
             let direction = probe.nominal(values);
             combine(&mut errors.iter().map(|&(error, size)| probe.influence(values, error, size, &direction)))
         };
-        let influences = errors
+        let mut is_sampled = false;
+        let influences: Vec<Influence> = errors
             .iter()
             .zip(&single)
             .map(|(&(error, size), sampled)| {
-                let summary = summarise(&space, &nodes, sampled, |parameters| {
+                let mut summary = summarise(&space, &nodes, sampled, |parameters| {
                     space.set(parameters, &mut values);
                     let direction = probe.nominal(&values);
                     probe.influence(&mut values, error, size, &direction)
                 });
+                match first_order.rms(&space, error, size, &values) {
+                    Some(rms) => summary.rms = rms,
+                    None => is_sampled |= space.is_sampled,
+                }
                 Influence { error, size, summary }
             })
             .collect();
+        let sum_of_squares: f64 = influences.iter().map(|one| one.summary.rms * one.summary.rms).sum();
         let together = |combine: fn(&mut dyn Iterator<Item = f64>) -> f64| {
             let mut values = chain.nominal_values();
             summarise(&space, &nodes, &combined(combine), |parameters| {
                 all_at(parameters, &mut values, combine)
             })
         };
+        // The mean of a sum of squares is the sum of their means.
+        let root_sum_square = Summary {
+            rms: sum_of_squares.sqrt(),
+            ..together(|influences| influences.map(|value| value * value).sum::<f64>().sqrt())
+        };
         Ok(Self {
             observable,
             parameters: space.symbols().to_vec(),
             influences,
             worst_case: together(|influences| influences.sum()),
-            root_sum_square: together(|influences| influences.map(|value| value * value).sum::<f64>().sqrt()),
+            root_sum_square,
+            is_sampled,
         })
     }
 

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::BudgetError;
-use super::quadrature::{self, Node as RuleNode};
+use super::first_order::FirstOrder;
+use super::quadrature::{self, Node as RuleNode, Rule};
 use crate::algebra::{LowerError, Poly};
 use crate::chain::{Chain, ObservableId};
 use crate::expr::Expr;
@@ -86,6 +87,24 @@ impl Path {
         }
     }
 
+    /// The most waves over the whole path of a function with these highest multiples of the joints and inputs.
+    fn fastest(&self, harmonic: impl Fn(SymbolId) -> u32) -> f64 {
+        /// Places at which the path's speed is looked at.
+        const LOOKS: u32 = 1000;
+        let speeds: Vec<(f64, Poly)> = self
+            .assignments
+            .iter()
+            .map(|(symbol, amount)| (f64::from(harmonic(*symbol)), amount.derivative(Self::T)))
+            .collect();
+        let at = |look| Self::PARAMETER.end * f64::from(look) / f64::from(LOOKS);
+        let waves = |t: f64| {
+            let speed =
+                |(harmonic, slope): &(f64, Poly)| harmonic * slope.eval(&[std::f64::consts::PI, t]).abs();
+            speeds.iter().map(speed).sum::<f64>()
+        };
+        (0..=LOOKS).map(|look| waves(at(look))).filter(|waves| waves.is_finite()).fold(0.0, f64::max)
+    }
+
     fn symbols(&self) -> impl Iterator<Item = SymbolId> + '_ {
         self.assignments.iter().map(|(symbol, _)| *symbol)
     }
@@ -104,6 +123,8 @@ pub(super) struct Space<'a> {
     axes: Vec<Vec<RuleNode>>,
     /// Where each parameter runs from and to.
     pub bounds: Vec<(f64, f64)>,
+    /// Whether the influences have more waves than a rule has nodes for, so that scattered poses stand for all.
+    pub is_sampled: bool,
 }
 
 #[derive(Debug)]
@@ -121,12 +142,21 @@ pub(super) struct Pose {
 
 /// Poses that a rule over several ranges may have.
 const POSES: usize = 20_000;
-/// Nodes that one range has at most.
+/// Nodes that one range has where its waves do not ask for more.
 const NODES: usize = 256;
+/// Poses of a rule whose nodes follow the highest multiples of angles.
+const MOST_POSES: f64 = 200_000.0;
+/// Panels of a path.
+const MOST_PANELS: f64 = 50_000.0;
 
 impl<'a> Space<'a> {
     /// The poses as far as they move the observable.
-    pub fn new(chain: &Chain, observable: ObservableId, poses: &'a Poses) -> Result<Self, BudgetError> {
+    pub fn new(
+        chain: &Chain,
+        observable: ObservableId,
+        poses: &'a Poses,
+        waves: &FirstOrder,
+    ) -> Result<Self, BudgetError> {
         let needed = needed(chain, observable);
         let no_value = |id: SymbolId| BudgetError::NoValue {
             observable: chain.observable(observable).name.clone(),
@@ -138,10 +168,14 @@ impl<'a> Space<'a> {
                     return Err(no_value(missing));
                 }
                 let Range { start, end } = Path::PARAMETER;
+                // Squares turn twice as fast; a panel of eight nodes does half a wave to ten digits.
+                let waves = path.fastest(|symbol| waves.harmonic(symbol));
+                let panels = (4.0 * waves).ceil().max(64.0);
                 Ok(Self {
                     kind: Kind::Path(path),
-                    axes: vec![quadrature::panels(start, end, 64, 8)],
+                    axes: vec![quadrature::panels(start, end, panels.min(MOST_PANELS) as usize, 8)],
                     bounds: vec![(start, end)],
+                    is_sampled: panels > MOST_PANELS,
                 })
             }
             Poses::Ranges(ranges) => {
@@ -156,16 +190,30 @@ impl<'a> Space<'a> {
                     }
                 }
                 let wide = bounds.iter().filter(|(low, high)| low < high).count().max(1);
-                let count = (POSES as f64).powf(1.0 / wide as f64).floor().clamp(2.0, NODES as f64);
-                let axes =
-                    bounds.iter().map(|&(low, high)| quadrature::rule(low, high, count as usize)).collect();
-                Ok(Self { kind: Kind::Ranges(needed), axes, bounds })
+                let usual = (POSES as f64).powf(1.0 / wide as f64).floor().clamp(2.0, NODES as f64);
+                let wanted: Vec<Rule> = needed
+                    .iter()
+                    .zip(&bounds)
+                    .map(|(&id, &(low, high))| {
+                        Rule::for_squares(low, high, waves.harmonic(id), usual as usize)
+                    })
+                    .collect();
+                let is_sampled = wanted.iter().map(|rule| rule.len() as f64).product::<f64>() > MOST_POSES;
+                let axes = if is_sampled {
+                    bounds.iter().map(|&(low, high)| quadrature::rule(low, high, usual as usize)).collect()
+                } else {
+                    wanted.iter().map(Rule::nodes).collect()
+                };
+                Ok(Self { kind: Kind::Ranges(needed), axes, bounds, is_sampled })
             }
         }
     }
 
     /// The poses of the rule; their weights sum to one.
     pub fn nodes(&self) -> Vec<Pose> {
+        if self.is_sampled {
+            return self.scattered();
+        }
         let mut nodes = vec![Pose { parameters: Vec::new(), weight: 1.0 }];
         for axis in &self.axes {
             nodes = nodes
@@ -180,6 +228,43 @@ impl<'a> Space<'a> {
                 .collect();
         }
         nodes
+    }
+
+    /// Poses without any period that waves could meet, for what goes too fast for a rule.
+    ///
+    /// Source: the additive recurrence of the roots of xᵈ⁺¹ = x + 1 (Roberts 2018, "The unreasonable effectiveness of
+    /// quasirandom sequences").
+    fn scattered(&self) -> Vec<Pose> {
+        let dimension = self.bounds.len() as i32;
+        let root = (0..64).fold(1.5_f64, |x, _| (1.0 + x).powf(1.0 / f64::from(dimension + 1)));
+        let weight = 1.0 / POSES as f64;
+        (0..POSES)
+            .map(|index| {
+                let parameters = self.bounds.iter().zip(1..).map(|(&(low, high), power)| {
+                    let fraction = (0.5 + index as f64 * root.powi(-power)).fract();
+                    low + (high - low) * fraction
+                });
+                Pose { parameters: parameters.collect(), weight }
+            })
+            .collect()
+    }
+
+    /// The joints that make full turns, if every parameter is one of these or fixed; none along a path.
+    pub fn turning(&self) -> Option<Vec<SymbolId>> {
+        let Kind::Ranges(symbols) = &self.kind else { return None };
+        let is_turn = |low: f64, high: f64| {
+            let turns = (high - low) / TAU;
+            turns.round() >= 1.0 && (turns - turns.round()).abs() < 1e-9
+        };
+        let mut turning = Vec::new();
+        for (&symbol, &(low, high)) in symbols.iter().zip(&self.bounds) {
+            match (is_turn(low, high), low == high) {
+                (true, _) => turning.push(symbol),
+                (false, true) => {}
+                (false, false) => return None,
+            }
+        }
+        Some(turning)
     }
 
     /// The joints and inputs that are parameters themselves; none along a path.

@@ -16,7 +16,7 @@ pub(super) fn rule(low: f64, high: f64, count: usize) -> Vec<Node> {
     if width == 0.0 {
         return vec![Node { at: low, weight: 1.0 }];
     }
-    if ((width / TAU).round() * TAU - width).abs() < 1e-9 {
+    if is_turn(low, high) {
         let weight = 1.0 / count as f64;
         return (0..count).map(|k| Node { at: low + width * (k as f64 + 0.5) * weight, weight }).collect();
     }
@@ -24,6 +24,75 @@ pub(super) fn rule(low: f64, high: f64, count: usize) -> Vec<Node> {
         .into_iter()
         .map(|node| Node { at: low + width * (1.0 + node.at) / 2.0, weight: node.weight })
         .collect()
+}
+
+/// A rule for the mean of squares of waves over an interval.
+pub(super) struct Rule {
+    low: f64,
+    high: f64,
+    kind: Kind,
+}
+
+/// How many nodes, and which.
+enum Kind {
+    /// One rule of so many nodes: see [`rule`].
+    Whole(usize),
+    /// So many panels of eight nodes.
+    Panels(f64),
+}
+
+/// Nodes in a panel.
+const IN_PANEL: usize = 8;
+
+impl Rule {
+    /// For waves up to a multiple of the angle, with at least so many nodes.
+    pub fn for_squares(low: f64, high: f64, harmonic: u32, least: usize) -> Self {
+        /// More waves than these go into panels, as rules of many nodes take long to find.
+        const IN_ONE_RULE: f64 = 10.0;
+        let waves = f64::from(harmonic) * (high - low) / TAU;
+        let kind = if is_turn(low, high) && waves < 1e6 {
+            Kind::Whole(least.max(2 * waves.round() as usize + 1))
+        } else if waves <= IN_ONE_RULE {
+            Kind::Whole(least.max(gauss_nodes(TAU * waves)))
+        } else {
+            // Squares have twice as many waves, and a panel does half of one to ten digits.
+            Kind::Panels((4.0 * waves).ceil())
+        };
+        Self { low, high, kind }
+    }
+
+    /// How many nodes it has.
+    pub fn len(&self) -> usize {
+        match self.kind {
+            Kind::Whole(_) if self.low == self.high => 1,
+            Kind::Whole(count) => count,
+            Kind::Panels(panels) => panels as usize * IN_PANEL,
+        }
+    }
+
+    /// The nodes.
+    pub fn nodes(&self) -> Vec<Node> {
+        match self.kind {
+            Kind::Whole(count) => rule(self.low, self.high, count),
+            Kind::Panels(count) => panels(self.low, self.high, count as usize, IN_PANEL),
+        }
+    }
+}
+
+/// How many nodes a Gauss-Legendre rule needs for cos kx on (−1, 1) to six digits.
+///
+/// Source: its error is about (e k/4n)²ⁿ, by the term of degree 2n of the cosine's series.
+fn gauss_nodes(k: f64) -> usize {
+    let is_enough = |n: &usize| {
+        let n = *n as f64;
+        (std::f64::consts::E * k / (4.0 * n)).powf(2.0 * n) < 1e-6
+    };
+    (1..1000).find(is_enough).unwrap_or(1000)
+}
+
+fn is_turn(low: f64, high: f64) -> bool {
+    let turns = (high - low) / TAU;
+    turns.round() >= 1.0 && ((turns.round() - turns) * TAU).abs() < 1e-9
 }
 
 /// Equal panels of Gauss-Legendre rules, for a function of which nothing but smoothness is known.

@@ -128,3 +128,65 @@ fn what_the_poses_leave_open_is_said() {
     assert!(path.assign(&chain, "alpha", &amount("t")).is_ok());
     assert!(matches!(path.assign(&chain, "alpha", &amount("t")), Err(PathError::Twice(_))));
 }
+
+fn measured(text: &str, error: &str, poses: &Poses) -> Result<Budget, BudgetError> {
+    let chain = Chain::from_text(text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let sizes = sizes(&chain, &[(error, 1e-6)]);
+    Budget::measure(&chain, observable(&chain, "axis"), &sizes, poses)
+}
+
+/// Five nodes a joint, as six joints have, see cos 5q as the same at each; 1024 waves are the same at 256 nodes.
+#[test]
+fn means_over_full_turns_do_not_alias() {
+    let six: String = (1..=6)
+        .map(|n| {
+            format!(
+                "body b{n} on {} {{ motion: Rz(q{n}); }}",
+                if n == 1 { "base".into() } else { format!("b{}", n - 1) }
+            )
+        })
+        .collect();
+    for harmonic in [1, 2, 3, 5, 10, 24, 1024] {
+        let text = format!(
+            "chain Six {{ body base on ground {{ position_error: Ry(wobble*cos({harmonic}*q3)*cos(5*q6)), Rx(tilt); }} {six}
+             observe axis: direction(0, 0, 3) of b6; }}"
+        );
+        let whole = Poses::Ranges(Vec::new());
+        let budget = measured(&text, "wobble", &whole).unwrap_or_else(|error| panic!("{error}"));
+        assert_relative_eq!(budget.influences[0].summary.rms, 0.5e-6, max_relative = 1e-12);
+        assert_relative_eq!(budget.root_sum_square.rms, 0.5e-6, max_relative = 1e-12);
+        assert_relative_eq!(budget.worst_case.rms, 0.5e-6, max_relative = 0.05);
+    }
+}
+
+#[test]
+fn means_over_a_range_or_a_path_follow_the_waves() {
+    let text = "chain One { body b on ground { position_error: Ry(wobble*cos(1024*q)); motion: Rz(q); }
+                observe axis: direction(0, 0, 1) of b; }";
+    let chain = Chain::from_text(text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let q = chain.find_symbol("q").unwrap_or(SymbolId::PI);
+    let range = Poses::Ranges(vec![JointRange { symbol: q, low: 0.1, high: 1.7 }]);
+    let along = Poses::Path(path(&chain, &[("q", "2*t")]));
+    // The mean of cos² 1024q over (0.1, 1.7).
+    let mean = 0.5 + ((2048.0_f64 * 1.7).sin() - (2048.0_f64 * 0.1).sin()) / (4096.0 * 1.6);
+    for (poses, mean) in [(range, mean), (along, 0.5)] {
+        let budget = measured(text, "wobble", &poses).unwrap_or_else(|error| panic!("{error}"));
+        assert_relative_eq!(budget.influences[0].summary.rms, 1e-6 * mean.sqrt(), max_relative = 1e-8);
+    }
+    let fast = text.replace("1024", "1000000");
+    let poses = Poses::Ranges(vec![JointRange { symbol: q, low: 0.1, high: 1.7 }]);
+    let budget = measured(&fast, "wobble", &poses).unwrap_or_else(|error| panic!("{error}"));
+    assert!(budget.is_sampled);
+    assert_relative_eq!(budget.influences[0].summary.rms, 0.5e-6 * 2f64.sqrt(), max_relative = 0.02);
+}
+
+/// A ramp has no part in the Fourier series: its mean is that of the nodes.
+#[test]
+fn a_ramp_of_a_turning_joint_has_the_mean_of_its_nodes() {
+    let text = "chain One { body b on ground { position_error: Ry(give*ramp(q, 1, 3)); motion: Rz(q); }
+                observe axis: direction(0, 0, 1) of b; }";
+    let budget = measured(text, "give", &Poses::Ranges(Vec::new())).unwrap_or_else(|error| panic!("{error}"));
+    // The mean of the square over (0, 2π): 2/3 for the slope from 1 to 3, and 2π − 3 at one.
+    let mean = (2.0 / 3.0 + 2.0 * PI - 3.0) / (2.0 * PI);
+    assert_relative_eq!(budget.influences[0].summary.rms, 1e-6 * mean.sqrt(), max_relative = 1e-2);
+}

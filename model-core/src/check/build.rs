@@ -133,6 +133,7 @@ fn symbols(subject: &Subject<'_>) -> Vec<Symbol> {
             name: entry.name.clone(),
             kind: entry.kind,
             quantity: entry.quantity.or_else(|| quantities.get(&id).copied()).unwrap_or(Quantity::Number),
+            meaning: entry.meaning,
             documentation: entry.documentation.clone(),
             latex: printed
                 .get(&entry.name)

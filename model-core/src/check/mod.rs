@@ -7,6 +7,7 @@
 
 mod amounts;
 mod build;
+mod limits;
 mod printed_form;
 mod quantity;
 mod rules;
@@ -70,6 +71,9 @@ pub fn read(tokens: TokenStream) -> Result<(Declaration, Chain), Vec<Mistake<Spa
 ///
 /// Every rule that it breaks, sorted by place.
 pub fn check(declaration: &Declaration) -> Result<Chain, Vec<Mistake<Span>>> {
+    if let Some(mistake) = limits::beyond(declaration) {
+        return Err(vec![mistake]);
+    }
     let scope = Scope::collect(declaration);
     let mut mistakes = Vec::new();
     let amounts = amounts::collect(declaration, &scope, &mut mistakes);

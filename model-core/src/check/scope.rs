@@ -14,7 +14,7 @@ use crate::algebra::Poly;
 use crate::chain::Role;
 use crate::expr::{Expr, Node};
 use crate::ramp::Ramp;
-use crate::symbol::{Quantity, SymbolId, SymbolKind};
+use crate::symbol::{Meaning, Quantity, SymbolId, SymbolKind};
 use crate::syntax::Declaration;
 use crate::syntax::declaration::{BodyStatement, FactorGroup, FactorTerm, Statement};
 
@@ -26,6 +26,8 @@ pub struct Entry {
     pub kind: SymbolKind,
     /// What it measures, as far as its statement or motion says.
     pub quantity: Option<Quantity>,
+    /// What it is, for inputs whose statement says so.
+    pub meaning: Option<Meaning>,
     /// Documentation of its statement, else of the factor or list where it is first used.
     pub documentation: String,
 }
@@ -48,6 +50,7 @@ impl Scope {
             name: "pi".to_owned(),
             kind: SymbolKind::Pi,
             quantity: Some(Quantity::Number),
+            meaning: None,
             documentation: "The ratio of a circle's circumference to its diameter.".to_owned(),
         });
         let fixed = fixed_kinds(declaration);
@@ -57,14 +60,20 @@ impl Scope {
                     name: constant.name.to_string(),
                     kind: SymbolKind::Constant,
                     quantity: Some(words::stated_quantity(constant.quantity.as_ref())),
+                    meaning: None,
                     documentation: constant.documentation.clone(),
                 }),
-                Statement::Input(input) => scope.declare(Entry {
-                    name: input.name.to_string(),
-                    kind: SymbolKind::Input,
-                    quantity: Some(words::stated_quantity(input.quantity.as_ref())),
-                    documentation: input.documentation.clone(),
-                }),
+                Statement::Input(input) => {
+                    let meaning =
+                        input.meaning.as_ref().and_then(|word| words::meaning(&words::MEANINGS, word));
+                    scope.declare(Entry {
+                        name: input.name.to_string(),
+                        kind: SymbolKind::Input,
+                        quantity: Some(meaning.map_or(Quantity::Number, Meaning::quantity)),
+                        meaning,
+                        documentation: input.documentation.clone(),
+                    });
+                }
                 Statement::Body(body) => scope.declare_used(body, &fixed),
                 Statement::Symbol(_) | Statement::Observe(_) | Statement::Gravity(_) => {}
             }
@@ -99,6 +108,7 @@ impl Scope {
                         name: name.to_owned(),
                         kind,
                         quantity: None,
+                        meaning: None,
                         documentation: documentation.to_owned(),
                     });
                     if role == Role::Motion {
@@ -123,6 +133,7 @@ impl Scope {
                 name: name.clone(),
                 kind: SymbolKind::Ramp,
                 quantity: Some(Quantity::Number),
+                meaning: None,
                 documentation: String::new(),
             });
             if let Some(symbol) = self.find(&name) {

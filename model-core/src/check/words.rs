@@ -4,7 +4,7 @@ use proc_macro2::Ident;
 
 use crate::chain::{Axis, Motion, ObservableKind, Role};
 use crate::names::nearest;
-use crate::symbol::Quantity;
+use crate::symbol::{Meaning, Quantity};
 
 /// The body that is not declared: what the instrument stands on.
 pub const GROUND: &str = "ground";
@@ -31,8 +31,22 @@ pub const TRANSFORMS: [(&str, (Motion, Axis)); 6] = [
 pub const OBSERVABLE_KINDS: [(&str, ObservableKind); 2] =
     [("direction", ObservableKind::Direction), ("point", ObservableKind::Point)];
 
-/// The quantities that constants and inputs may state.
+/// The quantities that constants may state.
 pub const QUANTITIES: [(&str, Quantity); 2] = [("angle", Quantity::Angle), ("length", Quantity::Length)];
+
+/// What inputs may state that they are.
+pub const MEANINGS: [(&str, Meaning); 10] = [
+    ("angle", Meaning::Angle),
+    ("length", Meaning::Length),
+    ("range", Meaning::Range),
+    ("temperature", Meaning::Temperature),
+    ("time", Meaning::Time),
+    ("rate", Meaning::Rate),
+    ("direction", Meaning::Direction),
+    ("side", Meaning::Side),
+    ("pressure", Meaning::Pressure),
+    ("humidity", Meaning::Humidity),
+];
 
 /// What a word stands for.
 pub fn meaning<T: Copy>(words: &[(&str, T)], word: &Ident) -> Option<T> {
@@ -60,7 +74,7 @@ pub fn quantity_moved(motion: Motion) -> Quantity {
     }
 }
 
-/// What a constant or input measures: as stated, and a number otherwise.
+/// What a constant measures: as stated, and a number otherwise.
 pub fn stated_quantity(word: Option<&Ident>) -> Quantity {
     word.and_then(|word| meaning(&QUANTITIES, word)).unwrap_or(Quantity::Number)
 }

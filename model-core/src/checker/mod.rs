@@ -138,7 +138,7 @@ impl<'a> Checker<'a> {
     /// # Errors
     /// The poses do not give the observable a value.
     fn comparison(&self, claim: &Comparison) -> Result<Measured, BudgetError> {
-        let measure = |error| {
+        let measure = |error: usize| -> Result<f64, BudgetError> {
             let mut sizes = vec![0.0; self.chain.symbols.len()];
             sizes[error] = claim.size;
             let budget = budget::Budget::measure(self.chain, claim.observable, &sizes, &claim.poses)?;

@@ -3,11 +3,10 @@
 use std::ops::Range;
 
 use super::elimination::Echelon;
-use super::{Column, Ratio, equations};
+use super::{Column, IdentifyError, Ratio, equations};
 use crate::algebra::Poly;
 use crate::chain::{Axis, BodyId, Chain, Factor, Motion, ObservableId, Role};
 use crate::expr::{Expr, Node};
-use crate::forms::FormError;
 use crate::mistake::{Mistake, Mistakes};
 use crate::symbol::{Quantity, Symbol, SymbolId, SymbolKind};
 use crate::syntax;
@@ -90,6 +89,7 @@ impl Candidate {
                 name,
                 kind: SymbolKind::Error,
                 quantity: Quantity::Number,
+                meaning: None,
                 documentation: String::new(),
                 value: None,
             });
@@ -112,8 +112,8 @@ impl Candidate {
 /// What a candidate would be mistaken for in the data of some observables.
 ///
 /// # Errors
-/// [`FormError`] if an observable has no first-order form.
-pub fn mistaken_for(candidate: &Candidate, observables: &[ObservableId]) -> Result<Mistaken, FormError> {
+/// See [`IdentifyError`].
+pub fn mistaken_for(candidate: &Candidate, observables: &[ObservableId]) -> Result<Mistaken, IdentifyError> {
     let chain = &candidate.chain;
     let is_unknown = |id: &SymbolId| candidate.unknowns.contains(id);
     let declared: Vec<SymbolId> = chain.symbols_of(SymbolKind::Error).filter(|id| !is_unknown(id)).collect();
@@ -134,7 +134,7 @@ pub fn mistaken_for(candidate: &Candidate, observables: &[ObservableId]) -> Resu
             },
         ))
     };
-    let unknowns = candidate.unknowns.iter().map(verdict).collect::<Result<_, FormError>>()?;
+    let unknowns = candidate.unknowns.iter().map(verdict).collect::<Result<_, IdentifyError>>()?;
     Ok(Mistaken { chain: chain.clone(), unknowns })
 }
 

@@ -9,15 +9,16 @@
 
 mod candidate;
 mod elimination;
+mod modular;
 mod words;
 
 use std::collections::BTreeMap;
 
 use crate::algebra::{BasisFunction, Poly};
-use crate::chain::{Chain, ObservableId};
+use crate::chain::{Chain, Factor, ObservableId};
 use crate::forms::{self, FormError};
 use crate::symbol::{SymbolId, SymbolKind};
-use elimination::{Echelon, Row, entry};
+use elimination::{Echelon, Row, TooLarge, entry};
 
 pub use candidate::{Candidate, Mistaken, Verdict, mistaken_for};
 pub use words::{mistaken_text, text};
@@ -66,11 +67,31 @@ pub struct Dependence {
     pub others: Vec<(SymbolId, Ratio)>,
 }
 
+/// Why it cannot be said what data tell apart.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum IdentifyError {
+    /// An observable has no first-order form.
+    #[error(transparent)]
+    Form(#[from] FormError),
+    /// The combinations of errors have ratios beyond any use.
+    #[error(
+        "the ratios between errors are too large as formulas of the constants; write numbers in place of some constants, \
+         or declare them as 0"
+    )]
+    TooLarge,
+}
+
+impl From<TooLarge> for IdentifyError {
+    fn from(_: TooLarge) -> Self {
+        Self::TooLarge
+    }
+}
+
 /// Computes what can be told apart from observables of a chain, seen together.
 ///
 /// # Errors
-/// [`FormError`] if an observable has no first-order form.
-pub fn identify(chain: &Chain, observables: &[ObservableId]) -> Result<Identifiability, FormError> {
+/// See [`IdentifyError`].
+pub fn identify(chain: &Chain, observables: &[ObservableId]) -> Result<Identifiability, IdentifyError> {
     let errors: Vec<SymbolId> = chain.symbols_of(SymbolKind::Error).collect();
     let echelon = equations(chain, observables, &errors, Echelon::default())?;
     let columns: Vec<Column> = (0..errors.len()).map(|index| Column::new(&echelon, index)).collect();
@@ -123,12 +144,13 @@ fn equations(
     observables: &[ObservableId],
     errors: &[SymbolId],
     mut echelon: Echelon,
-) -> Result<Echelon, FormError> {
+) -> Result<Echelon, IdentifyError> {
+    let mut equations: Vec<Row> = Vec::new();
     let varies = |symbol: SymbolId| {
         matches!(chain.symbol(symbol).kind, SymbolKind::Joint | SymbolKind::Input | SymbolKind::Ramp)
     };
     for &observable in observables {
-        let columns = forms::derive(chain, observable, 1)?.columns(chain);
+        let columns = forms::derive(&without_placement(chain, observable), observable, 1)?.columns(chain);
         for axis in 0..3 {
             let mut rows: BTreeMap<BasisFunction, Row> = BTreeMap::new();
             for (index, error) in errors.iter().enumerate() {
@@ -138,10 +160,31 @@ fn equations(
                     rows.entry(function).or_default().push((index, coefficient));
                 }
             }
-            rows.into_values().for_each(|row| echelon.insert(row));
+            equations.extend(rows.into_values());
         }
     }
+    echelon.insert_all(&equations, errors.len())?;
     Ok(echelon)
+}
+
+/// The chain without the constant transforms between the ground and the first thing that moves or errs on the way to an
+/// observable: they turn what is seen as a whole, which takes nothing from it and adds nothing.
+fn without_placement(chain: &Chain, observable: ObservableId) -> Chain {
+    let mut chain = chain.clone();
+    for body in chain.path(chain.observable(observable).body) {
+        let is_fixed = |factor: &Factor| {
+            let symbols = factor.amount.symbols();
+            symbols.iter().all(|id| matches!(chain.symbol(*id).kind, SymbolKind::Pi | SymbolKind::Constant))
+        };
+        let factors = &chain.bodies[usize::from(body.0)].factors;
+        let fixed = factors.iter().take_while(|factor| is_fixed(factor)).count();
+        let is_all = fixed == factors.len();
+        chain.bodies[usize::from(body.0)].factors.drain(..fixed);
+        if !is_all {
+            break;
+        }
+    }
+    chain
 }
 
 /// Constants that are declared as zero are zero, where the algebra can put that in.

@@ -52,7 +52,8 @@ pub fn search(
         }
     }
     let mut random = Random(seed);
-    let mut best = Found { value: length(&nominal), values: nominal.clone() };
+    // Without errors nothing remains.
+    let mut best = Found { value: 0.0, values: nominal.clone() };
     for _ in 0..starts {
         let mut values = nominal.clone();
         for &(id, [low, high]) in &cornered {
@@ -61,7 +62,9 @@ pub fn search(
         for &(id, [low, high]) in &climbed {
             values[id.index()] = low + (high - low) * random.uniform();
         }
-        let mut found = Found { value: length(&values), values };
+        let start = length(&values);
+        // On a pole there is no value; the climb leads away from it.
+        let mut found = Found { value: if start.is_finite() { start } else { 0.0 }, values };
         for _ in 0..ROUNDS {
             let before = found.value;
             for &(id, range) in &cornered {
@@ -88,7 +91,7 @@ impl Found {
     fn try_value(&mut self, id: SymbolId, value: f64, length: impl Fn(&[f64]) -> f64) -> bool {
         let old = std::mem::replace(&mut self.values[id.index()], value);
         let candidate = length(&self.values);
-        if candidate > self.value {
+        if candidate.is_finite() && candidate > self.value {
             self.value = candidate;
             return true;
         }

@@ -34,7 +34,7 @@ pub enum Statement {
     Body(BodyStatement),
     /// `const arm: length = 0.25;`
     Constant(ConstantStatement),
-    /// `input range: length;`
+    /// `input ambient: temperature;`
     Input(InputStatement),
     /// `symbol dg2 = r"\Delta\gamma_2";`
     Symbol(SymbolStatement),
@@ -98,15 +98,15 @@ pub struct ConstantStatement {
     pub value: Option<Expr<Span>>,
 }
 
-/// `input range: length;`
+/// `input ambient: temperature;`
 #[derive(Debug, Clone)]
 pub struct InputStatement {
     /// The `///` lines above it.
     pub documentation: String,
     /// The name.
     pub name: Ident,
-    /// `angle` or `length`, as written.
-    pub quantity: Option<Ident>,
+    /// `length`, `temperature` and so on, as written.
+    pub meaning: Option<Ident>,
 }
 
 /// `symbol dg2 = r"\Delta\gamma_2";`

@@ -35,11 +35,11 @@ impl Display for Declaration {
                     }
                     writeln!(f, " = {};", Written(value.as_ref()))?;
                 }
-                Statement::Input(InputStatement { documentation: text, name, quantity }) => {
+                Statement::Input(InputStatement { documentation: text, name, meaning }) => {
                     documentation(f, "    ", text)?;
                     write!(f, "    input {name}")?;
-                    if let Some(quantity) = quantity {
-                        write!(f, ": {quantity}")?;
+                    if let Some(meaning) = meaning {
+                        write!(f, ": {meaning}")?;
                     }
                     writeln!(f, ";")?;
                 }

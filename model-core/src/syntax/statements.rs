@@ -20,7 +20,7 @@ const STATEMENT_WORDS: [&str; 6] = ["body", "const", "input", "symbol", "observe
 const CHAIN_HELP: &str = "write `chain Name { … }`";
 const BODY_HELP: &str = "write `body name on ground { … }`, or the lower body's name in place of `ground`";
 const CONSTANT_HELP: &str = "write `const name: length = 0.25;` or `const name: angle = pi/6;`";
-const INPUT_HELP: &str = "write `input name;`, `input name: length;` or `input name: angle;`";
+const INPUT_HELP: &str = "write `input name;`, or say what it is: `input name: temperature;`";
 const SYMBOL_HELP: &str = r#"write `symbol name = r"\delta_1";`"#;
 const OBSERVE_HELP: &str =
     "write `observe name: direction(0, 0, 1) of body;` or `observe name: point(0, 0, 0) of body;`";
@@ -190,7 +190,7 @@ fn constant(reader: &mut Reader<'_, '_>, documentation: String) -> Read<Constant
 }
 
 fn constant_value(reader: &mut Reader<'_, '_>, constant: &mut ConstantStatement) -> Read<()> {
-    constant.quantity = quantity(reader, CONSTANT_HELP)?;
+    constant.quantity = stated(reader, "`angle` or `length`", CONSTANT_HELP)?;
     reader.expect_mark('=', CONSTANT_HELP)?;
     constant.value = amount::part(reader);
     Ok(())
@@ -199,14 +199,15 @@ fn constant_value(reader: &mut Reader<'_, '_>, constant: &mut ConstantStatement)
 fn input(reader: &mut Reader<'_, '_>, documentation: String) -> Read<InputStatement> {
     reader.keyword("input", INPUT_HELP)?;
     let name = reader.name("the name of the input").map_err(|m| m.with_help(INPUT_HELP))?;
-    let quantity = quantity(reader, INPUT_HELP)?;
+    let meaning = stated(reader, "`length`, `temperature` and so on", INPUT_HELP)?;
     reader.end_of_statement()?;
-    Ok(InputStatement { documentation, name, quantity })
+    Ok(InputStatement { documentation, name, meaning })
 }
 
-fn quantity(reader: &mut Reader<'_, '_>, help: &str) -> Read<Option<Ident>> {
+/// What stands behind a colon, if there is one.
+fn stated(reader: &mut Reader<'_, '_>, words: &str, help: &str) -> Read<Option<Ident>> {
     match reader.mark(':') {
-        Some(_) => reader.name("`angle` or `length`").map(Some).map_err(|m| m.with_help(help)),
+        Some(_) => reader.name(words).map(Some).map_err(|m| m.with_help(help)),
         None => Ok(None),
     }
 }

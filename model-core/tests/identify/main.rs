@@ -1,5 +1,6 @@
 //! What no data can tell apart.
 #![allow(clippy::unwrap_used)]
 
+mod constants;
 mod mobile_lidar;
 mod reference;

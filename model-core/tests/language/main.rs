@@ -1,6 +1,7 @@
 //! The language: what texts mean, and what is said of texts that mean nothing.
 
 mod examples;
+mod inputs;
 mod joints;
 mod mistakes;
 mod properties;

@@ -7,26 +7,29 @@ use proc_macro2::{Ident, Span};
 use super::super::Subject;
 use super::super::amounts::Purpose;
 use super::super::quantity::inferred;
-use super::super::words::{QUANTITIES, advice, meaning, quantity_moved};
+use super::super::words::{MEANINGS, QUANTITIES, advice, meaning, quantity_moved};
 use crate::chain::Role;
 use crate::mistake::Mistake;
 use crate::symbol::{Quantity, SymbolId, SymbolKind};
 
 pub fn quantity_is_known(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
     let declaration = subject.declaration;
-    let constants = declaration.constants().filter_map(|constant| constant.quantity.as_ref());
-    let inputs = declaration.inputs().filter_map(|input| input.quantity.as_ref());
-    for word in constants.chain(inputs) {
+    for word in declaration.constants().filter_map(|constant| constant.quantity.as_ref()) {
         if meaning(&QUANTITIES, word).is_none() {
-            mistakes.push(unknown_quantity(word));
+            mistakes.push(unknown("quantity", &QUANTITIES, word));
+        }
+    }
+    for word in declaration.inputs().filter_map(|input| input.meaning.as_ref()) {
+        if meaning(&MEANINGS, word).is_none() {
+            mistakes.push(unknown("meaning", &MEANINGS, word));
         }
     }
 }
 
-fn unknown_quantity(word: &Ident) -> Mistake<Span> {
-    Mistake::new(word.span(), format!("unknown quantity `{word}`")).with_help(format!(
+fn unknown<T>(what: &str, words: &[(&str, T)], word: &Ident) -> Mistake<Span> {
+    Mistake::new(word.span(), format!("unknown {what} `{word}`")).with_help(format!(
         "{}, or leave it out for a plain number",
-        advice(&QUANTITIES, word).trim_end_matches('?')
+        advice(words, word).trim_end_matches('?')
     ))
 }
 

@@ -1,0 +1,61 @@
+//! The influences to first order: how fast they go with each joint, and their exact mean squares over full turns.
+
+use super::poses::Space;
+use crate::algebra::Poly;
+use crate::chain::{Chain, ObservableId, ObservableKind};
+use crate::forms::{self, FormError};
+use crate::symbol::{SymbolId, SymbolKind};
+
+/// The first-order columns of the errors that have a size.
+pub(super) struct FirstOrder {
+    columns: Vec<(SymbolId, [Poly; 3])>,
+    /// The observable in its body: a direction's influence is an angle, whatever its length.
+    length: [Poly; 3],
+    kind: ObservableKind,
+    /// By [`SymbolId`]: the highest multiple in any column.
+    harmonics: Vec<u32>,
+    ramps: Vec<SymbolId>,
+}
+
+impl FirstOrder {
+    pub fn new(
+        chain: &Chain,
+        observable: ObservableId,
+        errors: &[(SymbolId, f64)],
+    ) -> Result<Self, FormError> {
+        let mut columns = forms::derive(chain, observable, 1)?.columns(chain);
+        columns.retain(|(error, _)| errors.iter().any(|(sized, _)| sized == error));
+        let mut harmonics = vec![0; chain.symbols.len()];
+        for symbol in chain.symbols_of(SymbolKind::Joint).chain(chain.symbols_of(SymbolKind::Input)) {
+            let parts = columns.iter().flat_map(|(_, column)| column);
+            harmonics[symbol.index()] = parts.map(|part| part.highest_harmonic(symbol)).max().unwrap_or(0);
+        }
+        let ramps = chain.ramps.iter().map(|ramp| ramp.symbol).collect();
+        let observable = chain.observable(observable);
+        Ok(Self { columns, length: observable.components.clone(), kind: observable.kind, harmonics, ramps })
+    }
+
+    /// The highest multiple of a joint or input in any column.
+    pub fn harmonic(&self, symbol: SymbolId) -> u32 {
+        self.harmonics[symbol.index()]
+    }
+
+    /// The root mean square of the influence of an error of this size, exact, if the poses are full turns of joints that
+    /// stand in sines and cosines alone. `values` holds everything that is fixed.
+    pub fn rms(&self, space: &Space<'_>, error: SymbolId, size: f64, values: &[f64]) -> Option<f64> {
+        let turning = space.turning()?;
+        // A ramp is no wave, and has no exact mean here.
+        let is_turning = |symbol: SymbolId| turning.contains(&symbol) || self.ramps.contains(&symbol);
+        let (_, column) = self.columns.iter().find(|(symbol, _)| *symbol == error)?;
+        let mut sum = 0.0;
+        for part in column {
+            sum += part.mean_square_over_turns(is_turning, values)?;
+        }
+        let length_squared = match self.kind {
+            ObservableKind::Point => 1.0,
+            ObservableKind::Direction => self.length.iter().map(|part| part.eval(values).powi(2)).sum(),
+        };
+        let rms = size.abs() * (sum / length_squared).sqrt();
+        rms.is_finite().then_some(rms)
+    }
+}

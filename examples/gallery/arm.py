@@ -1,6 +1,6 @@
 from sympy import Matrix, cos, pi, sin, symbols
 
-from derive import R, T, first_order, judge
+from derive import R, T, first_order, judge, judge_rank
 
 q1, q2, q3, a2, a3 = symbols("theta1:4 a2 a3", real=True)
 errors = d1, d2, d3, da2, da3, dal = symbols("dtheta1:4 da2 da3 dalpha1", real=True)
@@ -20,3 +20,4 @@ judge("third column by the forearm's own angle", only(form, {d3}),
       [-a3 * c1 * sin(q3) * d3, -a3 * s1 * sin(q3) * d3, a3 * cos(q3) * d3])
 column = only(form, {d3})
 judge("a joint error of the third joint moves the hand by the length of the forearm", [column.dot(column)], [a3**2 * d3**2])
+judge_rank("six errors, all determined", form.subs({a2: 2, a3: 3}), errors, 6, [q1, q2, q3])

@@ -1,6 +1,6 @@
 from sympy import Matrix, cos, sin, symbols
 
-from derive import R, T, first_order, judge
+from derive import R, T, first_order, judge, judge_confounded, judge_rank
 
 k, p, w, t, rho, lx, ly, lz = symbols("kappa phi omega theta rho l_x l_y l_z", real=True)
 errors = dlx, dly, dlz, bw, bp, bk, dt, dr = symbols("dlx dly dlz bw bp bk dtheta drho", real=True)
@@ -16,3 +16,6 @@ judge("boresight about the inertial unit", only(form, {bw, bp, bk}), attitude * 
 moved = b.cross(r)
 judge("how far the boresight moves a point", [moved.dot(moved)],
       [rho**2 * (bw**2 + (bp * cos(t) + bk * sin(t))**2)])
+angles = [k, p, w, t]
+judge_confounded("boresight about the mirror's axis and the mirror's index are one", form, [bw, dt], angles, [rho])
+judge_rank("eight errors, seven to be told apart", form.subs({lx: 1, ly: 2, lz: 3}), errors, 7, angles, [rho])

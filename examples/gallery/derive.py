@@ -48,3 +48,30 @@ def judge(name, derived, printed):
     derived, printed = sp.Matrix(derived), sp.Matrix(printed)
     same = derived.shape == printed.shape and all(is_zero(d - p) for d, p in zip(derived, printed))
     print(f"{name}: {'holds' if same else 'differs'}")
+
+
+def rank(form, errors, angles, others=()):
+    """The rank of the columns as functions, at rational points of the circles: exact, and never above the true one."""
+    columns = [form.diff(error) for error in errors]
+    rows = []
+    for point in range(2 * len(errors) + 2):
+        values = {}
+        for index, angle in enumerate(angles):
+            t = sp.Rational(3 * point + 2 * index + 1, 7 + 5 * index + point)
+            values[sp.cos(angle)], values[sp.sin(angle)] = (1 - t**2) / (1 + t**2), 2 * t / (1 + t**2)
+        values.update({other: (point + 3) ** (index + 1) % 17 + index for index, other in enumerate(others)})
+        expanded = [sp.expand_trig(entry) for column in columns for entry in column]
+        numbers = [entry.subs(values) for entry in expanded]
+        rows += [[numbers[3 * c + axis] for c in range(len(columns))] for axis in range(3)]
+    return sp.Matrix(rows).rank()
+
+
+def judge_rank(name, form, errors, claimed, angles, others=()):
+    print(f"{name}: {'holds' if rank(form, errors, angles, others) == claimed else 'differs'}")
+
+
+def judge_confounded(name, form, errors, angles, others=()):
+    """Whether each of the errors could be a combination of the others."""
+    whole = rank(form, errors, angles, others)
+    same = all(rank(form, [e for e in errors if e != error], angles, others) == whole for error in errors)
+    print(f"{name}: {'holds' if same else 'differs'}")

@@ -1,6 +1,6 @@
 from sympy import Matrix, cos, sin, symbols
 
-from derive import R, T, first_order, judge
+from derive import R, T, first_order, judge, judge_rank
 
 a, c, x, y, z = symbols("a c x y z", real=True)
 errors = yca, bca, xa, ya, za, aa, ba, ca = symbols("yca bca xa ya za aa ba ca", real=True)
@@ -15,3 +15,5 @@ judge("tool axis, the tilt of the c axis taken in the frame of the bed", axis, C
 judge("position of the a axis", tip.subs({e: 0 for e in (yca, bca, aa, ba, ca)}),
       [xa * cos(c) + (ya * cos(a) + za * sin(a)) * sin(c), -xa * sin(c) + (ya * cos(a) + za * sin(a)) * cos(c),
        -ya * sin(a) + za * cos(a)])
+judge_rank("from the tip all eight are determined", tip, errors, 8, [a, c], [x, y, z])
+judge_rank("from the tool's axis three are", axis, errors, 3, [a, c])

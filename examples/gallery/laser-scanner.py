@@ -1,6 +1,6 @@
 from sympy import cos, sec, sin, symbols, tan
 
-from derive import R, T, first_order, judge
+from derive import R, T, first_order, judge, judge_rank
 
 t, a, rho = symbols("theta alpha rho", real=True)
 errors = b1, b2, b3, b4, b5, b6, c0, c1, c2, a0, a1 = symbols("b1:7 c0:3 a0:2", real=True)
@@ -16,3 +16,4 @@ judge("collimation with the tangent, trunnion axis with the secant", only(form, 
       [rho * cos(a) * (b1 * tan(a) + b2 / cos(a)), 0, 0])
 judge("the horizontal circle moves the point to the right alone", [only(form, {b3, b4})[0]],
       [rho * cos(a) * (b3 * sin(t) + b4 * cos(t))])
+judge_rank("eleven parameters, all of them determined", form, errors, 11, [t, a], [rho])

@@ -1,6 +1,6 @@
 from sympy import cos, pi, sin, sqrt, symbols, tan
 
-from derive import R, T, first_order, judge
+from derive import R, T, first_order, judge, judge_rank
 
 H, V, r = symbols("H V R", positive=True)
 errors = x6x, x6y, x2, x5, x3, x1t, x1m, x4t, x8 = symbols("x6x x6y x2 x5 x3 x1t x1m x4t x8", real=True)
@@ -19,3 +19,4 @@ judge("the beam alone knows no offsets", only(sight, {x2, x1t, x1m, x8}), [0, 0,
 judge("the offset of the transit axis divided by the wrong distance", only(form, {x2}), [0, x2 * sin(V), -x2 * cos(V) / r])
 length = only(form, {x2})
 judge("the offset of the transit axis alone moves the target by its own size", [length.dot(length)], [x2**2])
+judge_rank("from targets all nine can be told apart", form, errors, 9, [H, V], [r])

@@ -1,6 +1,6 @@
 from sympy import Matrix, cos, sin, symbols
 
-from derive import R, first_order, judge
+from derive import R, first_order, judge, judge_confounded
 
 al, be, ga = symbols("alpha beta gamma", real=True)
 errors = mx, my, mz, dal, dbe, dga, oim, omo, lx, ly = symbols("m_x m_y m_z dal dbe dga o_im o_mo l_x l_y", real=True)
@@ -16,3 +16,4 @@ judge("axes of the table, the inner axis without its lever", only(form, {oim}), 
 judge("mounting of the sensor turns the plumb line as a whole", only(form, {mx, my, mz}),
       Matrix([mx, my, mz]).cross(Matrix([sb * sg, sb * cg, cb])))
 judge("the zero of the outer axis is not seen", only(form, {dal}), [0, 0, 0])
+judge_confounded("the zero of the inner axis and the sensor's turn about it are one", form, [dga, mz], [al, be, ga])

@@ -291,7 +291,7 @@ fn joined(rows: Vec<Row>, list: bool) -> Result<Vec<Row>, Unreadable> {
     let mut joined: Vec<Row> = Vec::new();
     for row in rows {
         let first = row.formula.first();
-        let begins = first.is_some_and(|token| is_operator(token));
+        let begins = first.is_some_and(is_operator);
         let plus = first.is_some_and(|token| matches!(token.kind, Kind::Mark('+' | '*' | '×' | '/')));
         let Some(last) = joined.last_mut().filter(|_| row.name.is_empty()) else {
             joined.push(row);

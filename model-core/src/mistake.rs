@@ -111,11 +111,10 @@ impl Mistake<Place> {
         let Self { place: Place { bytes, line, column }, message, help } = self;
         let source = text.lines().nth(line - 1).unwrap_or_default();
         let margin = " ".repeat(line.to_string().len());
-        // A tab stays a tab in the padding, so that the caret stands below its character in any terminal.
-        let padding: String =
-            source.chars().take(column - 1).map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
         let fault = text.get(bytes.clone()).unwrap_or_default().lines().next().unwrap_or_default();
-        let carets = "^".repeat(fault.chars().count().max(1));
+        let Excerpt { shown: source, padding, width } =
+            Excerpt::new(source, column - 1, fault.chars().count());
+        let carets = "^".repeat(width);
         let mut shown = format!(
             "error: {message}\n{margin}--> {file}:{line}:{column}\n{margin} |\n{line} | {source}\n{margin} | {padding}{carets}\n"
         );
@@ -123,6 +122,46 @@ impl Mistake<Place> {
             shown.push_str(&format!("{margin} = help: {help}\n"));
         }
         shown
+    }
+}
+
+/// The stretch of a line around a place, as far as a reader takes it in.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Excerpt {
+    /// The stretch, with `…` where the line goes on.
+    pub shown: String,
+    /// Blanks as wide as what stands in front of the place; a tab stays a tab, so that a caret below them stands below
+    /// its character in any terminal.
+    pub padding: String,
+    /// How many characters the place takes of the stretch, at least one.
+    pub width: usize,
+}
+
+impl Excerpt {
+    /// Characters that are shown of a longer line.
+    const WIDEST: usize = 160;
+    /// Of these, those in front of the place.
+    const BEFORE: usize = 60;
+
+    /// The place is `width` characters behind the first `before`.
+    #[must_use]
+    pub fn new(line: &str, before: usize, width: usize) -> Self {
+        let width = width.max(1);
+        let fits = line.chars().take(Self::WIDEST + 1).count() <= Self::WIDEST;
+        let (skipped, taken) =
+            if fits { (0, Self::WIDEST) } else { (before.saturating_sub(Self::BEFORE), Self::WIDEST) };
+        let mut shown: String = line.chars().skip(skipped).take(taken).collect();
+        let mut padding: String =
+            line.chars().take(before).skip(skipped).map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
+        let width = width.min(shown.chars().count().saturating_sub(before - skipped).max(1));
+        if skipped > 0 {
+            shown.insert_str(0, "… ");
+            padding.insert_str(0, "  ");
+        }
+        if !fits && line.chars().nth(skipped + taken).is_some() {
+            shown.push_str(" …");
+        }
+        Self { shown, padding, width }
     }
 }
 
@@ -136,4 +175,35 @@ fn place(text: &str, line_starts: &[usize], bytes: Range<usize>) -> Place {
     let line_start = line_starts[line - 1];
     let column = text[line_start..start].chars().count() + 1;
     Place { bytes: start..bytes.end.clamp(start, text.len()), line, column }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_line_is_clipped_around_the_place() {
+        let line = format!("{}WRONG{}", "a".repeat(50_000), "b".repeat(50_000));
+        let excerpt = Excerpt::new(&line, 50_000, 5);
+        assert!(excerpt.shown.chars().count() < 200 && excerpt.shown.starts_with("… a"), "{excerpt:?}");
+        let below: String =
+            excerpt.shown.chars().skip(excerpt.padding.chars().count()).take(excerpt.width).collect();
+        assert_eq!(below, "WRONG");
+        // A place that is wider than what is shown.
+        let excerpt = Excerpt::new(&line, 10, 90_000);
+        assert_eq!((excerpt.padding.len(), excerpt.width), (10, 150));
+        assert!(excerpt.shown.ends_with(" …"));
+        // The end of a line, and behind it.
+        for before in [100_004, 100_005] {
+            let excerpt = Excerpt::new(&line, before, 3);
+            assert_eq!(excerpt.width, 1);
+            assert!(excerpt.padding.chars().count() <= excerpt.shown.chars().count());
+        }
+    }
+
+    #[test]
+    fn a_short_line_is_shown_as_it_is() {
+        let excerpt = Excerpt::new("\tab\tc", 3, 1);
+        assert_eq!((excerpt.shown.as_str(), excerpt.padding.as_str(), excerpt.width), ("\tab\tc", "\t  ", 1));
+    }
 }

@@ -1,8 +1,11 @@
 //! Claims files: TOML → the claims of [`model_core::checker`], every mistake with its place.
 //!
-//! [`table`] is the file as serde sees it, [`read`] what it means, [`strings`] where a byte of a text stands in the file.
+//! [`table`] is the file as serde sees it, [`read`] what it means, [`strings`] where a byte of a text stands in the file;
+//! [`show`] and [`json`] are the verdicts as people and programs read them.
 
+mod json;
 mod read;
+mod show;
 mod strings;
 mod table;
 
@@ -10,11 +13,14 @@ use std::ops::Range;
 use std::path::Path;
 
 use model_core::checker::Claim;
+use model_core::print::Hand;
 use model_core::{Chain, Mistake};
 
 use crate::failure::Failure;
 use crate::source::Source;
 
+pub use json::as_json;
+pub use show::{Checked, as_text};
 pub use strings::place_in_string;
 
 /// A claims file that was read.
@@ -28,6 +34,8 @@ pub struct ClaimsFile {
     pub chain: Chain,
     /// The same chain with the printed forms of the file's table, for output in the paper's own symbols.
     pub printed: Chain,
+    /// What the file abbreviates.
+    pub hand: Hand,
     /// The claims in the order of the file.
     pub claims: Vec<NamedClaim>,
 }

@@ -21,20 +21,59 @@ pub struct File {
     pub claim: Vec<Spanned<ClaimTable>>,
 }
 
-/// One claim: one of `components`, `compare` and `count`, and what goes with it.
+/// One claim: one of `components`, `total`, `compare`, `size`, `bound`, `count`, `rank`, `confounded`, `separable`, and what
+/// goes with it.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ClaimTable {
     pub name: Spanned<String>,
-    pub observable: Option<Spanned<String>>,
-    pub order: Option<Spanned<i64>>,
+    pub observable: Option<Spanned<Texts>>,
+    pub order: Option<Spanned<Value>>,
     pub keep: Option<Spanned<Texts>>,
     pub neglect: Option<Spanned<Texts>>,
-    pub components: Option<Spanned<Texts>>,
-    pub compare: Option<Spanned<CompareTable>>,
+    pub component: Option<Spanned<String>>,
+    pub faces: Option<Spanned<FacesTable>>,
     pub path: Option<Spanned<String>>,
     pub range: Option<Spanned<Texts>>,
+    pub components: Option<Spanned<Texts>>,
+    pub total: Option<Spanned<String>>,
+    pub compare: Option<Spanned<CompareTable>>,
+    pub size: Option<Spanned<SizeTable>>,
+    pub bound: Option<Spanned<BoundTable>>,
     pub count: Option<Spanned<CountTable>>,
+    pub rank: Option<Spanned<CountTable>>,
+    pub confounded: Option<Spanned<Texts>>,
+    pub separable: Option<Spanned<Texts>>,
+}
+
+/// The second face, and what is taken of both.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FacesTable {
+    pub second: BTreeMap<Spanned<String>, Spanned<String>>,
+    pub take: Spanned<String>,
+}
+
+/// Errors by name or pattern, with their sizes.
+pub type Sizes = Spanned<BTreeMap<Spanned<String>, Spanned<Value>>>;
+
+/// An absolute size.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SizeTable {
+    pub errors: Sizes,
+    pub measure: Spanned<String>,
+    pub combine: Option<Spanned<String>>,
+    pub at_most: Option<Spanned<Value>>,
+    pub at_least: Option<Spanned<Value>>,
+}
+
+/// A bound on what the first order drops.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BoundTable {
+    pub errors: Sizes,
+    pub at_most: Spanned<Value>,
 }
 
 /// A comparison.
@@ -48,7 +87,7 @@ pub struct CompareTable {
     pub at_most: Spanned<f64>,
 }
 
-/// A count.
+/// A count, or a rank.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CountTable {

@@ -79,6 +79,12 @@ impl AngleSum {
         &self.multiples
     }
 
+    /// The quarter turns beside them, 0 to 3.
+    #[must_use]
+    pub fn quarters(&self) -> u8 {
+        self.quarters
+    }
+
     /// Whether the angle is zero.
     #[must_use]
     pub fn is_zero(&self) -> bool {

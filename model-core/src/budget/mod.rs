@@ -14,6 +14,7 @@ mod first_order;
 mod poses;
 mod probe;
 mod quadrature;
+mod sample;
 mod summary;
 
 #[cfg(test)]
@@ -29,6 +30,7 @@ use summary::summarise;
 
 pub use curves::{Curve, Curves};
 pub use poses::{JointRange, Path, PathError, Poses};
+pub use sample::influences_at;
 pub use summary::{Measure, Summary};
 
 /// What every error does to an observable over a set of poses.

@@ -15,7 +15,7 @@ use crate::symbol::SymbolId;
 impl Section<'_> {
     /// The whole proof; the section is closed.
     pub(super) fn refute(&mut self, claim: &ClosedForm, verdict: &FormVerdict) -> Result<(), Refusal> {
-        let printed = claim.printed.components.each_ref().map(|component| component.value.clone());
+        let printed = claim.printed.components.each_ref().map(|component| component.value.above.clone());
         self.prepare()?;
         self.difference(&printed, &verdict.derived)?;
         self.canonical("derived")?;
@@ -141,7 +141,7 @@ fn claimed(verdict: &FormVerdict, component: usize) -> Poly {
     verdict.differences.iter().filter(|difference| difference.component.index() == component).fold(
         Poly::zero(),
         |sum, difference| {
-            &sum + &(&difference.error_product() * &(&difference.printed - &difference.derived))
+            &sum + &(&difference.error_product() * &(&difference.printed.above - &difference.derived.above))
         },
     )
 }

@@ -22,7 +22,7 @@ use std::fmt::Write as _;
 
 use crate::algebra::Poly;
 use crate::chain::{Axis, BodyId, Motion, ObservableId, Role};
-use crate::checker::{ClosedForm, FormVerdict};
+use crate::checker::{ClosedForm, FormVerdict, Order};
 use crate::expr::Expr;
 use crate::forms::{self, FormError};
 use crate::print;
@@ -77,6 +77,11 @@ pub enum Refusal {
         "printed and derived differ in what stands beside a ramp; certificates do not put numbers into ramps"
     )]
     Ramp,
+    /// A claim of another kind than certificates speak of.
+    #[error(
+        "certificates speak of whole vectors to an order, of one face, without quotients by sums, half angles and roots"
+    )]
+    Claim,
     /// A quotient that exists nowhere, or not where the claim is looked at.
     #[error("it divides by something other than numbers, sines and cosines of single angles")]
     Divisor,
@@ -168,22 +173,22 @@ impl<'a> Certificate<'a> {
         claim: &ClosedForm,
         verdict: &FormVerdict,
     ) -> Result<(), Refusal> {
+        let Order::UpTo(order) = claim.order else { return Err(Refusal::Claim) };
+        if !claim.is_plain() {
+            return Err(Refusal::Claim);
+        }
         let printed = claim
             .printed
             .components
             .each_ref()
             .map(|component| declared::without_places(&component.expression));
-        let question = Question {
-            observable: claim.observable,
-            order: claim.order,
-            kept: claim.kept.clone(),
-            zeros: Vec::new(),
-        };
+        let question =
+            Question { observable: claim.observable, order, kept: claim.kept.clone(), zeros: Vec::new() };
         let name = self.names.give(title);
         let title = format!(
             "{title}: the error of {} to {} order, as printed",
             self.observable(claim.observable),
-            ordinal(claim.order)
+            ordinal(order)
         );
         if verdict.differences.is_empty() {
             let mut section = Section::new(self, &question, &[&printed])?;

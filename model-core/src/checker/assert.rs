@@ -2,10 +2,10 @@
 
 use std::fmt::Write as _;
 
-use super::{Checker, ClosedForm, PrintedVector, errors_named};
+use super::{Checker, ClosedForm, Order, PrintedVector, errors_named, extended};
 use crate::chain::Chain;
 use crate::latex::PrintedSymbols;
-use crate::print;
+use crate::print::Style;
 
 /// Asserts that the error of an observable has this closed form, in LaTeX with the chain's printed symbols or in the
 /// plain syntax of amounts. `kept` names the errors that are not zero, by name or pattern.
@@ -27,6 +27,7 @@ pub(super) fn closed_form(
     kept: &[&str],
     components: &[&str; 3],
 ) -> Result<(), String> {
+    let chain = &extended(chain);
     let id = chain
         .find_observable(observable)
         .ok_or_else(|| format!("chain {} has no observable `{observable}`", chain.name))?;
@@ -46,7 +47,8 @@ pub(super) fn closed_form(
         }
         said
     })?;
-    let claim = ClosedForm { observable: id, order, kept: errors, printed };
+    let order = Order::UpTo(order);
+    let claim = ClosedForm { observable: id, order, only: None, faces: None, kept: errors, printed };
     let verdict = Checker::new(chain).closed_form(&claim).map_err(|error| error.to_string())?;
     if verdict.differences.is_empty() {
         return Ok(());
@@ -55,7 +57,7 @@ pub(super) fn closed_form(
     for difference in &verdict.differences {
         let error = difference.error_name(chain);
         let [printed, derived] =
-            [&difference.printed, &difference.derived].map(|poly| print::text(poly, chain));
+            [&difference.printed, &difference.derived].map(|value| value.show(chain, Style::Text));
         let _ = writeln!(said, "  {}, {error}: printed {printed}, derived {derived}", difference.component);
     }
     Err(said)

@@ -1,8 +1,12 @@
 //! Claims as data: what somebody says of a chain.
 
 use super::formula::PrintedVector;
+use super::ranks::Rank;
+use super::sizes::{Bound, Size};
+use super::total::Total;
+use crate::algebra::Poly;
 use crate::budget::{Measure, Poses};
-use crate::chain::{Chain, ObservableId};
+use crate::chain::{Axis, Chain, ObservableId};
 use crate::mistake::Mistake;
 use crate::names;
 use crate::symbol::{SymbolId, SymbolKind};
@@ -16,6 +20,14 @@ pub enum Claim {
     Comparison(Comparison),
     /// How many errors of a kind are declared.
     Count(Count),
+    /// The length of the error, as a root.
+    Total(Box<Total>),
+    /// What can be told apart.
+    Rank(Rank),
+    /// How much errors do, absolutely.
+    Size(Size),
+    /// How much the first order drops.
+    Bound(Bound),
 }
 
 /// That the error of an observable has this closed form.
@@ -23,12 +35,59 @@ pub enum Claim {
 pub struct ClosedForm {
     /// Of which observable.
     pub observable: ObservableId,
-    /// Products of more than this many errors are dropped; 1 to 3.
-    pub order: u32,
+    /// How many errors a product may have.
+    pub order: Order,
+    /// The one component that is claimed; all three if `None`.
+    pub only: Option<Axis>,
+    /// Combined over two faces, or as it is.
+    pub faces: Option<Faces>,
     /// The errors that are not zero, in order.
     pub kept: Vec<SymbolId>,
     /// The formula as printed.
     pub printed: PrintedVector,
+}
+
+impl ClosedForm {
+    /// Whether this is a whole vector to an order, of one face, in the names of the chain alone and without quotients.
+    #[must_use]
+    pub fn is_plain(&self) -> bool {
+        let PrintedVector { components, halves, has_roots } = &self.printed;
+        self.only.is_none()
+            && self.faces.is_none()
+            && self.order != Order::Exact
+            && halves.is_empty()
+            && !has_roots
+            && components.iter().all(|component| component.value.is_whole())
+    }
+}
+
+/// Which products of errors a form has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Order {
+    /// Those of up to this many errors, 1 to 3.
+    UpTo(u32),
+    /// All of them: sines and cosines of errors, nothing dropped.
+    Exact,
+}
+
+/// The same pose taken up a second time in another position of the joints, and what becomes of the two errors.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Faces {
+    /// What each joint is in the second face: amounts of the joint itself, constants and π.
+    pub second: Vec<(SymbolId, Poly)>,
+    /// How the two are combined.
+    pub combined: Combination,
+}
+
+/// What becomes of the errors of two faces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Combination {
+    /// (first + second) / 2
+    Mean,
+    /// first − second
+    Difference,
+    /// (first − second) / 2
+    HalfDifference,
 }
 
 /// That the influence of one error is at most `at_most` times that of another.

@@ -3,10 +3,9 @@
 
 use std::collections::BTreeMap;
 
-use super::claim::ClosedForm;
-use crate::algebra::Poly;
+use super::claim::{ClosedForm, Combination, Faces};
+use crate::algebra::{AlgebraError, Poly, Rational};
 use crate::chain::{Axis, Chain};
-use crate::forms::Form;
 use crate::symbol::{SymbolId, SymbolKind};
 
 /// A product of errors: symbols and powers, by symbol.
@@ -22,8 +21,8 @@ pub(super) type Columns = [Parts; 3];
 pub(super) const AXES: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
 
 /// A form by products of errors.
-pub(super) fn columns(chain: &Chain, form: &Form) -> Columns {
-    form.components.each_ref().map(|component| parts(chain, component))
+pub(super) fn columns(chain: &Chain, components: &[Poly; 3]) -> Columns {
+    components.each_ref().map(|component| parts(chain, component))
 }
 
 /// A component by products of errors.
@@ -43,13 +42,83 @@ pub(super) fn product(monomial: &Monomial) -> Poly {
     })
 }
 
-/// The terms of a form that the claim keeps.
-pub(super) fn kept(columns: &Columns, claim: &ClosedForm) -> Columns {
-    let is_kept =
-        |monomial: &Monomial| monomial.iter().all(|(symbol, _)| claim.kept.binary_search(symbol).is_ok());
-    columns.each_ref().map(|parts| {
-        parts.iter().filter(|(monomial, _)| is_kept(monomial)).map(|(m, p)| (m.clone(), p.clone())).collect()
-    })
+/// A form with the errors that the claim neglects put to zero.
+pub(super) fn kept(chain: &Chain, columns: &Columns, claim: &ClosedForm) -> Result<Columns, AlgebraError> {
+    let is_kept = |symbol: &SymbolId| claim.kept.binary_search(symbol).is_ok();
+    let mut result = Columns::default();
+    for (kept, parts) in result.iter_mut().zip(columns) {
+        for (monomial, factor) in parts {
+            if !monomial.iter().all(|(symbol, _)| is_kept(symbol)) {
+                continue;
+            }
+            // Errors within sines and cosines, in an exact form.
+            let mut factor = factor.clone();
+            for symbol in factor.symbols() {
+                if chain.symbol(symbol).kind == SymbolKind::Error && !is_kept(&symbol) {
+                    factor = factor.substitute(symbol, &Poly::zero())?;
+                }
+            }
+            if !factor.is_zero() {
+                kept.insert(monomial.clone(), factor);
+            }
+        }
+    }
+    Ok(result)
+}
+
+/// A joint that the second face moves and that a ramp in the form depends on, if there is one.
+pub(super) fn ramp_of(chain: &Chain, columns: &Columns, faces: &Faces) -> Option<SymbolId> {
+    let used: Vec<SymbolId> =
+        columns.iter().flat_map(|parts| parts.values()).flat_map(Poly::symbols).collect();
+    let ramps = chain.ramps.iter().filter(|ramp| used.contains(&ramp.symbol));
+    ramps.flat_map(|ramp| ramp.depends_on()).find(|id| faces.second.iter().any(|(joint, _)| joint == id))
+}
+
+/// The errors of two faces, combined.
+pub(super) fn over_faces(chain: &Chain, columns: &Columns, faces: &Faces) -> Result<Columns, AlgebraError> {
+    let mut result = Columns::default();
+    for (combined, component) in result.iter_mut().zip(columns) {
+        let first = total(component);
+        let mut second = first.clone();
+        for (joint, amount) in &faces.second {
+            second = second.substitute(*joint, amount)?;
+        }
+        let half = Rational::half();
+        *combined = parts(
+            chain,
+            &match faces.combined {
+                Combination::Mean => (&first + &second).scale(&half),
+                Combination::Difference => &first - &second,
+                Combination::HalfDifference => (&first - &second).scale(&half),
+            },
+        );
+    }
+    Ok(result)
+}
+
+/// Every component in other terms.
+pub(super) fn translated(
+    chain: &Chain,
+    columns: &Columns,
+    claim: &ClosedForm,
+) -> Result<Columns, AlgebraError> {
+    let mut result = Columns::default();
+    for (translated, parts) in result.iter_mut().zip(columns) {
+        let whole = claim.printed.translate(chain, &total(parts))?;
+        *translated = self::parts(chain, &whole);
+    }
+    Ok(result)
+}
+
+/// Every component times what it stands over in print.
+pub(super) fn multiplied(columns: &Columns, below: [&Poly; 3]) -> Columns {
+    let mut result = columns.clone();
+    for (parts, below) in result.iter_mut().zip(below) {
+        if *below != Poly::one() {
+            parts.values_mut().for_each(|factor| *factor = &*factor * below);
+        }
+    }
+    result
 }
 
 /// What stands in one component for a product of errors in print, and what belongs there.

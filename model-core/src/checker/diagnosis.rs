@@ -3,10 +3,13 @@
 
 use std::ops::Range;
 
+use super::claim::Order;
 use super::compare::{Columns, Pair};
+use super::fraction::Fraction;
+use super::lowering::{self, Sines};
 use super::slip::TermSlip;
 use super::terms::{PrintedTerm, TermFactor};
-use super::{ClosedForm, compare, formula};
+use super::{ClosedForm, compare};
 use crate::algebra::{AngleSum, Poly, Rational};
 use crate::chain::{Axis, Chain};
 use crate::expr::{Expr, Function, Node};
@@ -23,6 +26,8 @@ pub(super) struct Candidate<'a> {
 pub(super) struct Finding {
     pub slip: Option<TermSlip>,
     pub place: Option<Range<usize>>,
+    /// The one printed term of the error.
+    pub term: Option<Range<usize>>,
 }
 
 /// A change of one factor of a term.
@@ -45,6 +50,8 @@ pub(super) struct Case<'a> {
     pub claim: &'a ClosedForm,
     pub printed: &'a Columns,
     pub derived: &'a Columns,
+    /// What each component stands over in print; both columns are multiplied by it.
+    pub below: [&'a Poly; 3],
 }
 
 impl Case<'_> {
@@ -52,12 +59,21 @@ impl Case<'_> {
     pub fn diagnose(&self, pair: Pair<'_>, terms: &[PrintedTerm<'_>]) -> Finding {
         let candidates = self.candidates(pair, terms);
         let place = hull(candidates.iter().filter_map(|candidate| candidate.term.place.as_ref()));
-        let found = |slip, place| Finding { slip: Some(slip), place };
+        let term = match candidates.as_slice() {
+            [only] => only
+                .term
+                .place
+                .clone()
+                .or_else(|| hull(only.term.factors.iter().map(|f| &f.expression.place))),
+            _ => None,
+        };
+        let found = |slip, place| Finding { slip: Some(slip), place, term: term.clone() };
         let (printed, derived) = (pair.printed, pair.derived);
         if pair.error.iter().any(|(error, _)| self.claim.kept.binary_search(error).is_err()) {
             return found(TermSlip::Neglected, place);
         }
-        if pair.error.iter().map(|(_, power)| power).sum::<u32>() > self.claim.order {
+        let degree = pair.error.iter().map(|(_, power)| power).sum::<u32>();
+        if matches!(self.claim.order, Order::UpTo(order) if degree > order) {
             return found(TermSlip::BeyondOrder, place);
         }
         if printed.is_zero() {
@@ -77,24 +93,24 @@ impl Case<'_> {
         let lacking = derived - printed;
         for candidate in &candidates {
             let needed = &candidate.factor + &lacking;
-            if let Some((slip, place)) = self.change(candidate, &needed) {
+            if let Some((slip, place)) = self.change(candidate, &needed, pair.component) {
                 return found(slip, place.or_else(|| candidate.term.place.clone()));
             }
         }
         if derived.is_zero() {
             return found(TermSlip::Superfluous, place);
         }
-        if lacking.len() < derived.len() {
+        if lacking.len() < derived.len() && *self.below[pair.component.index()] == Poly::one() {
             return found(TermSlip::PartMissing(lacking), place);
         }
-        Finding { slip: None, place }
+        Finding { slip: None, place, term }
     }
 
     /// The printed terms of a product of errors.
     fn candidates<'t>(&self, pair: Pair<'_>, terms: &'t [PrintedTerm<'t>]) -> Vec<Candidate<'t>> {
         let mut candidates = Vec::new();
         for term in terms {
-            let Some(value) = self.value(term) else { continue };
+            let Some(value) = self.value(term, pair.component) else { continue };
             let mut parts = compare::parts(self.chain, &value);
             if let Some(factor) = parts.remove(pair.error)
                 && parts.is_empty()
@@ -105,14 +121,28 @@ impl Case<'_> {
         candidates
     }
 
-    fn value(&self, term: &PrintedTerm<'_>) -> Option<Poly> {
-        let sign = if term.negative { -&Poly::one() } else { Poly::one() };
-        term.factors.iter().try_fold(sign, |product, factor| Some(&product * &self.factor_value(factor)?))
+    /// A term as it is compared: in the terms of the claim, multiplied by what its component stands over.
+    fn value(&self, term: &PrintedTerm<'_>, component: Axis) -> Option<Poly> {
+        let sign = Fraction::whole(if term.negative { -&Poly::one() } else { Poly::one() });
+        let product = term
+            .factors
+            .iter()
+            .try_fold(sign, |product, factor| product.product(&self.factor_fraction(factor)?).ok())?;
+        let below = self.below[component.index()];
+        let whole = product.product(&Fraction::whole(below.clone())).ok()?;
+        whole.is_whole().then_some(whole.above)
+    }
+
+    fn factor_fraction(&self, factor: &TermFactor<'_>) -> Option<Fraction> {
+        let sines = if self.claim.order == Order::Exact { Sines::OfErrors } else { Sines::OfAngles };
+        let value = lowering::fraction(self.chain, factor.expression, sines).ok()?;
+        let translate = |poly| self.claim.printed.translate(self.chain, poly).ok();
+        let value = Fraction::new(translate(&value.above)?, translate(&value.below)?)?;
+        if factor.divides { value.inverse() } else { Some(value) }
     }
 
     fn factor_value(&self, factor: &TermFactor<'_>) -> Option<Poly> {
-        let value = formula::lower(self.chain, factor.expression).ok()?;
-        if factor.divides { value.recip() } else { Some(value) }
+        self.factor_fraction(factor).filter(Fraction::is_whole).map(|value| value.above)
     }
 
     /// Another component that has, too much, what this one lacks (or the reverse, with the columns exchanged).
@@ -124,7 +154,12 @@ impl Case<'_> {
     }
 
     /// The change of a term that makes its factor what is needed, and the place of the changed part.
-    fn change(&self, candidate: &Candidate<'_>, needed: &Poly) -> Option<(TermSlip, Option<Range<usize>>)> {
+    fn change(
+        &self,
+        candidate: &Candidate<'_>,
+        needed: &Poly,
+        component: Axis,
+    ) -> Option<(TermSlip, Option<Range<usize>>)> {
         if needed.is_zero() {
             return Some((TermSlip::Superfluous, None));
         }
@@ -134,7 +169,7 @@ impl Case<'_> {
         }
         for (index, factor) in candidate.term.factors.iter().enumerate() {
             for change in self.changes(factor) {
-                let Some(rest) = self.without(candidate, index) else { continue };
+                let Some(rest) = self.without(candidate, index, component) else { continue };
                 let changed = &rest * &change.to;
                 let sign = changed == -needed;
                 if changed != *needed && !sign {
@@ -157,10 +192,10 @@ impl Case<'_> {
     }
 
     /// What multiplies the errors in a term, without one of its factors.
-    fn without(&self, candidate: &Candidate<'_>, left_out: usize) -> Option<Poly> {
+    fn without(&self, candidate: &Candidate<'_>, left_out: usize, component: Axis) -> Option<Poly> {
         let mut term = candidate.term.clone();
         term.factors.remove(left_out);
-        let parts = compare::parts(self.chain, &self.value(&term)?);
+        let parts = compare::parts(self.chain, &self.value(&term, component)?);
         parts.into_values().next()
     }
 

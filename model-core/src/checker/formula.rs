@@ -2,13 +2,15 @@
 
 use std::ops::Range;
 
-use crate::algebra::{LowerError, Poly};
-use crate::chain::Chain;
+use super::algebraic;
+use super::fraction::Fraction;
+use super::lowering::{self, Sines};
+use crate::algebra::AlgebraError;
+use crate::chain::{Axis, Chain};
 use crate::expr::Expr;
 use crate::latex::{self, PrintedSymbols};
 use crate::mistake::Mistake;
-use crate::names;
-use crate::symbol::SymbolKind;
+use crate::symbol::SymbolId;
 use crate::syntax;
 
 /// The three components of a printed formula.
@@ -16,6 +18,10 @@ use crate::syntax;
 pub struct PrintedVector {
     /// x, y and z.
     pub components: [PrintedComponent; 3],
+    /// Angles of which halves are printed, each with the symbol of its half; everything is said in halves of these.
+    pub(super) halves: Vec<(SymbolId, SymbolId)>,
+    /// Whether roots of numbers are printed: then constants that are multiples of 15° are the numbers that they are.
+    pub(super) has_roots: bool,
 }
 
 /// One component of a printed formula.
@@ -26,7 +32,7 @@ pub struct PrintedComponent {
     /// As written; places are byte ranges of that text.
     pub expression: Expr<Range<usize>>,
     /// What it says.
-    pub value: Poly,
+    pub value: Fraction,
 }
 
 /// Where a printed vector cannot be read: in which text, and where in it.
@@ -42,7 +48,7 @@ impl PrintedVector {
     /// Reads components, each a text, or a whole vector in one text. A fourth, homogeneous component has to be 0.
     ///
     /// LaTeX is told from the plain syntax of amounts by its backslashes, braces and Greek letters; a vector in one text
-    /// is read as LaTeX.
+    /// is read as LaTeX. Roots and half angles need the symbols of an [`extended`](super::extended) chain.
     ///
     /// # Errors
     /// What cannot be read, with its place.
@@ -51,6 +57,48 @@ impl PrintedVector {
         symbols: &PrintedSymbols,
         texts: &[&str],
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
+        Self::read_with(chain, symbols, texts, Sines::OfAngles)
+    }
+
+    /// The same for an exact form, in which sines and cosines of errors stand.
+    ///
+    /// # Errors
+    /// What cannot be read, with its place.
+    pub fn read_exact(
+        chain: &Chain,
+        symbols: &PrintedSymbols,
+        texts: &[&str],
+    ) -> Result<Self, Vec<Mistake<TextPlace>>> {
+        Self::read_with(chain, symbols, texts, Sines::OfErrors)
+    }
+
+    /// Reads the formula of one component; the others are not claimed.
+    ///
+    /// # Errors
+    /// What cannot be read, with its place.
+    pub fn read_one(
+        chain: &Chain,
+        symbols: &PrintedSymbols,
+        text: &str,
+        axis: Axis,
+        is_exact: bool,
+    ) -> Result<Self, Vec<Mistake<TextPlace>>> {
+        let written = written(symbols, 0, text, axis.index())?;
+        let sines = if is_exact { Sines::OfErrors } else { Sines::OfAngles };
+        let value =
+            lowering::fraction(chain, &written.1, sines).map_err(|mistake| vec![in_text(0, mistake)])?;
+        let mut read = Self::of_one(chain, &written.1, value)
+            .map_err(|error| vec![in_text(0, Mistake::new(0..text.len(), error.to_string()))])?;
+        read.components.swap(0, axis.index());
+        Ok(read)
+    }
+
+    fn read_with(
+        chain: &Chain,
+        symbols: &PrintedSymbols,
+        texts: &[&str],
+        sines: Sines,
+    ) -> Result<Self, Vec<Mistake<TextPlace>>> {
         let expressions = expressions(symbols, texts)?;
         let end = texts.len().saturating_sub(1);
         let at_end = || TextPlace { text_index: end, bytes: 0..texts.get(end).map_or(0, |text| text.len()) };
@@ -58,7 +106,7 @@ impl PrintedVector {
         let mut values = Vec::new();
         let mut mistakes = Vec::new();
         for (text_index, expression) in &expressions {
-            match lower(chain, expression) {
+            match lowering::fraction(chain, expression, sines) {
                 Ok(value) => values.push(value),
                 Err(mistake) => mistakes.push(in_text(*text_index, mistake)),
             }
@@ -83,10 +131,59 @@ impl PrintedVector {
             .zip(values)
             .map(|((text_index, expression), value)| PrintedComponent { text_index, expression, value })
             .collect();
-        match <[PrintedComponent; 3]>::try_from(components) {
-            Ok(components) => Ok(Self { components }),
-            Err(_) => Err(vec![Mistake::new(at_end(), "a vector has three components")]),
+        let Ok(components) = <[PrintedComponent; 3]>::try_from(components) else {
+            return Err(vec![Mistake::new(at_end(), "a vector has three components")]);
+        };
+        Self { components, halves: Vec::new(), has_roots: false }
+            .normalised(chain)
+            .map_err(|error| vec![Mistake::new(at_end(), error.to_string())])
+    }
+
+    /// One amount as a vector, to be said in the same terms as the derived one.
+    pub(super) fn of_one(
+        chain: &Chain,
+        expression: &Expr<Range<usize>>,
+        value: Fraction,
+    ) -> Result<Self, AlgebraError> {
+        let component = |value| PrintedComponent { text_index: 0, expression: expression.clone(), value };
+        let nothing = || component(Fraction::whole(crate::algebra::Poly::zero()));
+        Self { components: [component(value), nothing(), nothing()], halves: Vec::new(), has_roots: false }
+            .normalised(chain)
+    }
+
+    /// Says everything in halves of the angles of which halves are printed.
+    fn normalised(mut self, chain: &Chain) -> Result<Self, AlgebraError> {
+        let parts =
+            || self.components.iter().flat_map(|component| [&component.value.above, &component.value.below]);
+        let mut halves: Vec<_> = parts().flat_map(|poly| algebraic::halved(chain, poly)).collect();
+        halves.sort_unstable();
+        halves.dedup();
+        self.has_roots = parts().any(|poly| algebraic::has_roots(poly, chain));
+        self.halves = halves;
+        for component in 0..3 {
+            let value = &self.components[component].value;
+            let [above, below] = [&value.above, &value.below].map(|poly| {
+                let poly = algebraic::in_halves(poly, &self.halves)?;
+                Ok(if self.has_roots { algebraic::with_special_constants(&poly, chain) } else { poly })
+            });
+            let value = Fraction { above: above?, below: below? }.reduced(chain);
+            self.components[component].value = value;
         }
+        Ok(self)
+    }
+
+    /// A derived amount in the same terms as the printed ones.
+    pub(super) fn translate(
+        &self,
+        chain: &Chain,
+        derived: &crate::algebra::Poly,
+    ) -> Result<crate::algebra::Poly, AlgebraError> {
+        let derived = algebraic::in_halves(derived, &self.halves)?;
+        Ok(if self.has_roots {
+            algebraic::reduced(&algebraic::with_special_constants(&derived, chain), chain)
+        } else {
+            derived
+        })
     }
 }
 
@@ -102,23 +199,53 @@ fn expressions(symbols: &PrintedSymbols, texts: &[&str]) -> Result<Vec<Written>,
     let mut expressions = Vec::new();
     let mut mistakes = Vec::new();
     for (index, text) in texts.iter().enumerate() {
-        if is_latex(text) {
-            match latex::read_formula(text, symbols) {
-                Ok(expression) => expressions.push((index, expression)),
-                Err(mistake) => mistakes.push(in_text(index, mistake)),
-            }
-        } else {
-            match syntax::parse_amount(text) {
-                Ok(expression) => expressions.push((index, expression)),
-                Err(found) => mistakes.extend(found.iter().map(|mistake| Mistake {
-                    place: TextPlace { text_index: index, bytes: mistake.place.bytes.clone() },
-                    message: mistake.message.clone(),
-                    help: mistake.help.clone(),
-                })),
-            }
+        match written(symbols, index, text, index) {
+            Ok(component) => expressions.push(component),
+            Err(found) => mistakes.extend(found),
         }
     }
     if mistakes.is_empty() { Ok(expressions) } else { Err(mistakes) }
+}
+
+/// One component, in LaTeX or in the plain syntax.
+fn written(
+    symbols: &PrintedSymbols,
+    text_index: usize,
+    text: &str,
+    axis: usize,
+) -> Result<Written, Vec<Mistake<TextPlace>>> {
+    if is_latex(text) {
+        return latex::read_component(text, symbols, axis)
+            .map(|expression| (text_index, expression))
+            .map_err(|mistake| vec![in_text(text_index, mistake)]);
+    }
+    let (name_length, amount) = bare(text);
+    let moved = |place: &Range<usize>| place.start + name_length..place.end + name_length;
+    match syntax::parse_amount(amount) {
+        Ok(expression) => Ok((text_index, expression.map_place(&moved))),
+        Err(found) => Err(found
+            .iter()
+            .map(|mistake| Mistake {
+                place: TextPlace { text_index, bytes: moved(&mistake.place.bytes) },
+                message: mistake.message.clone(),
+                help: mistake.help.clone(),
+            })
+            .collect()),
+    }
+}
+
+/// A plain amount without the name before `=` and the punctuation behind it, and where it begins.
+fn bare(text: &str) -> (usize, &str) {
+    let start = match text.split_once('=') {
+        Some((name, rest)) if !rest.contains('=') && is_name(name.trim()) => name.len() + 1,
+        _ => 0,
+    };
+    (start, text[start..].trim_end().trim_end_matches(['.', ',', ';']))
+}
+
+fn is_name(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_alphabetic())
+        && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
 }
 
 fn is_latex(text: &str) -> bool {
@@ -131,28 +258,4 @@ fn in_text(text_index: usize, mistake: Mistake<Range<usize>>) -> Mistake<TextPla
         message: mistake.message,
         help: mistake.help,
     }
-}
-
-/// The canonical form of an expression over the symbols of a chain.
-///
-/// # Errors
-/// A name that the chain does not have, with the nearest one, or what the algebra refuses.
-pub fn lower(chain: &Chain, expression: &Expr<Range<usize>>) -> Result<Poly, Mistake<Range<usize>>> {
-    chain.amount(expression).map_err(|error| {
-        let mistake = Mistake::new(error.place().clone(), error.to_string());
-        match &error {
-            LowerError::UnknownSymbol { name, .. } => {
-                match names::nearest(name, chain.symbols.iter().map(|symbol| symbol.name.as_str())) {
-                    Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
-                    None => mistake,
-                }
-            }
-            LowerError::SineOf { name, .. }
-                if chain.find_symbol(name).is_some_and(|id| chain.symbol(id).kind == SymbolKind::Error) =>
-            {
-                mistake.with_help("in a form of order 1 the sine of an error is the error, its cosine 1")
-            }
-            _ => mistake,
-        }
-    })
 }

@@ -1,12 +1,11 @@
 //! The chain misread: what the closed form would be with two transforms in the wrong order, one left out, or one
 //! reversed. A printed formula that equals one of these tells where its author went astray.
 
-use super::claim::ClosedForm;
+use super::claim::{ClosedForm, Order};
 use super::compare::{self, AXES, Columns, Monomial};
 use super::slip::{FormSlip, FormSlipKind, factor_name};
 use crate::algebra::Poly;
 use crate::chain::{Chain, Factor, Motion, ObservableId, Role};
-use crate::forms;
 
 /// One misreading and the form that follows from it.
 #[derive(Debug, Clone)]
@@ -16,7 +15,7 @@ pub(super) struct Misreading {
 }
 
 /// Every misreading of the way to an observable, the likelier kinds first.
-pub(super) fn of_chain(chain: &Chain, observable: ObservableId, order: u32) -> Vec<Misreading> {
+pub(super) fn of_chain(chain: &Chain, observable: ObservableId, order: Order) -> Vec<Misreading> {
     let places: Vec<(usize, usize)> = chain
         .path(chain.observable(observable).body)
         .into_iter()
@@ -54,8 +53,8 @@ pub(super) fn of_chain(chain: &Chain, observable: ObservableId, order: u32) -> V
     misread
         .into_iter()
         .filter_map(|(kind, other)| {
-            let form = forms::derive(&other, observable, order).ok()?;
-            Some(Misreading { kind, columns: compare::columns(&other, &form) })
+            let components = super::derived(&other, observable, order).ok()?;
+            Some(Misreading { kind, columns: compare::columns(&other, &components) })
         })
         .collect()
 }
@@ -76,6 +75,7 @@ pub(super) fn explain(
     printed: &Columns,
     derived: &Columns,
     misreadings: &[Misreading],
+    prepare: impl Fn(&Columns) -> Option<Columns>,
 ) -> Vec<FormSlip> {
     let whole = |kind| vec![FormSlip { kind, error: None }];
     if let Some(kind) = components(printed, derived) {
@@ -83,7 +83,7 @@ pub(super) fn explain(
     }
     let misread: Vec<(&FormSlipKind, Columns)> = misreadings
         .iter()
-        .map(|misreading| (&misreading.kind, compare::kept(&misreading.columns, claim)))
+        .filter_map(|misreading| Some((&misreading.kind, prepare(&misreading.columns)?)))
         .collect();
     if let Some((kind, _)) = misread.iter().find(|(_, columns)| columns == printed) {
         return whole((*kind).clone());

@@ -2,18 +2,26 @@
 //!
 //! A [`Claim`] is data; [`Checker::check`] gives its [`Verdict`]. Closed forms are decided by exact algebra, term by term
 //! (`compare`, in canonical form, never by sampling), and a difference is traced to the slip behind it
-//! (`diagnosis` for terms, `misreading` for the order of transforms and left-out frames). Comparisons are measured on
-//! the exact form ([`crate::budget`]). Claims files are read elsewhere; a claim that cannot be read is a
+//! (`diagnosis` for terms, `misreading` for the order of transforms and left-out frames). Total errors (`total`) and what
+//! can be told apart (`ranks`) are decided, too. Comparisons and absolute sizes (`sizes`) are measured on the exact form
+//! ([`crate::budget`]), bounds proven ([`crate::remainder`]); a verdict says by which means it came about. Claims files are read elsewhere; a claim that cannot be read is a
 //! [`Mistake`](crate::mistake::Mistake), never a verdict.
 
+mod algebraic;
 mod assert;
 mod claim;
 mod compare;
 mod diagnosis;
 mod formula;
+mod fraction;
+pub mod hand;
+mod lowering;
 mod misreading;
+mod ranks;
+mod sizes;
 mod slip;
 mod terms;
+mod total;
 mod verdict;
 
 #[cfg(test)]
@@ -21,27 +29,34 @@ mod tests;
 
 use std::collections::BTreeMap;
 
-use crate::algebra::Poly;
+use crate::algebra::{AlgebraError, Poly};
 use crate::budget::{self, BudgetError};
 use crate::chain::{Chain, ObservableId};
 use crate::forms::{self, FormError};
 use crate::print;
+use crate::remainder::DomainError;
 use compare::Columns;
 use diagnosis::Case;
 use misreading::Misreading;
 
+pub use algebraic::extended;
 pub use assert::assert_closed_form;
-pub use claim::{Claim, ClosedForm, Comparison, Count, errors_named};
-pub use formula::{PrintedComponent, PrintedVector, TextPlace, lower};
+pub use claim::{Claim, ClosedForm, Combination, Comparison, Count, Faces, Order, errors_named};
+pub use formula::{PrintedComponent, PrintedVector, TextPlace};
+pub use fraction::Fraction;
+pub use lowering::lower;
+pub use ranks::{Rank, RankSaid, RankVerdict};
+pub use sizes::{Bound, BoundVerdict, Combined, Limits, Outcome, Size, SizeMeasure, SizeVerdict};
 pub use slip::{FormSlip, FormSlipKind, TermSlip};
-pub use verdict::{Counted, Difference, FormVerdict, Measured, Verdict};
+pub use total::{Radicand, Total, TotalVerdict};
+pub use verdict::{Counted, Difference, FormVerdict, Means, Measured, Verdict};
 
 /// Checks claims about one chain; what it derives for one claim it keeps for the next.
 #[derive(Debug)]
 pub struct Checker<'a> {
     chain: &'a Chain,
-    forms: BTreeMap<(ObservableId, u32), Columns>,
-    misreadings: BTreeMap<(ObservableId, u32), Vec<Misreading>>,
+    forms: BTreeMap<(ObservableId, Order), Columns>,
+    misreadings: BTreeMap<(ObservableId, Order), Vec<Misreading>>,
 }
 
 /// Why a claim that was read cannot be decided.
@@ -50,6 +65,15 @@ pub enum CheckError {
     /// The chain has no closed form.
     #[error(transparent)]
     Form(#[from] FormError),
+    /// The derived form cannot be said in the terms of the printed one: half angles below a stroke, or too many terms.
+    #[error("the derived form cannot be said in the terms of the printed one: {0}")]
+    Terms(#[from] AlgebraError),
+    /// In the second face a ramp would be another one.
+    #[error("a ramp of {0} has no form in the second face")]
+    Ramp(String),
+    /// A bound has no domain.
+    #[error(transparent)]
+    Domain(#[from] DomainError),
     /// The poses of a comparison do not give the observable a value.
     #[error(transparent)]
     Budget(#[from] BudgetError),
@@ -70,6 +94,10 @@ impl<'a> Checker<'a> {
         match claim {
             Claim::ClosedForm(claim) => Ok(Verdict::ClosedForm(self.closed_form(claim)?)),
             Claim::Comparison(claim) => Ok(Verdict::Comparison(self.comparison(claim)?)),
+            Claim::Total(claim) => Ok(Verdict::Total(self.total(claim)?)),
+            Claim::Rank(claim) => Ok(Verdict::Rank(self.rank(claim)?)),
+            Claim::Size(claim) => Ok(Verdict::Size(self.size(claim)?)),
+            Claim::Bound(claim) => Ok(Verdict::Bound(self.bound(claim)?)),
             Claim::Count(claim) => Ok(Verdict::Count(Counted {
                 found: claim.errors.len(),
                 claimed: claim.equals,
@@ -81,17 +109,39 @@ impl<'a> Checker<'a> {
     /// The verdict on a printed formula.
     ///
     /// # Errors
-    /// The chain has no closed form.
-    pub fn closed_form(&mut self, claim: &ClosedForm) -> Result<FormVerdict, FormError> {
+    /// The chain has no closed form, or it cannot be said in the terms of the print.
+    pub fn closed_form(&mut self, claim: &ClosedForm) -> Result<FormVerdict, CheckError> {
         let chain = self.chain;
-        let printed =
-            claim.printed.components.each_ref().map(|component| compare::parts(chain, &component.value));
-        let derived = compare::kept(self.columns(claim.observable, claim.order)?, claim);
+        let below = claim.printed.components.each_ref().map(|component| &component.value.below);
+        let printed = claim
+            .printed
+            .components
+            .each_ref()
+            .map(|component| compare::parts(chain, &component.value.above));
+        // What the chain implies, as the claim has it: kept errors, faces, terms of the print.
+        let prepare = |columns: &Columns| -> Result<Columns, AlgebraError> {
+            let mut columns = compare::kept(chain, columns, claim)?;
+            if let Some(faces) = &claim.faces {
+                columns = compare::over_faces(chain, &columns, faces)?;
+            }
+            if let Some(only) = claim.only {
+                let others = compare::AXES.into_iter().filter(|axis| *axis != only);
+                others.for_each(|axis| columns[axis.index()].clear());
+            }
+            compare::translated(chain, &columns, claim)
+        };
+        let columns = self.columns(claim.observable, claim.order)?;
+        if let Some(joint) = claim.faces.as_ref().and_then(|faces| compare::ramp_of(chain, columns, faces)) {
+            return Err(CheckError::Ramp(chain.symbol(joint).name.clone()));
+        }
+        let implied = prepare(columns)?;
+        let derived = compare::multiplied(&implied, below);
         let zero = Poly::zero();
         let pairs = compare::differing(&printed, &derived, &zero);
         let mut differences = Vec::with_capacity(pairs.len());
-        let case = Case { chain, claim, printed: &printed, derived: &derived };
+        let case = Case { chain, claim, printed: &printed, derived: &derived, below };
         let mut terms = None;
+        let shown = |poly: &Poly| algebraic::in_wholes(poly, chain);
         for pair in &pairs {
             // Terms of a component are multiplied out once, and only if something differs there.
             if terms.as_ref().is_none_or(|(axis, _)| *axis != pair.component) {
@@ -100,33 +150,40 @@ impl<'a> Checker<'a> {
             }
             let terms = terms.as_ref().map_or(&[][..], |(_, terms)| terms);
             let finding = case.diagnose(*pair, terms);
+            let axis = pair.component.index();
+            let truth = implied[axis].get(pair.error).unwrap_or(&zero);
+            let print = Fraction::new(shown(pair.printed), shown(below[axis]));
             differences.push(Difference {
                 component: pair.component,
                 error: pair.error.clone(),
-                printed: pair.printed.clone(),
-                derived: pair.derived.clone(),
+                printed: print.unwrap_or_else(|| unreachable!("no printed formula stands over zero")),
+                derived: Fraction::whole(shown(truth)),
                 place: finding.place,
+                term: finding.term,
                 slip: finding.slip,
             });
         }
         let slips = if differences.len() < 2 {
             Vec::new()
         } else {
-            misreading::explain(claim, &printed, &derived, self.misreadings(claim.observable, claim.order))
+            let prepare = |columns: &Columns| Some(compare::multiplied(&prepare(columns).ok()?, below));
+            let misreadings = self.misreadings(claim.observable, claim.order);
+            misreading::explain(claim, &printed, &derived, misreadings, prepare)
         };
-        Ok(FormVerdict { differences, slips, derived: derived.each_ref().map(compare::total) })
+        let derived = implied.each_ref().map(|parts| shown(&compare::total(parts)));
+        Ok(FormVerdict { differences, slips, derived })
     }
 
-    fn columns(&mut self, observable: ObservableId, order: u32) -> Result<&Columns, FormError> {
+    fn columns(&mut self, observable: ObservableId, order: Order) -> Result<&Columns, FormError> {
         let key = (observable, order);
         if !self.forms.contains_key(&key) {
-            let form = forms::derive(self.chain, observable, order)?;
-            self.forms.insert(key, compare::columns(self.chain, &form));
+            let components = derived(self.chain, observable, order)?;
+            self.forms.insert(key, compare::columns(self.chain, &components));
         }
         Ok(&self.forms[&key])
     }
 
-    fn misreadings(&mut self, observable: ObservableId, order: u32) -> &[Misreading] {
+    fn misreadings(&mut self, observable: ObservableId, order: Order) -> &[Misreading] {
         let chain = self.chain;
         self.misreadings
             .entry((observable, order))
@@ -148,6 +205,14 @@ impl<'a> Checker<'a> {
         let ratio = (against > 0.0).then(|| error / against);
         let holds = error <= claim.at_most * against;
         Ok(Measured { error, against, ratio, at_most: claim.at_most, holds })
+    }
+}
+
+/// The error of an observable as far as an order goes.
+fn derived(chain: &Chain, observable: ObservableId, order: Order) -> Result<[Poly; 3], FormError> {
+    match order {
+        Order::UpTo(order) => Ok(forms::derive(chain, observable, order)?.components),
+        Order::Exact => forms::exact_symbolic(chain, observable),
     }
 }
 

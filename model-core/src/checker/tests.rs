@@ -26,7 +26,8 @@ fn verdict(chain: &Chain, order: u32, components: &[&str]) -> FormVerdict {
         .collect();
     kept.sort_unstable();
     let observable = chain.find_observable("pointing").unwrap_or(ObservableId(0));
-    let claim = ClosedForm { observable, order, kept, printed };
+    let order = Order::UpTo(order);
+    let claim = ClosedForm { observable, order, only: None, faces: None, kept, printed };
     Checker::new(chain).closed_form(&claim).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -37,7 +38,7 @@ fn shown(chain: &Chain, verdict: &FormVerdict, components: &[&str]) -> Vec<Strin
         .iter()
         .map(|difference| {
             let [printed, derived] =
-                [&difference.printed, &difference.derived].map(|poly| print::text(poly, chain));
+                [&difference.printed, &difference.derived].map(|value| value.show(chain, Style::Text));
             let text = components[difference.component.index()];
             let place = difference.place.clone().map_or("nowhere", |place| &text[place]);
             let slip = difference.slip.as_ref().map(|slip| slip.describe(chain, Style::Text));

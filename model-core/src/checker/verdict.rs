@@ -3,7 +3,11 @@
 use std::ops::Range;
 
 use super::compare;
+use super::fraction::Fraction;
+use super::ranks::RankVerdict;
+use super::sizes::{BoundVerdict, Outcome, SizeVerdict};
 use super::slip::{FormSlip, TermSlip};
+use super::total::TotalVerdict;
 use crate::algebra::Poly;
 use crate::chain::{Axis, Chain};
 use crate::print;
@@ -18,16 +22,56 @@ pub enum Verdict {
     Comparison(Measured),
     /// Of a count.
     Count(Counted),
+    /// Of a total error.
+    Total(TotalVerdict),
+    /// Of what can be told apart.
+    Rank(RankVerdict),
+    /// Of an absolute size.
+    Size(SizeVerdict),
+    /// Of a bound.
+    Bound(BoundVerdict),
+}
+
+/// How a verdict was come by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Means {
+    /// By exact algebra.
+    Decided,
+    /// By numbers over many poses.
+    Sampled,
+    /// By a bound that holds everywhere, or an example against it.
+    Proven,
 }
 
 impl Verdict {
-    /// Whether the claim holds.
+    /// Whether the claim holds, for certain.
     #[must_use]
     pub fn holds(&self) -> bool {
-        match self {
+        self.outcome() == Outcome::Holds
+    }
+
+    /// What becomes of the claim.
+    #[must_use]
+    pub fn outcome(&self) -> Outcome {
+        let holds = match self {
             Self::ClosedForm(form) => form.differences.is_empty(),
             Self::Comparison(measured) => measured.holds,
             Self::Count(counted) => counted.found == counted.claimed,
+            Self::Total(total) => total.differences.is_empty(),
+            Self::Rank(rank) => rank.holds,
+            Self::Size(size) => return size.outcome,
+            Self::Bound(bound) => return bound.outcome,
+        };
+        if holds { Outcome::Holds } else { Outcome::Differs }
+    }
+
+    /// How it was come by.
+    #[must_use]
+    pub fn means(&self) -> Means {
+        match self {
+            Self::ClosedForm(_) | Self::Count(_) | Self::Total(_) | Self::Rank(_) => Means::Decided,
+            Self::Comparison(_) | Self::Size(_) => Means::Sampled,
+            Self::Bound(_) => Means::Proven,
         }
     }
 }
@@ -51,11 +95,13 @@ pub struct Difference {
     /// The error, or the product of errors: symbols and powers, by symbol. Empty for what has no error in it.
     pub error: Vec<(SymbolId, u32)>,
     /// What multiplies it in print; zero if it is missing there.
-    pub printed: Poly,
+    pub printed: Fraction,
     /// What multiplies it by the algebra; zero if it does not belong there.
-    pub derived: Poly,
+    pub derived: Fraction,
     /// Where in the text of the component, if the term is printed.
     pub place: Option<Range<usize>>,
+    /// The whole term in that text, if it is printed in one piece; `place` may be a part of it.
+    pub term: Option<Range<usize>>,
     /// What went wrong, if it is one of the usual slips.
     pub slip: Option<TermSlip>,
 }

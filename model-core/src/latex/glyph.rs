@@ -6,7 +6,9 @@
 use std::ops::Range;
 
 use super::Unreadable;
-use super::token::{FUNCTIONS, Kind, TYPED, Token};
+use super::commands::{FRACTIONS, FUNCTIONS, RAMP, refusal};
+use super::token::{Kind, Token};
+use super::typed::TYPED;
 use crate::mistake::Mistake;
 
 /// One letter, with accents in its base, and its indices; empty where there is none.
@@ -31,11 +33,14 @@ pub(super) struct ReadGlyph {
 const ACCENTS: [&str; 8] = ["hat", "bar", "tilde", "dot", "ddot", "vec", "overline", "widehat"];
 
 /// Control words that are no symbols.
-const OPERATORS: [&str; 6] = ["frac", "tfrac", "dfrac", "sqrt", "degree", "top"];
+const OPERATORS: [&str; 4] = ["sqrt", "degree", "top", RAMP];
 
 /// Whether a control word can be (part of) a symbol.
 fn is_symbol(command: &str) -> bool {
-    !FUNCTIONS.contains(&command) && !OPERATORS.contains(&command)
+    !FUNCTIONS.contains(&command)
+        && !FRACTIONS.contains(&command)
+        && !OPERATORS.contains(&command)
+        && refusal(command).is_none()
 }
 
 /// Whether a symbol starts with this token.
@@ -92,6 +97,33 @@ pub(super) fn read(tokens: &[Token]) -> Result<Option<ReadGlyph>, Unreadable> {
     }
     let place = first.place.start..tokens[used - 1].place.end;
     Ok(Some(ReadGlyph { glyph, place, tokens: used }))
+}
+
+/// The names in parentheses behind a symbol, `(\alpha, \beta)`, each in normal form, and the number of tokens; `None` if
+/// anything but symbols stands there.
+pub(super) fn arguments(tokens: &[Token]) -> Option<(Vec<Vec<Glyph>>, usize)> {
+    if tokens.first()?.kind != Kind::Mark('(') {
+        return None;
+    }
+    let mut used = 1;
+    let mut found = Vec::new();
+    loop {
+        let mut glyphs = Vec::new();
+        while let Ok(Some(read)) = read(tokens.get(used..)?) {
+            used += read.tokens;
+            glyphs.push(read.glyph);
+        }
+        if glyphs.is_empty() {
+            return None;
+        }
+        found.push(glyphs);
+        used += 1;
+        match tokens.get(used - 1)?.kind {
+            Kind::Mark(')') => return Some((found, used)),
+            Kind::Mark(',') => {}
+            _ => return None,
+        }
+    }
 }
 
 /// The argument of an index or an accent, one token or a group in braces, as text without spaces and inner braces;

@@ -4,7 +4,7 @@ use super::*;
 use crate::expr::{Function, Node};
 
 /// The expression in full parentheses, so that the structure shows.
-fn shown(formula: &Expr<Range<usize>>) -> String {
+pub(super) fn shown(formula: &Expr<Range<usize>>) -> String {
     match &formula.node {
         Node::Number(value) => value.to_string(),
         Node::Measured(value, unit) => format!("{value} {}", unit.name()),
@@ -34,7 +34,7 @@ fn symbol(name: &str) -> Expr<()> {
     Expr { node: Node::Symbol(name.to_owned()), place: () }
 }
 
-fn symbols() -> PrintedSymbols {
+pub(super) fn symbols() -> PrintedSymbols {
     let mut symbols = PrintedSymbols::default();
     let sine_of_beta = Expr { node: Node::Call(Function::Sin, Box::new(symbol("beta"))), place: () };
     for (printed, amount) in [
@@ -99,6 +99,20 @@ fn formulas_are_read_as_printed() {
         (r"\cos(\beta - 90^\circ)", "cos((beta + -(90*(pi/180))))"),
         (r"\Bigl[ x + \{ 1 + x \} \Bigr] x % a comment", "((x + (1 + x))*x)"),
         (r"\sin\frac{\alpha}{2} x", "(sin((alpha/2))*x)"),
+        (r"\cfrac{x}{2}", "(x/2)"),
+        (r"x sin\beta", "(x*sin(beta))"),
+        ("cos α · sin²β", "(cos(alpha)*sin(beta)^2)"),
+        ("Δθ⁰_{y1} cos 2β", "(dtheta_y1*cos((2*beta)))"),
+        ("δ¹ₓ₂ + ½ x", "(delta_x2 + ((1/2)*x))"),
+        ("𝑥 − ∆β₂", "(x + -db2)"),
+        (r"{\rm sin}\beta + {\rm range}", "(sin(beta) + range)"),
+        (r"\sqrt{2} x", "((1*√2)*x)"),
+        (r"\frac{\sqrt{12}}{2}", "((2*√3)/2)"),
+        (r"\sqrt{\frac{1}{2}}", "(1/2*√2)"),
+        (r"\sqrt{4/9}", "2/3"),
+        (r"\left( x \right. \\ \left. + 1 \right) x", "((x + 1)*x)"),
+        (r"\Delta\beta_2 (x + 1)", "(db2*(x + 1))"),
+        (r"2(3) x", "((2*3)*x)"),
     ];
     let symbols = symbols();
     for (text, meaning) in cases {
@@ -136,6 +150,41 @@ fn vectors_are_read_with_and_without_transposition() {
         let components = read_vector(text, &symbols).unwrap_or_else(|mistake| panic!("{text}: {mistake:?}"));
         assert_eq!(components.iter().map(shown).collect::<Vec<_>>(), ["x", "-alpha", "0"], "{text}");
     }
+    // Rows, products and sums, and what each component says.
+    for (text, said) in [
+        (
+            r"\Delta x &= x + 1 \\ &\quad - \alpha \\[2pt] \Delta y &= 2, \\ \Delta z &= 0. \tag{7}",
+            ["((x + 1) + -alpha)", "2", "0"],
+        ),
+        (
+            r"\left\{\begin{array}{l} e_x = x \\ e_y = 2 \\ e_z = \alpha \end{array}\right.",
+            ["x", "2", "alpha"],
+        ),
+        (r"\[ \begin{aligned} x \\ 2 \\ \alpha \end{aligned} \] (12)", ["x", "2", "alpha"]),
+        (r"x \hat{x} + \alpha \, \mathbf{e}_z", ["x", "0", "alpha"]),
+        (r"x \begin{bmatrix} 1 \\ 0 \\ 0 \end{bmatrix} - 2 [0, \alpha, x]^T", ["x", "-(2*alpha)", "-(2*x)"]),
+        (
+            r"\begin{pmatrix} 0 & -1 & 0 \\ 1 & 0 & 0 \\ 0 & 0 & 1 \end{pmatrix} \begin{pmatrix} x \\ 2 \\ \alpha \end{pmatrix}",
+            ["(-1*2)", "x", "alpha"],
+        ),
+        (r"\hat{z} \times [x, 2, \alpha]", ["-2", "x", "0"]),
+        (r"([1, x, 0] \cdot [2, 2, 2]) \, [x, 0, 0]", ["((2 + (x*2))*x)", "0", "0"]),
+        (r"\frac{[x, 2, \alpha]}{2}", ["(x/2)", "(2/2)", "(alpha/2)"]),
+    ] {
+        let components = read_vector(text, &symbols).unwrap_or_else(|mistake| panic!("{text}: {mistake:?}"));
+        assert_eq!(components.iter().map(shown).collect::<Vec<_>>(), said, "{text}");
+    }
+    for (text, place, wanted) in [
+        (r"e_y = x \\ e_x = 2 \\ e_z = 0", "e_y", "named as component y"),
+        (r"e_x = x \\ 2 \\ 0", "2", "a row without `=`"),
+        (r"[x, 2] + [x, 2, 0]", "[x, 2] + [x, 2, 0]", "cannot be added"),
+        (r"[x, 2, 0] [x, 2, 0]", "[x, 2, 0] [x, 2, 0]", "cannot be multiplied"),
+        (r"x + \hat{x}", r"x + \hat{x}", "cannot be added"),
+    ] {
+        let Err(mistake) = read_vector(text, &symbols) else { panic!("{text} was read") };
+        assert!(mistake.message.contains(wanted), "{text}: {}", mistake.message);
+        assert_eq!(&text[mistake.place.clone()], place, "{text}: {}", mistake.message);
+    }
     let components = read_vector(r"(x + 1) \alpha, x", &symbols).unwrap_or_default();
     assert_eq!(components.iter().map(shown).collect::<Vec<_>>(), ["((x + 1)*alpha)", "x"]);
 }
@@ -152,7 +201,7 @@ fn what_cannot_be_read_is_refused_at_its_place() {
         (r"\Delta\beta_2^0", r"\Delta\beta_2^0", r"did you mean `\Delta\beta_2`?"),
         (r"\zeta", r"\zeta", "name it under [symbols]"),
         (r"\bta", r"\bta", r"did you mean `\beta`?"),
-        (r"x sin\beta", "s", r"write `\sin`"),
+        (r"x sinn\beta", "s", r"write `\sin`"),
         (r"\sin", "", "the angle of the function"),
         (r"\sin\cos\beta", r"\cos", "put parentheses around the argument"),
         (r"\sin\beta^2", r"\beta^2", r"write `\sin^2 \beta`"),
@@ -160,7 +209,40 @@ fn what_cannot_be_read_is_refused_at_its_place() {
         (r"(x + 1", "", "where `)` should stand"),
         (r"(x + 1]", "]", "where `)` should stand"),
         (r"x)", ")", "no such bracket is open"),
-        (r"x = 2", "=", "the right-hand side alone"),
+        (r"x + 1 = 2", "+", "the right-hand side alone"),
+        (r"1 = x", "1", "the right-hand side alone"),
+        (r"x = 2 = 2", "=", "two formulas"),
+        (r"x \quad (6) x", r"\quad", "a wide space"),
+        (r"x \quad \beta", r"\quad", "a wide space"),
+        (r"x (6)", "(6)", "the number of the equation"),
+        (r"x 6", "6", "an index"),
+        (r"x \\[3m]", r"\\[3m]", "for a distance"),
+        (r"x \\ \beta", r"\beta", "go on with `+`"),
+        (r"(x \\ \beta)", r"\\", "a line ends within brackets"),
+        (r"x & \beta", "&", "between two factors"),
+        (r"x(\alpha)", r"x(\alpha)", "or a product?"),
+        (r"x/\alpha\beta", r"\alpha\beta", "multiplied?"),
+        (r"\sin\beta/2", r"\sin\beta/", "the angle divided"),
+        (r"x \pm 2", r"\pm", "one claim for each sign"),
+        ("x ± 2", "±", "one claim for each sign"),
+        (r"\arctan x", r"\arctan", "inverse function"),
+        (r"\sqrt{x}", r"\sqrt{x}", "total error"),
+        (r"\sqrt{11}", r"\sqrt{11}", "2, 3, 5 and 7"),
+        (r"\sqrt{-2}", r"\sqrt{-2}", "of -2 is not known"),
+        (r"\sqrt[3]{2}", "[", "square roots"),
+        (r"x < 2", "<", "a bound is a claim"),
+        (r"x + \cdots", r"\cdots", "in full"),
+        (r"\sum x", r"\sum", "write out"),
+        ("x $ x", "$", "without its partner"),
+        ("$x$ $x$ x", "$", "between two dollars"),
+        (r"\tag x", r"\tag", "without braces"),
+        ("1½ x", "½", "a whole number and a fraction"),
+        (
+            r"\begin{bmatrix} 1 & x \\ 2 \end{bmatrix}",
+            r"\begin{bmatrix} 1 & x \\ 2 \end{bmatrix}",
+            "equally long",
+        ),
+        (r"[1, 2, 3]^T", r"[1, 2, 3]", "one amount is wanted"),
         (r"x, x", ",", "one component"),
         (r"2 3", "2 3", r"\cdot"),
         (r"1.2.3", "1.2.3", "no decimal number"),
@@ -168,8 +250,8 @@ fn what_cannot_be_read_is_refused_at_its_place() {
         (r"x^{1.5}", "x^{1.5}", "unknown symbol"),
         (r"(x)^{1.5}", "{1.", "whole number"),
         (r"x_1_2", "_", "second index"),
-        (r"x \sqrt{2}", r"\sqrt", "unexpected"),
-        (r"x | 2", "|", "behind the formula"),
+        (r"x | 2", "|", "an absolute value"),
+        (r"x ! 2", "!", "behind the formula"),
         (r"\frac{1}", "", "a group in braces"),
         (r"x \& 2", r"\&", "no meaning"),
         (r"x_{1", "{", "never closed"),

@@ -1,12 +1,15 @@
 //! The lexer: LaTeX text → tokens with their byte ranges.
 //!
-//! What has no meaning in a formula is dropped here: spaces of any kind, comments, `\left` and `\right` and their
-//! relatives, changes of typeface. Greek letters and signs that were typed as such become their commands. Digits stay
-//! single, because TeX's indices and fractions take single ones: `\frac12`, `x_1`.
+//! What has no meaning in a formula is dropped here: spaces of any kind, comments, labels and tags, `\left` and `\right`
+//! and their relatives, changes of typeface. What was typed or pasted as one character becomes what LaTeX has for it
+//! (`typed`). Digits stay single, because TeX's indices and fractions take single ones: `\frac12`, `x_1`.
 
 use std::ops::Range;
 
-use super::Unreadable;
+use super::commands::{
+    DISTANCES, FUNCTIONS, NOTES, RAMP, RELATIONS, SIZES, SWITCHES, TYPEFACES, WIDE, WITHOUT_MEANING,
+};
+use super::{Unreadable, typed};
 use crate::mistake::Mistake;
 
 /// One token and where it stands.
@@ -25,7 +28,7 @@ pub(super) enum Kind {
     Word(String),
     /// One decimal digit.
     Digit(char),
-    /// One of `+ - * / ^ _ { } ( ) [ ] , ; . & = '`, and what else is typed as one character.
+    /// One of `+ - * × / ^ _ { } ( ) [ ] , ; . & = '`, and what else is typed as one character.
     Mark(char),
     /// `\{` and `\}`, brackets that show.
     OpenBrace,
@@ -37,96 +40,14 @@ pub(super) enum Kind {
     Begin(String),
     /// `\end{…}`
     End(String),
+    /// A wide space, `\quad`.
+    Wide,
+    /// `$`, `\[` and the like: where mathematics begins or ends.
+    Math,
 }
 
-/// Control words that only move ink, or that size the bracket behind them.
-const WITHOUT_MEANING: [&str; 27] = [
-    "left",
-    "right",
-    "big",
-    "Big",
-    "bigg",
-    "Bigg",
-    "bigl",
-    "bigr",
-    "Bigl",
-    "Bigr",
-    "biggl",
-    "biggr",
-    "Biggl",
-    "Biggr",
-    "quad",
-    "qquad",
-    "thinspace",
-    "enspace",
-    "displaystyle",
-    "textstyle",
-    "nonumber",
-    "limits",
-    "rm",
-    "it",
-    "bf",
-    "hfill",
-    "allowbreak",
-];
-
-/// Control words that set what follows in another typeface.
-const TYPEFACES: [&str; 10] = [
-    "mathrm",
-    "mathit",
-    "mathbf",
-    "mathsf",
-    "mathnormal",
-    "boldsymbol",
-    "bm",
-    "text",
-    "textrm",
-    "operatorname",
-];
-
-/// The functions of the language of amounts, as control words.
-pub(super) const FUNCTIONS: [&str; 6] = ["sin", "cos", "tan", "cot", "sec", "csc"];
-
-/// The function of three arguments, `\operatorname{ramp}(x, from, to)`.
-pub(super) const RAMP: &str = "ramp";
-
-/// Characters that may be typed in place of a control word.
-pub(super) const TYPED: [(char, &str); 34] = [
-    ('α', "alpha"),
-    ('β', "beta"),
-    ('γ', "gamma"),
-    ('δ', "delta"),
-    ('ε', "varepsilon"),
-    ('ϵ', "epsilon"),
-    ('ζ', "zeta"),
-    ('η', "eta"),
-    ('θ', "theta"),
-    ('ϑ', "vartheta"),
-    ('ι', "iota"),
-    ('κ', "kappa"),
-    ('λ', "lambda"),
-    ('μ', "mu"),
-    ('ν', "nu"),
-    ('ξ', "xi"),
-    ('π', "pi"),
-    ('ρ', "rho"),
-    ('σ', "sigma"),
-    ('τ', "tau"),
-    ('υ', "upsilon"),
-    ('φ', "varphi"),
-    ('ϕ', "phi"),
-    ('χ', "chi"),
-    ('ψ', "psi"),
-    ('ω', "omega"),
-    ('Γ', "Gamma"),
-    ('Δ', "Delta"),
-    ('Θ', "Theta"),
-    ('Λ', "Lambda"),
-    ('Φ', "Phi"),
-    ('Ψ', "Psi"),
-    ('Ω', "Omega"),
-    ('°', "degree"),
-];
+/// Units in which TeX measures a distance.
+const UNITS: [&str; 11] = ["pt", "mm", "cm", "in", "ex", "em", "bp", "pc", "dd", "cc", "sp"];
 
 /// Splits a text into tokens.
 pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Unreadable> {
@@ -154,19 +75,49 @@ impl Lexer<'_> {
 
     fn token(&mut self, next: char) -> Result<(), Unreadable> {
         let start = self.at;
+        if next.is_ascii_alphabetic() {
+            self.letters(start);
+            return Ok(());
+        }
         self.at += next.len_utf8();
-        match next {
+        if typed::raised(next).is_some() {
+            self.script('^', typed::raised, start);
+            return Ok(());
+        }
+        if typed::lowered(next).is_some() {
+            self.script('_', typed::lowered, start);
+            return Ok(());
+        }
+        if let Some((above, below)) = typed::fraction(next) {
+            if matches!(self.tokens.last(), Some(Token { kind: Kind::Digit(_), place }) if place.end == start)
+            {
+                let message = "a whole number and a fraction next to each other";
+                return Err(
+                    Mistake::new(start..self.at, message).with_help("write `+` or `\\cdot` between them")
+                );
+            }
+            for kind in
+                [Kind::Mark('{'), Kind::Digit(above), Kind::Mark('/'), Kind::Digit(below), Kind::Mark('}')]
+            {
+                self.push(kind, start);
+            }
+            return Ok(());
+        }
+        match typed::normal(next) {
             '\\' => return self.command(start),
             '%' => self.skip_while(|c| c != '\n'),
             '~' => {}
-            c if c.is_whitespace() => {}
-            '−' | '–' => self.push(Kind::Mark('-'), start),
-            '·' | '⋅' | '×' => self.push(Kind::Mark('*'), start),
-            '′' => self.push(Kind::Mark('\''), start),
+            '$' => {
+                self.skip_while(|c| c == '$');
+                self.push(Kind::Math, start);
+            }
+            ':' if self.peek() == Some('=') => {}
+            c if typed::is_invisible(c) => {}
             c if c.is_ascii_digit() => self.push(Kind::Digit(c), start),
+            '{' if self.switched(start) => {}
             c => {
-                let kind = match TYPED.iter().find(|(typed, _)| *typed == c) {
-                    Some((_, command)) => Kind::Command((*command).to_owned()),
+                let kind = match typed::command(c) {
+                    Some(command) => Kind::Command(command.to_owned()),
                     None if c.is_alphabetic() => Kind::Word(c.to_string()),
                     None => Kind::Mark(c),
                 };
@@ -182,6 +133,38 @@ impl Lexer<'_> {
         }
     }
 
+    /// Letters are symbols of their own; a run of letters that is the name of a function is the function.
+    fn letters(&mut self, start: usize) {
+        self.skip_while(|c| c.is_ascii_alphabetic());
+        let run = &self.text[start..self.at];
+        if FUNCTIONS.contains(&run) {
+            let function = Kind::Command(run.to_owned());
+            return self.push(function, start);
+        }
+        for (offset, letter) in run.char_indices() {
+            let place = start + offset..start + offset + 1;
+            self.tokens.push(Token { kind: Kind::Word(letter.to_string()), place });
+        }
+    }
+
+    /// Raised or lowered characters, as an index in braces.
+    fn script(&mut self, mark: char, meaning: fn(char) -> Option<&'static str>, start: usize) {
+        self.skip_while(|c| meaning(c).is_some());
+        let place = start..self.at;
+        let mut push = |kind| self.tokens.push(Token { kind, place: place.clone() });
+        push(Kind::Mark(mark));
+        push(Kind::Mark('{'));
+        for c in self.text[place.clone()].chars().filter_map(meaning).flat_map(str::chars) {
+            push(match typed::command(c) {
+                Some(command) => Kind::Command(command.to_owned()),
+                None if c.is_ascii_digit() => Kind::Digit(c),
+                None if c == '-' => Kind::Mark(c),
+                None => Kind::Word(c.to_string()),
+            });
+        }
+        push(Kind::Mark('}'));
+    }
+
     /// What follows a backslash.
     fn command(&mut self, start: usize) -> Result<(), Unreadable> {
         let name_start = self.at;
@@ -191,18 +174,48 @@ impl Lexer<'_> {
             return self.control_symbol(start);
         }
         match name.as_str() {
-            name if WITHOUT_MEANING.contains(&name) => {}
+            name if WITHOUT_MEANING.contains(&name) => {
+                if SIZES.contains(&name) {
+                    self.skip_while(char::is_whitespace);
+                    // `\left.` is no bracket.
+                    self.at += usize::from(self.peek() == Some('.'));
+                }
+            }
+            name if WIDE.contains(&name) => self.push(Kind::Wide, start),
+            name if NOTES.contains(&name) => {
+                self.note(start, name)?;
+            }
+            name if DISTANCES.contains(&name) => {
+                self.note(start, name)?;
+                self.push(Kind::Wide, start);
+            }
+            "phantom" | "hphantom" | "vphantom" | "color" => self.note(start, &name)?,
             name if TYPEFACES.contains(&name) => self.typeface(start),
+            name if RELATIONS.contains(&name) => self.push(Kind::Mark('='), start),
             "begin" | "end" => self.environment(start, name == "begin")?,
-            "cdot" | "times" | "ast" => self.push(Kind::Mark('*'), start),
+            "cdot" | "ast" | "bullet" => self.push(Kind::Mark('*'), start),
+            "times" => self.push(Kind::Mark('×'), start),
             "div" => self.push(Kind::Mark('/'), start),
             "lbrack" => self.push(Kind::Mark('['), start),
             "rbrack" => self.push(Kind::Mark(']'), start),
+            "lbrace" => self.push(Kind::OpenBrace, start),
+            "rbrace" => self.push(Kind::CloseBrace, start),
             "prime" => self.push(Kind::Mark('\''), start),
-            "circ" => self.push(Kind::Command("degree".to_owned()), start),
+            "circ" | "textdegree" => self.push(Kind::Command("degree".to_owned()), start),
+            "cr" | "newline" => self.push(Kind::Row, start),
             _ => self.push(Kind::Command(name), start),
         }
         Ok(())
+    }
+
+    /// The argument of a command that is dropped with it.
+    fn note(&mut self, start: usize, command: &str) -> Result<(), Unreadable> {
+        let end = self.at;
+        self.at += usize::from(self.peek() == Some('*'));
+        self.braced().map(|_| ()).ok_or_else(|| {
+            Mistake::new(start..end, format!("`\\{command}` without braces"))
+                .with_help(format!("`\\{command}{{…}}`"))
+        })
     }
 
     /// A backslash and one character that is no letter.
@@ -212,10 +225,11 @@ impl Lexer<'_> {
         };
         self.at += symbol.len_utf8();
         match symbol {
-            '\\' => self.push(Kind::Row, start),
+            '\\' => return self.row(start),
             '{' => self.push(Kind::OpenBrace, start),
             '}' => self.push(Kind::CloseBrace, start),
-            ',' | ';' | ':' | '!' | '>' => {}
+            '[' | ']' | '(' | ')' => self.push(Kind::Math, start),
+            ',' | ';' | ':' | '!' | '>' | '/' => {}
             c if c.is_whitespace() => {}
             c => {
                 let message = format!("`\\{c}` has no meaning in a formula");
@@ -225,27 +239,85 @@ impl Lexer<'_> {
         Ok(())
     }
 
+    /// `\\`, `\\*`, `\\[2pt]`.
+    fn row(&mut self, start: usize) -> Result<(), Unreadable> {
+        self.at += usize::from(self.peek() == Some('*'));
+        let end = self.at;
+        self.skip_while(char::is_whitespace);
+        if self.peek() == Some('[') {
+            let open = self.at;
+            let inside = self.text[open + 1..].split(']').next().unwrap_or_default();
+            if !is_distance(inside) {
+                let place = start..(open + inside.len() + 2).min(self.text.len());
+                let message = format!("TeX takes `[{inside}]` behind `\\\\` for a distance, and it is none");
+                return Err(Mistake::new(place, message)
+                    .with_help(r"write `\\[2pt]`, or `\\{}` if the bracket begins the next row"));
+            }
+            self.at = open + inside.len() + 2;
+            self.push(Kind::Row, start);
+            return Ok(());
+        }
+        self.at = end;
+        self.push(Kind::Row, start);
+        self.skip_while(char::is_whitespace);
+        if self.text[self.at..].starts_with("{}") {
+            self.at += 2;
+        }
+        Ok(())
+    }
+
     /// A typeface is dropped; a word that it sets is one symbol, or the function of that name.
     fn typeface(&mut self, start: usize) {
         let after_command = self.at;
         self.skip_while(char::is_whitespace);
         if self.peek() == Some('{') {
-            let word_start = self.at + 1;
-            self.at = word_start;
-            self.skip_while(|c| c.is_alphanumeric() || c == ' ');
-            let word = self.text[word_start..self.at].trim();
-            if self.peek() == Some('}') && word.chars().all(char::is_alphabetic) && !word.is_empty() {
-                let kind = if FUNCTIONS.contains(&word) || word == RAMP {
-                    Kind::Command(word.to_owned())
-                } else {
-                    Kind::Word(word.to_owned())
-                };
-                self.at += 1;
-                self.push(kind, start);
+            self.at += 1;
+            if self.word(start) {
                 return;
             }
         }
         self.at = after_command;
+    }
+
+    /// `{\rm sin}`: a change of typeface at the start of a group, and the word behind it.
+    fn switched(&mut self, start: usize) -> bool {
+        let inside = self.text[self.at..].trim_start();
+        let Some(command) = inside.strip_prefix('\\') else { return false };
+        let Some(switch) = SWITCHES.iter().find(|switch| {
+            command.strip_prefix(**switch).is_some_and(|rest| rest.starts_with(char::is_whitespace))
+        }) else {
+            return false;
+        };
+        let after_brace = self.at;
+        self.at = self.text.len() - command.len() + switch.len();
+        let is_word = self.word(start);
+        if !is_word {
+            self.at = after_brace;
+        }
+        is_word
+    }
+
+    /// Letters up to the end of the group, as one symbol.
+    fn word(&mut self, start: usize) -> bool {
+        let word_start = self.at;
+        self.skip_while(|c| c.is_alphanumeric() || c == ' ');
+        let word = self.text[word_start..self.at].trim();
+        if self.peek() != Some('}') || word.is_empty() || !word.chars().all(char::is_alphabetic) {
+            return false;
+        }
+        let mut letters = word.chars().map(typed::normal);
+        let typed = match (letters.next(), letters.next()) {
+            (Some(letter), None) => typed::command(letter),
+            _ => None,
+        };
+        let kind = match typed {
+            Some(command) => Kind::Command(command.to_owned()),
+            None if FUNCTIONS.contains(&word) || word == RAMP => Kind::Command(word.to_owned()),
+            None => Kind::Word(word.to_owned()),
+        };
+        self.at += 1;
+        self.push(kind, start);
+        true
     }
 
     /// `\begin{bmatrix}`, `\begin{array}{c}`, `\end{…}`.
@@ -269,4 +341,12 @@ impl Lexer<'_> {
         self.at += length + 2;
         Some(inside[..length].trim().to_owned())
     }
+}
+
+/// `2pt`, `-.5ex`, `1.2 em`.
+fn is_distance(text: &str) -> bool {
+    let text = text.trim();
+    let Some(unit) = UNITS.iter().find(|unit| text.ends_with(**unit)) else { return false };
+    let number = text[..text.len() - unit.len()].trim().trim_start_matches(['+', '-']);
+    !number.is_empty() && number.parse::<f64>().is_ok_and(f64::is_finite)
 }

@@ -2,25 +2,13 @@
 //! angles.
 
 use super::Monomial;
-use crate::algebra::{Poly, Rational, Term};
+use crate::algebra::{Poly, Rational};
 
 /// `Σ coefficient·monomial`, times a function of the angles whose coefficients are whole, without common divisor, the
 /// first of them positive.
 pub(super) struct Group {
     pub(super) monomials: Vec<(Rational, Monomial)>,
     pub(super) angular: Poly,
-}
-
-impl Group {
-    /// A monomial as a term of its own, its sign turned if asked.
-    pub(super) fn term((coefficient, monomial): &(Rational, Monomial), turned: bool) -> Term {
-        Term {
-            coefficient: if turned { -coefficient } else { coefficient.clone() },
-            powers: monomial.clone(),
-            waves: Vec::new(),
-            poles: Vec::new(),
-        }
-    }
 }
 
 /// The groups of a polynomial, in the order in which their first monomials come in the canonical form.

@@ -1,17 +1,24 @@
 //! Formulas as a paper prints them: collected by error, in the symbols of the chain.
 //!
 //! [`text`] is the plain syntax of amounts, and reads back; [`latex`] uses each symbol's printed form;
-//! [`markdown`] is the same between dollars. [`form`] prints the three components of a form.
+//! [`markdown`] is the same between dollars. [`form`] prints the three components of a form. Of a few exact ways to write
+//! the functions of angles the shortest is taken (`pieces`); a [`Hand`] says which ways a paper has itself.
 
 mod collect;
 mod notation;
+mod pieces;
+#[cfg(test)]
+mod tests;
 
-use crate::algebra::{Poly, Rational, Term, WaveFactor};
+use crate::algebra::{Poly, Rational};
 use crate::chain::Chain;
 use crate::forms::Form;
 use crate::symbol::SymbolId;
-use collect::{Group, groups};
+use collect::groups;
 use notation::{Latex, Notation, Text};
+use pieces::Piece;
+
+pub use pieces::Hand;
 
 /// How a formula is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,13 +34,13 @@ pub enum Style {
 /// A formula in the plain syntax of amounts.
 #[must_use]
 pub fn text(poly: &Poly, chain: &Chain) -> String {
-    write_sum(poly, chain, &Text)
+    write_sum(poly, chain, &Text, &Hand::default())
 }
 
 /// A formula in LaTeX, without delimiters.
 #[must_use]
 pub fn latex(poly: &Poly, chain: &Chain) -> String {
-    write_sum(poly, chain, &Latex)
+    write_sum(poly, chain, &Latex, &Hand::default())
 }
 
 /// A formula in LaTeX between dollars.
@@ -49,6 +56,16 @@ pub fn poly(poly: &Poly, chain: &Chain, style: Style) -> String {
         Style::Text => text(poly, chain),
         Style::Latex => latex(poly, chain),
         Style::Markdown => markdown(poly, chain),
+    }
+}
+
+/// A formula in a style and in the way of a paper; its abbreviations stand in LaTeX alone.
+#[must_use]
+pub fn by_hand(poly: &Poly, chain: &Chain, style: Style, hand: &Hand) -> String {
+    match style {
+        Style::Text => text(poly, chain),
+        Style::Latex => write_sum(poly, chain, &Latex, hand),
+        Style::Markdown => format!("${}$", write_sum(poly, chain, &Latex, hand)),
     }
 }
 
@@ -85,17 +102,18 @@ struct Addend {
     body: String,
 }
 
-fn write_sum(poly: &Poly, chain: &Chain, notation: &dyn Notation) -> String {
-    let write = |group: &Group| {
+fn write_sum(poly: &Poly, chain: &Chain, notation: &dyn Notation, hand: &Hand) -> String {
+    let writer = Writer { chain, notation, hand };
+    let mut addends = Vec::new();
+    for group in groups(poly) {
         // Monomials that no function of the angles stands beside need no parentheses.
         if group.angular == Poly::one() {
-            let terms = group.monomials.iter().map(|pair| Group::term(pair, false));
-            terms.map(|term| write_term(&term, chain, notation)).collect()
+            addends.extend(group.monomials.iter().map(|pair| writer.monomial(pair, false)));
         } else {
-            vec![write_group(group, chain, notation)]
+            addends.push(writer.group(group.monomials, pieces::shortest(&group.angular, hand)));
         }
-    };
-    join(&groups(poly).iter().flat_map(write).collect::<Vec<_>>())
+    }
+    join(&addends)
 }
 
 fn join(addends: &[Addend]) -> String {
@@ -112,74 +130,114 @@ fn join(addends: &[Addend]) -> String {
     if result.is_empty() { "0".to_owned() } else { result }
 }
 
-/// `(sum of monomials) · shared sines and cosines · (sum of functions of angles)`, with what is one taken out.
-fn write_group(group: &Group, chain: &Chain, notation: &dyn Notation) -> Addend {
-    let mut waves: Vec<Term> = group.angular.terms().collect();
-    if let ([(coefficient, monomial)], [term]) = (group.monomials.as_slice(), waves.as_slice()) {
-        let coefficient = coefficient * &term.coefficient;
-        let term = Term { coefficient, powers: monomial.clone(), ..term.clone() };
-        return write_term(&term, chain, notation);
-    }
-    let sum = |terms: Vec<Term>| {
-        join(&terms.iter().map(|term| write_term(term, chain, notation)).collect::<Vec<_>>())
-    };
-    let negative = group.monomials.first().is_some_and(|(coefficient, _)| coefficient.is_negative());
-    let monomials: Vec<Term> = group.monomials.iter().map(|pair| Group::term(pair, negative)).collect();
-    let monomials = match monomials.as_slice() {
-        [only] if only.powers.is_empty() && only.coefficient.is_one() => None,
-        [only] => Some(write_term(only, chain, notation).body),
-        _ => Some(notation.parentheses(&sum(monomials))),
-    };
-    let shared = take_shared(&mut waves).map(|term| write_term(&term, chain, notation).body);
-    let angular = match waves.as_slice() {
-        [only] if only.coefficient.is_one() && only.waves.is_empty() && only.poles.is_empty() => None,
-        [only] => Some(write_term(only, chain, notation).body),
-        _ if monomials.is_none() && shared.is_none() && !negative => {
-            return Addend { negative, body: sum(waves) };
-        }
-        _ => Some(notation.parentheses(&sum(waves))),
-    };
-    let body = notation.product(&monomials.into_iter().chain(shared).chain(angular).collect::<Vec<_>>());
-    Addend { negative, body }
+/// A monomial with its number.
+type Numbered = (Rational, Monomial);
+
+struct Writer<'a> {
+    chain: &'a Chain,
+    notation: &'a dyn Notation,
+    hand: &'a Hand,
 }
 
-/// Takes the sines and cosines that all of several terms have out of them.
-fn take_shared(terms: &mut [Term]) -> Option<Term> {
-    let [first, others @ ..] = &*terms else { return None };
-    let free = |term: &Term, wave: &WaveFactor| {
-        term.waves.contains(wave) && term.poles.iter().all(|pole| pole.symbol != wave.symbol)
-    };
-    let shared = first.waves.iter().filter(|wave| free(first, wave));
-    let shared: Vec<WaveFactor> =
-        shared.filter(|wave| others.iter().all(|term| free(term, wave))).copied().collect();
+impl Writer<'_> {
+    /// `(sum of monomials) · shared functions · (sum of functions of angles)`, with what is one taken out.
+    fn group(&self, mut monomials: Vec<Numbered>, mut pieces: Vec<Piece>) -> Addend {
+        if let ([(coefficient, monomial)], [piece]) = (monomials.as_slice(), pieces.as_slice()) {
+            return self.product(&(coefficient * &piece.coefficient), monomial, Some(piece));
+        }
+        take_number(&mut monomials, &mut pieces);
+        let sum = |addends: Vec<Addend>| join(&addends);
+        let negative = monomials.first().is_some_and(|(coefficient, _)| coefficient.is_negative());
+        let written = match monomials.as_slice() {
+            [(coefficient, monomial)] if monomial.is_empty() && coefficient.abs().is_one() => None,
+            [only] => Some(self.monomial(only, negative).body),
+            several => {
+                let addends = several.iter().map(|pair| self.monomial(pair, negative)).collect();
+                Some(self.notation.parentheses(&sum(addends)))
+            }
+        };
+        let shared = take_shared(&mut pieces).map(|piece| self.piece(&piece).body);
+        let angular = match pieces.as_slice() {
+            [only] if only.coefficient.is_one() && only.functions.is_empty() && only.poles.is_empty() => None,
+            [only] => Some(self.piece(only).body),
+            several => {
+                let addends: Vec<Addend> = several.iter().map(|piece| self.piece(piece)).collect();
+                if written.is_none() && shared.is_none() && !negative {
+                    return Addend { negative, body: sum(addends) };
+                }
+                Some(self.notation.parentheses(&sum(addends)))
+            }
+        };
+        let factors: Vec<String> = written.into_iter().chain(shared).chain(angular).collect();
+        Addend { negative, body: self.notation.product(&factors) }
+    }
+
+    fn monomial(&self, (coefficient, monomial): &Numbered, turned: bool) -> Addend {
+        let coefficient = if turned { -coefficient } else { coefficient.clone() };
+        self.product(&coefficient, monomial, None)
+    }
+
+    fn piece(&self, piece: &Piece) -> Addend {
+        self.product(&piece.coefficient, &Vec::new(), Some(piece))
+    }
+
+    fn product(&self, coefficient: &Rational, powers: &Monomial, piece: Option<&Piece>) -> Addend {
+        let mut factors = Vec::new();
+        let magnitude = coefficient.abs();
+        let bare = powers.is_empty()
+            && piece.is_none_or(|piece| piece.functions.is_empty() && piece.poles.is_empty());
+        if bare || !magnitude.is_one() {
+            factors.push(self.notation.number(&magnitude));
+        }
+        for &(symbol, power) in powers {
+            factors.push(self.notation.power(self.chain.symbol(symbol), power));
+        }
+        for function in piece.iter().flat_map(|piece| &piece.functions) {
+            factors.push(match self.hand.abbreviation(function) {
+                Some(printed) => self.notation.abbreviated(printed, function.power),
+                None => self.notation.function(self.chain, function),
+            });
+        }
+        for (pole, over) in piece.iter().flat_map(|piece| &piece.poles) {
+            factors.push(self.notation.pole(self.chain.symbol(pole.symbol), pole, *over));
+        }
+        Addend { negative: coefficient.is_negative(), body: self.notation.product(&factors) }
+    }
+}
+
+/// Moves the number that all pieces share, with the sign of the first, to the monomials.
+fn take_number(monomials: &mut [Numbered], pieces: &mut [Piece]) {
+    let measure = pieces
+        .iter()
+        .map(|piece| piece.coefficient.clone())
+        .reduce(|a, b| a.common_measure(&b))
+        .unwrap_or_default();
+    let negative = pieces.first().is_some_and(|piece| piece.coefficient.is_negative());
+    let measure = if negative { -&measure.abs() } else { measure.abs() };
+    let Some(inverse) = measure.recip() else { return };
+    for piece in pieces {
+        piece.coefficient = &piece.coefficient * &inverse;
+    }
+    for (coefficient, _) in monomials {
+        *coefficient = &*coefficient * &measure;
+    }
+}
+
+/// Takes the functions that all of several pieces have out of them.
+fn take_shared(pieces: &mut [Piece]) -> Option<Piece> {
+    let [first, others @ ..] = &*pieces else { return None };
+    let has = |piece: &Piece, function| piece.functions.contains(function);
+    let shared: Vec<pieces::Function> = first
+        .functions
+        .iter()
+        .filter(|function| others.iter().all(|piece| has(piece, function)))
+        .cloned()
+        .collect();
     if others.is_empty() || shared.is_empty() {
         return None;
     }
-    for term in &mut *terms {
-        term.waves.retain(|wave| !shared.contains(wave));
+    for piece in &mut *pieces {
+        piece.functions.retain(|function| !shared.contains(function));
     }
-    Some(Term { coefficient: Rational::ONE, powers: Vec::new(), waves: shared, poles: Vec::new() })
-}
-
-fn write_term(term: &Term, chain: &Chain, notation: &dyn Notation) -> Addend {
-    let negative = term.coefficient.is_negative();
-    let mut factors = Vec::new();
-    let magnitude = term.coefficient.abs();
-    let bare = term.powers.is_empty() && term.waves.is_empty() && term.poles.is_empty();
-    if bare || !magnitude.is_one() {
-        factors.push(notation.number(&magnitude));
-    }
-    for &(symbol, power) in &term.powers {
-        factors.push(notation.power(chain.symbol(symbol), power));
-    }
-    for wave in &term.waves {
-        if !term.poles.iter().any(|pole| pole.symbol == wave.symbol) {
-            factors.push(notation.wave(chain.symbol(wave.symbol), wave));
-        }
-    }
-    for pole in &term.poles {
-        let over = term.waves.iter().any(|wave| wave.symbol == pole.symbol);
-        factors.push(notation.pole(chain.symbol(pole.symbol), pole, over));
-    }
-    Addend { negative, body: notation.product(&factors) }
+    Some(Piece { coefficient: Rational::ONE, functions: shared, poles: Vec::new() })
 }

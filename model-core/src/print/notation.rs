@@ -1,6 +1,8 @@
 //! The two ways of writing the parts of a formula.
 
-use crate::algebra::{Pole, Rational, Wave, WaveFactor};
+use super::pieces::{Angle, Function};
+use crate::algebra::{Pole, Rational};
+use crate::chain::Chain;
 use crate::symbol::Symbol;
 
 /// How the parts of a formula are written.
@@ -9,8 +11,10 @@ pub(super) trait Notation {
     fn number(&self, value: &Rational) -> String;
     /// A symbol to a power ≥ 1.
     fn power(&self, symbol: &Symbol, power: u32) -> String;
-    /// A sine or cosine.
-    fn wave(&self, symbol: &Symbol, wave: &WaveFactor) -> String;
+    /// A power of a sine or cosine.
+    fn function(&self, chain: &Chain, function: &Function) -> String;
+    /// A power of what is abbreviated.
+    fn abbreviated(&self, printed: &str, power: u32) -> String;
     /// One over a power of a sine or cosine; `over` puts the other one of the two above it.
     fn pole(&self, symbol: &Symbol, pole: &Pole, over: bool) -> String;
     /// A sum as a factor.
@@ -31,12 +35,18 @@ impl Notation for Text {
         if power == 1 { symbol.name.clone() } else { format!("{}^{power}", symbol.name) }
     }
 
-    fn wave(&self, symbol: &Symbol, wave: &WaveFactor) -> String {
-        let function = function(wave.wave);
-        match wave.harmonic {
-            1 => format!("{function}({})", symbol.name),
-            harmonic => format!("{function}({harmonic}*{})", symbol.name),
-        }
+    fn function(&self, chain: &Chain, function: &Function) -> String {
+        let name = name(function);
+        let angle = sum(&function.angle, |id, times| {
+            let symbol = &chain.symbol(id).name;
+            if times == 1 { symbol.clone() } else { format!("{times}*{symbol}") }
+        });
+        let power = if function.power == 1 { String::new() } else { format!("^{}", function.power) };
+        format!("{name}({angle}){power}")
+    }
+
+    fn abbreviated(&self, printed: &str, power: u32) -> String {
+        if power == 1 { printed.to_owned() } else { format!("{printed}^{power}") }
     }
 
     fn pole(&self, symbol: &Symbol, pole: &Pole, over: bool) -> String {
@@ -82,11 +92,25 @@ impl Notation for Latex {
         }
     }
 
-    fn wave(&self, symbol: &Symbol, wave: &WaveFactor) -> String {
-        let function = function(wave.wave);
-        match wave.harmonic {
-            1 => format!("\\{function} {}", symbol.latex),
-            harmonic => format!("\\{function} {harmonic} {}", symbol.latex),
+    fn function(&self, chain: &Chain, function: &Function) -> String {
+        let name = name(function);
+        let angle = sum(&function.angle, |id, times| {
+            let symbol = &chain.symbol(id).latex;
+            if times == 1 { symbol.clone() } else { format!("{times} {symbol}") }
+        });
+        let power = if function.power == 1 { String::new() } else { format!("^{{{}}}", function.power) };
+        if function.angle.len() == 1 {
+            format!("\\{name}{power} {angle}")
+        } else {
+            format!("\\{name}{power}\\left({angle}\\right)")
+        }
+    }
+
+    fn abbreviated(&self, printed: &str, power: u32) -> String {
+        match power {
+            1 => printed.to_owned(),
+            _ if printed.contains('^') => format!("\\left({printed}\\right)^{{{power}}}"),
+            _ => format!("{printed}^{{{power}}}"),
         }
     }
 
@@ -113,9 +137,21 @@ impl Notation for Latex {
     }
 }
 
-fn function(wave: Wave) -> &'static str {
-    match wave {
-        Wave::Cos => "cos",
-        Wave::Sin => "sin",
+fn name(function: &Function) -> &'static str {
+    if function.is_sine { "sin" } else { "cos" }
+}
+
+/// Multiples of angles, added up.
+fn sum(angle: &Angle, times: impl Fn(crate::SymbolId, u32) -> String) -> String {
+    let mut text = String::new();
+    for (index, &(id, multiple)) in angle.iter().enumerate() {
+        text.push_str(match (index, multiple < 0) {
+            (0, false) => "",
+            (0, true) => "-",
+            (_, false) => " + ",
+            (_, true) => " - ",
+        });
+        text.push_str(&times(id, multiple.unsigned_abs()));
     }
+    text
 }

@@ -4,7 +4,7 @@
 
 use model_core::ObservableId;
 use model_core::certificate::{Certificate, Declared, Refusal};
-use model_core::checker::{Checker, ClosedForm, PrintedVector, errors_named};
+use model_core::checker::{Checker, ClosedForm, Order, PrintedVector, errors_named};
 use model_core::latex::PrintedSymbols;
 
 /// The axioms of Coq's real numbers, as `Print Assumptions` prints them.
@@ -55,8 +55,14 @@ pub fn add(
     kept.dedup();
     let printed = PrintedVector::read(chain, &PrintedSymbols::of_chain(chain), &claim.components)
         .expect("a vector that can be read");
-    let form =
-        ClosedForm { observable: observable(declared, claim.observable), order: claim.order, kept, printed };
+    let form = ClosedForm {
+        observable: observable(declared, claim.observable),
+        order: Order::UpTo(claim.order),
+        only: None,
+        faces: None,
+        kept,
+        printed,
+    };
     let verdict = Checker::new(chain).closed_form(&form).expect("a closed form");
     certificate.closed_form(name, &form, &verdict)?;
     Ok(verdict.differences.is_empty())

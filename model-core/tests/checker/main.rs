@@ -6,7 +6,7 @@ mod slips;
 
 use std::path::Path;
 
-use model_core::checker::{Checker, ClosedForm, FormVerdict, PrintedVector};
+use model_core::checker::{Checker, ClosedForm, FormVerdict, Order, PrintedVector};
 use model_core::latex::PrintedSymbols;
 use model_core::{Axis, Chain, ObservableId, SymbolKind, forms};
 
@@ -43,7 +43,8 @@ fn verdict(
     let printed = PrintedVector::read(chain, &PrintedSymbols::of_chain(chain), &texts)
         .unwrap_or_else(|mistakes| panic!("{texts:#?}\n{mistakes:#?}"));
     let kept = chain.symbols_of(SymbolKind::Error).collect();
-    checker.closed_form(&ClosedForm { observable, order: 1, kept, printed }).unwrap()
+    let order = Order::UpTo(1);
+    checker.closed_form(&ClosedForm { observable, order, only: None, faces: None, kept, printed }).unwrap()
 }
 
 #[test]

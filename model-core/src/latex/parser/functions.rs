@@ -10,7 +10,17 @@ use crate::mistake::Mistake;
 impl Parser<'_> {
     /// A function with its power and argument: `\sin^2 \beta`, `\cos(\alpha + \beta)`, `\sin 2\beta`.
     pub(super) fn function(&mut self, function: Function, name: &str) -> Result<Formula, Unreadable> {
-        let start = self.here().start;
+        let place = self.here();
+        let start = place.start;
+        // Letters in a row are the function, unless each of them is a symbol.
+        let letters = &self.text[place.clone()];
+        if letters == name && letters.chars().all(|letter| self.symbols.knows(letter)) {
+            return Err(Mistake::new(
+                place,
+                format!("is this the function or a product of {name}'s letters?"),
+            )
+            .with_help(format!("for the function write `\\{name}`")));
+        }
         self.advance();
         let mut power = None;
         if self.is_at_mark('^') {
@@ -26,8 +36,18 @@ impl Parser<'_> {
             }
             power = Some(value);
         }
+        let grouped = self.peek().is_some_and(|token| {
+            matches!(token.kind, Kind::OpenBrace | Kind::Mark('(' | '[' | '{')) || is_stacked(&token.kind)
+        });
         let argument = self.function_argument()?;
         let end = argument.place.end;
+        if self.is_at_mark('/')
+            && !grouped
+            && self.tokens.get(self.at + 1).is_some_and(|next| matches!(next.kind, Kind::Digit(_)))
+        {
+            return Err(Mistake::new(start..self.here().end, "is the angle divided, or the function?")
+                .with_help(format!(r"write `\{name}\frac{{…}}{{…}}` or `\frac{{\{name} …}}{{…}}`")));
+        }
         let call = Expr { node: Node::Call(function, Box::new(argument)), place: start..end };
         match power {
             Some(power) => Ok(raised(call, power, end)),
@@ -44,11 +64,11 @@ impl Parser<'_> {
             return Err(self.unexpected("`(`").with_help(r"write `\operatorname{ramp}(x, from, to)`"));
         }
         self.advance();
-        let of = self.formula()?;
+        let of = self.formula()?.scalar()?;
         self.expect_closer(&Kind::Mark(','))?;
-        let from = self.formula()?;
+        let from = self.formula()?.scalar()?;
         self.expect_closer(&Kind::Mark(','))?;
-        let to = self.formula()?;
+        let to = self.formula()?.scalar()?;
         let end = self.here().end;
         self.expect_closer(&Kind::Mark(')'))?;
         self.powered(Expr { node: Node::Ramp(Box::new([of, from, to])), place: start..end })
@@ -67,18 +87,18 @@ impl Parser<'_> {
             return Err(self.unexpected("the angle of the function"));
         };
         match &token.kind {
-            Kind::OpenBrace | Kind::Mark('(' | '[' | '{') => self.group(),
+            Kind::OpenBrace | Kind::Mark('(' | '[' | '{') => self.group()?.scalar(),
             Kind::Digit(_) | Kind::Mark('.') => {
                 let number = self.number()?;
                 let number = self.powered(number)?;
                 self.behind_number(number)
             }
             Kind::Command(name) if is_fraction(name) => {
-                let fraction = self.fraction()?;
+                let fraction = self.fraction()?.scalar()?;
                 if is_number(&fraction) { self.behind_number(fraction) } else { Ok(fraction) }
             }
             kind if glyph::starts(kind) => {
-                let symbol = self.symbol()?;
+                let symbol = self.symbol()?.scalar()?;
                 if let Node::Pow(..) = symbol.node {
                     return Err(Mistake::new(
                         symbol.place,
@@ -122,7 +142,11 @@ pub(super) fn function(name: &str) -> Option<Function> {
     })
 }
 
-fn is_number(formula: &Formula) -> bool {
+fn is_stacked(kind: &Kind) -> bool {
+    matches!(kind, Kind::Command(name) if is_fraction(name))
+}
+
+pub(super) fn is_number(formula: &Formula) -> bool {
     match &formula.node {
         Node::Number(_) => true,
         Node::Neg(inside) => is_number(inside),

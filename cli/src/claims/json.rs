@@ -1,0 +1,98 @@
+//! Verdicts for programs.
+
+use model_core::checker::{Difference, Means, Outcome, Verdict};
+use model_core::print;
+use serde_json::{Value, json};
+
+use super::show::{Checked, place_in_text, product};
+use super::{ClaimsFile, NamedClaim};
+
+/// One verdict.
+pub fn as_json(file: &ClaimsFile, checked: &Checked<'_>) -> Value {
+    let verdict = match checked.verdict.outcome() {
+        Outcome::Holds => "holds",
+        Outcome::Differs => "differs",
+        Outcome::Undecided => "open",
+    };
+    let means = match checked.verdict.means() {
+        Means::Decided => "decided",
+        Means::Sampled => "sampled",
+        Means::Proven => "proven",
+    };
+    let mut claim =
+        json!({"name": checked.claim.name, "verdict": verdict, "means": means, "differences": []});
+    let names = |ids: &[model_core::SymbolId]| -> Vec<Value> {
+        ids.iter().map(|&id| Value::from(file.chain.symbol(id).name.as_str())).collect()
+    };
+    match &checked.verdict {
+        Verdict::ClosedForm(form) => {
+            claim["differences"] = form
+                .differences
+                .iter()
+                .map(|difference| difference_as_json(file, checked.claim, difference))
+                .collect();
+            if !form.differences.is_empty() {
+                claim["diagnosis"] =
+                    form.slips.iter().map(|slip| Value::from(slip.describe(&file.chain))).collect();
+                claim["corrected"] = form.corrected(&file.printed).to_vec().into();
+            }
+        }
+        Verdict::Total(total) => {
+            let text = |value: &model_core::checker::Fraction| value.show(&file.chain, print::Style::Text);
+            claim["differences"] = total
+                .differences
+                .iter()
+                .map(|(error, printed, derived)| {
+                    json!({
+                        "component": "total",
+                        "error": print::text(&product(error), &file.chain),
+                        "printed": text(printed),
+                        "derived": text(derived),
+                    })
+                })
+                .collect();
+        }
+        Verdict::Comparison(measured) => {
+            claim["measured"] =
+                json!({"error": measured.error, "against": measured.against, "ratio": measured.ratio});
+        }
+        Verdict::Count(counted) => {
+            claim["counted"] = json!({"found": counted.found, "errors": counted.names});
+        }
+        Verdict::Rank(rank) => {
+            claim["rank"] =
+                json!({"found": rank.rank, "errors": rank.errors, "exceptions": names(&rank.exceptions)});
+        }
+        Verdict::Size(size) => {
+            claim["size"] = json!({"found": size.found, "between": size.between, "poses": size.poses});
+        }
+        Verdict::Bound(bound) => {
+            claim["bound"] = json!({"proven": bound.proven, "found": bound.found});
+        }
+    }
+    claim
+}
+
+/// Coefficients in the plain syntax of amounts, for programs, and in LaTeX.
+fn difference_as_json(file: &ClaimsFile, claim: &NamedClaim, difference: &Difference) -> Value {
+    let (chain, printed) = (&file.chain, &file.printed);
+    let mut value = json!({
+        "component": difference.component.to_string(),
+        "error": difference.error_name(chain),
+        "printed": difference.printed.show(chain, print::Style::Text),
+        "derived": difference.derived.show(chain, print::Style::Text),
+        "latex": {
+            "error": print::latex(&difference.error_product(), printed),
+            "printed": difference.printed.show(printed, print::Style::Latex),
+            "derived": difference.derived.show(printed, print::Style::Latex),
+        },
+    });
+    if let Some(slip) = &difference.slip {
+        value["slip"] = slip.describe(chain, print::Style::Text).into();
+    }
+    if let Some((_, before, width)) = place_in_text(claim, difference) {
+        // Characters of the component as printed.
+        value["place"] = json!({"column": before + 1, "width": width});
+    }
+    value
+}

@@ -1,0 +1,233 @@
+//! Verdicts as a referee would write them.
+
+use std::fmt::Write as _;
+
+use model_core::checker::{
+    BoundVerdict, Claim, Counted, Difference, FormVerdict, Means, Measured, Outcome, RankSaid, RankVerdict,
+    SizeVerdict, TotalVerdict, Verdict, hand,
+};
+use model_core::mistake::Excerpt;
+use model_core::print::Hand;
+use model_core::{Chain, budget, print};
+
+use super::{ClaimsFile, NamedClaim};
+use crate::terminal::{BAD, GOOD, HEADING};
+
+/// A claim and what is said of it.
+#[derive(Debug)]
+pub struct Checked<'a> {
+    /// The claim.
+    pub claim: &'a NamedClaim,
+    /// What is said of it.
+    pub verdict: Verdict,
+}
+
+/// All verdicts of a file.
+pub fn as_text(file: &ClaimsFile, checked: &[Checked<'_>]) -> String {
+    let mut out = String::new();
+    for Checked { claim, verdict } in checked {
+        let word = match verdict.outcome() {
+            Outcome::Holds => format!("{GOOD}holds{GOOD:#}  "),
+            Outcome::Differs => format!("{BAD}differs{BAD:#}"),
+            Outcome::Undecided => format!("{BAD}open{BAD:#}   "),
+        };
+        let means = match verdict.means() {
+            Means::Decided => "",
+            Means::Sampled => " (sampled)",
+            Means::Proven => " (proven)",
+        };
+        let means = if verdict.outcome() == Outcome::Undecided { "" } else { means };
+        let _ = writeln!(out, "{word}  {HEADING}{}{HEADING:#}{means}", claim.name);
+        let style = if claim.is_plain { print::Style::Text } else { print::Style::Latex };
+        match verdict {
+            Verdict::ClosedForm(form) => {
+                let hand = hand::of_claim(&file.hand, &file.chain, &claim.claim);
+                write_form(&mut out, &Written { chain: &file.printed, style, hand: &hand }, claim, form);
+            }
+            Verdict::Total(total) => write_total(&mut out, &file.printed, total, style),
+            Verdict::Comparison(measured) => write_measured(&mut out, &file.chain, &claim.claim, measured),
+            Verdict::Count(counted) => write_counted(&mut out, counted),
+            Verdict::Rank(rank) => write_rank(&mut out, &file.chain, &claim.claim, rank),
+            Verdict::Size(size) => write_size(&mut out, &file.chain, &claim.claim, size),
+            Verdict::Bound(bound) => write_bound(&mut out, &file.chain, &claim.claim, bound),
+        }
+    }
+    let held = checked.iter().filter(|checked| checked.verdict.holds()).count();
+    let _ = writeln!(out, "\n{held} of {} claims hold", checked.len());
+    out
+}
+
+/// How formulas are written.
+struct Written<'a> {
+    chain: &'a Chain,
+    style: print::Style,
+    hand: &'a Hand,
+}
+
+/// The differences of a formula, in the symbols of the print.
+fn write_form(out: &mut String, written: &Written<'_>, claim: &NamedClaim, form: &FormVerdict) {
+    let Written { chain, style, hand } = *written;
+    if form.differences.is_empty() {
+        return;
+    }
+    for difference in &form.differences {
+        let printed =
+            quoted(claim, difference).unwrap_or_else(|| difference.printed.show_by(chain, style, hand));
+        let _ = writeln!(
+            out,
+            "    {}, {}: printed {printed}, derived {}",
+            difference.component,
+            print::poly(&difference.error_product(), chain, style),
+            difference.derived.show_by(chain, style, hand),
+        );
+        if let Some((text, before, width)) = place_in_text(claim, difference) {
+            let Excerpt { shown, padding, width } = Excerpt::new(text, before, width);
+            let _ = writeln!(out, "        {shown}\n        {padding}{BAD}{}{BAD:#}", "^".repeat(width));
+        }
+        if let Some(slip) = &difference.slip {
+            let _ = writeln!(out, "        {}", slip.describe(chain, style));
+        }
+    }
+    for slip in &form.slips {
+        let _ = writeln!(out, "    {}", slip.describe(chain));
+    }
+    let _ = writeln!(out, "    what the chain implies:");
+    for (axis, component) in ["x", "y", "z"].iter().zip(&form.derived) {
+        let _ = writeln!(out, "        {axis}: {}", print::by_hand(component, chain, style, hand));
+    }
+}
+
+/// The printed term as it is printed, if it is one.
+fn quoted(claim: &NamedClaim, difference: &Difference) -> Option<String> {
+    let text = text_of(claim, difference)?;
+    let term = text.get(difference.term.clone()?)?;
+    Some(format!("`{}`", term.split_whitespace().collect::<Vec<_>>().join(" ")))
+}
+
+/// The text that the component of a difference stands in.
+fn text_of<'a>(claim: &'a NamedClaim, difference: &Difference) -> Option<&'a str> {
+    let Claim::ClosedForm(form) = &claim.claim else { return None };
+    let component = &form.printed.components[difference.component.index()];
+    claim.texts.get(component.text_index).map(String::as_str)
+}
+
+/// The line of the printed text that a difference stands on, and where on it: characters before, and width.
+pub(super) fn place_in_text<'a>(
+    claim: &'a NamedClaim,
+    difference: &Difference,
+) -> Option<(&'a str, usize, usize)> {
+    let text = text_of(claim, difference)?;
+    let place = difference.place.clone()?;
+    let start = text.get(..place.start)?.rfind('\n').map_or(0, |newline| newline + 1);
+    let line = text[start..].lines().next()?;
+    let before = text.get(start..place.start)?.chars().count();
+    let inside = text.get(place)?.lines().next()?;
+    Some((line, before, inside.chars().count().max(1)))
+}
+
+fn write_total(out: &mut String, chain: &Chain, total: &TotalVerdict, style: print::Style) {
+    for (error, printed, derived) in &total.differences {
+        let _ = writeln!(
+            out,
+            "    {}: printed {}, derived {}",
+            print::poly(&product(error), chain, style),
+            printed.show(chain, style),
+            derived.show(chain, style)
+        );
+    }
+    if !total.differences.is_empty() {
+        let _ =
+            writeln!(out, "    what belongs below the root: {}", print::poly(&total.derived, chain, style));
+    }
+}
+
+/// A product of errors as an amount.
+pub(super) fn product(error: &[(model_core::SymbolId, u32)]) -> model_core::algebra::Poly {
+    use model_core::algebra::Poly;
+    error.iter().fold(Poly::one(), |product, &(symbol, power)| {
+        (0..power).fold(product, |product, _| &product * &Poly::symbol(symbol))
+    })
+}
+
+fn write_measured(out: &mut String, chain: &Chain, claim: &Claim, measured: &Measured) {
+    let Claim::Comparison(comparison) = claim else { return };
+    let unit = budget::unit(chain, comparison.observable);
+    let name = |id| &chain.symbol(id).name;
+    let ratio = measured.ratio.map_or("no ratio".to_owned(), |ratio| format!("ratio {}", short(ratio)));
+    let _ = writeln!(
+        out,
+        "    {} {} {unit}, {} {} {unit}: {ratio}, claimed at most {}",
+        name(comparison.error),
+        short(measured.error),
+        name(comparison.against),
+        short(measured.against),
+        measured.at_most
+    );
+}
+
+fn write_counted(out: &mut String, counted: &Counted) {
+    if counted.found != counted.claimed {
+        let _ = writeln!(
+            out,
+            "    {} are declared, {} are claimed: {}",
+            counted.found,
+            counted.claimed,
+            counted.names.join(", ")
+        );
+    }
+}
+
+fn write_rank(out: &mut String, chain: &Chain, claim: &Claim, verdict: &RankVerdict) {
+    let Claim::Rank(rank) = claim else { return };
+    let names: Vec<&str> = verdict.exceptions.iter().map(|&id| chain.symbol(id).name.as_str()).collect();
+    let names = names.join(", ");
+    let _ = match &rank.said {
+        RankSaid::Is(claimed) if verdict.rank != *claimed => writeln!(
+            out,
+            "    {} combinations of {} errors are determined, {claimed} are claimed",
+            verdict.rank, verdict.errors
+        ),
+        RankSaid::Confounded if !verdict.holds => writeln!(out, "    determined without the others: {names}"),
+        RankSaid::Separable(_) if !verdict.holds => {
+            writeln!(out, "    not to be told from the others: {names}")
+        }
+        _ => Ok(()),
+    };
+}
+
+fn write_size(out: &mut String, chain: &Chain, claim: &Claim, verdict: &SizeVerdict) {
+    let Claim::Size(size) = claim else { return };
+    let unit = budget::unit(chain, size.observable);
+    let mut said = format!("found {} {unit}", short(verdict.found));
+    if let Some(poses) = verdict.poses {
+        let [low, high] = verdict.between.map(short);
+        let _ = write!(said, " at {poses} poses, between {low} and {high} for certain enough");
+    }
+    for (word, limit) in [("most", size.limits.at_most), ("least", size.limits.at_least)] {
+        if let Some(limit) = limit {
+            let _ = write!(said, ", claimed at {word} {} {unit}", short(limit));
+        }
+    }
+    let _ = writeln!(out, "    {said}");
+}
+
+fn write_bound(out: &mut String, chain: &Chain, claim: &Claim, verdict: &BoundVerdict) {
+    let Claim::Bound(bound) = claim else { return };
+    let unit = budget::unit(chain, bound.observable);
+    let found = verdict.found.map_or(String::new(), |found| format!(", found {} {unit}", short(found)));
+    let _ = writeln!(
+        out,
+        "    never more than {} {unit}{found}, claimed at most {} {unit}",
+        short(verdict.proven),
+        short(bound.at_most)
+    );
+}
+
+/// Four digits are enough for a reader.
+fn short(number: f64) -> String {
+    match number.abs() {
+        0.0 => "0".to_owned(),
+        0.01..1e4 => format!("{number:.4}"),
+        _ => format!("{number:.3e}"),
+    }
+}

@@ -1,0 +1,59 @@
+//! Influences at poses spread evenly over a set of poses, for what only the distribution says: percentiles.
+
+use super::poses::{Poses, Space};
+use super::probe::Probe;
+use super::{BudgetError, sized};
+use crate::chain::{Chain, ObservableId};
+
+/// The influence of every error with a size (see [`super::Budget::measure`]) at `count` poses, pose by pose.
+///
+/// The poses are those of the Kronecker sequence of the generalised golden ratio: the same ones each time, and evener than
+/// random ones. Source: M. Roberts, "The unreasonable effectiveness of quasirandom sequences" (2018).
+///
+/// # Errors
+/// The poses do not give the observable a value: see [`BudgetError`].
+pub fn influences_at(
+    chain: &Chain,
+    observable: ObservableId,
+    sizes: &[f64],
+    poses: &Poses,
+    count: usize,
+) -> Result<Vec<Vec<f64>>, BudgetError> {
+    let space = Space::new(chain, observable, poses)?;
+    let probe = Probe::new(chain, observable);
+    let errors = sized(chain, sizes);
+    let mut values = chain.nominal_values();
+    let steps = steps(space.bounds.len());
+    let mut found = Vec::with_capacity(count);
+    for index in 0..count {
+        let fraction = |step: &f64| (0.5 + step * (index + 1) as f64).fract();
+        let parameters: Vec<f64> = space
+            .bounds
+            .iter()
+            .zip(&steps)
+            .map(|((low, high), step)| low + (high - low) * fraction(step))
+            .collect();
+        space.set(&parameters, &mut values);
+        let nominal = probe.nominal(&values);
+        let influences: Vec<f64> =
+            errors.iter().map(|&(error, size)| probe.influence(&mut values, error, size, &nominal)).collect();
+        if influences.iter().any(|value| !value.is_finite()) {
+            return Err(BudgetError::NotFinite {
+                observable: chain.observable(observable).name.clone(),
+                pose: space.describe(chain, &values),
+            });
+        }
+        found.push(influences);
+    }
+    Ok(found)
+}
+
+/// 1/φ, 1/φ², … with φ the positive root of x^(d+1) = x + 1.
+fn steps(dimensions: usize) -> Vec<f64> {
+    let exponent = 1.0 / (dimensions as f64 + 1.0);
+    let mut root: f64 = 2.0;
+    for _ in 0..60 {
+        root = (1.0 + root).powf(exponent);
+    }
+    (1..=dimensions).map(|power| root.powf(-(power as f64)).fract()).collect()
+}

@@ -1,0 +1,120 @@
+//! A quotient of two canonical forms: what a printed formula may be that divides by sums or measured distances. Two are
+//! equal if and only if they are after multiplying out, for products of functions that are not zero are not zero.
+
+use super::algebraic;
+use crate::algebra::{AlgebraError, Poly};
+use crate::chain::Chain;
+use crate::print::{self, Hand};
+
+/// `above / below`; below is never zero.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fraction {
+    /// Above the stroke.
+    pub above: Poly,
+    /// Below the stroke; one wherever the division can be carried out.
+    pub below: Poly,
+}
+
+impl Fraction {
+    /// A whole amount.
+    #[must_use]
+    pub fn whole(above: Poly) -> Self {
+        Self { above, below: Poly::one() }
+    }
+
+    /// Whether nothing stands below.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.below == Poly::one()
+    }
+
+    /// Whether this is zero.
+    #[must_use]
+    pub fn is_zero(&self) -> bool {
+        self.above.is_zero()
+    }
+
+    /// A quotient with the division carried out where it can be; `None` for a division by zero.
+    pub(super) fn new(above: Poly, below: Poly) -> Option<Self> {
+        if below.is_zero() {
+            return None;
+        }
+        if above.is_zero() {
+            return Some(Self::whole(above));
+        }
+        if let Some(inverse) = below.recip() {
+            return Some(Self::whole(&above * &inverse));
+        }
+        let common = common_powers(&above, &below);
+        let (above, below) = (above.without_monomial(&common), below.without_monomial(&common));
+        match below.recip() {
+            Some(inverse) => Some(Self::whole(&above * &inverse)),
+            None => Some(Self { above, below }),
+        }
+    }
+
+    pub(super) fn sum(&self, other: &Self) -> Result<Self, AlgebraError> {
+        if self.below == other.below {
+            let above = &self.above + &other.above;
+            return Ok(Self::new(above, self.below.clone()).unwrap_or_else(|| Self::whole(Poly::zero())));
+        }
+        let above = &self.above.checked_mul(&other.below)? + &other.above.checked_mul(&self.below)?;
+        let below = self.below.checked_mul(&other.below)?;
+        Ok(Self::new(above, below).unwrap_or_else(|| Self::whole(Poly::zero())))
+    }
+
+    pub(super) fn product(&self, other: &Self) -> Result<Self, AlgebraError> {
+        if self.below == other.above && !self.is_whole() {
+            return Ok(Self { above: self.above.clone(), below: other.below.clone() });
+        }
+        let above = self.above.checked_mul(&other.above)?;
+        let below = self.below.checked_mul(&other.below)?;
+        Ok(Self::new(above, below).unwrap_or_else(|| Self::whole(Poly::zero())))
+    }
+
+    /// One over this; `None` if it is zero.
+    pub(super) fn inverse(&self) -> Option<Self> {
+        Self::new(self.below.clone(), self.above.clone())
+    }
+
+    /// The sign turned.
+    #[must_use]
+    pub fn negated(&self) -> Self {
+        Self { above: -&self.above, below: self.below.clone() }
+    }
+
+    /// The same function with the roots of numbers multiplied out.
+    pub(super) fn reduced(self, chain: &Chain) -> Self {
+        let [above, below] = [&self.above, &self.below].map(|poly| algebraic::reduced(poly, chain));
+        Self::new(above, below).unwrap_or(self)
+    }
+
+    /// The formula in a style.
+    #[must_use]
+    pub fn show(&self, chain: &Chain, style: print::Style) -> String {
+        self.show_by(chain, style, &Hand::default())
+    }
+
+    /// The formula in a style and in the way of a paper.
+    #[must_use]
+    pub fn show_by(&self, chain: &Chain, style: print::Style, hand: &Hand) -> String {
+        let part = |poly| print::by_hand(poly, chain, style, hand);
+        if self.is_whole() {
+            return part(&self.above);
+        }
+        match style {
+            print::Style::Text => format!("({})/({})", part(&self.above), part(&self.below)),
+            print::Style::Latex => format!("\\frac{{{}}}{{{}}}", part(&self.above), part(&self.below)),
+            print::Style::Markdown => format!("${}$", self.show_by(chain, print::Style::Latex, hand)),
+        }
+    }
+}
+
+/// The powers of symbols that every term above and below has.
+fn common_powers(above: &Poly, below: &Poly) -> Vec<(crate::SymbolId, u32)> {
+    let above = above.monomial_content();
+    let shared = |(symbol, power): (crate::SymbolId, u32)| {
+        above.iter().find(|(other, _)| *other == symbol).map(|&(_, n)| (symbol, n.min(power)))
+    };
+    below.monomial_content().into_iter().filter_map(shared).collect()
+}

@@ -342,20 +342,24 @@ Proof. rewrite Rmult_plus_distr_r, Rmult_1_l. apply cos_plus. Qed.
 Lemma sin_next k a : sin ((k + 1) * a) = sin (k * a) * cos a + cos (k * a) * sin a.
 Proof. rewrite Rmult_plus_distr_r, Rmult_1_l. apply sin_plus. Qed.
 
-(* An angle with rational sine and cosine. *)
-Lemma cos_2_atan u : cos (2 * atan u) = (1 - u * u) / (1 + u * u).
+(* Every point of the circle belongs to an angle. *)
+Lemma circle c s : c * c + s * s = 1 -> exists a, cos a = c /\ sin a = s.
 Proof.
-  assert (P : 0 < 1 + u * u) by nra. rewrite cos_2a_cos, cos_atan. unfold Rsqr.
-  replace (2 * (1 / sqrt (1 + u * u)) * (1 / sqrt (1 + u * u)) - 1)
-    with (2 / (sqrt (1 + u * u) * sqrt (1 + u * u)) - 1) by (field; apply Rgt_not_eq, sqrt_lt_R0, P).
-  rewrite sqrt_sqrt by lra. field. lra.
-Qed.
-Lemma sin_2_atan u : sin (2 * atan u) = 2 * u / (1 + u * u).
-Proof.
-  assert (P : 0 < 1 + u * u) by nra. rewrite sin_2a, sin_atan, cos_atan. unfold Rsqr.
-  replace (2 * (u / sqrt (1 + u * u)) * (1 / sqrt (1 + u * u)))
-    with (2 * u / (sqrt (1 + u * u) * sqrt (1 + u * u))) by (field; apply Rgt_not_eq, sqrt_lt_R0, P).
-  rewrite sqrt_sqrt by lra. reflexivity.
+  intro U. assert (B : -1 <= c <= 1) by (split; nra).
+  assert (exists a, 0 <= a <= PI /\ cos a = c) as (a & (A0 & A1) & C).
+  { destruct (Req_EM_T c 1) as [->|N1]; [exists 0; split; [split; [lra|apply Rlt_le, PI_RGT_0]|apply cos_0]|].
+    destruct (Req_EM_T c (-1)) as [->|N2]; [exists PI; split; [split; [apply Rlt_le, PI_RGT_0|lra]|apply cos_PI]|].
+    destruct (IVT (fun a => c - cos a) 0 PI) as (a & A & E).
+    - intro t. apply continuity_pt_minus; [apply continuity_pt_const; intros ? ?; reflexivity|apply continuity_cos].
+    - apply PI_RGT_0.
+    - rewrite cos_0. lra.
+    - rewrite cos_PI. lra.
+    - exists a. split; [exact A|lra]. }
+  assert (S : sin a * sin a = s * s) by (rewrite squares, C; lra).
+  assert (P : 0 <= sin a) by (apply sin_ge_0; assumption).
+  destruct (Rle_dec 0 s) as [Q|Q].
+  - exists a. split; [exact C|nra].
+  - exists (- a). rewrite cos_neg, sin_neg. split; [exact C|nra].
 Qed.
 
 Lemma same_follows k c p lx ly lz lx' ly' lz' : follows k c p lx ly lz -> lx = lx' -> ly = ly' -> lz = lz' ->
@@ -402,8 +406,8 @@ Lemma taylor_3 a b c d : taylor [a; b; c; d] = b + c / 2 + d / 6.
 Proof. unfold taylor; cbn; field. Qed.
 Ltac total :=
   rewrite ?taylor_1, ?taylor_2, ?taylor_3; match goal with |- ?a = ?a => reflexivity | _ => settle end.
-(* Numbers: quarter turns and angles with rational sine and cosine. *)
+(* Numbers, at quarter turns. *)
 Ltac values :=
-  rewrite ?cos_neg, ?sin_neg, ?cos_0, ?sin_0, ?cos_PI2, ?sin_PI2, ?cos_PI, ?sin_PI, ?cos_2_atan, ?sin_2_atan;
+  rewrite ?cos_neg, ?sin_neg, ?cos_0, ?sin_0, ?cos_PI2, ?sin_PI2, ?cos_PI, ?sin_PI;
   first [lra | field; nonzero | idtac].
 Ltac different H := exfalso; assert (P := PI_RGT_0); assert (Q := PI_4); lra.

@@ -76,7 +76,7 @@ impl Angles {
         for (id, highest) in &self.highest {
             let a = name(*id);
             for k in 2..=*highest {
-                let angle = AngleSum::symbol(*id).times(k).map_err(|_| Refusal::Harmonic { multiple: k })?;
+                let angle = AngleSum::symbol(*id).times(k)?;
                 for (wave, poly) in [("cos", Poly::cos(&angle)), ("sin", Poly::sin(&angle))] {
                     let value = Expanded::new(&poly)?.write(name);
                     let _ = writeln!(out, "Lemma {wave}_of_{k}_{a} : {wave} ({k} * {a}) = {value}.");
@@ -87,7 +87,7 @@ impl Angles {
             }
         }
         for (index, (text, sum)) in self.sums.iter().enumerate() {
-            let angle = AngleSum::from_poly(sum).map_err(|_| Refusal::Divisor)?;
+            let angle = AngleSum::from_poly(sum)?;
             let by_parts = parts(sum, name);
             for (wave, poly) in [("cos", Poly::cos(&angle)), ("sin", Poly::sin(&angle))] {
                 let value = Expanded::new(&poly)?.write(name);
@@ -118,7 +118,9 @@ fn parts(sum: &Poly, name: &dyn Fn(SymbolId) -> String) -> String {
         let signed = |text: &str| if negative { format!("- {text}") } else { text.to_owned() };
         let magnitude = term.coefficient.abs();
         if *id == SymbolId::PI {
-            let quarters = (&magnitude + &magnitude).to_integer().unwrap_or(0);
+            let Some(quarters) = (&magnitude + &magnitude).to_integer() else {
+                unreachable!("an angle has whole quarter turns, or its sine would have been refused")
+            };
             parts.extend((0..quarters / 2).map(|_| signed("PI")));
             parts.extend((quarters % 2 == 1).then(|| signed("(PI / 2)")));
         } else if magnitude.is_one() {

@@ -103,12 +103,19 @@ impl Section<'_> {
             Ok(formula.write(&|_| "PI".to_owned()))
         };
         let (printed_value, derived_value) = (at(&printed)?, at(&derived)?);
+        let equations: Vec<(String, String)> =
+            values.iter().flat_map(|(symbol, value)| value.equations(&self.name(*symbol))).collect();
         let premises: Vec<String> =
-            values.iter().map(|(symbol, value)| format!("{} = {}", self.name(*symbol), value.text)).collect();
-        let names: Vec<String> =
-            values.iter().map(|(symbol, _)| format!("at_{}", self.name(*symbol))).collect();
+            equations.iter().map(|(left, right)| format!("{left} = {right} -> ")).collect();
+        let names: Vec<String> = (0..equations.len()).map(|index| format!("at_{index}")).collect();
         let rewrites: Vec<String> = names.iter().map(|name| format!("?{name}")).collect();
-        let premises: Vec<String> = premises.iter().map(|premise| format!("{premise} -> ")).collect();
+        let mut points = String::new();
+        for (index, [cosine, sine]) in values.iter().filter_map(|(_, value)| value.point()).enumerate() {
+            let _ = write!(
+                points,
+                "destruct (circle ({cosine}) ({sine})) as (angle_{index} & cosine_{index} & sine_{index}); [lra|]. "
+            );
+        }
         let by_value = format!("angles; rewrite {}; values", rewrites.join(", "));
         let intros = names.join(" ");
         let _ = writeln!(
@@ -126,8 +133,9 @@ impl Section<'_> {
             self.conditions.iter().map(|condition| format!("{} -> ", self.condition(*condition))).collect();
         let _ = writeln!(
             self.out,
-            "(* So the formula as printed is not the error. *)\nTheorem differs : ~ (forall {} : R, {}claim {}).\nProof.\n  intro H. \
-             eapply there; try reflexivity; try apply H; values.\nQed.",
+            "(* So the formula as printed is not the error. *)\nTheorem differs : ~ (forall {} : R, {}claim {}).\nProof.\n  intro H. {points}\
+             eapply there; try reflexivity; try eassumption; try apply H;\n    \
+             repeat match goal with E : _ = _ |- _ => rewrite E; clear E end; values.\nQed.",
             names.join(" "),
             conditions.concat(),
             names.join(" "),

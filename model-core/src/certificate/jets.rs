@@ -5,6 +5,7 @@ use super::declared::WrittenFactor;
 use crate::algebra::{AngleSum, Poly, Rational};
 use crate::chain::{Axis, Motion, ObservableKind};
 use crate::forms::FormError;
+use crate::symbol::SymbolId;
 
 /// Terms that a vector may have on its way: what Coq calculates with in reasonable time.
 const TERMS_LIMIT: usize = 20_000;
@@ -57,12 +58,12 @@ pub(super) fn moved(
 pub(super) fn amount(
     amount: &Poly,
     order: u32,
-    is_error: impl Fn(usize) -> bool,
-    is_kept: impl Fn(usize) -> bool,
+    is_error: impl Fn(SymbolId) -> bool,
+    is_kept: impl Fn(SymbolId) -> bool,
 ) -> Jet {
-    let kept = amount.graded_part(|symbol| is_error(symbol.index()) && !is_kept(symbol.index()), 0);
-    let highest = kept.degree_in(|symbol| is_error(symbol.index())).max(order);
-    (0..=highest).map(|degree| kept.graded_part(|symbol| is_error(symbol.index()), degree)).collect()
+    let kept = amount.graded_part(|symbol| is_error(symbol) && !is_kept(symbol), 0);
+    let highest = kept.degree_in(|symbol| is_error(symbol)).max(order);
+    (0..=highest).map(|degree| kept.graded_part(|symbol| is_error(symbol), degree)).collect()
 }
 
 /// Cosine and sine of an amount whose part without t is `angle`.
@@ -75,7 +76,10 @@ pub(super) fn waves(angle: &AngleSum, amount: &Jet) -> (Jet, Jet) {
         let sum = |other: &Jet| {
             let terms = (1..=k).map(|j| (&amount[j] * &other[k - j]).scale(&whole(j)));
             let total = terms.fold(Poly::zero(), |sum, term| &sum + &term);
-            whole(k).recip().map_or(Poly::zero(), |inverse| total.scale(&inverse))
+            match whole(k).recip() {
+                Some(inverse) => total.scale(&inverse),
+                None => unreachable!("k counts from one"),
+            }
         };
         let (next_cosine, next_sine) = (-&sum(&sines), sum(&cosines));
         cosines.push(next_cosine);
@@ -85,7 +89,10 @@ pub(super) fn waves(angle: &AngleSum, amount: &Jet) -> (Jet, Jet) {
 }
 
 fn whole(n: usize) -> Rational {
-    Rational::from(i64::try_from(n).unwrap_or(i64::MAX))
+    match i64::try_from(n) {
+        Ok(n) => Rational::from(n),
+        Err(_) => unreachable!("an order in the errors is a small number"),
+    }
 }
 
 fn product(a: &Jet, b: &Jet) -> Jet {

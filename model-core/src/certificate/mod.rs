@@ -20,7 +20,7 @@ mod witness;
 
 use std::fmt::Write as _;
 
-use crate::algebra::Poly;
+use crate::algebra::{AlgebraError, Poly};
 use crate::chain::{Axis, BodyId, Motion, ObservableId, Role};
 use crate::checker::{ClosedForm, FormVerdict, Order};
 use crate::expr::Expr;
@@ -46,6 +46,9 @@ pub enum Refusal {
     /// The chain has no closed form.
     #[error(transparent)]
     Form(#[from] FormError),
+    /// What the algebra refuses.
+    #[error(transparent)]
+    Algebra(#[from] AlgebraError),
     /// A sine or cosine of a high multiple of an angle.
     #[error(
         "the sine or cosine of {multiple} times an angle; certificates go up to {} times",

@@ -15,7 +15,8 @@ const WORDS: &str = "as at cofix do else end exists exists2 fix for forall fun i
 const OWN: &str = "instrument vector printed derived claim holds differs there same_chain is_derived for_all size x_of_formula \
     y_of_formula z_of_formula x_differs y_differs z_differs C E H D P Q";
 /// Beginnings of such words, before a number or a name.
-const OWN_BEGINNINGS: [&str; 7] = ["from_", "step_", "cos_of_", "sin_of_", "body_", "at_", "defined_"];
+const OWN_BEGINNINGS: [&str; 10] =
+    ["from_", "step_", "cos_of_", "sin_of_", "body_", "at_", "defined_", "angle_", "cosine_", "sine_"];
 
 /// Which names are taken.
 #[derive(Debug, Clone)]

@@ -82,8 +82,8 @@ impl<'c> Section<'c> {
             };
             section.used.extend(certificate.body_symbols(*body).into_iter().filter(kept));
             for (index, factor) in declared.body(*body).iter().enumerate() {
-                let is_error = |symbol: usize| declared.is_error(SymbolId(symbol as u16));
-                let is_kept = |symbol: usize| section.is_kept(SymbolId(symbol as u16));
+                let is_error = |symbol| declared.is_error(symbol);
+                let is_kept = |symbol| section.is_kept(symbol);
                 let amount =
                     jets::amount(&put_zeros(question, &factor.amount)?, question.order, is_error, is_kept);
                 section.factors.push((*body, index, amount));
@@ -132,7 +132,9 @@ impl<'c> Section<'c> {
         self.states.push([x?, y?, z?].map(|component| jets::constant(&component, self.question.order)));
         for (body, index, amount) in self.factors.iter().rev() {
             let factor = &declared.body(*body)[*index];
-            let Some(before) = self.states.last() else { continue };
+            let Some(before) = self.states.last() else {
+                unreachable!("the vector itself was put there first")
+            };
             let after = jets::moved(before, self.kind, factor, amount, &chain.body(*body).name)?;
             self.states.push(after);
         }

@@ -48,7 +48,7 @@ impl Section<'_> {
 
     /// The error in canonical form.
     fn total(&self) -> Result<[String; 3], Refusal> {
-        let Some(last) = self.states.last() else { return Ok(["0", "0", "0"].map(str::to_owned)) };
+        let Some(last) = self.states.last() else { unreachable!("the vector itself is the first state") };
         let sums = last.each_ref().map(|jet| jet.iter().skip(1).fold(Poly::zero(), |sum, part| &sum + part));
         let [x, y, z] = sums.each_ref().map(|sum| self.poly(sum));
         Ok([x?, y?, z?])
@@ -112,7 +112,7 @@ impl Section<'_> {
         Ok(match factor.motion {
             Motion::Translation => format!("translate_{axis} {before} {amount} ([{coefficients}])."),
             Motion::Rotation => {
-                let angle = AngleSum::from_poly(&jet[0]).map_err(|_| Refusal::Divisor)?;
+                let angle = AngleSum::from_poly(&jet[0])?;
                 let (cosine, sine) = angle.cos_sin();
                 format!(
                     "rotate_{axis} {before} {amount} ([{coefficients}]) ({}) ({}).",

@@ -12,8 +12,8 @@ const TRIES_LIMIT: usize = 20_000;
 /// A value of a symbol.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Value {
-    /// In Coq's syntax.
-    pub text: String,
+    /// In Coq's syntax; `None` for an angle of which only cosine and sine are known.
+    pub text: Option<String>,
     /// As a rational number, or as a rational multiple of π; `None` if it is neither.
     pub number: Option<(Rational, bool)>,
     /// Cosine and sine; `None` if they are not rational.
@@ -25,7 +25,7 @@ impl Value {
     pub(super) fn whole(n: i64) -> Self {
         let text = if n < 0 { format!("- {}", n.unsigned_abs()) } else { n.to_string() };
         let wave = (n == 0).then_some((Rational::ONE, Rational::ZERO));
-        Self { text, number: Some((Rational::from(n), false)), wave }
+        Self { text: Some(text), number: Some((Rational::from(n), false)), wave }
     }
 
     /// Some quarter turns, 1 to 3.
@@ -36,24 +36,41 @@ impl Value {
             _ => ("- (PI / 2)", -&Rational::half(), 0, -1),
         };
         let wave = Some((Rational::from(cosine), Rational::from(sine)));
-        Self { text: text.to_owned(), number: Some((number, true)), wave }
+        Self { text: Some(text.to_owned()), number: Some((number, true)), wave }
     }
 
-    /// 2 atan u: an angle with rational cosine and sine.
-    fn circle(numerator: i64, denominator: i64) -> Self {
-        let (p, q) = (numerator, denominator);
-        let squares = p * p + q * q;
-        let text = if q == 1 { format!("2 * atan {p}") } else { format!("2 * atan ({p} / {q})") };
-        let ratio = |above| Rational::new(above, squares).unwrap_or_default();
-        Self { text, number: None, wave: Some((ratio(q * q - p * p), ratio(2 * p * q))) }
+    /// The angle whose half has the tangent `p / q`: its cosine and sine are rational.
+    fn circle((p, q): (i64, i64)) -> Self {
+        let ratio = |above| match Rational::new(above, p * p + q * q) {
+            Some(ratio) => ratio,
+            None => unreachable!("a sum of squares of numbers other than zero"),
+        };
+        Self { text: None, number: None, wave: Some((ratio(q * q - p * p), ratio(2 * p * q))) }
+    }
+
+    /// What is said of a symbol of this value: what is equal to what.
+    pub(super) fn equations(&self, name: &str) -> Vec<(String, String)> {
+        match (&self.text, self.point()) {
+            (Some(text), _) => vec![(name.to_owned(), text.clone())],
+            (None, Some([cosine, sine])) => {
+                vec![(format!("cos {name}"), cosine), (format!("sin {name}"), sine)]
+            }
+            (None, None) => unreachable!("a value is a number or a point of the circle"),
+        }
+    }
+
+    /// Cosine and sine, where only those are known.
+    pub(super) fn point(&self) -> Option<[String; 2]> {
+        let write = |number: &Rational| number.to_string().replace('-', "- ").replace('/', " / ");
+        let (cosine, sine) = self.wave.as_ref().filter(|_| self.text.is_none())?;
+        Some([write(cosine), write(sine)])
     }
 }
 
 /// What is tried: quarter turns before anything else for an angle, small whole numbers.
 fn candidates(is_angle: bool) -> Vec<Value> {
     if is_angle {
-        let circle = [(1, 2), (1, 3), (2, 1), (3, 1), (2, 3), (1, 4), (3, 2), (1, 5)]
-            .map(|(p, q)| Value::circle(p, q));
+        let circle = [(1, 2), (1, 3), (2, 1), (3, 1), (2, 3), (1, 4), (3, 2), (1, 5)].map(Value::circle);
         let quarters = [Value::whole(0)].into_iter().chain((1..=3).map(Value::quarters));
         quarters.chain(circle).collect()
     } else {

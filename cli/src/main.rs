@@ -9,6 +9,7 @@ mod errors_file;
 mod evaluation;
 mod failure;
 mod output;
+mod over_table;
 mod poses;
 mod ranges;
 mod report;

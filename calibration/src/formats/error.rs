@@ -131,6 +131,55 @@ pub enum DataError {
         /// Name of the column.
         column: String,
     },
+    /// The header says a unit that is none.
+    #[error("{file}: the header of column `{column}`: {why}")]
+    UnknownUnit {
+        /// Name of the file.
+        file: String,
+        /// Name of the column.
+        column: String,
+        /// What was said, and which units there are.
+        why: String,
+    },
+    /// A declared name that itself ends like a unit, and a column that says no more.
+    #[error(
+        "{file}: column `{column}`: is `{unit}` its unit, or part of the name? Write the unit in the header: \
+         `{column} [{unit}]` or `{column} [{si}]`"
+    )]
+    NameOrUnit {
+        /// Name of the file.
+        file: String,
+        /// Name of the column.
+        column: String,
+        /// What the name ends in.
+        unit: &'static str,
+        /// The SI unit.
+        si: &'static str,
+    },
+    /// Two columns that could be meant by one name.
+    #[error("{file}: both `{one}` and `{other}` are columns for `{name}`: take one away, or rename it")]
+    TwoColumns {
+        /// Name of the file.
+        file: String,
+        /// The name that was looked for.
+        name: String,
+        /// The column further to the left.
+        one: String,
+        /// The other.
+        other: String,
+    },
+    /// The rows take more memory than they may.
+    #[error(
+        "{file}: its rows take more than {} MiB of memory: leave out rows, or allow more with memory = \"8 GiB\" in \
+         a study",
+        budget_bytes >> 20
+    )]
+    TooLarge {
+        /// Name of the file.
+        file: String,
+        /// How much they may take.
+        budget_bytes: u64,
+    },
     /// The header says one unit, the study another.
     #[error(
         "{file}: the header of column `{column}` says {header}, the study says {study}: correct one of them"

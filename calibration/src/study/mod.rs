@@ -4,7 +4,9 @@
 //! resolved (`plan`); with the data files the plan becomes [`Observations`](crate::data::Observations)
 //! (`load`).
 
+mod columns;
 mod effects;
+mod format;
 mod inputs;
 mod load;
 mod plan;
@@ -16,6 +18,7 @@ use std::ops::Range;
 use model_core::names;
 use thiserror::Error;
 
+pub use load::{Loaded, Open};
 pub use plan::{NextPoses, Plan, Search, SourcePlan};
 pub use written::{HoldOut, Study};
 

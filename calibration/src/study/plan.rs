@@ -12,7 +12,7 @@ use crate::data::units::{Amount, Unit};
 use crate::data::{Measure, derive::Derived, derive::parse_derived};
 use crate::fit::FitOptions;
 use crate::fit::noise::NoiseOptions;
-use crate::formats::csv;
+use crate::formats::Options;
 
 /// What a study asks for, ready to read data and fit.
 #[derive(Debug, Clone)]
@@ -31,7 +31,7 @@ pub struct Plan {
     pub next: Option<NextPoses>,
     pub(super) group: Vec<String>,
     pub(super) order: Option<String>,
-    pub(super) format: csv::Options,
+    pub(super) format: Options,
 }
 
 /// How many poses to propose, and where.
@@ -92,6 +92,8 @@ pub(super) struct ColumnPlan {
     pub quantity: Quantity,
     /// A column with a declared name needs no unit: it is in SI.
     pub declared: bool,
+    /// The study names it.
+    pub named: bool,
 }
 
 impl Study {
@@ -131,7 +133,7 @@ impl Study {
             next: self.next(&chain)?,
             group: self.noise.group.0.clone(),
             order: self.noise.order.clone(),
-            format: csv::Options { separator: self.separator()? },
+            format: self.format()?,
             chain,
         })
     }
@@ -184,7 +186,8 @@ impl Study {
                     return Ok(Reading::Derived(derived.clone()));
                 }
                 let (name, quantity) = (symbol.name.clone(), symbol.quantity);
-                return Ok(Reading::Column(ColumnPlan { name, unit: None, quantity, declared: true }));
+                let column = ColumnPlan { name, unit: None, quantity, declared: true, named: false };
+                return Ok(Reading::Column(column));
             };
             match &column.get_ref().derive {
                 Some(text) => parse_derived(text)
@@ -279,18 +282,6 @@ impl Study {
         }
         Ok(Some(NextPoses { count: next.poses, ranges }))
     }
-
-    fn separator(&self) -> Result<Option<u8>, StudyError> {
-        let Some(separator) = &self.separator else { return Ok(None) };
-        match u8::try_from(*separator.get_ref()) {
-            Ok(byte) if byte.is_ascii() && byte != b'"' && byte != b'#' => Ok(Some(byte)),
-            _ => Err(StudyError::new(
-                separator.span(),
-                "no such separator",
-                "write one ASCII character, such as \";\"",
-            )),
-        }
-    }
 }
 
 /// The joints and inputs that an observable depends on.
@@ -311,7 +302,7 @@ pub(super) fn column_plan(
     let unit = column.unit.as_deref().map(Unit::parse).transpose();
     let unit = unit.map_err(|error| StudyError::new(place.clone(), error.to_string(), ""))?;
     match &column.column {
-        Some(name) => Ok(ColumnPlan { name: name.clone(), unit, quantity, declared: false }),
+        Some(name) => Ok(ColumnPlan { name: name.clone(), unit, quantity, declared: false, named: true }),
         None => Err(StudyError::new(
             place.clone(),
             "this column is measured, not derived",
@@ -368,6 +359,7 @@ fn observed_columns(
             unit: None,
             quantity,
             declared: true,
+            named: false,
         }),
         None => {
             let help = format!("write `{key} = {{ column = \"…\", unit = \"…\" }}`");

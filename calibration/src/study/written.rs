@@ -27,6 +27,10 @@ pub struct Study {
     pub data: Spanned<OneOrMore>,
     /// The separator of the data files, where it cannot be seen from their header.
     pub separator: Option<Spanned<char>>,
+    /// What lines of the data files that are comments begin with, where there are any below the header.
+    pub comment: Option<Spanned<char>>,
+    /// How much memory the rows may take: `8 GiB`.
+    pub memory: Option<Spanned<String>>,
     /// Which column is which joint or input.
     #[serde(default)]
     pub(super) columns: Table<Column>,

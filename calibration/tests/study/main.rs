@@ -52,7 +52,7 @@ fn observations(study: &str, data: &'static str) -> Result<Observations, String>
     let study = Study::from_text(study).map_err(|error| format!("{:?} {error}", error.place))?;
     let plan = study.plan(&chain).map_err(|error| format!("{:?} {error}", error.place))?;
     let mut open = |_: &str| -> Result<Box<dyn Read>, DataError> { Ok(Box::new(data.as_bytes())) };
-    plan.observations(&mut open).map_err(|error| error.to_string())
+    plan.load(&mut open).map(|loaded| loaded.observations).map_err(|error| error.to_string())
 }
 
 #[test]

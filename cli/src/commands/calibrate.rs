@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 
 use calibration::calibrate::{Calibration, Request, calibrate_telling};
 use calibration::formats::DataError;
-use calibration::study::{Plan, Study, StudyError};
+use calibration::study::{Loaded, Plan, Study, StudyError};
 use model_core::Mistake;
 
 use super::{Answer, TextOrJson};
 use crate::failure::Failure;
 use crate::report::{self, FileRead, Layout, Provenance, Reported};
 use crate::source::Source;
-use crate::{date, sha256, source, tables, terminal};
+use crate::{date, output, sha256, source, tables, terminal};
 
 /// Fit the errors to measured data, and find what the declaration lacks.
 ///
@@ -52,10 +52,14 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let study = Study::from_text(&study_source.text).map_err(in_study)?;
     let chain_source = study_source.read_beside(Path::new(study.chain.get_ref()))?;
     let plan = study.plan(&chain_source.chain()?).map_err(in_study)?;
+    if let Some(folder) = &arguments.out {
+        refuse_to_replace(folder, &plan, [&study_source, &chain_source])?;
+    }
 
     let mut open = |path: &str| open_beside(&study_source, path);
-    let observations = plan.observations(&mut open).map_err(tables::failure)?;
-    let second = plan.held_out(&mut open).map_err(tables::failure)?;
+    let Loaded { observations, held_out: second, doubtful } =
+        plan.load(&mut open).map_err(tables::failure)?;
+    doubtful.iter().for_each(terminal::warn);
     terminal::note(format_args!("{}", what_is_done(&plan, observations.rows())));
 
     let date = date::today();
@@ -123,6 +127,18 @@ fn files_read(
         Ok(FileRead { path, sha256: sha256::hex(&bytes) })
     };
     files.into_iter().map(read).collect()
+}
+
+/// Refuses to write the results over what the study reads.
+fn refuse_to_replace(folder: &Path, plan: &Plan, [study, chain]: [&Source; 2]) -> Result<(), Failure> {
+    let data = plan.sources.iter().flat_map(|source| &source.paths).chain(&plan.hold_out.file);
+    let read: Vec<PathBuf> = data
+        .map(|path| study.beside(Path::new(path)))
+        .chain([study.path.clone(), chain.path.clone()])
+        .collect();
+    report::NAMES
+        .iter()
+        .try_for_each(|name| output::refuse_to_replace(&folder.join(name), read.iter().map(PathBuf::as_path)))
 }
 
 /// `400 observations; fitting 30 errors, searching, and repeating the search in 10 folds`

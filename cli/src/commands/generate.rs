@@ -97,10 +97,22 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
             format!("this language takes {} files; name one with --out, the rest lie beside it", files.len());
         return Err(Failure::Input(message));
     }
+    let mut batch = output::Batch::default();
     for (index, file) in files.iter().enumerate() {
         let beside = arguments.out.with_extension(file.extension);
-        output::write_text(if index == 0 { &arguments.out } else { &beside }, &file.text)?;
+        if index > 0 && beside.as_os_str().eq_ignore_ascii_case(&arguments.out) {
+            let message = format!(
+                "`{}` is the name of the file that belongs beside it; give --out another ending",
+                arguments.out.display()
+            );
+            return Err(Failure::Input(message));
+        }
+        let path = if index == 0 { &arguments.out } else { &beside };
+        let read = [Some(&arguments.chain), arguments.errors.as_ref()];
+        output::refuse_to_replace(path, read.into_iter().flatten().map(PathBuf::as_path))?;
+        batch.write_text(path, &file.text)?;
     }
+    batch.finish()?;
     Ok(Answer::Done)
 }
 

@@ -1,6 +1,8 @@
 //! Study files as people write them, rightly and wrongly.
 #![allow(clippy::unwrap_used)]
 
+mod amended;
+
 use std::io::Read;
 
 use calibration::data::{Measure, Observations};
@@ -49,8 +51,8 @@ az;el [deg];dx_arcsec;dy_arcsec;day;time;temperature
 /// The observations of a study, or what is wrong with it.
 fn observations(study: &str, data: &'static str) -> Result<Observations, String> {
     let chain = Chain::from_text(MOUNT).unwrap();
-    let study = Study::from_text(study).map_err(|error| format!("{:?} {error}", error.place))?;
-    let plan = study.plan(&chain).map_err(|error| format!("{:?} {error}", error.place))?;
+    let study = Study::from_text(study).map_err(|mistakes| mistakes.to_string())?;
+    let plan = study.plan(&chain).map_err(|mistakes| mistakes.to_string())?;
     let mut open = |_: &str| -> Result<Box<dyn Read>, DataError> { Ok(Box::new(data.as_bytes())) };
     plan.load(&mut open).map(|loaded| loaded.observations).map_err(|error| error.to_string())
 }

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use calibration::calibrate::{Calibration, Request, calibrate_telling};
 use calibration::formats::DataError;
-use calibration::study::{Loaded, Plan, Study, StudyError};
-use model_core::Mistake;
+use calibration::study::{Loaded, Plan, Study};
+use model_core::Mistakes;
 
 use super::{Answer, TextOrJson};
 use crate::failure::Failure;
@@ -45,10 +45,7 @@ pub struct Arguments {
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let study_source = Source::read(&arguments.study)?;
-    let in_study = |error: StudyError| {
-        let mistake = Mistake::new(error.place.clone(), error.message);
-        study_source.mistake(if error.help.is_empty() { mistake } else { mistake.with_help(error.help) })
-    };
+    let in_study = |mistakes: Mistakes| study_source.mistakes(&mistakes);
     let study = Study::from_text(&study_source.text).map_err(in_study)?;
     let chain_source = study_source.read_beside(Path::new(study.chain.get_ref()))?;
     let plan = study.plan(&chain_source.chain()?).map_err(in_study)?;

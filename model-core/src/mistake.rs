@@ -6,6 +6,11 @@
 use std::fmt;
 use std::ops::Range;
 
+/// The longest line that is shown whole, in letters.
+const LONGEST_LINE: usize = 160;
+/// Letters before the fault that are shown of a longer one.
+const LETTERS_BEFORE: usize = 60;
+
 /// One thing that is wrong, where, and what to write instead.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mistake<S = Place> {
@@ -110,12 +115,20 @@ impl Mistake<Place> {
     pub fn render(&self, file: &str, text: &str) -> String {
         let Self { place: Place { bytes, line, column }, message, help } = self;
         let source = text.lines().nth(line - 1).unwrap_or_default();
+        // Of a line that no terminal holds, the part around the fault.
+        let skipped = (column - 1).saturating_sub(LETTERS_BEFORE);
+        let cut = source.chars().count() > LONGEST_LINE;
+        let (source, column_shown): (String, usize) = if cut {
+            (source.chars().skip(skipped).take(LONGEST_LINE).collect(), column - skipped)
+        } else {
+            (source.to_owned(), *column)
+        };
         let margin = " ".repeat(line.to_string().len());
         // A tab stays a tab in the padding, so that the caret stands below its character in any terminal.
         let padding: String =
-            source.chars().take(column - 1).map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
+            source.chars().take(column_shown - 1).map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
         let fault = text.get(bytes.clone()).unwrap_or_default().lines().next().unwrap_or_default();
-        let carets = "^".repeat(fault.chars().count().max(1));
+        let carets = "^".repeat(fault.chars().count().clamp(1, LONGEST_LINE));
         let mut shown = format!(
             "error: {message}\n{margin}--> {file}:{line}:{column}\n{margin} |\n{line} | {source}\n{margin} | {padding}{carets}\n"
         );

@@ -3,6 +3,7 @@
 
 use std::io::{self, Read};
 
+use super::error::clipped;
 use super::header::{ColumnName, unique};
 use super::records::{Record, RecordError, Records};
 use super::{Cell, Cells, Chunk, DataError, Form, Kept, Options, TableReader, Wanted};
@@ -83,9 +84,9 @@ impl<R: Read> Reader<R> {
         let text = self.text(column)?.trim();
         match parse(text, self.separator) {
             Some(number) if number.is_finite() => Ok(number),
-            Some(_) => Err(DataError::NotFinite { cell: self.cell(column), text: text.to_string() }),
+            Some(_) => Err(DataError::NotFinite { cell: self.cell(column), text: clipped(text) }),
             None if text.is_empty() => Err(DataError::EmptyCell { cell: self.cell(column) }),
-            None => Err(DataError::NotANumber { cell: self.cell(column), text: text.to_string() }),
+            None => Err(DataError::NotANumber { cell: self.cell(column), text: clipped(text) }),
         }
     }
 

@@ -4,6 +4,17 @@ use std::fmt;
 
 use thiserror::Error;
 
+/// Letters of a cell that a message shows at most.
+const SHOWN: usize = 60;
+
+/// The start of a text, as a message shows it.
+pub(super) fn clipped(text: &str) -> String {
+    match text.char_indices().nth(SHOWN) {
+        Some((end, _)) => format!("{}…", text.get(..end).unwrap_or_default()),
+        None => text.to_owned(),
+    }
+}
+
 /// The place of one cell.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Cell {
@@ -23,7 +34,7 @@ impl fmt::Display for Cell {
         if let Some(line) = self.line {
             write!(f, "line {line}, ")?;
         }
-        write!(f, "row {}, column `{}`", self.row, self.column)
+        write!(f, "row {}, column `{}`", self.row, clipped(&self.column))
     }
 }
 

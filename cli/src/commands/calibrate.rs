@@ -31,7 +31,7 @@ pub struct Arguments {
     /// Folder for report.html, report.json, amended.chain, errors.toml and residuals.csv
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Only print how the declaration would change; write nothing
+    /// Only print how the declaration would change (with --format json: the whole report, the change in it); write nothing
     #[arg(long, conflicts_with = "out")]
     dry_run: bool,
     /// Tell everything: evidence, noise, poses to measure, what these data could not have shown
@@ -80,14 +80,17 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         folder: folder.as_deref(),
         provenance: Provenance {
             version: env!("CARGO_PKG_VERSION"),
-            command: std::env::args().collect::<Vec<_>>().join(" "),
+            command: command_line(),
             date: date.clone(),
             study: study_source.text.clone(),
             files: files_read(arguments, &study_source, study.chain.get_ref(), &plan)?,
         },
     };
     if arguments.dry_run {
-        terminal::print(&report::diff(&reported))?;
+        terminal::print(&match arguments.format {
+            TextOrJson::Text => report::diff(&reported),
+            TextOrJson::Json => report::json(&reported)?,
+        })?;
         return Ok(answer(&calibration));
     }
     if let Some(folder) = &arguments.out {
@@ -100,6 +103,12 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         TextOrJson::Json => report::json(&reported)?,
     })?;
     Ok(answer(&calibration))
+}
+
+/// The command as it was typed; a letter that is none is shown as such.
+fn command_line() -> String {
+    let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
+    words.collect::<Vec<_>>().join(" ")
 }
 
 /// No, where no usable model came out.

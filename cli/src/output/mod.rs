@@ -14,6 +14,16 @@ use partial::Partial;
 use place::Place;
 pub use place::refuse_to_replace;
 
+/// Writes a whole text; `-` prints it.
+///
+/// # Errors
+/// The place cannot be written.
+pub fn write_text(path: &Path, text: &str) -> Result<(), Failure> {
+    let mut batch = Batch::default();
+    batch.write_text(path, text)?;
+    batch.finish()
+}
+
 /// Writes a file by way of a neighbour that takes its name only when complete; `-` is standard output.
 ///
 /// # Errors

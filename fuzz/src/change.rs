@@ -88,7 +88,7 @@ pub fn changed(corpus: &[Vec<u8>], chance: &mut ChaCha8Rng) -> Vec<u8> {
         let at = chance.random_range(0..=input.len());
         let end = (at + chance.random_range(0..=40)).min(input.len());
         match chance.random_range(0..10) {
-            0 | 1 | 2 => {
+            0..=2 => {
                 let intruder = INTRUDERS[chance.random_range(0..INTRUDERS.len())];
                 input.splice(at..at, intruder.bytes());
             }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
 
-use calibration::data::units::Amount;
+use calibration::data::units::{Amount, Plausible};
 use model_core::mistake::Mistake;
 use model_core::{Chain, Quantity, SymbolId, SymbolKind, names};
 use toml::Spanned;
@@ -15,9 +15,6 @@ use crate::terminal;
 
 /// Names as written, with their quantities, each with its place.
 type Entries = BTreeMap<Spanned<String>, Spanned<Amount>>;
-
-/// An angular error above this, without a unit, was hardly meant in radians.
-const LARGE_RAD: f64 = 0.2;
 
 /// What the file sets: values in SI, each with the place of its quantity.
 type Settings = BTreeMap<SymbolId, (f64, Range<usize>)>;
@@ -111,16 +108,18 @@ fn rank(name: &str) -> usize {
     if names::is_pattern(name) { name.chars().filter(|&letter| letter != '*').count() } else { usize::MAX }
 }
 
-/// Warns of angles without a unit that are no small errors in radians: arcseconds were meant, most likely.
+/// Warns of bare numbers that are no small errors in radians, or longer than the chain itself in metres: arcseconds or
+/// millimetres were meant, most likely.
 fn warn_of_missing_units(chain: &Chain, entries: &Entries, settings: &Settings) {
+    let plausible = Plausible::errors(chain);
     for (&id, (value, place)) in settings {
         let symbol = chain.symbol(id);
         let bare = entries.values().any(|amount| amount.span() == *place && amount.get_ref().unit.is_none());
-        let is_error = symbol.kind == SymbolKind::Error && symbol.quantity == Quantity::Angle;
-        if bare && is_error && value.abs() > LARGE_RAD {
-            let name = &symbol.name;
+        if bare && symbol.kind == SymbolKind::Error && plausible.refuses(symbol.quantity, *value) {
+            let (name, si) = (&symbol.name, symbol.quantity.unit());
+            let likely = if symbol.quantity == Quantity::Angle { "arcsec" } else { "mm" };
             terminal::warn(format_args!(
-                "{name} = {value} has no unit and is taken as {value} rad; did you mean {name} = \"{value} arcsec\"?"
+                "{name} = {value} has no unit and is taken as {value} {si}; did you mean {name} = \"{value} {likely}\"?"
             ));
         }
     }

@@ -108,8 +108,21 @@ pub fn readings_of(chain: &Chain, observable: ObservableId) -> Vec<SymbolId> {
     symbols
 }
 
-/// Names of the columns of an observable: `pointing_x`, `pointing_y`, `pointing_z`.
-pub fn column_names(chain: &Chain, observable: ObservableId) -> impl Iterator<Item = String> {
-    let name = &chain.observable(observable).name;
-    ["x", "y", "z"].into_iter().map(move |axis| format!("{name}_{axis}"))
+/// Names of the columns of observables: `pointing_x`, `pointing_y`, `pointing_z`.
+///
+/// # Errors
+/// A joint or an input has the name of one.
+pub fn column_names(chain: &Chain, observables: &[ObservableId]) -> Result<Vec<String>, Failure> {
+    let names = observables.iter().map(|&id| &chain.observable(id).name);
+    let columns: Vec<String> =
+        names.flat_map(|name| ["x", "y", "z"].map(|axis| format!("{name}_{axis}"))).collect();
+    let is_reading = |id| matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input);
+    let taken = columns.iter().find(|name| chain.find_symbol(name).is_some_and(is_reading));
+    match taken {
+        None => Ok(columns),
+        Some(name) => Err(Failure::Input(format!(
+            "`{name}` is both a joint or input of chain {} and the column of an observable: rename one of the two",
+            chain.name
+        ))),
+    }
 }

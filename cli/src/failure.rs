@@ -58,6 +58,7 @@ fn reason(error: &io::Error) -> String {
         io::ErrorKind::NotFound => "there is no such file or folder".to_owned(),
         io::ErrorKind::IsADirectory => "it is a folder; name a file in it".to_owned(),
         io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        io::ErrorKind::ReadOnlyFilesystem => "it is read-only; name another file".to_owned(),
         io::ErrorKind::InvalidData => "it is not UTF-8 text; save it as such".to_owned(),
         _ => error.to_string(),
     }

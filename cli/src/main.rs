@@ -9,6 +9,7 @@ mod errors_file;
 mod evaluation;
 mod failure;
 mod output;
+mod over_table;
 mod poses;
 mod ranges;
 mod report;
@@ -26,9 +27,12 @@ use clap::Parser as _;
 /// Exit code: 0 done (for `check`: every claim holds); 1 the answer is no; 2 bad input or usage.
 #[derive(Debug, clap::Parser)]
 #[command(name = "trueaxis", version, max_term_width = 100)]
-struct Arguments {
+pub struct Arguments {
     #[command(subcommand)]
     command: commands::Command,
+    /// Say nothing of what is being done; warnings and errors are told all the same
+    #[arg(long, short, global = true)]
+    quiet: bool,
 }
 
 /// A spoiled Parquet file makes the crate that reads it panic; that becomes an error like any other, and is told as one.
@@ -45,7 +49,11 @@ fn tell_panics_of_readers_as_errors() {
 fn main() -> ExitCode {
     #[cfg(feature = "parquet")]
     tell_panics_of_readers_as_errors();
-    match Arguments::parse().command.run() {
+    let arguments = Arguments::parse();
+    if arguments.quiet {
+        terminal::be_quiet();
+    }
+    match arguments.command.run() {
         Ok(commands::Answer::Done) => ExitCode::SUCCESS,
         Ok(commands::Answer::No) => ExitCode::from(1),
         Err(failure::Failure::ReaderGone) => ExitCode::SUCCESS,

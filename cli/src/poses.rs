@@ -2,11 +2,13 @@
 
 use std::ops::Range;
 
-use calibration::data::units;
+use calibration::data::units::{self, Plausible, si_and_likely};
 use model_core::algebra::Rational;
 use model_core::budget::{JointRange, Path, PathError};
 use model_core::expr::{Expr, Node};
 use model_core::{Chain, Mistake, Quantity, SymbolKind, names, syntax};
+
+use crate::terminal;
 
 /// Reads a path: joints and inputs as amounts in `t`, or as quantities with a unit.
 ///
@@ -46,6 +48,15 @@ fn amount_in_t(
 ) -> Result<Expr<Range<usize>>, Mistake<Range<usize>>> {
     let amount = &text[place.clone()];
     let quantity = chain.find_symbol(name).map_or(Quantity::Number, |id| chain.symbol(id).quantity);
+    if let (Some(symbol), Ok(bare)) = (chain.find_symbol(name), units::Amount::parse(amount))
+        && bare.unit.is_none()
+        && Plausible::readings(chain, symbol).refuses(quantity, bare.number)
+    {
+        let (si, likely) = si_and_likely(quantity);
+        terminal::warn(format_args!(
+            "{name}={amount} has no unit and is taken as {si}; did you mean {name}={amount} {likely}?"
+        ));
+    }
     if let Ok(value) = units::parse(amount, quantity)
         && let Ok(value) = Rational::parse_decimal(&format!("{:e}", value.abs()))
             .map(|size| if value < 0.0 { -&size } else { size })

@@ -1,10 +1,11 @@
 //! Ranges of joints and inputs on the command line: `--range "elevation=10 deg..80 deg"`.
 
-use calibration::data::units::Amount;
+use calibration::data::units::{Amount, Plausible, si_and_likely};
 use model_core::{Chain, SymbolId, SymbolKind, names};
 
 use crate::failure::Failure;
 use crate::source::listed;
+use crate::terminal;
 
 /// One `--range` as typed.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -78,6 +79,14 @@ pub fn read(chain: &Chain, argument: &RangeArgument) -> Result<Range, String> {
     let mut lower = Amount::parse(low).map_err(|why| wrong(low, why))?;
     // `-30..30 deg`: the unit of the upper bound holds for both.
     lower.unit = lower.unit.or(upper.unit);
+    let plausible = Plausible::readings(chain, symbol);
+    let bare = [lower, upper].into_iter().filter(|bound| bound.unit.is_none());
+    if bare.clone().any(|bound| plausible.refuses(quantity, bound.number)) {
+        let (si, likely) = si_and_likely(quantity);
+        terminal::warn(format_args!(
+            "--range {name}={low}..{high} has no unit and is taken as {si}; did you mean \"{name}={low}..{high} {likely}\"?"
+        ));
+    }
     let high = upper.to_si(quantity).map_err(|why| wrong(high, why))?;
     let low = lower.to_si(quantity).map_err(|why| wrong(low, why))?;
     if low > high {

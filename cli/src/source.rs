@@ -1,7 +1,7 @@
 //! Texts that the user wrote (declarations, TOML files) with their names, so that a mistake can be shown
 //! where it stands.
 
-use std::fs;
+use std::fs::{self, File};
 use std::io::{self, Read as _};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -29,10 +29,9 @@ impl Source {
     /// The file cannot be read or is not UTF-8; a name that is not there comes with the nearest that is.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let text = if path == Path::new("-") {
-            let mut text = String::new();
-            io::stdin().read_to_string(&mut text).map(|_| text)
+            limited(io::stdin().lock())
         } else {
-            fs::read_to_string(path)
+            File::open(path).and_then(limited)
         };
         match text {
             Ok(text) => Ok(Self {
@@ -89,6 +88,19 @@ impl Source {
     pub fn mistake(&self, mistake: Mistake<Range<usize>>) -> Failure {
         self.mistakes(&Mistakes::locate(&self.text, [mistake]))
     }
+}
+
+/// The longest declaration, claims, errors or study file, in bytes: beyond any that a person writes.
+const LONGEST_TEXT: u64 = 16 << 20;
+
+/// The whole of a text, if it is no longer than texts are.
+fn limited(file: impl io::Read) -> io::Result<String> {
+    let mut text = String::new();
+    file.take(LONGEST_TEXT + 1).read_to_string(&mut text)?;
+    if text.len() as u64 > LONGEST_TEXT {
+        return Err(io::Error::other("it is longer than 16 MiB; is it the right file?"));
+    }
+    Ok(text)
 }
 
 /// Why a file cannot be read, with the nearest name in its folder if it is not there.

@@ -3,6 +3,7 @@
 
 use std::fmt::Display;
 use std::io::Write as _;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use anstyle::{AnsiColor, Style};
@@ -40,19 +41,36 @@ pub fn print(text: &str) -> Result<(), Failure> {
         .map_err(|error| Failure::write("standard output".as_ref(), &error))
 }
 
+/// Whether what the command is doing goes unsaid.
+static QUIET: AtomicBool = AtomicBool::new(false);
+
+/// From here on, only results, warnings and errors are told.
+pub fn be_quiet() {
+    QUIET.store(true, Ordering::Relaxed);
+}
+
 /// Says on standard error what the user should know although the command goes on.
 pub fn warn(message: impl Display) {
-    note(format_args!("{CAREFUL}warning{CAREFUL:#}: {message}"));
+    say(format_args!("{CAREFUL}warning{CAREFUL:#}: {message}"));
 }
 
 /// Says on standard error what the command is doing.
 pub fn note(message: impl Display) {
+    if !QUIET.load(Ordering::Relaxed) {
+        say(message);
+    }
+}
+
+fn say(message: impl Display) {
     // Where standard error is closed there is nobody to tell.
     let _ = writeln!(anstream::stderr(), "{message}");
 }
 
 /// A line on standard error that says where a long run is, where a person looks; drop it to take it away.
 pub fn progress() -> ProgressBar {
+    if QUIET.load(Ordering::Relaxed) {
+        return ProgressBar::hidden();
+    }
     let bar = ProgressBar::new_spinner();
     bar.enable_steady_tick(Duration::from_millis(100));
     bar
@@ -61,7 +79,7 @@ pub fn progress() -> ProgressBar {
 /// Says on standard error why the command stopped.
 pub fn report_failure(failure: &Failure) {
     match failure {
-        Failure::Mistakes(rendered) => note(rendered.trim_end()),
-        _ => note(format_args!("{BAD}error{BAD:#}: {failure}")),
+        Failure::Mistakes(rendered) => say(rendered.trim_end()),
+        _ => say(format_args!("{BAD}error{BAD:#}: {failure}")),
     }
 }

@@ -1,7 +1,12 @@
 //! Amendment: what the search found becomes lines in the user's own text.
 //!
 //! Comments, order and layout of the text stay as they are: new lines go in after the last list of the same role in
-//! the body, indented like it. What they mean together with the rest is the business of the language's reader.
+//! the body, indented like it and ended like the lines around it. Before an amended text leaves, it is read again, and held to
+//! what was meant ([`verify`]).
+
+mod verify;
+
+use std::ops::Range;
 
 use model_core::syntax::declaration::{BodyStatement, Declaration, FactorGroup, Statement};
 use model_core::{BodyId, Chain, Mistakes, Quantity, Role};
@@ -39,12 +44,17 @@ pub enum AmendError {
     /// The text is not that of the chain.
     #[error("the declaration has no body `{0}`")]
     NoBody(String),
+    /// The amended text would not say what was found.
+    #[error(
+        "the amended declaration would not say what was found ({0}); this is a mistake in trueaxis: please report it"
+    )]
+    NotAsMeant(String),
 }
 
 /// The text with the additions and with inputs that it does not declare yet.
 ///
 /// # Errors
-/// A text that is no declaration, or not that of the chain.
+/// A text that is no declaration, or not that of the chain; additions that would make it say something else than them.
 pub fn amend(
     text: &str,
     chain: &Chain,
@@ -61,9 +71,13 @@ pub fn amend(
             .ok_or_else(|| AmendError::NoBody(name.clone()))?;
         let (at, indent) = place(text, body, addition.role);
         let word = if addition.role == Role::MotionError { "motion_error" } else { "position_error" };
-        let mut lines: String =
-            addition.documentation.iter().map(|line| format!("\n{indent}/// {line}")).collect();
-        lines.push_str(&format!("\n{indent}{word}: {};", addition.factor));
+        let end = line_end(text, at);
+        let mut lines: String = addition
+            .documentation
+            .iter()
+            .map(|line| format!("{end}{indent}/// {}", on_one_line(line)))
+            .collect();
+        lines.push_str(&format!("{end}{indent}{word}: {};", addition.factor));
         insertions.push((at, addition.role, lines));
     }
     for NewInput { name, quantity, documentation } in inputs {
@@ -73,7 +87,8 @@ pub fn amend(
             Quantity::Length => ": length",
             Quantity::Number => "",
         };
-        let lines = format!("\n{indent}/// {documentation}\n{indent}input {name}{measures};");
+        let (end, documentation) = (line_end(text, at), on_one_line(documentation));
+        let lines = format!("{end}{indent}/// {documentation}{end}{indent}input {name}{measures};");
         insertions.push((at, Role::Position, lines));
     }
     // In a body without a motion all roles go to one place: there as everywhere, what errs before the motion stands
@@ -82,12 +97,15 @@ pub fn amend(
     let mut amended =
         String::with_capacity(text.len() + insertions.iter().map(|(_, _, s)| s.len()).sum::<usize>());
     let mut from = 0;
+    let mut inserted: Vec<Range<usize>> = Vec::new();
     for (at, _, lines) in insertions {
         amended.push_str(&text[from..at]);
+        inserted.push(amended.len()..amended.len() + lines.len());
         amended.push_str(&lines);
         from = at;
     }
     amended.push_str(&text[from..]);
+    verify::says_what_was_meant(text, &amended, &inserted, additions, inputs)?;
     Ok(amended)
 }
 
@@ -104,6 +122,18 @@ pub fn with_quantities_of(mut chain: Chain, text: &str) -> Result<Chain, Mistake
         }
     }
     Ok(chain)
+}
+
+/// A text without line breaks, or anything else that could end a comment.
+fn on_one_line(text: &str) -> String {
+    let breaks = |letter: char| letter.is_control() || matches!(letter, '\u{2028}' | '\u{2029}');
+    text.split(breaks).filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
+}
+
+/// How the line around a byte ends.
+fn line_end(text: &str, at: usize) -> &'static str {
+    let line = text[at..].find('\n').map_or(text, |end| &text[..at + end]);
+    if line.ends_with('\r') { "\r\n" } else { "\n" }
 }
 
 /// The difference of two texts as a unified diff.
@@ -159,19 +189,44 @@ fn after_semicolon(text: &str, from: usize) -> usize {
         at += match next {
             ';' => return at + 1,
             '/' if rest.starts_with("//") => rest.find('\n').unwrap_or(rest.len()),
-            '/' if rest.starts_with("/*") => rest.find("*/").map_or(rest.len(), |end| end + 2),
+            '/' if rest.starts_with("/*") => block_comment(rest),
             other => other.len_utf8(),
         };
     }
     at
 }
 
-/// The end of the line if only a comment follows `at` on it, `at` itself otherwise.
+/// The length of the block comment that a text starts with; such comments hold others.
+fn block_comment(text: &str) -> usize {
+    let (mut depth, mut at) = (0_usize, 0);
+    while let Some(rest) = text.get(at..).filter(|rest| !rest.is_empty()) {
+        let (step, deeper) = match rest {
+            _ if rest.starts_with("/*") => (2, depth + 1),
+            _ if rest.starts_with("*/") => (2, depth - 1),
+            _ => (rest.chars().next().map_or(1, char::len_utf8), depth),
+        };
+        (at, depth) = (at + step, deeper);
+        if depth == 0 {
+            return at;
+        }
+    }
+    text.len()
+}
+
+/// The end of the line if only a comment follows `at` on it, `at` itself otherwise. Documentation is no comment: it belongs to
+/// what comes next.
 fn end_of_line(text: &str, at: usize) -> usize {
     let rest = &text[at..];
     let line = rest.split('\n').next().unwrap_or_default();
     let bare = line.trim_start_matches([';', ' ', '\t', '\r']);
-    if bare.is_empty() || bare.starts_with("//") { at + line.trim_end_matches('\r').len() } else { at }
+    let documents = bare.starts_with("//!") || bare.starts_with("///") && !bare.starts_with("////");
+    let semicolons = rest.len() - rest.trim_start_matches([';', ' ', '\t']).len();
+    let semicolons = rest[..semicolons].rfind(';').map_or(0, |last| last + 1);
+    match bare {
+        _ if documents => at + semicolons,
+        _ if bare.is_empty() || bare.starts_with("//") => at + line.trim_end_matches('\r').len(),
+        _ => at,
+    }
 }
 
 /// The white space that the line around a byte starts with.

@@ -1,36 +1,28 @@
-//! Separated values: any separator, decimal comma, `#` comments, a byte-order mark, units in headers.
+//! Separated values: any separator, decimal comma, a byte-order mark, units in headers, `#` comments above the header (below
+//! it where [`Options`] say so).
 
 use std::io::{self, Read};
 
-use ::csv::{ByteRecord, ReaderBuilder};
-
+use super::error::clipped;
 use super::header::{ColumnName, unique};
-use super::{Cell, Cells, Chunk, DataError, TableReader, Wanted};
-
-/// What a study may say of its files where seeing it from the header would fail.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Options {
-    /// The separator; seen from the header if `None`.
-    pub separator: Option<u8>,
-}
+use super::records::{Record, RecordError, Records};
+use super::{Cell, Cells, Chunk, DataError, Form, Kept, Options, TableReader, Wanted};
 
 /// How much of a file is looked at to see its separator.
 const PEEK: u64 = 64 * 1024;
+
+/// Bytes of text after which a chunk is not made longer, however few rows it has.
+const CHUNK_BYTES: usize = 64 << 20;
 
 /// A file of separated values with a header.
 pub struct Reader<R: Read> {
     source: String,
     header: Vec<ColumnName>,
-    inner: ::csv::Reader<Text<R>>,
-    record: ByteRecord,
+    records: Records<io::Chain<io::Cursor<Vec<u8>>, R>>,
+    record: Record,
     row: u64,
     separator: u8,
-    /// Lines by which the reader is ahead after a row: it has read a line feed, but of `\r\n` only the first half.
-    ahead: u64,
 }
-
-/// What was peeked at, the rest, and an end of line, so that the last row ends like the others.
-type Text<R> = io::Chain<io::Chain<io::Cursor<Vec<u8>>, R>, &'static [u8]>;
 
 impl<R: Read> Reader<R> {
     /// Reads the header.
@@ -49,47 +41,33 @@ impl<R: Read> Reader<R> {
         }
         let byte_order_mark = if head.starts_with(&[0xEF, 0xBB, 0xBF]) { 3 } else { 0 };
         head.drain(..byte_order_mark);
-        let separator = options.separator.unwrap_or_else(|| guess_separator(&head));
-        let (ahead, line_end): (u64, &[u8]) =
-            if head.windows(2).any(|pair| pair == b"\r\n") { (0, b"\r\n") } else { (1, b"\n") };
-        let mut inner = ReaderBuilder::new()
-            .delimiter(separator)
-            .comment(Some(b'#'))
-            .flexible(true)
-            .trim(::csv::Trim::All)
-            .from_reader(io::Cursor::new(head).chain(reader).chain(line_end));
-        let cells = inner.byte_headers().map_err(|error| unreadable(source, &error))?.clone();
-        if cells.is_empty() || cells.iter().all(<[u8]>::is_empty) {
+        let line_end = if head.contains(&b'\r') && !head.contains(&b'\n') { b'\r' } else { b'\n' };
+        let separator = options.separator.unwrap_or_else(|| guess_separator(&head, line_end));
+        let mut records = Records::new(io::Cursor::new(head).chain(reader), separator, line_end);
+        let mut record = Record::default();
+        let any = records.read(&mut record).map_err(|error| unreadable(source, error))?;
+        if !any || record.cells().all(<[u8]>::is_empty) {
             return Err(DataError::Empty { file: source.to_string() });
         }
-        let line = inner.position().line().saturating_sub(ahead);
-        let header = cells
-            .iter()
+        if record.swallowed().next().is_some() {
+            let why = "a name in the header holds a line break: is a quote not closed?".to_string();
+            return Err(DataError::BadLine { file: source.to_string(), line: record.line, why });
+        }
+        let header = record
+            .cells()
             .map(|cell| std::str::from_utf8(cell).map(ColumnName::parse))
             .collect::<Result<Vec<_>, _>>()
-            .map_err(|_| DataError::NotUtf8 { file: source.to_string(), line })?;
+            .map_err(|_| DataError::NotUtf8 { file: source.to_string(), line: record.line })?;
         unique(&header, source)?;
-        Ok(Self {
-            source: source.to_string(),
-            header,
-            inner,
-            record: ByteRecord::new(),
-            row: 0,
-            separator,
-            ahead,
-        })
-    }
-
-    /// Line of the row that was read last.
-    fn line(&self) -> u64 {
-        self.inner.position().line().saturating_sub(self.ahead)
+        records.leave_out(options.comment);
+        Ok(Self { source: source.to_string(), header, records, record, row: 0, separator })
     }
 
     /// The place of a cell of the row that was read last.
     fn cell(&self, column: usize) -> Cell {
         Cell {
             file: self.source.clone(),
-            line: Some(self.line()),
+            line: Some(self.record.line),
             row: self.row,
             column: self.header.get(column).map_or_else(String::new, |name| name.full.clone()),
         }
@@ -97,24 +75,76 @@ impl<R: Read> Reader<R> {
 
     /// The text of a cell of the row that was read last.
     fn text(&self, column: usize) -> Result<&str, DataError> {
-        std::str::from_utf8(self.record.get(column).unwrap_or_default())
-            .map_err(|_| DataError::NotUtf8 { file: self.source.clone(), line: self.line() })
+        std::str::from_utf8(self.record.get(column))
+            .map_err(|_| DataError::NotUtf8 { file: self.source.clone(), line: self.record.line })
     }
 
     /// The number in a cell of the row that was read last.
     fn number(&self, column: usize) -> Result<f64, DataError> {
-        let text = self.text(column)?;
-        let parsed = text.parse::<f64>().ok().or_else(|| {
-            let decimal_comma = self.separator != b',' && text.contains(',') && !text.contains('.');
-            if decimal_comma { text.replacen(',', ".", 1).parse().ok() } else { None }
-        });
-        match parsed {
+        let text = self.text(column)?.trim();
+        match parse(text, self.separator) {
             Some(number) if number.is_finite() => Ok(number),
-            Some(_) => Err(DataError::NotFinite { cell: self.cell(column), text: text.to_string() }),
+            Some(_) => Err(DataError::NotFinite { cell: self.cell(column), text: clipped(text) }),
             None if text.is_empty() => Err(DataError::EmptyCell { cell: self.cell(column) }),
-            None => Err(DataError::NotANumber { cell: self.cell(column), text: text.to_string() }),
+            None => Err(DataError::NotANumber { cell: self.cell(column), text: clipped(text) }),
         }
     }
+
+    /// Takes over the row that was read last; returns its length in bytes.
+    fn take(&self, wanted: &[Wanted], columns: &mut [Cells]) -> Result<usize, DataError> {
+        if self.record.len() != self.header.len() {
+            return Err(DataError::RaggedRow {
+                file: self.source.clone(),
+                line: self.record.line,
+                row: self.row,
+                expected: self.header.len(),
+                found: self.record.len(),
+            });
+        }
+        let mut bytes = 0;
+        for (want, cells) in wanted.iter().zip(columns) {
+            match (want.form, cells) {
+                (Form::Number(factor), Cells::Numbers(numbers)) => {
+                    bytes += size_of::<f64>();
+                    numbers.push(self.number(want.column)? * factor);
+                }
+                (Form::Label | Form::Kept, Cells::Labels(texts) | Cells::Kept(Kept::Texts(texts))) => {
+                    let text = self.text(want.column)?;
+                    bytes += text.len() + size_of::<String>();
+                    texts.push(text.to_string());
+                }
+                _ => unreachable!("`no_cells` made a column of each form that is wanted"),
+            }
+        }
+        Ok(bytes)
+    }
+
+    /// Refuses a quoted cell that runs over a line which is a row of its own: its quote was opened by mistake.
+    fn check_swallowed(&self, wanted: &[Wanted]) -> Result<(), DataError> {
+        let is_row = |line: &[u8]| {
+            let cells: Vec<&[u8]> = line.split(|byte| *byte == self.separator).collect();
+            let is_number = |want: &Wanted| {
+                let cell = cells.get(want.column).and_then(|cell| std::str::from_utf8(cell).ok());
+                cell.is_some_and(|cell| parse(cell.trim(), self.separator).is_some())
+            };
+            let mut numbers = wanted.iter().filter(|want| matches!(want.form, Form::Number(_))).peekable();
+            cells.len() == self.header.len() && numbers.peek().is_some() && numbers.all(is_number)
+        };
+        let Some((line, _)) = self.record.swallowed().find(|(_, line)| is_row(line)) else { return Ok(()) };
+        let why = format!(
+            "a quoted cell of this row runs over line {line}, which looks like a row of its own: close the quote \
+             on its line, or take it away"
+        );
+        Err(DataError::BadLine { file: self.source.clone(), line: self.record.line, why })
+    }
+}
+
+/// A number as text has it: with a decimal comma where no comma separates.
+fn parse(text: &str, separator: u8) -> Option<f64> {
+    text.parse::<f64>().ok().or_else(|| {
+        let decimal_comma = separator != b',' && text.contains(',') && !text.contains('.');
+        if decimal_comma { text.replacen(',', ".", 1).parse().ok() } else { None }
+    })
 }
 
 impl<R: Read> TableReader for Reader<R> {
@@ -129,32 +159,24 @@ impl<R: Read> TableReader for Reader<R> {
     fn read(&mut self, wanted: &[Wanted], at_most: usize) -> Result<Chunk, DataError> {
         let mut columns = super::no_cells(wanted);
         let mut rows = Vec::new();
-        while rows.len() < at_most {
-            let more = self
-                .inner
-                .read_byte_record(&mut self.record)
-                .map_err(|error| unreadable(&self.source, &error))?;
+        let mut bytes = 0;
+        while rows.len() < at_most && bytes < CHUNK_BYTES {
+            let more =
+                self.records.read(&mut self.record).map_err(|error| unreadable(&self.source, error))?;
             if !more {
                 break;
             }
             self.row += 1;
-            if self.record.len() != self.header.len() {
-                return Err(DataError::RaggedRow {
-                    file: self.source.clone(),
-                    line: self.line(),
-                    row: self.row,
-                    expected: self.header.len(),
-                    found: self.record.len(),
-                });
-            }
-            for (want, cells) in wanted.iter().zip(&mut columns) {
-                match cells {
-                    Cells::Numbers(numbers) => {
-                        numbers.push(self.number(want.column)? * want.factor.unwrap_or(1.0));
-                    }
-                    Cells::Labels(labels) => labels.push(self.text(want.column)?.to_string()),
+            self.check_swallowed(wanted)?;
+            bytes += self.take(wanted, &mut columns).map_err(|error| {
+                if !self.record.is_like_a_comment {
+                    return error;
                 }
-            }
+                let why = "a line below the header that begins with `#` is a row; if it is a comment, say so: \
+                           comment = \"#\" in a study, --comment \"#\" on the command line";
+                let (file, line) = (self.source.clone(), self.record.line);
+                DataError::BadLine { file, line, why: why.to_string() }
+            })?;
             rows.push(self.row);
         }
         Ok(Chunk { columns, rows })
@@ -162,9 +184,9 @@ impl<R: Read> TableReader for Reader<R> {
 }
 
 /// The separator that splits the header into most names; a comma if nothing does.
-fn guess_separator(head: &[u8]) -> u8 {
+fn guess_separator(head: &[u8], line_end: u8) -> u8 {
     let header = head
-        .split(|&byte| byte == b'\n')
+        .split(|&byte| byte == line_end)
         .find(|line| !line.starts_with(b"#") && line.iter().any(|byte| !byte.is_ascii_whitespace()))
         .unwrap_or_default();
     let count = |separator: u8| {
@@ -186,8 +208,12 @@ fn guess_separator(head: &[u8]) -> u8 {
     }
 }
 
-fn unreadable(source: &str, error: &::csv::Error) -> DataError {
-    DataError::Unreadable { file: source.to_string(), why: error.to_string() }
+fn unreadable(source: &str, error: RecordError) -> DataError {
+    let file = source.to_string();
+    match error {
+        RecordError::Io(error) => DataError::Unreadable { file, why: error.to_string() },
+        RecordError::Line { line, why } => DataError::BadLine { file, line, why: why.to_string() },
+    }
 }
 
 #[cfg(test)]
@@ -197,7 +223,7 @@ mod tests {
     /// Reads the first column as numbers and the second as labels.
     fn read(text: &[u8]) -> Result<Chunk, DataError> {
         let mut reader = Reader::new(text, "data.csv", &Options::default())?;
-        let wanted = [Wanted { column: 0, factor: Some(2.0) }, Wanted { column: 1, factor: None }];
+        let wanted = [Wanted { column: 0, form: Form::Number(2.0) }, Wanted { column: 1, form: Form::Label }];
         reader.read(&wanted, usize::MAX)
     }
 
@@ -213,9 +239,11 @@ mod tests {
         for text in [
             "az,name\n1.5,Mars\n-4,Moon\n",
             "az;name\r\n1,5;Mars\r\n-4;Moon",
-            "\u{feff}# made by hand\naz\tname\n1.5\tMars\n# a comment\n-4\tMoon\n",
+            "\u{feff}# made by hand\n#\taz\naz\tname\n1.5\tMars\n\n-4\tMoon\n",
+            "az,name\r1.5,Mars\r-4,Moon",
             "az | name\n 1.5 | Mars \n -4e0 | Moon\n",
             "az name\n1.5 Mars\n-4 Moon\n",
+            "az,name\n1.5, \"Mars\" \n\"-4\",Moon\n",
             "\"az, to the east\",name\n1.5,Mars\n-4,\"Moon\"\n",
         ] {
             assert_eq!(read(text.as_bytes()), expected, "{text}");
@@ -237,7 +265,49 @@ mod tests {
             message(b"az,name\n1,Mars,3\n"),
             message(b"az,name\n1,\xffMars\n"),
             message(b"\xff\xfea\0z\0"),
+            message(b"az,name\n1,\"Mars\n2,Moon\n3,Sun\n"),
+            message(b"az,name\n1,\"Mars\n2,Moon\"\n3,Sun\n"),
+            message(b"az,name\n1,\"Mars\n2,\"Moon\"\n3,Sun\n"),
+            message(b"\"az,name\n1,Mars\"\n"),
+            message(b"az,name\n1,Mars\n# by hand\n"),
+            message(b"az,name\n1,Mars\n#2,Moon\n"),
         ]);
+    }
+
+    #[test]
+    fn quoted_cells_keep_what_stands_in_them() {
+        let read = |text: &str| read(text.as_bytes()).map(|chunk| chunk.columns[1].clone());
+        let labels =
+            |texts: &[&str]| Ok(Cells::Labels(texts.iter().map(|text| (*text).to_string()).collect()));
+        assert_eq!(read("az,name\n1,\" Mars, \"\"red\"\" \"\n"), labels(&[" Mars, \"red\" "]));
+        assert_eq!(read("az,name\r\n1,\"two\r\nlines\"\r\n"), labels(&["two\r\nlines"]));
+        assert_eq!(read("az,name\n1,#7\n"), labels(&["#7"]));
+        assert_eq!(read("az,name\n1,5\" pipe\n"), labels(&["5\" pipe"]));
+    }
+
+    #[test]
+    fn lines_below_the_header_are_comments_where_it_is_said() {
+        let options = Options { comment: Some(b'%'), ..Options::default() };
+        let text = "# above\naz,name\n1,Mars\n% below\n2,Moon\n";
+        let rows = Reader::new(text.as_bytes(), "data.csv", &options)
+            .and_then(|mut reader| reader.read(&[Wanted { column: 1, form: Form::Label }], usize::MAX));
+        assert_eq!(rows.map(|chunk| chunk.rows), Ok(vec![1, 2]));
+    }
+
+    #[test]
+    fn a_row_without_end_is_refused() {
+        let endless = b"az,name\n1,".iter().copied().chain(std::iter::repeat_n(b'x', 17 << 20));
+        let message = read(&endless.collect::<Vec<u8>>()).map_err(|error| error.to_string());
+        assert!(message.is_err_and(|why| why.contains("line 2") && why.contains("16 MiB")));
+    }
+
+    #[test]
+    fn every_row_is_read_or_refused() {
+        // Labels of all kinds, one a line and none with a line break: as many rows as lines.
+        let labels = ["#", "# x", "'", "\"\"", "\"#\"", "\"a\" ", "", "-", "a \"quoted\" word", "\u{feff}"];
+        let text: String = labels.iter().map(|label| format!("1,{label}\n")).collect();
+        let chunk = read(format!("az,name\n{text}").as_bytes());
+        assert_eq!(chunk.map(|chunk| chunk.rows.len()), Ok(labels.len()));
     }
 
     proptest::proptest! {

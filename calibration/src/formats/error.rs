@@ -4,6 +4,17 @@ use std::fmt;
 
 use thiserror::Error;
 
+/// Letters of a cell that a message shows at most.
+const SHOWN: usize = 60;
+
+/// The start of a text, as a message shows it.
+pub(super) fn clipped(text: &str) -> String {
+    match text.char_indices().nth(SHOWN) {
+        Some((end, _)) => format!("{}…", text.get(..end).unwrap_or_default()),
+        None => text.to_owned(),
+    }
+}
+
 /// The place of one cell.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Cell {
@@ -23,7 +34,7 @@ impl fmt::Display for Cell {
         if let Some(line) = self.line {
             write!(f, "line {line}, ")?;
         }
-        write!(f, "row {}, column `{}`", self.row, self.column)
+        write!(f, "row {}, column `{}`", self.row, clipped(&self.column))
     }
 }
 
@@ -130,6 +141,55 @@ pub enum DataError {
         file: String,
         /// Name of the column.
         column: String,
+    },
+    /// The header says a unit that is none.
+    #[error("{file}: the header of column `{column}`: {why}")]
+    UnknownUnit {
+        /// Name of the file.
+        file: String,
+        /// Name of the column.
+        column: String,
+        /// What was said, and which units there are.
+        why: String,
+    },
+    /// A declared name that itself ends like a unit, and a column that says no more.
+    #[error(
+        "{file}: column `{column}`: is `{unit}` its unit, or part of the name? Write the unit in the header: \
+         `{column} [{unit}]` or `{column} [{si}]`"
+    )]
+    NameOrUnit {
+        /// Name of the file.
+        file: String,
+        /// Name of the column.
+        column: String,
+        /// What the name ends in.
+        unit: &'static str,
+        /// The SI unit.
+        si: &'static str,
+    },
+    /// Two columns that could be meant by one name.
+    #[error("{file}: both `{one}` and `{other}` are columns for `{name}`: take one away, or rename it")]
+    TwoColumns {
+        /// Name of the file.
+        file: String,
+        /// The name that was looked for.
+        name: String,
+        /// The column further to the left.
+        one: String,
+        /// The other.
+        other: String,
+    },
+    /// The rows take more memory than they may.
+    #[error(
+        "{file}: its rows take more than {} MiB of memory: leave out rows, or allow more with memory = \"8 GiB\" in \
+         a study",
+        budget_bytes >> 20
+    )]
+    TooLarge {
+        /// Name of the file.
+        file: String,
+        /// How much they may take.
+        budget_bytes: u64,
     },
     /// The header says one unit, the study another.
     #[error(

@@ -11,22 +11,76 @@
 pub mod csv;
 mod error;
 mod header;
+mod options;
 #[cfg(feature = "parquet")]
 pub mod parquet;
+mod quote;
+mod records;
 pub mod tpoint;
 
+use std::borrow::Cow;
 use std::io::Read;
 
 pub use error::{Cell, DataError};
-pub use header::{ColumnName, find_column};
+pub use header::{ColumnName, ReadAs, declared_columns, find_column, find_reading};
+pub use options::Options;
+pub use quote::write_row;
 
 /// One column of a chunk.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cells {
     /// Finite numbers, times the factor that was asked for.
     Numbers(Vec<f64>),
-    /// The text of the cells, without space around it.
+    /// The text of the cells, without the space around them that no quotes hold.
     Labels(Vec<String>),
+    /// The cells as they came.
+    Kept(Kept),
+}
+
+/// A column that no command computes: it leaves as it came.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Kept {
+    /// Texts.
+    Texts(Vec<String>),
+    /// Values with their types.
+    #[cfg(feature = "parquet")]
+    Typed(parquet::TypedCells),
+}
+
+impl Kept {
+    /// What the cells say.
+    ///
+    /// # Errors
+    /// A cell that no text can say, such as a time that no calendar has.
+    pub fn texts(&self) -> Result<Cow<'_, [String]>, DataError> {
+        match self {
+            Self::Texts(texts) => Ok(Cow::Borrowed(texts)),
+            #[cfg(feature = "parquet")]
+            Self::Typed(cells) => cells.texts().map(Cow::Owned),
+        }
+    }
+
+    /// Appends cells of the same column of the same file.
+    pub fn append(&mut self, more: Self) {
+        match (self, more) {
+            (Self::Texts(texts), Self::Texts(more)) => texts.extend(more),
+            #[cfg(feature = "parquet")]
+            (Self::Typed(cells), Self::Typed(more)) => cells.append(more),
+            #[cfg(feature = "parquet")]
+            _ => unreachable!("the chunks of one file hold a column in one way"),
+        }
+    }
+}
+
+/// As what a column is to be read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Form {
+    /// Numbers times this factor (to SI).
+    Number(f64),
+    /// Texts that are compared.
+    Label,
+    /// Whatever they are, to be written again.
+    Kept,
 }
 
 /// A column that is to be read, and as what.
@@ -34,8 +88,8 @@ pub enum Cells {
 pub struct Wanted {
     /// Index in the header.
     pub column: usize,
-    /// As numbers times this factor (to SI), or as labels.
-    pub factor: Option<f64>,
+    /// As what.
+    pub form: Form,
 }
 
 /// Consecutive rows of a file, column by column in the order wanted.
@@ -55,20 +109,35 @@ pub trait TableReader {
     /// The columns there are.
     fn header(&self) -> &[ColumnName];
 
-    /// The next rows, at most so many; no rows at the end.
+    /// The next rows, at most so many, and fewer where they are long; no rows at the end.
     ///
     /// # Errors
     /// A cell that cannot be read as what was wanted, with its place.
     fn read(&mut self, wanted: &[Wanted], at_most: usize) -> Result<Chunk, DataError>;
 }
 
-/// A column without cells for each that is wanted: numbers where there is a factor, labels else.
+/// A column without cells for each that is wanted.
 fn no_cells(wanted: &[Wanted]) -> Vec<Cells> {
-    let empty = |want: &Wanted| match want.factor {
-        Some(_) => Cells::Numbers(Vec::new()),
-        None => Cells::Labels(Vec::new()),
+    let empty = |want: &Wanted| match want.form {
+        Form::Number(_) => Cells::Numbers(Vec::new()),
+        Form::Label => Cells::Labels(Vec::new()),
+        Form::Kept => Cells::Kept(Kept::Texts(Vec::new())),
     };
     wanted.iter().map(empty).collect()
+}
+
+/// Reads the whole of a file whose format must be held in memory, within the budget.
+///
+/// # Errors
+/// It cannot be read, or is larger than the budget.
+fn whole(reader: impl Read, source: &str, options: &Options) -> Result<Vec<u8>, DataError> {
+    let mut bytes = Vec::new();
+    reader
+        .take(options.memory_bytes.saturating_add(1))
+        .read_to_end(&mut bytes)
+        .map_err(|error| DataError::Unreadable { file: source.to_string(), why: error.to_string() })?;
+    options.holds(bytes.len(), source)?;
+    Ok(bytes)
 }
 
 /// Opens a table by the ending of its name.
@@ -78,13 +147,13 @@ fn no_cells(wanted: &[Wanted]) -> Vec<Cells> {
 pub fn open<'r>(
     reader: impl Read + 'r,
     source: &str,
-    options: &csv::Options,
+    options: &Options,
 ) -> Result<Box<dyn TableReader + 'r>, DataError> {
     let ending = source.rsplit_once('.').map(|(_, ending)| ending.to_ascii_lowercase());
     match ending.as_deref() {
-        Some("dat") => Ok(Box::new(tpoint::Reader::new(reader, source)?)),
+        Some("dat") => Ok(Box::new(tpoint::Reader::new(reader, source, options)?)),
         #[cfg(feature = "parquet")]
-        Some("parquet") => Ok(Box::new(parquet::Reader::new(reader, source)?)),
+        Some("parquet") => Ok(Box::new(parquet::Reader::new(reader, source, options)?)),
         #[cfg(not(feature = "parquet"))]
         Some("parquet") => Err(DataError::NoParquet { file: source.to_string() }),
         _ => Ok(Box::new(csv::Reader::new(reader, source, options)?)),

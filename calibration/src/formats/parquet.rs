@@ -3,60 +3,68 @@
 //! Names of columns carry units as the headers of separated values do. The format keeps its table of contents at the end, so
 //! a file is held in memory whole.
 
+mod bounded;
+mod write;
+
 use std::cell;
 use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Arc;
 
-use ::parquet::basic::{Compression, ConvertedType, LogicalType, Repetition, Type as Physical};
-use ::parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
+use ::parquet::basic::{Repetition, Type as Physical};
 use ::parquet::errors::ParquetError;
-use ::parquet::file::properties::WriterProperties;
 use ::parquet::file::reader::{FileReader as _, SerializedFileReader};
-use ::parquet::file::writer::SerializedFileWriter;
 use ::parquet::record::Field;
 use ::parquet::record::reader::RowIter;
-use ::parquet::schema::types::Type;
+use ::parquet::schema::types::{Type, TypePtr};
 use bytes::Bytes;
 
+pub use write::{Column, file_of};
+
 use super::header::{ColumnName, unique};
-use super::{Cell, Cells, Chunk, DataError, TableReader, Wanted};
+use super::{Cell, Cells, Chunk, DataError, Form, Kept, Options, TableReader, Wanted};
+use bounded::BoundedFile;
 
 /// A Parquet file.
 pub struct Reader {
     source: String,
     header: Vec<ColumnName>,
+    types: Vec<TypePtr>,
     rows: RowIter<'static>,
     row: u64,
+}
+
+/// Cells as a file holds them, with their type.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TypedCells {
+    of_type: TypePtr,
+    fields: Vec<Field>,
 }
 
 impl Reader {
     /// Reads the file whole, and its schema.
     ///
     /// # Errors
-    /// No Parquet file, no columns, a name twice, or a column of lists or groups.
-    pub fn new(mut reader: impl Read, source: &str) -> Result<Self, DataError> {
-        let mut bytes = Vec::new();
-        reader
-            .read_to_end(&mut bytes)
-            .map_err(|error| DataError::Unreadable { file: source.to_string(), why: error.to_string() })?;
+    /// No Parquet file, larger than the memory budget, no columns, a name twice, or a column of lists or groups.
+    pub fn new(reader: impl Read, source: &str, options: &Options) -> Result<Self, DataError> {
+        let bytes = super::whole(reader, source, options)?;
         let file = guarded(source, || SerializedFileReader::new(Bytes::from(bytes)))?;
-        let fields = file.metadata().file_metadata().schema().get_fields();
+        let types = file.metadata().file_metadata().schema().get_fields().to_vec();
         let flat = |field: &Type| {
             field.is_primitive() && field.get_basic_info().repetition() != Repetition::REPEATED
         };
-        if let Some(nested) = fields.iter().find(|field| !flat(field)) {
+        if let Some(nested) = types.iter().find(|field| !flat(field)) {
             let why =
                 format!("column `{}` holds lists or groups: write one number or text a row", nested.name());
             return Err(DataError::Unreadable { file: source.to_string(), why });
         }
-        let header: Vec<ColumnName> = fields.iter().map(|field| ColumnName::parse(field.name())).collect();
+        let header: Vec<ColumnName> = types.iter().map(|field| ColumnName::parse(field.name())).collect();
         if header.is_empty() {
             return Err(DataError::Empty { file: source.to_string() });
         }
         unique(&header, source)?;
+        let file = BoundedFile { inner: file, memory_bytes: options.memory_bytes };
         let rows = guarded(source, || Ok(RowIter::from_file_into(Box::new(file))))?;
-        Ok(Self { source: source.to_string(), header, rows, row: 0 })
+        Ok(Self { source: source.to_string(), header, types, rows, row: 0 })
     }
 
     /// The place of a cell of the row that was read last.
@@ -67,17 +75,35 @@ impl Reader {
 
     /// The number in a cell of the row that was read last.
     fn number(&self, column: usize, field: &Field) -> Result<f64, DataError> {
+        let text = guarded(&self.source, || Ok(text(field)))?;
         let number = match field {
             Field::Double(number) => Some(*number),
             Field::Float(number) => Some(f64::from(*number)),
             Field::Null => return Err(DataError::EmptyCell { cell: self.cell(column) }),
-            other => text(other).trim().parse().ok(),
+            _ => text.trim().parse().ok(),
         };
         match number {
             Some(number) if number.is_finite() => Ok(number),
-            Some(_) => Err(DataError::NotFinite { cell: self.cell(column), text: text(field) }),
-            None => Err(DataError::NotANumber { cell: self.cell(column), text: text(field) }),
+            Some(_) => Err(DataError::NotFinite { cell: self.cell(column), text }),
+            None => Err(DataError::NotANumber { cell: self.cell(column), text }),
         }
+    }
+
+    /// A column without cells for each that is wanted, of its type where it is to be kept.
+    fn no_cells(&self, wanted: &[Wanted]) -> Result<Vec<Cells>, DataError> {
+        let mut columns = super::no_cells(wanted);
+        for (want, cells) in wanted.iter().zip(&mut columns) {
+            let (Cells::Kept(kept), Some(of_type)) = (cells, self.types.get(want.column)) else { continue };
+            if of_type.get_physical_type() == Physical::INT96 {
+                let why = format!(
+                    "column `{}` holds times as INT96, which newer programs no longer write: write it as timestamps",
+                    of_type.name()
+                );
+                return Err(DataError::Unreadable { file: self.source.clone(), why });
+            }
+            *kept = Kept::Typed(TypedCells { of_type: of_type.clone(), fields: Vec::new() });
+        }
+        Ok(columns)
     }
 }
 
@@ -92,6 +118,21 @@ fn text(field: &Field) -> String {
     }
 }
 
+impl TypedCells {
+    /// What the cells say, as separated values would have it.
+    ///
+    /// # Errors
+    /// A time that no calendar has.
+    pub(super) fn texts(&self) -> Result<Vec<String>, DataError> {
+        guarded(self.of_type.name(), || Ok(self.fields.iter().map(text).collect()))
+    }
+
+    /// Appends cells of the same column.
+    pub(super) fn append(&mut self, more: Self) {
+        self.fields.extend(more.fields);
+    }
+}
+
 impl TableReader for Reader {
     fn source(&self) -> &str {
         &self.source
@@ -102,7 +143,7 @@ impl TableReader for Reader {
     }
 
     fn read(&mut self, wanted: &[Wanted], at_most: usize) -> Result<Chunk, DataError> {
-        let mut columns = super::no_cells(wanted);
+        let mut columns = self.no_cells(wanted)?;
         let mut rows = Vec::new();
         while rows.len() < at_most {
             let Some(row) = guarded(&self.source, || self.rows.next().transpose())? else { break };
@@ -110,11 +151,15 @@ impl TableReader for Reader {
             self.row += 1;
             for (want, cells) in wanted.iter().zip(&mut columns) {
                 let field = fields.get(want.column).map_or(&Field::Null, |(_, field)| field);
-                match cells {
-                    Cells::Numbers(numbers) => {
-                        numbers.push(self.number(want.column, field)? * want.factor.unwrap_or(1.0));
+                match (want.form, cells) {
+                    (Form::Number(factor), Cells::Numbers(numbers)) => {
+                        numbers.push(self.number(want.column, field)? * factor);
                     }
-                    Cells::Labels(labels) => labels.push(text(field)),
+                    (Form::Label, Cells::Labels(labels)) => {
+                        labels.push(guarded(&self.source, || Ok(text(field)))?);
+                    }
+                    (Form::Kept, Cells::Kept(Kept::Typed(kept))) => kept.fields.push(field.clone()),
+                    _ => unreachable!("`no_cells` made a column of each form that is wanted"),
                 }
             }
             rows.push(self.row);
@@ -147,58 +192,6 @@ fn guarded<T>(source: &str, read: impl FnOnce() -> Result<T, ParquetError>) -> R
     }
 }
 
-/// A table as a Parquet file, with Snappy: a column whose cells are all numbers or empty as doubles, any other as text; an
-/// empty cell as a null.
-///
-/// # Errors
-/// What the format says, such as columns of different lengths.
-pub fn file_of(names: &[String], columns: &[Vec<String>]) -> Result<Vec<u8>, ParquetError> {
-    let numbers: Vec<Option<Vec<f64>>> = columns.iter().map(|cells| numbers(cells)).collect();
-    let fields = names
-        .iter()
-        .zip(&numbers)
-        .map(|(name, numbers)| {
-            let physical = if numbers.is_some() { Physical::DOUBLE } else { Physical::BYTE_ARRAY };
-            let builder = Type::primitive_type_builder(name, physical).with_repetition(Repetition::OPTIONAL);
-            let builder = match numbers {
-                Some(_) => builder,
-                None => builder
-                    .with_logical_type(Some(LogicalType::String))
-                    .with_converted_type(ConvertedType::UTF8),
-            };
-            builder.build().map(Arc::new)
-        })
-        .collect::<Result<Vec<_>, _>>()?;
-    let schema = Arc::new(Type::group_type_builder("table").with_fields(fields).build()?);
-    let properties = Arc::new(WriterProperties::builder().set_compression(Compression::SNAPPY).build());
-    let mut file = Vec::new();
-    let mut writer = SerializedFileWriter::new(&mut file, schema, properties)?;
-    let mut group = writer.next_row_group()?;
-    for (cells, numbers) in columns.iter().zip(numbers) {
-        let Some(mut column) = group.next_column()? else { break };
-        let present: Vec<i16> = cells.iter().map(|cell| i16::from(!cell.is_empty())).collect();
-        match numbers {
-            Some(numbers) => column.typed::<DoubleType>().write_batch(&numbers, Some(&present), None)?,
-            None => {
-                let texts: Vec<ByteArray> =
-                    cells.iter().filter(|cell| !cell.is_empty()).map(|cell| cell.as_str().into()).collect();
-                column.typed::<ByteArrayType>().write_batch(&texts, Some(&present), None)?
-            }
-        };
-        column.close()?;
-    }
-    group.close()?;
-    writer.close()?;
-    Ok(file)
-}
-
-/// The cells that are not empty as numbers, if there are any and all of them are.
-fn numbers(cells: &[String]) -> Option<Vec<f64>> {
-    let numbers: Option<Vec<f64>> =
-        cells.iter().filter(|cell| !cell.is_empty()).map(|cell| cell.parse().ok()).collect();
-    numbers.filter(|numbers| !numbers.is_empty())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -208,10 +201,15 @@ mod tests {
     const ZSTD: &[u8] = include_bytes!("../../tests/reference/zstd.parquet");
     const SPOILED: &[u8] = include_bytes!("../../tests/reference/spoiled.parquet");
 
-    const WANTED: [Wanted; 2] = [Wanted { column: 0, factor: Some(2.0) }, Wanted { column: 1, factor: None }];
+    const WANTED: [Wanted; 2] =
+        [Wanted { column: 0, form: Form::Number(2.0) }, Wanted { column: 1, form: Form::Label }];
+
+    fn open(bytes: &[u8]) -> Result<Reader, DataError> {
+        Reader::new(bytes, "run.parquet", &Options::default())
+    }
 
     fn read(bytes: &[u8]) -> Result<Chunk, DataError> {
-        Reader::new(bytes, "run.parquet")?.read(&WANTED, usize::MAX)
+        open(bytes)?.read(&WANTED, usize::MAX)
     }
 
     #[test]
@@ -223,25 +221,16 @@ mod tests {
         };
         for bytes in [SNAPPY, ZSTD] {
             assert_eq!(read(bytes).as_ref(), Ok(&expected));
-            let header = Reader::new(bytes, "run.parquet").map(|reader| reader.header().to_vec());
-            assert_eq!(header.map(|header| header[0].unit.map(|unit| unit.name)), Ok(Some("deg")));
+            let header = open(bytes).map(|reader| reader.header().to_vec());
+            assert_eq!(header.map(|header| header[0].unit().map(|unit| unit.name)), Ok(Some("deg")));
         }
-    }
-
-    #[test]
-    fn what_is_written_is_read() {
-        let names = ["az_deg".to_string(), "note".to_string()];
-        let columns = [vec!["1.5", "-4.0", "0.125"], vec!["Mars", "Moon", ""]];
-        let columns = columns.map(|cells| cells.into_iter().map(str::to_string).collect::<Vec<_>>());
-        let file = file_of(&names, &columns).unwrap_or_default();
-        assert_eq!(read(&file), read(SNAPPY));
     }
 
     #[test]
     fn what_is_wrong_is_named_with_its_place() {
         let of_column = |column| {
-            Reader::new(SPOILED, "run.parquet")
-                .and_then(|mut reader| reader.read(&[Wanted { column, factor: Some(1.0) }], usize::MAX))
+            open(SPOILED)
+                .and_then(|mut reader| reader.read(&[Wanted { column, form: Form::Number(1.0) }], usize::MAX))
                 .map_err(|error| error.to_string())
         };
         let message = |bytes: &[u8]| read(bytes).map_err(|error| error.to_string());

@@ -14,7 +14,7 @@
 
 use std::io::Read;
 
-use super::{Cell, Cells, Chunk, ColumnName, DataError, TableReader, Wanted};
+use super::{Cell, Cells, Chunk, ColumnName, DataError, Form, Kept, Options, TableReader, Wanted};
 
 const EQUATORIAL: &[&str] =
     &["true_ha_deg", "true_dec_deg", "encoder_ha_deg", "encoder_dec_deg", "pier_side"];
@@ -34,12 +34,9 @@ impl Reader {
     ///
     /// # Errors
     /// A line that the format does not allow, with its number; an empty file.
-    pub fn new(mut reader: impl Read, source: &str) -> Result<Self, DataError> {
+    pub fn new(reader: impl Read, source: &str, options: &Options) -> Result<Self, DataError> {
         let file = || source.to_string();
-        let mut bytes = Vec::new();
-        reader
-            .read_to_end(&mut bytes)
-            .map_err(|error| DataError::Unreadable { file: file(), why: error.to_string() })?;
+        let bytes = super::whole(reader, source, options)?;
         // Captions may be in any code page; only they hold anything but ASCII.
         let text = String::from_utf8_lossy(&bytes);
         let lines = text.trim_start_matches('\u{feff}').lines();
@@ -110,15 +107,16 @@ impl TableReader for Reader {
                 };
                 Err(DataError::NotFinite { cell, text: number.to_string() })
             });
-            match want.factor {
-                Some(factor) => values
+            let texts = |value: Result<f64, DataError>| value.map(|value| value.to_string());
+            match want.form {
+                Form::Number(factor) => values
                     .map(|value| value.map(|value| value * factor))
                     .collect::<Result<_, _>>()
                     .map(Cells::Numbers),
-                None => values
-                    .map(|value| value.map(|value| value.to_string()))
-                    .collect::<Result<_, _>>()
-                    .map(Cells::Labels),
+                Form::Label => values.map(texts).collect::<Result<_, _>>().map(Cells::Labels),
+                Form::Kept => {
+                    values.map(texts).collect::<Result<_, _>>().map(|texts| Cells::Kept(Kept::Texts(texts)))
+                }
             }
         };
         let columns = wanted.iter().map(column).collect::<Result<_, _>>()?;
@@ -168,13 +166,13 @@ mod tests {
     use super::*;
 
     fn read(text: &str) -> Result<Vec<Vec<f64>>, DataError> {
-        let mut reader = Reader::new(text.as_bytes(), "run.dat")?;
+        let mut reader = Reader::new(text.as_bytes(), "run.dat", &Options::default())?;
         let wanted: Vec<Wanted> =
-            (0..reader.header().len()).map(|column| Wanted { column, factor: Some(1.0) }).collect();
+            (0..reader.header().len()).map(|column| Wanted { column, form: Form::Number(1.0) }).collect();
         let chunk = reader.read(&wanted, usize::MAX)?;
         let numbers = chunk.columns.into_iter().map(|cells| match cells {
             Cells::Numbers(numbers) => numbers,
-            Cells::Labels(_) => Vec::new(),
+            Cells::Labels(_) | Cells::Kept(_) => Vec::new(),
         });
         Ok(numbers.collect())
     }
@@ -218,7 +216,7 @@ mod tests {
     proptest::proptest! {
         #[test]
         fn no_bytes_panic(bytes in proptest::collection::vec(proptest::num::u8::ANY, 0..200)) {
-            let _ = Reader::new(bytes.as_slice(), "run.dat");
+            let _ = Reader::new(bytes.as_slice(), "run.dat", &Options::default());
         }
     }
 }

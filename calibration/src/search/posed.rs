@@ -223,7 +223,7 @@ mod tests {
         let mut open = |_: &str| -> Result<Box<dyn Read>, DataError> {
             Ok(Box::new(std::io::Cursor::new(data.clone().into_bytes())))
         };
-        let observations = plan.observations(&mut open).unwrap();
+        let observations = plan.load(&mut open).unwrap().observations;
         let request = Request {
             text: MOUNT,
             plan: &plan,

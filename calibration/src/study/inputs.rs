@@ -1,30 +1,40 @@
 //! Inputs that a study brings with it: side quantities that the chain does not declare, and what follows from the
 //! sequence of the rows.
 
-use model_core::{Chain, Meaning, Quantity, Symbol, SymbolKind};
+use model_core::{Chain, Meaning, Quantity, Symbol, SymbolKind, names};
 
-use super::StudyError;
+use super::mistakes::{Outcome, every, mistake};
 use super::written::Study;
 use crate::data::units::Unit;
 use crate::data::{Derived, parse_derived};
 
 impl Study {
     /// The chain with an input for each side quantity that it does not declare.
-    pub(super) fn with_inputs(&self, chain: &Chain) -> Result<Chain, StudyError> {
+    pub(super) fn with_inputs(&self, chain: &Chain) -> Outcome<Chain> {
         let mut chain = chain.clone();
         let derived = self.columns.iter().filter(|(_, column)| column.get_ref().derive.is_some());
         let wanted = self.search.inputs.iter().chain(derived.map(|(name, _)| name));
-        for name in wanted {
-            match chain.find_symbol(name.get_ref()).map(|id| chain.symbol(id).kind) {
-                None => chain.symbols.push(input(name.get_ref(), self.quantity_of(name.get_ref()), None)),
-                Some(SymbolKind::Input | SymbolKind::Joint) => {}
+        every(wanted.map(|name| {
+            let text = name.get_ref();
+            match chain.find_symbol(text).map(|id| chain.symbol(id).kind) {
+                // The amended declaration would declare it under this name.
+                None if !names::is_name(text) => {
+                    let message = format!("`{text}` cannot be the name of an input");
+                    let help = "write letters, digits and underscores, no reserved word, and name its column: \
+                                temp_x = { column = \"temp x\" }";
+                    Err(mistake(name.span(), message, help))
+                }
+                None => {
+                    chain.symbols.push(input(text, self.quantity_of(text), None));
+                    Ok(())
+                }
+                Some(SymbolKind::Input | SymbolKind::Joint) => Ok(()),
                 Some(_) => {
-                    let message =
-                        format!("`{}` is neither a joint nor an input of the chain", name.get_ref());
-                    return Err(StudyError::new(name.span(), message, "give the column another name"));
+                    let message = format!("`{text}` is neither a joint nor an input of the chain");
+                    Err(mistake(name.span(), message, "give the column another name"))
                 }
             }
-        }
+        }))?;
         for (name, derived) in self.implied(&chain) {
             if chain.find_symbol(&name).is_none() {
                 chain.symbols.push(input(&name, derived.quantity(), Some(meaning(&derived))));

@@ -6,10 +6,12 @@ use std::io::Read;
 use model_core::{SymbolId, exact};
 use nalgebra::Vector3;
 
-use super::plan::{ColumnPlan, Plan, Reading, SourcePlan};
+use super::columns::Columns;
+use super::plan::{Plan, Reading, SourcePlan};
 use super::written::Kind;
+use crate::data::units::BareColumn;
 use crate::data::{Observations, Series, UNSTATED, direction_from_offset, direction_from_spherical};
-use crate::formats::{self, Cells, DataError, TableReader, Wanted, find_column};
+use crate::formats::{self, Cells, DataError, TableReader};
 
 /// Opens a data file of a study by its path as the study writes it.
 pub type Open<'a> = dyn FnMut(&str) -> Result<Box<dyn Read>, DataError> + 'a;
@@ -17,21 +19,30 @@ pub type Open<'a> = dyn FnMut(&str) -> Result<Box<dyn Read>, DataError> + 'a;
 /// How far from one the length of a unit vector may be in a file: written with three digits.
 const UNIT_TOLERANCE: f64 = 2e-3;
 
+/// Rows that are read at a time.
+const CHUNK: usize = 1 << 16;
+
+/// Memory that a number takes while a file is read: it is held as read, as a reading, and among the observations.
+const BYTES_A_NUMBER: usize = 3 * size_of::<f64>();
+
+/// What the data files of a plan hold.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Loaded {
+    /// The observations to calibrate with.
+    pub observations: Observations,
+    /// Those of the file held out, if the study names one.
+    pub held_out: Option<Observations>,
+    /// Columns that were taken as SI, since nothing says their unit, and whose numbers are hardly in SI.
+    pub doubtful: Vec<BareColumn>,
+}
+
 /// The columns of one source as numbers and labels, in the order of [`Columns`].
 struct Rows {
     numbers: Vec<Vec<f64>>,
     labels: Vec<Vec<String>>,
     row_numbers: Vec<u64>,
-}
-
-/// Which of the numbers read is what.
-struct Columns {
-    plans: Vec<ColumnPlan>,
-    readings: Vec<(SymbolId, usize)>,
-    observed: std::ops::Range<usize>,
-    sigma: std::ops::Range<usize>,
-    times: Vec<(String, usize)>,
-    labels: Vec<String>,
+    /// Memory that these take, in bytes.
+    bytes: usize,
 }
 
 impl Plan {
@@ -42,32 +53,29 @@ impl Plan {
     ///
     /// # Errors
     /// What is wrong with a file, with its place.
-    pub fn observations(&self, open: &mut Open<'_>) -> Result<Observations, DataError> {
-        let mut all = Observations {
-            in_sequence: self.order.is_some() || self.search.sequence,
-            ..Observations::default()
-        };
+    pub fn load(&self, open: &mut Open<'_>) -> Result<Loaded, DataError> {
+        let mut doubtful = Vec::new();
+        let mut observations = self.no_observations();
         let mut groups = BTreeMap::new();
         for source in &self.sources {
-            self.append(&mut all, source, &source.paths, open, &mut groups)?;
+            self.append(&mut observations, source, &source.paths, open, &mut groups, &mut doubtful)?;
         }
-        Ok(all)
+        let held_out = match (&self.hold_out.file, self.sources.first()) {
+            // The file held out is read as the first source's files are.
+            (Some(path), Some(source)) => {
+                let mut all = self.no_observations();
+                let paths = std::slice::from_ref(path);
+                self.append(&mut all, source, paths, open, &mut BTreeMap::new(), &mut doubtful)?;
+                Some(all)
+            }
+            _ => None,
+        };
+        Ok(Loaded { observations, held_out, doubtful })
     }
 
-    /// Reads the file held out, as the first source's files are; `None` if the study names none.
-    ///
-    /// # Errors
-    /// What is wrong with the file, with its place.
-    pub fn held_out(&self, open: &mut Open<'_>) -> Result<Option<Observations>, DataError> {
-        let (Some(path), Some(source)) = (&self.hold_out.file, self.sources.first()) else {
-            return Ok(None);
-        };
-        let mut all = Observations {
-            in_sequence: self.order.is_some() || self.search.sequence,
-            ..Observations::default()
-        };
-        self.append(&mut all, source, std::slice::from_ref(path), open, &mut BTreeMap::new())?;
-        Ok(Some(all))
+    fn no_observations(&self) -> Observations {
+        let in_sequence = self.order.is_some() || self.search.sequence;
+        Observations { in_sequence, ..Observations::default() }
     }
 
     fn append(
@@ -77,16 +85,18 @@ impl Plan {
         paths: &[String],
         open: &mut Open<'_>,
         groups: &mut BTreeMap<Vec<String>, u32>,
+        doubtful: &mut Vec<BareColumn>,
     ) -> Result<(), DataError> {
         let columns = Columns::of(self, source);
         let mut rows = Rows {
             numbers: vec![Vec::new(); columns.plans.len()],
             labels: vec![Vec::new(); columns.labels.len()],
             row_numbers: Vec::new(),
+            bytes: 0,
         };
         for path in paths {
             let reader = open(path)?;
-            rows.append(&mut *formats::open(reader, path, &self.format)?, &columns)?;
+            rows.append(self, &mut *formats::open(reader, path, &self.format)?, &columns, doubtful)?;
         }
         let file = paths.join(", ");
         if rows.row_numbers.is_empty() {
@@ -240,73 +250,49 @@ fn sigma(columns: &Columns, rows: &Rows, file: &str) -> Result<Vec<[f64; 3]>, Da
         .collect()
 }
 
-impl Columns {
-    fn of(plan: &Plan, source: &SourcePlan) -> Self {
-        let mut plans: Vec<ColumnPlan> = Vec::new();
-        let mut readings = Vec::new();
-        for (id, reading) in &source.readings {
-            if let Reading::Column(column) = reading {
-                readings.push((*id, plans.len()));
-                plans.push(column.clone());
-            }
-        }
-        let observed = plans.len()..plans.len() + source.observed.len();
-        plans.extend(source.observed.iter().cloned());
-        let sigma = plans.len()..plans.len() + source.sigma.len();
-        plans.extend(source.sigma.iter().cloned());
-        // Names in derivations that are no joint or input of the chain are columns of the file: a time.
-        let mut times = Vec::new();
-        for (_, reading) in &source.readings {
-            let names = match reading {
-                Reading::Derived(derived) => derived.columns(),
-                Reading::Column(_) => Vec::new(),
-            };
-            for name in names {
-                let of_symbol = plan
-                    .chain
-                    .find_symbol(name)
-                    .is_some_and(|id| readings.iter().any(|(known, _)| *known == id));
-                if !of_symbol && !times.iter().any(|(known, _)| known == name) {
-                    times.push((name.to_owned(), plans.len()));
-                    let quantity = model_core::Quantity::Number;
-                    plans.push(ColumnPlan { name: name.to_owned(), unit: None, quantity, declared: true });
-                }
-            }
-        }
-        let labels = plan.group.iter().chain(&plan.order).cloned().collect();
-        Self { plans, readings, observed, sigma, times, labels }
-    }
-
-    fn wanted(&self, reader: &dyn TableReader) -> Result<Vec<Wanted>, DataError> {
-        let (header, file) = (reader.header(), reader.source());
-        let number = |plan: &ColumnPlan| {
-            let column = find_column(header, &plan.name, file)?;
-            let factor = header[column].factor(plan.quantity, plan.unit, plan.declared, file)?;
-            Ok(Wanted { column, factor: Some(factor) })
-        };
-        let label = |name: &String| Ok(Wanted { column: find_column(header, name, file)?, factor: None });
-        self.plans.iter().map(number).chain(self.labels.iter().map(label)).collect()
-    }
-}
-
 impl Rows {
-    /// Appends all rows of one file.
-    fn append(&mut self, reader: &mut dyn TableReader, columns: &Columns) -> Result<(), DataError> {
-        let wanted = columns.wanted(reader)?;
-        let chunk = reader.read(&wanted, usize::MAX)?;
+    /// Appends all rows of one file, and the columns of it that are doubtful.
+    fn append(
+        &mut self,
+        plan: &Plan,
+        reader: &mut dyn TableReader,
+        columns: &Columns,
+        doubtful: &mut Vec<BareColumn>,
+    ) -> Result<(), DataError> {
+        let (wanted, mut bare) = columns.wanted(plan, reader)?;
         let before = self.row_numbers.last().copied().unwrap_or_default();
-        self.row_numbers.extend(chunk.rows.iter().map(|row| before + row));
-        let (mut numbers, mut labels) = (self.numbers.iter_mut(), self.labels.iter_mut());
-        for cells in chunk.columns {
-            match cells {
-                Cells::Numbers(values) => {
-                    numbers.next().into_iter().for_each(|column| column.extend(&values))
-                }
-                Cells::Labels(values) => {
-                    labels.next().into_iter().for_each(|column| column.extend(values.iter().cloned()));
+        loop {
+            let chunk = reader.read(&wanted, CHUNK)?;
+            if chunk.rows.is_empty() {
+                break;
+            }
+            self.bytes += chunk.rows.len() * size_of::<u64>();
+            self.row_numbers.extend(chunk.rows.iter().map(|row| before + row));
+            let (mut numbers, mut labels) = (self.numbers.iter_mut().enumerate(), self.labels.iter_mut());
+            for cells in chunk.columns {
+                match cells {
+                    Cells::Numbers(values) => {
+                        let Some((at, column)) = numbers.next() else { continue };
+                        if let Some((_, bare)) = bare.iter_mut().find(|(column, _)| *column == at) {
+                            bare.see(&values);
+                        }
+                        self.bytes += values.len() * BYTES_A_NUMBER;
+                        column.extend(&values);
+                    }
+                    Cells::Labels(values) => {
+                        let values = values.iter().map(|label| label.trim().to_owned());
+                        let Some(column) = labels.next() else { continue };
+                        for label in values {
+                            self.bytes += label.len() + size_of::<String>();
+                            column.push(label);
+                        }
+                    }
+                    Cells::Kept(_) => unreachable!("a study wants numbers and labels"),
                 }
             }
+            plan.format.holds(self.bytes, reader.source())?;
         }
+        doubtful.extend(bare.into_iter().map(|(_, bare)| bare).filter(BareColumn::is_doubtful));
         Ok(())
     }
 

@@ -2,17 +2,17 @@
 
 use std::ops::Range;
 
-use model_core::{Chain, ObservableId, Quantity, Symbol, SymbolId, SymbolKind, names};
+use model_core::{Chain, Mistakes, ObservableId, Quantity, Symbol, SymbolId, SymbolKind, names};
 use toml::Spanned;
 
-use super::StudyError;
-use super::written::{Column, HoldOut, Kind, Observed, SearchTable, Study, Table};
+use super::mistakes::{Gathered, Outcome, Several, every, mistake, plain, unknown, within};
+use super::written::{Column, Kind, Observed, Study, Table};
 use crate::candidate::Effect;
 use crate::data::units::{Amount, Unit};
 use crate::data::{Measure, derive::Derived, derive::parse_derived};
 use crate::fit::FitOptions;
 use crate::fit::noise::NoiseOptions;
-use crate::formats::csv;
+use crate::formats::Options;
 
 /// What a study asks for, ready to read data and fit.
 #[derive(Debug, Clone)]
@@ -31,7 +31,18 @@ pub struct Plan {
     pub next: Option<NextPoses>,
     pub(super) group: Vec<String>,
     pub(super) order: Option<String>,
-    pub(super) format: csv::Options,
+    pub(super) format: Options,
+}
+
+/// How to judge on data that no stage saw.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct HoldOut {
+    /// Into how many parts the observations are divided.
+    pub folds: usize,
+    /// A second file instead, relative to the study.
+    pub file: Option<String>,
+    /// Seed of the division.
+    pub seed: u64,
 }
 
 /// How many poses to propose, and where.
@@ -92,61 +103,93 @@ pub(super) struct ColumnPlan {
     pub quantity: Quantity,
     /// A column with a declared name needs no unit: it is in SI.
     pub declared: bool,
+    /// The study names it.
+    pub named: bool,
 }
 
 impl Study {
     /// Resolves every name.
     ///
     /// # Errors
-    /// The first name that the chain does not declare, or value that cannot be.
-    pub fn plan(&self, chain: &Chain) -> Result<Plan, StudyError> {
+    /// Every name that the chain does not declare, and every value that cannot be, each with its place in the study.
+    pub fn plan(&self, chain: &Chain) -> Result<Plan, Mistakes> {
+        self.resolved(chain).map_err(|Several(mistakes)| Mistakes::locate(&self.text, mistakes))
+    }
+
+    fn resolved(&self, chain: &Chain) -> Outcome<Plan> {
         let chain = self.with_inputs(chain)?;
+        let mut mistakes = Gathered::default();
+        let sources = mistakes.take(self.sources(&chain));
+        let fit = mistakes.take(self.fit_options(&chain));
+        let hold_out = mistakes.take(self.held_out());
+        let next = mistakes.take(self.next(&chain));
+        let format = mistakes.take(self.format());
+        let sigma = sources.as_ref().and_then(|sources| mistakes.take(self.stated_sigma(sources)));
+        let observables: Option<Vec<ObservableId>> =
+            sources.as_ref().map(|sources| sources.iter().map(|source| source.observable).collect());
+        // What the catalogue holds depends on what was observed.
+        let search = mistakes.take(self.search(&chain, observables.as_deref()));
+        mistakes.none()?;
+        let (
+            Some(sources),
+            Some(mut fit),
+            Some(search),
+            Some(hold_out),
+            Some(next),
+            Some(format),
+            Some(sigma),
+        ) = (sources, fit, search, hold_out, next, format, sigma)
+        else {
+            unreachable!("what is missing comes with a mistake")
+        };
+        fit.noise.sigma = sigma;
+        let (group, order) = (self.noise.group.0.clone(), self.noise.order.clone());
+        Ok(Plan { sources, fit, search, hold_out, next, group, order, format, chain })
+    }
+
+    /// What is read, source by source.
+    fn sources(&self, chain: &Chain) -> Outcome<Vec<SourcePlan>> {
         let first = (&self.observable, &self.data, &self.columns, &self.observed, &None);
         let also = self
             .also
             .iter()
             .map(|also| (&also.observable, &also.data, &also.columns, &also.observed, &also.sigma));
-        let mut sources: Vec<SourcePlan> = Vec::new();
-        for (observable, data, columns, observed, own) in std::iter::once(first).chain(also) {
-            let observable = self.observable(&chain, observable.as_ref())?;
-            let (kind, measure, observed) = observed_columns(&chain, observable, observed)?;
+        let mut first_measure = None;
+        every(std::iter::once(first).chain(also).map(|(observable, data, columns, observed, own)| {
+            let mut mistakes = Gathered::default();
             let paths = data.get_ref().0.clone();
             if paths.is_empty() {
-                return Err(StudyError::new(data.span(), "no data file", "name one, or a list of them"));
+                mistakes.take::<()>(Err(mistake(data.span(), "no data file", "name one, or a list of them")));
             }
-            let first = sources.first().map_or(measure, |first| first.measure);
-            let sigma = self.sigma_columns(own.as_ref(), measure, first)?;
-            let readings = self.readings(&chain, observable, columns)?;
-            sources.push(SourcePlan { paths, observable, measure, readings, observed, kind, sigma });
-        }
-        let sigma = self.stated_sigma(&sources)?;
-        let observables: Vec<ObservableId> = sources.iter().map(|source| source.observable).collect();
-        let search = self.search(&chain, &observables)?;
-        let noise = NoiseOptions { sigma, variance: self.noise.variance, serial: self.noise.serial };
-        Ok(Plan {
-            sources,
-            fit: self.fit_options(&chain, noise)?,
-            search,
-            hold_out: self.hold_out.clone(),
-            next: self.next(&chain)?,
-            group: self.noise.group.0.clone(),
-            order: self.noise.order.clone(),
-            format: csv::Options { separator: self.separator()? },
-            chain,
-        })
+            let observable = mistakes.take(self.observable(chain, observable.as_ref()));
+            let readings = mistakes.take(self.readings(chain, observable, columns));
+            let shown = observable
+                .and_then(|observable| mistakes.take(observed_columns(chain, observable, observed)));
+            let sigma = shown.as_ref().and_then(|(_, measure, _)| {
+                let first = *first_measure.get_or_insert(*measure);
+                mistakes.take(self.sigma_columns(own.as_ref(), *measure, first))
+            });
+            mistakes.none()?;
+            let (Some(observable), Some(readings), Some((kind, measure, observed)), Some(sigma)) =
+                (observable, readings, shown, sigma)
+            else {
+                unreachable!("what is missing comes with a mistake")
+            };
+            Ok(SourcePlan { paths, observable, measure, readings, observed, kind, sigma })
+        }))
     }
 
-    fn observable(&self, chain: &Chain, name: Option<&Spanned<String>>) -> Result<ObservableId, StudyError> {
+    fn observable(&self, chain: &Chain, name: Option<&Spanned<String>>) -> Outcome<ObservableId> {
         let all = || chain.observables.iter().map(|observable| observable.name.as_str());
         match name {
             Some(name) => chain
                 .find_observable(name.get_ref())
-                .ok_or_else(|| StudyError::unknown(name.span(), "observable", name.get_ref(), all())),
+                .ok_or_else(|| unknown(name.span(), "observable", name.get_ref(), all())),
             None if chain.observables.len() == 1 => Ok(ObservableId(0)),
             None => {
                 let help =
                     format!("write `observable = \"…\"`: one of {}", all().collect::<Vec<_>>().join(", "));
-                Err(StudyError::new(self.chain.span(), "which observable was measured?", help))
+                Err(mistake(self.chain.span(), "which observable was measured?", help))
             }
         }
     }
@@ -155,23 +198,23 @@ impl Study {
     fn readings(
         &self,
         chain: &Chain,
-        observable: ObservableId,
+        observable: Option<ObservableId>,
         columns: &Table<Column>,
-    ) -> Result<Vec<(SymbolId, Reading)>, StudyError> {
-        let mut wanted = needed(chain, observable);
-        for name in columns.keys().chain(&self.search.inputs) {
+    ) -> Outcome<Vec<(SymbolId, Reading)>> {
+        let mut wanted = observable.map_or_else(Vec::new, |observable| needed(chain, observable));
+        let named = every(columns.keys().chain(&self.search.inputs).map(|name| {
             let read =
                 |id: &SymbolId| matches!(chain.symbol(*id).kind, SymbolKind::Joint | SymbolKind::Input);
-            let id = chain.find_symbol(name.get_ref()).filter(read).ok_or_else(|| {
+            chain.find_symbol(name.get_ref()).filter(read).ok_or_else(|| {
                 let all = chain
                     .symbols
                     .iter()
                     .filter(|symbol| matches!(symbol.kind, SymbolKind::Joint | SymbolKind::Input));
                 let names = all.map(|symbol| symbol.name.as_str());
-                StudyError::unknown(name.span(), "joint or input", name.get_ref(), names)
-            })?;
-            wanted.push(id);
-        }
+                unknown(name.span(), "joint or input", name.get_ref(), names)
+            })
+        }))?;
+        wanted.extend(named);
         let implied = self.implied(chain);
         wanted.extend(implied.iter().filter_map(|(name, _)| chain.find_symbol(name)));
         wanted.sort_unstable();
@@ -184,12 +227,13 @@ impl Study {
                     return Ok(Reading::Derived(derived.clone()));
                 }
                 let (name, quantity) = (symbol.name.clone(), symbol.quantity);
-                return Ok(Reading::Column(ColumnPlan { name, unit: None, quantity, declared: true }));
+                let column = ColumnPlan { name, unit: None, quantity, declared: true, named: false };
+                return Ok(Reading::Column(column));
             };
             match &column.get_ref().derive {
                 Some(text) => parse_derived(text)
                     .map(Reading::Derived)
-                    .map_err(|error| StudyError::new(column.span(), error.to_string(), "")),
+                    .map_err(|error| plain(column.span(), error.to_string())),
                 None => {
                     let mut plan = column_plan(column.get_ref(), symbol.quantity, &column.span())?;
                     plan.declared = plan.name == symbol.name;
@@ -197,100 +241,102 @@ impl Study {
                 }
             }
         };
-        wanted.into_iter().map(|id| Ok((id, reading(id)?))).collect()
+        every(wanted.into_iter().map(|id| Ok((id, reading(id)?))))
     }
 
-    fn fit_options(&self, chain: &Chain, noise: NoiseOptions) -> Result<FitOptions, StudyError> {
-        let estimable = |symbol: &Symbol| matches!(symbol.kind, SymbolKind::Error | SymbolKind::Constant);
-        let names_of =
-            || chain.symbols.iter().filter(|symbol| estimable(symbol)).map(|symbol| symbol.name.as_str());
-        let find = |name: &Spanned<String>| {
-            let found = chain.find_symbol(name.get_ref()).filter(|&id| estimable(chain.symbol(id)));
-            found.ok_or_else(|| {
-                StudyError::unknown(name.span(), "error or constant", name.get_ref(), names_of())
-            })
+    fn fit_options(&self, chain: &Chain) -> Outcome<FitOptions> {
+        let mut mistakes = Gathered::default();
+        let fixed = mistakes.take(every(self.fit.fix.keys().map(|name| estimable(chain, name))));
+        let estimate = mistakes.take(every(self.fit.estimate.iter().map(|name| matching(chain, name))));
+        let start = mistakes.take(every(self.fit.start.iter().chain(&self.fit.fix).map(|(name, amount)| {
+            // A name in `fix` that is none has been told.
+            let Ok(id) = estimable(chain, name) else { return Ok(None) };
+            let value = si(amount.get_ref(), chain.symbol(id).quantity, &amount.span())?;
+            Ok(Some((id, value)))
+        })));
+        mistakes.take(every(self.fit.start.keys().map(|name| estimable(chain, name))));
+        let iterations = &self.fit.max_iterations;
+        mistakes.take(within(iterations.span(), "iterations", *iterations.get_ref(), 1..=10_000));
+        mistakes.none()?;
+        let (Some(fixed), Some(estimate), Some(given)) = (fixed, estimate, start) else {
+            unreachable!("what is missing comes with a mistake")
         };
-        let mut estimate: Vec<SymbolId> = Vec::new();
-        for pattern in &self.fit.estimate {
-            if !names::is_pattern(pattern.get_ref()) {
-                estimate.push(find(pattern)?);
-                continue;
-            }
-            let matching = |kind| {
-                chain.symbols_of(kind).filter(|&id| names::matches(pattern.get_ref(), &chain.symbol(id).name))
-            };
-            // A pattern means errors; constants are freed by it only where no error matches.
-            let mut matched: Vec<SymbolId> = matching(SymbolKind::Error).collect();
-            if matched.is_empty() {
-                matched = matching(SymbolKind::Constant).collect();
-            }
-            if matched.is_empty() {
-                let message = format!("no error or constant matches `{}`", pattern.get_ref());
-                return Err(StudyError::new(pattern.span(), message, ""));
-            }
-            estimate.extend(matched);
-        }
         let mut start = chain.nominal_values();
-        for (name, amount) in self.fit.start.iter().chain(&self.fit.fix) {
-            let id = find(name)?;
-            start[id.index()] = si(amount.get_ref(), chain.symbol(id).quantity, &amount.span())?;
+        for (id, value) in given.into_iter().flatten() {
+            start[id.index()] = value;
         }
-        let fixed: Vec<SymbolId> = self.fit.fix.keys().map(find).collect::<Result<_, _>>()?;
+        let mut estimate: Vec<SymbolId> = estimate.into_iter().flatten().collect();
         estimate.retain(|id| !fixed.contains(id));
         estimate.sort_unstable();
         estimate.dedup();
-        let (robust, max_iterations) = (self.fit.robust, self.fit.max_iterations);
-        Ok(FitOptions { estimate, start, robust, noise, max_iterations })
+        let max_iterations = usize::try_from(*iterations.get_ref()).unwrap_or(usize::MAX);
+        let noise = NoiseOptions { sigma: None, variance: self.noise.variance, serial: self.noise.serial };
+        Ok(FitOptions { estimate, start, robust: self.fit.robust, noise, max_iterations })
     }
 
-    fn search(&self, chain: &Chain, observables: &[ObservableId]) -> Result<Search, StudyError> {
-        let false_alarm = *self.search.false_alarm.get_ref();
-        if !(false_alarm > 0.0 && false_alarm < 1.0) {
-            let place = self.search.false_alarm.span();
-            return Err(StudyError::new(place, "a share of false alarms lies between 0 and 1", "write 0.05"));
-        }
-        let mut inputs: Vec<SymbolId> =
-            self.search.inputs.iter().filter_map(|name| chain.find_symbol(name.get_ref())).collect();
-        inputs.extend(self.implied(chain).iter().filter_map(|(name, _)| chain.find_symbol(name)));
-        let SearchTable { sequence, harmonics, .. } = self.search;
-        let (lines, own) = (self.lines(chain)?, self.own_effects(chain)?);
-        let only = self.search.effects.iter().map(|name| name.get_ref().clone()).collect();
-        let search = Search { false_alarm, inputs, sequence, harmonics, lines, own, only };
-        self.check_names(chain, observables, &search)?;
-        Ok(search)
+    fn held_out(&self) -> Outcome<HoldOut> {
+        let folds = &self.hold_out.folds;
+        within(folds.span(), "folds", *folds.get_ref(), 2..=1000)?;
+        let folds = usize::try_from(*folds.get_ref()).unwrap_or(usize::MAX);
+        Ok(HoldOut { folds, file: self.hold_out.file.clone(), seed: self.hold_out.seed })
     }
 
-    fn next(&self, chain: &Chain) -> Result<Option<NextPoses>, StudyError> {
+    fn next(&self, chain: &Chain) -> Outcome<Option<NextPoses>> {
         let Some(next) = &self.next else { return Ok(None) };
+        let mut mistakes = Gathered::default();
+        mistakes.take(within(next.poses.span(), "poses", *next.poses.get_ref(), 1..=10_000));
         let joints = || chain.symbols_of(SymbolKind::Joint);
-        let mut ranges = Vec::new();
-        for (name, range) in &next.range {
+        let ranges = mistakes.take(every(next.range.iter().map(|(name, range)| {
             let id = joints().find(|&id| chain.symbol(id).name == *name.get_ref()).ok_or_else(|| {
                 let names: Vec<&str> = joints().map(|id| chain.symbol(id).name.as_str()).collect();
-                StudyError::unknown(name.span(), "joint", name.get_ref(), names.iter().copied())
+                unknown(name.span(), "joint", name.get_ref(), names.iter().copied())
             })?;
             let [low, high] = range.get_ref();
             let quantity = chain.symbol(id).quantity;
             let (low, high) = (si(low, quantity, &range.span())?, si(high, quantity, &range.span())?);
             if low > high {
-                return Err(StudyError::new(range.span(), "the range ends before it starts", "swap the two"));
+                return Err(mistake(range.span(), "the range ends before it starts", "swap the two"));
             }
-            ranges.push((id, low..high));
-        }
-        Ok(Some(NextPoses { count: next.poses, ranges }))
+            Ok((id, low..high))
+        })));
+        mistakes.none()?;
+        let count = usize::try_from(*next.poses.get_ref()).unwrap_or(usize::MAX);
+        Ok(ranges.map(|ranges| NextPoses { count, ranges }))
     }
+}
 
-    fn separator(&self) -> Result<Option<u8>, StudyError> {
-        let Some(separator) = &self.separator else { return Ok(None) };
-        match u8::try_from(*separator.get_ref()) {
-            Ok(byte) if byte.is_ascii() && byte != b'"' && byte != b'#' => Ok(Some(byte)),
-            _ => Err(StudyError::new(
-                separator.span(),
-                "no such separator",
-                "write one ASCII character, such as \";\"",
-            )),
-        }
+/// Whether a symbol can be estimated.
+fn is_estimable(symbol: &Symbol) -> bool {
+    matches!(symbol.kind, SymbolKind::Error | SymbolKind::Constant)
+}
+
+/// The error or constant of a name.
+fn estimable(chain: &Chain, name: &Spanned<String>) -> Outcome<SymbolId> {
+    let found = chain.find_symbol(name.get_ref()).filter(|&id| is_estimable(chain.symbol(id)));
+    found.ok_or_else(|| {
+        let all = chain.symbols.iter().filter(|symbol| is_estimable(symbol));
+        let names = all.map(|symbol| symbol.name.as_str());
+        unknown(name.span(), "error or constant", name.get_ref(), names)
+    })
+}
+
+/// The errors or constants that a name or a pattern means.
+fn matching(chain: &Chain, pattern: &Spanned<String>) -> Outcome<Vec<SymbolId>> {
+    if !names::is_pattern(pattern.get_ref()) {
+        return estimable(chain, pattern).map(|id| vec![id]);
     }
+    let of = |kind| -> Vec<SymbolId> {
+        let all = chain.symbols_of(kind);
+        all.filter(|&id| names::matches(pattern.get_ref(), &chain.symbol(id).name)).collect()
+    };
+    // A pattern means errors; constants are freed by it only where no error matches.
+    let matched = Some(of(SymbolKind::Error)).filter(|errors| !errors.is_empty());
+    let matched = matched.unwrap_or_else(|| of(SymbolKind::Constant));
+    if matched.is_empty() {
+        let message = format!("no error or constant matches `{}`", pattern.get_ref());
+        return Err(plain(pattern.span(), message));
+    }
+    Ok(matched)
 }
 
 /// The joints and inputs that an observable depends on.
@@ -303,20 +349,12 @@ fn needed(chain: &Chain, observable: ObservableId) -> Vec<SymbolId> {
         .collect()
 }
 
-pub(super) fn column_plan(
-    column: &Column,
-    quantity: Quantity,
-    place: &Range<usize>,
-) -> Result<ColumnPlan, StudyError> {
+pub(super) fn column_plan(column: &Column, quantity: Quantity, place: &Range<usize>) -> Outcome<ColumnPlan> {
     let unit = column.unit.as_deref().map(Unit::parse).transpose();
-    let unit = unit.map_err(|error| StudyError::new(place.clone(), error.to_string(), ""))?;
+    let unit = unit.map_err(|error| plain(place.clone(), error.to_string()))?;
     match &column.column {
-        Some(name) => Ok(ColumnPlan { name: name.clone(), unit, quantity, declared: false }),
-        None => Err(StudyError::new(
-            place.clone(),
-            "this column is measured, not derived",
-            "write `column = \"…\"`",
-        )),
+        Some(name) => Ok(ColumnPlan { name: name.clone(), unit, quantity, declared: false, named: true }),
+        None => Err(mistake(place.clone(), "this column is measured, not derived", "write `column = \"…\"`")),
     }
 }
 
@@ -325,7 +363,7 @@ fn observed_columns(
     chain: &Chain,
     id: ObservableId,
     written: &Spanned<Observed>,
-) -> Result<(Kind, Measure, Vec<ColumnPlan>), StudyError> {
+) -> Outcome<(Kind, Measure, Vec<ColumnPlan>)> {
     let (observed, place) = (written.get_ref(), written.span());
     let observable = chain.observable(id);
     let is_point = observable.kind == model_core::ObservableKind::Point;
@@ -340,7 +378,7 @@ fn observed_columns(
             )
         };
         let message = format!("`{}` is {what}, which this kind does not measure", observable.name);
-        return Err(StudyError::new(place, message, help));
+        return Err(mistake(place, message, help));
     }
     let xyz = [("x", &observed.x), ("y", &observed.y), ("z", &observed.z)];
     let (azimuth, elevation) = if observed.ha.is_some() || observed.dec.is_some() {
@@ -368,16 +406,17 @@ fn observed_columns(
             unit: None,
             quantity,
             declared: true,
+            named: false,
         }),
         None => {
             let help = format!("write `{key} = {{ column = \"…\", unit = \"…\" }}`");
-            Err(StudyError::new(place.clone(), format!("no column is named for `{key}`"), help))
+            Err(mistake(place.clone(), format!("no column is named for `{key}`"), help))
         }
     };
-    let columns = keys.into_iter().map(plan).collect::<Result<_, _>>()?;
+    let columns = every(keys.into_iter().map(plan))?;
     Ok((observed.kind, measure, columns))
 }
 
-pub(super) fn si(amount: &Amount, quantity: Quantity, place: &Range<usize>) -> Result<f64, StudyError> {
-    amount.to_si(quantity).map_err(|error| StudyError::new(place.clone(), error.to_string(), ""))
+pub(super) fn si(amount: &Amount, quantity: Quantity, place: &Range<usize>) -> Outcome<f64> {
+    amount.to_si(quantity).map_err(|error| plain(place.clone(), error.to_string()))
 }

@@ -8,20 +8,20 @@ use std::ops::Range;
 use model_core::Quantity;
 use toml::Spanned;
 
-use super::StudyError;
+use super::mistakes::{Outcome, every, mistake};
 use super::plan::{ColumnPlan, SourcePlan, column_plan, si};
 use super::written::{Sigma, Study};
 use crate::data::Measure;
 
 impl Study {
     /// The standard deviation of every residual component, SI, if the study states one.
-    pub(super) fn stated_sigma(&self, sources: &[SourcePlan]) -> Result<Option<f64>, StudyError> {
+    pub(super) fn stated_sigma(&self, sources: &[SourcePlan]) -> Outcome<Option<f64>> {
         let Some(written) = &self.noise.sigma else { return Ok(None) };
         let (Sigma::Amount(amount), place) = (written.get_ref(), written.span()) else { return Ok(None) };
         let mut quantities = sources.iter().map(|source| quantity(source.measure));
         let quantity = quantities.next().unwrap_or(Quantity::Angle);
         if quantities.any(|other| other != quantity) {
-            return Err(StudyError::new(
+            return Err(mistake(
                 place,
                 "one standard deviation cannot stand for both angles and lengths",
                 "leave `sigma` out to have each estimated, or write it into a column of each file",
@@ -31,11 +31,7 @@ impl Study {
         if sigma > 0.0 {
             return Ok(Some(sigma));
         }
-        Err(StudyError::new(
-            place,
-            "a standard deviation is positive",
-            "leave `sigma` out to have it estimated",
-        ))
+        Err(mistake(place, "a standard deviation is positive", "leave `sigma` out to have it estimated"))
     }
 
     /// The columns with the standard deviations of a series: its `own`, or those of the study where its residuals measure
@@ -45,19 +41,17 @@ impl Study {
         own: Option<&Spanned<Sigma>>,
         measure: Measure,
         first: Measure,
-    ) -> Result<Vec<ColumnPlan>, StudyError> {
+    ) -> Outcome<Vec<ColumnPlan>> {
         let of_all = self.noise.sigma.as_ref().filter(|_| quantity(measure) == quantity(first));
         let Some(written) = own.or(of_all) else { return Ok(Vec::new()) };
         match written.get_ref() {
-            Sigma::Columns(_) if matches!(&self.noise.sigma, Some(all) if is_amount(all)) => {
-                Err(StudyError::new(
-                    written.span(),
-                    "`[noise]` states one standard deviation for every row already",
-                    "leave one of the two out",
-                ))
-            }
+            Sigma::Columns(_) if matches!(&self.noise.sigma, Some(all) if is_amount(all)) => Err(mistake(
+                written.span(),
+                "`[noise]` states one standard deviation for every row already",
+                "leave one of the two out",
+            )),
             Sigma::Columns(columns) => planned(columns, &written.span(), measure),
-            Sigma::Amount(_) if own.is_some() => Err(StudyError::new(
+            Sigma::Amount(_) if own.is_some() => Err(mistake(
                 written.span(),
                 "`sigma` under `[[also]]` is a column of its file",
                 "write `sigma = { column = \"…\", unit = \"…\" }`, or leave it out to have it estimated",
@@ -83,10 +77,10 @@ fn planned(
     columns: &[super::written::Column],
     place: &Range<usize>,
     measure: Measure,
-) -> Result<Vec<ColumnPlan>, StudyError> {
+) -> Outcome<Vec<ColumnPlan>> {
     if columns.len() != 1 && columns.len() != measure.components() {
         let message = format!("{} columns for {} residual components", columns.len(), measure.components());
-        return Err(StudyError::new(place.clone(), message, "name one column for all, or one for each"));
+        return Err(mistake(place.clone(), message, "name one column for all, or one for each"));
     }
-    columns.iter().map(|column| column_plan(column, quantity(measure), place)).collect()
+    every(columns.iter().map(|column| column_plan(column, quantity(measure), place)))
 }

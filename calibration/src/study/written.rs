@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::marker::PhantomData;
 
+use model_core::Mistakes;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer, StrDeserializer};
 use serde::de::{Error, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
-use super::StudyError;
+use super::syntax;
 use crate::data::units::Amount;
 
 /// Names with what is said of them, in the order of the alphabet.
@@ -19,6 +20,9 @@ pub(super) type Table<T> = BTreeMap<Spanned<String>, Spanned<T>>;
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Study {
+    /// The file as it was read.
+    #[serde(skip)]
+    pub(super) text: String,
     /// Path of the chain, relative to the study.
     pub chain: Spanned<String>,
     /// The observable that was measured; the chain's only one if not given.
@@ -27,6 +31,10 @@ pub struct Study {
     pub data: Spanned<OneOrMore>,
     /// The separator of the data files, where it cannot be seen from their header.
     pub separator: Option<Spanned<char>>,
+    /// What lines of the data files that are comments begin with, where there are any below the header.
+    pub comment: Option<Spanned<char>>,
+    /// How much memory the rows may take: `8 GiB`.
+    pub memory: Option<Spanned<String>>,
     /// Which column is which joint or input.
     #[serde(default)]
     pub(super) columns: Table<Column>,
@@ -46,7 +54,7 @@ pub struct Study {
     pub(super) effect: Vec<OwnEffect>,
     /// How to judge on data that no stage saw.
     #[serde(default)]
-    pub hold_out: HoldOut,
+    pub(super) hold_out: HoldOutTable,
     /// Where to propose to measure next.
     pub(super) next: Option<NextTable>,
     /// Further data that observe otherwise.
@@ -150,13 +158,19 @@ pub(super) struct FitTable {
     pub fix: Table<Amount>,
     pub start: Table<Amount>,
     pub robust: bool,
-    pub max_iterations: usize,
+    pub max_iterations: Spanned<u64>,
 }
 
 impl Default for FitTable {
     fn default() -> Self {
         let all = Spanned::new(0..0, "*".to_string());
-        Self { estimate: vec![all], fix: Table::new(), start: Table::new(), robust: true, max_iterations: 50 }
+        Self {
+            estimate: vec![all],
+            fix: Table::new(),
+            start: Table::new(),
+            robust: true,
+            max_iterations: Spanned::new(0..0, 50),
+        }
     }
 }
 
@@ -167,9 +181,9 @@ pub(super) struct SearchTable {
     pub false_alarm: Spanned<f64>,
     pub inputs: Vec<Spanned<String>>,
     pub sequence: bool,
-    pub harmonics: u32,
+    pub harmonics: Spanned<u64>,
     pub effects: Vec<Spanned<String>>,
-    pub lines: Table<u32>,
+    pub lines: Table<u64>,
 }
 
 impl Default for SearchTable {
@@ -178,7 +192,7 @@ impl Default for SearchTable {
             false_alarm: Spanned::new(0..0, 0.05),
             inputs: Vec::new(),
             sequence: false,
-            harmonics: 8,
+            harmonics: Spanned::new(0..0, 8),
             effects: Vec::new(),
             lines: Table::new(),
         }
@@ -186,20 +200,17 @@ impl Default for SearchTable {
 }
 
 /// `[hold_out]`.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct HoldOut {
-    /// Into how many parts the observations are divided.
-    pub folds: usize,
-    /// A second file instead, relative to the study.
+pub(super) struct HoldOutTable {
+    pub folds: Spanned<u64>,
     pub file: Option<String>,
-    /// Seed of the division.
     pub seed: u64,
 }
 
-impl Default for HoldOut {
+impl Default for HoldOutTable {
     fn default() -> Self {
-        Self { folds: 10, file: None, seed: 1 }
+        Self { folds: Spanned::new(0..0, 10), file: None, seed: 1 }
     }
 }
 
@@ -207,7 +218,7 @@ impl Default for HoldOut {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct NextTable {
-    pub poses: usize,
+    pub poses: Spanned<u64>,
     #[serde(default)]
     pub range: Table<[Amount; 2]>,
 }
@@ -216,9 +227,9 @@ impl Study {
     /// Reads a study file.
     ///
     /// # Errors
-    /// The first mistake, with its place.
-    pub fn from_text(text: &str) -> Result<Self, StudyError> {
-        toml::from_str(text).map_err(|error| StudyError::from_toml(&error))
+    /// Every mistake of its form, each with its place.
+    pub fn from_text(text: &str) -> Result<Self, Mistakes> {
+        syntax::read(text)
     }
 }
 

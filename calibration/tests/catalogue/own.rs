@@ -1,7 +1,7 @@
 //! The user's own effects in a study, and what is said where they cannot be.
 
-use calibration::study::{Study, StudyError};
-use model_core::{Chain, Role};
+use calibration::study::Study;
+use model_core::{Chain, Mistakes, Role};
 
 use crate::support::{Asked, SCANNER};
 
@@ -17,7 +17,7 @@ functions = [\"cos(12*elevation)\", \"temperature*sin(12*elevation)\"]
 inputs = [\"temperature\"]
 ";
 
-fn study(effect: &str) -> (String, Result<(), StudyError>) {
+fn study(effect: &str) -> (String, Result<(), Mistakes>) {
     let text = format!(
         "chain = \"c\"\nobservable = \"target\"\ndata = \"d\"\n[observed]\nkind = \"point\"\n{effect}"
     );
@@ -44,8 +44,9 @@ fn an_own_effect_comes_first_and_is_written_like_any_other() {
 fn refused(from: &str, to: &str) -> (String, String, String) {
     assert!(EFFECT.contains(from), "{from}");
     let (text, refused) = study(&EFFECT.replacen(from, to, 1));
-    let error = refused.expect_err("refused");
-    (text[error.place].to_owned(), error.message, error.help)
+    let mistakes = refused.expect_err("refused");
+    let mistake = mistakes.iter().next().expect("one at least").clone();
+    (text[mistake.place.bytes].to_owned(), mistake.message, mistake.help.unwrap_or_default())
 }
 
 #[test]

@@ -92,7 +92,7 @@ fn fitted(simulation: &Simulation, study: &str, texts: &BTreeMap<&str, String>) 
     let mut open = |name: &str| -> Result<Box<dyn Read>, DataError> {
         Ok(Box::new(std::io::Cursor::new(texts[name].clone().into_bytes())))
     };
-    let observations = plan.observations(&mut open).unwrap();
+    let observations = plan.load(&mut open).unwrap().observations;
     let result = fit(&plan.chain, &observations, &plan.fit).unwrap();
     assert!(matches!(result.outcome, Outcome::Converged { .. }), "{:?}", result.outcome);
     result
@@ -142,7 +142,7 @@ fn ranges_determine_the_links() {
     let mut open = |name: &str| -> Result<Box<dyn Read>, DataError> {
         Ok(Box::new(std::io::Cursor::new(texts[name].clone().into_bytes())))
     };
-    let observations = plan.observations(&mut open).unwrap();
+    let observations = plan.load(&mut open).unwrap().observations;
     let said = precision(&simulation.chain, &observations, &results[1]);
     let [set] = said.not_separable.as_slice() else { panic!("{:?}", said.not_separable) };
     assert_eq!((set.names.as_slice(), set.structural), (["index1".to_string()].as_slice(), true));

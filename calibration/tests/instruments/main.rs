@@ -35,7 +35,7 @@ fn load(study: &str) -> Option<(Plan, Observations)> {
             why: error.to_string(),
         })
     };
-    let observations = plan.observations(&mut open).unwrap();
+    let observations = plan.load(&mut open).unwrap().observations;
     Some((plan, observations))
 }
 

@@ -30,7 +30,7 @@ pub fn study(path: &str) -> Study {
 
 /// The observations that a study names, for its plan.
 pub fn observations(study: &str, plan: &Plan) -> Observations {
-    plan.observations(&mut opener(study)).unwrap()
+    plan.load(&mut opener(study)).unwrap().observations
 }
 
 fn opener(study: &str) -> impl FnMut(&str) -> Result<Box<dyn Read>, DataError> {
@@ -53,7 +53,7 @@ pub fn load(path: &str) -> Option<Loaded> {
     }
     let plan = study.plan(&chain).unwrap();
     let observations = observations(path, &plan);
-    let second = plan.held_out(&mut opener(path)).unwrap();
+    let second = plan.load(&mut opener(path)).unwrap().held_out;
     Some(Loaded { text, plan, observations, second })
 }
 

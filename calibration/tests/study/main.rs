@@ -1,6 +1,8 @@
 //! Study files as people write them, rightly and wrongly.
 #![allow(clippy::unwrap_used)]
 
+mod amended;
+
 use std::io::Read;
 
 use calibration::data::{Measure, Observations};
@@ -49,10 +51,10 @@ az;el [deg];dx_arcsec;dy_arcsec;day;time;temperature
 /// The observations of a study, or what is wrong with it.
 fn observations(study: &str, data: &'static str) -> Result<Observations, String> {
     let chain = Chain::from_text(MOUNT).unwrap();
-    let study = Study::from_text(study).map_err(|error| format!("{:?} {error}", error.place))?;
-    let plan = study.plan(&chain).map_err(|error| format!("{:?} {error}", error.place))?;
+    let study = Study::from_text(study).map_err(|mistakes| mistakes.to_string())?;
+    let plan = study.plan(&chain).map_err(|mistakes| mistakes.to_string())?;
     let mut open = |_: &str| -> Result<Box<dyn Read>, DataError> { Ok(Box::new(data.as_bytes())) };
-    plan.observations(&mut open).map_err(|error| error.to_string())
+    plan.load(&mut open).map(|loaded| loaded.observations).map_err(|error| error.to_string())
 }
 
 #[test]
@@ -131,5 +133,75 @@ proptest::proptest! {
     #[test]
     fn no_text_panics(text in "\\PC{0,80}") {
         let _ = observations(&text, NIGHT);
+    }
+}
+
+/// What is wrong with a study, one line a mistake.
+fn refused(study: &str) -> Vec<String> {
+    let lines = observations(study, NIGHT).expect_err("refused");
+    lines.lines().map(str::to_owned).collect()
+}
+
+#[test]
+fn every_mistake_of_a_study_is_told_at_once() {
+    let study = STUDY
+        .replace("unit = \"deg\"", "unit = \"degs\"")
+        .replace("direction(azimuth)", "directed(azimuth)")
+        .replace("\"collimation\"]", "\"colimation\", \"nothing*\"]")
+        .replace("\"1 arcmin\"", "\"1 mm\"")
+        + "false_alarm = 2.0\nharmonics = 4294967296\n[hold_out]\nfolds = 0\n[next]\nposes = 1000000000\n";
+    let told = refused(&study);
+    for part in [
+        "degs",
+        "directed(azimuth)",
+        "colimation",
+        "nothing*",
+        "false alarms",
+        "4294967296",
+        "folds",
+        "poses",
+    ] {
+        assert!(told.iter().any(|line| line.contains(part)), "{part}: {told:#?}");
+    }
+    // A value of the wrong unit is one more, and the lines come in the order of the text.
+    assert_eq!(told.len(), 9, "{told:#?}");
+    let line = |text: &String| text.split(':').next().and_then(|line| line.parse::<usize>().ok());
+    assert!(told.is_sorted_by_key(line), "{told:#?}");
+}
+
+#[test]
+fn every_key_that_is_none_is_told_at_once() {
+    let study = STUDY.replace("cross =", "corss =").replace("group =", "gruop =").replace("[fit]", "[fot]")
+        + "sequence = \"yes\"\n";
+    let told = refused(&study);
+    for part in ["corss", "gruop", "fot", "boolean"] {
+        assert!(told.iter().any(|line| line.contains(part)), "{part}: {told:#?}");
+    }
+    assert_eq!(told.len(), 4, "nothing follows from a mistake that was told: {told:#?}");
+    let broken = refused("chain = \nobservable = 'x\n");
+    assert_eq!(broken.len(), 2, "{broken:#?}");
+}
+
+#[test]
+fn names_of_a_study_are_names_of_the_language() {
+    for name in ["mirror-temp", "fn", "\"temp x\"", "\"x; motion: Rz(y)\"", "pi"] {
+        let study = STUDY.replace("sense  ", name);
+        let told = refused(&study);
+        assert!(told.iter().any(|line| line.contains("cannot be the name of an input")), "{name}: {told:#?}");
+        let inputs = STUDY.replace(
+            "[\"temperature\"]",
+            &format!("[{}]", name.trim_matches('"').to_owned() + "\"").replacen('[', "[\"", 1),
+        );
+        assert!(!refused(&inputs).is_empty(), "{name}");
+    }
+    let effect = |name: &str| {
+        format!(
+            "{STUDY}[[effect]]\nname = \"{name}\"\nbody = \"telescope\"\nmoves = \"Rx\"\nfunctions = [\"cos(azimuth)\"]\n"
+        )
+    };
+    assert!(observations(&effect("fork flexure"), NIGHT).is_ok());
+    for name in ["fork\\nflexure; */ }", "", "two\\u2028lines", "  ", &"x".repeat(300)] {
+        let told = refused(&effect(name));
+        assert!(told.iter().any(|line| line.contains("a few words on one line")), "{name}: {told:#?}");
     }
 }

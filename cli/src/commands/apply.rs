@@ -1,9 +1,9 @@
 //! `trueaxis apply`: new data corrected with a calibrated model.
 
 use super::Answer;
-use super::eval::OverTable;
 use crate::evaluation::{Exactness, Quantity};
 use crate::failure::Failure;
+use crate::over_table::OverTable;
 
 /// Correct new data with a calibrated model.
 ///

@@ -1,7 +1,6 @@
 //! `trueaxis budget`: what each error alone does to an observable, and all of them together.
 
 use std::fmt::Write as _;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use model_core::Chain;
@@ -110,19 +109,28 @@ fn write_files(
     budgets: &[Budget],
     folder: &Path,
 ) -> Result<(), Failure> {
-    fs::create_dir_all(folder).map_err(|error| Failure::write(folder, &error))?;
-    output::write_text(&folder.join("budget.csv"), &as_csv(chain, budgets))?;
-    let Poses::Path(path) = poses else { return Ok(()) };
-    for budget in budgets {
+    let mut files = output::Folder::new(folder)?;
+    files.write_text("budget.csv", &as_csv(chain, budgets))?;
+    let along = match poses {
+        Poses::Path(path) => Some(path),
+        _ => None,
+    };
+    for (budget, path) in budgets.iter().filter_map(|budget| Some((budget, along?))) {
         let curves = Curves::along(chain, budget.observable, sizes, path, POINTS, arguments.steps)
             .map_err(|error| failure(&error))?;
-        let name = &chain.observable(budget.observable).name;
-        output::write_text(&folder.join(format!("{name}.csv")), &curves::csv(chain, &curves))?;
-        if let Some(figure) = curves::svg(chain, budget.observable, &curves) {
-            output::write_text(&folder.join(format!("{name}.svg")), &figure)?;
+        let name = match chain.observable(budget.observable).name.as_str() {
+            // The table of all observables has this name.
+            name if name.eq_ignore_ascii_case("budget") => format!("{name}_curves"),
+            name => name.to_owned(),
+        };
+        files.write_text(&format!("{name}.csv"), &curves::csv(chain, &curves))?;
+        match curves::svg(chain, budget.observable, &curves) {
+            Some(figure) => files.write_text(&format!("{name}.svg"), &figure)?,
+            // An earlier run's would speak of other sizes.
+            None => files.remove(&format!("{name}.svg")),
         }
     }
-    Ok(())
+    files.finish()
 }
 
 /// The budget of one observable as a table.

@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 
 use calibration::calibrate::{Calibration, Request, calibrate_telling};
 use calibration::formats::DataError;
-use calibration::study::{Plan, Study, StudyError};
-use model_core::Mistake;
+use calibration::study::{Loaded, Plan, Study};
+use model_core::Mistakes;
 
 use super::{Answer, TextOrJson};
 use crate::failure::Failure;
 use crate::report::{self, FileRead, Layout, Provenance, Reported};
 use crate::source::Source;
-use crate::{date, sha256, source, tables, terminal};
+use crate::{date, output, sha256, source, tables, terminal};
 
 /// Fit the errors to measured data, and find what the declaration lacks.
 ///
@@ -31,7 +31,7 @@ pub struct Arguments {
     /// Folder for report.html, report.json, amended.chain, errors.toml and residuals.csv
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Only print how the declaration would change; write nothing
+    /// Only print how the declaration would change (with --format json: the whole report, the change in it); write nothing
     #[arg(long, conflicts_with = "out")]
     dry_run: bool,
     /// Tell everything: evidence, noise, poses to measure, what these data could not have shown
@@ -45,17 +45,18 @@ pub struct Arguments {
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let study_source = Source::read(&arguments.study)?;
-    let in_study = |error: StudyError| {
-        let mistake = Mistake::new(error.place.clone(), error.message);
-        study_source.mistake(if error.help.is_empty() { mistake } else { mistake.with_help(error.help) })
-    };
+    let in_study = |mistakes: Mistakes| study_source.mistakes(&mistakes);
     let study = Study::from_text(&study_source.text).map_err(in_study)?;
     let chain_source = study_source.read_beside(Path::new(study.chain.get_ref()))?;
     let plan = study.plan(&chain_source.chain()?).map_err(in_study)?;
+    if let Some(folder) = &arguments.out {
+        refuse_to_replace(folder, &plan, [&study_source, &chain_source])?;
+    }
 
     let mut open = |path: &str| open_beside(&study_source, path);
-    let observations = plan.observations(&mut open).map_err(tables::failure)?;
-    let second = plan.held_out(&mut open).map_err(tables::failure)?;
+    let Loaded { observations, held_out: second, doubtful } =
+        plan.load(&mut open).map_err(tables::failure)?;
+    doubtful.iter().for_each(terminal::warn);
     terminal::note(format_args!("{}", what_is_done(&plan, observations.rows())));
 
     let date = date::today();
@@ -79,14 +80,17 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         folder: folder.as_deref(),
         provenance: Provenance {
             version: env!("CARGO_PKG_VERSION"),
-            command: std::env::args().collect::<Vec<_>>().join(" "),
+            command: command_line(),
             date: date.clone(),
             study: study_source.text.clone(),
             files: files_read(arguments, &study_source, study.chain.get_ref(), &plan)?,
         },
     };
     if arguments.dry_run {
-        terminal::print(&report::diff(&reported))?;
+        terminal::print(&match arguments.format {
+            TextOrJson::Text => report::diff(&reported),
+            TextOrJson::Json => report::json(&reported)?,
+        })?;
         return Ok(answer(&calibration));
     }
     if let Some(folder) = &arguments.out {
@@ -99,6 +103,12 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         TextOrJson::Json => report::json(&reported)?,
     })?;
     Ok(answer(&calibration))
+}
+
+/// The command as it was typed; a letter that is none is shown as such.
+fn command_line() -> String {
+    let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
+    words.collect::<Vec<_>>().join(" ")
 }
 
 /// No, where no usable model came out.
@@ -127,6 +137,18 @@ fn files_read(
         Ok(FileRead { path, sha256: Some(sha256::hex(&bytes)) })
     };
     files.into_iter().map(read).collect()
+}
+
+/// Refuses to write the results over what the study reads.
+fn refuse_to_replace(folder: &Path, plan: &Plan, [study, chain]: [&Source; 2]) -> Result<(), Failure> {
+    let data = plan.sources.iter().flat_map(|source| &source.paths).chain(&plan.hold_out.file);
+    let read: Vec<PathBuf> = data
+        .map(|path| study.beside(Path::new(path)))
+        .chain([study.path.clone(), chain.path.clone()])
+        .collect();
+    report::NAMES
+        .iter()
+        .try_for_each(|name| output::refuse_to_replace(&folder.join(name), read.iter().map(PathBuf::as_path)))
 }
 
 /// `400 observations; fitting 30 errors, searching, and repeating the search in 10 folds`

@@ -166,7 +166,8 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     }
     let beside: Vec<PathBuf> =
         files.iter().map(|file| arguments.out.with_extension(file.extension)).collect();
-    if let Some(own) = beside.iter().skip(1).find(|beside| **beside == arguments.out) {
+    let same = |beside: &&PathBuf| beside.as_os_str().eq_ignore_ascii_case(&arguments.out);
+    if let Some(own) = beside.iter().skip(1).find(same) {
         let message = format!(
             "`{}` is where the header goes: name the source with --out, as `{}`",
             own.display(),
@@ -174,9 +175,14 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         );
         return Err(Failure::Input(message));
     }
+    let mut batch = output::Batch::default();
     for (index, (file, beside)) in files.iter().zip(&beside).enumerate() {
-        output::write_text(if index == 0 { &arguments.out } else { beside }, &file.text)?;
+        let path = if index == 0 { &arguments.out } else { beside };
+        let read = [Some(&arguments.chain), arguments.values.as_ref(), arguments.sizes.as_ref(), arguments.errors.as_ref()];
+        output::refuse_to_replace(path, read.into_iter().flatten().map(PathBuf::as_path))?;
+        batch.write_text(path, &file.text)?;
     }
+    batch.finish()?;
     Ok(Answer::Done)
 }
 

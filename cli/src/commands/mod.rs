@@ -5,10 +5,12 @@ mod bound;
 mod budget;
 mod calibrate;
 mod check;
+mod completions;
 mod derive;
 mod eval;
 mod generate;
 mod identify;
+mod manual;
 mod simulate;
 
 use crate::failure::Failure;
@@ -64,4 +66,6 @@ commands! {
     Eval => eval,
     Calibrate => calibrate,
     Apply => apply,
+    Completions => completions,
+    Manual => manual,
 }

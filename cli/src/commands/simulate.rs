@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 use std::path::PathBuf;
 
-use calibration::data::units::Amount;
+use calibration::data::units::{Amount, Plausible};
+use calibration::formats::ColumnName;
 use model_core::{Chain, ObservableId, ObservableKind, Quantity as Measures, SymbolId};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
@@ -15,7 +16,8 @@ use crate::evaluation::{Evaluator, Exactness, Quantity, column_names};
 use crate::failure::Failure;
 use crate::ranges::{self, Range, RangeArgument};
 use crate::source::{Source, listed, observables};
-use crate::{tables, terminal};
+use crate::tables::Column;
+use crate::{output, tables, terminal};
 
 /// Simulate measured data.
 ///
@@ -67,9 +69,10 @@ const CHUNK: usize = 4096;
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
+    output::refuse_to_replace(&arguments.out, [arguments.chain.as_path(), &arguments.errors])?;
     let chain = Source::read(&arguments.chain)?.chain()?;
     let values = errors_file::values(&Source::read(&arguments.errors)?, &chain)?;
-    let noise = Noise::parse(&arguments.noise)?;
+    let noise = Noise::parse(&chain, &arguments.noise)?;
     let chosen = measured(&chain, &arguments.observable, noise)?;
     let mut evaluator = Evaluator::new(&chain, chosen, Exactness::Exact, Quantity::Value, &values);
     let given = ranges::of_chain(&chain, &arguments.range)?;
@@ -77,9 +80,13 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
 
     let mut poses = stream(arguments.seed, 0);
     let mut errors = stream(arguments.seed, 1);
+    let header: Vec<String> = ranges
+        .iter()
+        .map(|range| heading(&chain, range))
+        .chain(column_names(&chain, &evaluator.observables)?)
+        .collect();
     tables::write(&arguments.out, |writer| {
-        let readings = ranges.iter().map(|range| chain.symbol(range.symbol).name.clone());
-        writer.row(readings.chain(evaluator.observables.iter().flat_map(|&id| column_names(&chain, id))))?;
+        writer.header(&header)?;
         let mut left = arguments.poses as usize;
         while left > 0 {
             let rows = left.min(CHUNK);
@@ -101,13 +108,23 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
                         column[row] = component;
                     }
                 }
-                let cells = readings.iter().map(|(_, column)| column).chain(&shown).map(|column| column[row]);
-                writer.row(cells.map(tables::number))?;
             }
+            let columns = readings.iter().map(|(_, column)| column).chain(&shown);
+            writer.rows(&columns.map(|column| Column::Numbers(column)).collect::<Vec<_>>(), rows)?;
         }
         Ok(())
     })?;
     Ok(Answer::Done)
+}
+
+/// The name of a column of readings, with its unit where readers would doubt that it is in SI.
+fn heading(chain: &Chain, range: &Range) -> String {
+    let symbol = chain.symbol(range.symbol);
+    let plausible = Plausible::readings(chain, range.symbol);
+    if [range.low, range.high].iter().any(|&reading| plausible.refuses(symbol.quantity, reading)) {
+        return format!("{} [{}]", symbol.name, symbol.quantity.unit());
+    }
+    ColumnName::of_si(&symbol.name, symbol.quantity)
 }
 
 /// A stream of random numbers of its own for each purpose: more noise does not move the poses.
@@ -167,8 +184,9 @@ fn ranges_of(chain: &Chain, readings: &[SymbolId], given: &[Range]) -> Result<Ve
 
 impl Noise {
     /// Reads every `--noise`; a number without a unit holds for directions (rad) and points (m).
-    fn parse(texts: &[String]) -> Result<Self, Failure> {
+    fn parse(chain: &Chain, texts: &[String]) -> Result<Self, Failure> {
         let mut noise = Self::default();
+        let plausible = Plausible::errors(chain);
         for text in texts {
             let wrong = |why: String| Failure::Input(format!("--noise: {why}"));
             let amount = Amount::parse(text).map_err(|error| wrong(error.to_string()))?;
@@ -184,6 +202,19 @@ impl Noise {
             {
                 if measures.is_none_or(|measured| measured == quantity) {
                     let si = amount.to_si(quantity).map_err(|error| wrong(error.to_string()))?;
+                    let shown = chain.observables.iter().map(|shown| measure_of(shown.kind));
+                    if measures.is_none()
+                        && plausible.refuses(quantity, si)
+                        && shown.clone().any(|q| q == quantity)
+                    {
+                        let (unit, likely) = match quantity {
+                            Measures::Length => ("m", "mm"),
+                            _ => ("rad", "arcsec"),
+                        };
+                        terminal::warn(format_args!(
+                            "--noise {text} has no unit and is taken as {text} {unit}; did you mean --noise \"{text} {likely}\"?"
+                        ));
+                    }
                     if sigma.replace(si).is_some() {
                         return Err(wrong(format!("`{text}`: the noise of one kind is given twice")));
                     }
@@ -216,6 +247,14 @@ impl Noise {
                 of_length_one([0, 1, 2].map(|axis| shown[axis] + noise[axis] - along * shown[axis]))
             }
         }
+    }
+}
+
+/// What the noise of an observable measures.
+fn measure_of(kind: ObservableKind) -> Measures {
+    match kind {
+        ObservableKind::Direction => Measures::Angle,
+        ObservableKind::Point => Measures::Length,
     }
 }
 

@@ -1,6 +1,6 @@
 //! The files of a calibration, each written whole.
 
-use std::fs;
+use std::io::Write;
 use std::path::Path;
 
 use calibration::data::SiUnit;
@@ -10,34 +10,36 @@ use serde::Serialize;
 use super::errors::errors_toml;
 use super::{Provenance, Reported, diff, page, residuals};
 use crate::failure::Failure;
-use crate::{output, tables, terminal};
+use crate::output::Folder;
+use crate::tables;
 
 /// The number of the promise that the keys of `report.json` are.
 const SCHEMA: u32 = 2;
 
+/// The files of a calibration in its folder.
+pub const NAMES: [&str; 5] = ["report.html", "report.json", "amended.chain", "errors.toml", "residuals.csv"];
+
 /// Writes `report.html`, `report.json` and `residuals.csv` into a folder, which is made if it is not there; and, where a
-/// usable model came out, `amended.chain` and `errors.toml`.
+/// usable model came out, `amended.chain` and `errors.toml`: those of an earlier run go. All of that happens, or nothing.
 ///
 /// # Errors
-/// The folder or a file cannot be written.
+/// The folder or a file cannot be written; nothing has changed then.
 pub fn write_all(reported: &Reported<'_>, folder: &Path) -> Result<(), Failure> {
-    fs::create_dir_all(folder).map_err(|error| Failure::write(folder, &error))?;
-    output::write_text(&folder.join("report.json"), &json(reported)?)?;
+    let mut files = Folder::new(folder)?;
+    files.write_text("report.json", &json(reported)?)?;
     let calibration = reported.calibration;
     for (name, text) in [
         ("amended.chain", calibration.amended.clone()),
         ("errors.toml", calibration.amended.as_ref().map(|_| errors(reported))),
     ] {
         match text {
-            Some(text) => output::write_text(&folder.join(name), &text)?,
-            None if folder.join(name).exists() => {
-                terminal::warn(format_args!("{name} in {} is from an earlier run", folder.display()));
-            }
-            None => {}
+            Some(text) => files.write_text(name, &text)?,
+            None => files.remove(name),
         }
     }
-    write_residuals(reported, &folder.join("residuals.csv"))?;
-    output::write_text(&folder.join("report.html"), &page::page(reported))
+    files.write("residuals.csv", |file| write_residuals(reported, &folder.join("residuals.csv"), file))?;
+    files.write_text("report.html", &page::page(reported))?;
+    files.finish()
 }
 
 fn errors(reported: &Reported<'_>) -> String {
@@ -74,7 +76,7 @@ pub fn json(reported: &Reported<'_>) -> Result<String, Failure> {
 }
 
 /// One row an observation: its number, the readings, and the residual components before and after, in SI.
-fn write_residuals(reported: &Reported<'_>, path: &Path) -> Result<(), Failure> {
+fn write_residuals(reported: &Reported<'_>, path: &Path, file: &mut dyn Write) -> Result<(), Failure> {
     let components = residuals::components(reported);
     let columns = components.iter().flat_map(|component| {
         let name = |when| format!("{}_{when} [{}]", component.name, component.unit);
@@ -82,20 +84,30 @@ fn write_residuals(reported: &Reported<'_>, path: &Path) -> Result<(), Failure> 
     });
     let (names, columns): (Vec<String>, Vec<&Vec<Option<f64>>>) = columns.unzip();
     let weights = &reported.calibration.after.residuals.weight;
-    tables::write(path, |writer| {
-        let readings = residuals::readings(reported).map(|(name, unit, _)| match unit {
-            SiUnit::ONE => name.to_owned(),
-            unit => format!("{name} [{unit}]"),
-        });
-        writer
-            .row(["row".to_owned()].into_iter().chain(readings).chain(names).chain(["weight".to_owned()]))?;
-        for row in 0..reported.observations.rows() {
-            let number = reported.observations.row_numbers.get(row).map_or(row as u64 + 1, |&number| number);
-            let readings = residuals::readings(reported).map(|(_, _, values)| tables::number(values[row]));
-            let residuals = columns.iter().map(|column| column[row].map_or_else(String::new, tables::number));
-            let weight = tables::number(weights.get(row).copied().unwrap_or(1.0));
-            writer.row([number.to_string()].into_iter().chain(readings).chain(residuals).chain([weight]))?;
+    let readings = residuals::readings(reported).map(|(name, unit, _)| match unit {
+        SiUnit::ONE => name.to_owned(),
+        unit => format!("{name} [{unit}]"),
+    });
+    let others: Vec<String> = readings.chain(names).collect();
+    // A joint or input may have the name of one of these columns.
+    let own = |name: &str| {
+        let mut name = name.to_owned();
+        while others.contains(&name) {
+            name.push('_');
         }
-        Ok(())
-    })
+        name
+    };
+    let (row, weight) = (own("row"), own("weight"));
+    let header = [&row].into_iter().chain(&others).chain([&weight]);
+    tables::csv_row(file, path, header.map(String::as_str))?;
+    for row in 0..reported.observations.rows() {
+        let number = reported.observations.row_numbers.get(row).map_or(row as u64 + 1, |&number| number);
+        let readings = residuals::readings(reported).map(|(_, _, values)| tables::number(values[row]));
+        let residuals = columns.iter().map(|column| column[row].map_or_else(String::new, tables::number));
+        let weight = tables::number(weights.get(row).copied().unwrap_or(1.0));
+        let cells: Vec<String> =
+            [number.to_string()].into_iter().chain(readings).chain(residuals).chain([weight]).collect();
+        tables::csv_row(file, path, cells.iter().map(String::as_str))?;
+    }
+    Ok(())
 }

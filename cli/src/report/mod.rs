@@ -12,7 +12,7 @@ mod wrap;
 use calibration::calibrate::Calibration;
 use calibration::data::Observations;
 
-pub use files::{json, write_all};
+pub use files::{NAMES, json, write_all};
 pub use text::{Layout, as_text, diff};
 
 /// A calibration and what it was made from.

@@ -14,6 +14,8 @@ mod rules;
 mod scope;
 mod words;
 
+pub(crate) use words::is_reserved;
+
 use proc_macro2::{Span, TokenStream};
 
 use crate::chain::Chain;

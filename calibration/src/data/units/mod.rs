@@ -3,11 +3,15 @@
 //!
 //! Inside, angles are radians and lengths metres; this is the edge where they become so.
 
+mod plausible;
+
 use std::f64::consts::PI;
 
 use model_core::Quantity;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
+
+pub use plausible::{BareColumn, Plausible, si_and_likely};
 
 /// A unit of angle, of length or of nothing.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,6 +69,11 @@ const fn number(name: &'static str, in_si: f64) -> Unit {
 }
 
 impl Unit {
+    /// Every unit that is read.
+    pub fn all() -> impl Iterator<Item = Self> {
+        UNITS.iter().copied()
+    }
+
     /// The unit of this name.
     #[must_use]
     pub fn find(name: &str) -> Option<Self> {

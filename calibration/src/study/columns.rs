@@ -1,0 +1,91 @@
+//! Which columns a source of a plan takes from its files, and where each of them stands.
+
+use model_core::SymbolId;
+
+use super::plan::{ColumnPlan, Plan, Reading, SourcePlan};
+use crate::data::units::BareColumn;
+use crate::formats::{
+    DataError, Form, ReadAs, TableReader, Wanted, declared_columns, find_column, find_reading,
+};
+
+/// Which of the numbers read is what.
+pub(super) struct Columns {
+    pub plans: Vec<ColumnPlan>,
+    pub readings: Vec<(SymbolId, usize)>,
+    pub observed: std::ops::Range<usize>,
+    pub sigma: std::ops::Range<usize>,
+    pub times: Vec<(String, usize)>,
+    pub labels: Vec<String>,
+}
+
+impl Columns {
+    pub fn of(plan: &Plan, source: &SourcePlan) -> Self {
+        let mut plans: Vec<ColumnPlan> = Vec::new();
+        let mut readings = Vec::new();
+        for (id, reading) in &source.readings {
+            if let Reading::Column(column) = reading {
+                readings.push((*id, plans.len()));
+                plans.push(column.clone());
+            }
+        }
+        let observed = plans.len()..plans.len() + source.observed.len();
+        plans.extend(source.observed.iter().cloned());
+        let sigma = plans.len()..plans.len() + source.sigma.len();
+        plans.extend(source.sigma.iter().cloned());
+        // Names in derivations that are no joint or input of the chain are columns of the file: a time.
+        let mut times = Vec::new();
+        for (_, reading) in &source.readings {
+            let names = match reading {
+                Reading::Derived(derived) => derived.columns(),
+                Reading::Column(_) => Vec::new(),
+            };
+            for name in names {
+                let of_symbol = plan
+                    .chain
+                    .find_symbol(name)
+                    .is_some_and(|id| readings.iter().any(|(known, _)| *known == id));
+                if !of_symbol && !times.iter().any(|(known, _)| known == name) {
+                    times.push((name.to_owned(), plans.len()));
+                    let quantity = model_core::Quantity::Number;
+                    let name = name.to_owned();
+                    plans.push(ColumnPlan { name, unit: None, quantity, declared: true, named: true });
+                }
+            }
+        }
+        let labels = plan.group.iter().chain(&plan.order).cloned().collect();
+        Self { plans, readings, observed, sigma, times, labels }
+    }
+
+    /// The columns of a file, and those of readings whose unit nothing says, each with its place among the numbers.
+    pub fn wanted(
+        &self,
+        plan: &Plan,
+        reader: &dyn TableReader,
+    ) -> Result<(Vec<Wanted>, Vec<(usize, BareColumn)>), DataError> {
+        let (header, file) = (reader.header(), reader.source());
+        let declared = declared_columns(&plan.chain);
+        let declared: Vec<&str> = declared.iter().map(String::as_str).collect();
+        let mut bare = Vec::new();
+        let mut wanted = Vec::new();
+        for (at, column) in self.plans.iter().enumerate() {
+            let ColumnPlan { name, unit, quantity, .. } = column;
+            let found = if column.named {
+                find_column(header, name, file)?
+            } else {
+                find_reading(header, name, &declared, file)?
+            };
+            let own = column.declared.then_some(name.as_str());
+            let read = ReadAs { quantity: *quantity, stated: *unit, declared: own };
+            let factor = header[found].factor(read, file)?;
+            let symbol = self.readings.iter().find(|(_, reading)| *reading == at).map(|(symbol, _)| *symbol);
+            if let Some(symbol) = symbol.filter(|_| header[found].is_bare(read)) {
+                bare.push((at, BareColumn::new(&plan.chain, symbol, &header[found].full, file)));
+            }
+            wanted.push(Wanted { column: found, form: Form::Number(factor) });
+        }
+        for name in &self.labels {
+            wanted.push(Wanted { column: find_column(header, name, file)?, form: Form::Label });
+        }
+        Ok((wanted, bare))
+    }
+}

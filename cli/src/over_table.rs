@@ -1,0 +1,107 @@
+//! A quantity of observables over a table of readings: what `eval` and `apply` both do.
+
+use std::path::PathBuf;
+
+use model_core::{Chain, ObservableId};
+
+use crate::evaluation::{Evaluator, Exactness, Quantity, column_names, readings_of};
+use crate::failure::Failure;
+use crate::source::{Source, observables};
+use crate::tables::{self, Column, ReadingsTable};
+use crate::{errors_file, output, terminal};
+
+/// What is evaluated over which table, and where to.
+#[derive(Debug, clap::Args)]
+pub struct OverTable {
+    /// The declaration, amended or not
+    chain: PathBuf,
+    /// Readings of joints and inputs: a .csv or .parquet file, or - for standard input
+    #[arg(long, value_name = "IN")]
+    data: PathBuf,
+    /// Values of the errors, as `calibrate` writes them too
+    #[arg(long, value_name = "E.toml")]
+    errors: PathBuf,
+    /// Only this observable (may be given several times); default: every one that the data has the readings for
+    #[arg(long)]
+    observable: Vec<String>,
+    /// What lines of the data begin with that are comments, where there are any below the header
+    #[arg(long, value_name = "LETTER", value_parser = comment_mark)]
+    comment: Option<u8>,
+    /// Where to write: a .csv or .parquet file, or - for standard output
+    #[arg(long, value_name = "OUT")]
+    out: PathBuf,
+}
+
+fn comment_mark(text: &str) -> Result<u8, &'static str> {
+    match text.as_bytes() {
+        [mark] if mark.is_ascii_punctuation() && !b"\"+-.".contains(mark) => Ok(*mark),
+        _ => Err("write one mark, such as #"),
+    }
+}
+
+impl OverTable {
+    /// Writes the table with a quantity of each observable; returns which columns of the input these replace.
+    ///
+    /// # Errors
+    /// The declaration, the errors or the readings have a mistake, or the place cannot be written.
+    pub fn evaluate(&self, form: Exactness, quantity: Quantity) -> Result<Vec<String>, Failure> {
+        output::refuse_to_replace(&self.out, [self.chain.as_path(), &self.errors])?;
+        let chain = Source::read(&self.chain)?.chain()?;
+        let values = errors_file::values(&Source::read(&self.errors)?, &chain)?;
+        let table = ReadingsTable::open(&self.data, &chain, self.comment)?;
+        let chosen = self.with_readings(&chain, &table)?;
+        self.write(&chain, table, Evaluator::new(&chain, chosen, form, quantity, &values))
+    }
+
+    /// The observables that were asked for; if none was, all that the table has the readings for.
+    fn with_readings(&self, chain: &Chain, table: &ReadingsTable) -> Result<Vec<ObservableId>, Failure> {
+        let mut chosen = observables(chain, &self.observable)?;
+        if self.observable.is_empty() {
+            let all = chosen.clone();
+            chosen.retain(|&observable| table.has(chain, &readings_of(chain, observable)));
+            // If none can be evaluated, the first one's missing column is what to say.
+            chosen.extend(all.first().filter(|_| chosen.is_empty()));
+        }
+        Ok(chosen)
+    }
+
+    /// Writes the table with the evaluator's columns; returns which columns of the input these replace.
+    fn write(
+        &self,
+        chain: &Chain,
+        mut table: ReadingsTable,
+        mut evaluator: Evaluator,
+    ) -> Result<Vec<String>, Failure> {
+        table.want(chain, &evaluator.readings)?;
+        let added = column_names(chain, &evaluator.observables)?;
+        let is_replaced: Vec<bool> =
+            table.header().iter().map(|column| added.iter().any(|name| table.means(column, name))).collect();
+        let names = |replaced: bool| {
+            let header = table.header().iter().zip(&is_replaced);
+            header.filter(move |(_, is)| **is == replaced).map(|(column, _)| column.full.clone())
+        };
+        let replaced: Vec<String> = names(true).collect();
+        let header: Vec<String> = names(false).chain(added).collect();
+        let mut not_finite = 0;
+        tables::write(&self.out, |writer| {
+            writer.header(&header)?;
+            while let Some(rows) = table.next()? {
+                let readings: Vec<_> =
+                    rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
+                let computed = evaluator.columns(&readings, rows.count)?;
+                let is_finite = |row: &usize| computed.iter().all(|column| column[*row].is_finite());
+                not_finite += (0..rows.count).filter(|row| !is_finite(row)).count();
+                let kept = rows.kept.iter().zip(&is_replaced).filter(|(_, replaced)| !**replaced);
+                let kept = kept.map(|(kept, _)| Column::Kept(kept));
+                let computed = computed.iter().map(|column| Column::Numbers(column));
+                writer.rows(&kept.chain(computed).collect::<Vec<_>>(), rows.count)?;
+            }
+            Ok(())
+        })?;
+        table.doubtful().for_each(terminal::warn);
+        if not_finite > 0 {
+            terminal::warn(format_args!("{not_finite} rows are not finite: the chain has a pole there"));
+        }
+        Ok(replaced)
+    }
+}

@@ -1,0 +1,160 @@
+//! Tables that commands read: the readings of joints and inputs as numbers, and every column as it came.
+
+use std::fs::File;
+use std::io::{self, BufReader};
+use std::path::Path;
+
+use calibration::data::units::BareColumn;
+use calibration::formats::{
+    self, Cells, ColumnName, DataError, Form, Kept, Options, ReadAs, TableReader, Wanted, declared_columns,
+    find_reading,
+};
+use model_core::{Chain, SymbolId};
+
+use super::{CHUNK, failure, known_format};
+use crate::failure::Failure;
+use crate::source;
+
+/// A data file whose columns of readings are found by the names of joints and inputs.
+pub struct ReadingsTable {
+    reader: Box<dyn TableReader>,
+    /// Names that a column can have beside that of a reading.
+    declared: Vec<String>,
+    readings: Vec<Reading>,
+    /// Every column as it came, then the readings as numbers.
+    wanted: Vec<Wanted>,
+    /// Whether a row has been read.
+    started: bool,
+}
+
+/// Where the readings of a joint or input come from.
+struct Reading {
+    symbol: SymbolId,
+    /// Index of its column in the header.
+    column: usize,
+    /// What is watched where nothing says its unit.
+    bare: Option<BareColumn>,
+}
+
+/// Some rows of a [`ReadingsTable`].
+pub struct Rows {
+    /// Every column of the file as it came.
+    pub kept: Vec<Kept>,
+    /// The readings, in SI.
+    pub readings: Vec<(SymbolId, Vec<f64>)>,
+    /// How many rows these are.
+    pub count: usize,
+}
+
+impl ReadingsTable {
+    /// Opens a file with the readings of a chain; `-` is standard input.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub fn open(path: &Path, chain: &Chain, comment: Option<u8>) -> Result<Self, Failure> {
+        known_format(path)?;
+        let options = Options { comment, ..Options::default() };
+        let reader = if path == Path::new("-") {
+            formats::open(io::stdin().lock(), "standard input", &options)
+        } else {
+            let file = File::open(path).map_err(|error| source::not_readable(path, &error))?;
+            if file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
+                return Err(Failure::read(path, &io::ErrorKind::IsADirectory.into()));
+            }
+            formats::open(BufReader::new(file), &path.display().to_string(), &options)
+        };
+        let reader = reader.map_err(failure)?;
+        let wanted = (0..reader.header().len()).map(|column| Wanted { column, form: Form::Kept }).collect();
+        let declared = declared_columns(chain);
+        Ok(Self { reader, declared, readings: Vec::new(), wanted, started: false })
+    }
+
+    /// The columns, as they stand in the header.
+    pub fn header(&self) -> &[ColumnName] {
+        self.reader.header()
+    }
+
+    /// Whether a name means a column.
+    #[must_use]
+    pub fn means(&self, column: &ColumnName, name: &str) -> bool {
+        column.means(name, &self.declared())
+    }
+
+    /// Whether there is a column, or more, for each of these joints and inputs.
+    #[must_use]
+    pub fn has(&self, chain: &Chain, readings: &[SymbolId]) -> bool {
+        let missing = |&id: &SymbolId| matches!(self.find(chain, id), Err(DataError::MissingColumn { .. }));
+        !readings.iter().any(missing)
+    }
+
+    fn declared(&self) -> Vec<&str> {
+        self.declared.iter().map(String::as_str).collect()
+    }
+
+    fn find(&self, chain: &Chain, reading: SymbolId) -> Result<usize, DataError> {
+        let name = &chain.symbol(reading).name;
+        find_reading(self.reader.header(), name, &self.declared(), self.reader.source())
+    }
+
+    /// Finds the columns of joints and inputs by their declared names; an angle or length without a unit in the
+    /// header is in SI, as the command itself writes it.
+    ///
+    /// # Errors
+    /// A column that is not there or is there twice, or whose unit is none or measures something else.
+    pub fn want(&mut self, chain: &Chain, readings: &[SymbolId]) -> Result<(), Failure> {
+        for &id in readings {
+            let column = self.find(chain, id).map_err(failure)?;
+            let (name, source) = (&self.reader.header()[column], self.reader.source());
+            let symbol = chain.symbol(id);
+            let read = ReadAs { quantity: symbol.quantity, stated: None, declared: Some(&symbol.name) };
+            let factor = name.factor(read, source).map_err(failure)?;
+            let bare = name.is_bare(read).then(|| BareColumn::new(chain, id, &name.full, source));
+            self.readings.push(Reading { symbol: id, column, bare });
+            self.wanted.push(Wanted { column, form: Form::Number(factor) });
+        }
+        Ok(())
+    }
+
+    /// The next rows; `None` at the end.
+    ///
+    /// # Errors
+    /// A cell that cannot be read, with its place; no rows at all.
+    pub fn next(&mut self) -> Result<Option<Rows>, Failure> {
+        let chunk = self.reader.read(&self.wanted, CHUNK).map_err(failure)?;
+        if chunk.rows.is_empty() {
+            let file = self.reader.source().to_owned();
+            return if self.started { Ok(None) } else { Err(failure(DataError::NoRows { file })) };
+        }
+        self.started = true;
+        let mut rows = Rows { kept: Vec::new(), readings: Vec::new(), count: chunk.rows.len() };
+        let mut readings = self.readings.iter_mut();
+        for column in chunk.columns {
+            match column {
+                Cells::Kept(kept) => rows.kept.push(kept),
+                Cells::Numbers(numbers) => {
+                    let Some(reading) = readings.next() else {
+                        unreachable!("a column of numbers for each reading is wanted")
+                    };
+                    reading.bare.iter_mut().for_each(|bare| bare.see(&numbers));
+                    rows.readings.push((reading.symbol, numbers));
+                }
+                Cells::Labels(_) => unreachable!("no labels are wanted"),
+            }
+        }
+        for reading in &self.readings {
+            // What was read as a number with a decimal comma is no number between commas.
+            if let Some(Kept::Texts(texts)) = rows.kept.get_mut(reading.column) {
+                texts
+                    .iter_mut()
+                    .filter(|text| text.contains(','))
+                    .for_each(|text| *text = text.replace(',', "."));
+            }
+        }
+        Ok(Some(rows))
+    }
+
+    /// The columns whose numbers, as far as they were read, are hardly in SI, although nothing says another unit.
+    pub fn doubtful(&self) -> impl Iterator<Item = &BareColumn> {
+        self.readings.iter().filter_map(|reading| reading.bare.as_ref()).filter(|bare| bare.is_doubtful())
+    }
+}

@@ -1,0 +1,187 @@
+//! Where results go: whole or not at all, together, and never over what the command reads.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+use std::fs;
+
+use support::{Folder, Run};
+
+const SHAFT: &str = "chain Shaft {
+    body shaft on ground { motion: Rz(-reading); motion_error: Rz(-index); }
+    observe mark: direction(0, 1, 0) of shaft;
+}
+";
+const STUDY: &str = "chain = \"shaft.chain\"
+data = \"measured.csv\"
+[observed]
+kind = \"direction\"
+[hold_out]
+folds = 3
+";
+
+/// A folder with a declaration, its errors, poses, a study and its data.
+fn shaft(name: &str) -> Folder {
+    let folder = Folder::new(name);
+    folder.write("shaft.chain", SHAFT).write("e.toml", "index = \"3 arcsec\"\n").write("study.toml", STUDY);
+    folder.write("poses.csv", "reading [deg]\n10\n20\n");
+    let simulate =
+        "simulate shaft.chain --errors e.toml --poses 30 --noise 1arcsec --seed 1 --out measured.csv";
+    done(&words(&folder, simulate));
+    folder
+}
+
+fn words(folder: &Folder, words: &str) -> Run {
+    folder.trueaxis(&words.split(' ').collect::<Vec<_>>())
+}
+
+fn done(run: &Run) {
+    assert_eq!(run.code, 0, "{run}");
+}
+
+fn refused(run: &Run, why: &str) {
+    assert_eq!(run.code, 2, "{run}");
+    assert!(run.stderr.contains(why), "{run}");
+}
+
+const EVAL: &str = "eval shaft.chain --errors e.toml --data poses.csv --out";
+const CALIBRATE: &str = "calibrate study.toml --out";
+const FILES: [&str; 5] = ["amended.chain", "errors.toml", "report.html", "report.json", "residuals.csv"];
+
+#[test]
+fn the_files_of_a_calibration_appear_together_or_not_at_all() {
+    let folder = shaft("together");
+    let before = folder.names();
+    done(&words(&folder, &format!("{CALIBRATE} new/result")));
+    assert_eq!(fs::read_dir(folder.0.join("new")).expect("made").count(), 1, "nothing is left beside it");
+    for name in FILES {
+        assert!(folder.0.join("new/result").join(name).is_file(), "{name}");
+    }
+    fs::create_dir_all(folder.0.join("there/report.html")).expect("a folder where a file is to stand");
+    folder.write("there/errors.toml", "what stood there").write("there/mine.txt", "mine");
+    refused(&words(&folder, &format!("{CALIBRATE} there")), "report.html");
+    let there = Folder(folder.0.join("there"));
+    assert_eq!(there.names(), ["errors.toml", "mine.txt", "report.html"]);
+    assert_eq!(there.read("errors.toml"), "what stood there");
+    fs::remove_dir(folder.0.join("there/report.html")).expect("empty");
+    done(&words(&folder, &format!("{CALIBRATE} there")));
+    assert_eq!(
+        there.names(),
+        ["amended.chain", "errors.toml", "mine.txt", "report.html", "report.json", "residuals.csv"]
+    );
+    assert_ne!(there.read("errors.toml"), "what stood there");
+    assert_eq!(folder.names().len(), before.len() + 2);
+}
+
+#[test]
+fn a_place_that_fails_late_gives_back_what_was_replaced() {
+    let folder = shaft("late");
+    fs::create_dir(folder.0.join("x.h")).expect("a folder where the header is to stand");
+    folder.write("x.c", "what stood there");
+    refused(&words(&folder, "generate shaft.chain --language c --out x.c"), "x.h");
+    assert_eq!(folder.read("x.c"), "what stood there");
+    assert!(folder.names().iter().all(|name| !name.ends_with(".partial")), "{:?}", folder.names());
+}
+
+#[test]
+fn nothing_is_written_over_what_the_command_reads() {
+    let folder = shaft("over-input");
+    let why = "which this command reads";
+    fs::create_dir(folder.0.join("sub")).expect("a folder");
+    let study = |chain: &str, data: &str| STUDY.replace("shaft.chain", chain).replace("measured.csv", data);
+    folder.write("amended.chain", SHAFT).write("amended.toml", study("amended.chain", "measured.csv"));
+    refused(&words(&folder, "calibrate amended.toml --out ."), why);
+    fs::copy(folder.0.join("measured.csv"), folder.0.join("sub/residuals.csv")).expect("copied");
+    folder.write("residuals.toml", study("shaft.chain", "sub/../sub/residuals.csv"));
+    refused(&words(&folder, "calibrate residuals.toml --out sub"), why);
+    for out in ["shaft.chain", "e.toml", "./sub/../shaft.chain"] {
+        refused(&words(&folder, &format!("{EVAL} {out}")), why);
+        let simulate = "simulate shaft.chain --errors e.toml --poses 3 --noise 1arcsec --seed 1 --out";
+        refused(&words(&folder, &format!("{simulate} {out}")), why);
+    }
+    refused(&words(&folder, "generate shaft.chain --language rust --out shaft.chain"), why);
+    refused(&words(&folder, "generate shaft.chain --language c --out x.h"), "another ending");
+    refused(&words(&folder, "generate shaft.chain --language c --out x.H"), "another ending");
+    assert_eq!(folder.read("shaft.chain"), SHAFT);
+}
+
+#[test]
+fn what_an_interrupted_run_left_is_removed_and_what_another_writes_is_not() {
+    let folder = shaft("stale");
+    let (left, mine) = (".out.csv.0123456789abcdef.partial", ".out.csv.fedcba9876543210.partial");
+    folder.write(left, "half a").write(mine, "half a").write(".out.csv.notes.partial", "the user's");
+    fs::create_dir(folder.0.join(".result.0123456789abcdef.partial")).expect("a folder");
+    folder.write(".result.0123456789abcdef.partial/report.json", "{");
+    let writing = fs::File::open(folder.0.join(mine)).expect("it is there");
+    writing.lock().expect("locked as its writer would");
+    done(&words(&folder, &format!("{EVAL} out.csv")));
+    done(&words(&folder, &format!("{CALIBRATE} result")));
+    let partial: Vec<String> = folder.names().into_iter().filter(|name| name.ends_with("partial")).collect();
+    assert_eq!(partial, [mine, ".out.csv.notes.partial"]);
+}
+
+#[cfg(unix)]
+mod links {
+    use std::os::unix::fs::{PermissionsExt as _, symlink};
+    use std::process::Command;
+
+    use super::*;
+
+    #[test]
+    fn links_are_written_through() {
+        let folder = shaft("links");
+        fs::create_dir(folder.0.join("far")).expect("a folder");
+        folder.write("far/real.csv", "old");
+        symlink("far/real.csv", folder.0.join("near.csv")).expect("a link");
+        symlink("near.csv", folder.0.join("nearer.csv")).expect("a link");
+        symlink("far/to-come.csv", folder.0.join("dangling.csv")).expect("a link");
+        symlink("circle.csv", folder.0.join("circle.csv")).expect("a link");
+        done(&words(&folder, &format!("{EVAL} nearer.csv")));
+        done(&words(&folder, &format!("{EVAL} dangling.csv")));
+        refused(&words(&folder, &format!("{EVAL} circle.csv")), "circle");
+        for link in ["near.csv", "nearer.csv", "dangling.csv"] {
+            assert!(fs::symlink_metadata(folder.0.join(link)).expect("there").is_symlink(), "{link}");
+        }
+        assert!(folder.read("far/real.csv").starts_with("reading [deg],mark_x"));
+        assert_eq!(folder.read("far/real.csv"), folder.read("far/to-come.csv"));
+    }
+
+    #[test]
+    fn the_names_of_standard_output_mean_standard_output() {
+        let folder = shaft("descriptors");
+        let expected = words(&folder, &format!("{EVAL} -")).stdout;
+        symlink("/dev/stdout", folder.0.join("out.csv")).expect("a link");
+        for name in ["/dev/stdout", "/dev/fd/1", "out.csv"] {
+            let run = words(&folder, &format!("{EVAL} {name}"));
+            assert_eq!((run.code, run.stdout.as_str()), (0, expected.as_str()), "{name}: {run}");
+            // Into a file that the shell has opened, behind what stands there already.
+            let file = folder.0.join("log.txt");
+            fs::write(&file, "before\n").expect("written");
+            let log = fs::File::options().append(true).open(&file).expect("opened");
+            let words = format!("{EVAL} {name}");
+            let mut command = Command::new(env!("CARGO_BIN_EXE_trueaxis"));
+            let status = command.args(words.split(' ')).current_dir(&folder.0).stdout(log).status();
+            assert!(status.expect("it runs").success());
+            assert_eq!(folder.read("log.txt"), format!("before\n{expected}"), "{name}");
+        }
+        done(&words(&folder, &format!("{EVAL} /dev/null")));
+        assert!(!fs::metadata("/dev/null").expect("still there").is_file());
+    }
+
+    #[test]
+    fn an_existing_file_keeps_its_mode_and_one_that_is_read_only_stays() {
+        let folder = shaft("modes");
+        let mode =
+            |name: &str| fs::metadata(folder.0.join(name)).expect("there").permissions().mode() & 0o777;
+        for bits in [0o600, 0o664, 0o755] {
+            folder.write("out.csv", "old");
+            fs::set_permissions(folder.0.join("out.csv"), fs::Permissions::from_mode(bits)).expect("set");
+            done(&words(&folder, &format!("{EVAL} out.csv")));
+            assert_eq!(mode("out.csv"), bits);
+        }
+        folder.write("kept.csv", "kept");
+        fs::set_permissions(folder.0.join("kept.csv"), fs::Permissions::from_mode(0o444)).expect("set");
+        refused(&words(&folder, &format!("{EVAL} kept.csv")), "read-only");
+        assert_eq!(folder.read("kept.csv"), "kept");
+    }
+}

@@ -122,7 +122,7 @@ impl Study {
         let sigma = self.stated_sigma(&sources)?;
         let observables: Vec<ObservableId> = sources.iter().map(|source| source.observable).collect();
         let search = self.search(&chain, &observables)?;
-        let noise = NoiseOptions { sigma, variance: self.noise.variance, serial: self.noise.serial };
+        let noise = NoiseOptions { sigma, stated: None, variance: self.noise.variance, serial: self.noise.serial };
         Ok(Plan {
             sources,
             fit: self.fit_options(&chain, noise)?,
@@ -240,7 +240,7 @@ impl Study {
         estimate.sort_unstable();
         estimate.dedup();
         let (robust, max_iterations) = (self.fit.robust, self.fit.max_iterations);
-        Ok(FitOptions { estimate, start, robust, noise, max_iterations })
+        Ok(FitOptions { estimate, start, robust, noise, max_iterations, sizes: Vec::new() })
     }
 
     fn search(&self, chain: &Chain, observables: &[ObservableId]) -> Result<Search, StudyError> {

@@ -6,11 +6,6 @@
 use std::fmt;
 use std::ops::Range;
 
-/// The longest line that is shown whole, in letters.
-const LONGEST_LINE: usize = 160;
-/// Letters before the fault that are shown of a longer one.
-const LETTERS_BEFORE: usize = 60;
-
 /// One thing that is wrong, where, and what to write instead.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mistake<S = Place> {

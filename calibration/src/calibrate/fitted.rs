@@ -65,7 +65,8 @@ impl Fitted {
     ) -> Result<Self, CalibrateError> {
         let observations = whole.request.observations;
         // While something is missing, residuals are larger than the noise: weights go by what they are.
-        let noise = NoiseOptions { sigma: None, ..options.noise };
+        let NoiseOptions { sigma, stated, .. } = options.noise;
+        let noise = NoiseOptions { sigma: None, stated: stated.or(sigma), ..options.noise };
         let options = FitOptions { noise, ..options };
         (whole.tell)(Stage::Fit { effects: found.len() });
         let fit = fit(&chain, observations, &options)?;

@@ -25,7 +25,8 @@ fn fewest(round: &Round<'_>) -> usize {
 /// The last round, or another one in its stead that explains the rows which it set aside.
 pub(super) fn reconsidered<'a>(whole: &Loop<'a>, last: Round<'a>) -> Result<Round<'a>, CalibrateError> {
     let plan = whole.request.plan;
-    if !plan.fit.robust || doubts(&last) < fewest(&last) {
+    let usable = last.fitted.fit.outcome.is_usable();
+    if !plan.fit.robust || !usable || doubts(&last) < fewest(&last) {
         return Ok(last);
     }
     let mut trusting = plan.clone();
@@ -39,6 +40,9 @@ pub(super) fn reconsidered<'a>(whole: &Loop<'a>, last: Round<'a>) -> Result<Roun
     }
     let other = Fitted::with(whole, found.found.clone(), &found)?;
     let other = rounds(whole, Round::at(whole, other)?)?;
+    if !other.fitted.fit.outcome.is_usable() {
+        return Ok(last);
+    }
     let explains = doubts(&other) < doubts(&last) && criterion(whole, &other) > criterion(whole, &last);
     Ok(if explains { other } else { last })
 }

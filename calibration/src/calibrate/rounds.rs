@@ -3,7 +3,6 @@
 use super::fitted::Fitted;
 use super::round::Round;
 use super::{CalibrateError, Found, Loop, Stage};
-use crate::fit::Outcome;
 
 /// Rounds of fit and search at most.
 const ROUNDS: usize = 8;
@@ -41,8 +40,7 @@ fn taken_up<'a>(
 ) -> Result<Option<Round<'a>>, CalibrateError> {
     while found.len() > last.fitted.found.len() {
         let next = Fitted::with(whole, found.clone(), &last.fitted)?;
-        let failed = matches!(next.fit.outcome, Outcome::NotConverged { .. });
-        if !failed || next.fit.rms < last.fitted.fit.rms {
+        if next.fit.outcome.is_usable() {
             return Round::at(whole, next).map(Some);
         }
         found.truncate(found.len().div_ceil(2).min(found.len() - 1));
@@ -50,5 +48,6 @@ fn taken_up<'a>(
     if found.is_empty() {
         return Ok(None);
     }
-    Round::at(whole, Fitted::with(whole, found, &last.fitted)?).map(Some)
+    let next = Fitted::with(whole, found, &last.fitted)?;
+    if next.fit.outcome.is_usable() { Round::at(whole, next).map(Some) } else { Ok(None) }
 }

@@ -34,8 +34,8 @@ impl From<&Outcome> for Ended {
     fn from(outcome: &Outcome) -> Self {
         match *outcome {
             Outcome::Converged { iterations } => Self::Converged { steps: iterations },
-            Outcome::NotConverged { iterations } => Self::NotConverged { steps: iterations },
-            Outcome::TooFewObservations { components, parameters } => {
+            Outcome::NotConverged { iterations, .. } => Self::NotConverged { steps: iterations },
+            Outcome::TooFewObservations { components, parameters, .. } => {
                 Self::TooFewObservations { components, parameters }
             }
         }

@@ -1,5 +1,6 @@
 //! Declared and new errors with their estimates, and the combinations of them that these data determine.
 
+use model_core::SymbolId;
 use serde::Serialize;
 
 use super::units::unit_of;
@@ -51,15 +52,6 @@ pub struct Part {
 /// Every estimated error or constant, in the order of the fit.
 pub(super) fn errors(whole: &Loop<'_>, fitted: &Fitted) -> Vec<ErrorFound> {
     let fit = &fitted.fit;
-    let unseen: Vec<usize> = fit
-        .subspace
-        .linked()
-        .into_iter()
-        .filter_map(|(members, _)| match members[..] {
-            [alone] => Some(alone),
-            _ => None,
-        })
-        .collect();
     fit.parameters
         .iter()
         .zip(&fit.separable)
@@ -70,7 +62,50 @@ pub(super) fn errors(whole: &Loop<'_>, fitted: &Fitted) -> Vec<ErrorFound> {
             standard_uncertainty: fit.standard_uncertainty(id).filter(|sigma| separable && sigma.is_finite()),
             unit: unit_of(&whole.setting, &fitted.chain, id),
             separable,
-            shown: separable || !unseen.contains(&at),
+            shown: fit.shown[at],
         })
         .collect()
+}
+
+/// Every combination of several errors that these data determine, in the order of their first errors.
+pub(super) fn estimable(whole: &Loop<'_>, fitted: &Fitted) -> Vec<Estimable> {
+    let several = fitted.fit.estimable.iter().filter(|one| one.combination.len() > 1);
+    let of = |one: &crate::fit::Estimable| {
+        let part = |&(id, factor): &(SymbolId, f64)| Part {
+            error: fitted.chain.symbol(id).name.clone(),
+            ratio: fraction(factor),
+        };
+        let (first, _) = one.combination.first()?;
+        Some(Estimable {
+            combination: one.combination.iter().map(part).collect(),
+            value: one.value,
+            standard_uncertainty: one.standard_uncertainty?,
+            unit: unit_of(&whole.setting, &fitted.chain, *first),
+            degrees_of_freedom: one.degrees_of_freedom,
+        })
+    };
+    several.filter_map(of).collect()
+}
+
+/// A factor as a fraction with a small denominator, or else in decimals.
+fn fraction(factor: f64) -> String {
+    for denominator in [1_u8, 2, 3, 4, 6, 12] {
+        let numerator = factor * f64::from(denominator);
+        if numerator.round() != 0.0 && (numerator - numerator.round()).abs() < 1e-9 {
+            let over = if denominator == 1 { String::new() } else { format!("/{denominator}") };
+            return format!("{:.0}{over}", numerator.round());
+        }
+    }
+    format!("{factor:.6}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::fraction;
+
+    #[test]
+    fn simple_factors_are_fractions() {
+        let of = [1.0, -1.0, 0.5, -2.0 / 3.0, 7.0 / 12.0, 3.0, 0.083_2].map(fraction);
+        assert_eq!(of, ["1", "-1", "1/2", "-2/3", "7/12", "3", "0.083200"]);
+    }
 }

@@ -203,7 +203,7 @@ pub(crate) fn diagnose(
         observations: used(whole, fit),
         instrument: instrument::instrument(&whole.setting, &last.chain, observations, &errors),
         errors,
-        estimable: Vec::new(),
+        estimable: errors::estimable(whole, last),
         not_separable: precision.not_separable.iter().map(|set| set.names.clone()).collect(),
         next_poses: if verdict.is_usable() { next_poses(whole, last) } else { Vec::new() },
         separating: found.separating,
@@ -286,7 +286,7 @@ fn used(whole: &Loop<'_>, fit: &FitResult) -> Used {
         set_aside: fit
             .set_aside
             .iter()
-            .map(|aside| SetAsideRow { row: row_number(aside.row), why: aside.why.clone() })
+            .map(|aside| SetAsideRow { row: row_number(aside.row), why: aside.why.to_string() })
             .collect(),
     }
 }

@@ -68,7 +68,7 @@ pub fn precision(chain: &Chain, observations: &Observations, fit: &FitResult) ->
         .filter(|&at| fit.separable[at] && sigma(at).is_finite() && sigma(at) > 0.0)
         .collect();
     let correlation = |a: usize, b: usize| fit.covariance[(a, b)] / (sigma(a) * sigma(b));
-    let design = fit.subspace.covariance(&fit.factor);
+    let design = fit.design_covariance();
     for (number, &at) in alone.iter().enumerate() {
         determined.push(Determined {
             name: name(&fit.parameters[at]),
@@ -152,7 +152,8 @@ fn all_round(
         values[id.index()] = fit.values[id.index()];
     }
     let tally = tally(&model, &spread, &layout, &values, &sigma, Weighting::Full).ok()?;
-    Some(Subspace::determined(&tally.partial.spread(model.column_of())).linked())
+    let partial = tally.partial.spread(model.column_of());
+    Some(Subspace::determined(&partial, vec![1.0; fit.parameters.len()]).linked())
 }
 
 /// Rows whose leverage is several times the mean, the largest first.
@@ -175,7 +176,7 @@ fn leverage(chain: &Chain, observations: &Observations, fit: &FitResult) -> Vec<
 /// The leverage of every row.
 fn leverages(chain: &Chain, observations: &Observations, fit: &FitResult) -> Result<Vec<f64>, FitError> {
     let model = Model::new(chain, observations, &fit.parameters)?;
-    let by_parameter = fit.subspace.covariance_root(&fit.factor);
+    let by_parameter = fit.design_root();
     let mut by_column = Mat::<f64>::zeros(model.columns(), by_parameter.ncols());
     for (from, column) in by_parameter.row_iter().zip(model.column_of()) {
         if let Some(column) = *column {

@@ -4,15 +4,23 @@
 //! [`Outcome`], never a panic.
 
 mod align;
+mod cluster;
+mod descent;
+mod few;
 mod model;
 pub mod noise;
+mod normal;
+mod outcome;
 mod partial;
 mod residual;
 pub mod robust;
+mod size;
 mod solve;
+mod stated;
 mod stream;
 mod subspace;
 pub(crate) mod sweep;
+mod uncertainty;
 
 use faer::Mat;
 use model_core::{Chain, SymbolId, SymbolKind};
@@ -21,11 +29,16 @@ use crate::fit::noise::{Noise, NoiseOptions};
 use sweep::Weighting;
 
 pub use model::{Block, Model};
+pub use normal::{Rest, Step};
+pub use outcome::{Outcome, Reason, SetAside, Why};
 pub use partial::{Partial, Rows};
+pub use size::{Size, SizeOrigin};
 pub use solve::fit;
+pub use stated::{Agreement, Stated};
 pub use stream::{Next, Pass, Streamed, StreamedResult};
-pub use subspace::{Step, Subspace};
+pub use subspace::Subspace;
 pub use sweep::Tally;
+pub use uncertainty::Estimable;
 
 /// What to fit and how.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,6 +53,8 @@ pub struct FitOptions {
     pub noise: NoiseOptions,
     /// The greatest number of steps of one fit.
     pub max_iterations: usize,
+    /// The size of errors as far as it is known, as a standard deviation, SI: what those are given that the data do not show.
+    pub sizes: Vec<(SymbolId, f64)>,
 }
 
 impl FitOptions {
@@ -52,43 +67,13 @@ impl FitOptions {
             robust: true,
             noise: NoiseOptions::default(),
             max_iterations: 50,
+            sizes: Vec::new(),
         }
     }
 
     fn weighting(&self) -> Weighting {
         if self.robust { Weighting::Biweight } else { Weighting::Full }
     }
-}
-
-/// How a fit ended.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Outcome {
-    /// The next step would be negligible against the standard uncertainties.
-    Converged {
-        /// Steps taken.
-        iterations: usize,
-    },
-    /// The greatest number of steps was reached, or no step made the sum of squares smaller.
-    NotConverged {
-        /// Steps taken.
-        iterations: usize,
-    },
-    /// Fewer residual components than could determine what was to be estimated.
-    TooFewObservations {
-        /// Residual components there are.
-        components: usize,
-        /// What was to be estimated.
-        parameters: usize,
-    },
-}
-
-/// A row that the robust weights set aside.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SetAside {
-    /// Index of the row in the observations.
-    pub row: usize,
-    /// Why: `residual 14.2 standard deviations`.
-    pub why: String,
 }
 
 /// The residuals at the estimate: what the search for missing effects starts from.
@@ -116,8 +101,13 @@ pub struct FitResult {
     pub parameters: Vec<SymbolId>,
     /// The value of every symbol of the chain, SI, indexed by symbol: estimates, and what was held fixed.
     pub values: Vec<f64>,
-    /// Covariance of the estimates, p × p, SI; combinations that these data cannot determine contribute nothing.
+    /// Covariance of the estimates, p × p, SI, infinite where the data leave no degrees of freedom to know it from. What is not
+    /// determined is as uncertain as its [size](Self::sizes) says, and its influence on the rest is in it.
     pub covariance: Mat<f64>,
+    /// Per parameter the degrees of freedom of its variance, for Student's t; infinite where the noise is stated.
+    pub parameter_degrees_of_freedom: Vec<f64>,
+    /// Independent combinations that these data determine, as many as the rank, with their values.
+    pub estimable: Vec<Estimable>,
     /// The number of combinations that these data determine.
     pub rank: usize,
     /// Combinations that these data cannot determine, p × (p − rank), columns of length one in SI units, each with as few
@@ -125,23 +115,61 @@ pub struct FitResult {
     pub null_space: Mat<f64>,
     /// Per parameter, whether no undetermined combination holds it.
     pub separable: Vec<bool>,
+    /// Per parameter, whether some determined combination holds it: these data show nothing of the others.
+    pub shown: Vec<bool>,
+    /// Per parameter how large it may be where the data do not show it; empty where they show everything.
+    pub sizes: Vec<Size>,
+    /// The noise that the data state beside the noise that was found; `None` where they state none.
+    pub stated: Option<Stated>,
     /// Rows that were set aside.
     pub set_aside: Vec<SetAside>,
     /// The noise that was assumed and found.
     pub noise: Noise,
     /// Sum of squares of the whitened residual.
     pub chi_squared: f64,
-    /// Components with weight, minus rank.
+    /// Components with weight, less the independent numbers that the estimates use up.
     pub degrees_of_freedom: f64,
     /// RMS over the observations kept of the length of the residual: rad or m.
     pub rms: f64,
     /// What the data determine.
     pub(crate) subspace: Subspace,
+    /// What became of the rest.
+    pub(crate) rest: Rest,
     /// The triangular factor of the derivatives by each parameter, whitened but for memory between rows, each row by the
     /// root of its robust weight.
     pub factor: Partial,
     /// The residuals.
     pub residuals: Residuals,
+}
+
+impl FitResult {
+    /// The standard uncertainty of a parameter, SI; `None` if it was not estimated or these data do not tell.
+    #[must_use]
+    pub fn standard_uncertainty(&self, parameter: SymbolId) -> Option<f64> {
+        let at = self.parameters.iter().position(|&id| id == parameter)?;
+        Some(self.covariance[(at, at)].sqrt()).filter(|uncertainty| uncertainty.is_finite())
+    }
+
+    /// Half the width of the interval that holds a parameter with this confidence (0.95, say), SI; `None` where nothing is known.
+    #[must_use]
+    pub fn half_width(&self, parameter: SymbolId, confidence: f64) -> Option<f64> {
+        let at = self.parameters.iter().position(|&id| id == parameter)?;
+        let freedom = self.parameter_degrees_of_freedom[at];
+        uncertainty::half_width(self.standard_uncertainty(parameter)?, freedom, confidence)
+    }
+
+    /// (JᵀJ)⁻¹ of the whitened and weighted rows, the prior of what is not determined included, p × p, SI.
+    #[must_use]
+    pub(crate) fn design_covariance(&self) -> Mat<f64> {
+        let root = self.design_root();
+        &root * root.transpose()
+    }
+
+    /// A matrix whose product with its own transpose is [that](Self::design_covariance).
+    #[must_use]
+    pub(crate) fn design_root(&self) -> Mat<f64> {
+        self.subspace.covariance_root(&self.factor, &self.rest)
+    }
 }
 
 /// Why there was nothing to fit: mistakes of the caller, not of the data.

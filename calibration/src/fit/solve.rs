@@ -1,44 +1,38 @@
-//! The loop: start robustly, fit with the noise known so far, learn the noise, until nothing changes.
+//! The fit: downhill robustly by degrees, with few rows by least squares, then what the data leave open under its prior.
 
 use std::cell::OnceCell;
 
-use faer::Mat;
-use model_core::{Chain, SymbolId};
+use model_core::{Chain, SymbolKind};
 
 use super::align::starting_values;
-use super::sweep::{Sweep, Weighting, coloured, residuals, sweep};
-use super::{FitError, FitOptions, FitResult, Model, Outcome, Partial, Residuals, SetAside, Subspace};
+use super::descent::{Course, Point};
+use super::normal::Rest;
+use super::size::Size;
+use super::sweep::{Sweep, Weighting, residuals, sweep};
+use super::{FitError, FitOptions, FitResult, Model, Outcome, Partial, Residuals, SetAside, Subspace, Why};
 use crate::data::Observations;
 use crate::fit::noise::{self, Layout, Noise};
-
-/// A step is negligible when it moves the prediction by this many standard deviations in all.
-const NEGLIGIBLE: f64 = 1e-7;
-
-/// The same while the noise is still being learned.
-const ROUGHLY: f64 = 1e-2;
-
-/// How often the noise is learned anew.
-const NOISE_ROUNDS: usize = 8;
 
 /// The noise is known when no standard deviation changes by more than this share.
 const NOISE_KNOWN: f64 = 1e-3;
 
+/// When more than this share of the rows has lost all weight, other starts are tried.
+const DOUBTFUL: f64 = 0.25;
+
 /// One fit in progress.
-struct Solver<'a> {
-    chain: &'a Chain,
-    observations: &'a Observations,
-    options: &'a FitOptions,
-    model: Model,
+pub(super) struct Solver<'a> {
+    pub chain: &'a Chain,
+    pub observations: &'a Observations,
+    pub options: &'a FitOptions,
+    pub model: Model,
     /// The same without derivatives, once it is needed.
     plain: OnceCell<Model>,
-    layout: Layout,
-    iterations: usize,
-}
-
-/// Where the solver is: values, and what all rows say there.
-struct Point {
-    values: Vec<f64>,
-    sweep: Sweep,
+    pub layout: Layout,
+    /// Rows that count for nothing, where they are few and chosen one by one; empty where all may count.
+    pub aside: Vec<bool>,
+    /// How large a parameter may be that the data do not show.
+    pub prior_sizes: Vec<Size>,
+    pub iterations: usize,
 }
 
 /// Fits the chain to the observations.
@@ -53,58 +47,85 @@ pub fn fit(chain: &Chain, observations: &Observations, options: &FitOptions) -> 
         return Err(FitError::WrongShape { why });
     }
     let model = Model::new(chain, observations, &options.estimate)?;
-    let (plain, layout) = (OnceCell::new(), Layout::of(observations));
-    let solver = Solver { chain, observations, options, model, plain, layout, iterations: 0 };
+    let solver = Solver {
+        chain,
+        observations,
+        options,
+        model,
+        plain: OnceCell::new(),
+        layout: Layout::of(observations),
+        aside: Vec::new(),
+        prior_sizes: Vec::new(),
+        iterations: 0,
+    };
     solver.run()
 }
 
 impl Solver<'_> {
     fn run(mut self) -> Result<FitResult, FitError> {
-        let mut values = starting_values(self.chain, self.observations, self.options)?;
-        let mut noise = self.first_noise(&values)?;
-        let mut point = self.point(values.clone(), &noise)?;
-        let mut subspace = Subspace::determined(&self.unweighted_at(&point, &noise)?);
-        if self.options.robust {
-            self.start_robustly(&mut values, &mut noise, &subspace)?;
-            point = self.point(values, &noise)?;
+        let start = starting_values(self.chain, self.observations, self.options)?;
+        let weighting = self.options.weighting();
+        let mut course = self.course(&start, weighting)?;
+        if self.doubtful(&course)? {
+            course = self.elsewhere(course)?;
         }
-        for _ in 0..NOISE_ROUNDS {
-            self.descend(&mut point, &noise, &subspace, ROUGHLY)?;
-            let seen = subspace.clone().extended(&self.partial(&point.sweep));
-            if seen.rank() > subspace.rank() {
-                subspace = seen;
-                continue;
-            }
-            if self.layout.components() <= subspace.rank() {
-                break;
-            }
-            let learned = self.learn_noise(&point, &noise, subspace.rank());
-            let known = same(&learned, &noise);
-            if learned != noise {
-                point = self.point(point.values, &learned)?;
-                noise = learned;
-            }
-            if known {
-                break;
+        if weighting == Weighting::Biweight && self.are_few(course.subspace.rank()) {
+            course = self.of_few(course)?;
+        }
+        self.release(&mut course)?;
+        self.result(course)
+    }
+
+    /// Whether a course failed, or ended where much of the data does not count or where no errors at all would do better.
+    fn doubtful(&self, course: &Course) -> Result<bool, FitError> {
+        let (_, weight) = self.norms_and_weights(course);
+        let lost = weight.iter().filter(|weight| **weight == 0.0).count();
+        let many = !self.are_few(course.subspace.rank()) && lost as f64 > DOUBTFUL * weight.len() as f64;
+        let plain = self.plain.get_or_init(|| Model::without_columns(self.chain, self.observations));
+        let nominal = residuals(plain, self.observations, &self.chain.nominal_values())?;
+        let worse = self.ln_scale(&course.point.sweep.residual) > self.ln_scale(&nominal);
+        Ok(course.stopped.is_some() || many || worse)
+    }
+
+    /// The best of some courses from other starts and this one: that with the smallest residual by its medians.
+    fn elsewhere(&mut self, course: Course) -> Result<Course, FitError> {
+        let mut best = course;
+        let squares = self.course(&self.options.start.clone(), Weighting::Full)?;
+        let nominal = self.chain.nominal_values();
+        for start in [squares.point.values, self.options.start.clone(), nominal] {
+            let other = self.course(&start, self.options.weighting())?;
+            let scale = |course: &Course| self.ln_scale(&course.point.sweep.residual);
+            if scale(&other) < scale(&best) {
+                best = other;
             }
         }
-        let converged = self.descend(&mut point, &noise, &subspace, NEGLIGIBLE)?;
-        self.result(point, noise, subspace, converged)
+        Ok(best)
     }
 
     /// All rows at some values. Serial correlation has no part in it: estimates that do not lean on it stay right when
     /// what looks like memory is an effect that the chain lacks. It enters the uncertainties.
-    fn sweep(&self, values: &[f64], noise: &Noise, weighting: Weighting) -> Result<Sweep, FitError> {
+    pub(super) fn sweep(
+        &self,
+        values: &[f64],
+        noise: &Noise,
+        weighting: Weighting,
+    ) -> Result<Sweep, FitError> {
         let sigma = noise.sigma_without_memory();
-        sweep(&self.model, self.observations, &self.layout, values, &sigma, weighting)
+        sweep(&self.model, self.observations, &self.layout, values, &sigma, weighting, &self.aside)
     }
 
-    fn point(&self, values: Vec<f64>, noise: &Noise) -> Result<Point, FitError> {
-        let sweep = self.sweep(&values, noise, self.options.weighting())?;
-        Ok(Point { values, sweep })
+    pub(super) fn point(
+        &self,
+        values: Vec<f64>,
+        noise: &Noise,
+        weighting: Weighting,
+        rest: Rest,
+    ) -> Result<Point, FitError> {
+        let sweep = self.sweep(&values, noise, weighting)?;
+        Ok(Point { values, sweep, rest })
     }
 
-    fn moved(&self, values: &[f64], change: &[f64]) -> Vec<f64> {
+    pub(super) fn moved(&self, values: &[f64], change: &[f64]) -> Vec<f64> {
         let mut values = values.to_vec();
         for (parameter, change) in self.model.parameters().iter().zip(change) {
             values[parameter.index()] += change;
@@ -112,166 +133,131 @@ impl Solver<'_> {
         values
     }
 
-    fn partial(&self, sweep: &Sweep) -> Partial {
+    pub(super) fn partial(&self, sweep: &Sweep) -> Partial {
         sweep.tally.partial.spread(self.model.column_of())
     }
 
-    fn first_noise(&self, values: &[f64]) -> Result<Noise, FitError> {
+    /// What the data determine: every error at zero, constants where they are.
+    pub(super) fn determined(&self, values: &[f64], noise: &Noise) -> Result<Subspace, FitError> {
+        let mut values = values.to_vec();
+        for &parameter in self.model.parameters() {
+            if self.chain.symbol(parameter).kind == SymbolKind::Error {
+                values[parameter.index()] = 0.0;
+            }
+        }
+        let partial = self.partial(&self.sweep(&values, noise, Weighting::Full)?);
+        Ok(Subspace::determined(&partial, self.first_sizes()))
+    }
+
+    /// How far each parameter is from where it is expected: an error from zero, a constant from its nominal value; SI.
+    pub(super) fn deviation(&self, values: &[f64]) -> Vec<f64> {
+        let nominal = self.chain.nominal_values();
+        self.model.parameters().iter().map(|id| values[id.index()] - nominal[id.index()]).collect()
+    }
+
+    /// Values that the data cannot tell from these to first order, as near as can be to where they are expected.
+    pub(super) fn with_smallest(&self, values: &[f64], subspace: &Subspace) -> Vec<f64> {
+        let smallest = subspace.smallest(&self.deviation(values));
+        let nominal = self.chain.nominal_values();
+        let mut values = values.to_vec();
+        for (parameter, deviation) in self.model.parameters().iter().zip(smallest) {
+            values[parameter.index()] = nominal[parameter.index()] + deviation;
+        }
+        values
+    }
+
+    pub(super) fn first_noise(&self, values: &[f64]) -> Result<Noise, FitError> {
         // A noise that is known has no use for residuals.
         let plain = || self.plain.get_or_init(|| Model::without_columns(self.chain, self.observations));
         let residual = match self.options.noise.known() {
             Some(_) => Vec::new(),
             None => residuals(plain(), self.observations, values)?,
         };
-        Ok(noise::from_medians(&self.options.noise, self.observations, &self.layout, &residual))
+        Ok(self.noise_of(&residual))
     }
 
-    fn learn_noise(&self, point: &Point, noise: &Noise, rank: usize) -> Noise {
-        let (_, weight) = self.norms_and_weights(point, noise);
-        noise::estimate(
-            self.chain,
-            &self.options.noise,
-            self.observations,
-            &self.layout,
-            &point.sweep.residual,
-            &weight,
-            rank,
-        )
+    /// Floors from the medians of residuals.
+    pub(super) fn noise_of(&self, residual: &[f64]) -> Noise {
+        noise::from_medians(&self.options.noise, self.observations, &self.layout, residual)
+    }
+
+    /// The logarithm of how large residuals are by their medians, the mean over all components.
+    pub(super) fn ln_scale(&self, residual: &[f64]) -> f64 {
+        noise::ln_scale(self.observations, &self.layout, residual)
+    }
+
+    pub(super) fn learn_noise(&self, course: &Course) -> Noise {
+        let (_, weight) = self.norms_and_weights(course);
+        let (residual, used) = (&course.point.sweep.residual, self.used(course));
+        let options = &self.options.noise;
+        noise::estimate(self.chain, options, self.observations, &self.layout, residual, &weight, used)
     }
 
     /// Per row the norm of its whitened components and its weight; rows without a value have none.
-    fn norms_and_weights(&self, point: &Point, noise: &Noise) -> (Vec<f64>, Vec<f64>) {
-        let (sigma, weighting) = (noise.sigma_without_memory(), self.options.weighting());
-        let residual = point.sweep.residual.iter().zip(sigma.iter());
-        let white: Vec<f64> = residual.map(|(residual, sigma)| residual / sigma).collect();
-        let rows = self.layout.norms(&white).zip(self.layout.first.windows(2)).zip(&point.sweep.defined);
-        rows.map(|((norm, ends), &defined)| {
-            (norm, if defined { weighting.weight(norm, ends[1] - ends[0]) } else { 0.0 })
+    pub(super) fn norms_and_weights(&self, course: &Course) -> (Vec<f64>, Vec<f64>) {
+        let sigma = course.noise.sigma_without_memory();
+        let sweep = &course.point.sweep;
+        let white: Vec<f64> =
+            sweep.residual.iter().zip(sigma.iter()).map(|(residual, sigma)| residual / sigma).collect();
+        let rows = self.layout.norms(&white).zip(self.layout.first.windows(2)).zip(&sweep.defined).enumerate();
+        rows.map(|(row, ((norm, ends), &defined))| {
+            let counts = defined && self.aside.get(row) != Some(&true);
+            (norm, if counts { course.weighting.weight(norm, ends[1] - ends[0]) } else { 0.0 })
         })
         .unzip()
     }
 
-    /// The factor of all rows that have a value, each with its full weight, whitened but for serial correlation.
-    fn unweighted(&self, values: &[f64], noise: &Noise) -> Result<Partial, FitError> {
-        Ok(self.partial(&self.sweep(values, noise, Weighting::Full)?))
+    /// The number of components with weight.
+    pub(super) fn kept_components(&self, course: &Course) -> usize {
+        let (_, weight) = self.norms_and_weights(course);
+        self.layout.row.iter().filter(|&&row| weight[row as usize] > 0.0).count()
     }
 
-    /// The same where the solver is.
-    fn unweighted_at(&self, point: &Point, noise: &Noise) -> Result<Partial, FitError> {
-        match self.options.weighting() {
-            Weighting::Full => Ok(self.partial(&point.sweep)),
-            _ => self.unweighted(&point.values, noise),
-        }
+    /// How many independent numbers of the data the estimates use up.
+    pub(super) fn used(&self, course: &Course) -> f64 {
+        course.subspace.used(&self.partial(&course.point.sweep), &course.point.rest)
     }
 
-    /// Least absolute deviations, roughly: brings the values near enough for the biweight, whatever the outliers.
-    fn start_robustly(
-        &mut self,
-        values: &mut Vec<f64>,
-        noise: &mut Noise,
-        subspace: &Subspace,
-    ) -> Result<(), FitError> {
-        for _ in 0..30 {
-            let step = subspace.step(&self.partial(&self.sweep(values, noise, Weighting::Distance)?), 0.0);
-            *values = self.moved(values, &step.change);
-            *noise = self.first_noise(values)?;
-            self.iterations += 1;
-            // Within a tenth of a standard uncertainty per combination the biweight takes over.
-            if step.length < 0.1 * (subspace.rank() as f64).sqrt() {
-                break;
-            }
-        }
-        Ok(())
-    }
-
-    /// Levenberg-Marquardt with the noise as it is; whether it converged to a step no longer than `negligible`.
-    ///
-    /// Source: K. Madsen, H. B. Nielsen, O. Tingleff, Methods for Non-Linear Least Squares Problems (2004), with steps
-    /// within the determined combinations and weights taken anew at every step.
-    fn descend(
-        &mut self,
-        point: &mut Point,
-        noise: &Noise,
-        subspace: &Subspace,
-        negligible: f64,
-    ) -> Result<bool, FitError> {
-        let negligible = negligible.max(self.unresolved(noise));
-        let mut damping = 0.0;
-        for _ in 0..self.options.max_iterations {
-            let tally = &point.sweep.tally;
-            let step = subspace.step(&self.partial(&point.sweep), damping).times(tally.stride());
-            if step.length <= negligible && damping < 1e-3 {
-                return Ok(true);
-            }
-            self.iterations += 1;
-            let next = self.point(self.moved(&point.values, &step.change), noise)?;
-            if next.sweep.tally.objective <= tally.objective * (1.0 + 1e-9) {
-                *point = next;
-                damping = if damping < 1e-7 { 0.0 } else { damping / 10.0 };
-            } else {
-                damping = (damping * 10.0).max(1e-6);
-                if damping > 1e8 {
-                    return Ok(false);
-                }
-            }
-        }
-        Ok(false)
-    }
-
-    /// The length of a step that only moves the last bits of the prediction.
-    fn unresolved(&self, noise: &Noise) -> f64 {
-        let resolution = noise::resolution(self.observations);
-        let sigma = noise.sigma_without_memory();
-        sigma.iter().map(|sigma| (resolution / sigma).powi(2)).sum::<f64>().sqrt()
-    }
-
-    fn result(
-        self,
-        point: Point,
-        noise: Noise,
-        subspace: Subspace,
-        converged: bool,
-    ) -> Result<FitResult, FitError> {
-        let (n, rank) = (self.layout.components(), subspace.rank());
-        let (norms, weight) = self.norms_and_weights(&point, &noise);
-        let kept = self.layout.row.iter().filter(|&&row| weight[row as usize] > 0.0).count() as f64;
-        let full = self.unweighted_at(&point, &noise)?;
-        let covariance = match noise.serial {
-            None => subspace.covariance(&full),
-            Some(_) => {
-                let coloured = coloured(&self.model, self.observations, &point.values, &noise)?;
-                subspace.sandwich(&full, &coloured.spread(self.model.column_of()))
-            }
-        };
-        let (tally, known) = (&point.sweep.tally, self.options.noise.known().is_some());
-        let factor = tally.variance_factor(rank, known, self.options.weighting());
+    fn result(self, course: Course) -> Result<FitResult, FitError> {
+        let rank = course.subspace.rank();
+        let (norms, weight) = self.norms_and_weights(&course);
+        let kept = self.layout.row.iter().filter(|&&row| weight[row as usize] > 0.0).count();
+        let (uncertainty, shared) = self.uncertainty(&course, &weight)?;
+        let Course { point, noise, subspace, stopped, .. } = course;
+        let noise = shared.in_noise(noise);
         let mut whitened = point.sweep.residual.clone();
         noise.whiten(&mut whitened);
         for (value, &row) in whitened.iter_mut().zip(&self.layout.row) {
             *value *= weight[row as usize].sqrt();
         }
         let parameters = self.model.parameters().to_vec();
-        let outcome = if n <= rank || n == 0 {
-            Outcome::TooFewObservations { components: n, parameters: parameters.len() }
-        } else if converged {
-            Outcome::Converged { iterations: self.iterations }
-        } else {
-            Outcome::NotConverged { iterations: self.iterations }
+        let outcome = match stopped {
+            _ if kept <= rank => {
+                Outcome::TooFewObservations { components: kept, parameters: parameters.len(), rank }
+            }
+            None => Outcome::Converged { iterations: self.iterations },
+            Some(reason) => Outcome::NotConverged { iterations: self.iterations, reason },
         };
         Ok(FitResult {
             outcome,
-            parameters,
-            covariance: scaled(&covariance, factor),
-            rank,
-            null_space: subspace.null_space(),
+            estimable: uncertainty.estimable(&subspace, &parameters, &point.values),
+            shown: subspace.shown(),
             separable: subspace.separable(),
-            subspace,
+            null_space: subspace.null_space(),
+            rank,
+            degrees_of_freedom: uncertainty.degrees_of_freedom(),
+            parameter_degrees_of_freedom: uncertainty.of_parameters(),
+            covariance: uncertainty.covariance(),
+            stated: uncertainty.stated(),
+            sizes: self.prior_sizes,
             set_aside: set_aside(&point.sweep.defined, &norms, &weight),
             noise,
             chi_squared: whitened.iter().map(|r| r * r).sum(),
-            degrees_of_freedom: kept - rank as f64,
-            rms: tally.rms(),
-            factor: self.partial(&point.sweep),
+            rms: point.sweep.tally.rms(),
+            factor: point.sweep.tally.partial.spread(self.model.column_of()),
+            rest: point.rest,
+            subspace,
+            parameters,
             values: point.values,
             residuals: Residuals { raw: point.sweep.residual, whitened, row: self.layout.row, weight },
         })
@@ -282,43 +268,15 @@ impl Solver<'_> {
 fn set_aside(defined: &[bool], norms: &[f64], weight: &[f64]) -> Vec<SetAside> {
     let rows = norms.iter().zip(weight).zip(defined).enumerate();
     rows.filter(|(_, ((_, weight), _))| **weight == 0.0)
-        .map(|(row, ((norm, _), &defined))| SetAside {
+        .map(|(row, ((&norm, _), &defined))| SetAside {
             row,
-            why: if defined {
-                format!("its residual is {norm:.1} standard deviations")
-            } else {
-                "the chain has no finite value there".to_string()
-            },
+            why: if defined { Why::Far { standard_deviations: norm } } else { Why::NoValue },
         })
         .collect()
 }
 
-/// Whether two noise models whiten alike.
-fn same(a: &Noise, b: &Noise) -> bool {
+/// Whether two noise models weigh components alike.
+pub(super) fn same(a: &Noise, b: &Noise) -> bool {
     let close = |x: f64, y: f64| (x - y).abs() <= NOISE_KNOWN * y.abs();
-    let serial = match (a.serial, b.serial) {
-        (None, None) => true,
-        (Some(a), Some(b)) => {
-            (a.autoregressive - b.autoregressive).abs() <= NOISE_KNOWN
-                && (a.moving_average - b.moving_average).abs() <= NOISE_KNOWN
-        }
-        _ => false,
-    };
-    serial && a.sigma.len() == b.sigma.len() && a.sigma.iter().zip(&b.sigma).all(|(&x, &y)| close(x, y))
-}
-
-fn scaled(matrix: &Mat<f64>, factor: f64) -> Mat<f64> {
-    Mat::from_fn(matrix.nrows(), matrix.ncols(), |row, column| match matrix[(row, column)] {
-        0.0 => 0.0,
-        value => value * factor,
-    })
-}
-
-impl FitResult {
-    /// The standard uncertainty of a parameter, SI; `None` if it was not estimated.
-    #[must_use]
-    pub fn standard_uncertainty(&self, parameter: SymbolId) -> Option<f64> {
-        let at = self.parameters.iter().position(|&id| id == parameter)?;
-        Some(self.covariance[(at, at)].sqrt())
-    }
+    a.sigma.len() == b.sigma.len() && a.sigma.iter().zip(&b.sigma).all(|(&x, &y)| close(x, y))
 }

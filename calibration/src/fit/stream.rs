@@ -5,13 +5,14 @@
 //! is that of one chunk. The noise is a floor for each kind of component; memory between rows is not looked for.
 
 use faer::Mat;
-use model_core::{Chain, SymbolId};
+use model_core::{Chain, SymbolId, SymbolKind};
 
-use super::align::starting_values;
 use super::model::Model;
+use super::normal::Rest;
 use super::partial::Partial;
+use super::size::UNSHOWN;
 use super::subspace::Subspace;
-use super::sweep::{Tally, Weighting, residuals, tally};
+use super::sweep::{Tally, Weighting, tally};
 use super::{FitError, FitOptions, fit, robust};
 use crate::data::Observations;
 use crate::fit::noise::{self, Layout, NoiseOptions};
@@ -42,8 +43,12 @@ pub struct Pass {
 pub struct Streamed {
     /// The pass to make next.
     pub pass: Pass,
-    /// What the sample determines without errors; what all rows determine extends it.
-    subspace: Subspace,
+    /// What all rows determine with every error at zero: the first pass tells.
+    subspace: Option<Subspace>,
+    /// Where the second pass begins: the value of every symbol, SI, by symbol, and how rows are weighed from there on.
+    begin: (Vec<f64>, Weighting),
+    /// Of each parameter its size where the data do not show it, and where it is expected, SI.
+    expected: Vec<[f64; 2]>,
     components: Vec<usize>,
     passes: usize,
 }
@@ -102,17 +107,26 @@ impl Streamed {
         options.noise.serial = false;
         let start = fit(chain, sample, &options)?;
         let model = Model::new(chain, sample, &options.estimate)?;
-        let subspace = seen_without_errors(chain, &model, sample, &options)?;
+        let nominal = chain.nominal_values();
+        let size = |at: usize| start.sizes.get(at).map_or(UNSHOWN, |size| size.value);
+        let expected = model.parameters().iter().enumerate();
+        let expected = expected.map(|(at, parameter)| [size(at), nominal[parameter.index()]]).collect();
+        // What is determined is asked with every error at zero.
+        let mut values = start.values.clone();
+        for parameter in model.parameters().iter().filter(|id| chain.symbol(**id).kind == SymbolKind::Error) {
+            values[parameter.index()] = 0.0;
+        }
         let pass = Pass {
             model,
-            values: start.values,
+            values,
             floor: start.noise.floor.iter().map(|floor| floor.max(f64::MIN_POSITIVE)).collect(),
-            weighting: options.weighting(),
-            noise: options.noise,
+            weighting: Weighting::Full,
+            noise: options.noise.clone(),
         };
         let measures = sample.series.iter().map(|series| series.measure.components());
         let components = measures.flat_map(|count| std::iter::repeat_n(count, count)).collect();
-        Ok(Self { pass, subspace, components, passes: 0 })
+        let begin = (start.values, options.weighting());
+        Ok(Self { pass, subspace: None, begin, expected, components, passes: 0 })
     }
 
     /// Makes of the tally of a whole pass the next one, or the result.
@@ -120,14 +134,20 @@ impl Streamed {
     pub fn next(mut self, tally: &Tally) -> Next {
         self.passes += 1;
         let partial = tally.partial.spread(self.pass.model.column_of());
-        let subspace = self.subspace.clone().extended(&partial);
-        self.subspace = subspace.clone();
-        let step = subspace.step(&partial, 0.0).times(tally.stride());
-        let floor = self.floors(tally);
+        let Some(subspace) = self.subspace.clone() else {
+            let size = self.expected.iter().map(|[size, _]| *size).collect();
+            self.subspace = Some(Subspace::determined(&partial, size));
+            (self.pass.values, self.pass.weighting) = self.begin.clone();
+            return Next::Pass(Box::new(self));
+        };
+        let rest = self.rest(&subspace);
+        let step = subspace.step(&partial, 0.0, &rest).times(tally.stride());
+        let used = subspace.used(&partial, &rest);
+        let floor = self.floors(tally, used);
         let known = floor.iter().zip(&self.pass.floor).all(|(a, b)| (a - b).abs() <= FLOOR_KNOWN * b);
         let converged = known && step.length <= NEGLIGIBLE * (subspace.rank() as f64).sqrt();
         if converged || self.passes >= PASSES {
-            return Next::Done(Box::new(self.result(tally, &partial, converged)));
+            return Next::Done(Box::new(self.result(&subspace, tally, &partial, converged)));
         }
         for (parameter, change) in self.pass.model.parameters().iter().zip(&step.change) {
             self.pass.values[parameter.index()] += change;
@@ -136,16 +156,35 @@ impl Streamed {
         Next::Pass(Box::new(self))
     }
 
-    fn result(self, tally: &Tally, partial: &Partial, converged: bool) -> StreamedResult {
-        let subspace = self.subspace;
-        let known = self.pass.noise.known().is_some();
-        let factor = tally.variance_factor(subspace.rank(), known, self.pass.weighting);
+    /// Where what is not determined stands under its prior.
+    fn rest(&self, subspace: &Subspace) -> Rest {
+        if subspace.rank() == subspace.parameters() {
+            return Rest::Still;
+        }
+        let parameters = self.pass.model.parameters().iter().zip(&self.expected);
+        let deviation: Vec<f64> =
+            parameters.map(|(id, [_, expected])| self.pass.values[id.index()] - expected).collect();
+        Rest::Prior(subspace.strain(&deviation))
+    }
+
+    fn result(self, subspace: &Subspace, tally: &Tally, partial: &Partial, converged: bool) -> StreamedResult {
+        let rest = self.rest(subspace);
+        let used = subspace.used(partial, &rest);
+        let factor = match (self.pass.noise.known(), self.pass.weighting) {
+            (None, _) => tally.variance_factor(used),
+            (Some(_), Weighting::Biweight) => 1.0 / robust::EFFICIENCY,
+            (Some(_), _) => 1.0,
+        };
+        let root = subspace.covariance_root(partial, &rest);
+        let by_prior = &root * (root.transpose() * subspace.precision_root(&rest));
+        let by_prior = &by_prior * by_prior.transpose();
+        let of_data = &root * root.transpose() - &by_prior;
         // The factor is weighted; dividing by the mean weight makes up for it.
         let mean = (tally.weights / partial.components as f64).max(f64::MIN_POSITIVE);
         StreamedResult {
             parameters: self.pass.model.parameters().to_vec(),
             values: self.pass.values,
-            covariance: subspace.covariance(partial) * faer::Scale(factor * mean),
+            covariance: of_data * faer::Scale(factor * mean) + by_prior,
             rank: subspace.rank(),
             separable: subspace.separable(),
             floor: self.pass.floor,
@@ -157,9 +196,9 @@ impl Streamed {
     }
 
     /// The floors as a whole tally has them.
-    fn floors(&self, tally: &Tally) -> Vec<f64> {
+    fn floors(&self, tally: &Tally, used: f64) -> Vec<f64> {
         let components = tally.partial.components as f64;
-        let lost = components / (components - self.subspace.rank() as f64).max(1.0);
+        let lost = components / (components - used).max(1.0);
         let kinds = tally.kinds.iter().zip(&self.components).zip(&self.pass.floor);
         kinds
             .map(|(([weights, squares], &components), &floor)| {
@@ -172,21 +211,6 @@ impl Streamed {
             })
             .collect()
     }
-}
-
-/// The combinations that a sample determines where the errors have their starting values.
-fn seen_without_errors(
-    chain: &Chain,
-    model: &Model,
-    sample: &Observations,
-    options: &FitOptions,
-) -> Result<Subspace, FitError> {
-    let layout = Layout::of(sample);
-    let start = starting_values(chain, sample, options)?;
-    let residual = residuals(model, sample, &start)?;
-    let noise = noise::from_medians(&options.noise, sample, &layout, &residual);
-    let tally = tally(model, sample, &layout, &start, &noise.sigma, Weighting::Full)?;
-    Ok(Subspace::determined(&tally.partial.spread(model.column_of())))
 }
 
 impl Pass {

@@ -1,18 +1,15 @@
-//! The combinations of parameters that the data determine, and steps within them.
+//! The combinations of parameters that data determine: those whose columns, with every error at zero, are independent.
+//!
+//! What only products of errors would show is not determined, however large the errors come out: the same declaration and
+//! the same poses always determine the same combinations.
 
 use faer::{Mat, MatRef};
 
 use super::partial::Partial;
 
-/// Below this share of the largest singular value (columns scaled to length one) a combination counts as not seen.
-const UNSEEN: f64 = 1e-8;
-
-/// A combination that only appears away from the starting point (by products of errors) must be seen this well.
-const NEWLY_SEEN: f64 = 1e-3;
-
-/// And the data must ask for it: by how much the sum of squares, in variances, must become less, in all and for each
-/// combination.
-const ASKED_FOR: [f64; 2] = [16.0, 4.0];
+/// Below this share of the largest singular value (columns scaled to length one) a combination counts as not seen: its
+/// uncertainty would be ten thousand times that of what is seen best, and beyond what is linear.
+const UNSEEN: f64 = 1e-4;
 
 /// A column this much shorter than the longest is zero but for rounding: a quarter turn's cosine, say.
 const ROUNDING: f64 = 1e-14;
@@ -20,55 +17,29 @@ const ROUNDING: f64 = 1e-14;
 /// Below this share of its largest part, a part of an undetermined combination is rounding.
 const NO_PART: f64 = 1e-6;
 
+/// Of the parts of an undetermined combination the last one of at least this share of the largest stands for it.
+const STANDS: f64 = 0.5;
+
 /// The combinations that the data determine.
 #[derive(Debug, Clone)]
 pub struct Subspace {
     /// Length of each column of the whitened Jacobian; 1 for columns of zeros.
     scale: Vec<f64>,
-    /// Orthonormal combinations of the scaled parameters, p × rank.
-    basis: Mat<f64>,
-    /// The rest of that space in reduced echelon form, p × (p − rank).
+    /// What is not determined, in parameters times their scale and in reduced echelon form, p × (p − rank).
     unseen: Mat<f64>,
-}
-
-/// A step, and how far it moves the prediction.
-#[derive(Debug, Clone)]
-pub struct Step {
-    /// Change of each parameter, SI.
-    pub change: Vec<f64>,
-    /// Norm of the change of the whitened prediction if it is linear: the step in standard uncertainties.
-    pub length: f64,
-}
-
-impl Step {
-    /// The same step, longer or shorter.
-    #[must_use]
-    pub fn times(self, stride: f64) -> Self {
-        let change = self.change.into_iter().map(|change| stride * change).collect();
-        Self { change, length: stride * self.length }
-    }
+    /// The parameter that stands for each column of `unseen`: its part is 1 there and 0 in the others.
+    pivots: Vec<usize>,
+    /// The change of each parameter that counts as one, SI.
+    size: Vec<f64>,
+    /// Orthonormal combinations of parameters in units of their size: p − rank undetermined ones, then the determined. p × p.
+    axes: Mat<f64>,
 }
 
 impl Subspace {
-    /// What is seen at the point where the partial was accumulated.
+    /// What is seen where the partial was accumulated, with every error at zero. `size` holds the change of each parameter
+    /// that counts as one, SI, length p.
     #[must_use]
-    pub fn determined(partial: &Partial) -> Self {
-        Self::seen_better_than(partial, UNSEEN)
-    }
-
-    /// This subspace, or a larger one if products of errors make more visible at the estimate and the residual asks for
-    /// it: where errors are small, what only their products show is not determined but by accident.
-    #[must_use]
-    pub fn extended(self, partial: &Partial) -> Self {
-        let at_estimate = Self::seen_better_than(partial, NEWLY_SEEN);
-        let more = at_estimate.rank().saturating_sub(self.rank());
-        let gain = |subspace: &Self| subspace.step(partial, 0.0).length.powi(2);
-        let [in_all, for_each] = ASKED_FOR;
-        let asked_for = || gain(&at_estimate) - gain(&self) > in_all + for_each * more as f64;
-        if more > 0 && asked_for() { at_estimate } else { self }
-    }
-
-    fn seen_better_than(partial: &Partial, tolerance: f64) -> Self {
+    pub fn determined(partial: &Partial, size: Vec<f64>) -> Self {
         let p = partial.parameters;
         let factor = partial.factor();
         let lengths: Vec<f64> = (0..p).map(|column| partial.length(column)).collect();
@@ -78,82 +49,76 @@ impl Subspace {
         let scaled = Mat::from_fn(p, p, |row, column| {
             if visible(lengths[column]) { factor[(row, column)] / lengths[column] } else { 0.0 }
         });
-        let Ok(svd) = scaled.svd() else {
+        let unseen = match scaled.svd() {
+            Ok(svd) => {
+                let values = svd.S().column_vector();
+                let largest = if p > 0 { values[0] } else { 0.0 };
+                let seen = |at: &usize| values[*at] > UNSEEN * largest && values[*at] > 0.0;
+                let rank = (0..p).filter(seen).count();
+                svd.V().subcols(rank, p - rank).to_owned()
+            }
             // Only numbers that are none do not factor: nothing is seen then.
-            return Self { scale, basis: Mat::zeros(p, 0), unseen: Mat::identity(p, p) };
+            Err(_) => Mat::identity(p, p),
         };
-        let values = svd.S().column_vector();
-        let largest = if p > 0 { values[0] } else { 0.0 };
-        let rank = (0..p).filter(|&at| values[at] > tolerance * largest && values[at] > 0.0).count();
-        let v = svd.V();
-        let unseen = echelon(v.subcols(rank, p - rank).to_owned());
-        Self { scale, basis: v.subcols(0, rank).to_owned(), unseen }
+        let (unseen, pivots) = echelon(unseen);
+        Self { scale, unseen, pivots, size: Vec::new(), axes: Mat::zeros(p, p) }.resized(size)
+    }
+
+    /// The same combinations with other sizes.
+    #[must_use]
+    pub fn resized(mut self, size: Vec<f64>) -> Self {
+        let mut rest = Mat::from_fn(self.unseen.nrows(), self.unseen.ncols(), |row, column| {
+            self.unseen[(row, column)] / self.scale[row] / size[row]
+        });
+        normalise(&mut rest);
+        let p = self.scale.len();
+        self.axes = if rest.ncols() > 0 { rest.qr().compute_Q() } else { Mat::identity(p, p) };
+        self.size = size;
+        self
     }
 
     /// The number of combinations that are determined.
     #[must_use]
     pub fn rank(&self) -> usize {
-        self.basis.ncols()
+        self.scale.len() - self.unseen.ncols()
     }
 
-    /// The covariance of estimates that were made as if the rows were independent, when they are not: A⁻¹ B A⁻¹ with
-    /// A = JᵀJ and B = KᵀK, K the coloured Jacobian. p × p.
-    #[must_use]
-    pub fn sandwich(&self, partial: &Partial, coloured: &Partial) -> Mat<f64> {
-        let p = partial.parameters;
-        let factor = coloured.factor();
-        let root = factor.submatrix(0, 0, p, p) * self.covariance(partial);
-        root.transpose() * &root
+    /// The number of parameters.
+    pub(super) fn parameters(&self) -> usize {
+        self.scale.len()
     }
 
-    /// The step that minimises |r − J δ|² + damping · s² |δ|², s the largest singular value.
+    /// The change of each parameter that counts as one, SI.
+    pub(super) fn size(&self) -> &[f64] {
+        &self.size
+    }
+
+    /// Orthonormal undetermined combinations of parameters in units of their size, p × (p − rank).
+    pub(super) fn rest(&self) -> MatRef<'_, f64> {
+        self.axes.as_ref().subcols(0, self.unseen.ncols())
+    }
+
+    /// Orthonormal combinations without undetermined part, of parameters in units of their size, p × rank.
+    pub(super) fn basis(&self) -> MatRef<'_, f64> {
+        self.axes.as_ref().subcols(self.unseen.ncols(), self.rank())
+    }
+
+    /// How far parameters that deviate so much, SI, lie along each undetermined combination, in units of the sizes.
     #[must_use]
-    pub fn step(&self, partial: &Partial, damping: f64) -> Step {
-        let p = partial.parameters;
-        let factor = partial.factor();
-        let reduced = self.reduced(&factor);
-        let Ok(svd) = reduced.thin_svd() else {
-            return Step { change: vec![0.0; p], length: 0.0 };
+    pub fn strain(&self, deviation: &[f64]) -> Vec<f64> {
+        let along = |axis: usize| {
+            let parts = deviation.iter().zip(&self.size).enumerate();
+            parts.map(|(row, (value, size))| self.axes[(row, axis)] * value / size).sum()
         };
-        let s = svd.S().column_vector();
-        let right = factor.col(p).subrows(0, p);
-        let along = svd.U().transpose() * right;
-        let floor = if self.rank() > 0 { damping * s[0] * s[0] } else { 0.0 };
-        let mut length = 0.0;
-        let coordinates = Mat::from_fn(self.rank(), 1, |at, _| {
-            let moved = s[at] * s[at] / (s[at] * s[at] + floor) * along[at];
-            if s[at] > 0.0 {
-                length += moved * moved;
-                moved / s[at]
-            } else {
-                0.0
-            }
-        });
-        let change = &self.basis * (svd.V() * coordinates);
-        let change = (0..p).map(|at| change[(at, 0)] / self.scale[at]).collect();
-        Step { change, length: length.sqrt() }
+        (0..self.unseen.ncols()).map(along).collect()
     }
 
-    /// (JᵀJ)⁻¹ over what is determined, in SI; nothing over the rest. p × p.
+    /// A deviation without its undetermined part, SI: the smallest, in units of the sizes, that the data cannot tell from it.
     #[must_use]
-    pub fn covariance(&self, partial: &Partial) -> Mat<f64> {
-        let root = self.covariance_root(partial);
-        &root * root.transpose()
-    }
-
-    /// A matrix whose product with its own transpose is the [covariance](Self::covariance), p × rank: J times it has
-    /// orthonormal columns.
-    #[must_use]
-    pub fn covariance_root(&self, partial: &Partial) -> Mat<f64> {
-        let p = partial.parameters;
-        let Ok(svd) = self.reduced(&partial.factor()).thin_svd() else {
-            return Mat::zeros(p, self.rank());
-        };
-        let s = svd.S().column_vector();
-        let v = &self.basis * svd.V();
-        Mat::from_fn(p, self.rank(), |row, column| {
-            if s[column] > 0.0 { v[(row, column)] / s[column] / self.scale[row] } else { 0.0 }
-        })
+    pub fn smallest(&self, deviation: &[f64]) -> Vec<f64> {
+        let strain = self.strain(deviation);
+        let part = |row: usize| strain.iter().enumerate().map(|(at, s)| s * self.axes[(row, at)]).sum::<f64>();
+        deviation.iter().enumerate().map(|(row, value)| value - part(row) * self.size[row]).collect()
     }
 
     /// The combinations that are not determined, in SI parameters, columns of length one, each with as few parts as the
@@ -163,12 +128,7 @@ impl Subspace {
         let mut null = Mat::from_fn(self.scale.len(), self.unseen.ncols(), |row, column| {
             self.unseen[(row, column)] / self.scale[row]
         });
-        for column in null.col_iter_mut() {
-            let length = column.norm_l2();
-            if length > 0.0 {
-                column.iter_mut().for_each(|part| *part /= length);
-            }
-        }
+        normalise(&mut null);
         null
     }
 
@@ -176,6 +136,34 @@ impl Subspace {
     #[must_use]
     pub fn separable(&self) -> Vec<bool> {
         self.unseen.row_iter().map(|row| row.iter().all(|&part| part == 0.0)).collect()
+    }
+
+    /// Per parameter, whether some determined combination holds it.
+    #[must_use]
+    pub fn shown(&self) -> Vec<bool> {
+        let combinations = self.combinations();
+        let holds = |parameter| combinations.iter().flatten().any(|&(own, _)| own == parameter);
+        (0..self.scale.len()).map(holds).collect()
+    }
+
+    /// Independent combinations that the data determine, as many as the rank: parameters in their order with their factors
+    /// (SI), the first 1.
+    #[must_use]
+    pub fn combinations(&self) -> Vec<Vec<(usize, f64)>> {
+        let free = (0..self.scale.len()).filter(|row| !self.pivots.contains(row));
+        free.map(|row| {
+            // Together with those that stand for what is not determined, a parameter without the undetermined part.
+            let others = self.pivots.iter().enumerate().map(|(column, &pivot)| {
+                (pivot, -self.unseen[(row, column)] * self.scale[pivot] / self.scale[row])
+            });
+            let mut parts: Vec<(usize, f64)> = others.filter(|(_, part)| *part != 0.0).collect();
+            parts.push((row, 1.0));
+            parts.sort_by_key(|(parameter, _)| *parameter);
+            let first = parts[0].1;
+            parts.iter_mut().for_each(|(_, part)| *part = plain(*part / first));
+            parts
+        })
+        .collect()
     }
 
     /// The parameters that undetermined combinations link, set by set in their order, each with the number of combinations
@@ -197,27 +185,41 @@ impl Subspace {
         sets.sort();
         sets
     }
+}
 
-    /// The Jacobian's factor in the coordinates of the subspace, p × rank.
-    fn reduced(&self, factor: &Mat<f64>) -> Mat<f64> {
-        let p = self.scale.len();
-        let jacobian: MatRef<'_, f64> = factor.as_ref().submatrix(0, 0, p, p);
-        let scaled = Mat::from_fn(p, p, |row, column| jacobian[(row, column)] / self.scale[column]);
-        scaled * &self.basis
+/// A factor without the rounding of the elimination, where it is a small fraction.
+fn plain(factor: f64) -> f64 {
+    let sixths = (factor * 12.0).round() / 12.0;
+    if sixths != 0.0 && (factor - sixths).abs() < NO_PART { sixths } else { factor }
+}
+
+/// Columns of length one.
+fn normalise(columns: &mut Mat<f64>) {
+    for column in columns.col_iter_mut() {
+        let length = column.norm_l2();
+        if length > 0.0 {
+            column.iter_mut().for_each(|part| *part /= length);
+        }
     }
 }
 
-/// The same column space in reduced echelon form: each column has a row, its largest part, in which the others are zero.
-/// What is left in other rows are the parts that it cannot do without, so that parameters which nothing links share no
+/// The same column space in reduced echelon form: each column has a row in which the others are zero, and which stands for
+/// it. What is left in other rows are the parts that it cannot do without, so that parameters which nothing links share no
 /// column, and one that moves nothing has a column to itself.
-fn echelon(mut columns: Mat<f64>) -> Mat<f64> {
+fn echelon(mut columns: Mat<f64>) -> (Mat<f64>, Vec<usize>) {
     let (rows, count) = columns.shape();
-    let mut used = vec![false; rows];
+    let mut pivots: Vec<usize> = Vec::new();
     for done in 0..count {
-        let free = (0..rows).filter(|&row| !used[row]).flat_map(|row| (done..count).map(move |at| (row, at)));
-        let largest = free.max_by(|&a, &b| columns[a].abs().total_cmp(&columns[b].abs()));
-        let Some((pivot, at)) = largest.filter(|&at| columns[at] != 0.0) else { break };
-        used[pivot] = true;
+        let free: Vec<(usize, usize)> = (0..rows)
+            .filter(|row| !pivots.contains(row))
+            .flat_map(|row| (done..count).map(move |at| (row, at)))
+            .collect();
+        let size = |&(row, at): &(usize, usize)| columns[(row, at)].abs();
+        let largest = free.iter().map(size).fold(0.0, f64::max);
+        // Not the largest itself: which of two that are alike is larger would be for rounding to say.
+        let stands = free.iter().rev().find(|at| size(at) >= STANDS * largest && largest > 0.0);
+        let Some(&(pivot, at)) = stands else { break };
+        pivots.push(pivot);
         for row in 0..rows {
             let own = columns[(row, at)];
             columns[(row, at)] = columns[(row, done)];
@@ -239,5 +241,35 @@ fn echelon(mut columns: Mat<f64>) -> Mat<f64> {
         let largest = column.norm_max();
         column.iter_mut().filter(|part| part.abs() < NO_PART * largest).for_each(|part| *part = 0.0);
     }
-    columns
+    (columns, pivots)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The factor of a Jacobian.
+    fn partial(rows: &[[f64; 4]]) -> Partial {
+        let matrix = Mat::from_fn(rows.len(), 5, |row, column| rows[row].get(column).copied().unwrap_or(0.0));
+        Partial::new(4).with_rows(matrix.as_ref())
+    }
+
+    #[test]
+    fn sums_are_determined_where_their_parts_are_not() {
+        // The first two move everything alike, the second by half; the last moves nothing.
+        let rows = [[2.0, 1.0, 0.0, 0.0], [4.0, 2.0, 1.0, 0.0], [-2.0, -1.0, 3.0, 0.0]];
+        for size in [vec![1.0; 4], vec![1e-4, 1e-3, 2.0, 1.0]] {
+            let subspace = Subspace::determined(&partial(&rows), size.clone());
+            assert_eq!(subspace.rank(), 2);
+            assert_eq!(subspace.combinations(), [vec![(0, 1.0), (1, 0.5)], vec![(2, 1.0)]]);
+            assert_eq!(subspace.separable(), [false, false, true, false]);
+            // The smallest in units of the sizes: each gets its share of what they do together.
+            let smallest = subspace.smallest(&[1.0, 0.0, 0.5, 7.0]);
+            let reach = [size[0].powi(2), size[1].powi(2) / 2.0];
+            let whole = reach[0] + reach[1] / 2.0;
+            for (value, expected) in smallest.iter().zip([reach[0] / whole, reach[1] / whole, 0.5, 0.0]) {
+                approx::assert_relative_eq!(*value, expected, epsilon = 1e-12);
+            }
+        }
+    }
 }

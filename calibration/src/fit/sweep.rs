@@ -2,32 +2,31 @@
 //!
 //! Nothing of a row is kept but its residual, and that only for those who ask: derivatives go straight into the factor.
 
-use faer::Mat;
 use serde::{Deserialize, Serialize};
 
 use super::model::{Block, Model};
 use super::partial::{Partial, Rows};
 use super::{FitError, robust};
 use crate::data::Observations;
-use crate::fit::noise::{Layout, Noise};
+use crate::fit::noise::Layout;
 
 /// How much a row counts, by the norm of its whitened components.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Weighting {
     /// All alike.
     Full,
+    /// Huber's: one over the distance from the median on, so that every loss has one bottom where the model is linear.
+    Huber,
     /// Tukey's biweight.
     Biweight,
-    /// One over the distance: roughly, least absolute deviations.
-    Distance,
 }
 
 impl Weighting {
     pub fn weight(self, norm: f64, components: usize) -> f64 {
         match self {
             Self::Full => 1.0,
+            Self::Huber => (robust::median_norm(components) / norm.max(f64::MIN_POSITIVE)).min(1.0),
             Self::Biweight => robust::weight(norm, components),
-            Self::Distance => (robust::median_norm(components) / norm.max(f64::MIN_POSITIVE)).min(1.0),
         }
     }
 
@@ -38,7 +37,12 @@ impl Weighting {
 
     /// What the row adds to the sum that a fit with these weights makes small.
     fn loss(self, norm: f64, components: usize) -> f64 {
-        if self == Self::Biweight { robust::loss(norm, components) } else { norm * norm }
+        let bend = robust::median_norm(components);
+        match self {
+            Self::Huber if norm > bend => bend * (2.0 * norm - bend),
+            Self::Full | Self::Huber => norm * norm,
+            Self::Biweight => robust::loss(norm, components),
+        }
     }
 }
 
@@ -108,20 +112,17 @@ impl Tally {
     }
 
     /// By what (JᵀJ)⁻¹ of whitened rows, each with its full weight, must be multiplied to be the covariance of estimates
-    /// made with these weights; `known` if the noise was, and not estimated along with them.
+    /// made with these weights.
     ///
     /// Source: Huber and Ronchetti, Robust Statistics, 2nd ed., equation (7.83), for norms of several components.
-    pub(super) fn variance_factor(&self, rank: usize, known: bool, weighting: Weighting) -> f64 {
+    pub(super) fn variance_factor(&self, used: f64) -> f64 {
         let n = self.partial.components as f64;
-        if known {
-            return if weighting == Weighting::Biweight { 1.0 / robust::EFFICIENCY } else { 1.0 };
-        }
-        if n <= rank as f64 {
+        if n <= used {
             return f64::INFINITY;
         }
         // Below a twentieth hardly any row has weight left, and the ratio would say nothing.
         let slope = (self.slopes / n).max(0.05);
-        self.weighted_squares / (n - rank as f64) / (slope * slope)
+        self.weighted_squares / (n - used) / (slope * slope)
     }
 
     /// RMS of the residuals' lengths over rows with weight, rad or m.
@@ -129,13 +130,20 @@ impl Tally {
         if self.kept > 0 { (self.squares / self.kept as f64).sqrt() } else { 0.0 }
     }
 
-    /// Takes in a block whose components have these standard deviations, row by row.
-    fn with_block(mut self, block: &Block, first_kind: usize, sigma: &[f64], weighting: Weighting) -> Self {
+    /// Takes in a block whose components have these standard deviations, row by row, without the rows that are aside.
+    fn with_block(
+        mut self,
+        block: &Block,
+        first_kind: usize,
+        sigma: &[f64],
+        weighting: Weighting,
+        aside: &[bool],
+    ) -> Self {
         let (rows, m) = (block.rows, block.components);
         let mut root = vec![0.0; rows * m];
         for row in 0..rows {
             self.rows += 1;
-            if !block.defined[row] {
+            if !block.defined[row] || aside.get(row) == Some(&true) {
                 continue;
             }
             let (mut square, mut length) = (0.0, 0.0);
@@ -207,10 +215,10 @@ pub fn tally(
     sigma: &[f64],
     weighting: Weighting,
 ) -> Result<Tally, FitError> {
-    Ok(sweep_with(model, observations, layout, values, sigma, weighting, |_| ())?.0)
+    Ok(sweep_with(model, observations, layout, values, sigma, weighting, &[], |_| ())?.0)
 }
 
-/// The same, residuals kept.
+/// The same without the rows that are aside (one flag a row, or none at all), residuals kept.
 pub fn sweep(
     model: &Model,
     observations: &Observations,
@@ -218,9 +226,10 @@ pub fn sweep(
     values: &[f64],
     sigma: &[f64],
     weighting: Weighting,
+    aside: &[bool],
 ) -> Result<Sweep, FitError> {
     let keep = |block: &Block| (block.by_row(&block.residual).collect::<Vec<_>>(), block.defined.clone());
-    let (tally, kept) = sweep_with(model, observations, layout, values, sigma, weighting, keep)?;
+    let (tally, kept) = sweep_with(model, observations, layout, values, sigma, weighting, aside, keep)?;
     let (residual, defined): (Vec<_>, Vec<_>) = kept.into_iter().unzip();
     Ok(Sweep { tally, residual: residual.concat(), defined: defined.concat() })
 }
@@ -231,6 +240,7 @@ pub fn residuals(model: &Model, observations: &Observations, values: &[f64]) -> 
     Ok(model.map_blocks(observations, values, |_, _, block| keep(block))?.concat())
 }
 
+#[allow(clippy::too_many_arguments)]
 fn sweep_with<T: Send>(
     model: &Model,
     observations: &Observations,
@@ -238,14 +248,15 @@ fn sweep_with<T: Send>(
     values: &[f64],
     sigma: &[f64],
     weighting: Weighting,
+    aside: &[bool],
     keep: impl Fn(&Block) -> T + Sync,
 ) -> Result<(Tally, Vec<T>), FitError> {
     let (first_kind, kinds) = first_kinds(observations);
     let empty = Tally::new(model.columns(), kinds);
     let parts = model.map_blocks(observations, values, |series, rows, block| {
         let own = layout.first[rows.start]..layout.first[rows.end];
-        let sigma = sigma.get(own).unwrap_or_default();
-        (empty.clone().with_block(block, first_kind[series], sigma, weighting), keep(block))
+        let (sigma, aside) = (&sigma[own], aside.get(rows).unwrap_or_default());
+        (empty.clone().with_block(block, first_kind[series], sigma, weighting, aside), keep(block))
     })?;
     let mut whole = empty.clone();
     let mut kept = Vec::with_capacity(parts.len());
@@ -254,41 +265,4 @@ fn sweep_with<T: Send>(
         kept.push(own);
     }
     Ok((whole, kept))
-}
-
-/// The factor of the Jacobian times a root of the correlation matrix, every row that has a value with its full weight.
-///
-/// The correlation reaches across all rows of a series, so this alone needs the whole Jacobian in memory.
-pub fn coloured(
-    model: &Model,
-    observations: &Observations,
-    values: &[f64],
-    noise: &Noise,
-) -> Result<Partial, FitError> {
-    let blocks = model.map_blocks(observations, values, |_, _, block| {
-        let m = block.components;
-        let row_wise = |column| {
-            let values = block.by_row(column).enumerate();
-            let kept = values.map(|(at, value)| if block.defined[at / m] { value } else { 0.0 });
-            kept.collect::<Vec<_>>()
-        };
-        block.columns().map(row_wise).collect::<Vec<_>>()
-    })?;
-    let independent = noise.without_memory();
-    let columns: Vec<Vec<f64>> = (0..model.columns())
-        .map(|column| {
-            let mut whole: Vec<f64> = blocks.iter().flat_map(|block| block[column].iter().copied()).collect();
-            independent.whiten(&mut whole);
-            noise.colour(&mut whole);
-            whole
-        })
-        .collect();
-    let n = columns.first().map_or(0, Vec::len);
-    let matrix = |start: usize, count: usize| {
-        Mat::from_fn(count, columns.len(), |row, column| columns[column][start + row])
-    };
-    let starts = (0..n).step_by(super::model::BLOCK_ROWS);
-    Ok(starts.fold(Partial::new(columns.len()), |partial, start| {
-        partial.with_rows(matrix(start, super::model::BLOCK_ROWS.min(n - start)).as_ref())
-    }))
 }

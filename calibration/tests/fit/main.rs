@@ -8,6 +8,7 @@ mod nasty;
 mod precision;
 mod simulated;
 mod streamed;
+mod undetermined;
 
 use calibration::fit::{FitOptions, Outcome, fit};
 use simulated::Simulation;

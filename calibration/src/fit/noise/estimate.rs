@@ -1,8 +1,8 @@
-//! The noise model from residuals: first the floors, then what varies with the joints, then what remembers.
+//! The noise model from residuals: first the floors, then what varies with the joints.
 
 use model_core::Chain;
 
-use super::{Layout, Noise, NoiseOptions, serial, variance};
+use super::{Layout, Noise, NoiseOptions, pools, variance};
 use crate::data::Observations;
 use crate::fit::robust;
 
@@ -15,15 +15,31 @@ pub fn from_medians(
     residual: &[f64],
 ) -> Noise {
     let stated = stated(options, observations, layout);
-    let median = |kind| {
-        let scaled = of_kind(layout, kind).map(|at| (residual[at] / stated[at]).abs()).collect();
-        robust::median(scaled) / robust::median_norm(1)
-    };
     let floor = match options.known() {
         Some(sigma) => vec![sigma; layout.kinds],
-        None => (0..layout.kinds).map(median).collect(),
+        None => medians(observations, layout, residual, &stated),
     };
     finish(Noise { floor, ..Noise::default() }, observations, layout, &stated)
+}
+
+/// Per kind of component the standard deviation that the median of its residuals suggests.
+fn medians(observations: &Observations, layout: &Layout, residual: &[f64], stated: &[f64]) -> Vec<f64> {
+    let pools = pools(observations, layout, 0.0);
+    let median = |pool: &usize| {
+        let own = (0..layout.components()).filter(|&at| pools[usize::from(layout.kind[at])] == *pool);
+        let scaled = own.map(|at| (residual[at] / stated[at]).abs()).collect();
+        robust::median(scaled) / robust::median_norm(1)
+    };
+    pools.iter().map(median).collect()
+}
+
+/// The logarithm of how large residuals are by their medians, the mean over all components.
+#[must_use]
+pub fn ln_scale(observations: &Observations, layout: &Layout, residual: &[f64]) -> f64 {
+    let medians = medians(observations, layout, residual, &vec![1.0; layout.components()]);
+    let least = resolution(observations);
+    let sum: f64 = layout.kind.iter().map(|&kind| medians[usize::from(kind)].max(least).ln()).sum();
+    sum / (layout.components() as f64).max(1.0)
 }
 
 /// The noise that has these floors and nothing else.
@@ -38,7 +54,7 @@ pub fn of_floors(
     finish(Noise { floor, ..Noise::default() }, observations, layout, &stated)
 }
 
-/// The noise model from raw residuals, the weights of the rows, and the number of combinations that were fitted.
+/// The noise model from raw residuals, the weights of the rows, and how many independent numbers the estimates used up.
 #[must_use]
 pub fn estimate(
     chain: &Chain,
@@ -47,27 +63,29 @@ pub fn estimate(
     layout: &Layout,
     residual: &[f64],
     weight: &[f64],
-    rank: usize,
+    used: f64,
 ) -> Noise {
     let stated = stated(options, observations, layout);
-    let robust_weights = weight.iter().any(|&weight| weight < 1.0);
-    let n = layout.components() as f64;
-    let lost = n / (n - rank as f64).max(1.0);
+    // Weights between none and all are those of a robust fit.
+    let robust_weights = weight.iter().any(|&weight| weight > 0.0 && weight < 1.0);
+    let counted = layout.row.iter().filter(|&&row| robust_weights || weight[row as usize] > 0.0).count() as f64;
+    let lost = counted / (counted - used).max(1.0);
+    let pools = pools(observations, layout, used);
     let floors = |spread: &[f64]| -> Vec<f64> {
-        (0..layout.kinds)
-            .map(|kind| {
-                let (mut weights, mut squares) = (0.0, 0.0);
-                let mut stride = 1;
-                for at in of_kind(layout, kind) {
-                    let row = layout.row[at] as usize;
-                    weights += weight[row];
-                    squares += weight[row] * (residual[at] / spread[at]).powi(2);
-                    stride = layout.first[row + 1] - layout.first[row];
-                }
-                let consistency = if robust_weights { robust::consistency(stride) } else { 1.0 };
-                if weights > 0.0 { (consistency * lost * squares / weights).sqrt() } else { 0.0 }
-            })
-            .collect()
+        let mut sums = vec![[0.0; 2]; layout.kinds];
+        for (at, &kind) in layout.kind.iter().enumerate() {
+            let row = layout.row[at] as usize;
+            let stride = layout.first[row + 1] - layout.first[row];
+            let consistency = if robust_weights { robust::consistency(stride) } else { 1.0 };
+            let [weights, squares] = &mut sums[pools[usize::from(kind)]];
+            *weights += weight[row];
+            *squares += weight[row] * consistency * (residual[at] / spread[at]).powi(2);
+        }
+        let floor = |pool: &usize| {
+            let [weights, squares] = sums[*pool];
+            if weights > 0.0 { (lost * squares / weights).sqrt() } else { 0.0 }
+        };
+        pools.iter().map(floor).collect()
     };
     let floor = options.known().map_or_else(|| floors(&stated), |sigma| vec![sigma; layout.kinds]);
     let mut noise = finish(Noise { floor, ..Noise::default() }, observations, layout, &stated);
@@ -80,20 +98,12 @@ pub fn estimate(
             noise = finish(noise, observations, layout, &spread);
         }
     }
-    if options.serial && observations.in_sequence {
-        let scaled: Vec<f64> = residual.iter().zip(&noise.sigma).map(|(r, sigma)| r / sigma).collect();
-        if let Some(found) = serial::fit(layout, &scaled) {
-            for sigma in &mut noise.sigma {
-                *sigma /= found.gain();
-            }
-            noise.serial = Some(found);
-        }
-    }
     noise
 }
 
-/// What the data state per component, up to a factor: 1 where they state nothing.
-fn stated(options: &NoiseOptions, observations: &Observations, layout: &Layout) -> Vec<f64> {
+/// What is stated per component, up to a factor: 1 where nothing is.
+#[must_use]
+pub fn stated(options: &NoiseOptions, observations: &Observations, layout: &Layout) -> Vec<f64> {
     if observations.sigma.is_empty() || options.sigma.is_some() {
         return vec![1.0; layout.components()];
     }
@@ -104,17 +114,13 @@ fn stated(options: &NoiseOptions, observations: &Observations, layout: &Layout) 
     stated
 }
 
-fn of_kind(layout: &Layout, kind: usize) -> impl Iterator<Item = usize> {
-    (0..layout.components()).filter(move |&at| usize::from(layout.kind[at]) == kind)
-}
-
 /// Spreads the floors over the components. No standard deviation is smaller than what the numbers resolve.
 fn finish(mut noise: Noise, observations: &Observations, layout: &Layout, spread: &[f64]) -> Noise {
     let resolution = resolution(observations);
     noise.sigma = (0..layout.components())
         .map(|at| (noise.floor[usize::from(layout.kind[at])] * spread[at]).max(resolution))
         .collect();
-    noise.runs = if observations.in_sequence { layout.runs.clone() } else { Vec::new() };
+    noise.runs.clone_from(&layout.runs);
     noise
 }
 

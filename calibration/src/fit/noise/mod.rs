@@ -1,12 +1,15 @@
 //! The noise of the observations: how large in each component, how it varies with the joints, and how it
-//! remembers the observation before.
+//! remembers the observation before or hangs together with those of its group.
 //!
 //! `σ²` of a component = floor² of its kind · exp(variance model of the joints); in order of acquisition the values
 //! so scaled follow ARMA(1,1). Each part is taken up only if the data bear it out.
 
 mod estimate;
 mod layout;
-mod serial;
+mod pool;
+pub(super) mod serial;
+pub(super) mod session;
+pub(super) mod trend;
 mod variance;
 
 use std::borrow::Cow;
@@ -17,16 +20,22 @@ use crate::data::Observations;
 use crate::fit::robust::median;
 
 pub use estimate::{estimate, from_medians, of_floors, resolution};
+pub(super) use estimate::{ln_scale, stated};
 pub use layout::{Layout, Run};
+pub use pool::pools;
+pub use session::Offsets;
 
 /// What is known of the noise, and what to find out about it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NoiseOptions {
-    /// The standard deviation of every residual component, rad or m; estimated if `None`.
+    /// The standard deviation of every residual component, rad or m, whatever the residuals say; estimated if `None`.
     pub sigma: Option<f64>,
+    /// The standard deviation that is stated for every residual component, rad or m: what is known of the noise as long as
+    /// residuals do not contradict, while they weigh the rows.
+    pub stated: Option<f64>,
     /// Whether to look for a variance that depends on the joints.
     pub variance: bool,
-    /// Whether to look for serial correlation, where the rows are in sequence.
+    /// Whether to look for serial correlation: in order of acquisition, or where none is declared in that of the file.
     pub serial: bool,
 }
 
@@ -39,7 +48,7 @@ impl NoiseOptions {
 
 impl Default for NoiseOptions {
     fn default() -> Self {
-        Self { sigma: None, variance: true, serial: true }
+        Self { sigma: None, stated: None, variance: true, serial: true }
     }
 }
 
@@ -53,6 +62,10 @@ pub struct Noise {
     pub variance: Option<VarianceModel>,
     /// The serial correlation, if one was found.
     pub serial: Option<Serial>,
+    /// Whether that was found though no order of acquisition is declared: in the order of the file.
+    pub undeclared_order: bool,
+    /// What the rows of a declared group share, if they share anything.
+    pub offsets: Option<Offsets>,
     /// Per residual component the standard deviation that whitening divides by, rad or m, length n. With serial
     /// correlation, that of what the value before does not explain.
     pub sigma: Vec<f64>,
@@ -122,7 +135,7 @@ impl Serial {
 
 impl Serial {
     /// Multiplies a column by the transpose of what turns innovations into values of variance one, in place.
-    fn colour(self, column: &mut [f64], run: Run) {
+    pub(super) fn colour(self, column: &mut [f64], run: Run) {
         let gain = self.gain();
         for component in 0..run.stride {
             // Backwards through x_t = φ x_{t−1} + e_t + θ e_{t−1}: what each innovation has part in.
@@ -143,7 +156,14 @@ impl Noise {
     /// The same noise as if no observation remembered the one before.
     #[must_use]
     pub fn without_memory(&self) -> Self {
-        Self { sigma: self.sigma_without_memory().into_owned(), serial: None, ..self.clone() }
+        Self { sigma: self.sigma_without_memory().into_owned(), serial: None, offsets: None, ..self.clone() }
+    }
+
+    /// The same noise, so many times as large.
+    #[must_use]
+    pub fn times(&self, factor: f64) -> Self {
+        let larger = |values: &[f64]| values.iter().map(|value| factor * value).collect();
+        Self { floor: larger(&self.floor), sigma: larger(&self.sigma), ..self.clone() }
     }
 
     /// The noise of some runs of components, put one after another: the first component of each remembers none.
@@ -156,7 +176,13 @@ impl Noise {
             start = own.end;
             own
         });
-        Self { runs: own.collect(), sigma: sigma.copied().collect(), ..self.clone() }
+        let parts = runs.iter().map(|run| run.start..run.end);
+        Self {
+            runs: own.collect(),
+            sigma: sigma.copied().collect(),
+            offsets: self.offsets.as_ref().map(|offsets| offsets.of_parts(parts)),
+            ..self.clone()
+        }
     }
 
     /// For each component of the first series the median of its standard deviations: what one more observation is to be
@@ -172,18 +198,25 @@ impl Noise {
             .collect()
     }
 
-    /// Per residual component its standard deviation, whatever the component before says of it.
+    /// Per residual component its standard deviation, whatever the component before or the others of its group say of it.
     #[must_use]
     pub fn sigma_without_memory(&self) -> Cow<'_, [f64]> {
-        match self.serial {
-            None => Cow::Borrowed(&self.sigma),
-            Some(serial) => self.sigma.iter().map(|sigma| sigma * serial.gain()).collect(),
+        match (self.serial, &self.offsets) {
+            (None, None) => Cow::Borrowed(&self.sigma),
+            (Some(serial), _) => self.sigma.iter().map(|sigma| sigma * serial.gain()).collect(),
+            (None, Some(offsets)) => {
+                let gains = (0..self.sigma.len()).map(|at| offsets.gain(at));
+                self.sigma.iter().zip(gains).map(|(sigma, gain)| sigma * gain).collect()
+            }
         }
     }
 
     /// Multiplies a column that was whitened [without memory](Self::without_memory) by a root of the correlation
     /// matrix, in place.
     pub fn colour(&self, column: &mut [f64]) {
+        if let Some(offsets) = &self.offsets {
+            offsets.whiten(column);
+        }
         if let Some(serial) = self.serial {
             for &run in &self.runs {
                 serial.colour(column, run);

@@ -1,57 +1,168 @@
-//! What an observation remembers of the one before: ARMA(1,1) by conditional maximum likelihood.
+//! What an observation remembers of the one before: AR(1), ARMA(1,1) or white noise with a random walk, by restricted maximum
+//! likelihood, each only if it earns its place against white noise.
+//!
+//! Source: D. A. Harville, Maximum likelihood approaches to variance component estimation, Journal of the American Statistical
+//! Association 72 (1977) 320-338, for the restricted likelihood, which knows what the fit took out of the residuals; C. M.
+//! Hurvich, C.-L. Tsai, Biometrika 76 (1989) 297-307, for the price of parameters in few observations (AICc).
 
-use super::{Layout, Serial};
+use faer::{Mat, Side};
+
+use super::{Layout, Run, Serial};
 
 /// Components below which no serial correlation is looked for.
 const FEWEST: usize = 60;
 
-/// The closest to 1 that a coefficient may come.
-const LARGEST: f64 = 0.999;
+/// Components from which on what the fit took out of the residuals makes no difference.
+const MANY: usize = 50_000;
 
 /// Values further out than this count as this far, so that outliers do not decide.
 const CLIP: f64 = 3.0;
 
-/// The serial correlation of values of variance one, in order; `None` if the data do not bear it out.
-pub fn fit(layout: &Layout, scaled: &[f64]) -> Option<Serial> {
-    if scaled.len() < FEWEST {
+/// Coefficients of the value before that are tried, below the largest.
+const AUTOREGRESSIVE: [f64; 7] = [0.2, 0.4, 0.6, 0.8, 0.9, 0.95, 0.98];
+
+/// Coefficients of the innovation before that are tried, as shares of the other coefficient below zero, and as they are above.
+const MOVING_AVERAGE: [f64; 5] = [-0.9, -0.75, -0.5, -0.25, 0.4];
+
+/// Twice the logarithm of the likelihood that memory must gain: where an order of acquisition is declared, and where none is.
+///
+/// Source: the upper 1 % and 0.03 % points of the chi-squared distribution with two degrees of freedom.
+pub const EARNS: [f64; 2] = [9.21, 16.2];
+
+/// Neighbours that hang together by less than so many standard deviations of chance are not looked at closely.
+const LOOKED_AT: f64 = 1.0;
+
+/// Serial correlation that was found.
+#[derive(Debug, Clone)]
+pub struct Memory {
+    /// The likeliest model.
+    pub serial: Serial,
+    /// Standard deviation of its innovations, in units of the values.
+    pub innovation: f64,
+    /// QᵀVQ, V the covariance of the values: the mean over all models, each weighed by its likelihood, so that what is not
+    /// known of the model is in it. k × k.
+    pub product: Mat<f64>,
+    /// Of how many independent values the square tells as much as that of all of them.
+    ///
+    /// Source: G. V. Bayley, J. M. Hammersley, The effective number of independent observations in an autocorrelated time series,
+    /// Supplement to the Journal of the Royal Statistical Society 8 (1946) 184-197.
+    pub independent: f64,
+}
+
+/// A model, and how likely it is.
+struct Tried {
+    serial: Serial,
+    /// −2 ln of the restricted likelihood, and AICc.
+    deviance: f64,
+    criterion: f64,
+    innovation: f64,
+}
+
+/// What the data bear out of the serial correlation of values, in order; `q` holds the orthonormal columns that were fitted to
+/// them (n × k), `beside` those with what else they may hold, and `earns` what a model must gain over white noise.
+#[must_use]
+pub fn fit(layout: &Layout, values: &[f64], q: &Mat<f64>, beside: &Mat<f64>, earns: f64) -> Option<Memory> {
+    let length = layout.runs.iter().map(|run| (run.end - run.start) / run.stride.max(1)).max()?;
+    if values.len() < FEWEST + beside.ncols() || length < 4 {
         return None;
     }
-    let clipped: Vec<f64> = scaled.iter().map(|value| value.clamp(-CLIP, CLIP)).collect();
-    let sum = |serial: Serial| {
-        let mut column = clipped.clone();
-        for &run in &layout.runs {
-            serial.whiten(&mut column, run);
-        }
-        column.iter().map(|e| e * e).sum::<f64>()
-    };
-    let serial = |[autoregressive, moving_average]: [f64; 2]| Serial { autoregressive, moving_average };
-    let without: f64 = clipped.iter().map(|x| x * x).sum();
-    let mut best = ([0.0, 0.0], without);
-    for autoregressive in [-0.9, -0.6, -0.3, 0.0, 0.3, 0.6, 0.9, 0.97, 0.99, 0.995] {
-        for moving_average in [-0.9, -0.6, -0.3, 0.0, 0.3, 0.6, 0.9] {
-            let at = [autoregressive, moving_average];
-            let value = sum(serial(at));
-            if value < best.1 {
-                best = (at, value);
-            }
+    if neighbours(layout, values) < LOOKED_AT {
+        return None;
+    }
+    let problem = Problem::new(layout, values, beside);
+    let white = problem.tried(Serial { autoregressive: 0.0, moving_average: 0.0 }, 0.0)?;
+    // Away from the circle by what so many rows can tell: at this coefficient a run remembers its beginning.
+    let largest = 1.0 - 1.0 / length as f64;
+    let mut tried = Vec::new();
+    for autoregressive in AUTOREGRESSIVE.into_iter().filter(|phi| *phi < largest).chain([largest]) {
+        let serial = |moving_average: f64| Serial { autoregressive, moving_average };
+        // A random walk has no coefficient to choose.
+        let free = if autoregressive == largest { 0.0 } else { 1.0 };
+        tried.extend(problem.tried(serial(0.0), 1.0));
+        tried.extend(MOVING_AVERAGE.into_iter().filter_map(|share| {
+            let theta = if share < 0.0 { share * autoregressive } else { share };
+            problem.tried(serial(theta), 1.0 + free)
+        }));
+    }
+    let best = tried.iter().min_by(|a, b| a.criterion.total_cmp(&b.criterion))?;
+    if white.deviance - best.deviance < earns || best.criterion >= white.criterion {
+        return None;
+    }
+    let (serial, innovation, least) = (best.serial, best.innovation, best.criterion);
+    let mut product = Mat::zeros(q.ncols(), q.ncols());
+    let mut sum = 0.0;
+    for model in tried {
+        let weight = (0.5 * (least - model.criterion)).exp();
+        if weight > 0.01 {
+            sum += weight;
+            product += faer::Scale(weight) * problem.product(&model, q);
         }
     }
-    // Pattern search from the best of the grid: two parameters, a smooth function.
-    let mut reach = 0.15;
-    while reach > 1e-4 {
-        let around =
-            [[reach, 0.0], [-reach, 0.0], [0.0, reach], [0.0, -reach], [reach, -reach], [-reach, reach]];
-        let moved = around.map(|step| {
-            let at = [0, 1].map(|axis| (best.0[axis] + step[axis]).clamp(-LARGEST, LARGEST));
-            (at, sum(serial(at)))
+    product *= faer::Scale(1.0 / sum);
+    // Source of the correlations: Box and Jenkins, Time Series Analysis, equation (3.4.7).
+    let (phi, theta) = (serial.autoregressive, serial.moving_average);
+    let first = (1.0 + phi * theta) * (phi + theta) / (1.0 + 2.0 * phi * theta + theta * theta);
+    let squares = first * first / (1.0 - phi * phi) * (1.0 - phi.powi(2 * length as i32));
+    Some(Memory { serial, innovation, product, independent: values.len() as f64 / (1.0 + 2.0 * squares) })
+}
+
+/// The correlation of each value with the one before, in standard deviations of what chance makes.
+fn neighbours(layout: &Layout, values: &[f64]) -> f64 {
+    let clipped: Vec<f64> = values.iter().map(|value| value.clamp(-CLIP, CLIP)).collect();
+    let (mut products, mut squares) = (0.0, 0.0);
+    for run in &layout.runs {
+        let own = &clipped[run.start..run.end];
+        squares += own.iter().map(|value| value * value).sum::<f64>();
+        products += own.iter().zip(own.iter().skip(run.stride)).map(|(a, b)| a * b).sum::<f64>();
+    }
+    if squares > 0.0 { products / squares * (values.len() as f64).sqrt() } else { 0.0 }
+}
+
+/// The values and what was fitted to them.
+struct Problem<'a> {
+    runs: &'a [Run],
+    /// Columns that were fitted, then the values.
+    columns: Mat<f64>,
+}
+
+impl<'a> Problem<'a> {
+    fn new(layout: &'a Layout, values: &[f64], q: &Mat<f64>) -> Self {
+        let k = if values.len() > MANY { 0 } else { q.ncols() };
+        let columns = Mat::from_fn(values.len(), k + 1, |row, column| {
+            if column == k { values[row].clamp(-CLIP, CLIP) } else { q[(row, column)] }
         });
-        match moved.into_iter().filter(|(_, value)| *value < best.1).min_by(|a, b| a.1.total_cmp(&b.1)) {
-            Some(better) => best = better,
-            None => reach /= 2.0,
-        }
+        Self { runs: &layout.runs, columns }
     }
-    let n = clipped.len() as f64;
-    // Twice the gain in log likelihood against what two parameters must earn.
-    let gain = n * (without / best.1.max(f64::MIN_POSITIVE)).ln();
-    (gain > 2.0 * n.ln()).then(|| serial(best.0))
+
+    /// How likely a model of so many coefficients is; `None` where its columns are not independent.
+    fn tried(&self, serial: Serial, coefficients: f64) -> Option<Tried> {
+        let mut white = self.columns.clone();
+        for j in 0..white.ncols() {
+            self.runs.iter().for_each(|&run| serial.whiten(white.col_as_slice_mut(j), run));
+        }
+        let gram = white.transpose() * &white;
+        let factor = gram.llt(Side::Lower).ok()?;
+        let l = factor.L();
+        let (n, k) = (white.nrows() as f64, white.ncols() - 1);
+        let ln_columns: f64 = (0..k).map(|at| 2.0 * l[(at, at)].ln()).sum();
+        // Only the first value of each run is scaled.
+        let ln_values: f64 = self.runs.iter().map(|run| 2.0 * run.stride as f64 * serial.gain().ln()).sum();
+        let left = n - k as f64;
+        let innovation = l[(k, k)] / left.sqrt();
+        let deviance = left * (innovation * innovation).ln() + ln_values + ln_columns;
+        // The size of the innovations is a parameter too.
+        let price = coefficients + 1.0;
+        let criterion = deviance + 2.0 * price * left / (left - price - 1.0).max(1.0);
+        deviance.is_finite().then_some(Tried { serial, deviance, criterion, innovation })
+    }
+
+    /// QᵀVQ for a model.
+    fn product(&self, model: &Tried, q: &Mat<f64>) -> Mat<f64> {
+        let mut coloured = q.clone();
+        for j in 0..coloured.ncols() {
+            self.runs.iter().for_each(|&run| model.serial.colour(coloured.col_as_slice_mut(j), run));
+        }
+        let deviation = model.innovation * model.serial.gain();
+        coloured.transpose() * &coloured * faer::Scale(deviation * deviation)
+    }
 }

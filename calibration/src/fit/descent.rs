@@ -1,0 +1,203 @@
+//! Downhill: Levenberg-Marquardt steps, of which none is taken that makes the loss greater, while the noise is learned.
+//!
+//! Source: K. Madsen, H. B. Nielsen, O. Tingleff, Methods for Non-Linear Least Squares Problems (2004), with weights taken
+//! anew at every step.
+
+use super::normal::Rest;
+use super::solve::{Solver, same};
+use super::subspace::Subspace;
+use super::sweep::{Sweep, Weighting};
+use super::{FitError, Reason};
+use crate::fit::noise::{self, Noise};
+
+/// A step is negligible when it moves the prediction by this many standard deviations in all.
+const NEGLIGIBLE: f64 = 1e-7;
+
+/// The same while the noise is still being learned.
+const ROUGHLY: f64 = 1e-2;
+
+/// How often the noise is learned anew.
+const NOISE_ROUNDS: usize = 8;
+
+/// How often the scale of a robust start is taken anew.
+const SCALE_ROUNDS: usize = 10;
+
+/// A scale that shrinks by less than this share has settled.
+const SCALE_SETTLED: f64 = 0.02;
+
+/// From Huber's loss to Tukey's: how much larger than its own the noise is taken first.
+const GRADUAL: [f64; 2] = [3.0, 1.5];
+
+/// Where the solver is: values, and what all rows say there.
+#[derive(Debug, Clone)]
+pub(super) struct Point {
+    pub values: Vec<f64>,
+    pub sweep: Sweep,
+    /// What becomes of the combinations that the data do not determine.
+    pub rest: Rest,
+}
+
+impl Point {
+    /// What the steps make smaller.
+    pub fn objective(&self) -> f64 {
+        self.sweep.tally.objective + self.rest.objective()
+    }
+}
+
+/// A way downhill: where it is, and what it is downhill of.
+#[derive(Debug, Clone)]
+pub(super) struct Course {
+    pub point: Point,
+    pub noise: Noise,
+    pub subspace: Subspace,
+    pub weighting: Weighting,
+    /// Why it ended before steps were negligible, if it did.
+    pub stopped: Option<Reason>,
+}
+
+impl Solver<'_> {
+    /// From some values to the bottom, undetermined combinations still; robustly by degrees, from Huber's loss at the scale of
+    /// the medians to Tukey's at that of the noise.
+    pub(super) fn course(&mut self, start: &[f64], weighting: Weighting) -> Result<Course, FitError> {
+        let noise = self.first_noise(start)?;
+        let mut subspace = self.determined(start, &noise)?;
+        let values = self.with_smallest(start, &subspace);
+        let first = if weighting == Weighting::Full { Weighting::Full } else { Weighting::Huber };
+        let point = self.point(values, &noise, first, Rest::Still)?;
+        let mut course = Course { point, noise, subspace: subspace.clone(), weighting: first, stopped: None };
+        if weighting == Weighting::Biweight {
+            self.approach(&mut course)?;
+            course.weighting = weighting;
+            for factor in GRADUAL {
+                let wide = course.noise.times(factor);
+                course.point = self.point(course.point.values, &wide, weighting, Rest::Still)?;
+                self.descend(&mut course, &wide, ROUGHLY)?;
+            }
+            course.point = self.point(course.point.values, &course.noise, weighting, Rest::Still)?;
+        }
+        self.settle(&mut course)?;
+        // What is determined is asked where constants that are estimated came to stand.
+        for _ in 0..3 {
+            subspace = self.determined(&course.point.values, &course.noise)?;
+            if subspace.rank() == course.subspace.rank() {
+                break;
+            }
+            course.subspace = subspace;
+            self.settle(&mut course)?;
+        }
+        Ok(course)
+    }
+
+    /// Brings values near enough for the biweight, whatever the outliers, at a scale that only shrinks.
+    fn approach(&mut self, course: &mut Course) -> Result<(), FitError> {
+        let mut scale = self.ln_scale(&course.point.sweep.residual);
+        for _ in 0..SCALE_ROUNDS {
+            let before = course.clone();
+            let noise = course.noise.clone();
+            self.descend(course, &noise, 0.1 * (course.subspace.rank() as f64).sqrt())?;
+            let shrunk = self.ln_scale(&course.point.sweep.residual);
+            if shrunk > scale {
+                *course = before;
+                break;
+            }
+            course.noise = self.noise_of(&course.point.sweep.residual);
+            let values = std::mem::take(&mut course.point.values);
+            course.point = self.point(values, &course.noise, course.weighting, Rest::Still)?;
+            if shrunk > scale - SCALE_SETTLED {
+                break;
+            }
+            scale = shrunk;
+        }
+        Ok(())
+    }
+
+    /// Descends and learns the noise in turn until neither changes.
+    pub(super) fn settle(&mut self, course: &mut Course) -> Result<(), FitError> {
+        for _ in 0..NOISE_ROUNDS {
+            let noise = course.noise.clone();
+            self.descend(course, &noise, ROUGHLY)?;
+            if self.kept_components(course) as f64 <= self.used(course) {
+                break;
+            }
+            let learned = self.learn_noise(course);
+            let known = same(&learned, &course.noise);
+            if learned != course.noise {
+                let values = std::mem::take(&mut course.point.values);
+                let rest = course.point.rest.clone();
+                course.point = self.point(values, &learned, course.weighting, rest)?;
+                course.noise = learned;
+            }
+            if known {
+                break;
+            }
+        }
+        let noise = course.noise.clone();
+        self.descend(course, &noise, NEGLIGIBLE)
+    }
+
+    /// Steps with this noise until one is no longer than `negligible`.
+    fn descend(&mut self, course: &mut Course, noise: &Noise, negligible: f64) -> Result<(), FitError> {
+        let negligible = negligible.max(self.unresolved(noise));
+        let mut damping = 0.0;
+        course.stopped = None;
+        for _ in 0..self.options.max_iterations {
+            let point = &course.point;
+            let tally = &point.sweep.tally;
+            let step = course.subspace.step(&self.partial(&point.sweep), damping, &point.rest);
+            let step = step.times(tally.stride());
+            if step.length <= negligible && damping < 1e-3 {
+                return Ok(());
+            }
+            self.iterations += 1;
+            let values = self.moved(&point.values, &step.change);
+            let rest = self.rest_at(&values, &course.subspace, &point.rest);
+            let next = self.point(values, noise, course.weighting, rest)?;
+            if next.objective() <= point.objective() * (1.0 + 1e-9) {
+                course.point = next;
+                damping = if damping < 1e-7 { 0.0 } else { damping / 10.0 };
+            } else {
+                damping = (damping * 10.0).max(1e-6);
+                if damping > 1e8 {
+                    course.stopped = Some(Reason::NoDescent);
+                    return Ok(());
+                }
+            }
+        }
+        course.stopped = Some(Reason::StepLimit);
+        Ok(())
+    }
+
+    /// The strain of what the data do not determine at some values, where it counts.
+    fn rest_at(&self, values: &[f64], subspace: &Subspace, rest: &Rest) -> Rest {
+        match rest {
+            Rest::Still => Rest::Still,
+            Rest::Prior(_) => Rest::Prior(subspace.strain(&self.deviation(values))),
+        }
+    }
+
+    /// Lets what the data do not determine move under its prior, where that moves the prediction at all.
+    pub(super) fn release(&mut self, course: &mut Course) -> Result<(), FitError> {
+        if course.subspace.rank() == course.subspace.parameters() {
+            return Ok(());
+        }
+        let size = self.resolved_sizes(course)?;
+        course.subspace = course.subspace.clone().resized(size);
+        let values = self.with_smallest(&course.point.values, &course.subspace);
+        let rest = Rest::Prior(course.subspace.strain(&self.deviation(&values)));
+        course.point = self.point(values, &course.noise, course.weighting, rest)?;
+        let still = course.clone();
+        self.settle(course)?;
+        if course.stopped.is_some() && still.stopped.is_none() {
+            // Products of what is open bend too much for the residual: it stays where it is expected, as uncertain as it is.
+            *course = still;
+        }
+        Ok(())
+    }
+
+    /// The length of a step that only moves the last bits of the prediction.
+    fn unresolved(&self, noise: &Noise) -> f64 {
+        let resolution = noise::resolution(self.observations);
+        let sigma = noise.sigma_without_memory();
+        sigma.iter().map(|sigma| (resolution / sigma).powi(2)).sum::<f64>().sqrt()
+    }
+}

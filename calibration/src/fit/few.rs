@@ -1,0 +1,68 @@
+//! Few rows: least squares, without rows that are proven to be wrong.
+//!
+//! Weights that lean on a scale from few residuals take what is left for better than it is. So where degrees of freedom are
+//! few, a row counts in full or not at all, and only rows that chance does not explain are set aside.
+
+use statrs::distribution::{ContinuousCDF, FisherSnedecor};
+use statrs::function::factorial::ln_binomial;
+
+use super::FitError;
+use super::descent::Course;
+use super::solve::Solver;
+use super::sweep::Weighting;
+
+/// Degrees of freedom below which rows count in full or not at all.
+const FEW: f64 = 100.0;
+
+/// A row is suspected when a robust fit gives it less weight than this.
+const SUSPECT: f64 = 0.2;
+
+/// Rows are proven wrong when so many, chosen freely, would look as wrong with less than this chance.
+const PROVEN: f64 = 0.001;
+
+impl Solver<'_> {
+    /// Whether so many determined combinations leave few degrees of freedom.
+    pub(super) fn are_few(&self, rank: usize) -> bool {
+        (self.layout.components() as f64) < FEW + rank as f64
+    }
+
+    /// Least squares of the rows that a robust course does not prove wrong.
+    pub(super) fn of_few(&mut self, robust: Course) -> Result<Course, FitError> {
+        let (_, weight) = self.norms_and_weights(&robust);
+        let suspect: Vec<bool> = weight.iter().map(|&weight| weight < SUSPECT).collect();
+        let defined = &robust.point.sweep.defined;
+        let suspects = suspect.iter().zip(defined).filter(|&(&suspect, &defined)| suspect && defined).count();
+        let all = self.course(&robust.point.values, Weighting::Full)?;
+        if suspects == 0 {
+            return Ok(all);
+        }
+        let with_all = self.squares(&all, &robust, &[]);
+        self.aside = suspect;
+        let kept = self.course(&robust.point.values, Weighting::Full)?;
+        let with_kept = self.squares(&kept, &robust, &self.aside);
+        let used = kept.subspace.rank() as f64;
+        let left = with_kept.1 - used;
+        let more = with_all.1 - with_kept.1;
+        if left >= 1.0 && kept.subspace.rank() == all.subspace.rank() {
+            let ratio = (with_all.0 - with_kept.0) / more / (with_kept.0 / left);
+            let chance = FisherSnedecor::new(more, left).map_or(1.0, |f| f.sf(ratio.max(0.0)));
+            if chance.ln() + ln_binomial(weight.len() as u64, suspects as u64) < PROVEN.ln() {
+                return Ok(kept);
+            }
+        }
+        self.aside = Vec::new();
+        Ok(all)
+    }
+
+    /// The sum of squares of a course's residuals in units of another's noise, and of how many components, without the rows
+    /// that are aside.
+    fn squares(&self, course: &Course, unit: &Course, aside: &[bool]) -> (f64, f64) {
+        let sigma = unit.noise.sigma_without_memory();
+        let sweep = &course.point.sweep;
+        let components = sweep.residual.iter().zip(sigma.iter()).zip(&self.layout.row);
+        let counts = |row: usize| sweep.defined[row] && aside.get(row) != Some(&true);
+        components.filter(|(_, row)| counts(**row as usize)).fold((0.0, 0.0), |sums, ((value, sigma), _)| {
+            (sums.0 + (value / sigma).powi(2), sums.1 + 1.0)
+        })
+    }
+}

@@ -1,0 +1,89 @@
+//! What an effect that the chain lacks could look like: smooth functions of the readings in each kind of component. Memory and
+//! offsets of groups are looked for beside them, so that a missing effect is not taken for noise and whitened away.
+
+use faer::Mat;
+use model_core::{Chain, Quantity, SymbolKind};
+
+use super::Layout;
+use crate::data::Observations;
+
+/// Columns at most, and components for each.
+const MOST: usize = 60;
+const COMPONENTS: usize = 6;
+
+/// The highest harmonic of a joint.
+const HARMONICS: u32 = 4;
+
+/// A column that keeps less than this share of its length beside those before it is one of them.
+const NEW: f64 = 1e-4;
+
+/// An orthonormal basis that begins with `q` (n × k, orthonormal but for weights) and goes on with smooth functions of the
+/// readings, each divided by the standard deviation of its component; rows that count for nothing are zero.
+#[must_use]
+pub fn beside(
+    chain: &Chain,
+    observations: &Observations,
+    layout: &Layout,
+    sigma: &[f64],
+    weight: &[f64],
+    q: &Mat<f64>,
+) -> Mat<f64> {
+    let n = layout.components();
+    let most = MOST.min(n / COMPONENTS);
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    let mut take = |mut column: Vec<f64>| {
+        let before = norm(&column);
+        // Twice is enough for columns that are nearly among the others.
+        for known in basis.iter().chain(basis.iter()) {
+            let share: f64 = known.iter().zip(&column).map(|(a, b)| a * b).sum();
+            column.iter_mut().zip(known).for_each(|(value, known)| *value -= share * known);
+        }
+        let length = norm(&column);
+        if length > NEW * before && length > 0.0 {
+            column.iter_mut().for_each(|value| *value /= length);
+            basis.push(column);
+        }
+        basis.len()
+    };
+    (0..q.ncols()).for_each(|j| {
+        take(q.col_as_slice(j).to_vec());
+    });
+    let readings: Vec<(bool, &[f64])> = observations
+        .columns
+        .iter()
+        .map(|(id, values)| {
+            let symbol = chain.symbol(*id);
+            let turns = symbol.kind == SymbolKind::Joint && symbol.quantity == Quantity::Angle;
+            (turns, values.as_slice())
+        })
+        .collect();
+    let mut functions: Vec<Box<dyn Fn(usize) -> f64 + '_>> = vec![Box::new(|_| 1.0)];
+    for harmonic in 1..=HARMONICS {
+        for &(turns, values) in &readings {
+            let multiple = f64::from(harmonic);
+            if turns {
+                functions.push(Box::new(move |row| (multiple * values[row]).cos()));
+                functions.push(Box::new(move |row| (multiple * values[row]).sin()));
+            } else if harmonic == 1 {
+                functions.push(Box::new(move |row| values[row]));
+            }
+        }
+    }
+    'all: for function in &functions {
+        for kind in 0..layout.kinds {
+            let at = |at: usize| {
+                let row = layout.row[at] as usize;
+                let own = usize::from(layout.kind[at]) == kind && weight[row] > 0.0;
+                if own { function(row) / sigma[at] } else { 0.0 }
+            };
+            if take((0..n).map(at).collect()) >= most.max(q.ncols()) {
+                break 'all;
+            }
+        }
+    }
+    Mat::from_fn(n, basis.len(), |row, column| basis[column][row])
+}
+
+fn norm(column: &[f64]) -> f64 {
+    column.iter().map(|value| value * value).sum::<f64>().sqrt()
+}

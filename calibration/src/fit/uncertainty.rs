@@ -1,0 +1,389 @@
+//! How uncertain estimates are, and by how many degrees of freedom that is known.
+//!
+//! With a stated noise that the residuals do not contradict, by what is stated. Else by the residuals: of every kind of
+//! component, weighed by what each has part in; of whole groups where rows of a group are not independent; in order of
+//! acquisition where rows remember those before.
+
+use faer::Mat;
+use model_core::SymbolId;
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+use super::cluster::{Clusters, Share};
+use super::descent::Course;
+use super::solve::Solver;
+use super::stated::{Agreement, Stated};
+use super::subspace::Subspace;
+use super::sweep::Weighting;
+use super::{FitError, Partial, robust};
+use crate::fit::noise::serial::{self, Memory};
+use crate::fit::noise::{self, Noise, Offsets, pools, session, trend};
+
+/// Degrees of freedom from which on it makes no difference which kind of component they come from.
+const MANY: f64 = 1000.0;
+
+/// Degrees of freedom that even a random walk leaves to its own size.
+const LEAST: f64 = 3.0;
+
+/// Groups above which each has so little part that none needs adjusting one by one.
+const MANY_GROUPS: usize = 5000;
+
+/// A combination that the data determine.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimable {
+    /// Parameters in their order with their factors (SI), the first 1.
+    pub combination: Vec<(SymbolId, f64)>,
+    /// Its value, SI, in the unit of the first.
+    pub value: f64,
+    /// Its standard uncertainty; `None` without degrees of freedom.
+    pub standard_uncertainty: Option<f64>,
+    /// The degrees of freedom of that; infinite where the noise is stated.
+    pub degrees_of_freedom: f64,
+}
+
+impl Estimable {
+    /// Half the width of the interval that holds the value with this confidence (0.95, say), SI; `None` where nothing is known.
+    #[must_use]
+    pub fn half_width(&self, confidence: f64) -> Option<f64> {
+        half_width(self.standard_uncertainty?, self.degrees_of_freedom, confidence)
+    }
+}
+
+/// By Student's t; by the normal distribution with as many degrees of freedom as make no difference.
+pub(super) fn half_width(uncertainty: f64, degrees_of_freedom: f64, confidence: f64) -> Option<f64> {
+    let t = StudentsT::new(0.0, 1.0, degrees_of_freedom.min(1e9)).ok()?;
+    let reach = t.inverse_cdf(f64::midpoint(1.0, confidence));
+    Some(reach * uncertainty).filter(|width| width.is_finite())
+}
+
+/// The uncertainty of every combination of the estimates.
+pub(super) struct Uncertainty {
+    /// A root of (JᵀJ + P)⁻¹, p × k, SI.
+    root: Mat<f64>,
+    /// What the data have part in of rootᵀ (JᵀJ + P) root = 1, k × k.
+    data: Mat<f64>,
+    /// A root of what the prior adds to the covariance, p × (p − rank).
+    prior: Mat<f64>,
+    spread: Spread,
+    /// Components with weight, less what the estimates use up.
+    left: f64,
+    stated: Option<Stated>,
+}
+
+/// What is known of the covariance of Qᵀe, Q the columns times the root.
+enum Spread {
+    /// Nothing: no degrees of freedom.
+    Unknown,
+    /// It is this multiple of one.
+    Even { factor: f64, degrees_of_freedom: f64 },
+    /// The same, pool by pool of components: Q_kᵀQ_k, and the degrees of freedom.
+    Pools { factor: f64, pools: Vec<(Mat<f64>, f64)> },
+    /// From whole groups, times a factor.
+    Groups { factor: f64, clusters: Clusters },
+    /// It is this.
+    Serial { product: Mat<f64>, degrees_of_freedom: f64 },
+}
+
+impl Solver<'_> {
+    /// How uncertain the end of a course is, and what rows were found to share; `weight` is that of each row.
+    pub(super) fn uncertainty(
+        &self,
+        course: &Course,
+        weight: &[f64],
+    ) -> Result<(Uncertainty, Shared), FitError> {
+        let (subspace, rest, tally) = (&course.subspace, &course.point.rest, &course.point.sweep.tally);
+        let left = self.kept_components(course) as f64 - self.used(course);
+        let full = self.unweighted_at(course)?;
+        let known = self.options.noise.known();
+        // Of variances, what was found over what the weights assume.
+        let found = tally.variance_factor(self.used(course));
+        let level = if known.is_some() { 1.0 } else { self.level(course) };
+        let has_statement = known.is_some() || self.states_noise();
+        let efficiency = if course.weighting == Weighting::Biweight { robust::EFFICIENCY } else { 1.0 };
+        let stated =
+            has_statement.then(|| Stated::compared(found * efficiency * level, left.max(0.0)));
+        let agrees = stated.is_some_and(|stated| stated.agreement == Agreement::Agrees);
+        let mut root = subspace.covariance_root(&full, rest);
+        let found_noise = self.shared(course, weight, &root)?;
+        let spread = if let Some(groups) = self.groups() {
+            root = subspace.covariance_root(&self.partial(&course.point.sweep), rest);
+            let (q, e) = self.coordinates(course, weight, &root)?;
+            // Weights move along with residuals, and by so much more the estimates.
+            let clusters = Clusters::new(shares(&q, &e, &groups));
+            Spread::Groups { factor: tally.stride().powi(2), clusters }
+        } else if let Shared::Memory(memory, _) = &found_noise {
+            let degrees_of_freedom = (memory.independent - self.used(course)).max(LEAST);
+            Spread::Serial { product: &memory.product * faer::Scale(found.max(1.0)), degrees_of_freedom }
+        } else if agrees {
+            Spread::Even { factor: 1.0 / level / efficiency, degrees_of_freedom: f64::INFINITY }
+        } else if left < 1.0 {
+            Spread::Unknown
+        } else if left < MANY && self.layout.kinds > 1 {
+            let pool = pools(self.observations, &self.layout, self.used(course));
+            let of_component: Vec<usize> =
+                self.layout.kind.iter().map(|&kind| pool[usize::from(kind)]).collect();
+            let count = pool.iter().max().map_or(0, |last| last + 1);
+            let counted: Vec<f64> = weight.iter().map(|weight| f64::from(u8::from(*weight > 0.0))).collect();
+            let (q, e) = self.coordinates(course, &counted, &root)?;
+            let shares = shares(&q, &e, &Buckets { of_component, count });
+            let of = |share: Share| {
+                let used: f64 = (0..share.score.len()).map(|at| share.gram[(at, at)]).sum();
+                (share.gram, (share.count - used).max(1.0))
+            };
+            Spread::Pools { factor: found, pools: shares.into_iter().map(of).collect() }
+        } else {
+            Spread::Even { factor: found, degrees_of_freedom: left }
+        };
+        let by_prior = root.transpose() * subspace.precision_root(rest);
+        let k = root.ncols();
+        let uncertainty = Uncertainty {
+            data: Mat::<f64>::identity(k, k) - &by_prior * by_prior.transpose(),
+            prior: &root * by_prior,
+            root,
+            spread,
+            left,
+            stated,
+        };
+        Ok((uncertainty, found_noise))
+    }
+
+    /// What rows share that the fit took for independent: an offset of their group, or a memory of the row before.
+    fn shared(&self, course: &Course, weight: &[f64], root: &Mat<f64>) -> Result<Shared, FitError> {
+        let options = &self.options.noise;
+        let declared = self.observations.in_sequence;
+        if !options.serial && self.groups().is_none() {
+            return Ok(Shared::Nothing);
+        }
+        let counted: Vec<f64> = weight.iter().map(|weight| f64::from(u8::from(*weight > 0.0))).collect();
+        let (q, e) = self.coordinates(course, &counted, root)?;
+        let sigma = course.noise.sigma_without_memory();
+        let beside = trend::beside(self.chain, self.observations, &self.layout, &sigma, weight, &q);
+        if options.serial && (declared || self.groups().is_none()) {
+            let earns = serial::EARNS[usize::from(!declared)];
+            if let Some(memory) = serial::fit(&self.layout, &e, &q, &beside, earns) {
+                return Ok(Shared::Memory(memory, !declared));
+            }
+        }
+        let groups = &self.observations.groups;
+        let of_groups = self.groups().and_then(|_| session::fit(&self.layout, groups, &e, &beside));
+        Ok(of_groups.map_or(Shared::Nothing, |(offsets, own)| Shared::Offsets(offsets, own)))
+    }
+
+    /// The factor of all rows that count, each with its full weight, whitened but for serial correlation.
+    fn unweighted_at(&self, course: &Course) -> Result<Partial, FitError> {
+        match course.weighting {
+            Weighting::Full => Ok(self.partial(&course.point.sweep)),
+            _ => Ok(self.partial(&self.sweep(&course.point.values, &course.noise, Weighting::Full)?)),
+        }
+    }
+
+    /// Whether all rows state their noise, or the caller states one for all.
+    fn states_noise(&self) -> bool {
+        let observations = self.observations;
+        let every = !observations.series.is_empty()
+            && observations.series.iter().all(|series| observations.states_sigma(series));
+        self.options.noise.stated.is_some() || every
+    }
+
+    /// The mean over all components of the variance that was found over that which is stated.
+    fn level(&self, course: &Course) -> f64 {
+        let stated = noise::stated(&self.options.noise, self.observations, &self.layout);
+        let unit = self.options.noise.stated.filter(|_| self.observations.sigma.is_empty()).unwrap_or(1.0);
+        let sigma = course.noise.sigma_without_memory();
+        let ratios = sigma.iter().zip(&stated).map(|(sigma, stated)| (sigma / stated / unit).powi(2));
+        ratios.sum::<f64>() / (stated.len() as f64).max(1.0)
+    }
+
+    /// The groups of the components, where rows share any and there are several.
+    fn groups(&self) -> Option<Buckets> {
+        let groups = &self.observations.groups;
+        let mut known: Vec<u32> = groups.clone();
+        known.sort_unstable();
+        known.dedup();
+        if known.len() < 2 || known.len() >= groups.len() || known.len() > MANY_GROUPS {
+            return None;
+        }
+        let bucket = |row: &u32| known.binary_search(&groups[*row as usize]).unwrap_or(0);
+        Some(Buckets { of_component: self.layout.row.iter().map(bucket).collect(), count: known.len() })
+    }
+
+    /// The columns of J, whitened and each row by the root of its weight, times the root, n × k; and the residual alike.
+    fn coordinates(
+        &self,
+        course: &Course,
+        weight: &[f64],
+        root: &Mat<f64>,
+    ) -> Result<(Mat<f64>, Vec<f64>), FitError> {
+        let k = root.ncols();
+        let mut by_column = Mat::<f64>::zeros(self.model.columns(), k);
+        for (from, column) in root.row_iter().zip(self.model.column_of()) {
+            if let Some(column) = *column {
+                by_column.row_mut(column).iter_mut().zip(from.iter()).for_each(|(sum, part)| *sum += part);
+            }
+        }
+        let sigma = course.noise.sigma_without_memory();
+        let first = &self.layout.first;
+        let parts = self.model.map_blocks(self.observations, &course.point.values, |_, rows, block| {
+            let whitened = |values: &[f64]| -> Vec<f64> {
+                let from = first[rows.start];
+                let by_row = block.by_row(values).enumerate();
+                let scaled = by_row.map(|(at, value)| {
+                    value * weight[rows.start + at / block.components].sqrt() / sigma[from + at]
+                });
+                scaled.collect()
+            };
+            let residual = whitened(&block.residual);
+            let mut q = Mat::<f64>::zeros(residual.len(), k);
+            for (column, values) in block.columns().enumerate() {
+                let values = whitened(values);
+                for j in 0..k {
+                    let share = by_column[(column, j)];
+                    q.col_as_slice_mut(j).iter_mut().zip(&values).for_each(|(q, value)| *q += share * value);
+                }
+            }
+            (q, residual)
+        })?;
+        let mut whole = Mat::zeros(self.layout.components(), k);
+        let mut residual = Vec::with_capacity(self.layout.components());
+        for (q, own) in parts {
+            whole.subrows_mut(residual.len(), own.len()).copy_from(&q);
+            residual.extend(own);
+        }
+        Ok((whole, residual))
+    }
+}
+
+/// What rows share that the fit took for independent.
+pub(super) enum Shared {
+    /// Nothing was found.
+    Nothing,
+    /// A memory of the row before, and whether that is so though no order is declared.
+    Memory(Memory, bool),
+    /// An offset of their group, and the standard deviation of the rows' own noise in units of what the fit assumed.
+    Offsets(Offsets, f64),
+}
+
+impl Shared {
+    /// The noise of a fit with what rows share in it.
+    pub fn in_noise(self, mut noise: Noise) -> Noise {
+        let own = match &self {
+            Self::Nothing => return noise,
+            Self::Memory(memory, _) => memory.innovation,
+            Self::Offsets(_, own) => *own,
+        };
+        noise.sigma.iter_mut().for_each(|sigma| *sigma *= own);
+        match self {
+            Self::Nothing => {}
+            Self::Memory(memory, undeclared) => {
+                noise.floor.iter_mut().for_each(|floor| *floor *= own * memory.serial.gain());
+                (noise.serial, noise.undeclared_order) = (Some(memory.serial), undeclared);
+            }
+            Self::Offsets(offsets, _) => {
+                noise.floor.iter_mut().for_each(|floor| *floor *= own);
+                noise.offsets = Some(offsets);
+            }
+        }
+        noise
+    }
+}
+
+/// What each bucket of components has part in.
+fn shares(q: &Mat<f64>, residual: &[f64], buckets: &Buckets) -> Vec<Share> {
+    let mut shares = vec![Share::new(q.ncols()); buckets.count];
+    let mut row = vec![0.0; q.ncols()];
+    for (at, (&bucket, &residual)) in buckets.of_component.iter().zip(residual).enumerate() {
+        row.iter_mut().enumerate().for_each(|(j, value)| *value = q[(at, j)]);
+        // What is set aside is zero throughout.
+        if residual != 0.0 || row.iter().any(|value| *value != 0.0) {
+            shares[bucket].add(&row, residual);
+        }
+    }
+    shares
+}
+
+/// Which of some sets each component belongs to.
+struct Buckets {
+    of_component: Vec<usize>,
+    count: usize,
+}
+
+impl Uncertainty {
+    /// Components with weight, less what the estimates use up.
+    pub fn degrees_of_freedom(&self) -> f64 {
+        self.left
+    }
+
+    /// The stated noise beside that of the residuals.
+    pub fn stated(&self) -> Option<Stated> {
+        self.stated
+    }
+
+    /// The covariance of the estimates, p × p, SI; infinite where nothing is known of it.
+    pub fn covariance(&self) -> Mat<f64> {
+        let of_data = match &self.spread {
+            Spread::Unknown => {
+                let p = self.root.nrows();
+                return Mat::from_fn(p, p, |row, column| if row == column { f64::INFINITY } else { 0.0 });
+            }
+            Spread::Even { factor, .. } | Spread::Pools { factor, .. } => {
+                &self.root * &self.data * self.root.transpose() * faer::Scale(*factor)
+            }
+            Spread::Groups { factor, clusters } => {
+                let own = &self.root * clusters.scores();
+                &own * own.transpose() * faer::Scale(*factor)
+            }
+            Spread::Serial { product, .. } => &self.root * product * self.root.transpose(),
+        };
+        of_data + &self.prior * self.prior.transpose()
+    }
+
+    /// Per parameter the degrees of freedom of its variance.
+    pub fn of_parameters(&self) -> Vec<f64> {
+        let p = self.root.nrows();
+        (0..p).map(|at| self.along(&[(at, 1.0)]).1).collect()
+    }
+
+    /// The combinations that the data determine, with their values at these values of all symbols.
+    pub fn estimable(&self, subspace: &Subspace, parameters: &[SymbolId], values: &[f64]) -> Vec<Estimable> {
+        let of = |parts: Vec<(usize, f64)>| {
+            let (variance, degrees_of_freedom) = self.along(&parts);
+            Estimable {
+                value: parts.iter().map(|&(at, factor)| factor * values[parameters[at].index()]).sum(),
+                standard_uncertainty: Some(variance.sqrt()).filter(|uncertainty| uncertainty.is_finite()),
+                degrees_of_freedom,
+                combination: parts.into_iter().map(|(at, factor)| (parameters[at], factor)).collect(),
+            }
+        };
+        subspace.combinations().into_iter().map(of).collect()
+    }
+
+    /// The variance of a combination of parameters, SI, and its degrees of freedom.
+    fn along(&self, parts: &[(usize, f64)]) -> (f64, f64) {
+        let through = |matrix: &Mat<f64>| -> Vec<f64> {
+            (0..matrix.ncols()).map(|j| parts.iter().map(|&(at, factor)| factor * matrix[(at, j)]).sum()).collect()
+        };
+        let square = |vector: &[f64]| vector.iter().map(|value| value * value).sum::<f64>();
+        let form = |matrix: &Mat<f64>, a: &[f64]| {
+            let column = Mat::from_fn(a.len(), 1, |row, _| a[row]);
+            (column.transpose() * (matrix * &column))[(0, 0)]
+        };
+        let by_prior = square(&through(&self.prior));
+        let a = through(&self.root);
+        let (by_data, degrees_of_freedom) = match &self.spread {
+            Spread::Unknown => (f64::INFINITY, 0.0),
+            Spread::Even { factor, degrees_of_freedom } => (factor * form(&self.data, &a), *degrees_of_freedom),
+            Spread::Pools { factor, pools } => {
+                // Source: F. E. Satterthwaite, Biometrics Bulletin 2 (1946) 110-114.
+                let parts = pools.iter().map(|(gram, own)| (form(gram, &a), own));
+                let (sum, squares) =
+                    parts.fold((0.0, 0.0), |(sum, squares), (part, own)| (sum + part, squares + part * part / own));
+                (factor * sum, if squares > 0.0 { sum * sum / squares } else { self.left })
+            }
+            Spread::Groups { factor, clusters } => {
+                let along = Mat::from_fn(1, a.len(), |_, at| a[at]) * clusters.scores();
+                (factor * along.squared_norm_l2(), clusters.degrees_of_freedom(&a))
+            }
+            Spread::Serial { product, degrees_of_freedom } => (form(product, &a), *degrees_of_freedom),
+        };
+        (by_data + by_prior, degrees_of_freedom)
+    }
+}

@@ -63,6 +63,10 @@ pub struct SourcePlan {
 pub struct Search {
     /// The share of false alarms that is accepted.
     pub false_alarm: f64,
+    /// Effects that are accepted at most.
+    pub most: usize,
+    /// Whether functions that no family spells out are taken up as effects.
+    pub functions: bool,
     /// Side quantities that effects may use.
     pub inputs: Vec<SymbolId>,
     /// Whether rows are in order of acquisition, so that direction of motion and drift may be used.
@@ -252,10 +256,10 @@ impl Study {
         let mut inputs: Vec<SymbolId> =
             self.search.inputs.iter().filter_map(|name| chain.find_symbol(name.get_ref())).collect();
         inputs.extend(self.implied(chain).iter().filter_map(|(name, _)| chain.find_symbol(name)));
-        let SearchTable { sequence, harmonics, .. } = self.search;
+        let SearchTable { sequence, harmonics, most, functions, .. } = self.search;
         let (lines, own) = (self.lines(chain)?, self.own_effects(chain)?);
         let only = self.search.effects.iter().map(|name| name.get_ref().clone()).collect();
-        let search = Search { false_alarm, inputs, sequence, harmonics, lines, own, only };
+        let search = Search { false_alarm, most, functions, inputs, sequence, harmonics, lines, own, only };
         self.check_names(chain, observables, &search)?;
         Ok(search)
     }

@@ -165,6 +165,8 @@ impl Default for FitTable {
 #[serde(deny_unknown_fields, default)]
 pub(super) struct SearchTable {
     pub false_alarm: Spanned<f64>,
+    pub most: usize,
+    pub functions: bool,
     pub inputs: Vec<Spanned<String>>,
     pub sequence: bool,
     pub harmonics: u32,
@@ -176,6 +178,8 @@ impl Default for SearchTable {
     fn default() -> Self {
         Self {
             false_alarm: Spanned::new(0..0, 0.05),
+            most: 20,
+            functions: false,
             inputs: Vec::new(),
             sequence: false,
             harmonics: 8,

@@ -39,8 +39,12 @@ impl<'a> Loop<'a> {
     ) -> Result<Self, CalibrateError> {
         let plan = request.plan;
         let setting = plan.search.setting(&plan.chain, observables);
-        let options =
-            Options { false_alarm: plan.search.false_alarm, seed: plan.hold_out.seed, ..Options::default() };
+        let options = Options {
+            false_alarm: plan.search.false_alarm,
+            most: plan.search.most,
+            seed: plan.hold_out.seed,
+            ..Options::default()
+        };
         let catalogue = chosen(&setting, catalogue(&setting), &plan.search.only).map_err(|(number, _)| {
             CalibrateError::NoSuchEffect { name: plan.search.only.get(number).cloned().unwrap_or_default() }
         })?;

@@ -12,9 +12,11 @@ use crate::diagnose::rms::BeforeAfter;
 use crate::fit::{FitResult, robust};
 use crate::search::HeldOut;
 use crate::search::columns::Columns;
+use crate::search::elsewhere::{Elsewhere, Judged, elsewhere};
 use crate::search::row_set::Portion;
 
-/// In sample; and held out from the study's second file, or else from the nested folds.
+/// In sample; held out from the study's second file, or else from the nested folds; and in the outer thirds of the joints'
+/// ranges, from searches that did not see them.
 pub(crate) fn rms(
     whole: &Loop<'_>,
     before: &FitResult,
@@ -44,9 +46,17 @@ pub(crate) fn rms(
     let weight = &last.fitted.fit.residuals.weight;
     let kept = |row: u32| weight[row as usize] > 0.0;
     let in_sample = |fit: &FitResult| Figures::of(&fit.residuals.raw, rows, kept);
+    let thirds = elsewhere(whole, last);
+    let [all, kept] = [|third: &Elsewhere| third.all, |third: &Elsewhere| third.kept]
+        .map(|part| thirds.iter().map(part).fold(Judged::default(), std::ops::Add::add).rms());
+    let beside = |rms: Rms, at: usize| Rms {
+        elsewhere_rms: all.map(|rms| rms[at]),
+        elsewhere_rms_kept: kept.map(|rms| rms[at]),
+        ..rms
+    };
     Ok(BeforeAfter {
-        before: held_before.beside(in_sample(before)),
-        after: held_after.beside(in_sample(&last.fitted.fit)),
+        before: beside(held_before.beside(in_sample(before)), 0),
+        after: beside(held_after.beside(in_sample(&last.fitted.fit)), 1),
     })
 }
 

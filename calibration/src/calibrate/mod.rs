@@ -2,16 +2,19 @@
 //!
 //! One round (`round`) fits the declaration with the effects accepted so far (`fitted`), sets up the search at that fit and
 //! searches from there; rounds go on until one changes nothing (`rounds`). Rows that were set aside together are
-//! heard once more (`outliers`), and the search is repeated without each fold (`held_out`). What it all means is for
+//! heard once more (`outliers`), shapes of the library compete with what the catalogue made of them (`functions`), and the search is repeated without each fold (`held_out`). What it all means is for
 //! [`crate::diagnose`] to say, in words for [`crate::report`].
 
 mod context;
 pub(crate) mod fitted;
+mod functions;
 pub(crate) mod held_out;
 mod outliers;
 pub(crate) mod round;
 mod rounds;
 mod stage;
+
+use std::cell::OnceCell;
 
 use model_core::{Chain, Mistakes};
 
@@ -23,6 +26,7 @@ use crate::report::amendment;
 use crate::search::{ProblemError, nested};
 use crate::study::Plan;
 use fitted::Fitted;
+use functions::{Settled, settled};
 use round::Round;
 use rounds::rounds;
 
@@ -106,6 +110,8 @@ pub fn calibrate_telling(
     tell: &(dyn Fn(Stage) + Sync),
 ) -> Result<Calibration, CalibrateError> {
     let observables: Vec<_> = request.observations.series.iter().map(|series| series.observable).collect();
+    // Studies with functions that the library found live as long as the loops that read them.
+    let plans: [OnceCell<Plan>; functions::MOST] = Default::default();
     let whole = Loop { tell, ..Loop::new(request, &observables, HELD)? };
 
     let first = Fitted::first(&whole)?;
@@ -116,10 +122,11 @@ pub fn calibrate_telling(
     let before = first.fit.clone();
     let round = rounds(&whole, Round::at(&whole, first)?)?;
     let round = outliers::reconsidered(&whole, round)?;
+    let Settled { whole, round, as_good } = settled(&whole, &plans, round)?;
     tell(Stage::HeldOut);
     let held_out = nested(&round.posed.problem, &round.classes, &whole.options);
     let rms = held_out::rms(&whole, &before, &round, &held_out)?;
-    let confirmed = Confirmed { round: &round, held_out: &held_out, rms };
+    let confirmed = Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good };
     let diagnosis = diagnose(&whole, &before, &round.fitted, Ok(confirmed))?;
     let drawn = trace::drawn(request.observations, &round.fitted.fit);
     let traces = trace::traces(&whole, &round, &drawn)?;

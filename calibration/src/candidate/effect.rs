@@ -136,11 +136,15 @@ impl Function {
         Self { amount: change(&self.amount), elsewhere, stem }
     }
 
+    /// What it does at its own place, then elsewhere.
+    pub fn amounts(&self) -> impl Iterator<Item = &Poly> {
+        std::iter::once(&self.amount).chain(self.elsewhere.iter().map(|(_, amount)| amount))
+    }
+
     /// Every symbol that it reads, in order.
     #[must_use]
     pub fn symbols(&self) -> Vec<SymbolId> {
-        let amounts = std::iter::once(&self.amount).chain(self.elsewhere.iter().map(|(_, amount)| amount));
-        amounts.flat_map(Poly::symbols).collect::<BTreeSet<_>>().into_iter().collect()
+        self.amounts().flat_map(Poly::symbols).collect::<BTreeSet<_>>().into_iter().collect()
     }
 }
 

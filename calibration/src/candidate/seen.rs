@@ -1,7 +1,7 @@
 //! What a place in the chain sees in its own frame, without errors: directions of the ground, and what is observed.
 
 use model_core::algebra::{AngleSum, Poly};
-use model_core::{Axis, Factor, Motion, ObservableId, ObservableKind, SymbolKind};
+use model_core::{Axis, BodyId, Factor, Motion, ObservableId, ObservableKind, SymbolKind};
 
 use super::{Place, Setting, whole};
 
@@ -26,22 +26,39 @@ pub(crate) fn from_ground(setting: &Setting<'_>, vector: &[Poly; 3], place: Plac
 
 /// What is observed as a place sees it: a direction, or a point from where the place is.
 pub(crate) fn observed(setting: &Setting<'_>, observable: ObservableId, place: Place) -> Option<[Poly; 3]> {
+    let observable = setting.chain.observable(observable);
+    let shifts = observable.kind == ObservableKind::Point;
+    carried(setting, observable.components.clone(), observable.body, shifts, place)
+}
+
+/// The origin of a body as a place in it or below it sees it.
+pub(crate) fn origin(setting: &Setting<'_>, body: BodyId, place: Place) -> Option<[Poly; 3]> {
+    carried(setting, [Poly::zero(), Poly::zero(), Poly::zero()], body, true, place)
+}
+
+/// A vector of a body's frame (a point, where `shifts` count) as a place in it or below it sees it.
+fn carried(
+    setting: &Setting<'_>,
+    vector: [Poly; 3],
+    body: BodyId,
+    shifts: bool,
+    place: Place,
+) -> Option<[Poly; 3]> {
     let chain = setting.chain;
-    let observable = chain.observable(observable);
-    let path = chain.path(observable.body);
+    let path = chain.path(body);
     let from = path.iter().position(|&body| body == place.body)?;
-    let mut seen = observable.components.clone();
+    let mut seen = vector;
     for &body in path[from..].iter().rev() {
         let factors = &chain.body(body).factors;
         let start = if body == place.body { place.position(chain) } else { 0 };
         for factor in factors[start..].iter().rev() {
-            match (factor.motion, observable.kind) {
-                (Motion::Rotation, _) => seen = turned(setting, factor, &seen, false)?,
-                (Motion::Translation, ObservableKind::Point) => {
+            match factor.motion {
+                Motion::Rotation => seen = turned(setting, factor, &seen, false)?,
+                Motion::Translation if shifts => {
                     let at = factor.axis.index();
                     seen[at] = &seen[at] + &nominal(setting, factor);
                 }
-                (Motion::Translation, ObservableKind::Direction) => {}
+                Motion::Translation => {}
             }
         }
     }

@@ -3,7 +3,7 @@
 use model_core::algebra::AngleSum;
 use model_core::{Axis, BodyId, Chain, Motion, ObservableId, ObservableKind, Role, SymbolId, SymbolKind};
 
-use super::{Effect, Freedom, Place, seen};
+use super::{Effect, Freedom, Kind, Place, seen};
 
 /// What the catalogue is made for.
 #[derive(Debug, Clone, Copy)]
@@ -79,10 +79,16 @@ impl Setting<'_> {
         places
     }
 
-    /// Whether the declaration multiplies errors by an input, as with the side of the pier or the face: then what
-    /// else is fixed to that body may change with it too.
+    /// Whether what is fixed to a body may change with an input: the side of the pier or the face, the direction of motion,
+    /// or another quantity by which the declaration multiplies errors. Not what an accepted effect multiplies: a declaration
+    /// has the same candidates before and after it was amended.
     #[must_use]
     pub fn reverses(&self, input: SymbolId) -> bool {
+        match Kind::of(self, input) {
+            Kind::Side | Kind::Direction(_) => return true,
+            Kind::Other => {}
+            _ => return false,
+        }
         let errors = self.chain.bodies.iter().flat_map(|body| &body.factors);
         errors
             .filter(|factor| matches!(factor.role, Role::PositionError | Role::MotionError))

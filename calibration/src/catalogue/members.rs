@@ -3,7 +3,7 @@
 use model_core::SymbolId;
 use model_core::algebra::Poly;
 
-use crate::candidate::{Effect, Function, Place, Setting};
+use crate::candidate::{Effect, Function, Kind, Place, Setting};
 use crate::effects::{FAMILIES, encoder, gravity, joint_motion};
 
 /// The whole catalogue for one chain, family after family, without repetitions and without what can move nothing that
@@ -45,11 +45,17 @@ pub fn catalogue(setting: &Setting<'_>) -> Vec<Effect> {
 }
 
 /// The same effect times an input, for families of the instrument's own geometry and low orders: on the far side of the
-/// pier, what is fixed to the instrument acts the other way round.
+/// pier, what is fixed to the instrument acts the other way round. Of a direction of motion, for the encoder of its joint
+/// alone: backlash that changes as the joint turns.
 fn reversed(effect: &Effect, input: SymbolId, setting: &Setting<'_>) -> Option<Effect> {
     let geometric = [gravity::FAMILY.name, encoder::FAMILY.name, joint_motion::FAMILY.name];
     let low = ["harmonic 1", "harmonic 2"].contains(&effect.form.as_str());
     if !geometric.contains(&effect.family) || !(low || effect.family == gravity::FAMILY.name) {
+        return None;
+    }
+    if let Kind::Direction(joint) = Kind::of(setting, input)
+        && (effect.family != encoder::FAMILY.name || effect.driver != setting.name(joint))
+    {
         return None;
     }
     let name = setting.name(input);

@@ -27,8 +27,11 @@ use crate::calibrate::{CalibrateError, Loop, Stage};
 use crate::data::SiUnit;
 use crate::design::discrimination::separation;
 use crate::design::{Criterion, Proposal, Separation, propose};
+use crate::effects::SHAPE;
 use crate::fit::FitResult;
 use crate::search::HeldOut;
+use crate::search::aside::{Shared, shared};
+use crate::search::library::AsGood;
 use effects::Others;
 use rms::BeforeAfter;
 use verdict::Evidence;
@@ -155,6 +158,8 @@ pub(crate) struct Confirmed<'a> {
     pub round: &'a Round<'a>,
     pub held_out: &'a HeldOut,
     pub rms: BeforeAfter,
+    /// Functions that explain the data about as well as accepted effects.
+    pub as_good: &'a [AsGood],
 }
 
 /// What fits and search come to. Without a search the fit alone is told: it failed, or had too few observations.
@@ -181,11 +186,17 @@ pub(crate) fn diagnose(
     }
     cautions.extend(caution::of_noise(&noise, fit.degrees_of_freedom));
     cautions.extend(of_data(&last.chain, observations, fit));
+    let aside: Vec<usize> = fit.set_aside.iter().map(|aside| aside.row).collect();
+    let of_aside = shared(observations, &aside, whole.options.seed);
+    cautions.extend(of_aside.map(|Shared { reading, from, to, rows }| {
+        let reading = last.chain.symbol(reading).name.clone();
+        Caution::SetAsideShare { reading, from, to, rows }
+    }));
     let remaining = found.remaining.as_ref();
     let alone = found.effects.iter().all(|effect| effect.class.is_empty() && effect.rivals.is_empty());
     let verdict = verdict::verdict(Evidence {
         ended: &ended,
-        unnamed: remaining.is_some_and(|remaining| remaining.place.is_some()),
+        unnamed: remaining.is_some_and(|remaining| remaining.place.is_some()) || has_unnamed(whole, last),
         structure: remaining.is_some_and(|remaining| remaining.p_value <= whole.options.false_alarm),
         effects: !found.effects.is_empty(),
         alone,
@@ -220,6 +231,12 @@ pub(crate) fn diagnose(
     })
 }
 
+/// Whether a function without a name was taken up: a shape of several coefficients.
+fn has_unnamed(whole: &Loop<'_>, last: &Fitted) -> bool {
+    let effects = last.found.iter().map(|found| &whole.catalogue[found.effect]);
+    effects.into_iter().any(|effect| effect.family == SHAPE && effect.functions.len() > 1)
+}
+
 /// What a search found.
 #[derive(Default)]
 struct Found {
@@ -234,7 +251,13 @@ impl Found {
     fn of(whole: &Loop<'_>, confirmed: &Confirmed<'_>) -> Result<Self, CalibrateError> {
         let last = confirmed.round;
         let others = effects::others(last);
-        let effects = effects::effects(whole, last, confirmed.held_out, &others);
+        let mut effects = effects::effects(whole, last, confirmed.held_out, &others);
+        for other in confirmed.as_good {
+            let name = other.name(&last.fitted.chain);
+            for &number in &other.instead_of {
+                effects[number].rivals.push(name.clone());
+            }
+        }
         let separating = |(at, others): (usize, &Others)| {
             let all: Vec<usize> = others.alike.iter().chain(&others.rivals).copied().collect();
             separation(whole, last, at, &all, &others.behind)

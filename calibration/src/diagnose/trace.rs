@@ -9,7 +9,7 @@ use rand_chacha::rand_core::SeedableRng;
 use super::units::of_reading;
 use crate::calibrate::round::Round;
 use crate::calibrate::{CalibrateError, Loop};
-use crate::candidate::Effect;
+use crate::candidate::{Effect, Function};
 use crate::data::{Observations, SiUnit};
 use crate::fit::FitResult;
 use crate::search::columns::functions::Functions;
@@ -116,8 +116,12 @@ pub(crate) fn traces(
 /// The function of an effect that follows one reading.
 fn curve(whole: &Loop<'_>, last: &Round<'_>, effect: &Effect, errors: &[SymbolId], trace: &mut Trace) {
     let (chain, fit) = (&last.fitted.chain, &last.fitted.fit);
-    let mut readings: Vec<SymbolId> =
-        effect.functions.iter().flat_map(|function| function.symbols()).collect();
+    let mut readings: Vec<SymbolId> = effect
+        .functions
+        .iter()
+        .flat_map(Function::amounts)
+        .flat_map(|amount| chain.symbols_in(amount))
+        .collect();
     readings.retain(|&id| matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input));
     readings.sort_unstable();
     readings.dedup();
@@ -135,7 +139,7 @@ fn curve(whole: &Loop<'_>, last: &Round<'_>, effect: &Effect, errors: &[SymbolId
         measured: vec![[0.0; 3]; POINTS],
         ..Observations::default()
     };
-    let mut functions = Functions::new(&over, &fit.values);
+    let mut functions = Functions::new(chain, &over, &fit.values);
     let columns: Option<Vec<Vec<f64>>> =
         effect.functions.iter().map(|function| functions.column(&function.amount)).collect();
     let at: Option<Vec<usize>> =

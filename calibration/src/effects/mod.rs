@@ -5,6 +5,7 @@
 
 mod assembly;
 mod backlash;
+mod compliance;
 mod coupling;
 mod drift;
 mod driven;
@@ -23,6 +24,7 @@ mod range;
 mod refraction;
 mod rotator;
 mod session;
+mod shape;
 mod side_quantity;
 mod smooth;
 mod sub_division;
@@ -37,15 +39,20 @@ pub use own::{OwnError, own};
 pub use smooth::{SmoothPlace, smooth};
 pub use tensor::tensor;
 
+/// The family of functions that a calibration took up.
+pub(crate) const SHAPE: &str = shape::FAMILY.name;
+
 /// Every family, in the order in which members of one class lend it their name.
 pub const FAMILIES: &[Family] = &[
     own::FAMILY,
+    shape::FAMILY,
     assembly::FAMILY,
     encoder::FAMILY,
     sub_division::FAMILY,
     index_step::FAMILY,
     gravity::FAMILY,
     wind_up::FAMILY,
+    compliance::FAMILY,
     joint_motion::FAMILY,
     backlash::FAMILY,
     play::FAMILY,

@@ -17,7 +17,7 @@ pub(super) const FAMILY: Family = Family {
 };
 
 fn effects(setting: &Setting<'_>) -> Vec<Effect> {
-    setting.own.to_vec()
+    setting.own.iter().filter(|effect| effect.family == FAMILY.name).cloned().collect()
 }
 
 /// Why a function is none that an effect can have.

@@ -40,7 +40,8 @@ pub(crate) fn new_inputs(whole: &Loop<'_>, chain: &Chain, found: &[Found]) -> Ve
     let mut used: Vec<SymbolId> = found
         .iter()
         .flat_map(|found| &whole.catalogue[found.effect].functions)
-        .flat_map(Function::symbols)
+        .flat_map(Function::amounts)
+        .flat_map(|amount| chain.symbols_in(amount))
         .filter(|&symbol| chain.symbol(symbol).kind == SymbolKind::Input)
         .collect();
     used.sort_unstable();

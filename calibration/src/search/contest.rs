@@ -29,6 +29,8 @@ pub struct Price {
 pub struct Contender {
     /// Its penalised log-likelihood.
     pub criterion: f64,
+    /// The accepted effects that stay beside it, by their number.
+    pub kept: Vec<usize>,
     /// Coefficients of the function's columns; zero for columns that are not seen.
     pub coefficients: Vec<f64>,
     /// Their covariance, row by row.
@@ -57,15 +59,15 @@ pub fn contender(left: &Left<'_>, columns: MatRef<'_, f64>, price: Price) -> Con
     let open: Vec<usize> = left.accepted.iter().flatten().copied().chain([residual]).collect();
     let small = Mat::from_fn(open.len(), open.len(), |i, j| sweep.entry(open[i], open[j]));
     let mut start = 0;
-    let mut kept: Vec<Vec<usize>> = Vec::new();
-    for block in &left.accepted {
-        kept.push((start..start + block.len()).collect());
+    let mut kept: Vec<(usize, Vec<usize>)> = Vec::new();
+    for (number, block) in left.accepted.iter().enumerate() {
+        kept.push((number, (start..start + block.len()).collect()));
         start += block.len();
     }
     let own = (price.functions.max(1) as f64).ln();
-    let judged = |effects: &[Vec<usize>]| {
+    let judged = |effects: &[(usize, Vec<usize>)]| {
         let mut sweep = Sweep::scaled(small.clone(), open.iter().map(|&column| before[column]).collect());
-        let added = effects.iter().flatten().filter(|&&column| sweep.add(column)).count();
+        let added = effects.iter().flat_map(|(_, own)| own).filter(|&&column| sweep.add(column)).count();
         let rss = sweep.entry(open.len() - 1, open.len() - 1);
         penalised(rss, rows, count + added + price.parameters)
             - own
@@ -83,14 +85,15 @@ pub fn contender(left: &Left<'_>, columns: MatRef<'_, f64>, price: Price) -> Con
         kept.remove(at);
         criterion = better;
     }
-    count += kept.iter().flatten().filter(|&&column| sweep.add(open[column])).count();
+    count += kept.iter().flat_map(|(_, own)| own).filter(|&&column| sweep.add(open[column])).count();
     let variance = sweep.entry(residual, residual) / (rows as f64 - count as f64).max(1.0);
     let seen = |j: usize| sweep.contains(j);
     let own: Vec<usize> = (first..residual).collect();
     let coefficients = own.iter().map(|&j| if seen(j) { sweep.entry(j, residual) } else { 0.0 }).collect();
     let pairs = own.iter().flat_map(|&i| own.iter().map(move |&j| (i, j)));
     let covariance = pairs.map(|(i, j)| if seen(i) && seen(j) { -variance * sweep.entry(i, j) } else { 0.0 });
-    Contender { criterion, coefficients, covariance: covariance.collect() }
+    let kept = kept.into_iter().map(|(number, _)| number).collect();
+    Contender { criterion, kept, coefficients, covariance: covariance.collect() }
 }
 
 /// Of many single columns those that explain most: of what the declared columns leave, and of what the accepted

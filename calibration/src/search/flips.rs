@@ -13,7 +13,9 @@ use faer::{Accum, Mat, MatRef, Par};
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
+use rayon::prelude::*;
 
+use super::standardised::{Standardised, is_needed};
 use super::sweep::Sweep;
 use super::tail::Tails;
 
@@ -142,10 +144,9 @@ pub struct Family<'a> {
 }
 
 impl Family<'_> {
-    /// What the regression on the swept columns leaves of the residual, row by row, scaled to undo what the fit
-    /// took of each row's own noise (its leverage).
-    #[must_use]
-    pub fn left(&self) -> Vec<f64> {
+    /// What the regression on the swept columns leaves of the residual, row by row, and each row's leverage: the share of
+    /// its own noise that the fit took.
+    fn left(&self) -> (Vec<f64>, Vec<f64>) {
         let last = self.rows.ncols() - 1;
         let mut left = self.rows.col(last).iter().copied().collect::<Vec<f64>>();
         let mut leverage = vec![0.0; left.len()];
@@ -161,17 +162,20 @@ impl Family<'_> {
                 leverage[i] += b[i] * s[i];
             }
         }
-        // A row that the fit follows entirely has nothing left to flip.
-        for (value, h) in left.iter_mut().zip(leverage) {
-            *value /= (1.0 - h).max(1e-3).sqrt();
-        }
-        left
+        (left, leverage)
     }
 
     /// The smallest ln p over all blocks, for each flip.
     #[must_use]
     pub fn smallest(&self, signs: &Signs) -> Vec<f64> {
-        let left = self.left();
+        let (mut left, leverage) = self.left();
+        if is_needed(signs.buckets(), self.base.len()) {
+            return self.smallest_standardised(signs, &left);
+        }
+        // A row that the fit follows entirely has nothing left to flip.
+        for (value, h) in left.iter_mut().zip(leverage) {
+            *value /= (1.0 - h).max(1e-3).sqrt();
+        }
         let total: f64 = left.iter().map(|e| e * e).sum();
         let scores = signs.scores(self.rows, &left);
         let whiteners: Vec<Mat<f64>> = self.blocks.iter().map(|block| self.sweep.whitener(block)).collect();
@@ -205,6 +209,27 @@ impl Family<'_> {
         chance.smallest(&rss, self.tails)
     }
 
+    /// The same, each flip at its own variance.
+    fn smallest_standardised(&self, signs: &Signs, left: &[f64]) -> Vec<f64> {
+        let p = self.base.len();
+        let inverse = Mat::from_fn(p, p, |i, j| -self.sweep.entry(self.base[i], self.base[j]));
+        let own = Mat::from_fn(left.len(), p, |i, j| self.rows[(i, self.base[j])]);
+        let basis = &own * lower_root(&inverse);
+        let flipped = Standardised::new(signs, basis.as_ref(), left);
+        let chance = self.blocks.par_iter().map(|block| {
+            let mut columns = Mat::from_fn(left.len(), block.len(), |i, c| self.rows[(i, block[c])]);
+            let coefficients = Mat::from_fn(p, block.len(), |j, c| self.sweep.entry(self.base[j], block[c]));
+            matmul(&mut columns, Accum::Add, &own, &coefficients, -1.0, Par::Seq);
+            let orthonormal = columns * self.sweep.whitener(block);
+            let mut chance = Chance::new(signs.flips());
+            chance.add_gains(orthonormal.ncols(), &flipped.gains(orthonormal.as_ref()));
+            chance
+        });
+        let chance = chance.reduce(|| Chance::new(signs.flips()), Chance::merge);
+        let total: f64 = left.iter().map(|e| e * e).sum();
+        chance.smallest(&vec![total; signs.flips()], self.tails)
+    }
+
     /// The scores of a block in each bucket, after the swept columns and orthonormal.
     fn effective(
         &self,
@@ -235,15 +260,19 @@ impl Chance {
 
     /// Takes in a block by its orthonormal scores under each flip, flips × rank.
     pub(super) fn add(&mut self, scores: MatRef<'_, f64>) {
-        let rank = scores.ncols();
-        self.largest.resize_with(self.largest.len().max(rank + 1), Vec::new);
         let mut gain = vec![0.0; self.flips];
         for column in scores.col_iter() {
             gain.iter_mut().zip(column.iter()).for_each(|(g, s)| *g += s * s);
         }
+        self.add_gains(scores.ncols(), &gain);
+    }
+
+    /// Takes in a block of some rank by what it explains of each flip.
+    pub(super) fn add_gains(&mut self, rank: usize, gain: &[f64]) {
+        self.largest.resize_with(self.largest.len().max(rank + 1), Vec::new);
         let largest = &mut self.largest[rank];
         largest.resize(self.flips, 0.0);
-        largest.iter_mut().zip(&gain).for_each(|(l, g)| *l = l.max(*g));
+        largest.iter_mut().zip(gain).for_each(|(l, g)| *l = l.max(*g));
     }
 
     /// The larger of two, flip by flip.

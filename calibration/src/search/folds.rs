@@ -43,6 +43,22 @@ impl Folds {
         Self { group_of_row, fold_of_group, rows_of_fold }
     }
 
+    /// Two folds: the rows to learn from (0) and those held out (1). A group with rows in both is two groups.
+    #[must_use]
+    pub fn held_out(groups: &[usize], held: &[bool]) -> Self {
+        let most = groups.iter().copied().max().unwrap_or(0) + 1;
+        let of_row: Vec<usize> =
+            groups.iter().zip(held).map(|(&group, &held)| group + if held { most } else { 0 }).collect();
+        let (group_of_row, count) = number(&of_row);
+        let mut fold_of_group = vec![0; count];
+        let mut rows_of_fold = vec![0; 2];
+        for (&group, &held) in group_of_row.iter().zip(held) {
+            fold_of_group[group] = usize::from(held);
+            rows_of_fold[usize::from(held)] += 1;
+        }
+        Self { group_of_row, fold_of_group, rows_of_fold }
+    }
+
     /// How many folds there are.
     #[must_use]
     pub fn count(&self) -> usize {

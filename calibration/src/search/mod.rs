@@ -7,24 +7,30 @@
 //!
 //! The pipeline reads from one place: deal groups to folds (`folds`), merge rows where they are many (`cells`), project
 //! (`problem`), merge what coincides (`classes`), test
-//! (`tail`, `flips`), select (`select`), name the rivals (`rivals`), confirm on held-out folds
-//! (`nested`), and look for structure that no candidate explains (`remains`, `scan`, `contest`).
+//! (`tail`, `flips`), select (`select`, within what `guards` allow), name the rivals (`rivals`), confirm on held-out folds
+//! (`nested`) and elsewhere (`elsewhere`), let a library of shapes compete (`library`), and look for structure that no candidate explains (`remains`, `scan`, `contest`).
 
+pub(crate) mod aside;
 pub mod cells;
 pub mod classes;
 pub mod columns;
 pub mod contest;
+pub(crate) mod elsewhere;
 pub mod flips;
 pub mod folds;
+mod guards;
+pub(crate) mod library;
 pub mod nested;
 pub(crate) mod posed;
 pub mod problem;
 mod products;
+pub mod reach;
 pub mod remains;
 pub mod rivals;
 pub(crate) mod row_set;
 pub mod scan;
 pub mod select;
+mod standardised;
 pub mod sweep;
 pub mod tail;
 
@@ -33,6 +39,7 @@ pub use classes::{Class, classes};
 pub use folds::Folds;
 pub use nested::{HeldOut, nested};
 pub use problem::{Problem, ProblemError};
+pub use reach::Reach;
 pub use rivals::{AS_GOOD, Rival, rivals};
 pub use select::{Accepted, Options, Selection, select};
 

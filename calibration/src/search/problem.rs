@@ -14,6 +14,7 @@ use faer::{Accum, Mat, MatRef, Par};
 
 use super::folds::Folds;
 use super::products::{add_products, mirrored, picked};
+use super::reach::Reach;
 
 /// Share of a column's sum of squares that must be left by those before it (the declared ones, for a candidate) for it to
 /// count.
@@ -65,6 +66,8 @@ pub struct Problem {
     grams: Vec<Mat<f64>>,
     /// T with U = J·T, p × u.
     right: Mat<f64>,
+    /// What candidates do at the data's poses and further out, if somebody said so.
+    reach: Option<Reach>,
     /// UᵀZ and Uᵀr, u × (K + 1): what the declared columns took of each candidate column and of the residual.
     absorbed: Mat<f64>,
 }
@@ -155,10 +158,40 @@ impl Problem {
             .collect();
         let blocks = blocks.iter().map(|block| block.start + u..block.end + u).collect();
 
-        let mut problem =
-            Self { rows, declared: u, blocks, visible, lengths, folds, grams: Vec::new(), right, absorbed };
+        let mut problem = Self {
+            rows,
+            declared: u,
+            blocks,
+            visible,
+            lengths,
+            folds,
+            grams: Vec::new(),
+            right,
+            absorbed,
+            reach: None,
+        };
         problem.form_grams();
         Ok(problem)
+    }
+
+    /// The same with what its candidates do at the data's poses and further out.
+    #[must_use]
+    pub fn with_reach(self, reach: Reach) -> Self {
+        Self { reach: Some(reach), ..self }
+    }
+
+    /// The same with its rows in other folds.
+    #[must_use]
+    pub fn with_folds(&self, folds: Folds) -> Self {
+        let mut other = Self { folds, ..self.clone() };
+        other.form_grams();
+        other
+    }
+
+    /// What its candidates do at the data's poses and further out, if somebody said so.
+    #[must_use]
+    pub fn reach(&self) -> Option<&Reach> {
+        self.reach.as_ref()
     }
 
     /// The Gram matrix of each fold's rows.

@@ -92,6 +92,11 @@ impl<'a> Portion<'a> {
         column
     }
 
+    /// Whether the last fit gave a component any weight.
+    pub fn counts(&self, component: usize) -> bool {
+        self.root_weight[component] > 0.0
+    }
+
     /// Declared combinations, the columns of each effect, and the residual, whitened.
     pub fn whitened(&self) -> Mat<f64> {
         let declared = (0..self.columns.declared.ncols()).map(|j| self.columns.declared.col_as_slice(j));

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 
 use super::flips::{Chance, Signs};
 use super::problem::{Problem, VISIBLE};
+use super::standardised::{Standardised, is_needed};
 use super::sweep::Sweep;
 use super::tail::Tails;
 
@@ -130,6 +131,10 @@ impl<'a> Left<'a> {
         left.known_scores = signs.scores(left.known.as_ref(), &left.flipped);
         let total: f64 = left.flipped.iter().map(|e| e * e).sum();
         left.rss = vec![total; signs.flips()];
+        if is_needed(signs.buckets(), left.basis.ncols()) {
+            left.rss = vec![left.residual.iter().map(|e| e * e).sum(); signs.flips()];
+            return left;
+        }
         let sums = signs.flip(signs.scores(left.basis.as_ref(), &left.flipped).as_ref());
         for column in sums.col_iter() {
             left.rss.iter_mut().zip(column.iter()).for_each(|(r, s)| *r -= s * s);
@@ -172,6 +177,9 @@ impl<'a> Left<'a> {
                 let tails = Tails::new(sheet.blocks.iter().map(ExactSizeIterator::len), df);
                 let scores = self.signs.scores(sheet.columns.as_ref(), &self.flipped);
                 let known = &self.known_scores;
+                let own = self.known.subcols(0, q);
+                let standardised = is_needed(self.signs.buckets(), self.basis.ncols())
+                    .then(|| Standardised::new(self.signs, self.basis.as_ref(), &self.residual));
                 let mut chance = Chance::new(self.signs.flips());
                 let mut found = Vec::new();
                 for block in &sheet.blocks {
@@ -183,10 +191,22 @@ impl<'a> Left<'a> {
                     let whitener = sweep.whitener(&seen);
                     let coefficients =
                         Mat::from_fn(base.len(), seen.len(), |i, j| sweep.entry(base[i], seen[j]));
-                    let own = Mat::from_fn(scores.nrows(), seen.len(), |g, j| scores[(g, seen[j] - q)]);
-                    let base_scores = Mat::from_fn(known.nrows(), base.len(), |g, j| known[(g, base[j])]);
-                    let effective = (own - base_scores * coefficients) * &whitener;
-                    chance.add(self.signs.flip(effective.as_ref()).as_ref());
+                    if let Some(standardised) = &standardised {
+                        let mut columns =
+                            Mat::from_fn(rows, seen.len(), |i, j| sheet.columns[(i, seen[j] - q)]);
+                        let taken = Mat::from_fn(q, seen.len(), |i, j| {
+                            if base.contains(&i) { sweep.entry(i, seen[j]) } else { 0.0 }
+                        });
+                        columns -= own * taken;
+                        let orthonormal = columns * &whitener;
+                        chance.add_gains(orthonormal.ncols(), &standardised.gains(orthonormal.as_ref()));
+                    } else {
+                        let scores =
+                            Mat::from_fn(scores.nrows(), seen.len(), |g, j| scores[(g, seen[j] - q)]);
+                        let base_scores = Mat::from_fn(known.nrows(), base.len(), |g, j| known[(g, base[j])]);
+                        let effective = (scores - base_scores * coefficients) * &whitener;
+                        chance.add(self.signs.flip(effective.as_ref()).as_ref());
+                    }
                     let (gain, rank) = sweep.gain(&seen, residual);
                     found.push((tails.ln_p(rank, gain, sweep.entry(residual, residual)), rank));
                 }

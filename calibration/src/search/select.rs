@@ -6,12 +6,17 @@ use faer::linalg::solvers::Solve;
 
 use super::classes::Class;
 use super::flips::{Family, Signs, familywise};
+use super::guards::Guards;
 use super::problem::Problem;
+use super::standardised::is_needed;
 use super::sweep::Sweep;
 use super::tail::Tails;
 
 /// ln of a Bonferroni p below which the flips are not asked.
 const BEYOND_FLIPS: f64 = -25.0;
+
+/// Passing classes, the likeliest first, that are asked whether they hold on held-out folds and within the guards.
+const ASKED: usize = 8;
 
 /// How a search decides.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,13 +27,13 @@ pub struct Options {
     pub flips: usize,
     /// Seed of the flips.
     pub seed: u64,
-    /// Effects accepted at most.
+    /// Effects accepted at most; reaching it is told ([`Selection::ended`]).
     pub most: usize,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { false_alarm: 0.05, flips: 999, seed: 1, most: 10 }
+        Self { false_alarm: 0.05, flips: 999, seed: 1, most: 20 }
     }
 }
 
@@ -48,8 +53,23 @@ pub struct Selection {
     pub accepted: Vec<Accepted>,
     /// The smallest familywise p of all that was left out at the end.
     pub remaining_p: f64,
+    /// Why the search took no more.
+    pub ended: Ended,
     /// The training rows' Gram matrix with the declared columns and the accepted effects swept.
     pub state: State,
+}
+
+/// Why a search took no more effects.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Ended {
+    /// Nothing that is left passes the test.
+    NothingPasses,
+    /// What passes gains nothing on held-out folds.
+    NothingGains,
+    /// What passes and gains would be large and cancel over the data, or far larger further out: the classes refused.
+    Refused(Vec<usize>),
+    /// The largest number of effects is reached, and more would pass.
+    MostReached,
 }
 
 /// A regression on the declared columns and some classes, over some folds.
@@ -173,36 +193,44 @@ pub fn select(
     let folds: Vec<usize> = (0..problem.folds()).filter(|&fold| chosen(fold)).collect();
 
     let mut state = State::declared(problem, chosen);
+    let guards = Guards {
+        projected: state.sweep.clone(),
+        blocks: &blocks,
+        declared: problem.declared(),
+        residual: problem.residual(),
+        reach: problem.reach(),
+    };
     let mut accepted: Vec<Accepted> = Vec::new();
     for known in start {
         state.add(&blocks[known.class]);
         accepted.push(known.clone());
     }
-    let search = Search { problem, blocks: &blocks, folds: &folds };
+    let search = Search { problem, blocks: &blocks, folds: &folds, guards };
     let mut dropped = search.drop_idle(&mut state, &mut accepted, options, None);
-    let mut remaining_p = 1.0;
-    while accepted.len() < options.most {
+    let (remaining_p, ended) = loop {
         let mut tests = search.test(&state, &accepted, &rows, &signs);
         // What was dropped once does not come back, here or by a swap: every turn of this loop accepts one more or
         // shortens the list of candidates, so it ends.
         tests.retain(|test| !dropped.contains(&test.class));
-        remaining_p = tests.iter().map(|test| test.p_value).fold(1.0, f64::min);
-        let mut passing: Vec<&Test> =
-            tests.iter().filter(|test| test.p_value <= options.false_alarm).collect();
-        passing.sort_by(|a, b| b.criterion.total_cmp(&a.criterion).then(a.class.cmp(&b.class)));
-        let before = search.held_out(&state.base);
-        let best = passing.into_iter().take(3).find(|test| {
-            let with: Vec<usize> = state.base.iter().chain(&blocks[test.class]).copied().collect();
-            search.held_out(&with) < before
-        });
-        let Some(best) = best else { break };
-        state.add(&blocks[best.class]);
-        accepted.push(Accepted { class: best.class, p_value: best.p_value });
+        let remaining_p = tests.iter().map(|test| test.p_value).fold(1.0, f64::min);
+        if remaining_p > options.false_alarm {
+            break (remaining_p, Ended::NothingPasses);
+        }
+        if accepted.len() >= options.most {
+            break (remaining_p, Ended::MostReached);
+        }
+        match search.best(&state, &accepted, tests, options) {
+            Err(ended) => break (remaining_p, ended),
+            Ok(best) => {
+                state.add(&blocks[best.class]);
+                accepted.push(best);
+            }
+        }
         search.swap(&mut state, &mut accepted, &dropped);
         let newest = accepted.last().map(|a| a.class);
         dropped.extend(search.drop_idle(&mut state, &mut accepted, options, newest));
-    }
-    Selection { accepted, remaining_p, state }
+    };
+    Selection { accepted, remaining_p, ended, state }
 }
 
 /// The test of one class against the present state.
@@ -223,9 +251,37 @@ struct Search<'a> {
     problem: &'a Problem,
     blocks: &'a [Vec<usize>],
     folds: &'a [usize],
+    guards: Guards<'a>,
 }
 
 impl Search<'_> {
+    /// The likeliest class that passes, gains on held-out folds and is within the guards.
+    fn best(
+        &self,
+        state: &State,
+        accepted: &[Accepted],
+        tests: Vec<Test>,
+        options: &Options,
+    ) -> Result<Accepted, Ended> {
+        let mut passing: Vec<Test> =
+            tests.into_iter().filter(|test| test.p_value <= options.false_alarm).collect();
+        passing.sort_by(|a, b| b.criterion.total_cmp(&a.criterion).then(a.class.cmp(&b.class)));
+        let before = self.held_out(&state.base);
+        let mut refused = Vec::new();
+        for test in passing.into_iter().take(ASKED) {
+            let with: Vec<usize> = state.base.iter().chain(&self.blocks[test.class]).copied().collect();
+            if self.held_out(&with) >= before {
+                continue;
+            }
+            let classes: Vec<usize> = accepted.iter().map(|a| a.class).chain([test.class]).collect();
+            if self.guards.hold(&classes) {
+                return Ok(Accepted { class: test.class, p_value: test.p_value });
+            }
+            refused.push(test.class);
+        }
+        Err(if refused.is_empty() { Ended::NothingGains } else { Ended::Refused(refused) })
+    }
+
     /// Tests every class that is not in yet.
     fn test(&self, state: &State, accepted: &[Accepted], rows: &Mat<f64>, signs: &Signs) -> Vec<Test> {
         let open: Vec<usize> =
@@ -234,8 +290,10 @@ impl Search<'_> {
         let tails = Tails::new(gains.iter().map(|&(_, rank)| rank), state.df());
         let tested: Vec<Vec<usize>> = open.iter().map(|&c| self.blocks[c].clone()).collect();
         let best = gains.iter().map(|&(gain, rank)| tails.ln_p(rank, gain, state.rss())).fold(0.0, f64::min);
-        // Far beyond what the flips could resolve, their number alone bounds the p.
-        let sure = best + (open.len() as f64).ln() < BEYOND_FLIPS;
+        // Far beyond what the flips could resolve, their number alone bounds the p; not where groups are few, since the
+        // table knows nothing of them.
+        let resolved = !is_needed(signs.buckets(), state.base.len());
+        let sure = resolved && best + (open.len() as f64).ln() < BEYOND_FLIPS;
         let family = Family {
             rows: rows.as_ref(),
             sweep: &state.sweep,
@@ -283,22 +341,25 @@ impl Search<'_> {
                 let own = accepted[at].class;
                 state.remove_among(own, accepted.iter().map(|a| a.class), self.blocks);
                 let (gain, rank) = state.gain(&self.blocks[own]);
-                let mut best = (state.criterion(gain, rank), own);
-                for class in 0..self.blocks.len() {
-                    if accepted.iter().any(|a| a.class == class) || dropped.contains(&class) {
-                        continue;
-                    }
-                    let (gain, other) = state.gain(&self.blocks[class]);
-                    if other > 0 && other <= rank.max(1) {
+                let present = state.criterion(gain, rank);
+                let mut better: Vec<(f64, usize)> = (0..self.blocks.len())
+                    .filter(|class| accepted.iter().all(|a| a.class != *class) && !dropped.contains(class))
+                    .filter_map(|class| {
+                        let (gain, other) = state.gain(&self.blocks[class]);
                         let criterion = state.criterion(gain, other);
-                        if criterion > best.0 + 1e-9 {
-                            best = (criterion, class);
-                        }
-                    }
-                }
-                state.add(&self.blocks[best.1]);
-                changed |= best.1 != own;
-                accepted[at].class = best.1;
+                        let gains = other > 0 && other <= rank.max(1) && criterion > present + 1e-9;
+                        gains.then_some((criterion, class))
+                    })
+                    .collect();
+                better.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+                let with = |class: usize| -> Vec<usize> {
+                    accepted.iter().map(|a| if a.class == own { class } else { a.class }).collect()
+                };
+                let best = better.into_iter().map(|(_, class)| class).take(ASKED);
+                let best = best.into_iter().find(|&class| self.guards.hold(&with(class))).unwrap_or(own);
+                state.add(&self.blocks[best]);
+                changed |= best != own;
+                accepted[at].class = best;
             }
             if !changed {
                 break;

@@ -43,6 +43,8 @@ impl Study {
         inputs.extend(self.implied(chain).iter().filter_map(|(name, _)| chain.find_symbol(name)));
         let harmonics = &self.search.harmonics;
         mistakes.take(within(harmonics.span(), "harmonics", *harmonics.get_ref(), 0..=MOST_HARMONICS));
+        let most = &self.search.most;
+        mistakes.take(within(most.span(), "most", *most.get_ref(), 1..=1000));
         let lines =
             mistakes.take(every(self.search.lines.iter().map(|(name, lines)| encoder(chain, name, lines))));
         let own = mistakes.take(every(self.effect.iter().map(|written| own_effect(chain, written))));
@@ -52,8 +54,10 @@ impl Study {
         };
         let only = self.search.effects.iter().map(|name| name.get_ref().clone()).collect();
         let harmonics = u32::try_from(*harmonics.get_ref()).unwrap_or(u32::MAX);
+        let most = usize::try_from(*most.get_ref()).unwrap_or(usize::MAX);
+        let (functions, sequence) = (self.search.functions, self.search.sequence);
         let search =
-            Search { false_alarm, inputs, sequence: self.search.sequence, harmonics, lines, own, only };
+            Search { false_alarm, most, functions, inputs, sequence, harmonics, lines, own, only };
         if let Some(observables) = observables {
             self.check_names(chain, observables, &search)?;
         }

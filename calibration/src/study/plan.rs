@@ -74,6 +74,10 @@ pub struct SourcePlan {
 pub struct Search {
     /// The share of false alarms that is accepted.
     pub false_alarm: f64,
+    /// Effects that are accepted at most.
+    pub most: usize,
+    /// Whether functions that no family spells out are taken up as effects.
+    pub functions: bool,
     /// Side quantities that effects may use.
     pub inputs: Vec<SymbolId>,
     /// Whether rows are in order of acquisition, so that direction of motion and drift may be used.

@@ -179,6 +179,8 @@ impl Default for FitTable {
 #[serde(deny_unknown_fields, default)]
 pub(super) struct SearchTable {
     pub false_alarm: Spanned<f64>,
+    pub most: Spanned<u64>,
+    pub functions: bool,
     pub inputs: Vec<Spanned<String>>,
     pub sequence: bool,
     pub harmonics: Spanned<u64>,
@@ -190,6 +192,8 @@ impl Default for SearchTable {
     fn default() -> Self {
         Self {
             false_alarm: Spanned::new(0..0, 0.05),
+            most: Spanned::new(0..0, 20),
+            functions: false,
             inputs: Vec::new(),
             sequence: false,
             harmonics: Spanned::new(0..0, 8),

@@ -42,8 +42,11 @@ fn every_family_has_members() {
         .replace("of telescope;\n", "of telescope;\n    observe mark: point(0, range, 0) of telescope;\n");
     let mut directions = Asked::of(&text, "target", "direction", inverse);
     directions.observables.push(directions.plan.chain.find_observable("mark").unwrap());
-    let found = [points.catalogue(), directions.catalogue()].concat();
-    for family in FAMILIES {
+    // Levers that change with the joints behind: an arm.
+    let arm = Asked::of(ARM, "tip", "point", "");
+    let found = [points.catalogue(), directions.catalogue(), arm.catalogue()].concat();
+    // Shapes are taken up in the course of a calibration.
+    for family in FAMILIES.iter().filter(|family| family.name != "shape") {
         assert!(found.iter().any(|effect| effect.family == family.name), "{} has no member", family.name);
     }
     for name in [
@@ -60,6 +63,38 @@ fn every_family_has_members() {
         "radial motion of the azimuth axis, 8 per turn backward",
     ] {
         assert!(found.iter().any(|effect| effect.name == name), "{name}");
+    }
+}
+
+const ARM: &str = "chain Arm {
+    const base_ry: angle = 0;
+    body base on ground { position: Ry(base_ry); }
+    body upper on base { motion: Ry(shoulder); motion_error: Ry(dshoulder); }
+    body forearm on upper { position: Tx(0.5); motion: Ry(elbow); motion_error: Ry(delbow); }
+    body hand on forearm { position: Tx(0.4); position_error: Tx(dx); }
+    observe tip: point(0.1, 0, 0) of hand;
+}";
+
+/// The lever of a weight is how far out it stands, level: by plain trigonometry. A base of unknown tilt counts as upright.
+#[test]
+fn compliance_follows_the_lever_of_each_weight() {
+    let asked = Asked::of(ARM, "tip", "point", "");
+    let (catalogue, chain) = (asked.catalogue(), &asked.plan.chain);
+    let [shoulder, elbow] = ["shoulder", "elbow"].map(|name| chain.find_symbol(name).unwrap().index());
+    let torque = |name: &str, s: f64, e: f64| {
+        let effect = catalogue.iter().find(|effect| effect.name == name).unwrap();
+        let mut values = chain.nominal_values();
+        (values[shoulder], values[elbow]) = (s, e);
+        effect.functions[0].amount.eval(&values)
+    };
+    for (s, e) in [(0.3_f64, -1.1_f64), (2.0, 0.4), (-0.7, 2.9)] {
+        let of = |joint: &str, body: &str| {
+            torque(&format!("compliance of {joint} under the weight of {body}"), s, e)
+        };
+        approx::assert_relative_eq!(of("shoulder", "forearm"), 0.5 * s.cos(), epsilon = 1e-12);
+        let level = 0.5 * s.cos() + 0.4 * (s + e).cos();
+        approx::assert_relative_eq!(of("shoulder", "hand"), level, epsilon = 1e-12);
+        approx::assert_relative_eq!(of("elbow", "hand"), 0.4 * (s + e).cos(), epsilon = 1e-12);
     }
 }
 

@@ -8,5 +8,5 @@ mod few;
 mod instruments;
 mod left_out;
 mod mistaken;
-mod offered;
 mod simulated;
+mod taken_up;

@@ -9,8 +9,10 @@
 mod design;
 mod linear;
 mod noise;
+mod outside;
 mod page;
 mod rate;
+mod real;
 mod whole;
 
 use std::time::Instant;
@@ -28,9 +30,12 @@ const PARTS: &[Part] = &[
     ("two", |runs| linear::two_effects(2 * runs)),
     ("outliers", whole::outliers),
     ("local", whole::local_defect),
+    ("outside", outside::outside),
     ("poses", whole::next_poses),
     ("time", |_| linear::time(9)),
     ("calibrate", |_| whole::time(3)),
+    ("telescopes", |_| real::telescopes()),
+    ("arm", |_| real::arm()),
 ];
 
 fn main() -> Result<(), Failure> {

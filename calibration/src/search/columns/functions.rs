@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use model_core::SymbolId;
 use model_core::algebra::{Poly, Wave};
+use model_core::{Chain, SymbolId};
 
 use crate::data::Observations;
 
 /// Evaluates functions of joints and inputs over the rows of some observations.
 pub(crate) struct Functions<'a> {
+    chain: &'a Chain,
     observations: &'a Observations,
     /// Of every symbol, for those without readings.
     values: &'a [f64],
@@ -16,8 +17,8 @@ pub(crate) struct Functions<'a> {
 }
 
 impl<'a> Functions<'a> {
-    pub(crate) fn new(observations: &'a Observations, values: &'a [f64]) -> Self {
-        Self { observations, values, waves: BTreeMap::new() }
+    pub(crate) fn new(chain: &'a Chain, observations: &'a Observations, values: &'a [f64]) -> Self {
+        Self { chain, observations, values, waves: BTreeMap::new() }
     }
 
     /// The function's value at each row; `None` if a symbol has neither readings nor a value.
@@ -47,6 +48,16 @@ impl<'a> Functions<'a> {
     }
 
     fn reading(&self, symbol: SymbolId) -> Option<Vec<f64>> {
+        if let Some(ramp) = self.chain.ramp(symbol) {
+            let of = self.observations.column(ramp.of)?;
+            let mut values = self.values.to_vec();
+            values.resize(values.len().max(self.chain.symbols.len()), 0.0);
+            let value = |&reading: &f64| {
+                values[ramp.of.index()] = reading;
+                ramp.value(&values)
+            };
+            return Some(of.iter().map(value).collect());
+        }
         match self.observations.column(symbol) {
             Some(readings) => Some(readings.to_vec()),
             None => self.values.get(symbol.index()).map(|&value| vec![value; self.observations.rows()]),

@@ -162,7 +162,7 @@ impl Columns {
         observations: &Observations,
         values: &[f64],
     ) -> (Vec<Vec<Vec<f64>>>, Seen) {
-        let mut readings = Functions::new(observations, values);
+        let mut readings = Functions::new(chain, observations, values);
         let mut seen = Seen::of_probes(&self.places, &self.probes);
         let mut columns = Vec::with_capacity(effects.len());
         for effect in effects {

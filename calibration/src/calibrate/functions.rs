@@ -1,0 +1,99 @@
+//! Functions taken up: what the library found in place of effects, or beside them, becomes an effect itself, and the rounds
+//! go on with it. Nothing is left for the user to paste.
+
+use std::cell::OnceCell;
+
+use super::fitted::Fitted;
+use super::round::Round;
+use super::rounds::rounds;
+use super::{CalibrateError, Found, Loop, Request};
+use crate::candidate::{Effect, Function};
+use crate::effects::SHAPE;
+use crate::fit::Outcome;
+use crate::search::library::{AsGood, Taken, contest};
+use crate::study::Plan;
+
+/// Functions that one calibration takes up at most.
+pub(super) const MOST: usize = 4;
+
+/// What the rounds end with once the library has spoken.
+pub(super) struct Settled<'a> {
+    pub whole: Loop<'a>,
+    pub round: Round<'a>,
+    /// Functions that explain the data about as well as accepted effects.
+    pub as_good: Vec<AsGood>,
+}
+
+/// Lets the library compete with the last round until it has nothing to add; `plans` is where studies with such effects live.
+pub(super) fn settled<'a>(
+    whole: &Loop<'a>,
+    plans: &'a [OnceCell<Plan>],
+    round: Round<'a>,
+) -> Result<Settled<'a>, CalibrateError> {
+    let mut settled = Settled { whole: whole.clone(), round, as_good: Vec::new() };
+    // A study that allows certain effects alone allows no others.
+    let search = &whole.request.plan.search;
+    if !search.functions || !search.only.is_empty() {
+        return Ok(settled);
+    }
+    for place in plans {
+        let contest = contest(&settled.whole, &settled.round)?;
+        settled.as_good = contest.as_good;
+        let Some(taken) = contest.taken else { break };
+        let Some((plan, name)) = with_function(settled.whole.request.plan, &taken) else { break };
+        let plan = place.get_or_init(|| plan);
+        let last = &settled.whole;
+        let request = Request { plan, ..last.request };
+        let next = Loop { tell: last.tell, ..Loop::new(request, last.setting.observables, last.held)? };
+        let numbered = |effect: usize| {
+            let Effect { name, place, .. } = &last.catalogue[effect];
+            next.catalogue.iter().position(|other| (&other.name, &other.place) == (name, place))
+        };
+        let mut found: Vec<Found> = taken
+            .kept
+            .iter()
+            .filter_map(|&kept| {
+                let Found { effect, p_value, alike } = &settled.round.fitted.found[kept];
+                let alike = alike.iter().filter_map(|&effect| numbered(effect)).collect();
+                Some(Found { effect: numbered(*effect)?, p_value: *p_value, alike })
+            })
+            .collect();
+        let Some(own) = next.catalogue.iter().position(|effect| effect.name == name) else { break };
+        found.push(Found { effect: own, p_value: taken.p_value, alike: vec![own] });
+        let fitted = Fitted::with(&next, found, &settled.round.fitted)?;
+        if matches!(fitted.fit.outcome, Outcome::NotConverged { .. }) {
+            break;
+        }
+        let round = rounds(&next, Round::at(&next, fitted)?)?;
+        settled = Settled { whole: next, round, as_good: Vec::new() };
+    }
+    Ok(settled)
+}
+
+/// The study with a function as an effect of its own, and the effect's name; `None` where the chain has no room for it.
+fn with_function(plan: &Plan, taken: &Taken) -> Option<(Plan, String)> {
+    let mut plan = plan.clone();
+    let amounts = taken.shape.amounts(&mut plan.chain, taken.driver)?;
+    plan.fit.start.resize(plan.chain.symbols.len(), 0.0);
+    let driver = plan.chain.symbol(taken.driver);
+    let body = &plan.chain.body(taken.place.body).name;
+    let (kind, freedom) = (taken.shape.kind(), taken.place.freedom);
+    let name =
+        format!("{} of {} in {body} {}", taken.shape.words(driver.quantity), driver.name, freedom.words());
+    let stem = format!("{}_{}_{body}", kind.stem(), driver.name);
+    let several = amounts.len() > 1;
+    let functions = amounts.into_iter().enumerate().map(|(number, amount)| {
+        let number = if several { format!("_{}", number + 1) } else { String::new() };
+        Function::new(amount, format!("{stem}{number}"))
+    });
+    let effect = Effect {
+        family: SHAPE,
+        name: name.clone(),
+        place: taken.place,
+        functions: functions.collect(),
+        driver: driver.name.clone(),
+        form: kind.words(),
+    };
+    plan.search.own.push(effect);
+    Some((plan, name))
+}

@@ -1,0 +1,81 @@
+//! Compliance: a joint gives way under the weight of what hangs on it, by a lever that changes with the joints behind it.
+
+use model_core::algebra::Poly;
+use model_core::{Chain, SymbolKind};
+
+use crate::candidate::{Effect, Family, Function, JointAxis, Setting, seen};
+
+pub(super) const FAMILY: Family = Family {
+    name: "compliance",
+    what: "A joint winds up in proportion to the torque that the weight of one body behind it exerts about its axis. The lever \
+           follows from the chain: where the body stands, seen from the joint, across the plumb line.",
+    causes: "Gears, belts, shafts and torque sensors of an arm are elastic: what the motor's encoder reads is not where the \
+             link is.",
+    looks: "Sag that is largest with the arm stretched out level, and changes sign where it reaches over to the other side; \
+            one number for all poses, unlike a sine of the joint.",
+    check: "Hang a known mass on the hand: the effect of the last body grows in proportion.",
+    effects,
+};
+
+/// Torques of more terms than this are no formula that a declaration should hold.
+const MOST_TERMS: usize = 64;
+
+fn effects(setting: &Setting<'_>) -> Vec<Effect> {
+    let upright = upright(setting.chain);
+    let setting = &Setting { chain: &upright, ..*setting };
+    let mut effects: Vec<Effect> = Vec::new();
+    for joint in setting.turning() {
+        for torque in torques(setting, &joint) {
+            // Bodies whose origins coincide pull alike.
+            if effects.iter().all(|other| {
+                other.place != torque.place || other.functions[0].amount != torque.functions[0].amount
+            }) {
+                effects.push(torque);
+            }
+        }
+    }
+    effects
+}
+
+/// The chain without the constants that are declared to be zero: they stand for what only the data tell, such as where a base
+/// stands and how far it is from upright.
+fn upright(chain: &Chain) -> Chain {
+    let nothing = |id| {
+        let symbol = chain.symbol(id);
+        symbol.kind == SymbolKind::Constant && symbol.value == Some(0.0)
+    };
+    let mut upright = chain.clone();
+    for factor in upright.bodies.iter_mut().flat_map(|body| &mut body.factors) {
+        factor.amount = factor.amount.graded_part(nothing, 0);
+    }
+    upright
+}
+
+/// The torque about a joint's axis by a unit weight at the origin of each body behind it: the component along the axis of the
+/// cross product of the origin's position and gravity, per metre.
+fn torques(setting: &Setting<'_>, joint: &JointAxis) -> Vec<Effect> {
+    let place = joint.place();
+    let name = setting.name(joint.symbol);
+    let Some(gravity) = seen::from_ground(setting, &setting.chain.gravity, place) else { return Vec::new() };
+    let (a, b) = seen::others(joint.freedom.axis);
+    let (a, b) = (a.index(), b.index());
+    let behind = setting.bodies().into_iter().filter(|&body| setting.chain.path(body).contains(&joint.body));
+    behind
+        .filter_map(|body| {
+            let origin = seen::origin(setting, body, place)?;
+            let torque: Poly = &(&origin[a] * &gravity[b]) - &(&origin[b] * &gravity[a]);
+            if torque.as_constant().is_some() || torque.len() > MOST_TERMS {
+                return None;
+            }
+            let of = setting.body_name(body);
+            Some(Effect {
+                family: FAMILY.name,
+                name: format!("compliance of {name} under the weight of {of}"),
+                place,
+                functions: vec![Function::new(torque, format!("compliance_{name}_{of}"))],
+                driver: "gravity".to_owned(),
+                form: "torque of a weight".to_owned(),
+            })
+        })
+        .collect()
+}

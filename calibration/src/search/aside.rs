@@ -1,0 +1,156 @@
+//! Rows set aside: whether they share a stretch of a joint or an input, by permutations.
+//!
+//! Gross outliers lie anywhere. Rows that a robust fit sets aside on one side of a pier, or at one end of a joint, are what
+//! the declaration lacks.
+
+use model_core::SymbolId;
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+
+use crate::data::Observations;
+
+/// Rows set aside below which they cannot share anything.
+const FEWEST: usize = 4;
+
+/// Stretches start and end at so many even shares of the rows.
+const CUTS: usize = 24;
+
+/// Permutations, and the chance of as much in any reading from which on it is told.
+const PERMUTATIONS: usize = 999;
+const CHANCE: f64 = 0.01;
+
+/// What rows set aside share.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Shared {
+    pub reading: SymbolId,
+    /// Between these readings, SI.
+    pub from: f64,
+    pub to: f64,
+    /// Rows set aside there, and all rows there.
+    pub rows: [usize; 2],
+}
+
+/// Rows in the order of one reading, and where stretches of it may start and end.
+struct Sorted {
+    reading: SymbolId,
+    order: Vec<usize>,
+    /// Positions in the order, equal readings never apart.
+    cuts: Vec<usize>,
+}
+
+/// The stretch of a reading in which far more rows were set aside than elsewhere, if chance does not explain it.
+pub(crate) fn shared(observations: &Observations, aside: &[usize], seed: u64) -> Option<Shared> {
+    let rows = observations.rows();
+    if aside.len() < FEWEST || 2 * aside.len() > rows {
+        return None;
+    }
+    let sorted: Vec<Sorted> = (observations.columns.iter())
+        .map(|(reading, values)| {
+            let mut order: Vec<usize> = (0..rows).collect();
+            order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
+            let value = |at: usize| values[order[at]];
+            let mut cuts: Vec<usize> = (0..=CUTS)
+                .map(|i| i * rows / CUTS)
+                .map(|cut| {
+                    (0..cut)
+                        .rev()
+                        .take_while(|&at| cut < rows && value(at) == value(cut))
+                        .last()
+                        .unwrap_or(cut)
+                })
+                .collect();
+            cuts.dedup();
+            Sorted { reading: *reading, order, cuts }
+        })
+        .collect();
+    let mut is_aside = vec![false; rows];
+    aside.iter().for_each(|&row| is_aside[row] = true);
+    let best = |is_aside: &[bool]| -> Option<(f64, usize, usize, usize)> {
+        let each = sorted.iter().enumerate().filter_map(|(number, sorted)| {
+            most_crowded(sorted, is_aside, aside.len()).map(|(score, from, to)| (score, number, from, to))
+        });
+        each.max_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    let (score, number, from, to) = best(&is_aside)?;
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut as_crowded = 0_usize;
+    for _ in 0..PERMUTATIONS {
+        for i in (1..rows).rev() {
+            is_aside.swap(i, random.random_range(0..=i));
+        }
+        as_crowded += usize::from(best(&is_aside).is_some_and(|(other, ..)| other >= score));
+    }
+    if (1 + as_crowded) as f64 / (1 + PERMUTATIONS) as f64 > CHANCE {
+        return None;
+    }
+    let Sorted { reading, order, .. } = &sorted[number];
+    let values = observations.column(*reading)?;
+    let own = &order[from..to];
+    let there = own.iter().filter(|row| aside.contains(row)).count();
+    Some(Shared {
+        reading: *reading,
+        from: values[own[0]],
+        to: values[own[own.len() - 1]],
+        rows: [there, own.len()],
+    })
+}
+
+/// The stretch with the largest excess of rows set aside, in standard deviations of the hypergeometric distribution.
+fn most_crowded(sorted: &Sorted, is_aside: &[bool], aside: usize) -> Option<(f64, usize, usize)> {
+    let rows = sorted.order.len() as f64;
+    let mut before = Vec::with_capacity(sorted.cuts.len());
+    let (mut count, mut at) = (0_usize, 0);
+    for &cut in &sorted.cuts {
+        count += sorted.order[at..cut].iter().filter(|&&row| is_aside[row]).count();
+        at = cut;
+        before.push(count);
+    }
+    let share = aside as f64 / rows;
+    let mut best: Option<(f64, usize, usize)> = None;
+    for i in 0..sorted.cuts.len() {
+        for j in i + 1..sorted.cuts.len() {
+            let size = (sorted.cuts[j] - sorted.cuts[i]) as f64;
+            let variance = size * share * (1.0 - share) * (rows - size) / (rows - 1.0);
+            if variance <= 0.0 {
+                continue;
+            }
+            let score = ((before[j] - before[i]) as f64 - size * share) / variance.sqrt();
+            if best.is_none_or(|(most, ..)| score > most) {
+                best = Some((score, sorted.cuts[i], sorted.cuts[j]));
+            }
+        }
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn readings(columns: Vec<Vec<f64>>) -> Observations {
+        let rows = columns[0].len();
+        let columns = (0..).map(SymbolId).zip(columns).collect();
+        Observations { columns, measured: vec![[0.0; 3]; rows], ..Observations::default() }
+    }
+
+    #[test]
+    fn rows_on_one_side_share_it_and_scattered_ones_share_nothing() {
+        let joint: Vec<f64> = (0..600).map(|row| f64::from(row) * 0.618 % 1.0).collect();
+        let side: Vec<f64> = (0..600).map(|row| if row % 5 == 0 { -1.0 } else { 1.0 }).collect();
+        let observations = readings(vec![joint.clone(), side.clone()]);
+        let on_one_side: Vec<usize> = (0..600).filter(|row| row % 25 == 0).collect();
+        let found = shared(&observations, &on_one_side, 1);
+        assert!(found.is_some_and(|found| found.reading == SymbolId(1) && found.to == -1.0), "{found:?}");
+        let at_one_end: Vec<usize> = (0..600).filter(|&row| joint[row] > 0.93).step_by(2).collect();
+        let found = shared(&observations, &at_one_end, 1);
+        assert!(found.is_some_and(|found| found.reading == SymbolId(0) && found.from > 0.8), "{found:?}");
+        let mut false_alarms = 0;
+        for seed in 0..40 {
+            let mut random = ChaCha8Rng::seed_from_u64(seed);
+            let anywhere: Vec<usize> = (0..20).map(|i| 30 * i + random.random_range(0..30)).collect();
+            false_alarms += usize::from(shared(&observations, &anywhere, seed).is_some());
+        }
+        assert!(false_alarms <= 3, "{false_alarms}");
+    }
+}

@@ -1,0 +1,128 @@
+//! Elsewhere: the search repeated without an outer third of a joint's range, and judged there.
+//!
+//! Random folds lie among the rows that were searched; effects that cancel each other do well on them. Poses where nothing
+//! was measured are what an amended chain is for.
+
+use faer::Mat;
+use model_core::{SymbolId, SymbolKind};
+use rayon::prelude::*;
+
+use super::folds::Folds;
+use super::problem::Problem;
+use super::select::{State, select};
+use crate::calibrate::Loop;
+use crate::calibrate::round::Round;
+
+/// Different readings below which a joint has no regions.
+const DIFFERENT: usize = 12;
+
+/// Rows to learn from and rows to judge on at least, for each of the declared errors.
+const ROWS_FOR_AN_ERROR: usize = 3;
+
+/// What the search makes of an outer third of a joint's range without having seen it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Elsewhere {
+    /// Over every row there.
+    pub all: Judged,
+    /// Over the rows that the last fit gives any weight.
+    pub kept: Judged,
+}
+
+/// Sums of squares of the lengths of residuals, SI, over some rows.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Judged {
+    pub rows: usize,
+    /// By the declared errors alone.
+    pub before: f64,
+    /// With the effects that the search found without those rows.
+    pub after: f64,
+}
+
+impl std::ops::Add for Judged {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        let (before, after) = (self.before + other.before, self.after + other.after);
+        Self { rows: self.rows + other.rows, before, after }
+    }
+}
+
+impl Judged {
+    /// Root mean squares before and after; none without rows.
+    pub fn rms(self) -> Option<[f64; 2]> {
+        (self.rows > 0).then(|| [self.before, self.after].map(|sum| (sum / self.rows as f64).sqrt()))
+    }
+}
+
+/// Both outer thirds of each joint's range where the data are enough for it.
+pub(crate) fn elsewhere(whole: &Loop<'_>, last: &Round<'_>) -> Vec<Elsewhere> {
+    let observations = &*last.posed.rows.observations;
+    let mut thirds = Vec::new();
+    for (id, readings) in &observations.columns {
+        if whole.setting.chain.symbol(*id).kind != SymbolKind::Joint {
+            continue;
+        }
+        let mut sorted = readings.clone();
+        sorted.sort_by(f64::total_cmp);
+        let third = sorted.len() / 3;
+        if third == 0 {
+            continue;
+        }
+        let ends = [(sorted[0], sorted[third - 1]), (sorted[sorted.len() - third], sorted[sorted.len() - 1])];
+        sorted.dedup();
+        if sorted.len() >= DIFFERENT {
+            thirds.extend(ends.map(|(from, to)| (*id, from, to)));
+        }
+    }
+    thirds.into_par_iter().filter_map(|(joint, from, to)| judged(whole, last, joint, from, to)).collect()
+}
+
+fn judged(whole: &Loop<'_>, last: &Round<'_>, joint: SymbolId, from: f64, to: f64) -> Option<Elsewhere> {
+    let rows = &last.posed.rows;
+    let problem = last.posed.of_rows();
+    let readings = rows.observations.column(joint)?;
+    let held: Vec<bool> =
+        rows.columns.row.iter().map(|&row| (from..=to).contains(&readings[row as usize])).collect();
+    let least = ROWS_FOR_AN_ERROR * problem.declared();
+    let out = held.iter().filter(|&&held| held).count();
+    if out < least || held.len() - out < least {
+        return None;
+    }
+    let folds = Folds::held_out(problem.group_of_row(), &held);
+    let mut seen = problem.with_folds(folds);
+    if let Some(reach) = problem.reach() {
+        seen = seen.with_reach(reach.without(|component| !held[component], joint));
+    }
+    let before = State::declared(&seen, |fold| fold == 0).coefficients();
+    let after = select(&seen, &last.classes, &[], |fold| fold == 0, &whole.options).state.coefficients();
+    let (before, after) = (left(last, &seen, &before), left(last, &seen, &after));
+    let mut by_row = std::collections::BTreeMap::new();
+    for component in (0..held.len()).filter(|&component| held[component]) {
+        let (judged, kept) = by_row.entry(rows.columns.row[component]).or_insert((Judged::default(), true));
+        judged.rows = 1;
+        judged.before += before[component] * before[component];
+        judged.after += after[component] * after[component];
+        *kept &= rows.counts(component);
+    }
+    let sum = |some: &dyn Fn(bool) -> bool| {
+        let own = by_row.values().filter(|(_, kept)| some(*kept)).map(|(judged, _)| *judged);
+        own.fold(Judged::default(), std::ops::Add::add)
+    };
+    Some(Elsewhere { all: sum(&|_| true), kept: sum(&|kept| kept) })
+}
+
+/// What coefficients leave of every component, before whitening.
+fn left(last: &Round<'_>, problem: &Problem, coefficients: &[(usize, f64)]) -> Vec<f64> {
+    let rows = &last.posed.rows;
+    let declared: faer::MatRef<'_, f64> = Mat::as_ref(&rows.columns.declared);
+    let own: Vec<&Vec<f64>> = rows.effects.iter().flatten().collect();
+    let mut left = problem.before_whitening(problem.residual(), declared, &rows.without);
+    for &(column, coefficient) in coefficients {
+        let values = match column.checked_sub(problem.declared()) {
+            None => problem.basis_before_whitening(column, declared),
+            Some(candidate) => problem.before_whitening(column, declared, own[candidate]),
+        };
+        left.iter_mut().zip(&values).for_each(|(left, value)| *left -= coefficient * value);
+    }
+    left
+}

@@ -1,0 +1,318 @@
+//! The library: functions of one reading at one place that no family spells out, against the effects that were accepted.
+//!
+//! Three harmonics and a scale can follow any step; that does not make them four effects. At every place where an effect was
+//! accepted, and at the most conspicuous place of what is left, each shape of the library competes with what the catalogue
+//! made of it; the simplest that the data ask for is taken up, as sums of ramps.
+//!
+//! Source of the price of a choice: J. Chen and Z. Chen, "Extended Bayesian information criteria for model selection with
+//! large model spaces", Biometrika 95 (2008).
+
+mod grid;
+mod refine;
+mod shape;
+
+use faer::Mat;
+use model_core::{Chain, SymbolId};
+use rayon::prelude::*;
+
+use self::grid::Driver;
+use self::refine::{Gain, orthonormal, refined};
+pub(crate) use self::shape::{Shape, ShapeKind};
+use super::contest::{Contender, Price, contender, criterion};
+use super::flips::{Signs, familywise};
+use super::rivals::AS_GOOD;
+use super::scan::{Left, Sheet};
+use super::select::class_columns;
+use crate::calibrate::round::Round;
+use crate::calibrate::{CalibrateError, Loop, declared};
+use crate::candidate::{Function, Place};
+use crate::effects::{SmoothPlace, smooth};
+use crate::search::columns::Columns;
+
+/// Penalised log-likelihood by which a function must beat what the catalogue made of it: six units of Schwarz's criterion.
+const BETTER: f64 = 3.0;
+
+/// The share of the accepted false alarms that functions at places without an accepted effect may have.
+const OWN_SHARE: f64 = 0.2;
+
+/// Shapes of one place whose thresholds are refined.
+const REFINED: usize = 4;
+
+/// Bumps of the scan, by their widths as shares of the range, steps, and the stretches of its tables.
+const SCANNED_BUMPS: [(usize, f64); 2] = [(60, 0.012), (24, 0.05)];
+const SCANNED_STEPS: usize = 24;
+const SCANNED_TABLES: [usize; 2] = [6, 12];
+
+/// A function that explains the data better than what the catalogue made of it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Taken {
+    pub place: Place,
+    pub driver: SymbolId,
+    pub shape: Shape,
+    /// Accepted effects that stay beside it, by their number among those found.
+    pub kept: Vec<usize>,
+    /// Familywise p of the scan of what was left, or the smallest of the effects that it replaces.
+    pub p_value: f64,
+}
+
+/// A function that explains the data about as well as accepted effects that it would replace.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct AsGood {
+    pub place: Place,
+    pub driver: SymbolId,
+    pub kind: ShapeKind,
+    /// The accepted effects that it would replace, by their number among those found.
+    pub instead_of: Vec<usize>,
+}
+
+impl AsGood {
+    /// `step of alpha in mirror about z`
+    pub fn name(&self, chain: &Chain) -> String {
+        let (driver, body) = (&chain.symbol(self.driver).name, &chain.body(self.place.body).name);
+        format!("{} of {driver} in {body} {}", self.kind.words(), self.place.freedom.words())
+    }
+}
+
+/// What the library made of a fit.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Contest {
+    pub taken: Option<Taken>,
+    pub as_good: Vec<AsGood>,
+}
+
+/// A shape at a place, judged.
+struct Judged {
+    smooth: SmoothPlace,
+    shape: Shape,
+    fitted: Contender,
+}
+
+/// Lets the library compete with what was accepted, and with nothing at the most conspicuous place of what is left.
+pub(crate) fn contest(whole: &Loop<'_>, last: &Round<'_>) -> Result<Contest, CalibrateError> {
+    let observations = &*last.posed.rows.observations;
+    let chain = &last.fitted.chain;
+    let mut smooths = smooth(&whole.setting);
+    let mut symbols: Vec<SymbolId> = smooths.iter().map(|smooth| smooth.driver).collect();
+    symbols.sort_unstable();
+    symbols.dedup();
+    let drivers: Vec<Driver> =
+        symbols.into_iter().filter_map(|id| Driver::of(whole.setting.chain, observations, id)).collect();
+    let mut places: Vec<Place> = smooths.iter().map(|smooth| smooth.place).collect();
+    places.sort_unstable();
+    places.dedup();
+    let columns = Columns::at(chain, observations, declared(whole), &last.fitted.fit.values, &places)?;
+    smooths.retain(|smooth| {
+        columns.probe(smooth.place).is_some() && drivers.iter().any(|driver| driver.symbol == smooth.driver)
+    });
+
+    let blocks = class_columns(last.posed.of_rows(), &last.classes);
+    // Accepted effects that these data still show, by their number among those found.
+    let shown: Vec<(usize, usize)> = (last.fitted.found.iter().enumerate())
+        .filter_map(|(number, found)| Some((number, last.class_of(found.effect)?)))
+        .collect();
+    let accepted: Vec<Vec<usize>> = shown.iter().map(|&(_, class)| blocks[class].clone()).collect();
+    let signs =
+        Signs::scattered(last.posed.of_rows().group_of_row(), whole.options.flips, whole.options.seed);
+    let left = Left::new(last.posed.of_rows(), &accepted, &signs);
+    let library = Library { whole, last, columns, drivers, left, shown };
+
+    let scan = library.left.scan(smooths.len(), |number| library.sheet_of_scan(smooths[number]));
+    let p_value = familywise(scan.best, &scan.chance);
+    let alarm = p_value <= OWN_SHARE * whole.options.false_alarm;
+    let most = if alarm { scan.most_conspicuous().map(|number| smooths[number]) } else { None };
+
+    let places = smooths.len();
+    smooths.retain(|smooth| Some(*smooth) == most || library.accepted_at(*smooth).next().is_some());
+    let judged: Vec<Judged> =
+        smooths.par_iter().flat_map_iter(|smooth| library.judged(*smooth, places)).collect();
+    Ok(library.verdict(judged, most, p_value))
+}
+
+/// Everything that the contest reads.
+struct Library<'a, 'b> {
+    whole: &'a Loop<'b>,
+    last: &'a Round<'b>,
+    columns: Columns,
+    drivers: Vec<Driver>,
+    left: Left<'a>,
+    /// Accepted effects that the data show, in the order of the left's: number among those found, and class.
+    shown: Vec<(usize, usize)>,
+}
+
+impl Library<'_, '_> {
+    /// The effects accepted at a place with a driver, as the left numbers them.
+    fn accepted_at(&self, smooth: SmoothPlace) -> impl Iterator<Item = usize> + '_ {
+        let found = self.shown.iter().map(|&(number, _)| self.last.fitted.found[number].effect);
+        found.enumerate().filter_map(move |(at, effect)| {
+            let effect = &self.whole.catalogue[effect];
+            let moved = effect.places().contains(&smooth.place);
+            let driven = effect
+                .functions
+                .iter()
+                .flat_map(Function::amounts)
+                .any(|amount| self.last.fitted.chain.symbols_in(amount).contains(&smooth.driver));
+            (moved && driven).then_some(at)
+        })
+    }
+
+    fn driver(&self, smooth: SmoothPlace) -> Option<(&Driver, &[f64])> {
+        let driver = self.drivers.iter().find(|driver| driver.symbol == smooth.driver)?;
+        Some((driver, self.last.posed.rows.observations.column(smooth.driver)?))
+    }
+
+    /// A shape's columns at a place: the place's derivative times the function's values, whitened.
+    fn sheet(&self, place: Place, values: &Mat<f64>) -> Mat<f64> {
+        let rows = &self.last.posed.rows;
+        let mut sheet = Mat::zeros(rows.columns.row.len(), values.ncols());
+        let Some(probe) = self.columns.probe(place) else { return sheet };
+        let serial = self.last.fitted.fit.noise.serial.is_some();
+        // Without memory whitening is a factor to each component.
+        let probe = if serial { probe.to_vec() } else { rows.whiten(probe) };
+        for j in 0..values.ncols() {
+            let (column, values) = (sheet.col_as_slice_mut(j), values.col_as_slice(j));
+            for ((target, p), &row) in column.iter_mut().zip(&probe).zip(&rows.columns.row) {
+                *target = p * values[row as usize];
+            }
+            if serial {
+                let whitened = rows.whiten(column);
+                column.copy_from_slice(&whitened);
+            }
+        }
+        sheet
+    }
+
+    /// The scan's functions at a place: steps and bumps one by one, tables as blocks.
+    fn sheet_of_scan(&self, smooth: SmoothPlace) -> Sheet {
+        let empty = || Sheet { columns: Mat::zeros(self.left.residual.len(), 0), blocks: Vec::new() };
+        let Some((driver, readings)) = self.driver(smooth) else { return empty() };
+        let at = |share: f64| driver.low + share * driver.span();
+        let middle = |i: usize, of: usize| at((i as f64 + 0.5) / of as f64);
+        let mut shapes: Vec<Shape> =
+            (0..SCANNED_STEPS).map(|i| Shape::Step { at: middle(i, SCANNED_STEPS) }).collect();
+        for (of, width) in SCANNED_BUMPS {
+            let width = width * driver.span();
+            shapes.extend((0..of).map(|i| Shape::Bump { middle: middle(i, of), width }));
+        }
+        shapes.extend(
+            SCANNED_TABLES
+                .into_iter()
+                .filter(|&stretches| driver.resolves(stretches))
+                .map(|of| Shape::Table { knots: (0..=of).map(|i| at(i as f64 / of as f64)).collect() }),
+        );
+        let parts: Vec<Mat<f64>> = shapes.iter().map(|shape| shape.values(readings)).collect();
+        let mut blocks = Vec::new();
+        let mut values = Mat::zeros(readings.len(), parts.iter().map(Mat::ncols).sum());
+        let mut start = 0;
+        for part in &parts {
+            values.subcols_mut(start, part.ncols()).copy_from(part);
+            blocks.push(start..start + part.ncols());
+            start += part.ncols();
+        }
+        Sheet { columns: self.sheet(smooth.place, &values), blocks }
+    }
+
+    /// The shapes at one place of so many: the best of one function each, refined, and those of several.
+    fn judged(&self, smooth: SmoothPlace, places: usize) -> Vec<Judged> {
+        let Some((driver, readings)) = self.driver(smooth) else { return Vec::new() };
+        let column = |shape: &Shape| self.sheet(smooth.place, &shape.values(readings));
+        // What the effects accepted elsewhere leave: those here are what the shape would replace.
+        let here: Vec<usize> = self.accepted_at(smooth).collect();
+        let beside = (0..self.left.declared).chain(
+            self.left
+                .accepted
+                .iter()
+                .enumerate()
+                .filter(|(at, _)| !here.contains(at))
+                .flat_map(|(_, own)| own.clone()),
+        );
+        let rows = self.left.residual.len();
+        let basis = orthonormal(beside.map(|column| self.left.known.col_as_slice(column).to_vec()), rows);
+        let last = self.left.known.ncols() - 1;
+        let mut residual = self.left.known.col_as_slice(last).to_vec();
+        for own in basis.col_iter() {
+            let share: f64 = own.iter().zip(&residual).map(|(a, b)| a * b).sum();
+            residual.iter_mut().zip(own.iter()).for_each(|(r, u)| *r -= share * u);
+        }
+        let gain = Gain { basis: &basis, residual: &residual };
+
+        let mut starts: Vec<(f64, Shape)> = driver
+            .single()
+            .into_iter()
+            .map(|shape| (gain.of(column(&shape).col_as_slice(0)), shape))
+            .collect();
+        starts.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let mut kinds: Vec<ShapeKind> = Vec::new();
+        starts.retain(|(_, shape)| {
+            let new = kinds.len() < REFINED && !kinds.contains(&shape.kind());
+            if new {
+                kinds.push(shape.kind());
+            }
+            new
+        });
+        let step = driver.span() / 36.0;
+        let single = starts
+            .into_iter()
+            .map(|(_, shape)| refined(shape, driver.span(), step, &gain, column).0.rounded(driver.span()));
+        let several = driver.several().into_iter().map(|shape| shape.rounded(driver.span()));
+        single
+            .chain(several)
+            .map(|shape| {
+                let price = Price {
+                    classes: self.last.classes.len(),
+                    functions: places,
+                    parameters: shape.parameters(),
+                };
+                let fitted = contender(&self.left, column(&shape).as_ref(), price);
+                Judged { smooth, shape, fitted }
+            })
+            .collect()
+    }
+
+    /// The function that is taken up, and those that are about as good as what they would replace.
+    fn verdict(&self, judged: Vec<Judged>, most: Option<SmoothPlace>, p_value: f64) -> Contest {
+        let price = Price { classes: self.last.classes.len(), functions: 1, parameters: 0 };
+        let present = criterion(&self.left, price);
+        let numbers = |of: &[usize]| -> Vec<usize> { of.iter().map(|&at| self.shown[at].0).collect() };
+        let replaced = |judged: &Judged| -> Vec<usize> {
+            (0..self.shown.len()).filter(|at| !judged.fitted.kept.contains(at)).collect()
+        };
+        let mut contest = Contest::default();
+        let mut best: Option<&Judged> = None;
+        for one in &judged {
+            // Where nothing stood before, the scan must have been alarmed.
+            if most != Some(one.smooth) && replaced(one).is_empty() {
+                continue;
+            }
+            let to_beat = best.map_or(present + BETTER, |best| best.fitted.criterion + 1e-6);
+            if one.fitted.criterion > to_beat {
+                best = Some(one);
+            }
+        }
+        if let Some(best) = best {
+            let of_replaced =
+                replaced(best).into_iter().map(|at| self.last.fitted.found[self.shown[at].0].p_value);
+            contest.taken = Some(Taken {
+                place: best.smooth.place,
+                driver: best.smooth.driver,
+                shape: best.shape.clone(),
+                kept: numbers(&best.fitted.kept),
+                p_value: of_replaced.reduce(f64::min).unwrap_or(p_value),
+            });
+        }
+        for one in &judged {
+            let instead_of = numbers(&replaced(one));
+            let kind = one.shape.kind();
+            let known = |other: &AsGood| {
+                (other.place, other.driver, other.kind) == (one.smooth.place, one.smooth.driver, kind)
+            };
+            if !instead_of.is_empty()
+                && one.fitted.criterion >= present - AS_GOOD
+                && !contest.as_good.iter().any(known)
+            {
+                let SmoothPlace { place, driver } = one.smooth;
+                contest.as_good.push(AsGood { place, driver, kind, instead_of });
+            }
+        }
+        contest
+    }
+}

@@ -1,0 +1,99 @@
+//! Thresholds refined: from the grid to where a shape explains most.
+
+use faer::Mat;
+
+use super::shape::Shape;
+
+/// How far thresholds are refined, as a share of the readings' range.
+const FINEST: f64 = 1.0 / 4000.0;
+
+/// What is left of a column's sum of squares below which it is not seen.
+const VISIBLE: f64 = 1e-4;
+
+/// What single columns explain of a residual, after a regression.
+pub(super) struct Gain<'a> {
+    /// Orthonormal columns of the regression.
+    pub basis: &'a Mat<f64>,
+    /// What it leaves.
+    pub residual: &'a [f64],
+}
+
+impl Gain<'_> {
+    /// What a column takes off the sum of squares.
+    pub fn of(&self, column: &[f64]) -> f64 {
+        let dot = |a: &[f64]| a.iter().zip(column).map(|(a, b)| a * b).sum::<f64>();
+        let whole = dot(column);
+        let taken: f64 = (0..self.basis.ncols()).map(|j| dot(self.basis.col_as_slice(j)).powi(2)).sum();
+        let left = whole - taken;
+        if left > VISIBLE * whole { dot(self.residual).powi(2) / left } else { 0.0 }
+    }
+}
+
+/// The shape with its thresholds moved to where it explains most, one after the other at ever smaller steps from `step` on.
+pub(super) fn refined(
+    shape: Shape,
+    span: f64,
+    mut step: f64,
+    gain: &Gain<'_>,
+    column: impl Fn(&Shape) -> Mat<f64>,
+) -> (Shape, f64) {
+    let of = |shape: &Shape| gain.of(column(shape).col_as_slice(0));
+    let mut best = (of(&shape), shape);
+    while step > FINEST * span {
+        let mut moved = false;
+        for at in 0..best.1.parameters() {
+            for sign in [-1.0, 1.0] {
+                let mut to = best.1.thresholds();
+                to[at] += sign * step;
+                let Some(other) = best.1.moved(&to) else { continue };
+                let explains = of(&other);
+                if explains > best.0 {
+                    best = (explains, other);
+                    moved = true;
+                }
+            }
+        }
+        if !moved {
+            step /= 2.0;
+        }
+    }
+    (best.1, best.0)
+}
+
+/// Orthonormal columns that span those given, in their order; those that the ones before leave nothing of are left out.
+pub(super) fn orthonormal(columns: impl Iterator<Item = Vec<f64>>, rows: usize) -> Mat<f64> {
+    let mut found: Vec<Vec<f64>> = Vec::new();
+    for mut column in columns {
+        let whole: f64 = column.iter().map(|v| v * v).sum();
+        for _ in 0..2 {
+            for known in &found {
+                let share: f64 = known.iter().zip(&column).map(|(a, b)| a * b).sum();
+                column.iter_mut().zip(known).for_each(|(c, k)| *c -= share * k);
+            }
+        }
+        let left: f64 = column.iter().map(|v| v * v).sum();
+        if left > 1e-9 * whole && whole > 0.0 {
+            let length = left.sqrt();
+            column.iter_mut().for_each(|v| *v /= length);
+            found.push(column);
+        }
+    }
+    Mat::from_fn(rows, found.len(), |i, j| found[j][i])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_threshold_is_found_between_the_points_of_a_grid() {
+        let readings: Vec<f64> = (0..2000).map(|i| f64::from(i) / 2000.0).collect();
+        let target: Vec<f64> =
+            readings.iter().map(|&x| if x >= 0.6173 { 1.0 } else { 0.0 } - 0.3827).collect();
+        let basis = orthonormal(std::iter::once(vec![1.0; 2000]), 2000);
+        let gain = Gain { basis: &basis, residual: &target };
+        let column = |shape: &Shape| shape.values(&readings);
+        let (shape, _) = refined(Shape::Step { at: 0.6 }, 1.0, 1.0 / 36.0, &gain, column);
+        assert!((shape.thresholds()[0] - 0.6173).abs() < 1e-3, "{shape:?}");
+    }
+}

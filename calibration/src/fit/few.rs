@@ -61,8 +61,8 @@ impl Solver<'_> {
         let sweep = &course.point.sweep;
         let components = sweep.residual.iter().zip(sigma.iter()).zip(&self.layout.row);
         let counts = |row: usize| sweep.defined[row] && aside.get(row) != Some(&true);
-        components.filter(|(_, row)| counts(**row as usize)).fold((0.0, 0.0), |sums, ((value, sigma), _)| {
-            (sums.0 + (value / sigma).powi(2), sums.1 + 1.0)
-        })
+        components
+            .filter(|(_, row)| counts(**row as usize))
+            .fold((0.0, 0.0), |sums, ((value, sigma), _)| (sums.0 + (value / sigma).powi(2), sums.1 + 1.0))
     }
 }

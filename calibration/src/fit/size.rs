@@ -3,10 +3,10 @@
 
 use model_core::{Quantity, SymbolId, SymbolKind};
 
+use super::FitError;
 use super::descent::Course;
 use super::normal::Rest;
 use super::solve::Solver;
-use super::FitError;
 
 /// The size of errors where the data show none of the same kind, rad, m or 1.
 pub const UNSHOWN: f64 = 1e-4;

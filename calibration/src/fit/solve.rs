@@ -199,7 +199,8 @@ impl Solver<'_> {
         let sweep = &course.point.sweep;
         let white: Vec<f64> =
             sweep.residual.iter().zip(sigma.iter()).map(|(residual, sigma)| residual / sigma).collect();
-        let rows = self.layout.norms(&white).zip(self.layout.first.windows(2)).zip(&sweep.defined).enumerate();
+        let rows =
+            self.layout.norms(&white).zip(self.layout.first.windows(2)).zip(&sweep.defined).enumerate();
         rows.map(|(row, ((norm, ends), &defined))| {
             let counts = defined && self.aside.get(row) != Some(&true);
             (norm, if counts { course.weighting.weight(norm, ends[1] - ends[0]) } else { 0.0 })

@@ -167,7 +167,13 @@ impl Streamed {
         Rest::Prior(subspace.strain(&deviation))
     }
 
-    fn result(self, subspace: &Subspace, tally: &Tally, partial: &Partial, converged: bool) -> StreamedResult {
+    fn result(
+        self,
+        subspace: &Subspace,
+        tally: &Tally,
+        partial: &Partial,
+        converged: bool,
+    ) -> StreamedResult {
         let rest = self.rest(subspace);
         let used = subspace.used(partial, &rest);
         let factor = match (self.pass.noise.known(), self.pass.weighting) {

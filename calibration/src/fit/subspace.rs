@@ -117,7 +117,8 @@ impl Subspace {
     #[must_use]
     pub fn smallest(&self, deviation: &[f64]) -> Vec<f64> {
         let strain = self.strain(deviation);
-        let part = |row: usize| strain.iter().enumerate().map(|(at, s)| s * self.axes[(row, at)]).sum::<f64>();
+        let part =
+            |row: usize| strain.iter().enumerate().map(|(at, s)| s * self.axes[(row, at)]).sum::<f64>();
         deviation.iter().enumerate().map(|(row, value)| value - part(row) * self.size[row]).collect()
     }
 

@@ -99,8 +99,7 @@ impl Solver<'_> {
         let level = if known.is_some() { 1.0 } else { self.level(course) };
         let has_statement = known.is_some() || self.states_noise();
         let efficiency = if course.weighting == Weighting::Biweight { robust::EFFICIENCY } else { 1.0 };
-        let stated =
-            has_statement.then(|| Stated::compared(found * efficiency * level, left.max(0.0)));
+        let stated = has_statement.then(|| Stated::compared(found * efficiency * level, left.max(0.0)));
         let agrees = stated.is_some_and(|stated| stated.agreement == Agreement::Agrees);
         let mut root = subspace.covariance_root(&full, rest);
         let found_noise = self.shared(course, weight, &root)?;
@@ -359,7 +358,9 @@ impl Uncertainty {
     /// The variance of a combination of parameters, SI, and its degrees of freedom.
     fn along(&self, parts: &[(usize, f64)]) -> (f64, f64) {
         let through = |matrix: &Mat<f64>| -> Vec<f64> {
-            (0..matrix.ncols()).map(|j| parts.iter().map(|&(at, factor)| factor * matrix[(at, j)]).sum()).collect()
+            (0..matrix.ncols())
+                .map(|j| parts.iter().map(|&(at, factor)| factor * matrix[(at, j)]).sum())
+                .collect()
         };
         let square = |vector: &[f64]| vector.iter().map(|value| value * value).sum::<f64>();
         let form = |matrix: &Mat<f64>, a: &[f64]| {
@@ -370,12 +371,15 @@ impl Uncertainty {
         let a = through(&self.root);
         let (by_data, degrees_of_freedom) = match &self.spread {
             Spread::Unknown => (f64::INFINITY, 0.0),
-            Spread::Even { factor, degrees_of_freedom } => (factor * form(&self.data, &a), *degrees_of_freedom),
+            Spread::Even { factor, degrees_of_freedom } => {
+                (factor * form(&self.data, &a), *degrees_of_freedom)
+            }
             Spread::Pools { factor, pools } => {
                 // Source: F. E. Satterthwaite, Biometrics Bulletin 2 (1946) 110-114.
                 let parts = pools.iter().map(|(gram, own)| (form(gram, &a), own));
-                let (sum, squares) =
-                    parts.fold((0.0, 0.0), |(sum, squares), (part, own)| (sum + part, squares + part * part / own));
+                let (sum, squares) = parts.fold((0.0, 0.0), |(sum, squares), (part, own)| {
+                    (sum + part, squares + part * part / own)
+                });
                 (factor * sum, if squares > 0.0 { sum * sum / squares } else { self.left })
             }
             Spread::Groups { factor, clusters } => {

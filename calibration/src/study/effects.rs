@@ -56,8 +56,7 @@ impl Study {
         let harmonics = u32::try_from(*harmonics.get_ref()).unwrap_or(u32::MAX);
         let most = usize::try_from(*most.get_ref()).unwrap_or(usize::MAX);
         let (functions, sequence) = (self.search.functions, self.search.sequence);
-        let search =
-            Search { false_alarm, most, functions, inputs, sequence, harmonics, lines, own, only };
+        let search = Search { false_alarm, most, functions, inputs, sequence, harmonics, lines, own, only };
         if let Some(observables) = observables {
             self.check_names(chain, observables, &search)?;
         }

@@ -274,7 +274,12 @@ impl Study {
         estimate.sort_unstable();
         estimate.dedup();
         let max_iterations = usize::try_from(*iterations.get_ref()).unwrap_or(usize::MAX);
-        let noise = NoiseOptions { sigma: None, stated: None, variance: self.noise.variance, serial: self.noise.serial };
+        let noise = NoiseOptions {
+            sigma: None,
+            stated: None,
+            variance: self.noise.variance,
+            serial: self.noise.serial,
+        };
         Ok(FitOptions { estimate, start, robust: self.fit.robust, noise, max_iterations, sizes: Vec::new() })
     }
 

@@ -17,7 +17,11 @@ fn lidar(rows: usize, errors_rad: f64, seed: u64) -> Simulation {
 fn names(simulation: &Simulation, result: &FitResult) -> Vec<String> {
     let name = |id: &model_core::SymbolId| simulation.chain.symbol(*id).name.clone();
     let text = |(id, ratio): &(model_core::SymbolId, f64)| format!("{ratio}*{}", name(id));
-    result.estimable.iter().map(|one| one.combination.iter().map(text).collect::<Vec<_>>().join(" + ")).collect()
+    result
+        .estimable
+        .iter()
+        .map(|one| one.combination.iter().map(text).collect::<Vec<_>>().join(" + "))
+        .collect()
 }
 
 /// From zero, and from errors of degrees where products show more: the same rank, the same combinations, the same numbers.
@@ -54,7 +58,8 @@ fn coverage(errors_rad: f64, runs: u64) -> Vec<f64> {
     for seed in 0..runs {
         let mut simulation = lidar(300, errors_rad, 100 + seed);
         let observations = simulation.directions("pointing", 2.0 * ARCSEC);
-        let result = fit(&simulation.chain, &observations, &FitOptions::for_chain(&simulation.chain)).unwrap();
+        let result =
+            fit(&simulation.chain, &observations, &FitOptions::for_chain(&simulation.chain)).unwrap();
         hits.resize(result.estimable.len(), 0.0);
         for (hit, one) in hits.iter_mut().zip(&result.estimable) {
             let truth: f64 =

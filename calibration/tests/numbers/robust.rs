@@ -53,7 +53,10 @@ fn points_near_the_truth_stay_near() {
     let s: Vec<f64> = (0..60).map(|row| 2.0 * turn(row, 0.569_840_291) - 1.0).collect();
     let mut points: Vec<[f64; 3]> = q.iter().zip(&s).map(|(&q, &s)| at(q, s)).collect();
     for (row, point) in points.iter_mut().enumerate() {
-        point.iter_mut().enumerate().for_each(|(k, value)| *value += 1e-4 * (turn(row + 7 * k, 0.618_033_99) - 0.5));
+        point
+            .iter_mut()
+            .enumerate()
+            .for_each(|(k, value)| *value += 1e-4 * (turn(row + 7 * k, 0.618_033_99) - 0.5));
         if row % 10 == 4 {
             point[0] += 5.0;
         }

@@ -178,7 +178,12 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut batch = output::Batch::default();
     for (index, (file, beside)) in files.iter().zip(&beside).enumerate() {
         let path = if index == 0 { &arguments.out } else { beside };
-        let read = [Some(&arguments.chain), arguments.values.as_ref(), arguments.sizes.as_ref(), arguments.errors.as_ref()];
+        let read = [
+            Some(&arguments.chain),
+            arguments.values.as_ref(),
+            arguments.sizes.as_ref(),
+            arguments.errors.as_ref(),
+        ];
         output::refuse_to_replace(path, read.into_iter().flatten().map(PathBuf::as_path))?;
         batch.write_text(path, &file.text)?;
     }

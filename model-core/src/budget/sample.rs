@@ -1,5 +1,6 @@
 //! Influences at poses spread evenly over a set of poses, for what only the distribution says: percentiles.
 
+use super::first_order::FirstOrder;
 use super::poses::{Poses, Space};
 use super::probe::Probe;
 use super::{BudgetError, sized};
@@ -19,9 +20,10 @@ pub fn influences_at(
     poses: &Poses,
     count: usize,
 ) -> Result<Vec<Vec<f64>>, BudgetError> {
-    let space = Space::new(chain, observable, poses)?;
-    let probe = Probe::new(chain, observable);
     let errors = sized(chain, sizes);
+    let first_order = FirstOrder::new(chain, observable, &errors)?;
+    let space = Space::new(chain, observable, poses, &first_order)?;
+    let probe = Probe::new(chain, observable);
     let mut values = chain.nominal_values();
     let steps = steps(space.bounds.len());
     let mut found = Vec::with_capacity(count);

@@ -17,6 +17,7 @@ pub fn extended(chain: &Chain) -> Chain {
         name,
         kind: SymbolKind::Constant,
         quantity,
+        meaning: None,
         documentation: String::new(),
         latex,
         value,

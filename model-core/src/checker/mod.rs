@@ -33,6 +33,7 @@ use crate::algebra::{AlgebraError, Poly};
 use crate::budget::{self, BudgetError};
 use crate::chain::{Chain, ObservableId};
 use crate::forms::{self, FormError};
+use crate::identify::IdentifyError;
 use crate::print;
 use crate::remainder::DomainError;
 use compare::Columns;
@@ -71,6 +72,9 @@ pub enum CheckError {
     /// In the second face a ramp would be another one.
     #[error("a ramp of {0} has no form in the second face")]
     Ramp(String),
+    /// What data can tell apart has no answer.
+    #[error(transparent)]
+    Identify(#[from] IdentifyError),
     /// A bound has no domain.
     #[error(transparent)]
     Domain(#[from] DomainError),

@@ -60,18 +60,26 @@ fn main() -> Result<(), Failure> {
         ] {
             for declared in [false, true] {
                 let order = if declared { "order declared" } else { "undeclared" };
-                case(&format!("trajectory of 250 rows, {noise:?}, {order}"), runs, declared, None, &|seed| {
-                    measured(250, Poses::Trajectory, noise, ERRORS, seed)
-                })?;
+                case(
+                    &format!("trajectory of 250 rows, {noise:?}, {order}"),
+                    runs,
+                    declared,
+                    None,
+                    &|seed| measured(250, Poses::Trajectory, noise, ERRORS, seed),
+                )?;
             }
         }
     }
     if wanted("sessions") {
         for (sessions, size) in [(6, 1.0), (8, 1.0), (12, 1.0), (30, 1.0), (60, 1.0), (12, 0.0)] {
             let noise = Noise::Sessions(sessions, size);
-            case(&format!("{sessions} sessions of 20 rows, offsets of {size} σ"), runs, true, None, &|seed| {
-                measured(20 * sessions, Poses::Random, noise, ERRORS, seed)
-            })?;
+            case(
+                &format!("{sessions} sessions of 20 rows, offsets of {size} σ"),
+                runs,
+                true,
+                None,
+                &|seed| measured(20 * sessions, Poses::Random, noise, ERRORS, seed),
+            )?;
         }
     }
     if wanted("left-open") {
@@ -79,7 +87,10 @@ fn main() -> Result<(), Failure> {
             [("pointing", 20.0), ("pointing", 100.0), ("pointing", 400.0), ("position", 400.0)]
         {
             let rate = scanner::coverage(observable, errors * ARCSEC, runs / 4)?;
-            println!("| scanner, {observable}, errors of {errors}″, combinations | {rate} | | {} |", runs / 4);
+            println!(
+                "| scanner, {observable}, errors of {errors}″, combinations | {rate} | | {} |",
+                runs / 4
+            );
         }
     }
     Ok(())
@@ -112,7 +123,12 @@ fn case(
     // Six intervals of a run hang together: the interval is that of the runs.
     let held = Rate::of(hits.iter().flatten().copied());
     let by_runs = Rate { hits: (held.share() * runs as f64) as usize, runs };
-    println!("| {words} | {:.3} ± {:.3} | {:.3} | {runs} |", held.share(), by_runs.half_width(), failed.share());
+    println!(
+        "| {words} | {:.3} ± {:.3} | {:.3} | {runs} |",
+        held.share(),
+        by_runs.half_width(),
+        failed.share()
+    );
     Ok(())
 }
 

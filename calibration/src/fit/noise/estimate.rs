@@ -68,7 +68,8 @@ pub fn estimate(
     let stated = stated(options, observations, layout);
     // Weights between none and all are those of a robust fit.
     let robust_weights = weight.iter().any(|&weight| weight > 0.0 && weight < 1.0);
-    let counted = layout.row.iter().filter(|&&row| robust_weights || weight[row as usize] > 0.0).count() as f64;
+    let counted =
+        layout.row.iter().filter(|&&row| robust_weights || weight[row as usize] > 0.0).count() as f64;
     let lost = counted / (counted - used).max(1.0);
     let pools = pools(observations, layout, used);
     let floors = |spread: &[f64]| -> Vec<f64> {

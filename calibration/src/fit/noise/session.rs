@@ -94,8 +94,11 @@ pub fn fit(layout: &Layout, groups: &[u32], values: &[f64], q: &Mat<f64>) -> Opt
     if values.len() <= k + 1 {
         return None;
     }
-    let columns =
-        Mat::from_fn(values.len(), k + 1, |row, column| if column == k { values[row] } else { q[(row, column)] });
+    let columns = Mat::from_fn(
+        values.len(),
+        k + 1,
+        |row, column| if column == k { values[row] } else { q[(row, column)] },
+    );
     let deviance = |offsets: &Offsets| {
         let mut white = columns.clone();
         (0..=k).for_each(|j| offsets.whiten(white.col_as_slice_mut(j)));

@@ -9,7 +9,7 @@ mod verify;
 use std::ops::Range;
 
 use model_core::syntax::declaration::{BodyStatement, Declaration, FactorGroup, Statement};
-use model_core::{BodyId, Chain, Mistakes, Quantity, Role};
+use model_core::{BodyId, Chain, Mistakes, Quantity, Role, Symbol, SymbolKind, names};
 
 /// A factor to add, as a declaration writes it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -62,6 +62,10 @@ pub fn amend(
     inputs: &[NewInput],
 ) -> Result<String, AmendError> {
     let declaration = Declaration::from_text(text)?;
+    let no_name = |symbol: &&Symbol| symbol.kind != SymbolKind::Pi && !names::is_name(&symbol.name);
+    if let Some(symbol) = chain.symbols.iter().find(no_name) {
+        return Err(AmendError::NotAsMeant(format!("`{}` is no name", symbol.name)));
+    }
     let mut insertions: Vec<(usize, Role, String)> = Vec::new();
     for addition in additions {
         let name = &chain.body(addition.body).name;

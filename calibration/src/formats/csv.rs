@@ -5,7 +5,7 @@ use std::io::{self, Read};
 
 use super::error::clipped;
 use super::header::{ColumnName, unique};
-use super::records::{Record, RecordError, Records};
+use super::records::{Line, Record, RecordError, Records};
 use super::{Cell, Cells, Chunk, DataError, Form, Kept, Options, TableReader, Wanted};
 
 /// How much of a file is looked at to see its separator.
@@ -49,7 +49,7 @@ impl<R: Read> Reader<R> {
         if !any || record.cells().all(<[u8]>::is_empty) {
             return Err(DataError::Empty { file: source.to_string() });
         }
-        if record.swallowed().next().is_some() {
+        if !record.lines().is_empty() {
             let why = "a name in the header holds a line break: is a quote not closed?".to_string();
             return Err(DataError::BadLine { file: source.to_string(), line: record.line, why });
         }
@@ -130,7 +130,14 @@ impl<R: Read> Reader<R> {
             let mut numbers = wanted.iter().filter(|want| matches!(want.form, Form::Number(_))).peekable();
             cells.len() == self.header.len() && numbers.peek().is_some() && numbers.all(is_number)
         };
-        let Some((line, _)) = self.record.swallowed().find(|(_, line)| is_row(line)) else { return Ok(()) };
+        let Some((first, others)) = self.record.lines().split_first() else { return Ok(()) };
+        // A line wholly inside quotes, what is inside them of the last, or the last if the first is a row by itself too.
+        let mistaken = |line: &Line| {
+            let inside = line.text.get(..line.inside).unwrap_or_default();
+            is_row(inside) || is_row(&first.text) && is_row(&line.text)
+        };
+        let Some(further) = others.iter().position(mistaken) else { return Ok(()) };
+        let line = self.record.line + 1 + further as u64;
         let why = format!(
             "a quoted cell of this row runs over line {line}, which looks like a row of its own: close the quote \
              on its line, or take it away"
@@ -268,6 +275,7 @@ mod tests {
             message(b"az,name\n1,\"Mars\n2,Moon\n3,Sun\n"),
             message(b"az,name\n1,\"Mars\n2,Moon\"\n3,Sun\n"),
             message(b"az,name\n1,\"Mars\n2,\"Moon\"\n3,Sun\n"),
+            message(b"az,name\n1,\"Mars\n\",\n"),
             message(b"\"az,name\n1,Mars\"\n"),
             message(b"az,name\n1,Mars\n# by hand\n"),
             message(b"az,name\n1,Mars\n#2,Moon\n"),

@@ -1,8 +1,8 @@
 //! Rows of separated values out of bytes: cells, quotes, comments, and the lines that each row stands on.
 //!
 //! A quoted cell may hold line breaks. Where one is opened by mistake it would swallow the rows below, so that a quote that
-//! nothing closes, text behind a closing quote, and a row that is too long are errors; [`Record::swallowed`] gives the
-//! lines inside quotes, for whoever knows what a row looks like.
+//! nothing closes, text behind a closing quote, and a row that is too long are errors; [`Record::lines`] gives the
+//! lines that quotes run over, for whoever knows what a row looks like.
 
 use std::io::{self, BufRead, BufReader, Read};
 
@@ -36,8 +36,17 @@ pub(super) struct Record {
     pub line: u64,
     /// Whether the row begins with `#`, outside quotes.
     pub is_like_a_comment: bool,
-    /// The lines that a quoted cell runs over, without the row's first.
-    swallowed: Vec<Vec<u8>>,
+    /// The lines that quoted cells run over, the row's first among them; none if the row stands on one line.
+    lines: Vec<Line>,
+}
+
+/// One of the lines that a row stands on.
+#[derive(Debug, Clone)]
+pub(super) struct Line {
+    /// As it stands in the file.
+    pub text: Vec<u8>,
+    /// How much of it is inside quotes that were opened on an earlier line.
+    pub inside: usize,
 }
 
 /// Why there is no next row.
@@ -119,7 +128,7 @@ impl<R: Read> Records<R> {
     fn split(&mut self, record: &mut Record) -> Result<(), RecordError> {
         record.bytes.clear();
         record.ends.clear();
-        record.swallowed.clear();
+        record.lines.clear();
         record.line = self.line;
         record.is_like_a_comment = self.text.first() == Some(&b'#');
         let separator = self.separator;
@@ -158,7 +167,14 @@ impl<R: Read> Records<R> {
                     record.bytes.push(b'"');
                     at += 2;
                 }
-                (Some(b'"'), _) => return Ok(at + 1),
+                (Some(b'"'), _) => {
+                    if self.line > opened
+                        && let Some(last) = record.lines.last_mut()
+                    {
+                        last.inside = at;
+                    }
+                    return Ok(at + 1);
+                }
                 (Some(&byte), _) => {
                     record.bytes.push(byte);
                     at += 1;
@@ -166,13 +182,16 @@ impl<R: Read> Records<R> {
                 (None, _) => {
                     let why = "the quote that opens a cell here is never closed: close it, or take it away";
                     record.bytes.extend(self.ended);
+                    if record.lines.is_empty() {
+                        record.lines.push(Line { text: self.text.clone(), inside: 0 });
+                    }
                     if !self.next_line()? {
                         return Err(RecordError::Line { line: opened, why });
                     }
                     if record.bytes.len() + self.text.len() > LONGEST_ROW {
                         return Err(too_long(opened));
                     }
-                    record.swallowed.push(self.text.clone());
+                    record.lines.push(Line { text: self.text.clone(), inside: self.text.len() });
                     at = 0;
                 }
             }
@@ -204,8 +223,8 @@ impl Record {
         (0..self.len()).map(|column| self.get(column))
     }
 
-    /// The lines inside quotes, each with its number.
-    pub fn swallowed(&self) -> impl Iterator<Item = (u64, &[u8])> {
-        (self.line + 1..).zip(self.swallowed.iter().map(Vec::as_slice))
+    /// The lines that quoted cells run over, the row's first among them; none if the row stands on one line.
+    pub fn lines(&self) -> &[Line] {
+        &self.lines
     }
 }

@@ -42,18 +42,18 @@ fn is_missing(error: &Error) -> bool {
     error.message().starts_with("missing field")
 }
 
-/// Takes the innermost entry around a place out of a table, which stands at `of`; returns where the table or list stands that
-/// it was taken out of.
+/// Takes the innermost entry at a place out of a table, which stands at `of`; returns where the table or list stands that it was
+/// taken out of. The place of a table with a header is that of its header alone: every one is looked into.
 fn remove(table: &mut DeTable<'_>, of: Range<usize>, place: &Range<usize>) -> Option<Range<usize>> {
-    let is_around = |(key, value): &(&Spanned<DeString<'_>>, &Spanned<DeValue<'_>>)| {
+    if let Some(inside) = table.iter_mut().find_map(|(_, value)| remove_inside(value, place)) {
+        return Some(inside);
+    }
+    let is_at = |(key, value): &(&Spanned<DeString<'_>>, &Spanned<DeValue<'_>>)| {
         around(&key.span(), place) || around(&value.span(), place)
     };
-    let key = table.iter().find(is_around)?.0.clone();
-    let inside = table.get_mut(&key).and_then(|value| remove_inside(value, place));
-    if inside.is_none() {
-        table.remove(&key);
-    }
-    inside.or(Some(of))
+    let key = table.iter().find(is_at)?.0.clone();
+    table.remove(&key);
+    Some(of)
 }
 
 fn remove_inside(value: &mut Spanned<DeValue<'_>>, place: &Range<usize>) -> Option<Range<usize>> {
@@ -64,13 +64,13 @@ fn remove_inside(value: &mut Spanned<DeValue<'_>>, place: &Range<usize>) -> Opti
     match value.get_mut() {
         DeValue::Table(table) => remove(table, of, place),
         DeValue::Array(list) => {
-            let at = list.iter().position(|entry| around(&entry.span(), place))?;
-            let inside = list.get_mut(at).and_then(|entry| remove_inside(entry, place));
-            if inside.is_none() {
-                let others = list.iter().enumerate().filter(|(other, _)| *other != at);
-                *list = others.map(|(_, entry)| entry.clone()).collect();
+            if let Some(inside) = list.iter_mut().find_map(|entry| remove_inside(entry, place)) {
+                return Some(inside);
             }
-            inside.or(Some(of))
+            let at = list.iter().position(|entry| around(&entry.span(), place))?;
+            let others = list.iter().enumerate().filter(|(other, _)| *other != at);
+            *list = others.map(|(_, entry)| entry.clone()).collect();
+            Some(of)
         }
         _ => None,
     }

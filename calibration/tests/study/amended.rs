@@ -64,7 +64,7 @@ fn however_it_is_written_the_same_is_added() {
     for (from, to) in WAYS {
         let text = PLAIN.replacen(from, to, 1);
         // The brace has moved up.
-        let text = if to.ends_with('}') { text.replacen("\n    }\n", "\n", 1) } else { text };
+        let text = if to.ends_with('}') { text.replacen("; }    }\n", "; }\n", 1) } else { text };
         for text in [text.clone(), text.replace('\n', "\r\n")] {
             let original = Chain::from_text(&text).unwrap();
             let amended = amended(&text, "Rx(tilt)", "Found.", &[input("humidity", "Measured.")]).unwrap();
@@ -95,6 +95,14 @@ fn nothing_is_added_that_was_not_meant() {
     }
     for name in ["mirror-temp", "fn", "temp x", "x; input y", "ambient", "", "x // "] {
         assert!(refused("Rx(tilt)", &[input(name, "Measured.")]), "{name}");
+    }
+    // An input of a chain that no declaration could declare: what it is called would be read as something else.
+    for name in ["mirror-temp", "fn", "temp x"] {
+        let mut chain = Chain::from_text(PLAIN).unwrap();
+        let ambient = chain.find_symbol("ambient").unwrap();
+        chain.symbols[ambient.index()].name = name.to_owned();
+        let added = [addition(&format!("Rx(tilt*{name})"), "Found.")];
+        assert!(matches!(amend(PLAIN, &chain, &added, &[]), Err(AmendError::NotAsMeant(_))), "{name}");
     }
 }
 

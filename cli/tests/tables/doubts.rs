@@ -110,13 +110,13 @@ fn bare_numbers_on_the_command_line_are_cautioned_where_they_are_hardly_si() {
     let far = simulate(&["--noise", "0.1 mm", "--range", "u=0..900"]);
     assert!(done(&far).contains("did you mean \"u=0..900 mm\"?"), "{far}");
     assert_eq!(done(&simulate(&[&slide[..], &["--noise", "1e-5", "--range", "q=-3..3"]].concat())), "");
-    folder.write("e.toml", "du = 1\ndq = 5\nk = 7\n");
+    folder.write("e.toml", "du = 1\ndq = 5\nk = 1e-3\n");
     let errors = done(&words(&folder, COMMANDS[0])).to_owned();
     assert!(
         errors.contains("did you mean du = \"1 mm\"?") && errors.contains("dq = \"5 arcsec\"?"),
         "{errors}"
     );
-    assert_eq!(errors.matches("has no unit").count(), 2, "a plain number has none: {errors}");
+    assert_eq!(errors.matches("has no unit").count(), 2, "a small number is one of SI: {errors}");
 }
 
 #[test]

@@ -92,7 +92,16 @@ proptest! {
         prop_assert_eq!(exact.lines().count(), 61);
         let header = exact.lines().next().unwrap_or_default();
         for name in header.split(',') {
-            prop_assert_eq!(column(&exact, name), column(&last, name), "{}", name);
+            let (exact, last) = (column(&exact, name), column(&last, name));
+            if !name.starts_with("beam") {
+                prop_assert_eq!(exact, last, "{}", name);
+                continue;
+            }
+            // What is simulated is of length one to the last digit.
+            for (exact, last) in exact.iter().zip(&last) {
+                let (exact, last): (f64, f64) = (exact.parse()?, last.parse()?);
+                prop_assert!((exact - last).abs() < 1e-15, "{}: {} and {}", name, exact, last);
+            }
         }
         // The same rows tell the errors that they were made with.
         let noisy = format!("noisy.{}", endings[1]);
@@ -140,7 +149,7 @@ fn a_far_range_is_written_with_its_unit_and_read_without_a_word() {
     let simulate = "simulate named.chain --errors e.toml --poses 20 --noise 0 --seed 1 --range slide=0..90m --range t=0..1";
     let run = words(&folder, &format!("{simulate} --range turn=0..40turn --out far.csv"));
     assert_eq!(done(&run), "");
-    assert!(folder.read("far.csv").starts_with("turn [rad],slide [m],t,"), "{}", folder.read("far.csv"));
+    assert!(folder.read("far.csv").starts_with("t,turn [rad],slide [m],"), "{}", folder.read("far.csv"));
     assert_eq!(
         done(&words(&folder, "eval named.chain --errors e.toml --data far.csv --observable beam --out -")),
         ""

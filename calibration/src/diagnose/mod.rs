@@ -174,7 +174,7 @@ pub(crate) fn diagnose(
         cautions.push(Caution::DeclarationNotFitted { steps });
     }
     cautions.extend(caution::of_noise(&noise, fit.degrees_of_freedom));
-    cautions.extend(caution::of_data(&last.chain, observations, fit));
+    cautions.extend(of_data(&last.chain, observations, fit));
     let remaining = found.remaining.as_ref();
     let alone = found.effects.iter().all(|effect| effect.class.is_empty() && effect.rivals.is_empty());
     let verdict = verdict::verdict(Evidence {

@@ -9,7 +9,7 @@ use crate::data::Observations;
 
 /// Columns at most, and components for each.
 const MOST: usize = 60;
-const COMPONENTS: usize = 3;
+const COMPONENTS: usize = 6;
 
 /// The highest harmonic of a joint.
 const HARMONICS: u32 = 4;

@@ -174,7 +174,7 @@ fn place(text: &str, body: &BodyStatement, role: Role) -> (usize, String) {
 fn input_place(text: &str, declaration: &Declaration) -> (usize, String) {
     let inputs = declaration.statements.iter().filter_map(|statement| match statement {
         Statement::Input(input) => {
-            let last = input.quantity.as_ref().unwrap_or(&input.name);
+            let last = input.meaning.as_ref().unwrap_or(&input.name);
             Some((after_semicolon(text, last.span().byte_range().end), input.name.span().byte_range().start))
         }
         _ => None,

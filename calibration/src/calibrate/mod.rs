@@ -21,7 +21,7 @@ use model_core::{Chain, Mistakes};
 use crate::amend::{AmendError, amend, with_quantities_of};
 use crate::data::Observations;
 use crate::diagnose::{Confirmed, Diagnosis, Trace, diagnose, trace};
-use crate::fit::{FitError, FitResult};
+use crate::fit::{FitError, FitResult, Outcome};
 use crate::report::amendment;
 use crate::search::{ProblemError, nested};
 use crate::study::Plan;
@@ -115,7 +115,7 @@ pub fn calibrate_telling(
     let whole = Loop { tell, ..Loop::new(request, &observables, HELD)? };
 
     let first = Fitted::first(&whole)?;
-    if !first.fit.outcome.is_usable() {
+    if !matches!(first.fit.outcome, Outcome::Converged { .. }) {
         // What a failed fit leaves is no residual to search.
         return unusable(&whole, first);
     }

@@ -25,8 +25,7 @@ fn fewest(round: &Round<'_>) -> usize {
 /// The last round, or another one in its stead that explains the rows which it set aside.
 pub(super) fn reconsidered<'a>(whole: &Loop<'a>, last: Round<'a>) -> Result<Round<'a>, CalibrateError> {
     let plan = whole.request.plan;
-    let usable = last.fitted.fit.outcome.is_usable();
-    if !plan.fit.robust || !usable || doubts(&last) < fewest(&last) {
+    if !plan.fit.robust || doubts(&last) < fewest(&last) {
         return Ok(last);
     }
     let mut trusting = plan.clone();
@@ -34,7 +33,11 @@ pub(super) fn reconsidered<'a>(whole: &Loop<'a>, last: Round<'a>) -> Result<Roun
     trusting.fit.noise.variance = false;
     let request = Request { plan: &trusting, ..whole.request };
     let trusting = Loop { request, ..whole.clone() };
-    let found = rounds(&trusting, Round::at(&trusting, Fitted::first(&trusting)?)?)?.fitted;
+    let first = Fitted::first(&trusting)?;
+    if !first.fit.outcome.is_usable() {
+        return Ok(last);
+    }
+    let found = rounds(&trusting, Round::at(&trusting, first)?)?.fitted;
     if names(&found.found) == names(&last.fitted.found) {
         return Ok(last);
     }

@@ -155,11 +155,17 @@ impl Solver<'_> {
         let counted: Vec<f64> = weight.iter().map(|weight| f64::from(u8::from(*weight > 0.0))).collect();
         let (q, e) = self.coordinates(course, &counted, root)?;
         let sigma = course.noise.sigma_without_memory();
-        let beside = trend::beside(self.chain, self.observations, &self.layout, &sigma, weight, &q);
+        let (beside, complete) = trend::beside(self.chain, self.observations, &self.layout, &sigma, weight, &q);
         if options.serial && (declared || self.groups().is_none()) {
             let earns = serial::EARNS[usize::from(!declared)];
             if let Some(memory) = serial::fit(&self.layout, &e, &q, &beside, earns) {
-                return Ok(Shared::Memory(memory, !declared));
+                // Where a missing effect could look alike, only the uncertainties know of a memory that nobody declared.
+                let order = match (declared, complete) {
+                    (true, _) => Order::Declared,
+                    (false, true) => Order::OfFile,
+                    (false, false) => Order::Doubtful,
+                };
+                return Ok(Shared::Memory(memory, order));
             }
         }
         let groups = &self.observations.groups;
@@ -255,10 +261,21 @@ impl Solver<'_> {
 pub(super) enum Shared {
     /// Nothing was found.
     Nothing,
-    /// A memory of the row before, and whether that is so though no order is declared.
-    Memory(Memory, bool),
+    /// A memory of the row before, in some order.
+    Memory(Memory, Order),
     /// An offset of their group, and the standard deviation of the rows' own noise in units of what the fit assumed.
     Offsets(Offsets, f64),
+}
+
+/// The order in which rows remember.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Order {
+    /// The declared order of acquisition.
+    Declared,
+    /// That of the file, which nobody declared.
+    OfFile,
+    /// The same, of data that cannot tell memory from an effect that the chain lacks.
+    Doubtful,
 }
 
 impl Shared {
@@ -266,15 +283,19 @@ impl Shared {
     pub fn in_noise(self, mut noise: Noise) -> Noise {
         let own = match &self {
             Self::Nothing => return noise,
+            Self::Memory(_, Order::Doubtful) => {
+                noise.undeclared_order = true;
+                return noise;
+            }
             Self::Memory(memory, _) => memory.innovation,
             Self::Offsets(_, own) => *own,
         };
         noise.sigma.iter_mut().for_each(|sigma| *sigma *= own);
         match self {
             Self::Nothing => {}
-            Self::Memory(memory, undeclared) => {
+            Self::Memory(memory, order) => {
                 noise.floor.iter_mut().for_each(|floor| *floor *= own * memory.serial.gain());
-                (noise.serial, noise.undeclared_order) = (Some(memory.serial), undeclared);
+                (noise.serial, noise.undeclared_order) = (Some(memory.serial), order == Order::OfFile);
             }
             Self::Offsets(offsets, _) => {
                 noise.floor.iter_mut().for_each(|floor| *floor *= own);

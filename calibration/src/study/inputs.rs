@@ -37,7 +37,7 @@ impl Study {
         }))?;
         for (name, derived) in self.implied(&chain) {
             if chain.find_symbol(&name).is_none() {
-                chain.symbols.push(input(&name, derived.quantity(), Some(meaning(&derived))));
+                chain.symbols.push(input(&name, derived.quantity(), meaning(&derived)));
             }
         }
         Ok(chain)
@@ -81,11 +81,14 @@ impl Study {
 }
 
 /// What an input is that follows from the rows.
-fn meaning(derived: &Derived) -> Meaning {
+fn meaning(derived: &Derived) -> Option<Meaning> {
     match derived {
-        Derived::Direction { .. } => Meaning::Direction,
-        Derived::Rate { .. } => Meaning::Rate,
-        Derived::Elapsed { .. } => Meaning::Time,
+        Derived::Direction { .. } => Some(Meaning::Direction),
+        Derived::Rate { .. } => Some(Meaning::Rate),
+        Derived::Elapsed { .. } => Some(Meaning::Time),
+        Derived::Face { .. } => Some(Meaning::Side),
+        Derived::Phase { .. } => Some(Meaning::Angle),
+        Derived::Turns { .. } | Derived::Is { .. } | Derived::Inverse { .. } => None,
     }
 }
 

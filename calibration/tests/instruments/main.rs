@@ -129,10 +129,10 @@ fn ur10_geometry_halves_the_error() {
     let before = fitted(&plan, &observations, &nominal);
     assert_rms("nominal", before.rms * 1e3, 1.084_598_600);
     let after = fitted(&plan, &observations, &plain(&plan));
-    // Where the combinations that hardly show are left differs, and with it the last digit.
+    // Combinations that hardly show are left where they were there, and are as small as can be here: that moves the sixth digit.
     assert_eq!(after.rank, 23);
     let calibrated_mm = after.rms * 1e3;
-    assert!((calibrated_mm / 0.441_868_528 - 1.0).abs() < 1e-6, "{calibrated_mm}");
+    assert!((calibrated_mm / 0.441_868_528 - 1.0).abs() < 1e-5, "{calibrated_mm}");
     // Axes 2, 3 and 4 are parallel: of their shifts along the axis the data see the sum alone.
     let parallel = plan.chain.find_symbol("dd3").unwrap();
     let at = after.parameters.iter().position(|&id| id == parallel).unwrap();

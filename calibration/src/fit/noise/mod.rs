@@ -62,7 +62,8 @@ pub struct Noise {
     pub variance: Option<VarianceModel>,
     /// The serial correlation, if one was found.
     pub serial: Option<Serial>,
-    /// Whether that was found though no order of acquisition is declared: in the order of the file.
+    /// Whether rows were found to remember those before in the order of the file, though none is declared; without
+    /// [serial](Self::serial) where that may as well be an effect that the chain lacks.
     pub undeclared_order: bool,
     /// What the rows of a declared group share, if they share anything.
     pub offsets: Option<Offsets>,

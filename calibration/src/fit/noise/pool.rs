@@ -1,7 +1,7 @@
 //! Kinds of component that share one standard deviation because alone each has too few degrees of freedom to know its own.
 
 use super::Layout;
-use crate::data::Observations;
+use crate::data::{Observations, SiUnit};
 
 /// A standard deviation of its own needs so many degrees of freedom.
 const ENOUGH: f64 = 30.0;
@@ -14,7 +14,7 @@ pub fn pools(observations: &Observations, layout: &Layout, used: f64) -> Vec<usi
     let scarce = |components: usize| (components as f64) * left < ENOUGH;
     let mut pools: Vec<usize> = Vec::with_capacity(layout.kinds);
     // Of each unit the pool that its scarce series share.
-    let mut shared: Vec<(&str, usize)> = Vec::new();
+    let mut shared: Vec<(SiUnit, usize)> = Vec::new();
     let mut next = 0;
     for series in &observations.series {
         let (rows, kinds, unit) = (series.rows.len(), series.measure.components(), series.measure.unit());

@@ -18,7 +18,8 @@ const HARMONICS: u32 = 4;
 const NEW: f64 = 1e-4;
 
 /// An orthonormal basis that begins with `q` (n × k, orthonormal but for weights) and goes on with smooth functions of the
-/// readings, each divided by the standard deviation of its component; rows that count for nothing are zero.
+/// readings, each divided by the standard deviation of its component; rows that count for nothing are zero. And whether these
+/// data have room for all of them.
 #[must_use]
 pub fn beside(
     chain: &Chain,
@@ -27,7 +28,7 @@ pub fn beside(
     sigma: &[f64],
     weight: &[f64],
     q: &Mat<f64>,
-) -> Mat<f64> {
+) -> (Mat<f64>, bool) {
     let n = layout.components();
     let most = MOST.min(n / COMPONENTS);
     let mut basis: Vec<Vec<f64>> = Vec::new();
@@ -69,6 +70,7 @@ pub fn beside(
             }
         }
     }
+    let mut complete = true;
     'all: for function in &functions {
         for kind in 0..layout.kinds {
             let at = |at: usize| {
@@ -77,11 +79,12 @@ pub fn beside(
                 if own { function(row) / sigma[at] } else { 0.0 }
             };
             if take((0..n).map(at).collect()) >= most.max(q.ncols()) {
+                complete = false;
                 break 'all;
             }
         }
     }
-    Mat::from_fn(n, basis.len(), |row, column| basis[column][row])
+    (Mat::from_fn(n, basis.len(), |row, column| basis[column][row]), complete)
 }
 
 fn norm(column: &[f64]) -> f64 {

@@ -112,7 +112,7 @@ static double time_ours(int form, bool rust)
     const double *const columns[3] = {joints[0].data(), joints[1].data(), joints[2].data()};
     double *const results[6] = {out[0].data(), out[1].data(), out[2].data(),
                                 out[3].data(), out[4].data(), out[5].data()};
-    mobile_lidar_joints_rows in = {columns[0], columns[1], columns[2]};
+    mobile_lidar_joint_rows in = {columns[0], columns[1], columns[2]};
     const mobile_lidar_observed_rows observed = {{results[0], results[1], results[2]},
                                                  {results[3], results[4], results[5]}};
     const double start = processor_ns();

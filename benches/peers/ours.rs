@@ -26,11 +26,11 @@ pub unsafe extern "C" fn rust_prepare(errors: *const f64) {
     PREPARED.get_or_init(|| (FirstOrderError::prepare(&errors), ExactError::prepare(&errors)));
 }
 
-unsafe fn columns<'a>(rows: usize, joints: *const *const f64) -> Columns<'a> {
+unsafe fn columns<'a>(rows: usize, joints: *const *const f64) -> JointRows<'a> {
     // SAFETY: the callers' promise.
     unsafe {
         let column = |i| from_raw_parts(*joints.add(i), rows);
-        Columns { alpha: column(0), beta: column(1), gamma: column(2) }
+        JointRows { alpha: column(0), beta: column(1), gamma: column(2) }
     }
 }
 
@@ -65,11 +65,11 @@ pub unsafe extern "C" fn rust_exact_error(rows: usize, joints: *const *const f64
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rust_first_order_jacobian(rows: usize, joints: *const *const f64) {
     // SAFETY: the caller's promise.
-    let Columns { alpha, beta, gamma } = unsafe { columns(rows, joints) };
+    let JointRows { alpha, beta, gamma } = unsafe { columns(rows, joints) };
     let form = FirstOrderJacobian::prepare(&Errors::default());
     let mut block = Box::new(FirstOrderJacobianBlock::default());
     for ((alpha, beta), gamma) in alpha.chunks(ROWS).zip(beta.chunks(ROWS)).zip(gamma.chunks(ROWS)) {
-        let _ = form.eval_block(&Columns { alpha, beta, gamma }, &mut block);
+        let _ = form.eval_block(&JointRows { alpha, beta, gamma }, &mut block);
         std::hint::black_box(&block);
     }
 }

@@ -36,7 +36,7 @@ impl Buffers {
 macro_rules! generated {
     ($module:ident, $name:expr, $list:ident) => {{
         use crate::$module::{
-            Columns, ExactError, ExactJacobian, ExactJacobianBlock, FirstOrderError, FirstOrderJacobian,
+            JointRows, ExactError, ExactJacobian, ExactJacobianBlock, FirstOrderError, FirstOrderJacobian,
             FirstOrderJacobianBlock, Observed, ROWS,
         };
         let first_order = FirstOrderError::prepare(&errors!($module));
@@ -45,16 +45,16 @@ macro_rules! generated {
         let first_order_jacobian = FirstOrderJacobian::prepare(&errors!($module));
         fn rows<T>(
             buffers: &mut Buffers,
-            run: impl FnOnce(&Columns<'_>, Observed<[&mut [f64]; 3]>) -> T,
+            run: impl FnOnce(&JointRows<'_>, Observed<[&mut [f64]; 3]>) -> T,
         ) -> T {
             let [alpha, beta, gamma] = &buffers.joints;
             let [a, b, c, d, e, f] = buffers.out.each_mut().map(Vec::as_mut_slice);
-            run(&Columns { alpha, beta, gamma }, Observed { pointing: [a, b, c], position: [d, e, f] })
+            run(&JointRows { alpha, beta, gamma }, Observed { pointing: [a, b, c], position: [d, e, f] })
         }
-        fn blocks(buffers: &Buffers, mut run: impl FnMut(&Columns<'_>)) {
+        fn blocks(buffers: &Buffers, mut run: impl FnMut(&JointRows<'_>)) {
             let [alpha, beta, gamma] = &buffers.joints;
             for ((alpha, beta), gamma) in alpha.chunks(ROWS).zip(beta.chunks(ROWS)).zip(gamma.chunks(ROWS)) {
-                run(&Columns { alpha, beta, gamma });
+                run(&JointRows { alpha, beta, gamma });
             }
         }
         let mut add = |form, run| $list.push(Candidate { form, name: format!("Rust {}", $name), run });

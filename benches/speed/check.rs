@@ -11,7 +11,7 @@ use crate::lidar;
 #[allow(unsafe_code, reason = "floors are called only where the processor has their instructions")]
 pub fn check(buffers: &mut Buffers) {
     use lidar::{
-        Columns, ExactError, ExactJacobian, ExactJacobianBlock, FirstOrderError, FirstOrderJacobian,
+        JointRows, ExactError, ExactJacobian, ExactJacobianBlock, FirstOrderError, FirstOrderJacobian,
         FirstOrderJacobianBlock, Joints, Observed,
     };
     let Some(width) = Width::here() else { return };
@@ -37,7 +37,7 @@ pub fn check(buffers: &mut Buffers) {
     agree(buffers, &|joints| exact.eval(joints));
 
     let Some(joints) = buffers.blocks().next() else { return };
-    let columns = Columns { alpha: joints[0], beta: joints[1], gamma: joints[2] };
+    let columns = JointRows { alpha: joints[0], beta: joints[1], gamma: joints[2] };
     let mut block = Box::new([[[0.0; floors::ROWS + 8]; 3]; floors::COLUMNS.len()]);
     unsafe { floors::jacobian(width, &floors::Jacobian::prepare(&errors), joints, &mut block) };
     let mut generated = Box::new(ExactJacobianBlock::default());

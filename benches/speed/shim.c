@@ -35,23 +35,23 @@ void SPEED(prepare)(const mobile_lidar_errors *errors)
     mobile_lidar_first_order_jacobian_prepare(errors, &first_order_jacobian);
 }
 
-void SPEED(first_order_error)(size_t rows, const mobile_lidar_joints_rows *joints,
+void SPEED(first_order_error)(size_t rows, const mobile_lidar_joint_rows *joints,
     const mobile_lidar_observed_rows *out)
 {
     mobile_lidar_first_order_error_rows(&first_order_error, rows, joints, out);
 }
 
-void SPEED(exact_error)(size_t rows, const mobile_lidar_joints_rows *joints, const mobile_lidar_observed_rows *out)
+void SPEED(exact_error)(size_t rows, const mobile_lidar_joint_rows *joints, const mobile_lidar_observed_rows *out)
 {
     mobile_lidar_exact_error_rows(&exact_error, rows, joints, out);
 }
 
-void SPEED(exact_jacobian)(size_t rows, const mobile_lidar_joints_rows *joints)
+void SPEED(exact_jacobian)(size_t rows, const mobile_lidar_joint_rows *joints)
 {
     mobile_lidar_exact_jacobian_rows_of_block(&exact_jacobian, rows, joints, &exact_block);
 }
 
-void SPEED(first_order_jacobian)(size_t rows, const mobile_lidar_joints_rows *joints)
+void SPEED(first_order_jacobian)(size_t rows, const mobile_lidar_joint_rows *joints)
 {
     mobile_lidar_first_order_jacobian_rows_of_block(&first_order_jacobian, rows, joints, &first_order_block);
 }

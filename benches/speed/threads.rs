@@ -8,7 +8,7 @@ use std::sync::Barrier;
 use std::time::Instant;
 
 use crate::candidates::Buffers;
-use crate::lidar::{Columns, ExactError, ExactJacobian, ExactJacobianBlock, FirstOrderError, Observed, ROWS};
+use crate::lidar::{JointRows, ExactError, ExactJacobian, ExactJacobianBlock, FirstOrderError, Observed, ROWS};
 use crate::rounds::processor_ns;
 
 const ROUNDS: usize = 60;
@@ -20,8 +20,8 @@ struct Part<'a> {
 }
 
 impl Part<'_> {
-    fn columns(&self) -> Columns<'_> {
-        Columns { alpha: self.joints[0], beta: self.joints[1], gamma: self.joints[2] }
+    fn columns(&self) -> JointRows<'_> {
+        JointRows { alpha: self.joints[0], beta: self.joints[1], gamma: self.joints[2] }
     }
 
     fn split(&mut self) -> (Part<'_>, Part<'_>) {
@@ -57,14 +57,14 @@ pub fn run(buffers: &mut Buffers) {
         (
             "first-order error",
             Box::new(move |part| {
-                let columns = Columns { alpha: part.joints[0], beta: part.joints[1], gamma: part.joints[2] };
+                let columns = JointRows { alpha: part.joints[0], beta: part.joints[1], gamma: part.joints[2] };
                 black_box(first_order.eval_rows(&columns, observed(part.out)).is_ok());
             }),
         ),
         (
             "exact error",
             Box::new(move |part| {
-                let columns = Columns { alpha: part.joints[0], beta: part.joints[1], gamma: part.joints[2] };
+                let columns = JointRows { alpha: part.joints[0], beta: part.joints[1], gamma: part.joints[2] };
                 black_box(exact.eval_rows(&columns, observed(part.out)).is_ok());
             }),
         ),
@@ -75,7 +75,7 @@ pub fn run(buffers: &mut Buffers) {
                 let columns = part.columns();
                 for start in (0..columns.alpha.len()).step_by(ROWS) {
                     let rows = start..start + ROWS;
-                    let columns = Columns {
+                    let columns = JointRows {
                         alpha: &columns.alpha[rows.clone()],
                         beta: &columns.beta[rows.clone()],
                         gamma: &columns.gamma[rows],

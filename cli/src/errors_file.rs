@@ -36,6 +36,15 @@ pub fn values(source: &Source, chain: &Chain) -> Result<Vec<f64>, Failure> {
     Ok(values)
 }
 
+/// The errors and constants that the file names, with their values in SI.
+///
+/// # Errors
+/// As [`values`].
+pub fn named_values(source: &Source, chain: &Chain) -> Result<Vec<(SymbolId, f64)>, Failure> {
+    let named = read(source, chain, &[SymbolKind::Error, SymbolKind::Constant])?;
+    Ok(named.into_iter().map(|(id, (value, _))| (id, value)).collect())
+}
+
 /// A declaration with the largest sizes of its errors, as [`largest_sizes`] gives them.
 ///
 /// # Errors

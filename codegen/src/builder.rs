@@ -9,6 +9,7 @@ use model_core::ramp::Ramp;
 use model_core::{Chain, SymbolId, SymbolKind};
 
 use crate::program::{Layout, Literal, NodeId, Op, Program, Stage};
+use crate::vector::sin_cos;
 
 /// A node or its negative.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -33,6 +34,8 @@ pub(crate) struct Builder {
     shared: HashMap<Op, NodeId>,
     symbol_stages: Vec<Stage>,
     ramps: Vec<Ramp>,
+    /// Symbols that are numbers, by their index.
+    numbers: Vec<Option<f64>>,
 }
 
 impl Builder {
@@ -41,8 +44,9 @@ impl Builder {
     /// One: the second node of every builder.
     pub(crate) const ONE: Value = Value { node: NodeId(1), negative: false };
 
-    /// No nodes but zero and one, for the symbols of a chain.
-    pub(crate) fn new(chain: &Chain) -> Self {
+    /// No nodes but zero and one, for the symbols of a chain. Symbols with a value are numbers; so are all
+    /// constants then.
+    pub(crate) fn new(chain: &Chain, values: &[(SymbolId, f64)]) -> Self {
         let symbol_stages = chain
             .symbols
             .iter()
@@ -51,13 +55,18 @@ impl Builder {
                 SymbolKind::Joint | SymbolKind::Input | SymbolKind::Ramp => Stage::Evaluated,
             })
             .collect();
-        let mut builder = Self {
-            nodes: Vec::new(),
-            stages: Vec::new(),
-            shared: HashMap::new(),
-            symbol_stages,
-            ramps: chain.ramps.clone(),
-        };
+        let mut numbers: Vec<Option<f64>> = vec![None; chain.symbols.len()];
+        numbers[SymbolId::PI.index()] = Some(std::f64::consts::PI);
+        if !values.is_empty() {
+            for id in chain.symbols_of(SymbolKind::Constant) {
+                numbers[id.index()] = chain.symbol(id).value;
+            }
+        }
+        for &(id, value) in values {
+            numbers[id.index()] = Some(value);
+        }
+        let (nodes, stages, shared) = (Vec::new(), Vec::new(), HashMap::new());
+        let mut builder = Self { nodes, stages, shared, symbol_stages, ramps: chain.ramps.clone(), numbers };
         builder.constant(0.0);
         builder.constant(1.0);
         builder
@@ -74,8 +83,8 @@ impl Builder {
     }
 
     pub(crate) fn symbol(&mut self, symbol: SymbolId) -> Value {
-        if symbol == SymbolId::PI {
-            return self.constant(std::f64::consts::PI);
+        if let Some(number) = self.numbers[symbol.index()] {
+            return self.constant(number);
         }
         if let Some(ramp) = self.ramp(symbol) {
             return crate::build::ramp(self, &ramp);
@@ -166,6 +175,9 @@ impl Builder {
         if b.node == Self::ONE.node {
             return Value { node: a.node, negative };
         }
+        if let (Some(x), Some(y)) = (self.number(a), self.number(b)) {
+            return self.constant(x / y);
+        }
         let node = self.node(Op::Div(a.node, b.node));
         Value { node, negative }
     }
@@ -174,6 +186,10 @@ impl Builder {
     pub(crate) fn sin_cos(&mut self, angle: Value) -> (Value, Value) {
         if angle == Self::ZERO {
             return (Self::ZERO, Self::ONE);
+        }
+        if let Some(angle) = self.number(angle) {
+            let (sin, cos) = sin_cos(angle);
+            return (self.constant(sin), self.constant(cos));
         }
         let sin = self.node(Op::Sin(angle.node));
         let cos = self.node(Op::Cos(angle.node));

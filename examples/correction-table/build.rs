@@ -14,15 +14,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let text = fs::read_to_string(DECLARATION)?;
     let chain = Chain::from_text(&text).map_err(|mistakes| mistakes.render(DECLARATION, &text))?;
     let pointing = chain.find_observable("pointing").ok_or("the declaration observes no `pointing`")?;
-    let unit = Unit {
-        chain: &chain,
-        declaration: &text,
-        observables: &[pointing],
-        forms: &[Form::FirstOrderError, Form::ExactError],
-        remainders: &[],
-    };
+    let (observables, forms) = ([pointing], [Form::FirstOrderError, Form::ExactError]);
+    let unit = Unit::new(&chain, &text, &observables, &forms);
     let folder = std::env::var_os("OUT_DIR").ok_or("cargo sets OUT_DIR")?;
-    for file in generate(&unit, Language::Rust, "scanner") {
+    for file in generate(&unit, Language::Rust, "scanner")? {
         fs::write(Path::new(&folder).join(format!("scanner.{}", file.extension)), file.text)?;
     }
     Ok(())

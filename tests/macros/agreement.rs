@@ -5,7 +5,7 @@
 use trueaxis::model_core::{SymbolId, SymbolKind, exact, forms};
 use trueaxis::nalgebra::{DVector, Vector3};
 
-use super::chains::mobile_lidar::{InputSlices, Inputs, JointSlices, Joints, MobileLidar, UnequalLengths};
+use super::chains::mobile_lidar::{InputRows, Inputs, JointRows, Joints, LengthsDiffer, MobileLidar};
 use super::chains::{CASES, count, numbers};
 
 #[test]
@@ -59,16 +59,16 @@ fn slices_give_what_single_poses_give() {
     let lidar = MobileLidar::new(errors.into());
     let column = |seed| -> Vec<f64> { numbers(seed).take(17).collect() };
     let (alpha, beta, gamma, range) = (column(1), column(2), column(3), column(4));
-    let joints = JointSlices { alpha: &alpha, beta: &beta, gamma: &gamma };
-    let inputs = InputSlices { range: &range };
+    let joints = JointRows { alpha: &alpha, beta: &beta, gamma: &gamma };
+    let inputs = InputRows { range: &range };
 
     let (mut x, mut y, mut z) = (vec![0.0; 17], vec![0.0; 17], vec![0.0; 17]);
     let mut first = [vec![0.0; 17], vec![0.0; 17], vec![0.0; 17]];
     let [first_x, first_y, first_z] = &mut first;
     let mut jacobians = vec![Default::default(); 17];
-    lidar.target_error_over(&joints, &inputs, [&mut x, &mut y, &mut z]).unwrap();
-    lidar.target_first_order_over(&joints, &inputs, [first_x, first_y, first_z]).unwrap();
-    lidar.target_jacobian_over(&joints, &inputs, &mut jacobians).unwrap();
+    lidar.target_error_rows(&joints, &inputs, [&mut x, &mut y, &mut z]).unwrap();
+    lidar.target_first_order_rows(&joints, &inputs, [first_x, first_y, first_z]).unwrap();
+    lidar.target_jacobian_rows(&joints, &inputs, &mut jacobians).unwrap();
     for pose in 0..17 {
         let one = Joints { alpha: alpha[pose], beta: beta[pose], gamma: gamma[pose] };
         let input = Inputs { range: range[pose] };
@@ -78,9 +78,9 @@ fn slices_give_what_single_poses_give() {
         assert_eq!(jacobians[pose], lidar.target_jacobian(&one, &input));
     }
 
-    let short = InputSlices { range: &range[1..] };
-    assert_eq!(lidar.target_error_over(&joints, &short, [&mut x, &mut y, &mut z]), Err(UnequalLengths));
-    assert_eq!(lidar.target_jacobian_over(&joints, &short, &mut jacobians), Err(UnequalLengths));
+    let short = InputRows { range: &range[1..] };
+    assert_eq!(lidar.target_error_rows(&joints, &short, [&mut x, &mut y, &mut z]), Err(LengthsDiffer));
+    assert_eq!(lidar.target_jacobian_rows(&joints, &short, &mut jacobians), Err(LengthsDiffer));
 }
 
 #[test]

@@ -113,33 +113,38 @@ pub mod thermal {
             joints: &Joints,
             inputs: &Inputs,
         ) -> (Vector3<f64>, Vector3<f64>) {
+            let p: [f64; 7] = {
+                let errors = &self.errors;
+                let constants = &self.constants;
+                [
+                    errors.lean,
+                    errors.sag,
+                    0.01 * errors.bend,
+                    constants.column,
+                    errors.growth * constants.column,
+                    errors.drift,
+                    errors.backlash,
+                ]
+            };
             let (sin_tilt, cos_tilt) = ComplexField::sin_cos(joints.tilt);
+            let (sin_pan, cos_pan) = ComplexField::sin_cos(joints.pan);
             let mut nominal = Vector3::new(inputs.range, 0.0, 0.0);
-            let mut difference = Vector3::zeros();
+            let mut difference = Vector3::new(0.0, 0.0, 0.0);
             difference
-                += departure_y(
-                    inputs.temperature * self.errors.lean + self.errors.sag * cos_tilt,
-                ) * (nominal + difference);
-            let (sin, cos) = ComplexField::sin_cos(joints.tilt);
-            let rotation = rotation_y(sin, cos);
-            nominal = rotation * nominal;
-            difference = rotation * difference;
+                += departure_y(inputs.temperature * p[0] + p[1] * cos_tilt)
+                    * (nominal + difference);
+            let rotation = rotation_y(sin_tilt, cos_tilt);
+            (nominal, difference) = (rotation * nominal, rotation * difference);
             difference
-                += departure_x(
-                    0.01 * inputs.temperature * inputs.temperature * self.errors.bend,
-                ) * (nominal + difference);
-            difference.z
-                += inputs.temperature * self.errors.growth * self.constants.column;
-            nominal.z += self.constants.column;
+                += departure_x(inputs.temperature * inputs.temperature * p[2])
+                    * (nominal + difference);
+            difference.z += inputs.temperature * p[4];
+            nominal.z += p[3];
             difference
-                += departure_z(
-                    inputs.temperature * self.errors.drift
-                        + inputs.reversal * self.errors.backlash,
-                ) * (nominal + difference);
-            let (sin, cos) = ComplexField::sin_cos(joints.pan);
-            let rotation = rotation_z(sin, cos);
-            nominal = rotation * nominal;
-            difference = rotation * difference;
+                += departure_z(inputs.temperature * p[5] + inputs.reversal * p[6])
+                    * (nominal + difference);
+            let rotation = rotation_z(sin_pan, cos_pan);
+            (nominal, difference) = (rotation * nominal, rotation * difference);
             (nominal, difference)
         }
         /// [`spot_error`](Self::spot_error) of many poses.
@@ -149,28 +154,17 @@ pub mod thermal {
         /// # Errors
         ///
         /// If the slices have different lengths.
-        pub fn spot_error_over(
+        pub fn spot_error_rows(
             &self,
-            joints: &JointSlices<'_>,
-            inputs: &InputSlices<'_>,
+            joints: &JointRows<'_>,
+            inputs: &InputRows<'_>,
             out: [&mut [f64]; 3],
-        ) -> Result<(), UnequalLengths> {
-            let [x, y, z] = out;
-            let length = x.len();
-            let all_equal = y.len() == length && z.len() == length
-                && joints.have_length(length) && inputs.have_length(length);
-            if !all_equal {
-                return Err(UnequalLengths);
-            }
-            for pose in 0..length {
-                let joints = &joints.at(pose);
-                let inputs = &inputs.at(pose);
-                let error = self.spot_error(joints, inputs);
-                x[pose] = error.x;
-                y[pose] = error.y;
-                z[pose] = error.z;
-            }
-            Ok(())
+        ) -> Result<(), LengthsDiffer> {
+            fill(
+                out,
+                |rows| joints.have_length(rows) && inputs.have_length(rows),
+                |row| self.spot_error(&joints.at(row), &inputs.at(row)).into(),
+            )
         }
         /// What the errors add to [`spot`](Self::spot), to first order.
         ///
@@ -181,35 +175,40 @@ pub mod thermal {
             joints: &Joints,
             inputs: &Inputs,
         ) -> Vector3<f64> {
-            let t3 = 0.01 * self.errors.bend;
-            let t7 = self.constants.column * self.errors.growth;
-            let (t11, t12) = ComplexField::sin_cos(joints.pan);
-            let (t14, t15) = ComplexField::sin_cos(joints.tilt);
-            let t18 = inputs.temperature * inputs.temperature;
-            let t19 = t18 * t3;
-            let t21 = inputs.temperature * self.errors.drift;
-            let t22 = inputs.reversal * self.errors.backlash;
-            let t23 = t21 + t22;
-            let t24 = t15 * t23;
-            let t25 = t14 * t19;
-            let t26 = t24 + t25;
+            Self::spot_first_order_at(&self.spot_first_order_prepared(), joints, inputs)
+                .into()
+        }
+        /// What of [`spot_first_order`](Self::spot_first_order) no pose changes.
+        fn spot_first_order_prepared(&self) -> [f64; 6] {
+            let errors = &self.errors;
+            let constants = &self.constants;
+            [
+                0.01 * errors.bend,
+                errors.drift,
+                errors.backlash,
+                constants.column * errors.growth,
+                errors.lean,
+                errors.sag,
+            ]
+        }
+        /// The rest of [`spot_first_order`](Self::spot_first_order), for one pose.
+        fn spot_first_order_at(
+            p: &[f64; 6],
+            joints: &Joints,
+            inputs: &Inputs,
+        ) -> [f64; 3] {
+            let (sin_pan, cos_pan) = ComplexField::sin_cos(joints.pan);
+            let (sin_tilt, cos_tilt) = ComplexField::sin_cos(joints.tilt);
+            let t26 = cos_tilt * (inputs.temperature * p[1] + inputs.reversal * p[2])
+                + sin_tilt * (inputs.temperature * inputs.temperature * p[0]);
             let t27 = t26 * inputs.range;
-            let t28 = inputs.temperature * self.errors.lean;
-            let t29 = t15 * self.errors.sag;
-            let t30 = t28 + t29;
-            let t31 = t30 * inputs.range;
-            let t32 = inputs.temperature * t7;
-            let t33 = t15 * t31;
-            let t34 = t32 - t33;
-            let t35 = t14 * t31;
-            let t36 = t12 * t35;
-            let t37 = t11 * t27;
-            let t38 = t36 + t37;
-            let t39 = -t38;
-            let t40 = t11 * t35;
-            let t41 = t12 * t27;
-            let t42 = t41 - t40;
-            Vector3::new(t39, t42, t34)
+            let t31 = (inputs.temperature * p[4] + cos_tilt * p[5]) * inputs.range;
+            let t35 = sin_tilt * t31;
+            [
+                -(cos_pan * t35 + sin_pan * t27),
+                cos_pan * t27 - sin_pan * t35,
+                inputs.temperature * p[3] - cos_tilt * t31,
+            ]
         }
         /// [`spot_first_order`](Self::spot_first_order) of many poses.
         ///
@@ -218,55 +217,18 @@ pub mod thermal {
         /// # Errors
         ///
         /// If the slices have different lengths.
-        pub fn spot_first_order_over(
+        pub fn spot_first_order_rows(
             &self,
-            joints: &JointSlices<'_>,
-            inputs: &InputSlices<'_>,
+            joints: &JointRows<'_>,
+            inputs: &InputRows<'_>,
             out: [&mut [f64]; 3],
-        ) -> Result<(), UnequalLengths> {
-            let [x, y, z] = out;
-            let length = x.len();
-            let all_equal = y.len() == length && z.len() == length
-                && joints.have_length(length) && inputs.have_length(length);
-            if !all_equal {
-                return Err(UnequalLengths);
-            }
-            let t3 = 0.01 * self.errors.bend;
-            let t7 = self.constants.column * self.errors.growth;
-            for pose in 0..length {
-                let joints = &joints.at(pose);
-                let inputs = &inputs.at(pose);
-                let (t11, t12) = ComplexField::sin_cos(joints.pan);
-                let (t14, t15) = ComplexField::sin_cos(joints.tilt);
-                let t18 = inputs.temperature * inputs.temperature;
-                let t19 = t18 * t3;
-                let t21 = inputs.temperature * self.errors.drift;
-                let t22 = inputs.reversal * self.errors.backlash;
-                let t23 = t21 + t22;
-                let t24 = t15 * t23;
-                let t25 = t14 * t19;
-                let t26 = t24 + t25;
-                let t27 = t26 * inputs.range;
-                let t28 = inputs.temperature * self.errors.lean;
-                let t29 = t15 * self.errors.sag;
-                let t30 = t28 + t29;
-                let t31 = t30 * inputs.range;
-                let t32 = inputs.temperature * t7;
-                let t33 = t15 * t31;
-                let t34 = t32 - t33;
-                let t35 = t14 * t31;
-                let t36 = t12 * t35;
-                let t37 = t11 * t27;
-                let t38 = t36 + t37;
-                let t39 = -t38;
-                let t40 = t11 * t35;
-                let t41 = t12 * t27;
-                let t42 = t41 - t40;
-                x[pose] = t39;
-                y[pose] = t42;
-                z[pose] = t34;
-            }
-            Ok(())
+        ) -> Result<(), LengthsDiffer> {
+            let p = &self.spot_first_order_prepared();
+            fill(
+                out,
+                |rows| joints.have_length(rows) && inputs.have_length(rows),
+                |row| Self::spot_first_order_at(p, &joints.at(row), &inputs.at(row)),
+            )
         }
         /// Derivatives of [`spot`](Self::spot) with respect to the errors, where they are zero.
         ///
@@ -277,47 +239,28 @@ pub mod thermal {
             joints: &Joints,
             inputs: &Inputs,
         ) -> SMatrix<f64, 3, 6> {
-            let (t4, t5) = ComplexField::sin_cos(joints.pan);
-            let (t7, t8) = ComplexField::sin_cos(joints.tilt);
-            let t9 = t5 * t7;
-            let t10 = t4 * t7;
-            let t12 = t8 * inputs.range;
-            let t13 = t9 * t12;
-            let t14 = -t13;
-            let t15 = t10 * t12;
-            let t16 = -t15;
-            let t17 = t8 * t12;
-            let t18 = -t17;
+            let p: [f64; 1] = {
+                let errors = &self.errors;
+                let constants = &self.constants;
+                [constants.column]
+            };
+            let (sin_pan, cos_pan) = ComplexField::sin_cos(joints.pan);
+            let (sin_tilt, cos_tilt) = ComplexField::sin_cos(joints.tilt);
+            let t9 = cos_pan * sin_tilt;
+            let t10 = sin_pan * sin_tilt;
+            let t12 = cos_tilt * inputs.range;
             let t20 = t12 * inputs.reversal;
-            let t21 = t5 * t20;
-            let t22 = t4 * t20;
-            let t23 = -t22;
-            let t25 = self.constants.column * inputs.temperature;
             let t26 = t12 * inputs.temperature;
-            let t27 = t5 * t26;
-            let t28 = t4 * t26;
-            let t29 = -t28;
-            let t30 = t7 * inputs.range;
-            let t31 = inputs.temperature * inputs.temperature;
-            let t32 = 0.01 * t31;
-            let t33 = t30 * t32;
-            let t34 = t5 * t33;
-            let t35 = t4 * t33;
-            let t36 = -t35;
+            let t33 = sin_tilt * inputs.range
+                * (0.01 * (inputs.temperature * inputs.temperature));
             let t37 = inputs.range * inputs.temperature;
-            let t38 = t9 * t37;
-            let t39 = -t38;
-            let t40 = t10 * t37;
-            let t41 = -t40;
-            let t42 = t8 * t37;
-            let t43 = -t42;
             SMatrix::from([
-                [t23, t21, 0.0],
-                [t29, t27, 0.0],
-                [0.0, 0.0, t25],
-                [t36, t34, 0.0],
-                [t14, t16, t18],
-                [t39, t41, t43],
+                [-(sin_pan * t20), cos_pan * t20, 0.0],
+                [-(sin_pan * t26), cos_pan * t26, 0.0],
+                [0.0, 0.0, p[0] * inputs.temperature],
+                [-(sin_pan * t33), cos_pan * t33, 0.0],
+                [-(t9 * t12), -(t10 * t12), -(cos_tilt * t12)],
+                [-(t9 * t37), -(t10 * t37), -(cos_tilt * t37)],
             ])
         }
         /// [`spot_jacobian`](Self::spot_jacobian) of many poses.
@@ -325,21 +268,18 @@ pub mod thermal {
         /// # Errors
         ///
         /// If the slices have different lengths.
-        pub fn spot_jacobian_over(
+        pub fn spot_jacobian_rows(
             &self,
-            joints: &JointSlices<'_>,
-            inputs: &InputSlices<'_>,
+            joints: &JointRows<'_>,
+            inputs: &InputRows<'_>,
             out: &mut [SMatrix<f64, 3, 6>],
-        ) -> Result<(), UnequalLengths> {
-            let length = out.len();
-            let all_equal = joints.have_length(length) && inputs.have_length(length);
-            if !all_equal {
-                return Err(UnequalLengths);
+        ) -> Result<(), LengthsDiffer> {
+            let rows = out.len();
+            if !(joints.have_length(rows) && inputs.have_length(rows)) {
+                return Err(LengthsDiffer);
             }
-            for pose in 0..length {
-                let joints = &joints.at(pose);
-                let inputs = &inputs.at(pose);
-                out[pose] = self.spot_jacobian(joints, inputs);
+            for (row, out) in out.iter_mut().enumerate() {
+                *out = self.spot_jacobian(&joints.at(row), &inputs.at(row));
             }
             Ok(())
         }
@@ -376,30 +316,34 @@ pub mod thermal {
             joints: &Joints,
             inputs: &Inputs,
         ) -> (Vector3<f64>, Vector3<f64>) {
+            let p: [f64; 5] = {
+                let errors = &self.errors;
+                let constants = &self.constants;
+                [
+                    errors.lean,
+                    errors.sag,
+                    0.01 * errors.bend,
+                    errors.drift,
+                    errors.backlash,
+                ]
+            };
             let (sin_tilt, cos_tilt) = ComplexField::sin_cos(joints.tilt);
+            let (sin_pan, cos_pan) = ComplexField::sin_cos(joints.pan);
             let mut nominal = Vector3::new(1.0, 0.0, 0.0);
-            let mut difference = Vector3::zeros();
+            let mut difference = Vector3::new(0.0, 0.0, 0.0);
             difference
-                += departure_y(
-                    inputs.temperature * self.errors.lean + self.errors.sag * cos_tilt,
-                ) * (nominal + difference);
-            let (sin, cos) = ComplexField::sin_cos(joints.tilt);
-            let rotation = rotation_y(sin, cos);
-            nominal = rotation * nominal;
-            difference = rotation * difference;
+                += departure_y(inputs.temperature * p[0] + p[1] * cos_tilt)
+                    * (nominal + difference);
+            let rotation = rotation_y(sin_tilt, cos_tilt);
+            (nominal, difference) = (rotation * nominal, rotation * difference);
             difference
-                += departure_x(
-                    0.01 * inputs.temperature * inputs.temperature * self.errors.bend,
-                ) * (nominal + difference);
+                += departure_x(inputs.temperature * inputs.temperature * p[2])
+                    * (nominal + difference);
             difference
-                += departure_z(
-                    inputs.temperature * self.errors.drift
-                        + inputs.reversal * self.errors.backlash,
-                ) * (nominal + difference);
-            let (sin, cos) = ComplexField::sin_cos(joints.pan);
-            let rotation = rotation_z(sin, cos);
-            nominal = rotation * nominal;
-            difference = rotation * difference;
+                += departure_z(inputs.temperature * p[3] + inputs.reversal * p[4])
+                    * (nominal + difference);
+            let rotation = rotation_z(sin_pan, cos_pan);
+            (nominal, difference) = (rotation * nominal, rotation * difference);
             (nominal, difference)
         }
         /// [`line_error`](Self::line_error) of many poses.
@@ -409,28 +353,17 @@ pub mod thermal {
         /// # Errors
         ///
         /// If the slices have different lengths.
-        pub fn line_error_over(
+        pub fn line_error_rows(
             &self,
-            joints: &JointSlices<'_>,
-            inputs: &InputSlices<'_>,
+            joints: &JointRows<'_>,
+            inputs: &InputRows<'_>,
             out: [&mut [f64]; 3],
-        ) -> Result<(), UnequalLengths> {
-            let [x, y, z] = out;
-            let length = x.len();
-            let all_equal = y.len() == length && z.len() == length
-                && joints.have_length(length) && inputs.have_length(length);
-            if !all_equal {
-                return Err(UnequalLengths);
-            }
-            for pose in 0..length {
-                let joints = &joints.at(pose);
-                let inputs = &inputs.at(pose);
-                let error = self.line_error(joints, inputs);
-                x[pose] = error.x;
-                y[pose] = error.y;
-                z[pose] = error.z;
-            }
-            Ok(())
+        ) -> Result<(), LengthsDiffer> {
+            fill(
+                out,
+                |rows| joints.have_length(rows) && inputs.have_length(rows),
+                |row| self.line_error(&joints.at(row), &inputs.at(row)).into(),
+            )
         }
         /// What the errors add to [`line`](Self::line), to first order.
         ///
@@ -441,31 +374,32 @@ pub mod thermal {
             joints: &Joints,
             inputs: &Inputs,
         ) -> Vector3<f64> {
-            let t2 = 0.01 * self.errors.bend;
-            let (t8, t9) = ComplexField::sin_cos(joints.pan);
-            let (t11, t12) = ComplexField::sin_cos(joints.tilt);
-            let t14 = inputs.temperature * self.errors.lean;
-            let t15 = t12 * self.errors.sag;
-            let t16 = t14 + t15;
-            let t17 = t12 * t16;
-            let t18 = -t17;
-            let t19 = t11 * t16;
-            let t20 = inputs.temperature * inputs.temperature;
-            let t21 = t20 * t2;
-            let t23 = inputs.temperature * self.errors.drift;
-            let t24 = inputs.reversal * self.errors.backlash;
-            let t25 = t23 + t24;
-            let t26 = t12 * t25;
-            let t27 = t11 * t21;
-            let t28 = t26 + t27;
-            let t29 = t9 * t19;
-            let t30 = t8 * t28;
-            let t31 = t29 + t30;
-            let t32 = -t31;
-            let t33 = t8 * t19;
-            let t34 = t9 * t28;
-            let t35 = t34 - t33;
-            Vector3::new(t32, t35, t18)
+            Self::line_first_order_at(&self.line_first_order_prepared(), joints, inputs)
+                .into()
+        }
+        /// What of [`line_first_order`](Self::line_first_order) no pose changes.
+        fn line_first_order_prepared(&self) -> [f64; 5] {
+            let errors = &self.errors;
+            let constants = &self.constants;
+            [0.01 * errors.bend, errors.drift, errors.backlash, errors.lean, errors.sag]
+        }
+        /// The rest of [`line_first_order`](Self::line_first_order), for one pose.
+        fn line_first_order_at(
+            p: &[f64; 5],
+            joints: &Joints,
+            inputs: &Inputs,
+        ) -> [f64; 3] {
+            let (sin_pan, cos_pan) = ComplexField::sin_cos(joints.pan);
+            let (sin_tilt, cos_tilt) = ComplexField::sin_cos(joints.tilt);
+            let t16 = inputs.temperature * p[3] + cos_tilt * p[4];
+            let t19 = sin_tilt * t16;
+            let t28 = cos_tilt * (inputs.temperature * p[1] + inputs.reversal * p[2])
+                + sin_tilt * (inputs.temperature * inputs.temperature * p[0]);
+            [
+                -(cos_pan * t19 + sin_pan * t28),
+                cos_pan * t28 - sin_pan * t19,
+                -(cos_tilt * t16),
+            ]
         }
         /// [`line_first_order`](Self::line_first_order) of many poses.
         ///
@@ -474,51 +408,18 @@ pub mod thermal {
         /// # Errors
         ///
         /// If the slices have different lengths.
-        pub fn line_first_order_over(
+        pub fn line_first_order_rows(
             &self,
-            joints: &JointSlices<'_>,
-            inputs: &InputSlices<'_>,
+            joints: &JointRows<'_>,
+            inputs: &InputRows<'_>,
             out: [&mut [f64]; 3],
-        ) -> Result<(), UnequalLengths> {
-            let [x, y, z] = out;
-            let length = x.len();
-            let all_equal = y.len() == length && z.len() == length
-                && joints.have_length(length) && inputs.have_length(length);
-            if !all_equal {
-                return Err(UnequalLengths);
-            }
-            let t2 = 0.01 * self.errors.bend;
-            for pose in 0..length {
-                let joints = &joints.at(pose);
-                let inputs = &inputs.at(pose);
-                let (t8, t9) = ComplexField::sin_cos(joints.pan);
-                let (t11, t12) = ComplexField::sin_cos(joints.tilt);
-                let t14 = inputs.temperature * self.errors.lean;
-                let t15 = t12 * self.errors.sag;
-                let t16 = t14 + t15;
-                let t17 = t12 * t16;
-                let t18 = -t17;
-                let t19 = t11 * t16;
-                let t20 = inputs.temperature * inputs.temperature;
-                let t21 = t20 * t2;
-                let t23 = inputs.temperature * self.errors.drift;
-                let t24 = inputs.reversal * self.errors.backlash;
-                let t25 = t23 + t24;
-                let t26 = t12 * t25;
-                let t27 = t11 * t21;
-                let t28 = t26 + t27;
-                let t29 = t9 * t19;
-                let t30 = t8 * t28;
-                let t31 = t29 + t30;
-                let t32 = -t31;
-                let t33 = t8 * t19;
-                let t34 = t9 * t28;
-                let t35 = t34 - t33;
-                x[pose] = t32;
-                y[pose] = t35;
-                z[pose] = t18;
-            }
-            Ok(())
+        ) -> Result<(), LengthsDiffer> {
+            let p = &self.line_first_order_prepared();
+            fill(
+                out,
+                |rows| joints.have_length(rows) && inputs.have_length(rows),
+                |row| Self::line_first_order_at(p, &joints.at(row), &inputs.at(row)),
+            )
         }
         /// Derivatives of [`line`](Self::line) with respect to the errors, where they are zero.
         ///
@@ -529,42 +430,25 @@ pub mod thermal {
             joints: &Joints,
             inputs: &Inputs,
         ) -> SMatrix<f64, 3, 6> {
-            let (t3, t4) = ComplexField::sin_cos(joints.pan);
-            let (t6, t7) = ComplexField::sin_cos(joints.tilt);
-            let t8 = t7 * t7;
-            let t9 = -t8;
-            let t10 = t4 * t6;
-            let t11 = t7 * t10;
-            let t12 = -t11;
-            let t13 = t3 * t6;
-            let t14 = t7 * t13;
-            let t15 = -t14;
-            let t17 = t7 * inputs.reversal;
-            let t18 = t4 * t17;
-            let t19 = t3 * t17;
-            let t20 = -t19;
-            let t22 = t10 * inputs.temperature;
-            let t23 = -t22;
-            let t24 = t13 * inputs.temperature;
-            let t25 = -t24;
-            let t26 = t7 * inputs.temperature;
-            let t27 = t4 * t26;
-            let t28 = t3 * t26;
-            let t29 = -t28;
-            let t30 = -t26;
-            let t31 = inputs.temperature * inputs.temperature;
-            let t32 = 0.01 * t31;
-            let t33 = t6 * t32;
-            let t34 = t4 * t33;
-            let t35 = t3 * t33;
-            let t36 = -t35;
+            let p: [f64; 0] = {
+                let errors = &self.errors;
+                let constants = &self.constants;
+                []
+            };
+            let (sin_pan, cos_pan) = ComplexField::sin_cos(joints.pan);
+            let (sin_tilt, cos_tilt) = ComplexField::sin_cos(joints.tilt);
+            let t10 = cos_pan * sin_tilt;
+            let t13 = sin_pan * sin_tilt;
+            let t17 = cos_tilt * inputs.reversal;
+            let t26 = cos_tilt * inputs.temperature;
+            let t33 = sin_tilt * (0.01 * (inputs.temperature * inputs.temperature));
             SMatrix::from([
-                [t20, t18, 0.0],
-                [t29, t27, 0.0],
+                [-(sin_pan * t17), cos_pan * t17, 0.0],
+                [-(sin_pan * t26), cos_pan * t26, 0.0],
                 [0.0, 0.0, 0.0],
-                [t36, t34, 0.0],
-                [t12, t15, t9],
-                [t23, t25, t30],
+                [-(sin_pan * t33), cos_pan * t33, 0.0],
+                [-(cos_tilt * t10), -(cos_tilt * t13), -(cos_tilt * cos_tilt)],
+                [-(t10 * inputs.temperature), -(t13 * inputs.temperature), -t26],
             ])
         }
         /// [`line_jacobian`](Self::line_jacobian) of many poses.
@@ -572,27 +456,25 @@ pub mod thermal {
         /// # Errors
         ///
         /// If the slices have different lengths.
-        pub fn line_jacobian_over(
+        pub fn line_jacobian_rows(
             &self,
-            joints: &JointSlices<'_>,
-            inputs: &InputSlices<'_>,
+            joints: &JointRows<'_>,
+            inputs: &InputRows<'_>,
             out: &mut [SMatrix<f64, 3, 6>],
-        ) -> Result<(), UnequalLengths> {
-            let length = out.len();
-            let all_equal = joints.have_length(length) && inputs.have_length(length);
-            if !all_equal {
-                return Err(UnequalLengths);
+        ) -> Result<(), LengthsDiffer> {
+            let rows = out.len();
+            if !(joints.have_length(rows) && inputs.have_length(rows)) {
+                return Err(LengthsDiffer);
             }
-            for pose in 0..length {
-                let joints = &joints.at(pose);
-                let inputs = &inputs.at(pose);
-                out[pose] = self.line_jacobian(joints, inputs);
+            for (row, out) in out.iter_mut().enumerate() {
+                *out = self.line_jacobian(&joints.at(row), &inputs.at(row));
             }
             Ok(())
         }
     }
     /// Where the joints stand, by their encoders.
     #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    #[allow(dead_code, non_snake_case)]
     pub struct Joints {
         /// In radians; printed as `\mathrm{pan}`.
         pub pan: f64,
@@ -600,36 +482,42 @@ pub mod thermal {
         pub tilt: f64,
     }
     impl From<[f64; 2]> for Joints {
-        fn from([pan, tilt]: [f64; 2]) -> Self {
-            Self { pan, tilt }
+        fn from(values: [f64; 2]) -> Self {
+            Self {
+                pan: values[0],
+                tilt: values[1],
+            }
         }
     }
     impl From<Joints> for [f64; 2] {
-        fn from(joints: Joints) -> Self {
-            [joints.pan, joints.tilt]
+        fn from(values: Joints) -> Self {
+            [values.pan, values.tilt]
         }
     }
-    /// The joints of many poses: a slice for each joint, all of one length.
+    /// Joints of many poses: a slice for each joint, all equally long.
     #[derive(Debug, Clone, Copy)]
-    pub struct JointSlices<'a> {
+    #[allow(dead_code, non_snake_case)]
+    pub struct JointRows<'a> {
         /// In radians; printed as `\mathrm{pan}`.
         pub pan: &'a [f64],
         /// In radians; printed as `\mathrm{tilt}`.
         pub tilt: &'a [f64],
     }
-    impl JointSlices<'_> {
-        fn have_length(&self, length: usize) -> bool {
-            [self.pan.len(), self.tilt.len()].iter().all(|&other| other == length)
+    #[allow(dead_code, non_snake_case)]
+    impl JointRows<'_> {
+        fn have_length(&self, rows: usize) -> bool {
+            [self.pan.len(), self.tilt.len()].iter().all(|&length| length == rows)
         }
-        fn at(&self, pose: usize) -> Joints {
+        fn at(&self, row: usize) -> Joints {
             Joints {
-                pan: self.pan[pose],
-                tilt: self.tilt[pose],
+                pan: self.pan[row],
+                tilt: self.tilt[row],
             }
         }
     }
     /// What is measured beside the joints.
     #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    #[allow(dead_code, non_snake_case)]
     pub struct Inputs {
         /// A number, in the unit of the data; printed as `\mathrm{temperature}`.
         pub temperature: f64,
@@ -639,22 +527,23 @@ pub mod thermal {
         pub reversal: f64,
     }
     impl From<[f64; 3]> for Inputs {
-        fn from([temperature, range, reversal]: [f64; 3]) -> Self {
+        fn from(values: [f64; 3]) -> Self {
             Self {
-                temperature,
-                range,
-                reversal,
+                temperature: values[0],
+                range: values[1],
+                reversal: values[2],
             }
         }
     }
     impl From<Inputs> for [f64; 3] {
-        fn from(inputs: Inputs) -> Self {
-            [inputs.temperature, inputs.range, inputs.reversal]
+        fn from(values: Inputs) -> Self {
+            [values.temperature, values.range, values.reversal]
         }
     }
-    /// The inputs of many poses: a slice for each input, all of one length.
+    /// Inputs of many poses: a slice for each input, all equally long.
     #[derive(Debug, Clone, Copy)]
-    pub struct InputSlices<'a> {
+    #[allow(dead_code, non_snake_case)]
+    pub struct InputRows<'a> {
         /// A number, in the unit of the data; printed as `\mathrm{temperature}`.
         pub temperature: &'a [f64],
         /// In metres; printed as `\mathrm{range}`.
@@ -662,22 +551,24 @@ pub mod thermal {
         /// A number, in the unit of the data; printed as `\mathrm{reversal}`.
         pub reversal: &'a [f64],
     }
-    impl InputSlices<'_> {
-        fn have_length(&self, length: usize) -> bool {
+    #[allow(dead_code, non_snake_case)]
+    impl InputRows<'_> {
+        fn have_length(&self, rows: usize) -> bool {
             [self.temperature.len(), self.range.len(), self.reversal.len()]
                 .iter()
-                .all(|&other| other == length)
+                .all(|&length| length == rows)
         }
-        fn at(&self, pose: usize) -> Inputs {
+        fn at(&self, row: usize) -> Inputs {
             Inputs {
-                temperature: self.temperature[pose],
-                range: self.range[pose],
-                reversal: self.reversal[pose],
+                temperature: self.temperature[row],
+                range: self.range[row],
+                reversal: self.reversal[row],
             }
         }
     }
-    /// The errors; `Default` is the instrument without any.
+    /// What differs from the design: nothing where all are zero.
     #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    #[allow(dead_code, non_snake_case)]
     pub struct Errors {
         /// In radians; printed as `\mathrm{backlash}`.
         pub backlash: f64,
@@ -693,49 +584,80 @@ pub mod thermal {
         pub lean: f64,
     }
     impl From<[f64; 6]> for Errors {
-        fn from([backlash, drift, growth, bend, sag, lean]: [f64; 6]) -> Self {
+        fn from(values: [f64; 6]) -> Self {
             Self {
-                backlash,
-                drift,
-                growth,
-                bend,
-                sag,
-                lean,
+                backlash: values[0],
+                drift: values[1],
+                growth: values[2],
+                bend: values[3],
+                sag: values[4],
+                lean: values[5],
             }
         }
     }
     impl From<Errors> for [f64; 6] {
-        fn from(errors: Errors) -> Self {
+        fn from(values: Errors) -> Self {
             [
-                errors.backlash,
-                errors.drift,
-                errors.growth,
-                errors.bend,
-                errors.sag,
-                errors.lean,
+                values.backlash,
+                values.drift,
+                values.growth,
+                values.bend,
+                values.sag,
+                values.lean,
             ]
         }
     }
-    /// The sizes of the geometry; `Default` is as declared.
+    /// The sizes of the geometry.
     #[derive(Debug, Clone, Copy, PartialEq)]
+    #[allow(dead_code, non_snake_case)]
     pub struct Constants {
         /// In metres; 0.4 as declared; printed as `\mathrm{column}`.
         pub column: f64,
     }
+    impl From<[f64; 1]> for Constants {
+        fn from(values: [f64; 1]) -> Self {
+            Self { column: values[0] }
+        }
+    }
+    impl From<Constants> for [f64; 1] {
+        fn from(values: Constants) -> Self {
+            [values.column]
+        }
+    }
+    /// As declared.
     impl Default for Constants {
         fn default() -> Self {
             Self { column: 0.4 }
         }
     }
-    /// The slices that were given have different lengths.
+    /// Slices that should be equally long are not, or a block is asked for more rows than it has.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    pub struct UnequalLengths;
-    impl ::core::fmt::Display for UnequalLengths {
-        fn fmt(&self, f: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
-            f.write_str("the slices have different lengths")
+    #[allow(dead_code)]
+    pub struct LengthsDiffer;
+    impl core::fmt::Display for LengthsDiffer {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            f.write_str(
+                "slices of joints, inputs and results must be equally long, and no longer than a block where one is filled",
+            )
         }
     }
-    impl ::core::error::Error for UnequalLengths {}
+    impl core::error::Error for LengthsDiffer {}
+    /// Fills x, y and z row by row.
+    fn fill(
+        out: [&mut [f64]; 3],
+        have_length: impl Fn(usize) -> bool,
+        value: impl Fn(usize) -> [f64; 3],
+    ) -> Result<(), LengthsDiffer> {
+        let [x, y, z] = out;
+        let rows = x.len();
+        if !(y.len() == rows && z.len() == rows && have_length(rows)) {
+            return Err(LengthsDiffer);
+        }
+        for row in 0..rows {
+            [x[row], y[row], z[row]] = value(row);
+        }
+        Ok(())
+    }
     /// The rotation by the angle that has this sine and cosine.
     fn rotation_y(sin: f64, cos: f64) -> Matrix3<f64> {
         Matrix3::new(cos, 0.0, sin, 0.0, 1.0, 0.0, -sin, 0.0, cos)

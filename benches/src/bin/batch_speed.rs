@@ -47,20 +47,14 @@ fn write_evaluators(chain: &Path, out: &Path) -> Result<(), Box<dyn Error>> {
     let chain = Chain::from_text(&declaration)?;
     let observables: Vec<_> =
         ["pointing", "position"].iter().filter_map(|name| chain.find_observable(name)).collect();
-    let unit = Unit {
-        chain: &chain,
-        declaration: &declaration,
-        observables: &observables,
-        forms: &FORMS,
-        remainders: &[],
-    };
-    for file in generate(&unit, Language::Rust, "lidar") {
+    let unit = Unit::new(&chain, &declaration, &observables, &FORMS);
+    for file in generate(&unit, Language::Rust, "lidar")? {
         for path in ["Portable", "V3", "V4"] {
             let text = file.text.replace("sine_cosine::path(),", &format!("sine_cosine::Path::{path},"));
             fs::write(out.join(format!("lidar_{}.rs", path.to_lowercase())), text)?;
         }
     }
-    for file in generate(&unit, Language::C, "lidar") {
+    for file in generate(&unit, Language::C, "lidar")? {
         let text = file.text.replace("switch (trueaxis_path())", "switch (SPEED_PATH)");
         fs::write(out.join(format!("lidar.{}", file.extension)), text)?;
     }

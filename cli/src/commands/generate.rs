@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use codegen::{Form, Unit};
+use clap::ValueEnum as _;
+use codegen::{Form, Precision, Unit};
 use model_core::remainder::{self, Domain};
 use model_core::{Chain, ObservableId, ObservableKind, SymbolKind};
 
@@ -11,6 +12,7 @@ use crate::errors_file;
 use crate::failure::Failure;
 use crate::output;
 use crate::source::{Source, observables};
+use crate::terminal;
 
 /// Generate evaluators in another language.
 ///
@@ -30,8 +32,24 @@ pub struct Arguments {
     /// Only this observable (may be given several times); default: every one
     #[arg(long)]
     observable: Vec<String>,
-    /// Largest sizes of the errors: the file then states how far the first order can be off
+    /// Only this form (may be given several times); default: every one
+    #[arg(long, value_enum, value_name = "FORM")]
+    only: Vec<FormName>,
+    /// Precision of the numbers that the file computes with
+    #[arg(long, value_enum, default_value_t = PrecisionName::F64)]
+    precision: PrecisionName,
+    /// Only functions of one pose, none of many
+    #[arg(long)]
+    no_rows: bool,
+    /// Values of errors and constants that are written into the file, as `calibrate` puts them out; it has no fields for
+    /// the errors named there
+    #[arg(long, value_name = "ERRORS.toml")]
+    values: Option<PathBuf>,
+    /// Largest sizes of the errors: the file then states them, and how far the first order can be off
     #[arg(long, value_name = "BOX.toml")]
+    sizes: Option<PathBuf>,
+    /// The same, by its former name
+    #[arg(long, value_name = "BOX.toml", hide = true, conflicts_with = "sizes")]
     errors: Option<PathBuf>,
     /// Where to write; what belongs beside it (a header) goes into the same folder; - is standard output
     #[arg(long, value_name = "FILE")]
@@ -65,51 +83,106 @@ impl From<Language> for codegen::Language {
     }
 }
 
-/// What is computed of the observables, a function each.
-const FORMS: [Form; 5] = [
-    Form::ExactValue,
-    Form::ExactError,
-    Form::FirstOrderError,
-    Form::ExactJacobian,
-    Form::FirstOrderJacobian,
-];
+/// A precision of `codegen`, as the command line names it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum PrecisionName {
+    /// Double
+    F64,
+    /// Single, for processors that have no double (Rust and C, functions of one pose)
+    F32,
+}
+
+impl From<PrecisionName> for Precision {
+    fn from(precision: PrecisionName) -> Self {
+        match precision {
+            PrecisionName::F64 => Self::Double,
+            PrecisionName::F32 => Self::Single,
+        }
+    }
+}
+
+/// A form of `codegen`, as the command line names it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum FormName {
+    /// The observables with errors
+    ExactValue,
+    /// What the errors add to them
+    ExactError,
+    /// The part of that which is linear in the errors
+    FirstOrderError,
+    /// Derivatives by the errors, at the errors given
+    ExactJacobian,
+    /// Derivatives by the errors, where these are zero
+    FirstOrderJacobian,
+}
+
+impl From<FormName> for Form {
+    fn from(form: FormName) -> Self {
+        match form {
+            FormName::ExactValue => Self::ExactValue,
+            FormName::ExactError => Self::ExactError,
+            FormName::FirstOrderError => Self::FirstOrderError,
+            FormName::ExactJacobian => Self::ExactJacobian,
+            FormName::FirstOrderJacobian => Self::FirstOrderJacobian,
+        }
+    }
+}
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let source = Source::read(&arguments.chain)?;
     let chain = source.chain()?;
     let chosen = observables(&chain, &arguments.observable)?;
-    let remainders = match &arguments.errors {
-        Some(path) => remainders(&chain, &chosen, path)?,
+    if arguments.errors.is_some() {
+        terminal::warn(format_args!(
+            "--errors is called --sizes here: values to write into the file go by --values"
+        ));
+    }
+    let remarks = match arguments.sizes.as_ref().or(arguments.errors.as_ref()) {
+        Some(path) => remarks(&chain, &chosen, path)?,
         None => Vec::new(),
     };
+    let values = match &arguments.values {
+        Some(path) => errors_file::named_values(&Source::read(path)?, &chain)?,
+        None => Vec::new(),
+    };
+    let wanted: &[FormName] =
+        if arguments.only.is_empty() { FormName::value_variants() } else { &arguments.only };
+    let forms: Vec<Form> = wanted.iter().map(|&form| form.into()).collect();
     let unit = Unit {
-        chain: &chain,
-        declaration: &source.text,
-        observables: &chosen,
-        forms: &FORMS,
-        remainders: &remainders,
+        values: &values,
+        rows: !arguments.no_rows,
+        precision: arguments.precision.into(),
+        remarks: &remarks,
+        ..Unit::new(&chain, &source.text, &chosen, &forms)
     };
     let name = arguments.out.file_stem().unwrap_or_default().to_string_lossy();
-    let files = codegen::generate(&unit, arguments.language.into(), &name);
+    let files = codegen::generate(&unit, arguments.language.into(), &name)
+        .map_err(|error| Failure::Input(error.to_string()))?;
     if arguments.out == Path::new("-") && files.len() > 1 {
         let message =
             format!("this language takes {} files; name one with --out, the rest lie beside it", files.len());
         return Err(Failure::Input(message));
     }
-    for (index, file) in files.iter().enumerate() {
-        let beside = arguments.out.with_extension(file.extension);
-        output::write_text(if index == 0 { &arguments.out } else { &beside }, &file.text)?;
+    let beside: Vec<PathBuf> =
+        files.iter().map(|file| arguments.out.with_extension(file.extension)).collect();
+    if let Some(own) = beside.iter().skip(1).find(|beside| **beside == arguments.out) {
+        let message = format!(
+            "`{}` is where the header goes: name the source with --out, as `{}`",
+            own.display(),
+            beside.first().unwrap_or(own).display()
+        );
+        return Err(Failure::Input(message));
+    }
+    for (index, (file, beside)) in files.iter().zip(&beside).enumerate() {
+        output::write_text(if index == 0 { &arguments.out } else { beside }, &file.text)?;
     }
     Ok(Answer::Done)
 }
 
-/// What is proven of the first order, in words for the generated file; nothing for observables without a bound.
-fn remainders(
-    chain: &Chain,
-    chosen: &[ObservableId],
-    sizes: &Path,
-) -> Result<Vec<(ObservableId, String)>, Failure> {
+/// The box of errors that a generated file speaks of, and what is proven of the first order there; nothing for observables
+/// without a bound.
+fn remarks(chain: &Chain, chosen: &[ObservableId], sizes: &Path) -> Result<Vec<String>, Failure> {
     let by_symbol = errors_file::largest_sizes(&Source::read(sizes)?, chain)?;
     let mut domain = Domain::new(chain);
     for error in chain.symbols_of(SymbolKind::Error) {
@@ -117,14 +190,26 @@ fn remainders(
             .set_size(chain, error, by_symbol[error.index()])
             .map_err(|error| Failure::Input(error.to_string()))?;
     }
-    let in_words = |id: ObservableId| {
-        let bound = remainder::bound(chain, id, &domain).ok()?;
-        let unit = match chain.observable(id).kind {
+    let file = sizes.file_name().unwrap_or(sizes.as_os_str()).display();
+    let mut lines = Vec::new();
+    for &id in chosen {
+        let Ok(bound) = remainder::bound(chain, id, &domain) else { continue };
+        let observable = chain.observable(id);
+        let unit = match observable.kind {
             ObservableKind::Direction => "",
             ObservableKind::Point => " m",
         };
-        let sizes = sizes.file_name().unwrap_or(sizes.as_os_str()).display();
-        Some((id, format!("off by at most {:.3e}{unit} while errors stay within {sizes}", bound.value)))
-    };
-    Ok(chosen.iter().copied().filter_map(in_words).collect())
+        let (name, bound) = (&observable.name, bound.value);
+        lines.push(format!(
+            "First order, {name}: off by at most {bound:.3e}{unit} while errors stay within {file}, proven."
+        ));
+    }
+    lines.push(format!("Largest sizes in {file}; all other errors are zero there:"));
+    for error in chain.symbols_of(SymbolKind::Error) {
+        let (symbol, size) = (chain.symbol(error), by_symbol[error.index()]);
+        if size > 0.0 {
+            lines.push(format!("    {} {size:e} {}", symbol.name, symbol.quantity.unit()));
+        }
+    }
+    Ok(lines)
 }

@@ -1,47 +1,35 @@
 //! JavaScript: a module without dependencies, for numbers and for typed arrays.
 
-use std::fmt::Write;
-
 use model_core::{Chain, SymbolId, SymbolKind};
 
-use super::listing::{Listing, Statement, Words, list};
-use super::unit::{Function, Unit, camel_case, describe_form, form_name};
+use super::comments;
+use super::names::{Names, Rules, camel_case};
+use super::notation::{Notation, Scope};
+use super::unit::{self, Group, Shared, describe_form, form_name};
+use crate::lower::tree::{Function, Name, Statement};
+use crate::lower::{Pose, pose};
 use crate::program::{Form, Op};
 
-/// The text of the file.
-pub(crate) fn write(unit: &Unit<'_>) -> String {
-    let functions = unit.functions();
-    let joints = unit.joints(&functions);
-    let mut text = unit.preamble().iter().fold(String::new(), |mut text, line| {
-        let _ = writeln!(text, "{}", format!("// {line}").trim_end());
-        text
-    });
-    let _ = write!(
-        text,
-        "\n/**\n * Where the instrument is: its joints, and what is measured beside them.\n * @typedef {{Object}} Joints\n"
-    );
-    property_docs(&mut text, unit, &joints);
-    text.push_str(" */\n\n/**\n * What is wrong with the instrument.\n * @typedef {Object} Errors\n");
-    property_docs(&mut text, unit, &unit.errors());
-    text.push_str(" */\n\n/** No errors. */\nexport const noErrors = Object.freeze({\n");
-    for id in unit.errors() {
-        let _ = writeln!(text, "  {}: 0,", unit.chain.symbol(id).name);
-    }
-    text.push_str("});\n");
-    for function in &functions {
-        text.push_str(&one_form(unit, function, &joints));
-    }
-    let is_of_ramps = |op: &Op| matches!(op, Op::Saturate(_) | Op::Step(_));
-    if functions.iter().any(|function| function.program.nodes().iter().any(is_of_ramps)) {
-        text.push_str(RAMPS);
-    }
-    text
+/// Any word can be a property, but one is no ordinary one.
+const RULES: Rules = Rules { words: &["__proto__"], starts: &[], takes_letters: true };
+
+/// Refuses fields that are unknown or missing: a misspelt joint would be NaN, a misspelt error nothing.
+const CHECK: &str = "
+function check(what, names, given) {
+  if (given === null || typeof given !== 'object') throw new TypeError(`${what} must be an object`);
+  for (const name of Object.keys(given)) {
+    if (!names.includes(name)) throw new TypeError(`${what} have no field ${name}: there are ${names.join(', ')}`);
+  }
+  for (const name of names) {
+    if (!Object.hasOwn(given, name)) throw new TypeError(`${what} lack the field ${name}`);
+  }
 }
+";
 
 /// What ramps are made of.
 const RAMPS: &str = "
 function saturate(x) {
-  return x < 0 ? 0 : x > 1 ? 1 : x;
+  return x <= 0 ? 0 : x >= 1 ? 1 : x;
 }
 
 function step(x) {
@@ -49,150 +37,237 @@ function step(x) {
 }
 ";
 
-fn property_docs(text: &mut String, unit: &Unit<'_>, ids: &[SymbolId]) {
-    for &id in ids {
-        let _ =
-            writeln!(text, " * @property {{number}} {} {}", unit.chain.symbol(id).name, unit.describe(id));
+/// The text of the file.
+pub(crate) fn write(shared: &Shared<'_>) -> String {
+    let names = Names::new(shared.unit.chain, RULES);
+    let file = File { shared, names: &names };
+    let mut text = comments::slashes(&shared.preamble());
+    for group in shared.pose.iter().chain(&shared.errors) {
+        text.push_str(&file.group(group));
     }
+    if let Some(errors) = &shared.errors {
+        let zeros: String = file.each(errors, &|name| format!("  {name}: 0,\n"));
+        text.push_str(&format!(
+            "\n/** No errors. */\nexport const noErrors = Object.freeze({{\n{zeros}}});\n"
+        ));
+    }
+    if !shared.pose.is_empty() || shared.errors.is_some() {
+        text.push_str(CHECK);
+    }
+    for function in &shared.functions {
+        text.push_str(&file.form(function));
+    }
+    let is_of_ramps = |op: &Op| matches!(op, Op::Saturate(_) | Op::Step(_));
+    if shared.functions.iter().any(|function| function.program.nodes().iter().any(is_of_ramps)) {
+        text.push_str(RAMPS);
+    }
+    text
 }
 
-fn one_form(unit: &Unit<'_>, function: &Function, joints: &[SymbolId]) -> String {
-    let about = describe_form(function.form);
-    let kind = camel_case(form_name(function.form));
-    let mut name = kind.clone();
-    name.replace_range(..1, &kind[..1].to_lowercase());
-    let listing = list(&function.program, &Names { chain: unit.chain, row: "" });
-    let row_listing = list(&function.program, &Names { chain: unit.chain, row: "[row]" });
-    let mut text = format!(
-        "
+/// One file.
+struct File<'a> {
+    shared: &'a Shared<'a>,
+    names: &'a Names,
+}
+
+impl File<'_> {
+    /// The type of a group, and the names of its fields.
+    fn group(&self, group: &Group) -> String {
+        let fields: String = group
+            .symbols
+            .iter()
+            .map(|&id| {
+                let about = comments::javascript_doc(&self.shared.describe(id));
+                format!(" * @property {{number}} {} {about}\n", self.names.symbol(id))
+            })
+            .collect();
+        let (about, kind, argument) = (group.about, group.type_name(), group.argument);
+        let names = self.each(group, &|name| format!("'{name}', "));
+        let names = names.trim_end_matches(", ");
+        format!(
+            "\n/**\n * {about}\n * @typedef {{Object}} {kind}\n{fields} */\n\nconst {argument}Fields = [{names}];\n"
+        )
+    }
+
+    fn each(&self, group: &Group, text: &dyn Fn(&str) -> String) -> String {
+        group.symbols.iter().map(|&id| text(self.names.symbol(id))).collect()
+    }
+
+    fn form(&self, function: &unit::Function) -> String {
+        let about = describe_form(function.form);
+        let kind = camel_case(form_name(function.form));
+        let name = format!("{}{}", kind[..1].to_lowercase(), &kind[1..]);
+        let lowered = pose(&function.program);
+        let js = JavaScript { chain: self.shared.unit.chain, names: self.names, row: "" };
+        let prepared = js.statements(&lowered.prepared, 2);
+        let kept: String = lowered.kept.iter().map(|value| format!("    {},\n", js.text(value))).collect();
+        let evaluated = js.statements(&lowered.evaluated, 2);
+        let observed = self.observed(&js, function.form, &lowered);
+        let check = |group: &Group| {
+            let argument = group.argument;
+            format!("  check('{argument}', {argument}Fields, {argument});\n")
+        };
+        let document = |group: &Group| format!(" * @param {{{}}} {}\n", group.type_name(), group.argument);
+        let errors = self.shared.errors.as_ref();
+        let (errors, errors_document, errors_check) = (
+            errors.map_or("", |group| group.argument),
+            errors.map_or_else(String::new, document),
+            errors.map_or_else(String::new, check),
+        );
+        let pose = &self.shared.pose;
+        let documents: String = pose.iter().map(document).collect();
+        let checks: String = pose.iter().map(check).collect();
+        let arguments: String = pose.iter().map(|group| format!(", {}", group.argument)).collect();
+        let mut text = format!(
+            "
 /**
  * Does what {name} needs once for a set of errors.
- * @param {{Errors}} errors
- * @returns {{Float64Array}}
+{errors_document} * @returns {{Float64Array}}
  */
-export function prepare{kind}(errors) {{
-{}  return Float64Array.of(
-{}  );
+export function prepare{kind}({errors}) {{
+{errors_check}{prepared}  return Float64Array.of(
+{kept}  );
 }}
 
 /**
  * {about}
  * @param {{Float64Array}} p from prepare{kind}
- * @param {{Joints}} joints
- */
-export function {name}(p, joints) {{
-{}  return {};
+{documents} */
+export function {name}(p{arguments}) {{
+{checks}{evaluated}  return {observed};
 }}
-",
-        statements(&listing.prepared, 2),
-        listing.carried.iter().fold(String::new(), |text, value| format!("{text}    {value},\n")),
-        statements(&listing.evaluated, 2),
-        observed(unit, function.form, &listing),
-    );
-    let Some(first) = joints.first().map(|&id| unit.chain.symbol(id).name.as_str()) else { return text };
-    let _ = write!(
-        text,
-        "
+"
+        );
+        let first = pose.first().and_then(|group| Some((group.argument, group.symbols.first()?)));
+        let Some((argument, &first)) = first.filter(|_| self.shared.has_rows()) else { return text };
+        let first = self.names.symbol(first);
+        let js = JavaScript { row: "[row]", ..js };
+        let evaluated = js.statements(&lowered.evaluated, 4);
+        let stores: String = self
+            .places(function.form)
+            .iter()
+            .zip(&lowered.outputs)
+            .map(|(place, value)| format!("    out.{place}[row] = {};\n", js.text(value)))
+            .collect();
+        let holders =
+            pose.iter().map(|group| format!("`{}`", group.argument)).collect::<Vec<_>>().join(" and ");
+        let lengths: String = pose
+            .iter()
+            .map(|group| {
+                let argument = group.argument;
+                format!(
+                    "  for (const name of {argument}Fields) {{
+    if ({argument}[name].length !== rows) throw new RangeError(`${{name}} has not as many rows as {first}`);
+  }}
+"
+                )
+            })
+            .collect();
+        text.push_str(&format!(
+            "
 /**
- * The same for many poses: `joints` holds an array for each joint, `out` has the shape of what {name} returns, with an
- * array in place of each number. Sines and cosines, and their accuracy, are those of Math.
+ * The same for many poses: {holders} hold an array for each field, all equally long, `out` has the shape of what {name}
+ * returns, with an array in place of each number. Sines and cosines, and their accuracy, are those of Math.
  */
-export function {name}Rows(p, joints, out) {{
-  const rows = joints.{first}.length;
-  for (let row = 0; row < rows; row++) {{
-{}",
-        statements(&row_listing.evaluated, 4),
-    );
-    for (place, value) in places(unit, function.form).iter().zip(&row_listing.outputs) {
-        let _ = writeln!(text, "    out.{place}[row] = {value};");
+export function {name}Rows(p{arguments}, out) {{
+{checks}  const rows = {argument}.{first}.length;
+{lengths}  for (let row = 0; row < rows; row++) {{
+{evaluated}{stores}  }}
+}}
+"
+        ));
+        text
     }
-    text.push_str("  }\n}\n");
-    text
-}
 
-fn places(unit: &Unit<'_>, form: Form) -> Vec<String> {
-    let mut places = Vec::new();
-    for name in unit.observable_names() {
-        for component in 0..3 {
-            if form.is_jacobian() {
-                places
-                    .extend((0..unit.errors().len()).map(|column| format!("{name}[{component}][{column}]")));
-            } else {
-                places.push(format!("{name}[{component}]"));
+    fn places(&self, form: Form) -> Vec<String> {
+        let mut places = Vec::new();
+        for &id in self.shared.unit.observables {
+            for component in 0..3 {
+                let component = format!("{}[{component}]", self.names.observable(id));
+                if form.is_jacobian() {
+                    places.extend(
+                        (0..self.shared.columns.len()).map(|column| format!("{component}[{column}]")),
+                    );
+                } else {
+                    places.push(component);
+                }
             }
         }
+        places
     }
-    places
+
+    fn observed(&self, js: &JavaScript<'_>, form: Form, lowered: &Pose) -> String {
+        let rows: Vec<String> = lowered
+            .components(self.shared.columns_of(form))
+            .map(|row| {
+                let row = row.iter().map(|value| js.text(value)).collect::<Vec<_>>().join(", ");
+                if form.is_jacobian() { format!("      [{row}],\n") } else { format!("      {row},\n") }
+            })
+            .collect();
+        let observables = self.shared.unit.observables.iter().zip(rows.chunks(3));
+        let fields: String = observables
+            .map(|(&id, rows)| format!("    {}: [\n{}    ],\n", self.names.observable(id), rows.concat()))
+            .collect();
+        format!("{{\n{fields}  }}")
+    }
 }
 
-fn observed(unit: &Unit<'_>, form: Form, listing: &Listing) -> String {
-    let mut rows = listing.components(unit.columns_of(form)).map(|row| row.join(", "));
-    let mut text = String::from("{\n");
-    for name in unit.observable_names() {
-        let _ = writeln!(text, "    {name}: [");
-        for _ in 0..3 {
-            let row = rows.next().unwrap_or_default();
-            let row = if form.is_jacobian() { format!("[{row}]") } else { row };
-            let _ = writeln!(text, "      {row},");
+/// JavaScript in one place of a file; `row` is what follows the name of a joint or input.
+struct JavaScript<'a> {
+    chain: &'a Chain,
+    names: &'a Names,
+    row: &'a str,
+}
+
+impl Notation for JavaScript<'_> {
+    fn symbol(&self, id: SymbolId) -> String {
+        let name = self.names.symbol(id);
+        match self.chain.symbol(id).kind {
+            SymbolKind::Ramp => unreachable!("a ramp is computed from its joint or input"),
+            SymbolKind::Error => format!("errors.{name}"),
+            SymbolKind::Joint => format!("joints.{name}{}", self.row),
+            SymbolKind::Input => format!("inputs.{name}{}", self.row),
+            SymbolKind::Pi | SymbolKind::Constant => self.number(super::declared(self.chain, id)),
         }
-        text.push_str("    ],\n");
     }
-    text.push_str("  }");
-    text
+
+    fn call(&self, function: Function, a: &str) -> String {
+        match function {
+            Function::Saturate => format!("saturate({a})"),
+            Function::Step => format!("step({a})"),
+        }
+    }
+
+    fn name(&self, name: Name) -> String {
+        Scope::Pose.name(name, self.names)
+    }
 }
 
-fn statements(statements: &[Statement], indent: usize) -> String {
-    statements.iter().fold(String::new(), |mut text, statement| {
-        match statement {
-            Statement::Let { name, value } => {
-                let _ = writeln!(text, "{:indent$}const {name} = {value};", "");
-            }
-            Statement::SinCos { angle, sin, cos } => {
-                for (function, name) in [("sin", sin), ("cos", cos)] {
-                    if let Some(name) = name {
-                        let _ = writeln!(text, "{:indent$}const {name} = Math.{function}({angle});", "");
+impl JavaScript<'_> {
+    fn statements(&self, statements: &[Statement], indent: usize) -> String {
+        let space = " ".repeat(indent);
+        let mut text = String::new();
+        for statement in statements {
+            match statement {
+                Statement::Let(name, value) => {
+                    text.push_str(&format!("{space}const {} = {};\n", self.name(*name), self.text(value)));
+                }
+                Statement::SinCos { angle, sine, cosine } => {
+                    for (function, name) in [("sin", sine), ("cos", cosine)] {
+                        if let Some(name) = name {
+                            let (name, angle) = (self.name(*name), self.text(angle));
+                            text.push_str(&format!("{space}const {name} = Math.{function}({angle});\n"));
+                        }
                     }
+                }
+                Statement::Angles(_)
+                | Statement::SinCosOfRows(_)
+                | Statement::EachRow(_)
+                | Statement::Store(..) => {
+                    unreachable!("JavaScript is written from what is done for one pose")
                 }
             }
         }
         text
-    })
-}
-
-/// How JavaScript writes a program; `row` is what follows the name of a joint. Any word can be a property.
-struct Names<'a> {
-    chain: &'a Chain,
-    row: &'a str,
-}
-
-impl Words for Names<'_> {
-    fn symbol(&self, id: SymbolId) -> String {
-        let symbol = self.chain.symbol(id);
-        match symbol.kind {
-            SymbolKind::Error => format!("errors.{}", symbol.name),
-            SymbolKind::Ramp => unreachable!("a ramp is computed from its joint or input"),
-            SymbolKind::Joint | SymbolKind::Input => format!("joints.{}{}", symbol.name, self.row),
-            SymbolKind::Pi | SymbolKind::Constant => self.number(symbol.value.unwrap_or(f64::NAN)),
-        }
-    }
-
-    fn wave_of_symbol(&self, wave: &str, id: SymbolId) -> String {
-        format!("{wave}_{}", self.chain.symbol(id).name)
-    }
-
-    fn saturate(&self, a: &str) -> String {
-        format!("saturate({a})")
-    }
-
-    fn step(&self, a: &str) -> String {
-        format!("step({a})")
-    }
-
-    fn carried(&self, index: usize) -> String {
-        format!("p[{index}]")
-    }
-
-    fn local(&self, index: usize) -> String {
-        format!("t{index}")
     }
 }

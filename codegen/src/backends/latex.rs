@@ -1,119 +1,133 @@
 //! LaTeX: the program as equations, for a paper's appendix or a reader who checks what is computed.
 
-use std::fmt::Write;
-
 use model_core::{Chain, SymbolId};
 
-use super::listing::{Statement, Words, list};
-use super::unit::{Function, Unit, describe_form};
+use super::comments;
+use super::notation::Notation;
+use super::unit::{self, Shared, describe_form};
+use crate::lower::pose;
+use crate::lower::tree::{Angle, Function, Name, Statement, Wave};
 use crate::program::Form;
 
 /// The text of the file: a fragment to be included in a document that uses `amsmath`.
-pub(crate) fn write(unit: &Unit<'_>) -> String {
-    let mut text = unit.preamble().iter().fold(String::new(), |mut text, line| {
-        let _ = writeln!(text, "{}", format!("% {line}").trim_end());
-        text
-    });
-    for function in &unit.functions() {
-        text.push_str(&one_form(unit, function));
+pub(crate) fn write(shared: &Shared<'_>) -> String {
+    let mut text = comments::latex(&shared.preamble());
+    for function in &shared.functions {
+        text.push_str(&one_form(shared, function));
     }
     text
 }
 
-fn one_form(unit: &Unit<'_>, function: &Function) -> String {
-    let listing = list(&function.program, &Names { chain: unit.chain });
-    let mut text = format!("\n\\paragraph{{}} {}\n", describe_form(function.form));
-    let mut prepared = equations(&listing.prepared);
-    for (index, value) in listing.carried.iter().enumerate() {
-        prepared.push(format!("p_{{{index}}} &= {value}"));
+fn one_form(shared: &Shared<'_>, function: &unit::Function) -> String {
+    let lowered = pose(&function.program);
+    let latex = Latex { chain: shared.unit.chain };
+    let mut prepared = latex.equations(&lowered.prepared);
+    for (place, value) in lowered.kept.iter().enumerate() {
+        prepared.push(format!("{} &= {}", latex.name(Name::Kept(place)), latex.text(value)));
     }
-    display(&mut text, "What depends on the errors and constants alone:", &prepared);
-    display(&mut text, "For each pose:", &equations(&listing.evaluated));
-    let columns = unit.errors();
-    let mut outputs = listing.outputs.iter();
+    let mut outputs = lowered.outputs.iter().map(|value| latex.text(value));
     let mut results = Vec::new();
-    for name in unit.observable_names() {
+    for &id in shared.unit.observables {
+        let name = shared.unit.chain.observable(id).name.replace('_', "\\_");
         for component in ["x", "y", "z"] {
-            let observed = format!("\\mathrm{{{}}}_{component}", name.replace('_', "\\_"));
+            let observed = format!("\\mathrm{{{name}}}_{component}");
             match function.form {
                 Form::ExactValue => {
-                    results.extend(outputs.next().map(|value| format!("{observed} &= {value}")))
+                    results.extend(outputs.next().map(|value| format!("{observed} &= {value}")));
                 }
                 Form::ExactError | Form::FirstOrderError => {
                     results.extend(outputs.next().map(|value| format!("\\Delta {observed} &= {value}")));
                 }
                 Form::ExactJacobian | Form::FirstOrderJacobian => {
-                    results.extend(columns.iter().zip(&mut outputs).filter(|(_, value)| *value != "0").map(
-                        |(&column, value)| {
-                            let error = &unit.chain.symbol(column).latex;
-                            format!("\\partial {observed} / \\partial {error} &= {value}")
-                        },
-                    ));
-                }
-            }
-        }
-    }
-    display(
-        &mut text,
-        if function.form.is_jacobian() { "Derivatives that are not zero:" } else { "So that:" },
-        &results,
-    );
-    text
-}
-
-fn equations(statements: &[Statement]) -> Vec<String> {
-    let mut equations = Vec::new();
-    for statement in statements {
-        match statement {
-            Statement::Let { name, value } => equations.push(format!("{name} &= {value}")),
-            Statement::SinCos { angle, sin, cos } => {
-                for (function, name) in [("\\sin", sin), ("\\cos", cos)] {
-                    // The sine of a symbol is its own name.
-                    if let Some(name) = name.as_deref().filter(|name| !name.starts_with(function)) {
-                        equations.push(format!("{name} &= {function}({angle})"));
+                    for (&column, value) in shared.columns.iter().zip(&mut outputs) {
+                        let error = &shared.unit.chain.symbol(column).latex;
+                        if value != "0" {
+                            results.push(format!("\\partial {observed} / \\partial {error} &= {value}"));
+                        }
                     }
                 }
             }
         }
     }
-    equations
+    let so = if function.form.is_jacobian() { "Derivatives that are not zero:" } else { "So that:" };
+    [
+        format!("\n\\paragraph{{}} {}\n", describe_form(function.form)),
+        display("What depends on the errors and constants alone:", &prepared),
+        display("For each pose:", &latex.equations(&lowered.evaluated)),
+        display(so, &results),
+    ]
+    .concat()
 }
 
-fn display(text: &mut String, heading: &str, equations: &[String]) {
-    if !equations.is_empty() {
-        let _ =
-            write!(text, "{heading}\n\\begin{{align*}}\n{}\n\\end{{align*}}\n", equations.join(" \\\\\n"));
+fn display(heading: &str, equations: &[String]) -> String {
+    if equations.is_empty() {
+        return String::new();
     }
+    format!("{heading}\n\\begin{{align*}}\n{}\n\\end{{align*}}\n", equations.join(" \\\\\n"))
 }
 
 /// How LaTeX writes a program.
-struct Names<'a> {
+struct Latex<'a> {
     chain: &'a Chain,
 }
 
-impl Words for Names<'_> {
+impl Latex<'_> {
+    fn equations(&self, statements: &[Statement]) -> Vec<String> {
+        let mut equations = Vec::new();
+        for statement in statements {
+            match statement {
+                Statement::Let(name, value) => {
+                    equations.push(format!("{} &= {}", self.name(*name), self.text(value)));
+                }
+                Statement::SinCos { angle, sine, cosine } => {
+                    for (function, name) in [("\\sin", sine), ("\\cos", cosine)] {
+                        // The sine of a symbol is its own name.
+                        if let Some(name @ Name::Node(_)) = name {
+                            equations.push(format!(
+                                "{} &= {function}({})",
+                                self.name(*name),
+                                self.text(angle)
+                            ));
+                        }
+                    }
+                }
+                Statement::Angles(_)
+                | Statement::SinCosOfRows(_)
+                | Statement::EachRow(_)
+                | Statement::Store(..) => unreachable!("LaTeX is written from what is done for one pose"),
+            }
+        }
+        equations
+    }
+}
+
+impl Notation for Latex<'_> {
     fn symbol(&self, id: SymbolId) -> String {
         self.chain.symbol(id).latex.clone()
     }
 
-    fn wave_of_symbol(&self, wave: &str, id: SymbolId) -> String {
-        format!("\\{wave} {}", self.chain.symbol(id).latex)
+    fn name(&self, name: Name) -> String {
+        match name {
+            Name::Kept(place) => format!("p_{{{place}}}"),
+            Name::Node(node) => format!("t_{{{}}}", node.index()),
+            Name::Wave(wave, angle) => {
+                let function = match wave {
+                    Wave::Sine => "\\sin",
+                    Wave::Cosine => "\\cos",
+                };
+                match angle {
+                    Angle::Symbol(symbol) => format!("{function} {}", self.symbol(symbol)),
+                    Angle::Node(node) => format!("{function} {}", self.name(Name::Node(node))),
+                }
+            }
+        }
     }
 
-    fn saturate(&self, a: &str) -> String {
-        format!("\\operatorname{{ramp}}({a}, 0, 1)")
-    }
-
-    fn step(&self, a: &str) -> String {
-        format!("\\operatorname{{ramp}}({a}, 0, 0)")
-    }
-
-    fn carried(&self, index: usize) -> String {
-        format!("p_{{{index}}}")
-    }
-
-    fn local(&self, index: usize) -> String {
-        format!("t_{{{index}}}")
+    fn call(&self, function: Function, a: &str) -> String {
+        match function {
+            Function::Saturate => format!("\\operatorname{{ramp}}({a}, 0, 1)"),
+            Function::Step => format!("\\operatorname{{ramp}}({a}, 0, 0)"),
+        }
     }
 
     fn number(&self, value: f64) -> String {

@@ -1,21 +1,29 @@
-//! Writers of programs, one for each language: a file each, and a line in [`LANGUAGES`] and [`generate`].
+//! Writers of programs, one for each language: a file or folder each, and a line in [`LANGUAGES`] and [`generate`].
 //!
-//! `listing` decides what gets a name, `unit` what a file says about itself; a writer says how its language
-//! writes names, statements and types.
+//! A writer formats the tree of [`crate::lower`] and decides nothing. `unit` says what is in a file, `names` what things
+//! are called, `notation` how expressions are put into text, `comments` how the declaration's words stay in comments.
 
 mod c;
-mod c_block;
-mod c_rows;
+mod comments;
+mod error;
 mod javascript;
 mod latex;
-mod listing;
+mod names;
+mod notation;
 mod numpy;
-mod rust;
-mod rust_block;
-mod rust_rows;
+pub mod rust;
 mod unit;
 
-pub use unit::Unit;
+use std::collections::BTreeSet;
+
+use model_core::{Chain, SymbolId, SymbolKind};
+
+pub use error::GenerateError;
+pub use names::snake_case;
+pub use unit::{Precision, Unit, form_name};
+
+use crate::program::Op;
+use unit::Shared;
 
 /// The languages that can be written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -53,6 +61,9 @@ pub struct File {
 /// Writes a unit in a language: the file itself first, then what belongs beside it under the same name with
 /// another ending. `file_name` is that name without ending: C's source includes its header by it.
 ///
+/// # Errors
+/// What is asked for has no code: see [`GenerateError`].
+///
 /// # Example
 ///
 /// ```
@@ -62,28 +73,93 @@ pub struct File {
 /// let declaration = "chain Table { body top on ground { motion: Rz(turn); motion_error: Rz(index); } \
 ///                    observe edge: direction(1, 0, 0) of top; }";
 /// let chain = Chain::from_text(declaration)?;
-/// let unit = Unit {
-///     chain: &chain,
-///     declaration,
-///     observables: &[ObservableId(0)],
-///     forms: &[Form::FirstOrderError],
-///     remainders: &[],
-/// };
-/// let files = generate(&unit, Language::Rust, "table");
+/// let unit = Unit::new(&chain, declaration, &[ObservableId(0)], &[Form::FirstOrderError]);
+/// let files = generate(&unit, Language::Rust, "table")?;
 /// assert!(files[0].text.contains("pub fn first_order_error(errors: &Errors, joints: &Joints)"));
-/// # Ok::<(), model_core::Mistakes>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[must_use]
-pub fn generate(unit: &Unit<'_>, language: Language, file_name: &str) -> Vec<File> {
+pub fn generate(unit: &Unit<'_>, language: Language, file_name: &str) -> Result<Vec<File>, GenerateError> {
+    check(unit, language, file_name)?;
+    let shared = Shared::new(unit);
+    if shared.functions.is_empty() {
+        return Err(GenerateError::NoForm);
+    }
+    for function in &shared.functions {
+        let is_finite = |op: &Op| match op {
+            Op::Constant(literal) => is_within(literal.value(), unit.precision),
+            _ => true,
+        };
+        if !function.program.nodes().iter().all(is_finite) {
+            return Err(GenerateError::NotFinite { form: function.form });
+        }
+    }
     let file = |extension, text| File { extension, text };
-    match language {
-        Language::Rust => vec![file("rs", rust::write(unit))],
+    Ok(match language {
+        Language::Rust => vec![file("rs", rust::write(&shared))],
         Language::C => {
-            let (header, source) = c::write(unit, file_name);
+            let (header, source) = c::write(&shared, file_name);
             vec![file("c", source), file("h", header)]
         }
-        Language::Latex => vec![file("tex", latex::write(unit))],
-        Language::Numpy => vec![file("py", numpy::write(unit))],
-        Language::Javascript => vec![file("js", javascript::write(unit))],
+        Language::Latex => vec![file("tex", latex::write(&shared))],
+        Language::Numpy => vec![file("py", numpy::write(&shared))],
+        Language::Javascript => vec![file("js", javascript::write(&shared))],
+    })
+}
+
+/// Whether a number can be written.
+fn is_within(value: f64, precision: Precision) -> bool {
+    match precision {
+        Precision::Double => value.is_finite(),
+        Precision::Single => (value as f32).is_finite(),
+    }
+}
+
+/// What can be said before anything is built.
+fn check(unit: &Unit<'_>, language: Language, file_name: &str) -> Result<(), GenerateError> {
+    if unit.observables.is_empty() {
+        return Err(GenerateError::NoObservable);
+    }
+    let mut seen = BTreeSet::new();
+    if let Some(&id) = unit.observables.iter().find(|&&id| !seen.insert(id)) {
+        return Err(GenerateError::RepeatedObservable { name: unit.chain.observable(id).name.clone() });
+    }
+    let mut seen = BTreeSet::new();
+    if let Some(&form) = unit.forms.iter().find(|&&form| !seen.insert(form)) {
+        return Err(GenerateError::RepeatedForm { form });
+    }
+    if unit.precision == Precision::Single && !matches!(language, Language::Rust | Language::C) {
+        return Err(GenerateError::SinglePrecision);
+    }
+    let mut seen = BTreeSet::new();
+    for &(id, value) in unit.values {
+        let symbol = unit.chain.symbol(id);
+        let has_value = matches!(symbol.kind, SymbolKind::Error | SymbolKind::Constant);
+        if !has_value || !value.is_finite() || !seen.insert(id) {
+            return Err(GenerateError::Value { name: symbol.name.clone() });
+        }
+    }
+    let declared = unit.chain.symbols.iter().filter(|symbol| symbol.kind == SymbolKind::Constant);
+    let is_beyond = |value: Option<f64>| value.is_some_and(|value| !is_within(value, unit.precision));
+    if let (Some(&form), true) =
+        (unit.forms.first(), declared.into_iter().any(|symbol| is_beyond(symbol.value)))
+    {
+        return Err(GenerateError::NotFinite { form });
+    }
+    let is_safe = |c: char| c.is_alphanumeric() || "_-.+ ".contains(c);
+    if language == Language::C && !file_name.chars().all(is_safe) {
+        return Err(GenerateError::FileName { name: file_name.to_owned() });
+    }
+    Ok(())
+}
+
+/// The value of a constant, which every chain that was checked gives it.
+fn declared(chain: &Chain, id: SymbolId) -> f64 {
+    if id == SymbolId::PI {
+        return std::f64::consts::PI;
+    }
+    let symbol = chain.symbol(id);
+    match symbol.value {
+        Some(value) => value,
+        None => unreachable!("the constant {} has a value", symbol.name),
     }
 }

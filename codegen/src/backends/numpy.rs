@@ -1,17 +1,22 @@
 //! Python with NumPy: functions of numbers and of arrays alike.
 
-use std::fmt::Write;
-
 use model_core::{Chain, SymbolId, SymbolKind};
 
-use super::listing::{Statement, Words, list};
-use super::unit::{Function, Unit, describe_form, form_name, unreserved};
+use super::comments;
+use super::names::{Names, Rules};
+use super::notation::{Notation, Scope};
+use super::unit::{self, Group, Shared, describe_form, form_name};
+use crate::lower::pose;
+use crate::lower::tree::{Function, Name, Statement};
+
+/// Python gives names with two underscores in front a meaning of their own.
+const RULES: Rules = Rules { words: &RESERVED, starts: &["__"], takes_letters: true };
 
 /// Puts components and columns together; what does not depend on the pose is the same in each.
 const STACK: &str = "
 
-def _poses(joints):
-    return np.broadcast_shapes(*(np.shape(value) for value in vars(joints).values()))
+def _poses(*arguments):
+    return np.broadcast_shapes(*(np.shape(value) for argument in arguments for value in vars(argument).values()))
 
 
 def _stack(values, shape, poses):
@@ -20,154 +25,154 @@ def _stack(values, shape, poses):
 ";
 
 /// The text of the file.
-pub(crate) fn write(unit: &Unit<'_>) -> String {
-    let functions = unit.functions();
-    let joints = unit.joints(&functions);
-    let mut text = String::from("r\"\"\"");
-    for line in unit.preamble() {
-        let _ = writeln!(text, "{}", line.replace("\"\"\"", "'''"));
+pub(crate) fn write(shared: &Shared<'_>) -> String {
+    let names = Names::new(shared.unit.chain, RULES);
+    let file = File { shared, names: &names };
+    let mut text = format!("r\"\"\"{}\n\"\"\"\n", comments::python_doc(&shared.preamble()));
+    text.push_str("\nfrom dataclasses import dataclass\nfrom typing import Any\n\nimport numpy as np\n");
+    for group in shared.pose.iter().chain(&shared.errors) {
+        text.push_str(&file.group(group));
     }
-    text.push_str(
-        "\"\"\"\n\nfrom dataclasses import dataclass\nfrom typing import Any\n\nimport numpy as np\n",
-    );
-    class(
-        &mut text,
-        "Joints",
-        "Where the instrument is: numbers, or arrays of many poses.",
-        joints.iter().map(|&id| (format!("{}: Any", name(unit.chain, id)), unit.describe(id))),
-    );
-    class(
-        &mut text,
-        "Errors",
-        "What is wrong with the instrument; by default nothing.",
-        unit.errors()
-            .into_iter()
-            .map(|id| (format!("{}: float = 0.0", name(unit.chain, id)), unit.describe(id))),
-    );
-    class(
-        &mut text,
+    let observables = shared.unit.observables.iter();
+    let fields = observables
+        .map(|&id| (format!("{}: np.ndarray", names.observable(id)), shared.describe_observable(id)));
+    text.push_str(&class(
         "Observed",
         "An array for each observable: its components first, then the columns of a Jacobian, then the poses.",
-        unit.observables.iter().map(|&id| {
-            let name = unreserved(unit.chain, &unit.chain.observable(id).name, &RESERVED);
-            (format!("{name}: np.ndarray"), unit.describe_observable(id))
-        }),
-    );
+        fields,
+    ));
     text.push_str(STACK);
-    for function in &functions {
-        text.push_str(&one_form(unit, function));
+    for function in &shared.functions {
+        text.push_str(&file.form(function));
     }
     text
 }
 
-fn class(text: &mut String, name: &str, about: &str, fields: impl Iterator<Item = (String, String)>) {
-    let _ = write!(text, "\n\n@dataclass\nclass {name}:\n    \"\"\"{about}\"\"\"\n\n");
-    let mut is_empty = true;
-    for (field, about) in fields {
-        is_empty = false;
-        let _ = writeln!(text, "    {field}  # {about}");
-    }
-    if is_empty {
-        text.push_str("    pass\n");
-    }
+fn class(name: &str, about: &str, fields: impl Iterator<Item = (String, String)>) -> String {
+    let fields: String =
+        fields.map(|(field, about)| format!("    {field}  {}", comments::python(&about))).collect();
+    format!("\n\n@dataclass\nclass {name}:\n    \"\"\"{about}\"\"\"\n\n{fields}")
 }
 
-fn one_form(unit: &Unit<'_>, function: &Function) -> String {
-    let form = function.form;
-    let (name, about) = (form_name(form), describe_form(form));
-    let listing = list(&function.program, &Names { chain: unit.chain });
-    let mut text = format!(
-        "
+/// One file.
+struct File<'a> {
+    shared: &'a Shared<'a>,
+    names: &'a Names,
+}
 
-def prepare_{name}(errors):
+impl File<'_> {
+    fn group(&self, group: &Group) -> String {
+        let (about, kind) = match group.kind {
+            SymbolKind::Error => (group.about.to_owned(), "float = 0.0"),
+            _ => (format!("{} Numbers, or arrays of many poses.", group.about), "Any"),
+        };
+        let fields = group
+            .symbols
+            .iter()
+            .map(|&id| (format!("{}: {kind}", self.names.symbol(id)), self.shared.describe(id)));
+        class(&group.type_name(), &about, fields)
+    }
+
+    fn form(&self, function: &unit::Function) -> String {
+        let form = function.form;
+        let (name, about) = (form_name(form), describe_form(form));
+        let lowered = pose(&function.program);
+        let python = Python { chain: self.shared.unit.chain, names: self.names };
+        let prepared = python.statements(&lowered.prepared);
+        let kept: String =
+            lowered.kept.iter().map(|value| format!("        {},\n", python.text(value))).collect();
+        let evaluated = python.statements(&lowered.evaluated);
+        let errors = self.shared.errors.as_ref().map_or("", |group| group.argument);
+        let arguments: Vec<&str> = self.shared.pose.iter().map(|group| group.argument).collect();
+        let parameters: String = arguments.iter().map(|argument| format!(", {argument}")).collect();
+        let arguments = arguments.join(", ");
+        let shape = if form.is_jacobian() {
+            format!("(3, {})", self.shared.columns.len())
+        } else {
+            "(3,)".to_owned()
+        };
+        let outputs: Vec<String> =
+            lowered.outputs.iter().map(|value| format!("            {},\n", python.text(value))).collect();
+        let per_observable = 3 * self.shared.columns_of(form);
+        let stacks: String = outputs
+            .chunks(per_observable)
+            .map(|outputs| format!("        _stack([\n{}        ], {shape}, poses),\n", outputs.concat()))
+            .collect();
+        format!(
+            "
+
+def prepare_{name}({errors}):
     \"\"\"Does what {name} needs once for a set of errors.\"\"\"
-{}    return (
-{}    )
+{prepared}    return (
+{kept}    )
 
 
-def {name}(p, joints):
+def {name}(p{parameters}):
     \"\"\"{about}
 
     `p` is what prepare_{name} returned. Sines and cosines, and their accuracy, are NumPy's.
     \"\"\"
-    poses = _poses(joints)
-{}    return Observed(
-",
-        statements(&listing.prepared),
-        listing.carried.iter().fold(String::new(), |text, value| format!("{text}        {value},\n")),
-        statements(&listing.evaluated),
-    );
-    let mut components = listing.components(unit.columns_of(form));
-    for _ in unit.observables {
-        text.push_str("        _stack([\n");
-        for _ in 0..3 {
-            for output in components.next().unwrap_or_default() {
-                let _ = writeln!(text, "            {output},");
-            }
-        }
-        let shape = if form.is_jacobian() { format!("(3, {})", unit.errors().len()) } else { "(3,)".into() };
-        let _ = writeln!(text, "        ], {shape}, poses),");
+    poses = _poses({arguments})
+{evaluated}    return Observed(
+{stacks}    )
+"
+        )
     }
-    text.push_str("    )\n");
-    text
-}
-
-fn statements(statements: &[Statement]) -> String {
-    statements.iter().fold(String::new(), |mut text, statement| {
-        match statement {
-            Statement::Let { name, value } => {
-                let _ = writeln!(text, "    {name} = {value}");
-            }
-            Statement::SinCos { angle, sin, cos } => {
-                for (function, name) in [("sin", sin), ("cos", cos)] {
-                    if let Some(name) = name {
-                        let _ = writeln!(text, "    {name} = np.{function}({angle})");
-                    }
-                }
-            }
-        }
-        text
-    })
-}
-
-fn name(chain: &Chain, id: SymbolId) -> String {
-    unreserved(chain, &chain.symbol(id).name, &RESERVED)
 }
 
 /// How Python writes a program.
-struct Names<'a> {
+struct Python<'a> {
     chain: &'a Chain,
+    names: &'a Names,
 }
 
-impl Words for Names<'_> {
+impl Notation for Python<'_> {
     fn symbol(&self, id: SymbolId) -> String {
-        let symbol = self.chain.symbol(id);
-        match symbol.kind {
-            SymbolKind::Error => format!("errors.{}", name(self.chain, id)),
+        let name = self.names.symbol(id);
+        match self.chain.symbol(id).kind {
             SymbolKind::Ramp => unreachable!("a ramp is computed from its joint or input"),
-            SymbolKind::Joint | SymbolKind::Input => format!("joints.{}", name(self.chain, id)),
-            SymbolKind::Pi | SymbolKind::Constant => self.number(symbol.value.unwrap_or(f64::NAN)),
+            SymbolKind::Error => format!("errors.{name}"),
+            SymbolKind::Joint => format!("joints.{name}"),
+            SymbolKind::Input => format!("inputs.{name}"),
+            SymbolKind::Pi | SymbolKind::Constant => self.number(super::declared(self.chain, id)),
         }
     }
 
-    fn wave_of_symbol(&self, wave: &str, id: SymbolId) -> String {
-        format!("{wave}_{}", self.chain.symbol(id).name)
+    fn call(&self, function: Function, a: &str) -> String {
+        match function {
+            Function::Saturate => format!("np.clip({a}, 0.0, 1.0)"),
+            Function::Step => format!("np.heaviside({a}, 1.0)"),
+        }
     }
 
-    fn saturate(&self, a: &str) -> String {
-        format!("np.clip({a}, 0.0, 1.0)")
+    fn name(&self, name: Name) -> String {
+        Scope::Pose.name(name, self.names)
     }
+}
 
-    fn step(&self, a: &str) -> String {
-        format!("np.heaviside({a}, 1.0)")
-    }
-
-    fn carried(&self, index: usize) -> String {
-        format!("p[{index}]")
-    }
-
-    fn local(&self, index: usize) -> String {
-        format!("t{index}")
+impl Python<'_> {
+    fn statements(&self, statements: &[Statement]) -> String {
+        let mut text = String::new();
+        for statement in statements {
+            match statement {
+                Statement::Let(name, value) => {
+                    text.push_str(&format!("    {} = {}\n", self.name(*name), self.text(value)));
+                }
+                Statement::SinCos { angle, sine, cosine } => {
+                    for (function, name) in [("sin", sine), ("cos", cosine)] {
+                        if let Some(name) = name {
+                            let (name, angle) = (self.name(*name), self.text(angle));
+                            text.push_str(&format!("    {name} = np.{function}({angle})\n"));
+                        }
+                    }
+                }
+                Statement::Angles(_)
+                | Statement::SinCosOfRows(_)
+                | Statement::EachRow(_)
+                | Statement::Store(..) => unreachable!("Python is written from what is done for one pose"),
+            }
+        }
+        text
     }
 }
 

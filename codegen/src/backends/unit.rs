@@ -2,7 +2,9 @@
 
 use model_core::{Chain, ObservableId, Quantity, SymbolId, SymbolKind};
 
-use crate::build::build;
+use super::comments;
+use super::names::camel_case;
+use crate::build::Builds;
 use crate::program::{Form, Program};
 
 /// What a generated file is made from.
@@ -16,9 +18,38 @@ pub struct Unit<'a> {
     pub observables: &'a [ObservableId],
     /// What is computed of them, a function each.
     pub forms: &'a [Form],
-    /// What is known about how far exact and first-order error are apart, in words, for observables of which it
-    /// is known.
-    pub remainders: &'a [(ObservableId, String)],
+    /// Errors and constants whose values are written into the file, in SI: the file has no fields for these errors.
+    pub values: &'a [(SymbolId, f64)],
+    /// Whether the file has functions of many poses too.
+    pub rows: bool,
+    /// The numbers that the file computes with. Single precision is for processors that have no other: Rust and C, one pose.
+    pub precision: Precision,
+    /// What a reader of the file should know beside the declaration, line by line: how far exact and first-order error
+    /// are apart, and in which box of errors.
+    pub remarks: &'a [String],
+}
+
+impl<'a> Unit<'a> {
+    /// A file without values or remarks, with functions of many poses.
+    #[must_use]
+    pub fn new(
+        chain: &'a Chain,
+        declaration: &'a str,
+        observables: &'a [ObservableId],
+        forms: &'a [Form],
+    ) -> Self {
+        let precision = Precision::Double;
+        Self { chain, declaration, observables, forms, values: &[], rows: true, precision, remarks: &[] }
+    }
+}
+
+/// The numbers that a generated file computes with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Precision {
+    /// f64: 53 bits.
+    Double,
+    /// f32: 24 bits.
+    Single,
 }
 
 /// A form of a unit, as a program.
@@ -27,73 +58,141 @@ pub(crate) struct Function {
     pub(crate) program: Program,
 }
 
-impl Unit<'_> {
-    /// Every function of the file; a chain without errors has no Jacobians.
-    pub(crate) fn functions(&self) -> Vec<Function> {
-        let errors = self.errors();
-        self.forms
-            .iter()
-            .map(|&form| Function { form, program: build(self.chain, self.observables, form, &errors) })
-            .filter(|function| !function.program.outputs().is_empty())
-            .collect()
+/// The symbols that one argument of a function holds.
+pub(crate) struct Group {
+    pub(crate) kind: SymbolKind,
+    /// What an argument that holds them is called: `joints`.
+    pub(crate) argument: &'static str,
+    /// What they are.
+    pub(crate) about: &'static str,
+    pub(crate) symbols: Vec<SymbolId>,
+}
+
+impl Group {
+    /// The group of some symbols, if there are any.
+    pub(crate) fn new(kind: SymbolKind, symbols: Vec<SymbolId>) -> Option<Self> {
+        let (argument, about) = match kind {
+            SymbolKind::Joint => ("joints", "Where the joints stand, by their encoders."),
+            SymbolKind::Input => ("inputs", "What is measured beside the joints."),
+            SymbolKind::Error => ("errors", "What differs from the design: nothing where all are zero."),
+            SymbolKind::Constant => ("constants", "The sizes of the geometry."),
+            SymbolKind::Pi | SymbolKind::Ramp => return None,
+        };
+        if symbols.is_empty() { None } else { Some(Self { kind, argument, about, symbols }) }
     }
 
-    /// The errors, in order: the columns of Jacobians.
-    pub(crate) fn errors(&self) -> Vec<SymbolId> {
-        self.chain.symbols_of(SymbolKind::Error).collect()
+    /// The type of one set of them: `Joints`.
+    pub(crate) fn type_name(&self) -> String {
+        camel_case(self.argument)
+    }
+
+    /// One of them: `joint`.
+    pub(crate) fn singular(&self) -> &'static str {
+        self.argument.strip_suffix('s').unwrap_or(self.argument)
+    }
+}
+
+/// What the functions of one file have in common.
+pub(crate) struct Shared<'a> {
+    pub(crate) unit: &'a Unit<'a>,
+    pub(crate) functions: Vec<Function>,
+    /// Joints, and the inputs that some function reads: arguments of every function of a pose.
+    pub(crate) pose: Vec<Group>,
+    /// Errors without a value of their own.
+    pub(crate) errors: Option<Group>,
+    /// Every error: the columns of Jacobians.
+    pub(crate) columns: Vec<SymbolId>,
+}
+
+impl<'a> Shared<'a> {
+    pub(crate) fn new(unit: &'a Unit<'a>) -> Self {
+        let columns: Vec<SymbolId> = unit.chain.symbols_of(SymbolKind::Error).collect();
+        let builds = Builds { chain: unit.chain, values: unit.values };
+        // A chain without errors has no Jacobians.
+        let functions: Vec<Function> = unit
+            .forms
+            .iter()
+            .map(|&form| Function { form, program: builds.build(unit.observables, &[form], &columns) })
+            .filter(|function| !function.program.outputs().is_empty())
+            .collect();
+        let is_read =
+            |id: SymbolId| functions.iter().any(|f| f.program.inputs().iter().any(|&(read, _)| read == id));
+        let inputs = unit.chain.symbols_of(SymbolKind::Input).filter(|&id| is_read(id)).collect();
+        let joints = unit.chain.symbols_of(SymbolKind::Joint).collect();
+        let pose = [Group::new(SymbolKind::Joint, joints), Group::new(SymbolKind::Input, inputs)];
+        let has_value = |id: &SymbolId| unit.values.iter().any(|(symbol, _)| symbol == id);
+        let errors = columns.iter().copied().filter(|id| !has_value(id)).collect();
+        Self {
+            unit,
+            functions,
+            pose: pose.into_iter().flatten().collect(),
+            errors: Group::new(SymbolKind::Error, errors),
+            columns,
+        }
+    }
+
+    /// Whether there are functions of many poses: without joints and inputs there is one pose.
+    pub(crate) fn has_rows(&self) -> bool {
+        self.unit.rows && self.unit.precision == Precision::Double && !self.pose.is_empty()
+    }
+
+    /// Whether a form has a function without branches beside its usual one. In single precision that is the usual one.
+    pub(crate) fn has_variant_without_branch(&self, form: Form) -> bool {
+        form == Form::FirstOrderError && self.unit.precision == Precision::Double
+    }
+
+    /// The symbols of a pose, in order.
+    pub(crate) fn pose_symbols(&self) -> impl Iterator<Item = SymbolId> {
+        self.pose.iter().flat_map(|group| group.symbols.iter().copied())
     }
 
     /// How many numbers a form has for each component of an observable.
     pub(crate) fn columns_of(&self, form: Form) -> usize {
-        if form.is_jacobian() { self.errors().len() } else { 1 }
+        if form.is_jacobian() { self.columns.len() } else { 1 }
     }
 
-    /// Every joint, and the inputs that some function reads, in order.
-    pub(crate) fn joints(&self, functions: &[Function]) -> Vec<SymbolId> {
-        let is_read = |id| functions.iter().any(|f| f.program.inputs().iter().any(|&(read, _)| read == id));
-        (0..self.chain.symbols.len())
-            .filter_map(|index| u16::try_from(index).ok().map(SymbolId))
-            .filter(|&id| match self.chain.symbol(id).kind {
-                SymbolKind::Joint => true,
-                SymbolKind::Input => is_read(id),
-                SymbolKind::Pi | SymbolKind::Error | SymbolKind::Constant | SymbolKind::Ramp => false,
-            })
-            .collect()
-    }
-
-    /// The names of the observables.
-    pub(crate) fn observable_names(&self) -> impl Iterator<Item = &str> {
-        self.observables.iter().map(|&id| self.chain.observable(id).name.as_str())
-    }
-
-    /// What a reader of the file has to know, line by line, without comment marks.
-    pub(crate) fn preamble(&self) -> Vec<String> {
-        let mut lines: Vec<String> = self.chain.documentation.lines().map(str::to_owned).collect();
-        if lines.is_empty() {
-            lines.push(format!("The chain {}.", self.chain.name));
-        }
-        lines.push(String::new());
-        lines.push(format!(
-            "Generated by trueaxis {} from the declaration below: change that, not this file.",
+    /// What a reader of the file has to know, without comment marks.
+    pub(crate) fn preamble(&self) -> String {
+        let chain = self.unit.chain;
+        let mut text = if chain.documentation.is_empty() {
+            format!("The chain {}.\n", chain.name)
+        } else {
+            format!("{}\n", chain.documentation)
+        };
+        text.push_str(&format!(
+            "\nGenerated by trueaxis {} from the declaration below: change that, not this file.\n\
+             Angles are in radians, lengths in metres, points and directions in the ground frame.\n",
             env!("CARGO_PKG_VERSION")
         ));
-        lines.push(
-            "Angles are in radians, lengths in metres, points and directions in the ground frame.".into(),
-        );
-        for (id, words) in self.remainders {
-            lines.push(format!("First order, {}: {words}", self.chain.observable(*id).name));
+        if self.unit.precision == Precision::Single {
+            text.push_str(
+                "Single precision: sines and cosines are at most 0.9 units in the last place off for any angle, by the same\n\
+                 instructions for every angle.\n",
+            );
         }
-        lines.push(String::new());
-        lines.extend(
-            self.declaration.trim_end().lines().map(|line| format!("    {line}").trim_end().to_owned()),
-        );
-        lines
+        for remark in self.unit.remarks {
+            text.push_str(remark);
+            text.push('\n');
+        }
+        if !self.unit.values.is_empty() {
+            text.push_str("Written into this file:\n");
+            for &(id, value) in self.unit.values {
+                let symbol = chain.symbol(id);
+                text.push_str(&format!("    {} = {value:?} {}\n", symbol.name, symbol.quantity.unit()));
+            }
+        }
+        text.push('\n');
+        for line in comments::lines(self.unit.declaration.trim_end()) {
+            text.push_str(format!("    {line}").trim_end());
+            text.push('\n');
+        }
+        text
     }
 
     /// What a symbol is, on one line, with its unit.
     pub(crate) fn describe(&self, id: SymbolId) -> String {
-        let symbol = self.chain.symbol(id);
-        let words = symbol.documentation.split_whitespace().collect::<Vec<_>>().join(" ");
+        let symbol = self.unit.chain.symbol(id);
+        let words = comments::line(&symbol.documentation);
         let words = words.trim_end_matches('.');
         let unit = match symbol.quantity {
             Quantity::Angle | Quantity::Length => symbol.quantity.unit(),
@@ -104,14 +203,15 @@ impl Unit<'_> {
 
     /// What an observable is, on one line.
     pub(crate) fn describe_observable(&self, id: ObservableId) -> String {
-        let observable = self.chain.observable(id);
-        let words = observable.documentation.split_whitespace().collect::<Vec<_>>().join(" ");
+        let observable = self.unit.chain.observable(id);
+        let words = comments::line(&observable.documentation);
         if words.is_empty() { format!("The observable `{}`.", observable.name) } else { words }
     }
 }
 
 /// A form's name in generated files.
-pub(crate) fn form_name(form: Form) -> &'static str {
+#[must_use]
+pub fn form_name(form: Form) -> &'static str {
     match form {
         Form::ExactValue => "exact_value",
         Form::ExactError => "exact_error",
@@ -138,35 +238,4 @@ pub(crate) fn describe_form(form: Form) -> &'static str {
             "Derivatives of the observables with respect to every error where all errors are zero (order 1): rows x, y and z, a column for each error."
         }
     }
-}
-
-/// A name in words of another case: `MobileLidar` as `mobile_lidar`.
-pub(crate) fn snake_case(name: &str) -> String {
-    let mut snake = String::new();
-    for c in name.chars() {
-        if c.is_uppercase() && !snake.is_empty() && !snake.ends_with('_') {
-            snake.push('_');
-        }
-        snake.extend(c.to_lowercase());
-    }
-    snake
-}
-
-/// `first_order_error` as `FirstOrderError`.
-pub(crate) fn camel_case(name: &str) -> String {
-    name.split('_')
-        .flat_map(|word| {
-            let mut letters = word.chars();
-            letters.next().map(|first| first.to_uppercase().chain(letters).collect::<String>())
-        })
-        .collect()
-}
-
-/// A name that is no reserved word of a language and no other symbol of the chain.
-pub(crate) fn unreserved(chain: &Chain, name: &str, reserved: &[&str]) -> String {
-    let mut free = name.to_owned();
-    while reserved.contains(&free.as_str()) || (free != name && chain.find_symbol(&free).is_some()) {
-        free.push('_');
-    }
-    free
 }

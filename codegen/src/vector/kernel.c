@@ -26,7 +26,8 @@ enum trueaxis_path {
     TRUEAXIS_V4 = 2        /* x86-64-v4: AVX-512 F, BW, CD, DQ and VL, and FMA */
 };
 
-#if (defined(__GNUC__) || defined(__clang__)) && defined(__x86_64__)
+/* Without optimisation, calls of fma would be left, and -lm be needed. */
+#if (defined(__GNUC__) || defined(__clang__)) && defined(__x86_64__) && defined(__OPTIMIZE__)
 #define TRUEAXIS_HAS_PATHS 1
 #define TRUEAXIS_TARGET_V3 __attribute__((target("avx2,fma")))
 #define TRUEAXIS_TARGET_V4 __attribute__((target("avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,fma")))

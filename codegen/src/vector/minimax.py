@@ -1,10 +1,11 @@
-"""Derives the constants of `kernel.rs` and `kernel.c`: π/2 in parts, 2/π in words, and the polynomials.
+"""Derives the constants of `kernel.rs`, `single.rs` and their twins in C: π/2 in parts, 2/π in words, and the
+polynomials.
 
     sin r = r + r z S(z),   cos r = 1 - z/2 + z² C(z),   z = r², |r| ≤ π/4 (and a little more).
 
 S and C are minimax in the relative error of the sine and cosine (Remez exchange in 60-digit arithmetic). Coefficients
-are rounded to f64 one after another, lowest first, and the rest is fitted again to the rounded ones, so that
-rounding costs almost nothing. The largest relative error of the rounded polynomials is printed in units of 2^-53.
+are rounded to f64 or f32 one after another, lowest first, and the rest is fitted again to the rounded ones, so that
+rounding costs almost nothing. The largest relative error of the rounded polynomials is printed in units of 2^-53 or 2^-24.
 
 Needs mpmath. Run: python3 minimax.py
 """
@@ -84,14 +85,24 @@ def remez(target, weight, low, high, terms, first_power):
     return coefficients
 
 
-def rounded(target, weight, terms):
-    """The coefficients as f64, each rounded before the later ones are fitted."""
+def as_double(value):
+    """The nearest f64."""
+    return mpf(float(value))
+
+
+def as_single(value):
+    """The nearest f32."""
+    return mpf(struct.unpack("<f", struct.pack("<f", float(value)))[0])
+
+
+def rounded(target, weight, terms, as_number):
+    """The coefficients, each rounded before the later ones are fitted."""
     low, high = mpf("1e-12"), EDGE**2
     done = []
     for k in range(terms):
         rest = lambda z: target(z) - sum(c * z**j for j, c in enumerate(done))
         fitted = remez(rest, weight, low, high, terms - k, k)
-        done.append(mpf(float(fitted[0])))
+        done.append(as_number(fitted[0]))
     worst = max(
         abs(weight(z) * (sum(c * z**j for j, c in enumerate(done)) - target(z)))
         for z in linspace(low, high, 2000)
@@ -123,10 +134,11 @@ def main():
             show(f"{path} {k + 1}", part)
             rest -= part
     for name, target, weight in (("S", sine_target, sine_weight), ("C", cosine_target, cosine_weight)):
-        coefficients, worst = rounded(target, weight, 6)
-        for k, c in enumerate(coefficients):
-            show(f"{name}{k}", c)
-        print(f"largest relative error {float(worst * 2**53):.4f} * 2^-53")
+        for precision, terms, as_number, digits in (("f64", 6, as_double, 53), ("f32", 3, as_single, 24)):
+            coefficients, worst = rounded(target, weight, terms, as_number)
+            for k, c in enumerate(coefficients):
+                show(f"{name}{k} {precision}", c)
+            print(f"largest relative error {float(worst * 2**digits):.4f} * 2^-{digits}")
     # 2/π as a binary fraction, 64 bits a word, enough for every exponent of an f64.
     mp.prec = 1400
     fraction = 2 / pi

@@ -4,8 +4,6 @@
 //! Accuracy, against 200-bit arithmetic: at most 0.9 units in the last place for |x| ≤ 1e6 rad on every path; NaN for
 //! NaN and infinities. The sine of −0 is +0.
 
-mod rows;
-
 mod sine_cosine {
     #![allow(
         unsafe_code,
@@ -16,16 +14,30 @@ mod sine_cosine {
     include!("paths.rs");
     include!("kernel.rs");
     include!("wide.rs");
+    include!("blocks.rs");
 }
 
-pub(crate) use rows::{Angle, Dialect, Line, Rows, rows};
+/// Sine and cosine in single precision, as generated files have them.
+pub mod single {
+    #![allow(clippy::excessive_precision, reason = "generated files contain this text")]
+
+    include!("single.rs");
+}
+
 pub use sine_cosine::{
-    Arithmetic, Path, Portable, ROWS, WIDEST, Waves, Work, path, run, saturate, sin_cos, sin_cos_rows,
-    sin_cos_with, sin_cos_without_branch, step, whole,
+    Arithmetic, Block, Path, Portable, ROWS, WIDEST, Waves, Work, path, run, run_block, run_rows, saturate,
+    sin_cos, sin_cos_rows, sin_cos_with, sin_cos_without_branch, step, whole,
 };
 
 /// The parts of the module `sine_cosine` in generated Rust, in order.
-pub const RUST: [&str; 3] = [include_str!("paths.rs"), include_str!("kernel.rs"), include_str!("wide.rs")];
+pub const RUST: [&str; 4] =
+    [include_str!("paths.rs"), include_str!("kernel.rs"), include_str!("wide.rs"), include_str!("blocks.rs")];
+
+/// The module `sine_cosine` of generated Rust in single precision.
+pub const RUST_SINGLE: &str = include_str!("single.rs");
+
+/// The same in C99: the start of generated C files in single precision.
+pub const C_SINGLE: &str = include_str!("single.c");
 
 /// The same in C99: the start of generated C files.
 pub const C: &str = include_str!("kernel.c");

@@ -17,9 +17,8 @@ fn write(language: Language, folder: &std::path::Path) {
     let chain = read(name, text);
     let observables = [ObservableId(0), ObservableId(1)];
     let forms = [Form::FirstOrderError];
-    let unit =
-        Unit { chain: &chain, declaration: text, observables: &observables, forms: &forms, remainders: &[] };
-    for file in generate(&unit, language, name) {
+    let unit = Unit::new(&chain, text, &observables, &forms);
+    for file in generate(&unit, language, name).unwrap() {
         fs::write(folder.join(format!("{name}.{}", file.extension)), file.text).unwrap();
     }
 }

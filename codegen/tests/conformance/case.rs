@@ -31,8 +31,8 @@ pub struct Case {
     pub text: &'static str,
     pub chain: Chain,
     pub observables: Vec<ObservableId>,
-    /// What generated code calls joints: joints, and the inputs that are read.
-    pub joints: Vec<SymbolId>,
+    /// The arguments of a pose, `joints` and `inputs`, with what each holds: joints, and the inputs that are read.
+    pub pose: Vec<(&'static str, Vec<SymbolId>)>,
     /// All with the same errors.
     pub poses: Vec<Vec<f64>>,
 }
@@ -65,23 +65,31 @@ impl Case {
         let is_read = |id: &SymbolId| {
             programs.iter().any(|program| program.inputs().iter().any(|(read, _)| read == id))
         };
-        let joints = symbols().filter(|id| is_joint(id) || (moves(id) && is_read(id))).collect();
-        Self { name, text, observables, joints, poses, chain }
+        let joints = symbols().filter(is_joint).collect::<Vec<_>>();
+        let inputs = symbols().filter(|id| !is_joint(id) && moves(id) && is_read(id)).collect::<Vec<_>>();
+        let mut pose = vec![("joints", joints), ("inputs", inputs)];
+        pose.retain(|(_, symbols)| !symbols.is_empty());
+        Self { name, text, observables, pose, poses, chain }
     }
 
     pub fn generate(&self, language: Language) -> Vec<File> {
-        let unit = Unit {
-            chain: &self.chain,
-            declaration: self.text,
-            observables: &self.observables,
-            forms: &FORMS.map(|(form, _)| form),
-            remainders: &[],
-        };
-        generate(&unit, language, self.name)
+        let forms = FORMS.map(|(form, _)| form);
+        let unit = Unit::new(&self.chain, self.text, &self.observables, &forms);
+        generate(&unit, language, self.name).unwrap()
     }
 
     pub fn errors(&self) -> Vec<SymbolId> {
         errors(&self.chain)
+    }
+
+    /// Something of each argument of a pose.
+    pub fn of_pose(&self, of: &dyn Fn(&str, &[SymbolId]) -> String) -> String {
+        self.pose.iter().map(|(argument, symbols)| of(argument, symbols)).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The symbols of a pose.
+    pub fn pose_symbols(&self) -> impl Iterator<Item = SymbolId> {
+        self.pose.iter().flat_map(|(_, symbols)| symbols.iter().copied())
     }
 
     pub fn symbol_name(&self, id: SymbolId) -> &str {

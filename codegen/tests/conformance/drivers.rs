@@ -4,6 +4,7 @@
 use std::fmt::Write;
 
 use codegen::Form;
+use model_core::SymbolId;
 
 use crate::case::{COMPARED, Case, FORMS, ROWS, SINGLE};
 
@@ -22,13 +23,13 @@ pub fn rust(cases: &[Case]) -> String {
     for case in cases {
         let name = case.name;
         writeln!(main, "    {name}();").unwrap();
-        let fields = |of: &dyn Fn(&str) -> String, ids: &[model_core::SymbolId]| -> String {
+        let fields = |of: &dyn Fn(&str) -> String, ids: &[SymbolId]| -> String {
             ids.iter()
                 .map(|&id| format!("{0}: {1}, ", case.symbol_name(id), of(case.symbol_name(id))))
                 .collect()
         };
         writeln!(text, "fn {name}() {{\n    use generated::{name}::*;").unwrap();
-        for &id in &case.joints {
+        for id in case.pose_symbols() {
             let column = case.column(id).join(", ");
             writeln!(text, "    let {}_column: [f64; {ROWS}] = [{column}];", case.symbol_name(id)).unwrap();
         }
@@ -38,18 +39,16 @@ pub fn rust(cases: &[Case]) -> String {
             .map(|&id| format!("{}: {}, ", case.symbol_name(id), case.column(id)[0]))
             .collect();
         writeln!(text, "    let errors = Errors {{ {errors} }};").unwrap();
-        writeln!(
-            text,
-            "    let joints = |row: usize| Joints {{ {} }};",
-            fields(&|name| format!("{name}_column[row]"), &case.joints)
-        )
-        .unwrap();
-        writeln!(
-            text,
-            "    let columns = Columns {{ {} }};",
-            fields(&|name| format!("&{name}_column"), &case.joints)
-        )
-        .unwrap();
+        for (argument, symbols) in &case.pose {
+            let (kind, rows) =
+                if *argument == "joints" { ("Joints", "JointRows") } else { ("Inputs", "InputRows") };
+            let one = fields(&|name| format!("{name}_column[row]"), symbols);
+            let many = fields(&|name| format!("&{name}_column"), symbols);
+            writeln!(text, "    let {argument} = |row: usize| {kind} {{ {one} }};").unwrap();
+            writeln!(text, "    let {argument}_rows = {rows} {{ {many} }};").unwrap();
+        }
+        let one_pose = case.of_pose(&|argument, _| format!("&{argument}(row)"));
+        let many_poses = case.of_pose(&|argument, _| format!("&{argument}_rows"));
         for (form, form_name) in FORMS {
             let kind: String =
                 form_name.split('_').map(|word| word[..1].to_uppercase() + &word[1..]).collect();
@@ -68,19 +67,21 @@ pub fn rust(cases: &[Case]) -> String {
                 .map(|name| format!("        for x in out.{name}{flat} {{ println!(\"{{x:?}}\"); }}\n"))
                 .collect();
             let without_branch = if form == Form::FirstOrderError {
-                "        assert_eq!(out, FirstOrderError::prepare(&errors).eval_without_branch(&joints(row)));\n"
+                format!(
+                    "        assert_eq!(out, FirstOrderError::prepare(&errors).eval_without_branch({one_pose}));\n"
+                )
             } else {
-                ""
+                String::new()
             };
             let slices: String = names.iter().map(|name| format!("{name}: {one}, ")).collect();
             write!(
                 text,
                 "    for row in 0..{SINGLE} {{
-        let out = {form_name}(&errors, &joints(row));
+        let out = {form_name}(&errors, {one_pose});
 {without_branch}{print}    }}
     let mut rows = vec![[0.0; {ROWS}]; {outputs}];
     let mut slices = rows.iter_mut().map(|row| row.as_mut_slice());
-    {kind}::prepare(&errors).eval_rows(&columns, Observed {{ {slices} }}).unwrap();
+    {kind}::prepare(&errors).eval_rows({many_poses}, Observed {{ {slices} }}).unwrap();
     for row in {COMPARED:?} {{ for out in &rows {{ println!(\"{{:?}}\", out[row]); }} }}
 "
             )
@@ -101,40 +102,48 @@ pub fn c(cases: &[Case]) -> String {
     let compared = COMPARED.map(|row| row.to_string()).join(", ");
     for case in cases {
         let name = case.name;
-        let prefix = codegen_prefix(case);
+        let prefix = codegen::snake_case(&case.chain.name);
         writeln!(main, "    if (count != 2 || strcmp({prefix}_path_taken(), arguments[1]) != 0)\n        return 1;\n    {name}();").unwrap();
         writeln!(text, "static void {name}(void)\n{{").unwrap();
-        for (index, &id) in case.joints.iter().enumerate() {
-            writeln!(
-                text,
-                "    static const double column{index}[{ROWS}] = {{{}}};",
-                case.column(id).join(", ")
-            )
-            .unwrap();
+        for id in case.pose_symbols() {
+            let (index, column) = (id.index(), case.column(id).join(", "));
+            writeln!(text, "    static const double column{index}[{ROWS}] = {{{column}}};").unwrap();
         }
-        let list =
-            |of: &dyn Fn(usize) -> String| (0..case.joints.len()).map(of).collect::<Vec<_>>().join(", ");
+        let list = |symbols: &[SymbolId], end: &str| -> String {
+            let columns = symbols.iter().map(|id| format!("column{}{end}", id.index()));
+            columns.collect::<Vec<_>>().join(", ")
+        };
         let errors: Vec<String> = case.errors().iter().map(|&id| case.column(id)[0].clone()).collect();
-        write!(
+        writeln!(text, "    const {prefix}_errors errors = {{{}}};", errors.join(", ")).unwrap();
+        for (argument, symbols) in &case.pose {
+            let singular = argument.trim_end_matches('s');
+            let columns = list(symbols, "");
+            writeln!(text, "    const {prefix}_{singular}_rows {argument}_rows = {{{columns}}};").unwrap();
+        }
+        writeln!(
             text,
-            "    const {prefix}_errors errors = {{{}}};
-    const {prefix}_joints_rows columns = {{{}}};
-    static const int compared[] = {{{compared}}};
-    static double rows[400][{ROWS}];
-    size_t row, output;
-",
-            errors.join(", "),
-            list(&|index| format!("column{index}")),
+            "    static const int compared[] = {{{compared}}};\n    static double rows[400][{ROWS}];\n    size_t row, output;"
         )
         .unwrap();
+        let poses: String = case
+            .pose
+            .iter()
+            .map(|(argument, symbols)| {
+                format!(
+                    "            const {prefix}_{argument} {argument} = {{{}}};\n",
+                    list(symbols, "[row]")
+                )
+            })
+            .collect();
+        let one_pose = case.of_pose(&|argument, _| format!("&{argument}"));
+        let many_poses = case.of_pose(&|argument, _| format!("&{argument}_rows"));
         for (form, form_name) in FORMS {
             let result = if form.is_jacobian() { "jacobian" } else { "observed" };
-            let joints = list(&|index| format!("column{index}[row]"));
             let without_branch = if form == Form::FirstOrderError {
                 format!(
                     "            {{
                 {prefix}_{result} same;
-                {prefix}_{form_name}_without_branch(&prepared, &joints, &same);
+                {prefix}_{form_name}_without_branch(&prepared, {one_pose}, &same);
                 if (memcmp(&same, &out, sizeof same) != 0)
                     return;
             }}
@@ -151,15 +160,14 @@ pub fn c(cases: &[Case]) -> String {
         {prefix}_{result}_rows slices;
         {prefix}_{form_name}_prepare(&errors, &prepared);
         for (row = 0; row < {SINGLE}; row++) {{
-            const {prefix}_joints joints = {{{joints}}};
-            {prefix}_{result} out;
-            {prefix}_{form_name}(&prepared, &joints, &out);
+{poses}            {prefix}_{result} out;
+            {prefix}_{form_name}(&prepared, {one_pose}, &out);
             for (output = 0; output < outputs; output++)
                 printf(\"%.17g\\n\", ((const double *)&out)[output]);
 {without_branch}        }}
         for (output = 0; output < outputs; output++)
             ((double **)&slices)[output] = rows[output];
-        {prefix}_{form_name}_rows(&prepared, {ROWS}, &columns, &slices);
+        {prefix}_{form_name}_rows(&prepared, {ROWS}, {many_poses}, &slices);
         for (row = 0; row < sizeof compared / sizeof compared[0]; row++)
             for (output = 0; output < outputs; output++)
                 printf(\"%.17g\\n\", rows[output][compared[row]]);
@@ -173,24 +181,13 @@ pub fn c(cases: &[Case]) -> String {
     text + &main + "    return 0;\n}\n"
 }
 
-/// What the public names of a chain begin with in C.
-fn codegen_prefix(case: &Case) -> String {
-    let mut prefix = String::new();
-    for c in case.chain.name.chars() {
-        if c.is_uppercase() && !prefix.is_empty() {
-            prefix.push('_');
-        }
-        prefix.extend(c.to_lowercase());
-    }
-    prefix
-}
-
 pub fn javascript(cases: &[Case]) -> String {
     let mut text = String::new();
     let mut main = String::from(
         "
 const lines = [];
 const print = (x) => lines.push(Object.is(x, -0) ? '-0' : String(x));
+const at = (columns, row) => Object.fromEntries(Object.entries(columns).map(([name, column]) => [name, column[row]]));
 const flat = (out) => Object.values(out).flat(Infinity);
 const arrays = (out) => (typeof out === 'number' ? new Float64Array(ROWS)
   : Array.isArray(out) ? out.map(arrays)
@@ -202,20 +199,26 @@ const arrays = (out) => (typeof out === 'number' ? new Float64Array(ROWS)
         let name = case.name;
         writeln!(text, "import * as {name} from './{name}.js';").unwrap();
         let columns: String = case
-            .joints
+            .pose
             .iter()
-            .map(|&id| format!("{}: Float64Array.of({}), ", case.symbol_name(id), case.column(id).join(", ")))
+            .map(|(argument, symbols)| {
+                let columns: String = symbols
+                    .iter()
+                    .map(|&id| {
+                        format!("{}: Float64Array.of({}), ", case.symbol_name(id), case.column(id).join(", "))
+                    })
+                    .collect();
+                format!("  const {argument} = {{{columns}}};\n")
+            })
             .collect();
+        let one_pose = |row: &str| case.of_pose(&|argument, _| format!("at({argument}, {row})"));
+        let many_poses = case.of_pose(&|argument, _| argument.to_owned());
         let errors: String = case
             .errors()
             .iter()
             .map(|&id| format!("{}: {}, ", case.symbol_name(id), case.column(id)[0]))
             .collect();
-        writeln!(
-            main,
-            "{{\n  const errors = {{...{name}.noErrors, {errors}}};\n  const columns = {{{columns}}};"
-        )
-        .unwrap();
+        writeln!(main, "{{\n  const errors = {{...{name}.noErrors, {errors}}};\n{columns}").unwrap();
         for (_, form_name) in FORMS {
             let kind: String =
                 form_name.split('_').map(|word| word[..1].to_uppercase() + &word[1..]).collect();
@@ -225,13 +228,14 @@ const arrays = (out) => (typeof out === 'number' ? new Float64Array(ROWS)
                 main,
                 "  {{
     const p = {name}.prepare{kind}(errors);
-    const joints = (row) => Object.fromEntries(Object.entries(columns).map(([name, column]) => [name, column[row]]));
-    for (let row = 0; row < {SINGLE}; row++) flat({name}.{function}(p, joints(row))).forEach(print);
-    const out = arrays({name}.{function}(p, joints(0)));
-    {name}.{function}Rows(p, columns, out);
+    for (let row = 0; row < {SINGLE}; row++) flat({name}.{function}(p, {})).forEach(print);
+    const out = arrays({name}.{function}(p, {}));
+    {name}.{function}Rows(p, {many_poses}, out);
     for (const row of [{compared}]) flat(out).forEach((array) => print(array[row]));
   }}
-"
+",
+                one_pose("row"),
+                one_pose("0")
             )
             .unwrap();
         }
@@ -260,18 +264,28 @@ def show(out, rows):
     );
     for case in cases {
         let name = case.name;
-        let columns: Vec<String> =
-            case.joints.iter().map(|&id| format!("np.array([{}])", case.column(id).join(", "))).collect();
+        let columns: String = case
+            .pose
+            .iter()
+            .map(|(argument, symbols)| {
+                let columns: Vec<String> =
+                    symbols.iter().map(|&id| format!("np.array([{}])", case.column(id).join(", "))).collect();
+                format!("{argument} = [{}]\n", columns.join(", "))
+            })
+            .collect();
+        let kind = |argument: &str| if argument == "joints" { "Joints" } else { "Inputs" };
+        let one_pose = case.of_pose(&|argument, _| {
+            format!("{name}.{}(*[float(column[row]) for column in {argument}])", kind(argument))
+        });
+        let many_poses = case.of_pose(&|argument, _| format!("{name}.{}(*{argument})", kind(argument)));
         let errors: Vec<String> = case.errors().iter().map(|&id| case.column(id)[0].clone()).collect();
         write!(
             text,
             "
 import {name}
 
-columns = [{}]
-errors = {name}.Errors({})
+{columns}errors = {name}.Errors({})
 ",
-            columns.join(", "),
             errors.join(", ")
         )
         .unwrap();
@@ -280,8 +294,8 @@ errors = {name}.Errors({})
                 text,
                 "p = {name}.prepare_{form_name}(errors)
 for row in range({SINGLE}):
-    show({name}.{form_name}(p, {name}.Joints(*[float(column[row]) for column in columns])), [None])
-show({name}.{form_name}(p, {name}.Joints(*columns)), {COMPARED:?})
+    show({name}.{form_name}(p, {one_pose}), [None])
+show({name}.{form_name}(p, {many_poses}), {COMPARED:?})
 "
             )
             .unwrap();

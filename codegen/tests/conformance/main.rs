@@ -12,6 +12,7 @@ mod branches;
 mod case;
 mod drivers;
 mod latex;
+mod single;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -121,14 +122,8 @@ fn c_of_small_chains() {
         let chain = support::read(name, text);
         let forms = case::FORMS.map(|(form, _)| form);
         let observables = [model_core::ObservableId(0)];
-        let unit = codegen::Unit {
-            chain: &chain,
-            declaration: text,
-            observables: &observables,
-            forms: &forms,
-            remainders: &[],
-        };
-        for file in codegen::generate(&unit, Language::C, name) {
+        let unit = codegen::Unit::new(&chain, text, &observables, &forms);
+        for file in codegen::generate(&unit, Language::C, name).unwrap() {
             fs::write(folder.join(format!("{name}.{}", file.extension)), file.text).unwrap();
         }
         let source = format!("{name}.c");
@@ -145,6 +140,28 @@ fn c_of_small_chains() {
             "small.o",
             &source,
         ]));
+    }
+}
+
+/// The header says that no library is needed: at any level of optimisation.
+#[test]
+fn c_links_without_a_library() {
+    let folder = folder("linked");
+    let cases = [Case::all().swap_remove(0)];
+    write_all(&cases, Language::C, &folder);
+    let name = cases[0].name;
+    let prefix = codegen::snake_case(&cases[0].chain.name);
+    let main = format!(
+        "#include \"{name}.h\"\nint main(void) {{ return {prefix}_path_taken()[0] == 0 || sizeof({prefix}_{}_rows) == 0; }}\n",
+        "observed"
+    );
+    fs::write(folder.join("main.c"), main).unwrap();
+    for level in ["-O0", "-Og", "-Os"] {
+        let cc = std::env::var_os("CC").unwrap_or_else(|| "cc".into());
+        let source = format!("{name}.c");
+        output(
+            Command::new(cc).current_dir(&folder).args(["-std=c99", level, "-o", "main", "main.c", &source]),
+        );
     }
 }
 

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod c_twin;
+mod single;
 
 use codegen::vector::{Arithmetic, Path, ROWS, Waves, Work, path, run, sin_cos, sin_cos_rows};
 use dashu_float::{FBig, round::mode::HalfEven};

@@ -5,133 +5,62 @@
 
 use std::collections::BTreeSet;
 
-use model_core::algebra::{Poly, Rational};
-use model_core::{
-    Axis, Chain, Factor, Motion, Observable, ObservableId, ObservableKind, SymbolId, SymbolKind,
-};
-use proc_macro2::TokenStream;
+use codegen::build::Step;
+use codegen::matrix_product;
+use model_core::{Axis, ObservableId};
+use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::Context;
-use super::amount::{self, Waves};
-
-/// An amount as designed, and what errors add.
-struct Split {
-    nominal: Poly,
-    error: Poly,
-}
-
-fn split(chain: &Chain, amount: &Poly) -> Split {
-    let nominal = amount.graded_part(|id| chain.symbol(id).kind == SymbolKind::Error, 0);
-    Split { error: amount - &nominal, nominal }
-}
-
-/// The factors that move an observable, from the device to the ground.
-fn steps(chain: &Chain, id: ObservableId) -> impl Iterator<Item = (&Factor, Split)> {
-    let is_point = chain.observable(id).kind == ObservableKind::Point;
-    chain
-        .factors_to(id)
-        .into_iter()
-        .rev()
-        .filter(move |factor| is_point || factor.motion == Motion::Rotation)
-        .map(|factor| (factor, split(chain, &factor.amount)))
-}
+use super::tokens::tokens;
+use super::{Context, stages};
 
 /// The body of the method that gives the observable without errors, and what errors add to it.
 pub fn body(context: &Context<'_>, id: ObservableId) -> TokenStream {
-    let chain = context.chain;
-    let Observable { components, .. } = chain.observable(id);
-    let mut waves = Waves::new();
-    for component in components {
-        amount::collect_waves(component, &mut waves);
-    }
-    let mut statements = TokenStream::new();
-    for (factor, Split { nominal, error }) in steps(chain, id) {
-        match factor.motion {
-            Motion::Translation => {
-                statements.extend(shift(context, factor.axis, &format_ident!("nominal"), &nominal));
-                statements.extend(shift(context, factor.axis, &format_ident!("difference"), &error));
-                amount::collect_waves(&nominal, &mut waves);
-            }
-            Motion::Rotation => {
-                if !error.is_zero() {
-                    let name = departure_name(factor.axis);
-                    let angle = amount::expression(context, &error);
-                    statements.extend(quote! { difference += #name(#angle) * (nominal + difference); });
-                }
-                if !nominal.is_zero() {
-                    statements.extend(rotation(context, factor.axis, &nominal));
-                }
+    let product = matrix_product(context.chain, id);
+    let code = stages(context, &product.program);
+    let statements = code.both_stages();
+    let outputs: Vec<TokenStream> = code.outputs.iter().map(|text| tokens(text, context.names)).collect();
+    let (nominal, difference) = (&outputs[..3], &outputs[3..6]);
+    let steps = product.steps.iter().map(|step| match *step {
+        Step::SmallRotation { axis, angle } => {
+            let (name, angle) = (departure_name(axis), &outputs[angle]);
+            quote! { difference += #name(#angle) * (nominal + difference); }
+        }
+        Step::SmallShift { axis, amount } => {
+            let (component, amount) = (component(axis), &outputs[amount]);
+            quote! { difference.#component += #amount; }
+        }
+        Step::Rotation { axis, sin, cos } => {
+            let (name, sin, cos) = (rotation_name(axis), &outputs[sin], &outputs[cos]);
+            quote! {
+                let rotation = #name(#sin, #cos);
+                (nominal, difference) = (rotation * nominal, rotation * difference);
             }
         }
-        amount::collect_waves(&error, &mut waves);
-    }
-    let waves = amount::wave_statements(context, &waves);
-    let components = components.each_ref().map(|component| amount::expression(context, component));
+        Step::Shift { axis, amount } => {
+            let (component, amount) = (component(axis), &outputs[amount]);
+            quote! { nominal.#component += #amount; }
+        }
+    });
     quote! {
-        #waves
-        let mut nominal = Vector3::new(#(#components),*);
-        let mut difference = Vector3::zeros();
         #statements
+        let mut nominal = Vector3::new(#(#nominal),*);
+        let mut difference = Vector3::new(#(#difference),*);
+        #(#steps)*
         (nominal, difference)
     }
 }
 
-fn shift(
-    context: &Context<'_>,
-    axis: Axis,
-    vector: &proc_macro2::Ident,
-    amount: &Poly,
-) -> Option<TokenStream> {
-    if amount.is_zero() {
-        return None;
-    }
-    let component = format_ident!("{}", ["x", "y", "z"][axis.index()]);
-    let amount = amount::expression(context, amount);
-    Some(quote! { #vector.#component += #amount; })
+fn component(axis: Axis) -> Ident {
+    format_ident!("{}", axis.to_string())
 }
 
-/// A rotation by design; whole quarter turns are exact.
-fn rotation(context: &Context<'_>, axis: Axis, amount: &Poly) -> TokenStream {
-    let quarters = quarter_turns(amount);
-    let turned = Poly::symbol(SymbolId::PI).scale(&(&Rational::from(quarters) * &Rational::half()));
-    let rest = amount - &turned;
-    let name = rotation_name(axis);
-    let (angle, sin, cos) = if rest.is_zero() {
-        (quote! {}, quote! { 0.0 }, quote! { 1.0 })
-    } else {
-        let rest = amount::expression(context, &rest);
-        (quote! { let (sin, cos) = ComplexField::sin_cos(#rest); }, quote! { sin }, quote! { cos })
-    };
-    let (sin, cos) = match quarters.rem_euclid(4) {
-        0 => (sin, cos),
-        1 => (cos, quote! { -#sin }),
-        2 => (quote! { -#sin }, quote! { -#cos }),
-        _ => (quote! { -#cos }, sin),
-    };
-    quote! {
-        #angle
-        let rotation = #name(#sin, #cos);
-        nominal = rotation * nominal;
-        difference = rotation * difference;
-    }
+fn rotation_name(axis: Axis) -> Ident {
+    format_ident!("rotation_{}", axis.to_string())
 }
 
-/// The whole quarter turns in an angle.
-fn quarter_turns(amount: &Poly) -> i64 {
-    amount
-        .coefficient_of(&[(SymbolId::PI, 1)], |id| id == SymbolId::PI)
-        .as_constant()
-        .and_then(|turns| (&turns * &Rational::from(2)).to_integer())
-        .unwrap_or_default()
-}
-
-fn rotation_name(axis: Axis) -> proc_macro2::Ident {
-    format_ident!("rotation_{}", ["x", "y", "z"][axis.index()])
-}
-
-fn departure_name(axis: Axis) -> proc_macro2::Ident {
-    format_ident!("departure_{}", ["x", "y", "z"][axis.index()])
+fn departure_name(axis: Axis) -> Ident {
+    format_ident!("departure_{}", axis.to_string())
 }
 
 /// The functions for the matrices that the chain's observables need.
@@ -139,11 +68,12 @@ pub fn helpers(context: &Context<'_>) -> TokenStream {
     let mut rotations = BTreeSet::new();
     let mut departures = BTreeSet::new();
     for id in super::observable::ids(context.chain) {
-        for (factor, Split { nominal, error }) in steps(context.chain, id) {
-            if factor.motion == Motion::Rotation {
-                rotations.extend((!nominal.is_zero()).then_some(factor.axis));
-                departures.extend((!error.is_zero()).then_some(factor.axis));
-            }
+        for step in matrix_product(context.chain, id).steps {
+            match step {
+                Step::Rotation { axis, .. } => rotations.insert(axis),
+                Step::SmallRotation { axis, .. } => departures.insert(axis),
+                Step::Shift { .. } | Step::SmallShift { .. } => false,
+            };
         }
     }
     let rotations = rotations.into_iter().map(|axis| {

@@ -1,46 +1,84 @@
 //! From a chain to the tokens of its module: types, methods, constants.
 
-mod amount;
+mod arguments;
 mod closed_form;
 mod exact;
-mod first_order;
 mod names;
 mod observable;
-mod parameters;
-mod program;
 #[cfg(test)]
 mod tests;
+mod tokens;
 
+use codegen::Program;
+use codegen::backends::rust::{Pieces, Stages};
 use model_core::{Chain, Mistake, SymbolKind};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
 pub use names::Names;
-use names::snake_case;
-use parameters::{Group, groups};
+use tokens::tokens;
 
 /// Everything that the expansion looks at.
 struct Context<'a> {
     chain: &'a Chain,
     names: &'a Names,
-    /// Joints, inputs, errors and constants, those of them that the chain has.
-    groups: Vec<Group>,
+    pieces: Pieces<'a>,
 }
 
+/// What a module has a structure of, in order.
+const KINDS: [SymbolKind; 4] =
+    [SymbolKind::Joint, SymbolKind::Input, SymbolKind::Error, SymbolKind::Constant];
+
 impl Context<'_> {
-    /// The group of one kind, if the chain has such symbols.
-    fn group(&self, kind: SymbolKind) -> Option<&Group> {
-        self.groups.iter().find(|group| group.kind == kind)
+    /// Whether the chain has symbols of a kind.
+    fn has(&self, kind: SymbolKind) -> bool {
+        self.chain.symbols_of(kind).next().is_some()
+    }
+}
+
+/// The code of one pose, of an instrument's own errors and constants.
+struct Code<'a> {
+    context: &'a Context<'a>,
+    stages: Stages,
+    outputs: Vec<String>,
+}
+
+/// The code of a program.
+fn stages<'a>(context: &'a Context<'a>, program: &Program) -> Code<'a> {
+    let mut stages = context.pieces.stages(program, "ComplexField::sin_cos");
+    let outputs = std::mem::take(&mut stages.outputs);
+    Code { context, stages, outputs }
+}
+
+impl Code<'_> {
+    /// How many values are kept for poses.
+    fn kept(&self) -> usize {
+        self.stages.kept.len()
     }
 
-    /// The groups that a pose is made of: joints and inputs.
-    fn pose(&self) -> impl Iterator<Item = &Group> {
-        self.groups.iter().filter(|group| matches!(group.kind, SymbolKind::Joint | SymbolKind::Input))
+    /// What no pose changes, as an array.
+    fn prepared(&self) -> TokenStream {
+        let names = self.context.names;
+        let statements = tokens(&self.stages.prepared, names);
+        let kept = self.stages.kept.iter().map(|text| tokens(text, names));
+        let errors = self.context.has(SymbolKind::Error).then(|| quote! { let errors = &self.errors; });
+        let constants =
+            self.context.has(SymbolKind::Constant).then(|| quote! { let constants = &self.constants; });
+        quote! { #errors #constants #statements [#(#kept),*] }
     }
 
-    /// The groups that an instrument is made of: errors and constants.
-    fn instrument(&self) -> impl Iterator<Item = &Group> {
-        self.groups.iter().filter(|group| matches!(group.kind, SymbolKind::Error | SymbolKind::Constant))
+    /// What is done for a pose, where `p` is what was kept.
+    fn evaluated(&self) -> TokenStream {
+        tokens(&self.stages.evaluated, self.context.names)
+    }
+
+    /// Both.
+    fn both_stages(&self) -> TokenStream {
+        let (prepared, evaluated, count) = (self.prepared(), self.evaluated(), count(self.kept()));
+        quote! {
+            let p: [f64; #count] = { #prepared };
+            #evaluated
+        }
     }
 }
 
@@ -54,17 +92,18 @@ pub fn module(chain: &Chain, names: &Names) -> Result<TokenStream, Vec<Mistake<S
     if !mistakes.is_empty() {
         return Err(mistakes);
     }
-    let context = Context { chain, names, groups: groups(chain) };
-    let module = Ident::new(&snake_case(&chain.name), names.chain());
+    let context = Context { chain, names, pieces: Pieces::new(chain) };
+    let module = Ident::new(&codegen::snake_case(&chain.name), names.chain());
     let documentation = doc(&if chain.documentation.is_empty() {
         format!("The chain `{}`.", chain.name)
     } else {
         chain.documentation.clone()
     });
     let instrument = instrument(&context, &documentation);
-    let parameters: TokenStream =
-        context.groups.iter().map(|group| parameters::items(&context, group)).collect();
-    let unequal_lengths = context.pose().next().map(|_| parameters::unequal_lengths());
+    let structures: String = KINDS.iter().map(|&kind| context.pieces.structure(kind)).collect();
+    let structures = tokens(&structures, names);
+    let rows = (context.has(SymbolKind::Joint) || context.has(SymbolKind::Input)).then(|| rows(&context));
+    let ramps = (!chain.ramps.is_empty()).then(ramps);
     let helpers = exact::helpers(&context);
     Ok(quote! {
         #documentation
@@ -93,11 +132,58 @@ pub fn module(chain: &Chain, names: &Names) -> Result<TokenStream, Vec<Mistake<S
             use ::trueaxis::__private::{ComplexField, Matrix3, SMatrix, Vector3};
 
             #instrument
-            #parameters
-            #unequal_lengths
+            #structures
+            #rows
+            #ramps
             #helpers
         }
     })
+}
+
+/// What ramps are made of.
+fn ramps() -> TokenStream {
+    quote! {
+        /// `x` between 0 and 1, and the nearer of the two outside; NaN stays NaN.
+        fn saturate(x: f64) -> f64 {
+            x.clamp(0.0, 1.0)
+        }
+
+        /// 1 from 0 on, 0 below; NaN stays NaN.
+        fn step(x: f64) -> f64 {
+            if x >= 0.0 {
+                1.0
+            } else if x < 0.0 {
+                0.0
+            } else {
+                x
+            }
+        }
+    }
+}
+
+/// What methods of many poses have in common.
+fn rows(context: &Context<'_>) -> TokenStream {
+    let lengths_differ = tokens(context.pieces.lengths_differ(), context.names);
+    quote! {
+        #lengths_differ
+
+        /// Fills x, y and z row by row.
+        fn fill(
+            out: [&mut [f64]; 3],
+            have_length: impl Fn(usize) -> bool,
+            value: impl Fn(usize) -> [f64; 3],
+        ) -> Result<(), LengthsDiffer> {
+            let [x, y, z] = out;
+            let rows = x.len();
+            if !(y.len() == rows && z.len() == rows && have_length(rows)) {
+                return Err(LengthsDiffer);
+            }
+            for row in 0..rows {
+                [x[row], y[row], z[row]] = value(row);
+            }
+            Ok(())
+        }
+    }
 }
 
 /// Documentation, as `///` lines would be.
@@ -119,39 +205,45 @@ fn count(number: usize) -> Literal {
 fn instrument(context: &Context<'_>, documentation: &TokenStream) -> TokenStream {
     let Context { chain, names, .. } = context;
     let name = Ident::new(&chain.name, names.chain());
-    let fields = context.instrument().map(|group| {
-        let Group { field, type_name, .. } = group;
-        let meaning = match group.kind {
-            SymbolKind::Error => "What differs from the design.",
-            _ => "The sizes of the geometry.",
-        };
-        let meaning = doc(meaning);
-        quote! { #meaning pub #field: #type_name }
+    let errors = context.has(SymbolKind::Error);
+    let constants = context.has(SymbolKind::Constant);
+    let errors_field = errors.then(|| {
+        quote! {
+            /// What differs from the design.
+            pub errors: Errors,
+        }
     });
-    let new = context.group(SymbolKind::Error).map(|errors| {
-        let Group { field, type_name, .. } = errors;
-        let constants = context.group(SymbolKind::Constant).map(|constants| {
-            let Group { field, type_name, .. } = constants;
-            quote! { #field: #type_name::default() }
-        });
+    let constants_field = constants.then(|| {
+        quote! {
+            /// The sizes of the geometry.
+            pub constants: Constants,
+        }
+    });
+    let default_constants = constants.then(|| quote! { constants: Constants::default() });
+    let new = errors.then(|| {
         quote! {
             /// The instrument with these errors, and everything else as declared.
             #[must_use]
-            pub fn new(#field: #type_name) -> Self {
-                Self { #field, #constants }
+            pub fn new(errors: Errors) -> Self {
+                Self { errors, #default_constants }
             }
         }
     });
-    let lists = context.groups.iter().map(|group| {
-        let symbols = group.symbols.iter().map(|&id| chain.symbol(id));
+    let lists = [
+        (SymbolKind::Joint, "joint"),
+        (SymbolKind::Input, "input"),
+        (SymbolKind::Error, "error"),
+        (SymbolKind::Constant, "constant"),
+    ];
+    let lists = lists.into_iter().filter(|&(kind, _)| context.has(kind)).map(|(kind, singular)| {
+        let symbols = chain.symbols_of(kind).map(|id| chain.symbol(id));
         let (plain, printed): (Vec<&str>, Vec<&str>) =
             symbols.map(|symbol| (symbol.name.as_str(), symbol.latex.as_str())).unzip();
         let count = count(plain.len());
-        let singular = group.singular.to_uppercase();
-        let (plain_name, printed_name) =
-            (format_ident!("{singular}_NAMES"), format_ident!("{singular}_LATEX"));
-        let plain_doc = doc(&format!("The names of the {}s, in order.", group.singular));
-        let printed_doc = doc(&format!("The printed forms of the {}s, in LaTeX, in order.", group.singular));
+        let capital = singular.to_uppercase();
+        let (plain_name, printed_name) = (format_ident!("{capital}_NAMES"), format_ident!("{capital}_LATEX"));
+        let plain_doc = doc(&format!("The names of the {singular}s, in order."));
+        let printed_doc = doc(&format!("The printed forms of the {singular}s, in LaTeX, in order."));
         quote! {
             #plain_doc
             pub const #plain_name: [&'static str; #count] = [#(#plain),*];
@@ -167,7 +259,8 @@ fn instrument(context: &Context<'_>, documentation: &TokenStream) -> TokenStream
         /// Angles are radians, lengths metres. `Default` is the instrument as designed.
         #[derive(Debug, Clone, Copy, PartialEq, Default)]
         pub struct #name {
-            #(#fields),*
+            #errors_field
+            #constants_field
         }
 
         impl #name {

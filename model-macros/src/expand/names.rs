@@ -3,6 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use codegen::snake_case;
 use model_core::syntax::Declaration;
 use model_core::syntax::declaration::Statement;
 use model_core::{Chain, Mistake, Observable};
@@ -49,9 +50,10 @@ impl Names {
         self.chain.unwrap_or_else(Span::call_site)
     }
 
-    /// The identifier of a symbol.
-    pub fn symbol(&self, name: &str) -> Ident {
-        Ident::new(name, self.symbols.get(name).copied().unwrap_or_else(Span::call_site))
+    /// Where a name was declared: a symbol, or an observable.
+    pub fn place(&self, name: &Ident) -> Option<Span> {
+        let name = name.to_string();
+        self.symbols.get(&name).or_else(|| self.observables.get(&name)).copied()
     }
 
     /// Where an observable is declared.
@@ -62,18 +64,20 @@ impl Names {
 
 /// The types that every module may have beside the chain's own.
 const TYPES: [&str; 7] =
-    ["Joints", "Inputs", "Errors", "Constants", "JointSlices", "InputSlices", "UnequalLengths"];
+    ["Joints", "Inputs", "Errors", "Constants", "JointRows", "InputRows", "LengthsDiffer"];
 
 /// What the methods of an observable add to its name.
-const METHODS: [&str; 8] = [
+const METHODS: [&str; 10] = [
     "",
     "_error",
     "_first_order",
     "_jacobian",
-    "_error_over",
-    "_first_order_over",
-    "_jacobian_over",
+    "_error_rows",
+    "_first_order_rows",
+    "_jacobian_rows",
     "_parts",
+    "_first_order_prepared",
+    "_first_order_at",
 ];
 
 /// Names that would stand for two things in the module.
@@ -109,18 +113,4 @@ pub fn clashes(chain: &Chain, names: &Names) -> Vec<Mistake<Span>> {
         taken.extend(methods);
     }
     mistakes
-}
-
-/// `MobileLidar` as `mobile_lidar`.
-pub fn snake_case(name: &str) -> String {
-    let mut snake = String::new();
-    let mut after_lower = false;
-    for letter in name.chars() {
-        if letter.is_uppercase() && after_lower {
-            snake.push('_');
-        }
-        after_lower = letter.is_lowercase() || letter.is_ascii_digit();
-        snake.extend(letter.to_lowercase());
-    }
-    snake
 }

@@ -1,56 +1,27 @@
 //! The methods of one observable.
 
-use model_core::{Chain, ObservableId, ObservableKind, SymbolKind};
+use codegen::Form;
+use model_core::{Chain, ObservableId, ObservableKind, SymbolId, SymbolKind};
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::first_order::{self, Code};
-use super::parameters::slices_name;
-use super::{Context, closed_form, count, doc, exact};
+use super::arguments::Arguments;
+use super::tokens::{ident, tokens};
+use super::{Context, closed_form, count, doc, exact, stages};
 
 /// The observables of a chain, in order.
 pub fn ids(chain: &Chain) -> impl Iterator<Item = ObservableId> {
     (0u16..).map(ObservableId).take(chain.observables.len())
 }
 
-/// The parameters of a method: of one pose, or of many.
-struct Parameters {
-    /// `joints: &Joints, inputs: &Inputs`
-    one: TokenStream,
-    /// `joints, inputs`
-    arguments: TokenStream,
-    /// `joints: &JointSlices<'_>, inputs: &InputSlices<'_>`
-    many: TokenStream,
-    /// Whether each of them has the length `length`.
-    have_length: Vec<TokenStream>,
-    /// One pose of them, by the same names.
-    at_pose: TokenStream,
-}
-
 /// Everything of one observable.
 pub fn items(context: &Context<'_>, id: ObservableId) -> TokenStream {
     let closed_form = closed_form::constants(context.chain, id);
-    let parameters = parameters(context);
-    let exact = exact_methods(context, id, &parameters);
-    let first_order = first_order_methods(context, id, &parameters);
-    let jacobian = context
-        .group(SymbolKind::Error)
-        .map(|errors| jacobian_methods(context, id, &parameters, errors.symbols.len()));
+    let arguments = Arguments::of(context, id);
+    let exact = exact_methods(context, id, &arguments);
+    let first_order = first_order_methods(context, id, &arguments);
+    let jacobian = context.has(SymbolKind::Error).then(|| jacobian_methods(context, id, &arguments));
     quote! { #closed_form #exact #first_order #jacobian }
-}
-
-fn parameters(context: &Context<'_>) -> Parameters {
-    let (mut one, mut arguments, mut many) = (TokenStream::new(), TokenStream::new(), TokenStream::new());
-    let (mut have_length, mut at_pose) = (Vec::new(), TokenStream::new());
-    for group in context.pose() {
-        let (field, type_name, slices) = (&group.field, &group.type_name, slices_name(group));
-        one.extend(quote! { #field: &#type_name, });
-        arguments.extend(quote! { #field, });
-        many.extend(quote! { #field: &#slices<'_>, });
-        have_length.push(quote! { #field.have_length(length) });
-        at_pose.extend(quote! { let #field = &#field.at(pose); });
-    }
-    Parameters { one, arguments, many, have_length, at_pose }
 }
 
 /// What a person reads of an observable: its documentation, and its unit.
@@ -67,10 +38,10 @@ fn meaning(context: &Context<'_>, id: ObservableId) -> (String, &'static str) {
     (first, unit)
 }
 
-fn exact_methods(context: &Context<'_>, id: ObservableId, parameters: &Parameters) -> TokenStream {
-    let Parameters { one, arguments, .. } = parameters;
+fn exact_methods(context: &Context<'_>, id: ObservableId, arguments: &Arguments) -> TokenStream {
+    let Arguments { one, passed, at_row, .. } = arguments;
     let name = &context.chain.observable(id).name;
-    let method = Ident::new(name, context.names.observable(name));
+    let method = ident(name, context.names);
     let (parts, error) = (format_ident!("{name}_parts"), format_ident!("{name}_error"));
     let (documentation, unit) = meaning(context, id);
     let value_doc = doc(&format!("{documentation}\n\nWith its errors, in the ground frame: {unit}."));
@@ -79,29 +50,25 @@ fn exact_methods(context: &Context<'_>, id: ObservableId, parameters: &Parameter
     ));
     let parts_doc = doc(&format!("[`{name}`](Self::{name}) without errors, and what they add."));
     let body = exact::body(context, id);
-    let over = over_slices(
-        context,
-        &format_ident!("{name}_error_over"),
+    let rows = rows(
+        &format_ident!("{name}_error_rows"),
         &format!("[`{name}_error`](Self::{name}_error) of many poses."),
-        parameters,
-        &Code {
-            prepared: TokenStream::new(),
-            evaluated: quote! { let error = self.#error(#arguments); },
-            outputs: vec![quote! { error.x }, quote! { error.y }, quote! { error.z }],
-        },
+        arguments,
+        &TokenStream::new(),
+        &quote! { self.#error(#at_row).into() },
     );
     quote! {
         #value_doc
         #[must_use]
         pub fn #method(&self, #one) -> Vector3<f64> {
-            let (nominal, difference) = self.#parts(#arguments);
+            let (nominal, difference) = self.#parts(#passed);
             nominal + difference
         }
 
         #error_doc
         #[must_use]
         pub fn #error(&self, #one) -> Vector3<f64> {
-            self.#parts(#arguments).1
+            self.#parts(#passed).1
         }
 
         #parts_doc
@@ -109,55 +76,68 @@ fn exact_methods(context: &Context<'_>, id: ObservableId, parameters: &Parameter
             #body
         }
 
-        #over
+        #rows
     }
 }
 
-fn first_order_methods(context: &Context<'_>, id: ObservableId, parameters: &Parameters) -> TokenStream {
-    let one = &parameters.one;
+fn first_order_methods(context: &Context<'_>, id: ObservableId, arguments: &Arguments) -> TokenStream {
+    let Arguments { one, passed, at_row, .. } = arguments;
     let name = &context.chain.observable(id).name;
     let method = format_ident!("{name}_first_order");
+    let (prepare, at) =
+        (format_ident!("{name}_first_order_prepared"), format_ident!("{name}_first_order_at"));
     let documentation = doc(&format!(
         "What the errors add to [`{name}`](Self::{name}), to first order.\n\nProducts of two or more errors are dropped."
     ));
-    let code = first_order::error(context, id);
-    let Code { prepared, evaluated, outputs } = &code;
-    let over = over_slices(
-        context,
-        &format_ident!("{name}_first_order_over"),
+    let prepare_doc =
+        doc(&format!("What of [`{name}_first_order`](Self::{name}_first_order) no pose changes."));
+    let at_doc = doc(&format!("The rest of [`{name}_first_order`](Self::{name}_first_order), for one pose."));
+    let code = stages(context, &codegen::build(context.chain, &[id], Form::FirstOrderError, &[]));
+    let kept = count(code.kept());
+    let (prepared, evaluated) = (code.prepared(), code.evaluated());
+    let outputs = code.outputs.iter().map(|text| tokens(text, context.names));
+    let rows = rows(
+        &format_ident!("{name}_first_order_rows"),
         &format!("[`{name}_first_order`](Self::{name}_first_order) of many poses."),
-        parameters,
-        &code,
+        arguments,
+        &quote! { let p = &self.#prepare(); },
+        &quote! { Self::#at(p, #at_row) },
     );
     quote! {
         #documentation
         #[must_use]
         pub fn #method(&self, #one) -> Vector3<f64> {
-            #prepared
-            #evaluated
-            Vector3::new(#(#outputs),*)
+            Self::#at(&self.#prepare(), #passed).into()
         }
 
-        #over
+        #prepare_doc
+        fn #prepare(&self) -> [f64; #kept] {
+            #prepared
+        }
+
+        #at_doc
+        fn #at(p: &[f64; #kept], #one) -> [f64; 3] {
+            #evaluated
+            [#(#outputs),*]
+        }
+
+        #rows
     }
 }
 
-/// A method that fills three slices.
-fn over_slices(
-    context: &Context<'_>,
+/// A method that fills three slices, if poses can differ.
+fn rows(
     method: &Ident,
     documentation: &str,
-    parameters: &Parameters,
-    code: &Code,
+    arguments: &Arguments,
+    before: &TokenStream,
+    value: &TokenStream,
 ) -> Option<TokenStream> {
-    context.pose().next()?;
+    if arguments.is_empty {
+        return None;
+    }
     let documentation = doc(documentation);
-    let Parameters { many, have_length, at_pose, .. } = parameters;
-    let Code { prepared, evaluated, outputs } = code;
-    let outputs =
-        outputs.iter().zip(["x", "y", "z"].map(|axis| format_ident!("{axis}"))).map(|(value, axis)| {
-            quote! { #axis[pose] = #value; }
-        });
+    let Arguments { many, have_length, .. } = arguments;
     Some(quote! {
         #documentation
         ///
@@ -166,55 +146,44 @@ fn over_slices(
         /// # Errors
         ///
         /// If the slices have different lengths.
-        pub fn #method(&self, #many out: [&mut [f64]; 3]) -> Result<(), UnequalLengths> {
-            let [x, y, z] = out;
-            let length = x.len();
-            let all_equal = y.len() == length && z.len() == length #(&& #have_length)*;
-            if !all_equal {
-                return Err(UnequalLengths);
-            }
-            #prepared
-            for pose in 0..length {
-                #at_pose
-                #evaluated
-                #(#outputs)*
-            }
-            Ok(())
+        pub fn #method(&self, #many out: [&mut [f64]; 3]) -> Result<(), LengthsDiffer> {
+            #before
+            fill(out, |rows| #have_length, |row| #value)
         }
     })
 }
 
-fn jacobian_methods(
-    context: &Context<'_>,
-    id: ObservableId,
-    parameters: &Parameters,
-    errors: usize,
-) -> TokenStream {
-    let Parameters { one, arguments, many, have_length, at_pose } = parameters;
+fn jacobian_methods(context: &Context<'_>, id: ObservableId, arguments: &Arguments) -> TokenStream {
+    let Arguments { one, many, have_length, at_row, .. } = arguments;
+    let errors: Vec<SymbolId> = context.chain.symbols_of(SymbolKind::Error).collect();
     let name = &context.chain.observable(id).name;
-    let (method, over) = (format_ident!("{name}_jacobian"), format_ident!("{name}_jacobian_over"));
+    let (method, rows) = (format_ident!("{name}_jacobian"), format_ident!("{name}_jacobian_rows"));
     let documentation = doc(&format!(
         "Derivatives of [`{name}`](Self::{name}) with respect to the errors, where they are zero.\n\nThe columns are in the order of the fields of [`Errors`]."
     ));
-    let over_doc = doc(&format!("[`{name}_jacobian`](Self::{name}_jacobian) of many poses."));
-    let errors = count(errors);
-    let Code { prepared, evaluated, outputs } = first_order::jacobian(context, id);
-    let over = context.pose().next().map(|_| {
+    let rows_doc = doc(&format!("[`{name}_jacobian`](Self::{name}_jacobian) of many poses."));
+    let count = count(errors.len());
+    let code = stages(context, &codegen::build(context.chain, &[id], Form::FirstOrderJacobian, &errors));
+    let statements = code.both_stages();
+    let outputs: Vec<TokenStream> = code.outputs.iter().map(|text| tokens(text, context.names)).collect();
+    let columns = (0..errors.len()).map(|column| {
+        let rows = (0..3).map(|row| &outputs[row * errors.len() + column]);
+        quote! { [#(#rows),*] }
+    });
+    let rows = (!arguments.is_empty).then(|| {
         quote! {
-            #over_doc
+            #rows_doc
             ///
             /// # Errors
             ///
             /// If the slices have different lengths.
-            pub fn #over(&self, #many out: &mut [SMatrix<f64, 3, #errors>]) -> Result<(), UnequalLengths> {
-                let length = out.len();
-                let all_equal = #(#have_length)&&*;
-                if !all_equal {
-                    return Err(UnequalLengths);
+            pub fn #rows(&self, #many out: &mut [SMatrix<f64, 3, #count>]) -> Result<(), LengthsDiffer> {
+                let rows = out.len();
+                if !(#have_length) {
+                    return Err(LengthsDiffer);
                 }
-                for pose in 0..length {
-                    #at_pose
-                    out[pose] = self.#method(#arguments);
+                for (row, out) in out.iter_mut().enumerate() {
+                    *out = self.#method(#at_row);
                 }
                 Ok(())
             }
@@ -223,12 +192,11 @@ fn jacobian_methods(
     quote! {
         #documentation
         #[must_use]
-        pub fn #method(&self, #one) -> SMatrix<f64, 3, #errors> {
-            #prepared
-            #evaluated
-            SMatrix::from([#(#outputs),*])
+        pub fn #method(&self, #one) -> SMatrix<f64, 3, #count> {
+            #statements
+            SMatrix::from([#(#columns),*])
         }
 
-        #over
+        #rows
     }
 }

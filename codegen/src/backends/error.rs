@@ -1,0 +1,51 @@
+//! Why a file is not written.
+
+use crate::program::Form;
+
+/// What is asked for has no code.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum GenerateError {
+    /// No observable is asked for.
+    #[error(
+        "there is no observable to compute: declare one with `observe name: direction(0, 0, 1) of body;`"
+    )]
+    NoObservable,
+    /// An observable is asked for twice.
+    #[error("the observable `{name}` is asked for twice")]
+    RepeatedObservable {
+        /// Its name.
+        name: String,
+    },
+    /// A form is asked for twice.
+    #[error("the form `{}` is asked for twice", super::form_name(*form))]
+    RepeatedForm {
+        /// The form.
+        form: Form,
+    },
+    /// No form is left: Jacobians are asked for of a chain without errors.
+    #[error("there is nothing to compute: a chain without errors has no Jacobians")]
+    NoForm,
+    /// A number of the declaration, or what follows from it, is beyond the precision that is asked for.
+    #[error("{}: a number is beyond what f64, or f32 if that is asked for, can hold: check the constants and factors of the declaration", super::form_name(*form))]
+    NotFinite {
+        /// The form that has it.
+        form: Form,
+    },
+    /// Single precision is asked for in a language that has none here.
+    #[error("single precision is written in Rust and C only")]
+    SinglePrecision,
+    /// A value is neither one of an error nor of a constant, or not a number.
+    #[error(
+        "`{name}` cannot be written into the file: only errors and constants can, with finite values, each once"
+    )]
+    Value {
+        /// The symbol's name.
+        name: String,
+    },
+    /// The name of the file cannot stand in an include.
+    #[error("the file name `{}` cannot stand in an `#include`: take letters, digits, `_`, `-` and `.`", name.escape_debug())]
+    FileName {
+        /// The name.
+        name: String,
+    },
+}

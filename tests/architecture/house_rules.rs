@@ -3,8 +3,13 @@
 use crate::sources::{below, libraries};
 
 /// Texts that are compiled here and also go, unchanged, into generated files.
-const QUOTED: &[&str] =
-    &["codegen/src/vector/kernel.rs", "codegen/src/vector/paths.rs", "codegen/src/vector/wide.rs"];
+const QUOTED: &[&str] = &[
+    "codegen/src/vector/blocks.rs",
+    "codegen/src/vector/kernel.rs",
+    "codegen/src/vector/paths.rs",
+    "codegen/src/vector/single.rs",
+    "codegen/src/vector/wide.rs",
+];
 
 /// Longer files hold more than one concept.
 const MOST_LINES: usize = 450;

@@ -2,17 +2,24 @@
 //
 // Part of the text that goes unchanged into generated files.
 
-/// What is computed of a block of rows: `IN` columns in, and what comes out.
-pub trait Block<const IN: usize, Out>: Copy {
-    /// Does it. Implementations are `#[inline(always)]`, so that they are compiled with the path's instructions.
-    fn compute<A: Arithmetic>(self, arithmetic: A, columns: [&[f64; ROWS]; IN], out: Out);
+/// What is computed of rows, block by block: `IN` columns in, `OUT` columns out.
+pub trait Rows<const IN: usize, const OUT: usize>: Copy {
+    /// Does the block of rows that begins at `first`. Implementations are `#[inline(always)]`, so that they are compiled
+    /// with the path's instructions.
+    fn compute<A: Arithmetic>(
+        self,
+        arithmetic: A,
+        columns: &[&[f64]; IN],
+        out: &mut [&mut [f64]; OUT],
+        first: usize,
+    );
 }
 
 /// At least [`ROWS`] rows, block by block; all slices have this many.
 #[inline]
 pub fn run_rows<const IN: usize, const OUT: usize>(
     wanted: Path,
-    block: impl for<'a> Block<IN, [&'a mut [f64; ROWS]; OUT]>,
+    block: impl Rows<IN, OUT>,
     rows: usize,
     columns: [&[f64]; IN],
     out: [&mut [f64]; OUT],
@@ -23,25 +30,14 @@ pub fn run_rows<const IN: usize, const OUT: usize>(
         columns: [&'a [f64]; IN],
         out: [&'a mut [f64]; OUT],
     }
-    impl<B, const IN: usize, const OUT: usize> Work for All<'_, B, IN, OUT>
-    where
-        B: for<'a> Block<IN, [&'a mut [f64; ROWS]; OUT]>,
-    {
+    impl<B: Rows<IN, OUT>, const IN: usize, const OUT: usize> Work for All<'_, B, IN, OUT> {
         #[inline(always)]
         fn run<A: Arithmetic>(mut self, arithmetic: A) {
             let mut start = 0;
             while start < self.rows {
                 // The last block may do rows again that the one before it did.
                 let first = start.min(self.rows - ROWS);
-                let columns = self.columns.map(|column| match column[first..].first_chunk() {
-                    Some(block) => block,
-                    None => unreachable!("the caller has seen that all slices have as many rows"),
-                });
-                let out = self.out.each_mut().map(|out| match out[first..].first_chunk_mut() {
-                    Some(block) => block,
-                    None => unreachable!("the caller has seen that all slices have as many rows"),
-                });
-                self.block.compute(arithmetic, columns, out);
+                self.block.compute(arithmetic, &self.columns, &mut self.out, first);
                 start += ROWS;
             }
         }
@@ -49,27 +45,35 @@ pub fn run_rows<const IN: usize, const OUT: usize>(
     run(wanted, All { block, rows, columns, out });
 }
 
-/// One block of at most [`ROWS`] rows.
+/// What is computed of one block of rows: `IN` columns in, a block of `OUT` columns out.
+pub trait Block<const IN: usize, const OUT: usize>: Copy {
+    /// Does it. Implementations are `#[inline(always)]`, as those of [`Rows`].
+    fn compute<A: Arithmetic>(
+        self,
+        arithmetic: A,
+        columns: [&[f64; ROWS]; IN],
+        out: &mut [[f64; ROWS + 8]; OUT],
+    );
+}
+
+/// One block of rows.
 #[inline]
-pub fn run_block<const IN: usize, Out>(
+pub fn run_block<const IN: usize, const OUT: usize>(
     wanted: Path,
-    block: impl Block<IN, Out>,
-    columns: [&[f64]; IN],
-    out: Out,
+    block: impl Block<IN, OUT>,
+    columns: [&[f64; ROWS]; IN],
+    out: &mut [[f64; ROWS + 8]; OUT],
 ) {
-    struct One<'a, B, Out, const IN: usize> {
+    struct One<'a, B, const IN: usize, const OUT: usize> {
         block: B,
         columns: [&'a [f64; ROWS]; IN],
-        out: Out,
+        out: &'a mut [[f64; ROWS + 8]; OUT],
     }
-    impl<B: Block<IN, Out>, Out, const IN: usize> Work for One<'_, B, Out, IN> {
+    impl<B: Block<IN, OUT>, const IN: usize, const OUT: usize> Work for One<'_, B, IN, OUT> {
         #[inline(always)]
         fn run<A: Arithmetic>(self, arithmetic: A) {
             self.block.compute(arithmetic, self.columns, self.out);
         }
     }
-    let mut spaces = [const { None }; IN];
-    let mut columns = columns.into_iter();
-    let columns = spaces.each_mut().map(|space| whole(columns.next().unwrap_or_default(), space));
     run(wanted, One { block, columns, out });
 }

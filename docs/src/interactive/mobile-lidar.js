@@ -147,15 +147,17 @@
 //     }
 
 /**
- * Where the instrument is: its joints, and what is measured beside them.
+ * Where the joints stand, by their encoders.
  * @typedef {Object} Joints
  * @property {number} alpha Turn of the outer frame (rad).
  * @property {number} beta Turn of the middle frame (rad).
  * @property {number} gamma Turn of the inner frame (rad).
  */
 
+const jointsFields = ['alpha', 'beta', 'gamma'];
+
 /**
- * What is wrong with the instrument.
+ * What differs from the design: nothing where all are zero.
  * @typedef {Object} Errors
  * @property {number} dtheta_y1 Axis against the plumb line, about y (rad).
  * @property {number} dtheta_x1 Axis against the plumb line, about x (rad).
@@ -188,6 +190,8 @@
  * @property {number} db4 Mounting of the device, rotation about y (rad).
  * @property {number} dg4 Mounting of the device, rotation about z (rad).
  */
+
+const errorsFields = ['dtheta_y1', 'dtheta_x1', 'dx1', 'dy1', 'dz1', 'da1', 'db1', 'delta_x2', 'delta_y2', 'dtheta_y2', 'dtheta_z2', 'dx2', 'dy2', 'dz2', 'db2', 'dg2', 'delta_y3', 'dtheta_y3', 'dtheta_x3', 'dx3', 'dy3', 'dz3', 'da3', 'db3', 'dx4', 'dy4', 'dz4', 'da4', 'db4', 'dg4'];
 
 /** No errors. */
 const noErrors = Object.freeze({
@@ -223,12 +227,23 @@ const noErrors = Object.freeze({
   dg4: 0,
 });
 
+function check(what, names, given) {
+  if (given === null || typeof given !== 'object') throw new TypeError(`${what} must be an object`);
+  for (const name of Object.keys(given)) {
+    if (!names.includes(name)) throw new TypeError(`${what} have no field ${name}: there are ${names.join(', ')}`);
+  }
+  for (const name of names) {
+    if (!Object.hasOwn(given, name)) throw new TypeError(`${what} lack the field ${name}`);
+  }
+}
+
 /**
  * Does what exactValue needs once for a set of errors.
  * @param {Errors} errors
  * @returns {Float64Array}
  */
 function prepareExactValue(errors) {
+  check('errors', errorsFields, errors);
   const t4 = 0.5 * errors.db4;
   const t5 = Math.sin(t4);
   const t6 = Math.cos(t4);
@@ -411,6 +426,7 @@ function prepareExactValue(errors) {
  * @param {Joints} joints
  */
 function exactValue(p, joints) {
+  check('joints', jointsFields, joints);
   const sin_gamma = Math.sin(joints.gamma);
   const cos_gamma = Math.cos(joints.gamma);
   const sin_beta = Math.sin(joints.beta);
@@ -452,11 +468,15 @@ function exactValue(p, joints) {
 }
 
 /**
- * The same for many poses: `joints` holds an array for each joint, `out` has the shape of what exactValue returns, with an
- * array in place of each number. Sines and cosines, and their accuracy, are those of Math.
+ * The same for many poses: `joints` hold an array for each field, all equally long, `out` has the shape of what exactValue
+ * returns, with an array in place of each number. Sines and cosines, and their accuracy, are those of Math.
  */
 function exactValueRows(p, joints, out) {
+  check('joints', jointsFields, joints);
   const rows = joints.alpha.length;
+  for (const name of jointsFields) {
+    if (joints[name].length !== rows) throw new RangeError(`${name} has not as many rows as alpha`);
+  }
   for (let row = 0; row < rows; row++) {
     const sin_gamma = Math.sin(joints.gamma[row]);
     const cos_gamma = Math.cos(joints.gamma[row]);
@@ -499,6 +519,7 @@ function exactValueRows(p, joints, out) {
  * @returns {Float64Array}
  */
 function prepareExactError(errors) {
+  check('errors', errorsFields, errors);
   const t4 = 0.5 * errors.db4;
   const t5 = Math.sin(t4);
   const t6 = Math.cos(t4);
@@ -686,6 +707,7 @@ function prepareExactError(errors) {
  * @param {Joints} joints
  */
 function exactError(p, joints) {
+  check('joints', jointsFields, joints);
   const sin_gamma = Math.sin(joints.gamma);
   const cos_gamma = Math.cos(joints.gamma);
   const sin_beta = Math.sin(joints.beta);
@@ -732,11 +754,15 @@ function exactError(p, joints) {
 }
 
 /**
- * The same for many poses: `joints` holds an array for each joint, `out` has the shape of what exactError returns, with an
- * array in place of each number. Sines and cosines, and their accuracy, are those of Math.
+ * The same for many poses: `joints` hold an array for each field, all equally long, `out` has the shape of what exactError
+ * returns, with an array in place of each number. Sines and cosines, and their accuracy, are those of Math.
  */
 function exactErrorRows(p, joints, out) {
+  check('joints', jointsFields, joints);
   const rows = joints.alpha.length;
+  for (const name of jointsFields) {
+    if (joints[name].length !== rows) throw new RangeError(`${name} has not as many rows as alpha`);
+  }
   for (let row = 0; row < rows; row++) {
     const sin_gamma = Math.sin(joints.gamma[row]);
     const cos_gamma = Math.cos(joints.gamma[row]);
@@ -784,6 +810,7 @@ function exactErrorRows(p, joints, out) {
  * @returns {Float64Array}
  */
 function prepareFirstOrderError(errors) {
+  check('errors', errorsFields, errors);
   const t14 = errors.da3 + errors.da4;
   const t17 = errors.db3 + errors.db4;
   const t32 = errors.dx3 + errors.dx4;
@@ -814,14 +841,15 @@ function prepareFirstOrderError(errors) {
  * @param {Joints} joints
  */
 function firstOrderError(p, joints) {
+  check('joints', jointsFields, joints);
   const sin_alpha = Math.sin(joints.alpha);
   const cos_alpha = Math.cos(joints.alpha);
   const sin_beta = Math.sin(joints.beta);
   const cos_beta = Math.cos(joints.beta);
   const sin_gamma = Math.sin(joints.gamma);
   const cos_gamma = Math.cos(joints.gamma);
-  const t56 = cos_beta * (p[2] - (sin_alpha * p[0] - cos_alpha * p[1])) + sin_beta * p[3];
-  const t61 = p[5] + t56 + (cos_gamma * p[7] + sin_gamma * p[6]);
+  const t57 = p[5] + (cos_beta * (p[2] - (sin_alpha * p[0] - cos_alpha * p[1])) + sin_beta * p[3]);
+  const t61 = t57 + (cos_gamma * p[7] + sin_gamma * p[6]);
   const t69 = p[4] + (cos_alpha * p[0] + sin_alpha * p[1]) - (sin_gamma * p[7] - cos_gamma * p[6]);
   const t72 = cos_beta * t69;
   const t82 = p[10] + (cos_gamma * p[12] - sin_gamma * p[13]);
@@ -842,11 +870,15 @@ function firstOrderError(p, joints) {
 }
 
 /**
- * The same for many poses: `joints` holds an array for each joint, `out` has the shape of what firstOrderError returns, with an
- * array in place of each number. Sines and cosines, and their accuracy, are those of Math.
+ * The same for many poses: `joints` hold an array for each field, all equally long, `out` has the shape of what firstOrderError
+ * returns, with an array in place of each number. Sines and cosines, and their accuracy, are those of Math.
  */
 function firstOrderErrorRows(p, joints, out) {
+  check('joints', jointsFields, joints);
   const rows = joints.alpha.length;
+  for (const name of jointsFields) {
+    if (joints[name].length !== rows) throw new RangeError(`${name} has not as many rows as alpha`);
+  }
   for (let row = 0; row < rows; row++) {
     const sin_alpha = Math.sin(joints.alpha[row]);
     const cos_alpha = Math.cos(joints.alpha[row]);
@@ -854,8 +886,8 @@ function firstOrderErrorRows(p, joints, out) {
     const cos_beta = Math.cos(joints.beta[row]);
     const sin_gamma = Math.sin(joints.gamma[row]);
     const cos_gamma = Math.cos(joints.gamma[row]);
-    const t56 = cos_beta * (p[2] - (sin_alpha * p[0] - cos_alpha * p[1])) + sin_beta * p[3];
-    const t61 = p[5] + t56 + (cos_gamma * p[7] + sin_gamma * p[6]);
+    const t57 = p[5] + (cos_beta * (p[2] - (sin_alpha * p[0] - cos_alpha * p[1])) + sin_beta * p[3]);
+    const t61 = t57 + (cos_gamma * p[7] + sin_gamma * p[6]);
     const t69 = p[4] + (cos_alpha * p[0] + sin_alpha * p[1]) - (sin_gamma * p[7] - cos_gamma * p[6]);
     const t72 = cos_beta * t69;
     const t82 = p[10] + (cos_gamma * p[12] - sin_gamma * p[13]);
@@ -876,6 +908,7 @@ function firstOrderErrorRows(p, joints, out) {
  * @returns {Float64Array}
  */
 function prepareExactJacobian(errors) {
+  check('errors', errorsFields, errors);
   const t4 = 0.5 * errors.dtheta_y1;
   const t5 = Math.sin(t4);
   const t6 = Math.cos(t4);
@@ -1029,6 +1062,7 @@ function prepareExactJacobian(errors) {
  * @param {Joints} joints
  */
 function exactJacobian(p, joints) {
+  check('joints', jointsFields, joints);
   const sin_alpha = Math.sin(joints.alpha);
   const cos_alpha = Math.cos(joints.alpha);
   const t150 = p[1] * cos_alpha + p[3] * sin_alpha;
@@ -1155,11 +1189,15 @@ function exactJacobian(p, joints) {
 }
 
 /**
- * The same for many poses: `joints` holds an array for each joint, `out` has the shape of what exactJacobian returns, with an
- * array in place of each number. Sines and cosines, and their accuracy, are those of Math.
+ * The same for many poses: `joints` hold an array for each field, all equally long, `out` has the shape of what exactJacobian
+ * returns, with an array in place of each number. Sines and cosines, and their accuracy, are those of Math.
  */
 function exactJacobianRows(p, joints, out) {
+  check('joints', jointsFields, joints);
   const rows = joints.alpha.length;
+  for (const name of jointsFields) {
+    if (joints[name].length !== rows) throw new RangeError(`${name} has not as many rows as alpha`);
+  }
   for (let row = 0; row < rows; row++) {
     const sin_alpha = Math.sin(joints.alpha[row]);
     const cos_alpha = Math.cos(joints.alpha[row]);
@@ -1461,6 +1499,7 @@ function exactJacobianRows(p, joints, out) {
  * @returns {Float64Array}
  */
 function prepareFirstOrderJacobian(errors) {
+  check('errors', errorsFields, errors);
   return Float64Array.of(
   );
 }
@@ -1471,6 +1510,7 @@ function prepareFirstOrderJacobian(errors) {
  * @param {Joints} joints
  */
 function firstOrderJacobian(p, joints) {
+  check('joints', jointsFields, joints);
   const sin_alpha = Math.sin(joints.alpha);
   const cos_alpha = Math.cos(joints.alpha);
   const t4 = -sin_alpha;
@@ -1510,11 +1550,15 @@ function firstOrderJacobian(p, joints) {
 }
 
 /**
- * The same for many poses: `joints` holds an array for each joint, `out` has the shape of what firstOrderJacobian returns, with an
- * array in place of each number. Sines and cosines, and their accuracy, are those of Math.
+ * The same for many poses: `joints` hold an array for each field, all equally long, `out` has the shape of what firstOrderJacobian
+ * returns, with an array in place of each number. Sines and cosines, and their accuracy, are those of Math.
  */
 function firstOrderJacobianRows(p, joints, out) {
+  check('joints', jointsFields, joints);
   const rows = joints.alpha.length;
+  for (const name of jointsFields) {
+    if (joints[name].length !== rows) throw new RangeError(`${name} has not as many rows as alpha`);
+  }
   for (let row = 0; row < rows; row++) {
     const sin_alpha = Math.sin(joints.alpha[row]);
     const cos_alpha = Math.cos(joints.alpha[row]);

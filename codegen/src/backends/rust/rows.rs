@@ -77,14 +77,14 @@ fn have_length(file: &File<'_>) -> String {
         .join(" && ")
 }
 
-/// The columns that a block reads: `[joints.alpha, inputs.range]`.
-fn columns(file: &File<'_>, lowered: &Block) -> String {
-    let column = |id| {
+/// The columns that a block reads: `joints.alpha`, `inputs.range`.
+fn columns(file: &File<'_>, lowered: &Block) -> Vec<String> {
+    let column = |&id| {
         let holds = |group: &&Group| group.symbols.contains(&id);
         let group = file.shared.pose.iter().find(holds).map_or("", |group| group.argument);
         format!("{group}.{}", file.names.symbol(id))
     };
-    format!("[{}]", lowered.columns.iter().map(|&id| column(id)).collect::<Vec<_>>().join(", "))
+    lowered.columns.iter().map(column).collect()
 }
 
 /// `mark: [out0, out1, out2], rim: […]`
@@ -108,7 +108,7 @@ fn of_components(file: &File<'_>, function: &Function) -> String {
     let pose = file.of_pose(&|group| format!("&{}.at(row)", group.argument));
     let stores: String =
         (0..outs.len()).map(|index| format!("                out{index}[row] = value{index};\n")).collect();
-    let columns = columns(file, &lowered);
+    let columns = columns(file, &lowered).join(", ");
     format!(
         "
     /// Many poses: as [`Self::eval`], but products may be fused with sums. {ACCURACY}
@@ -126,7 +126,7 @@ fn of_components(file: &File<'_>, function: &Function) -> String {
                 let Observed {{ {numbers} }} = self.eval({pose});
 {stores}            }}
         }} else {{
-            sine_cosine::run_rows(sine_cosine::path(), self, rows, {columns}, [{out}]);
+            sine_cosine::run_rows(sine_cosine::path(), self, rows, [{columns}], [{out}]);
         }}
         Ok(())
     }}
@@ -143,7 +143,9 @@ fn of_jacobian(file: &File<'_>, function: &Function) -> String {
     let rows = file.shared.pose.first().zip(file.shared.pose_symbols().next());
     let rows =
         rows.map_or_else(String::new, |(group, id)| format!("{}.{}", group.argument, file.names.symbol(id)));
-    let columns = columns(file, &lowered);
+    let whole = |column: &String| format!("sine_cosine::whole({column}, &mut None)");
+    let columns: Vec<String> = columns(file, &lowered).iter().map(whole).collect();
+    let columns = columns.join(", ");
     let arguments = file.of_pose(&|group| {
         let part = |&id| format!("{0}: &{1}.{0}[start..end]", file.names.symbol(id), group.argument);
         let fields: Vec<String> = group.symbols.iter().map(part).collect();
@@ -174,7 +176,7 @@ fn of_jacobian(file: &File<'_>, function: &Function) -> String {
         if !({have_length} && rows <= ROWS) {{
             return Err(LengthsDiffer);
         }}
-        sine_cosine::run_block(sine_cosine::path(), self, {columns}, &mut block.values);
+        sine_cosine::run_block(sine_cosine::path(), self, [{columns}], &mut block.values);
         Ok(())
     }}
 
@@ -202,20 +204,16 @@ fn of_jacobian(file: &File<'_>, function: &Function) -> String {
 /// What a form does with a block of rows. With sines and cosines in the loop over rows, the loop is there for narrow
 /// angles and for any.
 fn compute(file: &File<'_>, function: &Function, lowered: &Block) -> String {
-    let kind = camel_case(form_name(function.form));
     let kept = function.program.carried().len();
     let kept_names: Vec<String> = (0..kept).map(|place| format!("p{place}")).collect();
     let columns: Vec<String> =
         lowered.columns.iter().map(|&id| format!("column_{}", file.names.symbol(id))).collect();
     let distinct = lowered.distinct;
-    let (outs, out_type, out_pattern, out_types) = if function.form.is_jacobian() {
-        let of = format!("[[f64; ROWS + 8]; {distinct}]");
-        (vec!["out".to_owned()], of.clone(), "out".to_owned(), format!("&'a mut {of}"))
+    let (outs, out_type) = if function.form.is_jacobian() {
+        (vec!["out".to_owned()], format!("[[f64; ROWS + 8]; {distinct}]"))
     } else {
-        let count = lowered.places.len();
-        let outs: Vec<String> = (0..count).map(|index| format!("out{index}")).collect();
-        let pattern = format!("[{}]", outs.join(", "));
-        (outs, "[f64; ROWS]".to_owned(), pattern, format!("[&'a mut [f64; ROWS]; {count}]"))
+        let outs = (0..lowered.places.len()).map(|index| format!("out{index}"));
+        (outs.collect(), "[f64; ROWS]".to_owned())
     };
     let parameters: Vec<String> = columns
         .iter()
@@ -224,8 +222,6 @@ fn compute(file: &File<'_>, function: &Function, lowered: &Block) -> String {
         .collect();
     let parameters = parameters.join(", ");
     let arguments = [columns.as_slice(), &outs].concat().join(", ");
-    let count = columns.len();
-    let columns = columns.join(", ");
     let kept_names = kept_names.join(", ");
     let (narrow, scope, calls) = if lowered.angles_in_loop.is_empty() {
         let call = format!("        rows(arithmetic, &self.prepared, {arguments});\n");
@@ -254,19 +250,48 @@ fn compute(file: &File<'_>, function: &Function, lowered: &Block) -> String {
         sin_cos: "",
     };
     let body = rust.statements(&lowered.body, 12);
+    let (head, taken) = head(function, &columns, &outs, distinct);
     format!(
         "
 #[allow(non_snake_case, unused_variables, clippy::all, clippy::pedantic)]
-impl<'a> sine_cosine::Block<{count}, {out_types}> for &{kind} {{
-    #[inline(always)]
-    fn compute<A: sine_cosine::Arithmetic>(self, arithmetic: A, [{columns}]: [&[f64; ROWS]; {count}], {out_pattern}: {out_types}) {{
+impl {head} {{
         #[inline(always)]
         fn rows<A: sine_cosine::Arithmetic{narrow}>(arithmetic: A, &[{kept_names}]: &[f64; {kept}], {parameters}) {{
 {body}        }}
-{calls}    }}
+{taken}{calls}    }}
 }}
 "
     )
+}
+
+/// What is implemented, up to the body of its function, and how that takes its block out of what it is given.
+fn head(function: &Function, columns: &[String], outs: &[String], distinct: usize) -> (String, String) {
+    let kind = camel_case(form_name(function.form));
+    let (columns_in, count) = (columns.join(", "), columns.len());
+    if function.form.is_jacobian() {
+        let head = format!(
+            "sine_cosine::Block<{count}, {distinct}> for &{kind} {{
+    #[inline(always)]
+    fn compute<A: sine_cosine::Arithmetic>(self, arithmetic: A, [{columns_in}]: [&[f64; ROWS]; {count}], out: &mut [[f64; ROWS + 8]; {distinct}])"
+        );
+        return (head, String::new());
+    }
+    let (outs_in, count_out) = (outs.join(", "), outs.len());
+    let head = format!(
+        "sine_cosine::Rows<{count}, {count_out}> for &{kind} {{
+    #[inline(always)]
+    fn compute<A: sine_cosine::Arithmetic>(self, arithmetic: A, [{columns_in}]: &[&[f64]; {count}], [{outs_in}]: &mut [&mut [f64]; {count_out}], first: usize)"
+    );
+    let taken: String = columns
+        .iter()
+        .map(|column| {
+            format!("        let Some({column}) = {column}[first..].first_chunk() else {{ unreachable!(\"all slices have as many rows\") }};\n")
+        })
+        .chain(outs.iter().map(|out| {
+            format!("        let Some({out}) = {out}[first..].first_chunk_mut() else {{ unreachable!(\"all slices have as many rows\") }};\n")
+        }))
+        .collect();
+    (head, taken)
 }
 
 /// The type of a Jacobian's blocks.

@@ -64,7 +64,7 @@ fn elsewhere(studies: &[(&str, &[&str])]) -> Result<Vec<Line>, Failure> {
                 .next()
                 .map_or_else(|| Box::new(std::io::empty()) as Box<dyn Read>, |file| Box::new(file)))
         };
-        let all = plan.observations(&mut open)?;
+        let all = plan.load(&mut open)?.observations;
         for joint in *joints {
             let joint = plan.chain.find_symbol(joint).ok_or(format!("{path}: no {joint}"))?;
             for upper in [false, true] {

@@ -163,7 +163,7 @@ impl Page {
             row(&name, before.held_out_rms_kept, after.held_out_rms_kept);
         }
         if after.elsewhere_rms.is_some() {
-            row("in regions left out", before.elsewhere_rms, after.elsewhere_rms);
+            row("elsewhere: regions left out", before.elsewhere_rms, after.elsewhere_rms);
         }
     }
 

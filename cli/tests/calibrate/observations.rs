@@ -20,13 +20,13 @@ fn estimate(report: &Value, name: &str) -> (f64, f64) {
     (error["value"].as_f64().expect("a number"), error["standard_uncertainty"].as_f64().expect("a number"))
 }
 
-const ENCODER: &str = "chain Encoder {
+pub const ENCODER: &str = "chain Encoder {
     body shaft on ground { motion: Rz(-reading); motion_error: Rz(-index); }
     observe mark: direction(0, 1, 0) of shaft;
 }
 ";
 
-const ENCODER_STUDY: &str = "chain = \"encoder.chain\"
+pub const ENCODER_STUDY: &str = "chain = \"encoder.chain\"
 data = \"measured.csv\"
 [columns]
 reading = { column = \"reading\", unit = \"deg\" }
@@ -341,9 +341,17 @@ fn poses_to_measure_next_are_proposed_in_degrees() {
     assert_eq!(run.code, 0, "{run}");
     let (_, proposed) = run.stdout.split_once("measure next, to determine").expect("a proposal");
     let mut lines = proposed.lines().skip(1);
-    assert_eq!(lines.next().map(str::trim), Some("reading, °"), "{run}");
-    for line in lines.take(3) {
-        let degrees: f64 = line.trim().parse().unwrap_or_else(|_| panic!("{line} in {run}"));
+    let header = lines.next().unwrap_or_default();
+    assert!(header.trim().starts_with("reading, °"), "{run}");
+    // A pose that is proposed more than once stands once, with how often.
+    let mut measured = 0;
+    for line in lines.take_while(|line| line.starts_with("        ")) {
+        let mut cells = line.split_whitespace();
+        let degrees: f64 =
+            cells.next().and_then(|cell| cell.parse().ok()).unwrap_or_else(|| panic!("{line} in {run}"));
         assert!((0.0..=90.0).contains(&degrees), "{run}");
+        measured +=
+            cells.next().map_or(1, |times| times.parse().unwrap_or_else(|_| panic!("{line} in {run}")));
     }
+    assert_eq!(measured, 3, "{run}");
 }

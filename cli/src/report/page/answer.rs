@@ -71,7 +71,7 @@ fn better(diagnosis: &Diagnosis, answers: &Answers) -> Markup {
     let pairs: Vec<(&str, f64, f64)> = [
         ("On data that nobody fitted", before.held_out_rms, after.held_out_rms),
         ("On the data that were fitted", Some(before.rms), Some(after.rms)),
-        ("In regions of the joints left out", before.elsewhere_rms, after.elsewhere_rms),
+        ("Elsewhere: in regions of the joints left out", before.elsewhere_rms, after.elsewhere_rms),
     ]
     .into_iter()
     .filter_map(|(name, before, after)| Some((name, before?, after?)))

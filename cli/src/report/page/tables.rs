@@ -71,23 +71,29 @@ pub fn values(diagnosis: &Diagnosis) -> Markup {
     html! {
         section id="values" {
             h2 { "Values" }
-            @if !diagnosis.verdict.is_usable() {
-                p.caution role="note" { "The fit is not usable: no value below means anything." }
-            }
-            (scrolled("Errors with standard uncertainties", &html! {
-                table {
-                    thead { tr { th scope="col" { "error or combination" } th.number scope="col" { "estimate ± standard uncertainty" } } }
-                    tbody {
-                        @for line in &estimates.lines {
+            @if diagnosis.verdict.is_usable() {
+                (scrolled("Errors with standard uncertainties", &html! {
+                    table {
+                        thead {
                             tr {
-                                th scope="row" { code { (line.what) } @if line.found { span.quiet { " found" } } }
-                                td.number { (line.estimate) }
+                                th scope="col" { "error or combination" }
+                                th.number scope="col" { "estimate ± standard uncertainty" }
+                            }
+                        }
+                        tbody {
+                            @for line in &estimates.lines {
+                                tr {
+                                    th scope="row" { code { (line.what) } @if line.found { span.quiet { " found" } } }
+                                    td.number { (line.estimate) }
+                                }
                             }
                         }
                     }
-                }
-            }))
-            @for note in &estimates.notes { p { (words::sentence_case(note)) "." } }
+                }))
+                @for note in &estimates.notes { p { (words::sentence_case(note)) "." } }
+            } @else {
+                p.caution role="note" { "The fit is not usable: no value of it means anything, and none is told." }
+            }
         }
     }
 }

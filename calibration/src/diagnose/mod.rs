@@ -233,8 +233,8 @@ pub(crate) fn diagnose(
 
 /// Whether a function without a name was taken up: a shape of several coefficients.
 fn has_unnamed(whole: &Loop<'_>, last: &Fitted) -> bool {
-    let effects = last.found.iter().map(|found| &whole.catalogue[found.effect]);
-    effects.into_iter().any(|effect| effect.family == SHAPE && effect.functions.len() > 1)
+    let mut effects = last.found.iter().map(|found| &whole.catalogue[found.effect]);
+    effects.any(|effect| effect.family == SHAPE && effect.functions.len() > 1)
 }
 
 /// What a search found.

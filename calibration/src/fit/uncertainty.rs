@@ -155,7 +155,8 @@ impl Solver<'_> {
         let counted: Vec<f64> = weight.iter().map(|weight| f64::from(u8::from(*weight > 0.0))).collect();
         let (q, e) = self.coordinates(course, &counted, root)?;
         let sigma = course.noise.sigma_without_memory();
-        let (beside, complete) = trend::beside(self.chain, self.observations, &self.layout, &sigma, weight, &q);
+        let (beside, complete) =
+            trend::beside(self.chain, self.observations, &self.layout, &sigma, weight, &q);
         if options.serial && (declared || self.groups().is_none()) {
             let earns = serial::EARNS[usize::from(!declared)];
             if let Some(memory) = serial::fit(&self.layout, &e, &q, &beside, earns) {

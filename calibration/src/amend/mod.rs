@@ -62,7 +62,9 @@ pub fn amend(
     inputs: &[NewInput],
 ) -> Result<String, AmendError> {
     let declaration = Declaration::from_text(text)?;
-    let no_name = |symbol: &&Symbol| symbol.kind != SymbolKind::Pi && !names::is_name(&symbol.name);
+    // π and ramps are written, not named.
+    let named = |symbol: &Symbol| !matches!(symbol.kind, SymbolKind::Pi | SymbolKind::Ramp);
+    let no_name = |symbol: &&Symbol| named(symbol) && !names::is_name(&symbol.name);
     if let Some(symbol) = chain.symbols.iter().find(no_name) {
         return Err(AmendError::NotAsMeant(format!("`{}` is no name", symbol.name)));
     }

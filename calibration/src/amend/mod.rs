@@ -62,7 +62,10 @@ pub fn amend(
     inputs: &[NewInput],
 ) -> Result<String, AmendError> {
     let declaration = Declaration::from_text(text)?;
-    let no_name = |symbol: &&Symbol| symbol.kind != SymbolKind::Pi && !names::is_name(&symbol.name);
+    let no_name = |symbol: &&Symbol| {
+        use SymbolKind::{Constant, Error, Input, Joint};
+        matches!(symbol.kind, Joint | Error | Constant | Input) && !names::is_name(&symbol.name)
+    };
     if let Some(symbol) = chain.symbols.iter().find(no_name) {
         return Err(AmendError::NotAsMeant(format!("`{}` is no name", symbol.name)));
     }

@@ -88,6 +88,7 @@ proptest! {
             let end = left.find(&statement).expect("the statement is there") + statement.len();
             let mark = left[..end].rfind("/// Found in the property test").expect("its line is there");
             let start = left[..mark].rfind('\n').expect("a new line");
+            let start = if left[..start].ends_with('\r') { start - 1 } else { start };
             left.replace_range(start..end, "");
         }
         prop_assert_eq!(left, text);

@@ -88,10 +88,7 @@ proptest! {
             let end = left.find(&statement).expect("the statement is there") + statement.len();
             let mark = left[..end].rfind("/// Found in the property test").expect("its line is there");
             let start = left[..mark].rfind('\n').expect("a new line");
-<<<<<<< HEAD
             // A line that ends with CR LF was inserted with both.
-=======
->>>>>>> h-io
             let start = if left[..start].ends_with('\r') { start - 1 } else { start };
             left.replace_range(start..end, "");
         }

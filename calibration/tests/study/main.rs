@@ -199,7 +199,7 @@ fn names_of_a_study_are_names_of_the_language() {
             "{STUDY}[[effect]]\nname = \"{name}\"\nbody = \"telescope\"\nmoves = \"Rx\"\nfunctions = [\"cos(azimuth)\"]\n"
         )
     };
-    assert!(observations(&effect("fork flexure"), NIGHT).is_ok());
+    observations(&effect("fork flexure"), NIGHT).unwrap();
     for name in ["fork\\nflexure; */ }", "", "two\\u2028lines", "  ", &"x".repeat(300)] {
         let told = refused(&effect(name));
         assert!(told.iter().any(|line| line.contains("a few words on one line")), "{name}: {told:#?}");

@@ -62,10 +62,9 @@ pub fn amend(
     inputs: &[NewInput],
 ) -> Result<String, AmendError> {
     let declaration = Declaration::from_text(text)?;
-    let no_name = |symbol: &&Symbol| {
-        use SymbolKind::{Constant, Error, Input, Joint};
-        matches!(symbol.kind, Joint | Error | Constant | Input) && !names::is_name(&symbol.name)
-    };
+    // π and ramps are written, not named.
+    let named = |symbol: &Symbol| !matches!(symbol.kind, SymbolKind::Pi | SymbolKind::Ramp);
+    let no_name = |symbol: &&Symbol| named(symbol) && !names::is_name(&symbol.name);
     if let Some(symbol) = chain.symbols.iter().find(no_name) {
         return Err(AmendError::NotAsMeant(format!("`{}` is no name", symbol.name)));
     }
@@ -116,6 +115,21 @@ pub fn amend(
     Ok(amended)
 }
 
+/// A chain whose symbols measure what the language says that they do in a text: a coefficient that multiplies an angle is a
+/// number there. So what is written of them can be read again.
+///
+/// # Errors
+/// A text that is no declaration.
+pub fn with_quantities_of(mut chain: Chain, text: &str) -> Result<Chain, Mistakes> {
+    let read = Chain::from_text(text)?;
+    for symbol in &mut chain.symbols {
+        if let Some(id) = read.find_symbol(&symbol.name) {
+            symbol.quantity = read.symbol(id).quantity;
+        }
+    }
+    Ok(chain)
+}
+
 /// A text without line breaks, or anything else that could end a comment.
 fn on_one_line(text: &str) -> String {
     let breaks = |letter: char| letter.is_control() || matches!(letter, '\u{2028}' | '\u{2029}');
@@ -162,7 +176,7 @@ fn place(text: &str, body: &BodyStatement, role: Role) -> (usize, String) {
 fn input_place(text: &str, declaration: &Declaration) -> (usize, String) {
     let inputs = declaration.statements.iter().filter_map(|statement| match statement {
         Statement::Input(input) => {
-            let last = input.quantity.as_ref().unwrap_or(&input.name);
+            let last = input.meaning.as_ref().unwrap_or(&input.name);
             Some((after_semicolon(text, last.span().byte_range().end), input.name.span().byte_range().start))
         }
         _ => None,

@@ -84,7 +84,6 @@ fn nothing_is_added_that_was_not_meant() {
     };
     assert!(!refused("Rx(tilt)", &[]));
     for factor in [
-        "Rx(tilt*mirror-temp)",
         "Rx(tilt*fn)",
         "Rx(tilt*temp x)",
         "Rx(tilt",

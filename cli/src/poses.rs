@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use calibration::data::units::{self, Plausible, si_and_likely};
+use calibration::data::units::{Amount, Plausible, si_and_likely};
 use model_core::algebra::Rational;
 use model_core::budget::{JointRange, Path, PathError};
 use model_core::expr::{Expr, Node};
@@ -48,20 +48,21 @@ fn amount_in_t(
 ) -> Result<Expr<Range<usize>>, Mistake<Range<usize>>> {
     let amount = &text[place.clone()];
     let quantity = chain.find_symbol(name).map_or(Quantity::Number, |id| chain.symbol(id).quantity);
-    if let (Some(symbol), Ok(bare)) = (chain.find_symbol(name), units::Amount::parse(amount))
-        && bare.unit.is_none()
-        && Plausible::readings(chain, symbol).refuses(quantity, bare.number)
-    {
-        let (si, likely) = si_and_likely(quantity);
-        terminal::warn(format_args!(
-            "{name}={amount} has no unit and is taken as {si}; did you mean {name}={amount} {likely}?"
-        ));
-    }
-    if let Ok(value) = units::parse(amount, quantity)
-        && let Ok(value) = Rational::parse_decimal(&format!("{:e}", value.abs()))
-            .map(|size| if value < 0.0 { -&size } else { size })
-    {
-        return Ok(Expr { node: Node::Number(value), place });
+    if let (Some(symbol), Ok(written)) = (chain.find_symbol(name), Amount::parse(amount)) {
+        let plausible = Plausible::readings(chain, symbol);
+        if written.unit.is_none() && plausible.refuses(quantity, written.number) {
+            let (si, likely) = si_and_likely(quantity);
+            terminal::warn(format_args!(
+                "{name}={amount} has no unit and is taken as {si}; did you mean {name}={amount} {likely}?"
+            ));
+        }
+        let value =
+            written.to_si(quantity).map_err(|error| Mistake::new(place.clone(), error.to_string()))?;
+        let size = Rational::parse_decimal(&format!("{:e}", value.abs()));
+        if let Ok(size) = size {
+            let value = if value < 0.0 { -&size } else { size };
+            return Ok(Expr { node: Node::Number(value), place });
+        }
     }
     let shift = |inside: &Range<usize>| inside.start + place.start..inside.end + place.start;
     match syntax::parse_amount(amount) {

@@ -196,7 +196,7 @@ fn names_of_a_study_are_names_of_the_language() {
     }
     let effect = |name: &str| {
         format!(
-            "{STUDY}[[effect]]\nname = \"{name}\"\nbody = \"telescope\"\nmoves = \"Rx\"\nfunctions = [\"cos(azimuth)\"]\n"
+            "{STUDY}[[effect]]\nname = \"{name}\"\nbody = \"tube\"\nmoves = \"Rx\"\nfunctions = [\"cos(azimuth)\"]\n"
         )
     };
     observations(&effect("fork flexure"), NIGHT).unwrap();

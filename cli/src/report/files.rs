@@ -5,13 +5,14 @@ use std::path::Path;
 
 use calibration::data::SiUnit;
 use calibration::diagnose::Diagnosis;
+use calibration::formats::ColumnName;
 use serde::Serialize;
 
 use super::errors::errors_toml;
 use super::{Provenance, Reported, diff, page, residuals};
 use crate::failure::Failure;
 use crate::output::Folder;
-use crate::tables;
+use crate::{tables, terminal};
 
 /// The number of the promise that the keys of `report.json` are.
 const SCHEMA: u32 = 2;
@@ -20,7 +21,7 @@ const SCHEMA: u32 = 2;
 pub const NAMES: [&str; 5] = ["report.html", "report.json", "amended.chain", "errors.toml", "residuals.csv"];
 
 /// Writes `report.html`, `report.json` and `residuals.csv` into a folder, which is made if it is not there; and, where a
-/// usable model came out, `amended.chain` and `errors.toml`: those of an earlier run go. All of that happens, or nothing.
+/// usable model came out, `amended.chain` and `errors.toml`. They appear together, or not at all.
 ///
 /// # Errors
 /// The folder or a file cannot be written; nothing has changed then.
@@ -34,7 +35,10 @@ pub fn write_all(reported: &Reported<'_>, folder: &Path) -> Result<(), Failure> 
     ] {
         match text {
             Some(text) => files.write_text(name, &text)?,
-            None => files.remove(name),
+            None if folder.join(name).exists() => {
+                terminal::warn(format_args!("{name} in {} is from an earlier run", folder.display()));
+            }
+            None => {}
         }
     }
     files.write("residuals.csv", |file| write_residuals(reported, &folder.join("residuals.csv"), file))?;
@@ -92,7 +96,7 @@ fn write_residuals(reported: &Reported<'_>, path: &Path, file: &mut dyn Write) -
     // A joint or input may have the name of one of these columns.
     let own = |name: &str| {
         let mut name = name.to_owned();
-        while others.contains(&name) {
+        while others.iter().any(|other| ColumnName::parse(other).means(&name, &[])) {
             name.push('_');
         }
         name

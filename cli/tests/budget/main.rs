@@ -125,7 +125,7 @@ fn what_is_wrong_is_named() {
         (&["--path", "alpha=t, alpha=2*t"], "`alpha` is given twice"),
         (&["--path", "alpha=sin(t/2)"], "the angle of a sine or cosine"),
         (&["--path", "alpha=beta"], "unknown name `beta`"),
-        (&["--path", "alpha=10 mm"], "expected"),
+        (&["--path", "alpha=10 mm"], "`mm` measures a length, but an angle is wanted"),
         (&["--observable", "pointing", "--path", "alpha=t"], "--range \"beta=lo..hi\""),
         (&["--observable", "target"], "--range \"range=lo..hi\""),
         (&["--path", TOGETHER, "--range", "beta=0..1"], "cannot be used with"),

@@ -82,7 +82,7 @@ fn dialects_do_not_change_the_answer() {
         |(name, data)| {
             let folder = Folder::new(&format!("dialect-{name}"));
             folder.write("encoder.chain", ENCODER).write("measured.csv", data);
-            folder.write("study.toml", ENCODER_STUDY);
+            folder.write("study.toml", format!("comment = \"#\"\n{ENCODER_STUDY}"));
             report(&folder)
         },
     );

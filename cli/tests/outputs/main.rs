@@ -100,8 +100,8 @@ fn nothing_is_written_over_what_the_command_reads() {
         refused(&words(&folder, &format!("{simulate} {out}")), why);
     }
     refused(&words(&folder, "generate shaft.chain --language rust --out shaft.chain"), why);
-    refused(&words(&folder, "generate shaft.chain --language c --out x.h"), "another ending");
-    refused(&words(&folder, "generate shaft.chain --language c --out x.H"), "another ending");
+    refused(&words(&folder, "generate shaft.chain --language c --out x.h"), "header");
+    refused(&words(&folder, "generate shaft.chain --language c --out x.H"), "header");
     assert_eq!(folder.read("shaft.chain"), SHAFT);
 }
 

@@ -151,7 +151,7 @@ fn a_far_range_is_written_with_its_unit_and_read_without_a_word() {
     assert_eq!(done(&run), "");
     assert!(folder.read("far.csv").starts_with("t,turn [rad],slide [m],"), "{}", folder.read("far.csv"));
     assert_eq!(
-        done(&words(&folder, "eval named.chain --errors e.toml --data far.csv --observable beam --out -")),
+        done(&words(&folder, "apply named.chain --errors e.toml --data far.csv --observable beam --out -")),
         ""
     );
 }

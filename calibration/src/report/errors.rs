@@ -56,7 +56,7 @@ pub fn estimates(diagnosis: &Diagnosis) -> Estimates {
         found: false,
         combined: true,
     }));
-    lines.sort_by(|a, b| (a.combined, natural(&a.what)).cmp(&(b.combined, natural(&b.what))));
+    lines.sort_by_key(|a| (a.combined, natural(&a.what)));
     Estimates { lines, notes: notes(diagnosis) }
 }
 

@@ -8,6 +8,9 @@ use crate::formats::{
     DataError, Form, ReadAs, TableReader, Wanted, declared_columns, find_column, find_reading,
 };
 
+/// Readings whose unit nothing says, each with its place among the numbers.
+type PlacedBareColumns = Vec<(usize, BareColumn)>;
+
 /// Which of the numbers read is what.
 pub(super) struct Columns {
     pub plans: Vec<ColumnPlan>,
@@ -61,7 +64,7 @@ impl Columns {
         &self,
         plan: &Plan,
         reader: &dyn TableReader,
-    ) -> Result<(Vec<Wanted>, Vec<(usize, BareColumn)>), DataError> {
+    ) -> Result<(Vec<Wanted>, PlacedBareColumns), DataError> {
         let (header, file) = (reader.header(), reader.source());
         let declared = declared_columns(&plan.chain);
         let declared: Vec<&str> = declared.iter().map(String::as_str).collect();

@@ -77,6 +77,5 @@ fn coverage(errors_rad: f64, runs: u64) -> Vec<f64> {
 fn large_errors_left_open_widen_the_rest() {
     let coverage = coverage(400.0 * ARCSEC, 60);
     let mean = coverage.iter().sum::<f64>() / coverage.len() as f64;
-    println!("{coverage:?} {mean}");
     assert!((0.90..=0.995).contains(&mean), "{coverage:?}");
 }

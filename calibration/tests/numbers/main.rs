@@ -1,6 +1,10 @@
 //! No wrong number: intervals hold the truth as often as they say, whatever the noise does, against a simulator that shares no
 //! code with ours.
-#![allow(clippy::unwrap_used)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test may say what it measured, and fail loudly"
+)]
 
 mod independent;
 mod robust;

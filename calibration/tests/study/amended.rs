@@ -83,13 +83,7 @@ fn nothing_is_added_that_was_not_meant() {
         matches!(amended(PLAIN, factor, "Found.", inputs), Err(AmendError::NotAsMeant(_)))
     };
     assert!(!refused("Rx(tilt)", &[]));
-    for factor in [
-        "Rx(tilt*fn)",
-        "Rx(tilt*temp x)",
-        "Rx(tilt",
-        "Rx(tilt) }",
-        "Rx(a); motion: Rx(b)",
-    ] {
+    for factor in ["Rx(tilt*fn)", "Rx(tilt*temp x)", "Rx(tilt", "Rx(tilt) }", "Rx(a); motion: Rx(b)"] {
         assert!(refused(factor, &[]), "{factor}");
     }
     for name in ["mirror-temp", "fn", "temp x", "x; input y", "ambient", "", "x // "] {

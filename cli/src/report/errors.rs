@@ -70,6 +70,8 @@ fn remark(error: &ErrorFound) -> String {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
+
     use std::path::PathBuf;
 
     use calibration::amend::{Addition, amend, with_quantities_of};

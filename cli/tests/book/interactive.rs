@@ -1,4 +1,5 @@
 //! The pages to play with: their code is what `generate` writes, and a browser shows the numbers that `eval` computes.
+#![allow(clippy::print_stderr, reason = "a test that is skipped says so")]
 
 use std::fs;
 use std::process::Command;

@@ -10,7 +10,7 @@ use crate::support::Folder;
 fn too_few_observations_end_with_one_and_amend_nothing() {
     let folder = Folder::new("too-few");
     folder.write("encoder.chain", ENCODER).write("study.toml", ENCODER_STUDY);
-    folder.write("measured.csv", "reading,true\n30,30.01\n".to_owned());
+    folder.write("measured.csv", "reading,true\n30,30.01\n");
     let run = folder.trueaxis(&["calibrate", "study.toml", "--out", "result"]);
     assert_eq!(run.code, 1, "{run}");
     assert!(run.stdout.starts_with("TOO FEW OBSERVATIONS\n"), "{run}");
@@ -33,7 +33,7 @@ fn too_few_observations_end_with_one_and_amend_nothing() {
 fn what_an_earlier_run_left_is_pointed_out() {
     let folder = Folder::new("too-few-again");
     folder.write("encoder.chain", ENCODER).write("study.toml", ENCODER_STUDY);
-    folder.write("amended.chain", ENCODER).write("measured.csv", "reading,true\n30,30.01\n".to_owned());
+    folder.write("amended.chain", ENCODER).write("measured.csv", "reading,true\n30,30.01\n");
     let run = folder.trueaxis(&["calibrate", "study.toml", "--out", "."]);
     assert_eq!(run.code, 1, "{run}");
     assert!(run.stderr.contains("amended.chain in . is from an earlier run"), "{run}");

@@ -104,13 +104,7 @@ fn reduce(x: f32) -> (f32, f32, u32) {
 /// `x` between 0 and 1, and the nearer of the two outside; NaN stays NaN.
 #[inline(always)]
 pub fn saturate(x: f32) -> f32 {
-    if x <= 0.0 {
-        0.0
-    } else if x >= 1.0 {
-        1.0
-    } else {
-        x
-    }
+    x.clamp(0.0, 1.0)
 }
 
 /// 1 from 0 on, 0 below; NaN stays NaN.

@@ -40,7 +40,7 @@ fn compiles(unit: &Unit<'_>, folder: &Path) {
         for file in generate(unit, language, "file").unwrap() {
             fs::write(folder.join(format!("file.{}", file.extension)), file.text).unwrap();
         }
-        let mut command = |program: &str, arguments: &[&str]| {
+        let command = |program: &str, arguments: &[&str]| {
             quiet(Command::new(program).current_dir(folder).args(arguments));
         };
         match language {

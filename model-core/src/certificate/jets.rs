@@ -62,8 +62,8 @@ pub(super) fn amount(
     is_kept: impl Fn(SymbolId) -> bool,
 ) -> Jet {
     let kept = amount.graded_part(|symbol| is_error(symbol) && !is_kept(symbol), 0);
-    let highest = kept.degree_in(|symbol| is_error(symbol)).max(order);
-    (0..=highest).map(|degree| kept.graded_part(|symbol| is_error(symbol), degree)).collect()
+    let highest = kept.degree_in(&is_error).max(order);
+    (0..=highest).map(|degree| kept.graded_part(&is_error, degree)).collect()
 }
 
 /// Cosine and sine of an amount whose part without t is `angle`.

@@ -150,7 +150,7 @@ mod tests {
         for (name, number, expected) in [
             ("turn", 44.0, true),
             ("turn", -270.0, true),
-            ("turn", 6.283, false),
+            ("turn", 6.4, false),
             ("turn", -3.2, false),
             ("u", 250.0, true),
             ("u", -900.0, true),

@@ -15,6 +15,7 @@
     clippy::large_types_passed_by_value,
     clippy::many_single_char_names,
     clippy::needless_range_loop,
+    clippy::possible_missing_comma,
     clippy::similar_names,
     clippy::struct_field_names,
     clippy::suboptimal_flops,

@@ -2,7 +2,7 @@
 //!
 //! Comments, order and layout of the text stay as they are: new lines go in after the last list of the same role in
 //! the body, indented like it and ended like the lines around it. Before an amended text leaves, it is read again, and held to
-//! what was meant ([`verify`]).
+//! what was meant (`verify`).
 
 mod verify;
 

@@ -1,6 +1,6 @@
 //! The report in words: the one place where a [`Diagnosis`](crate::diagnose::Diagnosis) becomes English.
 //!
-//! First the five [`Answers`] that a person acts on, then [`cautions`], evidence, values, noise, what is left and what
+//! First the five [`Answers`] that a person acts on, then cautions, evidence, values, noise, what is left and what
 //! could not have shown. How words are set in type is for whoever prints them.
 
 pub(crate) mod amendment;

@@ -224,8 +224,11 @@ mod tests {
             let Cells::Kept(column) = cells else { unreachable!("what was wanted") };
             kept.push(column);
         }
-        let texts = kept.iter().map(Kept::texts).collect::<std::result::Result<Vec<_>, _>>()?;
-        Ok((kept, texts.into_iter().map(std::borrow::Cow::into_owned).collect()))
+        let texts = kept
+            .iter()
+            .map(|column| column.texts().map(std::borrow::Cow::into_owned))
+            .collect::<std::result::Result<Vec<_>, _>>()?;
+        Ok((kept, texts))
     }
 
     fn texts(cells: &[&str]) -> Column {

@@ -1,6 +1,6 @@
 //! Writers of programs, one for each language: a file or folder each, and a line in [`LANGUAGES`] and [`generate`].
 //!
-//! A writer formats the tree of [`crate::lower`] and decides nothing. `unit` says what is in a file, `names` what things
+//! A writer formats the tree of `crate::lower` and decides nothing. `unit` says what is in a file, `names` what things
 //! are called, `notation` how expressions are put into text, `comments` how the declaration's words stay in comments.
 
 mod c;

@@ -185,6 +185,13 @@ impl<'a> Certificate<'a> {
             .components
             .each_ref()
             .map(|component| declared::without_places(&component.expression));
+        // A printed abbreviation stands for more than a symbol of the chain.
+        let chain = self.declared.chain();
+        let foreign =
+            |formula: &Expr<()>| formula.names().iter().any(|(name, ())| chain.find_symbol(name).is_none());
+        if printed.iter().any(foreign) {
+            return Err(Refusal::Claim);
+        }
         let question =
             Question { observable: claim.observable, order, kept: claim.kept.clone(), zeros: Vec::new() };
         let name = self.names.give(title);

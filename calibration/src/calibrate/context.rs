@@ -45,9 +45,8 @@ impl<'a> Loop<'a> {
             seed: plan.hold_out.seed,
             ..Options::default()
         };
-        let catalogue = chosen(&setting, catalogue(&setting), &plan.search.only).map_err(|(number, _)| {
-            CalibrateError::NoSuchEffect { name: plan.search.only.get(number).cloned().unwrap_or_default() }
-        })?;
+        let catalogue = chosen(&setting, catalogue(&setting), &plan.search.only)
+            .map_err(|(number, _)| CalibrateError::NoSuchEffect { name: plan.search.only[number].clone() })?;
         let names = known_names(&setting, &catalogue);
         Ok(Self { request, catalogue, names, options, setting, held, tell: &|_| () })
     }

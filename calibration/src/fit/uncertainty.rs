@@ -219,7 +219,10 @@ impl Solver<'_> {
         if known.len() < 2 || known.len() >= groups.len() || known.len() > MANY_GROUPS {
             return None;
         }
-        let bucket = |row: &u32| known.binary_search(&groups[*row as usize]).unwrap_or(0);
+        let bucket = |row: &u32| match known.binary_search(&groups[*row as usize]) {
+            Ok(bucket) => bucket,
+            Err(_) => unreachable!("`known` holds every group of a row"),
+        };
         Some(Buckets { of_component: self.layout.row.iter().map(bucket).collect(), count: known.len() })
     }
 

@@ -9,12 +9,12 @@ use crate::sources::root;
 
 /// Each package of the workspace with the packages of the workspace that it may use, dev-dependencies aside.
 const MAY_USE: &[(&str, &[&str])] = &[
-    ("model-core", &[]),
-    ("codegen", &["model-core"]),
-    ("model-macros", &["model-core", "codegen"]),
-    ("calibration", &["model-core", "codegen"]),
-    ("trueaxis", &["model-core", "model-macros", "codegen", "calibration"]),
-    ("trueaxis-cli", &["model-core", "codegen", "calibration"]),
+    ("trueaxis-core", &[]),
+    ("trueaxis-codegen", &["trueaxis-core"]),
+    ("trueaxis-macros", &["trueaxis-core", "trueaxis-codegen"]),
+    ("trueaxis-calibration", &["trueaxis-core", "trueaxis-codegen"]),
+    ("trueaxis", &["trueaxis-core", "trueaxis-macros", "trueaxis-codegen", "trueaxis-calibration"]),
+    ("trueaxis-cli", &["trueaxis-core", "trueaxis-codegen", "trueaxis-calibration"]),
 ];
 
 fn packages() -> Vec<Value> {

@@ -1,6 +1,6 @@
 //! The page of the book on the catalogue is written by the catalogue itself.
 //!
-//! `UPDATE_CATALOGUE=1 cargo test -p calibration --test catalogue page` writes it anew.
+//! `UPDATE_CATALOGUE=1 cargo test -p trueaxis-calibration --test catalogue page` writes it anew.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -77,7 +77,7 @@ fn page() -> String {
     let mut told_before: Vec<String> = Vec::new();
     let mut page = String::from(
         "# The catalogue of effects\n\n\
-         <!-- Written by the catalogue: UPDATE_CATALOGUE=1 cargo test -p calibration --test catalogue page -->\n\n\
+         <!-- Written by the catalogue: UPDATE_CATALOGUE=1 cargo test -p trueaxis-calibration --test catalogue page -->\n\n\
          What a declaration may lack. Every effect follows from the chain: a place, a degree of freedom, and functions of \
          joints and inputs, each multiplied by a new error. A study chooses from the catalogue with \
          `effects = [\"encoder\", \"TF\"]` in its `[search]`: by the name of an effect or of its family, with `*` for any \
@@ -140,7 +140,7 @@ fn the_page_says_what_the_catalogue_has() {
         let kept = std::fs::read_to_string(&path).unwrap_or_default();
         assert!(
             kept == text,
-            "{} is stale: UPDATE_CATALOGUE=1 cargo test -p calibration --test catalogue page",
+            "{} is stale: UPDATE_CATALOGUE=1 cargo test -p trueaxis-calibration --test catalogue page",
             path.display()
         );
     }

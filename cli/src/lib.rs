@@ -1,4 +1,4 @@
-//! The `trueaxis` command: arguments in, exit code out. What a command does stands in [`commands`].
+//! The `trueaxis` command as a library: arguments in, exit code out. What a command does stands in `commands`.
 
 mod certificates;
 mod claims;
@@ -27,7 +27,7 @@ use clap::Parser as _;
 /// Exit code: 0 done (for `check`: every claim holds); 1 the answer is no; 2 bad input or usage.
 #[derive(Debug, clap::Parser)]
 #[command(name = "trueaxis", version, max_term_width = 100)]
-pub struct Arguments {
+struct Arguments {
     #[command(subcommand)]
     command: commands::Command,
     /// Say nothing of what is being done; warnings and errors are told all the same
@@ -46,7 +46,9 @@ fn tell_panics_of_readers_as_errors() {
     }));
 }
 
-fn main() -> ExitCode {
+/// Runs the command that the process was started with.
+#[must_use]
+pub fn main() -> ExitCode {
     #[cfg(feature = "parquet")]
     tell_panics_of_readers_as_errors();
     let arguments = Arguments::parse();

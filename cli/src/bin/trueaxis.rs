@@ -1,0 +1,5 @@
+//! The `trueaxis` command.
+
+fn main() -> std::process::ExitCode {
+    trueaxis_cli::main()
+}

@@ -3,14 +3,16 @@
 
 use std::cell::OnceCell;
 
-use super::fitted::Fitted;
-use super::round::Round;
 use super::rounds::rounds;
-use super::{CalibrateError, Found, Loop, Request};
 use crate::candidate::{Effect, Function};
 use crate::effects::SHAPE;
 use crate::fit::Outcome;
+use crate::search::Request;
+use crate::search::SearchError;
+use crate::search::context::{Context, Found};
+use crate::search::fitted::Fitted;
 use crate::search::library::{AsGood, Taken, contest};
+use crate::search::round::Round;
 use crate::study::Plan;
 
 /// Functions that one calibration takes up at most.
@@ -18,7 +20,7 @@ pub(super) const MOST: usize = 4;
 
 /// What the rounds end with once the library has spoken.
 pub(super) struct Settled<'a> {
-    pub whole: Loop<'a>,
+    pub whole: Context<'a>,
     pub round: Round<'a>,
     /// Functions that explain the data about as well as accepted effects.
     pub as_good: Vec<AsGood>,
@@ -26,10 +28,10 @@ pub(super) struct Settled<'a> {
 
 /// Lets the library compete with the last round until it has nothing to add; `plans` is where studies with such effects live.
 pub(super) fn settled<'a>(
-    whole: &Loop<'a>,
+    whole: &Context<'a>,
     plans: &'a [OnceCell<Plan>],
     round: Round<'a>,
-) -> Result<Settled<'a>, CalibrateError> {
+) -> Result<Settled<'a>, SearchError> {
     let mut settled = Settled { whole: whole.clone(), round, as_good: Vec::new() };
     // A study that allows certain effects alone allows no others.
     let search = &whole.request.plan.search;
@@ -44,7 +46,7 @@ pub(super) fn settled<'a>(
         let plan = place.get_or_init(|| plan);
         let last = &settled.whole;
         let request = Request { plan, ..last.request };
-        let next = Loop { tell: last.tell, ..Loop::new(request, last.setting.observables, last.held)? };
+        let next = Context { tell: last.tell, ..Context::new(request, last.setting.observables, last.held)? };
         let numbered = |effect: usize| {
             let Effect { name, place, .. } = &last.catalogue[effect];
             next.catalogue.iter().position(|other| (&other.name, &other.place) == (name, place))

@@ -4,25 +4,26 @@
 //! Which held-out rows are gross outliers is for the searches that did not see them to say: a row is kept if what its
 //! fold's search predicts of it lies nearer than where the robust weights end. The same rows are kept before and after.
 
-use super::fitted::Fitted;
-use super::round::Round;
-use super::{CalibrateError, Loop, declared};
 use crate::diagnose::Rms;
 use crate::diagnose::rms::BeforeAfter;
 use crate::fit::{FitResult, robust};
 use crate::search::HeldOut;
+use crate::search::SearchError;
 use crate::search::columns::Columns;
+use crate::search::context::{Context, declared};
 use crate::search::elsewhere::{Elsewhere, Judged, elsewhere};
+use crate::search::fitted::Fitted;
+use crate::search::round::Round;
 use crate::search::row_set::Portion;
 
 /// In sample; held out from the study's second file, or else from the nested folds; and in the outer thirds of the joints'
 /// ranges, from searches that did not see them.
 pub(crate) fn rms(
-    whole: &Loop<'_>,
+    whole: &Context<'_>,
     before: &FitResult,
     last: &Round<'_>,
     held_out: &HeldOut,
-) -> Result<BeforeAfter, CalibrateError> {
+) -> Result<BeforeAfter, SearchError> {
     let rows = &last.fitted.layout.row;
     let (held_before, held_after) = match whole.request.second {
         Some(second) => {
@@ -100,7 +101,7 @@ impl Figures {
 }
 
 /// Per row whether a held-out residual is within reach of the robust weights; every row if the fit is not robust.
-fn within_reach(whole: &Loop<'_>, last: &Round<'_>, residual: &[f64]) -> Vec<bool> {
+fn within_reach(whole: &Context<'_>, last: &Round<'_>, residual: &[f64]) -> Vec<bool> {
     let observations = whole.request.observations;
     if !whole.request.plan.fit.robust {
         return vec![true; observations.rows()];
@@ -116,10 +117,10 @@ type Coefficients = [Vec<(usize, f64)>];
 
 /// What each row's fold, fitted without it, leaves of it, before whitening, by either set of coefficients.
 pub(crate) fn predicted<const N: usize>(
-    whole: &Loop<'_>,
+    whole: &Context<'_>,
     last: &Round<'_>,
     coefficients: [&Coefficients; N],
-) -> Result<[Vec<f64>; N], CalibrateError> {
+) -> Result<[Vec<f64>; N], SearchError> {
     let mut left = [const { Vec::new() }; N];
     last.posed.each_portion(whole, &last.fitted, |components, portion| {
         for (left, coefficients) in left.iter_mut().zip(coefficients) {

@@ -1,55 +1,35 @@
 //! The whole loop: fit, search, reconsider outliers, confirm, diagnose, amend.
 //!
-//! One round (`round`) fits the declaration with the effects accepted so far (`fitted`), sets up the search at that fit and
+//! One round ([`crate::search`]'s `round`) fits the declaration with the effects accepted so far, sets up the search at that fit and
 //! searches from there; rounds go on until one changes nothing (`rounds`). Rows that were set aside together are
 //! heard once more (`outliers`), shapes of the library compete with what the catalogue made of them (`functions`), and the search is repeated without each fold (`held_out`). What it all means is for
 //! [`crate::diagnose`] to say, in words for [`crate::report`].
 
-mod context;
-pub(crate) mod fitted;
 mod functions;
 pub(crate) mod held_out;
 mod outliers;
-pub(crate) mod round;
 mod rounds;
-mod stage;
 
 use std::cell::OnceCell;
 
 use model_core::{Chain, Mistakes};
 
 use crate::amend::{AmendError, amend, with_quantities_of};
-use crate::data::Observations;
 use crate::diagnose::{Confirmed, Diagnosis, Trace, diagnose, trace};
-use crate::fit::{FitError, FitResult, Outcome};
+use crate::fit::{FitResult, Outcome};
 use crate::report::amendment;
-use crate::search::{ProblemError, nested};
+use crate::search::context::Context;
+use crate::search::fitted::Fitted;
+use crate::search::round::Round;
+use crate::search::{SearchError, nested};
 use crate::study::Plan;
-use fitted::Fitted;
 use functions::{Settled, settled};
-use round::Round;
 use rounds::rounds;
 
-pub(crate) use context::{Found, Loop, declared};
-pub use stage::Stage;
+pub use crate::search::{Request, Stage};
 
 /// Numbers that a matrix of the search holds at most (128 MB). Rows that need more are merged.
 const HELD: usize = 1 << 24;
-
-/// What to calibrate.
-#[derive(Clone, Copy)]
-pub struct Request<'a> {
-    /// The user's declaration as written.
-    pub text: &'a str,
-    /// The study, with every name resolved.
-    pub plan: &'a Plan,
-    /// The measured data.
-    pub observations: &'a Observations,
-    /// A second file that no stage sees, if the study names one.
-    pub second: Option<&'a Observations>,
-    /// The date that the amended declaration gives: `2026-11-21`.
-    pub when: &'a str,
-}
 
 /// Everything that a calibration makes.
 #[derive(Debug, Clone)]
@@ -73,21 +53,12 @@ pub struct Calibration {
 /// Why there is no calibration.
 #[derive(Debug, thiserror::Error)]
 pub enum CalibrateError {
-    /// The study asks for something that cannot be fitted.
+    /// The data cannot be fitted or searched as the study asks.
     #[error(transparent)]
-    Fit(#[from] FitError),
-    /// An effect that the study allows is none of the catalogue's; reading the study should have said so.
-    #[error("internal error: the catalogue has no effect `{name}`, which the study allows")]
-    NoSuchEffect {
-        /// Its name.
-        name: String,
-    },
+    Search(#[from] SearchError),
     /// The amended text cannot be read, though the text can.
     #[error("internal error: the amended declaration cannot be read: {0}")]
     Amended(Mistakes),
-    /// The data lead to numbers that cannot be searched.
-    #[error(transparent)]
-    Problem(#[from] ProblemError),
     /// The text is not that of the chain.
     #[error(transparent)]
     Amend(#[from] AmendError),
@@ -112,7 +83,7 @@ pub fn calibrate_telling(
     let observables: Vec<_> = request.observations.series.iter().map(|series| series.observable).collect();
     // Studies with functions that the library found live as long as the loops that read them.
     let plans: [OnceCell<Plan>; functions::MOST] = Default::default();
-    let whole = Loop { tell, ..Loop::new(request, &observables, HELD)? };
+    let whole = Context { tell, ..Context::new(request, &observables, HELD)? };
 
     let first = Fitted::first(&whole)?;
     if !matches!(first.fit.outcome, Outcome::Converged { .. }) {
@@ -144,7 +115,7 @@ pub fn calibrate_telling(
 }
 
 /// What a first fit that cannot be gone on with comes to.
-fn unusable(whole: &Loop<'_>, first: Fitted) -> Result<Calibration, CalibrateError> {
+fn unusable(whole: &Context<'_>, first: Fitted) -> Result<Calibration, CalibrateError> {
     let rms = held_out::of_fit(&first);
     let diagnosis = diagnose(whole, &first.fit, &first, Err(rms))?;
     let Fitted { chain, fit, .. } = first;

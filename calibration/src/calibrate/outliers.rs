@@ -9,12 +9,14 @@
 //! Source of the price of a choice: J. Chen and Z. Chen, "Extended Bayesian information criteria for model selection with
 //! large model spaces", Biometrika 95 (2008).
 
-use super::fitted::Fitted;
-use super::round::Round;
 use super::rounds::{names, rounds};
-use super::{CalibrateError, Loop, Request};
 use crate::fit::robust;
+use crate::search::Request;
+use crate::search::SearchError;
 use crate::search::contest::ln_choices;
+use crate::search::context::Context;
+use crate::search::fitted::Fitted;
+use crate::search::round::Round;
 
 /// How many rows must be set aside before they are looked at together: two, or one in a thousand of many rows, of which
 /// some are set aside by chance.
@@ -23,7 +25,7 @@ fn fewest(round: &Round<'_>) -> usize {
 }
 
 /// The last round, or another one in its stead that explains the rows which it set aside.
-pub(super) fn reconsidered<'a>(whole: &Loop<'a>, last: Round<'a>) -> Result<Round<'a>, CalibrateError> {
+pub(super) fn reconsidered<'a>(whole: &Context<'a>, last: Round<'a>) -> Result<Round<'a>, SearchError> {
     let plan = whole.request.plan;
     if !plan.fit.robust || doubts(&last) < fewest(&last) {
         return Ok(last);
@@ -32,7 +34,7 @@ pub(super) fn reconsidered<'a>(whole: &Loop<'a>, last: Round<'a>) -> Result<Roun
     trusting.fit.robust = false;
     trusting.fit.noise.variance = false;
     let request = Request { plan: &trusting, ..whole.request };
-    let trusting = Loop { request, ..whole.clone() };
+    let trusting = Context { request, ..whole.clone() };
     let first = Fitted::first(&trusting)?;
     if !first.fit.outcome.is_usable() {
         return Ok(last);
@@ -57,7 +59,7 @@ fn doubts(round: &Round<'_>) -> usize {
 }
 
 /// Penalised log-likelihood of a round's model at its noise, where the robust loss bounds what a row far from the rest costs.
-fn criterion(whole: &Loop<'_>, round: &Round<'_>) -> f64 {
+fn criterion(whole: &Context<'_>, round: &Round<'_>) -> f64 {
     let observations = whole.request.observations;
     let noise = round.fitted.fit.noise.without_memory();
     let mut white = round.fitted.fit.residuals.raw.clone();

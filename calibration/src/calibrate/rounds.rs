@@ -1,14 +1,16 @@
 //! Rounds of fit and search, from a first one until one changes nothing.
 
-use super::fitted::Fitted;
-use super::round::Round;
-use super::{CalibrateError, Found, Loop, Stage};
+use crate::search::SearchError;
+use crate::search::Stage;
+use crate::search::context::{Context, Found};
+use crate::search::fitted::Fitted;
+use crate::search::round::Round;
 
 /// Rounds of fit and search at most.
 const ROUNDS: usize = 8;
 
 /// Rounds of search and fit from a first one, until one changes nothing.
-pub(crate) fn rounds<'a>(whole: &Loop<'a>, mut round: Round<'a>) -> Result<Round<'a>, CalibrateError> {
+pub(crate) fn rounds<'a>(whole: &Context<'a>, mut round: Round<'a>) -> Result<Round<'a>, SearchError> {
     let mut visited: Vec<Vec<usize>> = vec![names(&round.fitted.found)];
     for _ in 0..ROUNDS {
         (whole.tell)(Stage::Search);
@@ -34,10 +36,10 @@ pub(crate) fn names(found: &[Found]) -> Vec<usize> {
 /// The next round; with the later half of the effects left out, again and again, while the exact form cannot hold what
 /// the linear search likes. `None` if it can hold nothing new.
 fn taken_up<'a>(
-    whole: &Loop<'a>,
+    whole: &Context<'a>,
     mut found: Vec<Found>,
     last: &Round<'a>,
-) -> Result<Option<Round<'a>>, CalibrateError> {
+) -> Result<Option<Round<'a>>, SearchError> {
     while found.len() > last.fitted.found.len() {
         let next = Fitted::with(whole, found.clone(), &last.fitted)?;
         if next.fit.outcome.is_usable() {

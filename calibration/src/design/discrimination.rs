@@ -14,12 +14,12 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::calibrate::round::Round;
-use crate::calibrate::{Loop, declared};
 use crate::candidate::Effect;
 use crate::data::Observations;
 use crate::design::{joints, spread};
 use crate::search::columns::{Columns, places};
+use crate::search::context::{Context, declared};
+use crate::search::round::Round;
 
 /// Poses that are proposed where the study does not say how many.
 const POSES: usize = 12;
@@ -111,7 +111,7 @@ struct Pair {
 
 /// Poses for the accepted effect number `at`, to tell it from the effects `others`, with those in `behind` kept in view.
 pub(crate) fn separation(
-    whole: &Loop<'_>,
+    whole: &Context<'_>,
     last: &Round<'_>,
     at: usize,
     others: &[usize],
@@ -203,7 +203,12 @@ struct There {
     effects: Vec<Vec<Column>>,
 }
 
-fn columns_at(whole: &Loop<'_>, last: &Round<'_>, poses: &Observations, effects: &[usize]) -> Option<There> {
+fn columns_at(
+    whole: &Context<'_>,
+    last: &Round<'_>,
+    poses: &Observations,
+    effects: &[usize],
+) -> Option<There> {
     let (fitted, problem) = (&last.fitted, &last.posed.problem);
     let values = &fitted.fit.values;
     let list: Vec<Effect> = effects.iter().map(|&effect| whole.catalogue[effect].clone()).collect();

@@ -7,11 +7,11 @@ use model_core::{Chain, SymbolId, SymbolKind};
 use serde::Serialize;
 
 use super::rms::BeforeAfter;
-use crate::calibrate::round::Round;
-use crate::calibrate::{Loop, declared};
 use crate::candidate::{Effect, Place};
 use crate::data::SiUnit;
 use crate::effects::assembly_name;
+use crate::search::context::{Context, declared};
+use crate::search::round::Round;
 
 /// Standard deviations at which an effect is found four times out of five, corrected for the size of the catalogue.
 const FOUND: f64 = 4.4;
@@ -40,7 +40,7 @@ pub struct NotShown {
 
 /// How far one standard uncertainty of an accepted effect, left out, would move each declared error, SI.
 pub(crate) fn bias(
-    whole: &Loop<'_>,
+    whole: &Context<'_>,
     last: &Round<'_>,
     effect: usize,
     errors: &[SymbolId],
@@ -56,7 +56,7 @@ pub(crate) fn bias(
 /// The largest shift of each declared error by functions of some sizes whose signs are not known: columns of the problem,
 /// each with its size.
 fn moved(
-    whole: &Loop<'_>,
+    whole: &Context<'_>,
     last: &Round<'_>,
     sizes: impl Iterator<Item = (usize, f64)>,
 ) -> BTreeMap<String, f64> {
@@ -78,7 +78,7 @@ fn moved(
 }
 
 /// Effects that could be as large as the residual without these data showing them.
-pub(crate) fn not_shown(whole: &Loop<'_>, last: &Round<'_>, rms: &BeforeAfter) -> Vec<NotShown> {
+pub(crate) fn not_shown(whole: &Context<'_>, last: &Round<'_>, rms: &BeforeAfter) -> Vec<NotShown> {
     let problem = &last.posed.problem;
     let accepted: Vec<usize> = last.fitted.found.iter().map(|found| found.effect).collect();
     let hidden = |name: String, place: Place| NotShown {
@@ -137,7 +137,7 @@ fn is_declared(chain: &Chain, effect: &Effect) -> bool {
 }
 
 /// The declared errors that would take an effect of amplitude one upon them, and how far each would move.
-fn mistaken_for(whole: &Loop<'_>, last: &Round<'_>, effect: usize) -> BTreeMap<String, f64> {
+fn mistaken_for(whole: &Context<'_>, last: &Round<'_>, effect: usize) -> BTreeMap<String, f64> {
     let mut moved = moved(whole, last, last.posed.problem.block(effect).map(|column| (column, 1.0)));
     let largest = moved.values().copied().fold(0.0, f64::max);
     moved.retain(|_, shift| *shift > TOLD * largest);

@@ -7,11 +7,11 @@ use serde::Serialize;
 
 use super::detectability;
 use super::units::unit_of;
-use crate::calibrate::Loop;
-use crate::calibrate::round::Round;
 use crate::candidate::Effect;
 use crate::data::SiUnit;
 use crate::effects::FAMILIES;
+use crate::search::context::Context;
+use crate::search::round::Round;
 use crate::search::select::{State, class_columns};
 use crate::search::{AS_GOOD, HeldOut, Rival, rivals};
 
@@ -145,7 +145,7 @@ pub(super) fn others(last: &Round<'_>) -> Vec<Others> {
 
 /// The accepted effects, in the order they came in.
 pub(super) fn effects(
-    whole: &Loop<'_>,
+    whole: &Context<'_>,
     last: &Round<'_>,
     held_out: &HeldOut,
     others: &[Others],
@@ -189,7 +189,7 @@ pub(super) fn effects(
 }
 
 /// Its own name, those of its class at the same place (the same function by another name), and those of other fields.
-fn names(whole: &Loop<'_>, effect: &Effect, number: usize, alike: &[usize]) -> Vec<String> {
+fn names(whole: &Context<'_>, effect: &Effect, number: usize, alike: &[usize]) -> Vec<String> {
     let mut names = vec![effect.name.clone()];
     let here =
         alike.iter().map(|&member| &whole.catalogue[member]).filter(|other| other.place == effect.place);
@@ -200,7 +200,7 @@ fn names(whole: &Loop<'_>, effect: &Effect, number: usize, alike: &[usize]) -> V
 }
 
 /// Every cause once.
-fn causes(whole: &Loop<'_>, own: usize, others: &Others) -> Vec<Cause> {
+fn causes(whole: &Context<'_>, own: usize, others: &Others) -> Vec<Cause> {
     let mut causes: Vec<Cause> = Vec::new();
     let all = [
         (Relation::Accepted, &[own][..]),

@@ -4,9 +4,9 @@ use model_core::SymbolId;
 use serde::Serialize;
 
 use super::units::unit_of;
-use crate::calibrate::Loop;
-use crate::calibrate::fitted::Fitted;
 use crate::data::SiUnit;
+use crate::search::context::Context;
+use crate::search::fitted::Fitted;
 
 /// An error (or freed constant) and its estimate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -50,7 +50,7 @@ pub struct Part {
 }
 
 /// Every estimated error or constant, in the order of the fit.
-pub(super) fn errors(whole: &Loop<'_>, fitted: &Fitted) -> Vec<ErrorFound> {
+pub(super) fn errors(whole: &Context<'_>, fitted: &Fitted) -> Vec<ErrorFound> {
     let fit = &fitted.fit;
     fit.parameters
         .iter()
@@ -68,7 +68,7 @@ pub(super) fn errors(whole: &Loop<'_>, fitted: &Fitted) -> Vec<ErrorFound> {
 }
 
 /// Every combination of several errors that these data determine, in the order of their first errors.
-pub(super) fn estimable(whole: &Loop<'_>, fitted: &Fitted) -> Vec<Estimable> {
+pub(super) fn estimable(whole: &Context<'_>, fitted: &Fitted) -> Vec<Estimable> {
     let several = fitted.fit.estimable.iter().filter(|one| one.combination.len() > 1);
     let of = |one: &crate::fit::Estimable| {
         let part = |&(id, factor): &(SymbolId, f64)| Part {

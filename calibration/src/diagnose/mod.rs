@@ -21,9 +21,6 @@ mod verdict;
 
 use serde::Serialize;
 
-use crate::calibrate::fitted::Fitted;
-use crate::calibrate::round::Round;
-use crate::calibrate::{CalibrateError, Loop, Stage};
 use crate::data::SiUnit;
 use crate::design::discrimination::separation;
 use crate::design::{Criterion, Proposal, Separation, propose};
@@ -31,7 +28,11 @@ use crate::effects::SHAPE;
 use crate::fit::FitResult;
 use crate::search::HeldOut;
 use crate::search::aside::{Shared, shared};
+use crate::search::context::Context;
+use crate::search::fitted::Fitted;
 use crate::search::library::AsGood;
+use crate::search::round::Round;
+use crate::search::{SearchError, Stage};
 use effects::Others;
 use rms::BeforeAfter;
 use verdict::Evidence;
@@ -164,11 +165,11 @@ pub(crate) struct Confirmed<'a> {
 
 /// What fits and search come to. Without a search the fit alone is told: it failed, or had too few observations.
 pub(crate) fn diagnose(
-    whole: &Loop<'_>,
+    whole: &Context<'_>,
     before: &FitResult,
     last: &Fitted,
     confirmed: Result<Confirmed<'_>, BeforeAfter>,
-) -> Result<Diagnosis, CalibrateError> {
+) -> Result<Diagnosis, SearchError> {
     let request = whole.request;
     let (observations, fit) = (request.observations, &last.fit);
     let ended = Ended::from(&fit.outcome);
@@ -232,7 +233,7 @@ pub(crate) fn diagnose(
 }
 
 /// Whether a function without a name was taken up: a shape of several coefficients.
-fn has_unnamed(whole: &Loop<'_>, last: &Fitted) -> bool {
+fn has_unnamed(whole: &Context<'_>, last: &Fitted) -> bool {
     let mut effects = last.found.iter().map(|found| &whole.catalogue[found.effect]);
     effects.any(|effect| effect.family == SHAPE && effect.functions.len() > 1)
 }
@@ -248,7 +249,7 @@ struct Found {
 }
 
 impl Found {
-    fn of(whole: &Loop<'_>, confirmed: &Confirmed<'_>) -> Result<Self, CalibrateError> {
+    fn of(whole: &Context<'_>, confirmed: &Confirmed<'_>) -> Result<Self, SearchError> {
         let last = confirmed.round;
         let others = effects::others(last);
         let mut effects = effects::effects(whole, last, confirmed.held_out, &others);
@@ -281,7 +282,7 @@ impl Found {
 }
 
 /// What was found that casts doubt on itself.
-fn cautions(found: &Found, whole: &Loop<'_>, rms: &BeforeAfter) -> Vec<Caution> {
+fn cautions(found: &Found, whole: &Context<'_>, rms: &BeforeAfter) -> Vec<Caution> {
     let mut cautions = Vec::new();
     if !found.effects.is_empty() {
         cautions.extend(caution::of_rms(rms));
@@ -296,7 +297,7 @@ fn cautions(found: &Found, whole: &Loop<'_>, rms: &BeforeAfter) -> Vec<Caution> 
     cautions
 }
 
-fn used(whole: &Loop<'_>, fit: &FitResult) -> Used {
+fn used(whole: &Context<'_>, fit: &FitResult) -> Used {
     let observations = whole.request.observations;
     let row_number = |row: usize| observations.row_numbers.get(row).copied().unwrap_or(row as u64 + 1);
     let mut groups = observations.groups.clone();
@@ -315,7 +316,7 @@ fn used(whole: &Loop<'_>, fit: &FitResult) -> Used {
 }
 
 /// The poses that the study asks for; none if it asks for none, or if they cannot be computed.
-fn next_poses(whole: &Loop<'_>, last: &Fitted) -> Vec<Proposal> {
+fn next_poses(whole: &Context<'_>, last: &Fitted) -> Vec<Proposal> {
     let Some(next) = &whole.request.plan.next else { return Vec::new() };
     let proposal = |criterion| {
         let observations = whole.request.observations;

@@ -8,16 +8,17 @@ use serde::Serialize;
 use super::basis::Basis;
 use super::function::{Form, Function, Kind};
 use super::units::of_reading;
-use crate::calibrate::round::Round;
-use crate::calibrate::{CalibrateError, Loop, declared};
 use crate::candidate::{Effect, Freedom, Place};
 use crate::data::{Observations, SiUnit};
 use crate::effects::{SmoothPlace, smooth, tensor};
 use crate::fit::noise::Layout;
+use crate::search::SearchError;
 use crate::search::columns::{self, Columns};
 use crate::search::contest::{Price, contender, criterion, most_telling};
+use crate::search::context::{Context, declared};
 use crate::search::flips::Signs;
 use crate::search::remains::{Statistic, along, combined, lagged, nearest};
+use crate::search::round::Round;
 use crate::search::scan::{Left, Sheet};
 use crate::search::select::class_columns;
 
@@ -93,7 +94,7 @@ struct Driver {
 }
 
 impl Driver {
-    fn new(whole: &Loop<'_>, observations: &Observations, symbol: SymbolId) -> Option<Self> {
+    fn new(whole: &Context<'_>, observations: &Observations, symbol: SymbolId) -> Option<Self> {
         let basis = Basis::of(whole.setting.chain, observations, symbol)?;
         let readings = observations.column(symbol)?;
         let series = tabulated(readings, |q| basis.series(q));
@@ -111,7 +112,7 @@ fn tabulated(readings: &[f64], functions: impl Fn(f64) -> Vec<f64> + Sync) -> Ma
 }
 
 /// Looks for structure in the last residual.
-pub(crate) fn remaining(whole: &Loop<'_>, last: &Round<'_>) -> Result<Remaining, CalibrateError> {
+pub(crate) fn remaining(whole: &Context<'_>, last: &Round<'_>) -> Result<Remaining, SearchError> {
     let observations = &*last.posed.rows.observations;
     let mut smooths = smooth(&whole.setting);
     let mut symbols: Vec<SymbolId> = smooths.iter().map(|smooth| smooth.driver).collect();
@@ -175,7 +176,7 @@ pub(crate) fn remaining(whole: &Loop<'_>, last: &Round<'_>) -> Result<Remaining,
 }
 
 /// Whether an effect was accepted at a place with the same driver: a function there may be what it spells out.
-fn spelt_out(whole: &Loop<'_>, last: &Round<'_>, smooth: SmoothPlace) -> bool {
+fn spelt_out(whole: &Context<'_>, last: &Round<'_>, smooth: SmoothPlace) -> bool {
     last.fitted
         .found
         .iter()
@@ -184,7 +185,7 @@ fn spelt_out(whole: &Loop<'_>, last: &Round<'_>, smooth: SmoothPlace) -> bool {
 }
 
 /// Sheets of harmonics: the place, the joint, and the first order of each.
-fn harmonics(whole: &Loop<'_>) -> Vec<(Place, SymbolId, u32)> {
+fn harmonics(whole: &Context<'_>) -> Vec<(Place, SymbolId, u32)> {
     let most = HARMONICS.max(whole.setting.harmonics);
     let mut sheets = Vec::new();
     for joint in whole.setting.joints().into_iter().filter(crate::candidate::JointAxis::turns) {
@@ -219,7 +220,12 @@ impl Scanned<'_> {
     }
 
     /// The function that beats the catalogue's model by most; the likelier place of two that are the same.
-    fn best_function(&self, whole: &Loop<'_>, smooths: &[SmoothPlace], left: &Left<'_>) -> Option<Function> {
+    fn best_function(
+        &self,
+        whole: &Context<'_>,
+        smooths: &[SmoothPlace],
+        left: &Left<'_>,
+    ) -> Option<Function> {
         let places = smooths.len();
         let mut each: Vec<Function> =
             smooths.par_iter().flat_map_iter(|smooth| self.at(whole, *smooth, places, left)).collect();
@@ -242,7 +248,7 @@ impl Scanned<'_> {
     }
 
     /// The functions at one place of so many.
-    fn at(&self, whole: &Loop<'_>, smooth: SmoothPlace, places: usize, left: &Left<'_>) -> Vec<Function> {
+    fn at(&self, whole: &Context<'_>, smooth: SmoothPlace, places: usize, left: &Left<'_>) -> Vec<Function> {
         let Some(driver) = self.driver(smooth.driver) else { return Vec::new() };
         let (basis, classes) = (driver.basis, self.last.classes.len());
         let function = |kind, fitted| Function {
@@ -292,7 +298,7 @@ impl Scanned<'_> {
 }
 
 /// Products of neighbours: in the space of all joints, along each joint, and in order of acquisition.
-fn neighbours(whole: &Loop<'_>, last: &Round<'_>, left: &Left<'_>, signs: &Signs) -> Vec<Statistic> {
+fn neighbours(whole: &Context<'_>, last: &Round<'_>, left: &Left<'_>, signs: &Signs) -> Vec<Statistic> {
     let portion = &last.posed.rows;
     let observations = &*portion.observations;
     let chain = whole.setting.chain;

@@ -7,12 +7,13 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 use super::units::of_reading;
-use crate::calibrate::round::Round;
-use crate::calibrate::{CalibrateError, Loop};
 use crate::candidate::{Effect, Function};
 use crate::data::{Observations, SiUnit};
 use crate::fit::FitResult;
+use crate::search::SearchError;
 use crate::search::columns::functions::Functions;
+use crate::search::context::Context;
+use crate::search::round::Round;
 
 /// Rows that pictures show at most.
 const DRAWN: usize = 2000;
@@ -68,10 +69,10 @@ pub(crate) fn drawn(observations: &Observations, fit: &FitResult) -> Vec<usize> 
 
 /// Every accepted effect over some rows.
 pub(crate) fn traces(
-    whole: &Loop<'_>,
+    whole: &Context<'_>,
     last: &Round<'_>,
     rows: &[usize],
-) -> Result<Vec<Trace>, CalibrateError> {
+) -> Result<Vec<Trace>, SearchError> {
     let fitted = &last.fitted;
     let observations = whole.request.observations.select(rows);
     let columns = fitted.probed.columns(&observations)?;
@@ -114,7 +115,7 @@ pub(crate) fn traces(
 }
 
 /// The function of an effect that follows one reading.
-fn curve(whole: &Loop<'_>, last: &Round<'_>, effect: &Effect, errors: &[SymbolId], trace: &mut Trace) {
+fn curve(whole: &Context<'_>, last: &Round<'_>, effect: &Effect, errors: &[SymbolId], trace: &mut Trace) {
     let (chain, fit) = (&last.fitted.chain, &last.fitted.fit);
     let mut readings: Vec<SymbolId> = effect
         .functions

@@ -3,13 +3,13 @@
 use model_core::{Chain, SymbolId, SymbolKind};
 
 use crate::amend::{Addition, NewInput};
-use crate::calibrate::{Found, Loop};
 use crate::candidate::Function;
 use crate::diagnose::Diagnosis;
+use crate::search::context::{Context, Found};
 
 /// The lines to add to the declaration, for the effects of a chain that has them.
 pub(crate) fn additions(
-    whole: &Loop<'_>,
+    whole: &Context<'_>,
     diagnosis: &Diagnosis,
     chain: &Chain,
     found: &[Found],
@@ -35,7 +35,7 @@ pub(crate) fn additions(
 }
 
 /// Inputs that accepted effects use and the declaration does not have.
-pub(crate) fn new_inputs(whole: &Loop<'_>, chain: &Chain, found: &[Found]) -> Vec<NewInput> {
+pub(crate) fn new_inputs(whole: &Context<'_>, chain: &Chain, found: &[Found]) -> Vec<NewInput> {
     let declared = Chain::from_text(whole.request.text);
     let mut used: Vec<SymbolId> = found
         .iter()

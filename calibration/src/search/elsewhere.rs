@@ -10,8 +10,8 @@ use rayon::prelude::*;
 use super::folds::Folds;
 use super::problem::Problem;
 use super::select::{State, select};
-use crate::calibrate::Loop;
-use crate::calibrate::round::Round;
+use crate::search::context::Context;
+use crate::search::round::Round;
 
 /// Different readings below which a joint has no regions.
 const DIFFERENT: usize = 12;
@@ -55,7 +55,7 @@ impl Judged {
 }
 
 /// Both outer thirds of each joint's range where the data are enough for it.
-pub(crate) fn elsewhere(whole: &Loop<'_>, last: &Round<'_>) -> Vec<Elsewhere> {
+pub(crate) fn elsewhere(whole: &Context<'_>, last: &Round<'_>) -> Vec<Elsewhere> {
     let observations = &*last.posed.rows.observations;
     let mut thirds = Vec::new();
     for (id, readings) in &observations.columns {
@@ -77,7 +77,7 @@ pub(crate) fn elsewhere(whole: &Loop<'_>, last: &Round<'_>) -> Vec<Elsewhere> {
     thirds.into_par_iter().filter_map(|(joint, from, to)| judged(whole, last, joint, from, to)).collect()
 }
 
-fn judged(whole: &Loop<'_>, last: &Round<'_>, joint: SymbolId, from: f64, to: f64) -> Option<Elsewhere> {
+fn judged(whole: &Context<'_>, last: &Round<'_>, joint: SymbolId, from: f64, to: f64) -> Option<Elsewhere> {
     let rows = &last.posed.rows;
     let problem = last.posed.of_rows();
     let readings = rows.observations.column(joint)?;

@@ -15,7 +15,10 @@ pub mod cells;
 pub mod classes;
 pub mod columns;
 pub mod contest;
+pub(crate) mod context;
 pub(crate) mod elsewhere;
+mod error;
+pub(crate) mod fitted;
 pub mod flips;
 pub mod folds;
 mod guards;
@@ -27,21 +30,26 @@ mod products;
 pub mod reach;
 pub mod remains;
 pub mod rivals;
+pub(crate) mod round;
 pub(crate) mod row_set;
 pub mod scan;
 pub mod select;
+mod stage;
 mod standardised;
 pub mod sweep;
 pub mod tail;
 
 pub use cells::Cells;
 pub use classes::{Class, classes};
+pub use context::Request;
+pub use error::SearchError;
 pub use folds::Folds;
 pub use nested::{HeldOut, nested};
 pub use problem::{Problem, ProblemError};
 pub use reach::Reach;
 pub use rivals::{AS_GOOD, Rival, rivals};
 pub use select::{Accepted, Options, Selection, select};
+pub use stage::Stage;
 
 #[cfg(test)]
 mod tests;

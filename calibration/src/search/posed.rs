@@ -7,12 +7,13 @@ use model_core::SymbolKind;
 use rayon::prelude::*;
 
 use super::row_set::{Portion, all_rows, chunks, groups, sample};
-use crate::calibrate::fitted::Fitted;
-use crate::calibrate::{CalibrateError, Loop, Stage};
 use crate::data::Observations;
 use crate::search::columns::{Columns, Seen, keep};
+use crate::search::context::Context;
+use crate::search::fitted::Fitted;
 use crate::search::reach::{Part, Reach, further_out};
 use crate::search::{Cells, Folds, Problem, ProblemError};
+use crate::search::{SearchError, Stage};
 
 /// Cells of merged rows at most: as many as sign flips tell apart.
 const CELLS: usize = 400;
@@ -39,7 +40,7 @@ pub(crate) struct Posed<'a> {
 
 impl<'a> Posed<'a> {
     /// At a fit.
-    pub fn at(whole: &Loop<'a>, fitted: &Fitted) -> Result<Self, CalibrateError> {
+    pub fn at(whole: &Context<'a>, fitted: &Fitted) -> Result<Self, SearchError> {
         let hold_out = &whole.request.plan.hold_out;
         let groups = groups(whole.request.observations, &fitted.layout.row);
         let folds = Folds::deal(&groups, hold_out.folds, hold_out.seed);
@@ -53,7 +54,7 @@ impl<'a> Posed<'a> {
     }
 
     /// With every row in memory.
-    fn held(whole: &Loop<'a>, fitted: &Fitted, folds: Folds) -> Result<Self, CalibrateError> {
+    fn held(whole: &Context<'a>, fitted: &Fitted, folds: Folds) -> Result<Self, SearchError> {
         let mut rows = Portion::of(whole, fitted, &all_rows(whole.request.observations))?;
         let usable = rows.seen.usable(&whole.catalogue);
         rows.keep(&usable);
@@ -63,7 +64,7 @@ impl<'a> Posed<'a> {
     }
 
     /// With chunk after chunk merged into what is left of those before, and a sample in memory.
-    fn merged(whole: &Loop<'a>, fitted: &Fitted, folds: Folds, width: usize) -> Result<Self, CalibrateError> {
+    fn merged(whole: &Context<'a>, fitted: &Fitted, folds: Folds, width: usize) -> Result<Self, SearchError> {
         let observations = whole.request.observations;
         let mut cells = Cells::new(&folds, CELLS.min(whole.held / (2 * width * width)), width);
         let mut seen: Option<Seen> = None;
@@ -121,10 +122,10 @@ impl<'a> Posed<'a> {
     /// Lets `f` see all rows, one portion after another, each with its components.
     pub fn each_portion(
         &self,
-        whole: &Loop<'a>,
+        whole: &Context<'a>,
         fitted: &Fitted,
         mut f: impl FnMut(Range<usize>, &Portion<'_>),
-    ) -> Result<(), CalibrateError> {
+    ) -> Result<(), SearchError> {
         if self.sampled.is_none() {
             f(0..self.folds.rows(), &self.rows);
             return Ok(());
@@ -138,10 +139,10 @@ impl<'a> Posed<'a> {
 
 /// Lets `f` have all rows, one chunk after another, each with its components.
 fn each_chunk<'a>(
-    whole: &Loop<'a>,
+    whole: &Context<'a>,
     fitted: &Fitted,
     mut f: impl FnMut(Range<usize>, Portion<'a>),
-) -> Result<(), CalibrateError> {
+) -> Result<(), SearchError> {
     let mut start = 0;
     for chunk in chunks(whole.request.observations) {
         let portion = Portion::of(whole, fitted, &[chunk])?;
@@ -154,7 +155,7 @@ fn each_chunk<'a>(
 
 /// The problem of some whitened rows, which hold the columns of usable effects alone.
 fn problem(
-    whole: &Loop<'_>,
+    whole: &Context<'_>,
     fitted: &Fitted,
     usable: &[bool],
     rows: &Mat<f64>,
@@ -174,12 +175,12 @@ fn problem(
 
 /// What the candidates of a problem do at the data's poses and further out, each series in units of its noise.
 fn reach(
-    whole: &Loop<'_>,
+    whole: &Context<'_>,
     fitted: &Fitted,
     problem: &Problem,
     rows: &Portion<'_>,
     usable: &[bool],
-) -> Result<Reach, CalibrateError> {
+) -> Result<Reach, SearchError> {
     let all = whole.request.observations;
     let plan = whole.request.plan;
     let limits = plan.next.as_ref().map_or(&[][..], |next| &next.ranges);
@@ -246,10 +247,11 @@ mod tests {
     use model_core::{Chain, exact};
 
     use super::*;
-    use crate::calibrate::round::Round;
-    use crate::calibrate::{Found, Request};
     use crate::formats::DataError;
+    use crate::search::Request;
+    use crate::search::context::Found;
     use crate::search::nested;
+    use crate::search::round::Round;
     use crate::study::Study;
 
     const MOUNT: &str = include_str!("../../../examples/alt-azimuth/alt-azimuth.chain");
@@ -310,7 +312,7 @@ mod tests {
             when: "2026-11-21",
         };
         let observables = [observations.series[0].observable];
-        let [all, merged] = [1 << 24, 1 << 19].map(|held| Loop::new(request, &observables, held).unwrap());
+        let [all, merged] = [1 << 24, 1 << 19].map(|held| Context::new(request, &observables, held).unwrap());
         let of_all = Round::at(&all, Fitted::first(&all).unwrap()).unwrap();
         let of_merged = Round::at(&merged, Fitted::first(&merged).unwrap()).unwrap();
         assert!(of_merged.posed.problem.rows().nrows() < ROWS / 2);

@@ -8,11 +8,12 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-use crate::calibrate::fitted::Fitted;
-use crate::calibrate::{CalibrateError, Loop};
 use crate::data::Observations;
 use crate::fit::noise::{Layout, Noise, Run};
+use crate::search::SearchError;
 use crate::search::columns::{Columns, Seen, keep};
+use crate::search::context::Context;
+use crate::search::fitted::Fitted;
 
 /// Rows of a chunk.
 const CHUNK: usize = 8192;
@@ -40,7 +41,7 @@ pub(crate) struct Portion<'a> {
 
 impl<'a> Portion<'a> {
     /// Of rows that follow each other stretch by stretch, each within one series, in order.
-    pub fn of(whole: &Loop<'a>, fitted: &Fitted, stretches: &[Range<usize>]) -> Result<Self, CalibrateError> {
+    pub fn of(whole: &Context<'a>, fitted: &Fitted, stretches: &[Range<usize>]) -> Result<Self, SearchError> {
         let all = whole.request.observations;
         let rows: usize = stretches.iter().map(ExactSizeIterator::len).sum();
         let observations = if rows == all.rows() {

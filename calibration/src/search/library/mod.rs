@@ -23,11 +23,12 @@ use super::flips::{Signs, familywise};
 use super::rivals::AS_GOOD;
 use super::scan::{Left, Sheet};
 use super::select::class_columns;
-use crate::calibrate::round::Round;
-use crate::calibrate::{CalibrateError, Loop, declared};
 use crate::candidate::{Function, Place};
 use crate::effects::{SmoothPlace, smooth};
+use crate::search::SearchError;
 use crate::search::columns::Columns;
+use crate::search::context::{Context, declared};
+use crate::search::round::Round;
 
 /// Penalised log-likelihood by which a function must beat what the catalogue made of it: six units of Schwarz's criterion.
 const BETTER: f64 = 3.0;
@@ -88,7 +89,7 @@ struct Judged {
 }
 
 /// Lets the library compete with what was accepted, and with nothing at the most conspicuous place of what is left.
-pub(crate) fn contest(whole: &Loop<'_>, last: &Round<'_>) -> Result<Contest, CalibrateError> {
+pub(crate) fn contest(whole: &Context<'_>, last: &Round<'_>) -> Result<Contest, SearchError> {
     let observations = &*last.posed.rows.observations;
     let chain = &last.fitted.chain;
     let mut smooths = smooth(&whole.setting);
@@ -130,7 +131,7 @@ pub(crate) fn contest(whole: &Loop<'_>, last: &Round<'_>) -> Result<Contest, Cal
 
 /// Everything that the contest reads.
 struct Library<'a, 'b> {
-    whole: &'a Loop<'b>,
+    whole: &'a Context<'b>,
     last: &'a Round<'b>,
     columns: Columns,
     drivers: Vec<Driver>,

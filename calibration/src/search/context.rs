@@ -2,10 +2,27 @@
 
 use model_core::{ObservableId, SymbolId};
 
-use super::{CalibrateError, Request, Stage};
+use super::select::Options;
+use super::{SearchError, Stage};
 use crate::candidate::{Effect, Setting};
 use crate::catalogue::{Name, catalogue, chosen, known_names};
-use crate::search::Options;
+use crate::data::Observations;
+use crate::study::Plan;
+
+/// What to calibrate.
+#[derive(Clone, Copy)]
+pub struct Request<'a> {
+    /// The user's declaration as written.
+    pub text: &'a str,
+    /// The study, with every name resolved.
+    pub plan: &'a Plan,
+    /// The measured data.
+    pub observations: &'a Observations,
+    /// A second file that no stage sees, if the study names one.
+    pub second: Option<&'a Observations>,
+    /// The date that the amended declaration gives: `2026-11-21`.
+    pub when: &'a str,
+}
 
 /// An accepted effect: its number in the catalogue, and the evidence for it.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,9 +33,9 @@ pub(crate) struct Found {
     pub alike: Vec<usize>,
 }
 
-/// What all rounds share.
+/// What all stages share.
 #[derive(Clone)]
-pub(crate) struct Loop<'a> {
+pub(crate) struct Context<'a> {
     pub request: Request<'a>,
     pub catalogue: Vec<Effect>,
     /// What other fields call each effect of the catalogue.
@@ -31,12 +48,12 @@ pub(crate) struct Loop<'a> {
     pub tell: &'a (dyn Fn(Stage) + Sync),
 }
 
-impl<'a> Loop<'a> {
+impl<'a> Context<'a> {
     pub fn new(
         request: Request<'a>,
         observables: &'a [ObservableId],
         held: usize,
-    ) -> Result<Self, CalibrateError> {
+    ) -> Result<Self, SearchError> {
         let plan = request.plan;
         let setting = plan.search.setting(&plan.chain, observables);
         let options = Options {
@@ -46,13 +63,13 @@ impl<'a> Loop<'a> {
             ..Options::default()
         };
         let catalogue = chosen(&setting, catalogue(&setting), &plan.search.only)
-            .map_err(|(number, _)| CalibrateError::NoSuchEffect { name: plan.search.only[number].clone() })?;
+            .map_err(|(number, _)| SearchError::NoSuchEffect { name: plan.search.only[number].clone() })?;
         let names = known_names(&setting, &catalogue);
         Ok(Self { request, catalogue, names, options, setting, held, tell: &|_| () })
     }
 }
 
 /// The symbols that the study estimates.
-pub(crate) fn declared<'a>(whole: &Loop<'a>) -> &'a [SymbolId] {
+pub(crate) fn declared<'a>(whole: &Context<'a>) -> &'a [SymbolId] {
     &whole.request.plan.fit.estimate
 }

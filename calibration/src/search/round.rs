@@ -1,7 +1,8 @@
 //! One round: the declaration with the effects accepted so far is fitted, and the search starts from there.
 
+use super::SearchError;
+use super::context::{Context, Found};
 use super::fitted::Fitted;
-use super::{CalibrateError, Found, Loop};
 use crate::search::posed::Posed;
 use crate::search::{Accepted, Class, Selection, classes, select};
 
@@ -15,7 +16,7 @@ pub(crate) struct Round<'a> {
 
 impl<'a> Round<'a> {
     /// At a fit.
-    pub fn at(whole: &Loop<'a>, fitted: Fitted) -> Result<Self, CalibrateError> {
+    pub fn at(whole: &Context<'a>, fitted: Fitted) -> Result<Self, SearchError> {
         let posed = Posed::at(whole, &fitted)?;
         let classes = classes(&posed.problem);
         Ok(Self { fitted, posed, classes })
@@ -32,7 +33,7 @@ impl<'a> Round<'a> {
     }
 
     /// The linear search from the accepted effects.
-    pub fn selection(&self, whole: &Loop<'_>) -> Selection {
+    pub fn selection(&self, whole: &Context<'_>) -> Selection {
         let start: Vec<Accepted> = self
             .fitted
             .found
@@ -45,7 +46,7 @@ impl<'a> Round<'a> {
     }
 
     /// What the search ends with: accepted effects keep their name and p, a new class lends its first member's.
-    pub fn search(&self, whole: &Loop<'_>) -> Vec<Found> {
+    pub fn search(&self, whole: &Context<'_>) -> Vec<Found> {
         let kept = self.accepted_classes();
         self.selection(whole)
             .accepted

@@ -3,7 +3,8 @@
 use faer::Mat;
 use model_core::{Chain, SymbolId};
 
-use super::{CalibrateError, Found, Loop, Stage, declared};
+use super::context::{Context, Found, declared};
+use super::{SearchError, Stage};
 use crate::fit::noise::{Layout, NoiseOptions};
 use crate::fit::{FitOptions, FitResult, fit};
 use crate::search::ProblemError;
@@ -29,13 +30,13 @@ pub(crate) struct Fitted {
 
 impl Fitted {
     /// The declaration as it is.
-    pub fn first(whole: &Loop<'_>) -> Result<Self, CalibrateError> {
+    pub fn first(whole: &Context<'_>) -> Result<Self, SearchError> {
         let plan = whole.request.plan;
         Self::of(whole, plan.chain.clone(), Vec::new(), Vec::new(), plan.fit.clone())
     }
 
     /// The declaration with some effects, fitted from where another fit ended.
-    pub fn with(whole: &Loop<'_>, found: Vec<Found>, last: &Self) -> Result<Self, CalibrateError> {
+    pub fn with(whole: &Context<'_>, found: Vec<Found>, last: &Self) -> Result<Self, SearchError> {
         let plan = whole.request.plan;
         let mut chain = plan.chain.clone();
         let mut options = plan.fit.clone();
@@ -57,12 +58,12 @@ impl Fitted {
     }
 
     fn of(
-        whole: &Loop<'_>,
+        whole: &Context<'_>,
         chain: Chain,
         found: Vec<Found>,
         errors: Vec<Vec<SymbolId>>,
         options: FitOptions,
-    ) -> Result<Self, CalibrateError> {
+    ) -> Result<Self, SearchError> {
         let observations = whole.request.observations;
         // While something is missing, residuals are larger than the noise: weights go by what they are.
         let NoiseOptions { sigma, stated, .. } = options.noise;

@@ -3,6 +3,8 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use model_core::Mistakes;
+
 /// Why a command could not do its work. `Display` is what the user reads, without the leading `error: `.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
@@ -22,9 +24,14 @@ pub enum Failure {
         /// What stood in the way.
         why: String,
     },
-    /// Mistakes in a text, already rendered with their places and the lines they stand on.
-    #[error("{0}")]
-    Mistakes(String),
+    /// Mistakes in a text, with their places; rendered with the lines they stand on.
+    #[error("{rendered}")]
+    Mistakes {
+        /// As people read them.
+        rendered: String,
+        /// As programs do.
+        mistakes: Mistakes,
+    },
     /// Whoever read standard output has gone away, as `head` does; no fault of anybody's.
     #[error("standard output is closed")]
     ReaderGone,
@@ -34,6 +41,11 @@ pub enum Failure {
 }
 
 impl Failure {
+    /// Mistakes in a text of a name.
+    pub fn mistakes(file: &str, text: &str, mistakes: &Mistakes) -> Self {
+        Self::Mistakes { rendered: mistakes.render(file, text), mistakes: mistakes.clone() }
+    }
+
     /// A file that could not be read, with the reason in plain words.
     pub fn read(path: &Path, error: &io::Error) -> Self {
         Self::Read { path: path.to_owned(), why: reason(error) }

@@ -1,5 +1,6 @@
 //! The `trueaxis` command as a library: arguments in, exit code out. What a command does stands in `commands`.
 
+mod calibrating;
 mod certificates;
 mod claims;
 mod commands;
@@ -8,6 +9,7 @@ mod date;
 mod errors_file;
 mod evaluation;
 mod failure;
+pub mod library;
 mod output;
 mod over_table;
 mod poses;

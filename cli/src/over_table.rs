@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use model_core::{Chain, ObservableId};
+use model_core::Chain;
 
-use crate::evaluation::{Evaluator, Exactness, Quantity, column_names, readings_of};
+use crate::evaluation::{Evaluator, Exactness, Quantity, column_names};
 use crate::failure::Failure;
-use crate::source::{Source, observables};
+use crate::source::Source;
 use crate::tables::{self, Column, ReadingsTable};
 use crate::{errors_file, output, terminal};
 
@@ -49,27 +49,15 @@ impl OverTable {
         let chain = Source::read(&self.chain)?.chain()?;
         let values = errors_file::values(&Source::read(&self.errors)?, &chain)?;
         let table = ReadingsTable::open(&self.data, &chain, self.comment)?;
-        let chosen = self.with_readings(&chain, &table)?;
+        let chosen = table.with_readings(&chain, &self.observable)?;
         self.write(&chain, table, Evaluator::new(&chain, chosen, form, quantity, &values))
-    }
-
-    /// The observables that were asked for; if none was, all that the table has the readings for.
-    fn with_readings(&self, chain: &Chain, table: &ReadingsTable) -> Result<Vec<ObservableId>, Failure> {
-        let mut chosen = observables(chain, &self.observable)?;
-        if self.observable.is_empty() {
-            let all = chosen.clone();
-            chosen.retain(|&observable| table.has(chain, &readings_of(chain, observable)));
-            // If none can be evaluated, the first one's missing column is what to say.
-            chosen.extend(all.first().filter(|_| chosen.is_empty()));
-        }
-        Ok(chosen)
     }
 
     /// Writes the table with the evaluator's columns; returns which columns of the input these replace.
     fn write(
         &self,
         chain: &Chain,
-        mut table: ReadingsTable,
+        mut table: ReadingsTable<'_>,
         mut evaluator: Evaluator,
     ) -> Result<Vec<String>, Failure> {
         table.want(chain, &evaluator.readings)?;

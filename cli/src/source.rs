@@ -34,12 +34,15 @@ impl Source {
             File::open(path).and_then(limited)
         };
         match text {
-            Ok(text) => Ok(Self {
-                path: path.to_owned(),
-                text: text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text),
-            }),
+            Ok(text) => Ok(Self::of_text(path, &text)),
             Err(error) => Err(not_readable(path, &error)),
         }
+    }
+
+    /// A text that came from elsewhere than a file, under the name that mistakes in it are shown with.
+    #[must_use]
+    pub fn of_text(name: impl Into<PathBuf>, text: &str) -> Self {
+        Self { path: name.into(), text: text.strip_prefix('\u{feff}').unwrap_or(text).to_owned() }
     }
 
     /// Reads a file that another file names: relative to that one's folder.
@@ -80,7 +83,7 @@ impl Source {
     /// Mistakes in this text, shown where they stand.
     #[must_use]
     pub fn mistakes(&self, mistakes: &Mistakes) -> Failure {
-        Failure::Mistakes(mistakes.render(&self.path.display().to_string(), &self.text))
+        Failure::mistakes(&self.path.display().to_string(), &self.text, mistakes)
     }
 
     /// One mistake in this text, shown where it stands.

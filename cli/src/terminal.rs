@@ -1,6 +1,7 @@
 //! What goes to the terminal: results to standard output, everything else to standard error, with colours
 //! only where a person looks.
 
+use std::cell::RefCell;
 use std::fmt::Display;
 use std::io::Write as _;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -49,14 +50,33 @@ pub fn be_quiet() {
     QUIET.store(true, Ordering::Relaxed);
 }
 
+thread_local! {
+    /// The warnings of a library's caller, which no terminal shows.
+    static COLLECTED: RefCell<Option<Vec<String>>> = const { RefCell::new(None) };
+}
+
+/// Does some work on this thread, and returns what it would have warned of instead of saying it; nor does it say what it is
+/// doing.
+pub fn collecting<T>(work: impl FnOnce() -> T) -> (T, Vec<String>) {
+    let before = COLLECTED.replace(Some(Vec::new()));
+    let done = work();
+    (done, COLLECTED.replace(before).unwrap_or_default())
+}
+
 /// Says on standard error what the user should know although the command goes on.
 pub fn warn(message: impl Display) {
+    let is_collected = COLLECTED.with_borrow_mut(|warnings| {
+        warnings.as_mut().map(|warnings| warnings.push(message.to_string())).is_some()
+    });
+    if is_collected {
+        return;
+    }
     say(format_args!("{CAREFUL}warning{CAREFUL:#}: {message}"));
 }
 
 /// Says on standard error what the command is doing.
 pub fn note(message: impl Display) {
-    if !QUIET.load(Ordering::Relaxed) {
+    if !QUIET.load(Ordering::Relaxed) && COLLECTED.with_borrow(Option::is_none) {
         say(message);
     }
 }
@@ -79,7 +99,7 @@ pub fn progress() -> ProgressBar {
 /// Says on standard error why the command stopped.
 pub fn report_failure(failure: &Failure) {
     match failure {
-        Failure::Mistakes(rendered) => say(rendered.trim_end()),
+        Failure::Mistakes { rendered, .. } => say(rendered.trim_end()),
         _ => say(format_args!("{BAD}error{BAD:#}: {failure}")),
     }
 }

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | separated values | [`csv`] | anything else |
 //! | TPOINT observations | [`tpoint`] | `.dat` |
+//! | columns in memory | [`memory`] | none: a program hands them over |
 //! | Parquet, with the feature of that name | `parquet` | `.parquet` |
 //!
 //! Formats are parsed from readers; opening files is the command's part.
@@ -11,6 +12,7 @@
 pub mod csv;
 mod error;
 mod header;
+pub mod memory;
 mod options;
 #[cfg(feature = "parquet")]
 pub mod parquet;
@@ -21,6 +23,7 @@ pub mod tpoint;
 use std::borrow::Cow;
 use std::io::Read;
 
+use error::clipped;
 pub use error::{Cell, DataError};
 pub use header::{ColumnName, ReadAs, declared_columns, find_column, find_reading};
 pub use options::Options;

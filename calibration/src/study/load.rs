@@ -16,6 +16,10 @@ use crate::formats::{self, Cells, DataError, TableReader};
 /// Opens a data file of a study by its path as the study writes it.
 pub type Open<'a> = dyn FnMut(&str) -> Result<Box<dyn Read>, DataError> + 'a;
 
+/// Opens a table of a study by its name, read as the study says.
+pub type OpenTable<'a> =
+    dyn FnMut(&str, &formats::Options) -> Result<Box<dyn TableReader + 'a>, DataError> + 'a;
+
 /// How far from one the length of a unit vector may be in a file: written with three digits.
 const UNIT_TOLERANCE: f64 = 2e-3;
 
@@ -54,6 +58,14 @@ impl Plan {
     /// # Errors
     /// What is wrong with a file, with its place.
     pub fn load(&self, open: &mut Open<'_>) -> Result<Loaded, DataError> {
+        self.load_tables(&mut |path, options| formats::open(open(path)?, path, options))
+    }
+
+    /// Reads all tables, wherever they are, as [`Plan::load`] does.
+    ///
+    /// # Errors
+    /// What is wrong with a table, with its place.
+    pub fn load_tables(&self, open: &mut OpenTable<'_>) -> Result<Loaded, DataError> {
         let mut doubtful = Vec::new();
         let mut observations = self.no_observations();
         let mut groups = BTreeMap::new();
@@ -83,7 +95,7 @@ impl Plan {
         all: &mut Observations,
         source: &SourcePlan,
         paths: &[String],
-        open: &mut Open<'_>,
+        open: &mut OpenTable<'_>,
         groups: &mut BTreeMap<Vec<String>, u32>,
         doubtful: &mut Vec<BareColumn>,
     ) -> Result<(), DataError> {
@@ -95,8 +107,7 @@ impl Plan {
             bytes: 0,
         };
         for path in paths {
-            let reader = open(path)?;
-            rows.append(self, &mut *formats::open(reader, path, &self.format)?, &columns, doubtful)?;
+            rows.append(self, &mut *open(path, &self.format)?, &columns, doubtful)?;
         }
         let file = paths.join(", ");
         if rows.row_numbers.is_empty() {

@@ -15,6 +15,6 @@ mod sigma;
 mod syntax;
 mod written;
 
-pub use load::{Loaded, Open};
+pub use load::{Loaded, Open, OpenTable};
 pub use plan::{HoldOut, NextPoses, Plan, Search, SourcePlan};
 pub use written::Study;

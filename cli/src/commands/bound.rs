@@ -9,7 +9,7 @@ use serde_json::json;
 use super::{Answer, TextOrJson};
 use crate::errors_file;
 use crate::failure::Failure;
-use crate::ranges::{self, RangeArgument};
+use crate::ranges::{self, Range, RangeArgument};
 use crate::source::observables;
 use crate::terminal;
 
@@ -48,29 +48,8 @@ const STARTS: u32 = 24;
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let (chain, sizes) = errors_file::chain_and_sizes(&arguments.chain, &arguments.errors)?;
-    let mut domain = Domain::new(&chain);
-    for error in chain.symbols_of(SymbolKind::Error) {
-        domain.set_size(&chain, error, sizes[error.index()]).map_err(failure)?;
-    }
-    for range in ranges::of_chain(&chain, &arguments.range)? {
-        domain.set_range(&chain, range.symbol, range.low, range.high).map_err(failure)?;
-    }
-
-    let mut answers = Vec::new();
-    for observable in observables(&chain, &arguments.observable)? {
-        let answer = remainder::bound(&chain, observable, &domain).and_then(|bound| {
-            Ok((bound, remainder::search(&chain, observable, &domain, STARTS, arguments.seed)?))
-        });
-        match answer {
-            Ok(answer) => answers.push(answer),
-            // Nobody asked for this observable in particular; the others still have an answer.
-            Err(error @ DomainError::RangeNeeded { .. }) if arguments.observable.is_empty() => {
-                let name = &chain.observable(observable).name;
-                terminal::warn(format_args!("{name} is left out: {}", failure(error)));
-            }
-            Err(error) => return Err(failure(error)),
-        }
-    }
+    let ranges = ranges::of_chain(&chain, &arguments.range)?;
+    let answers = bounds(&chain, &sizes, &ranges, &arguments.observable, arguments.seed)?;
     let printed = match arguments.format {
         TextOrJson::Text => {
             let texts: Vec<String> =
@@ -86,6 +65,41 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     Ok(Answer::Done)
 }
 
+/// The bounds of the named observables, or of all, each with the largest difference that a search found.
+///
+/// # Errors
+/// A name that the chain does not declare, or no bound within these sizes and ranges.
+pub fn bounds(
+    chain: &Chain,
+    sizes: &[f64],
+    ranges: &[Range],
+    names: &[String],
+    seed: u64,
+) -> Result<Vec<(Bound, Found)>, Failure> {
+    let mut domain = Domain::new(chain);
+    for error in chain.symbols_of(SymbolKind::Error) {
+        domain.set_size(chain, error, sizes[error.index()]).map_err(failure)?;
+    }
+    for range in ranges {
+        domain.set_range(chain, range.symbol, range.low, range.high).map_err(failure)?;
+    }
+    let mut answers = Vec::new();
+    for observable in observables(chain, names)? {
+        let answer = remainder::bound(chain, observable, &domain)
+            .and_then(|bound| Ok((bound, remainder::search(chain, observable, &domain, STARTS, seed)?)));
+        match answer {
+            Ok(answer) => answers.push(answer),
+            // Nobody asked for this observable in particular; the others still have an answer.
+            Err(error @ DomainError::RangeNeeded { .. }) if names.is_empty() => {
+                let name = &chain.observable(observable).name;
+                terminal::warn(format_args!("{name} is left out: {}", failure(error)));
+            }
+            Err(error) => return Err(failure(error)),
+        }
+    }
+    Ok(answers)
+}
+
 /// A range that is missing is given on the command line.
 fn failure(error: DomainError) -> Failure {
     Failure::Input(match error {
@@ -96,7 +110,8 @@ fn failure(error: DomainError) -> Failure {
     })
 }
 
-fn as_json(chain: &Chain, bound: &Bound, found: &Found) -> serde_json::Value {
+/// A bound for programs.
+pub fn as_json(chain: &Chain, bound: &Bound, found: &Found) -> serde_json::Value {
     let observable = chain.observable(bound.observable);
     let unit = match observable.kind {
         ObservableKind::Direction => "1",

@@ -63,17 +63,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         })?),
         None => Poses::Ranges(poses::joint_ranges(&ranges::of_chain(&chain, &arguments.range)?)),
     };
-    let mut budgets = Vec::new();
-    for observable in observables(&chain, &arguments.observable)? {
-        match Budget::measure(&chain, observable, &sizes, &poses) {
-            Ok(budget) => budgets.push(budget),
-            // Nobody asked for this observable in particular; the others still have an answer.
-            Err(error @ BudgetError::NoValue { .. }) if arguments.observable.is_empty() => {
-                terminal::warn(format_args!("{} is left out: {error}", chain.observable(observable).name));
-            }
-            Err(error) => return Err(failure(&error)),
-        }
-    }
+    let budgets = measured(&chain, &sizes, &poses, &arguments.observable)?;
     if let Some(folder) = &arguments.out {
         write_files(arguments, &chain, &sizes, &poses, &budgets, folder)?;
     }
@@ -89,6 +79,30 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     };
     terminal::print(&printed)?;
     Ok(Answer::Done)
+}
+
+/// The budgets of the named observables, or of all.
+///
+/// # Errors
+/// A name that the chain does not declare, or a joint or input without a value.
+pub fn measured(
+    chain: &Chain,
+    sizes: &[f64],
+    poses: &Poses,
+    names: &[String],
+) -> Result<Vec<Budget>, Failure> {
+    let mut budgets = Vec::new();
+    for observable in observables(chain, names)? {
+        match Budget::measure(chain, observable, sizes, poses) {
+            Ok(budget) => budgets.push(budget),
+            // Nobody asked for this observable in particular; the others still have an answer.
+            Err(error @ BudgetError::NoValue { .. }) if names.is_empty() => {
+                terminal::warn(format_args!("{} is left out: {error}", chain.observable(observable).name));
+            }
+            Err(error) => return Err(failure(&error)),
+        }
+    }
+    Ok(budgets)
 }
 
 /// A value that is missing is given on the command line.
@@ -134,7 +148,7 @@ fn write_files(
 }
 
 /// The budget of one observable as a table.
-fn as_text(chain: &Chain, budget: &Budget) -> String {
+pub fn as_text(chain: &Chain, budget: &Budget) -> String {
     let (unit, factor) = reading_unit(budget.unit(chain));
     let name = &chain.observable(budget.observable).name;
     let width = budget.influences.iter().map(|influence| chain.symbol(influence.error).name.len());
@@ -204,7 +218,8 @@ fn as_csv(chain: &Chain, budgets: &[Budget]) -> String {
     out
 }
 
-fn as_json(chain: &Chain, budget: &Budget, poses: &Poses) -> Value {
+/// The budget of one observable for programs.
+pub fn as_json(chain: &Chain, budget: &Budget, poses: &Poses) -> Value {
     let summary = |summary: &Summary| json!({"sup": summary.sup, "rms": summary.rms, "at": place(chain, budget, poses, summary)});
     let errors: Vec<Value> = budget
         .influences

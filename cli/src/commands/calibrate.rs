@@ -1,19 +1,19 @@
 //! `trueaxis calibrate`: fit, residual, trace, amend, report.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use calibration::calibrate::{Calibration, Request, calibrate_telling};
-use calibration::formats::DataError;
-use calibration::study::{Loaded, Plan, Study};
-use model_core::Mistakes;
+use calibration::calibrate::Calibration;
+use calibration::formats::{self, DataError};
+use calibration::study::Plan;
 
 use super::{Answer, TextOrJson};
+use crate::calibrating::Studied;
 use crate::failure::Failure;
-use crate::report::{self, FileRead, Layout, Provenance, Reported};
+use crate::report::{self, Layout};
 use crate::source::Source;
-use crate::{date, output, sha256, source, tables, terminal};
+use crate::{output, source, terminal};
 
 /// Fit the errors to measured data, and find what the declaration lacks.
 ///
@@ -44,54 +44,30 @@ pub struct Arguments {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let study_source = Source::read(&arguments.study)?;
-    let in_study = |mistakes: Mistakes| study_source.mistakes(&mistakes);
-    let study = Study::from_text(&study_source.text).map_err(in_study)?;
-    let chain_source = study_source.read_beside(Path::new(study.chain.get_ref()))?;
-    let plan = study.plan(&chain_source.chain()?).map_err(in_study)?;
+    let studied = Studied::read(Source::read(&arguments.study)?)?;
     if let Some(folder) = &arguments.out {
-        refuse_to_replace(folder, &plan, [&study_source, &chain_source])?;
+        refuse_to_replace(folder, &studied)?;
     }
+    let study = studied.study.clone();
+    let measured =
+        studied.load(&mut |path, options| formats::open(open_beside(&study, path)?, path, options))?;
+    terminal::note(format_args!(
+        "{}",
+        what_is_done(&measured.studied.plan, measured.loaded.observations.rows())
+    ));
 
-    let mut open = |path: &str| open_beside(&study_source, path);
-    let Loaded { observations, held_out: second, doubtful } =
-        plan.load(&mut open).map_err(tables::failure)?;
-    doubtful.iter().for_each(terminal::warn);
-    terminal::note(format_args!("{}", what_is_done(&plan, observations.rows())));
-
-    let date = date::today();
-    let request = Request {
-        text: &chain_source.text,
-        plan: &plan,
-        observations: &observations,
-        second: second.as_ref(),
-        when: &date,
-    };
     let progress = terminal::progress();
-    let calibration = calibrate_telling(request, &|stage| progress.set_message(stage.to_string()));
+    let calibrated = measured.calibrate(command_line(), &|stage| progress.set_message(stage.to_string()));
     progress.finish_and_clear();
-    let calibration = calibration.map_err(|error| Failure::Input(error.to_string()))?;
+    let calibrated = calibrated?;
     let folder = arguments.out.as_ref().map(|folder| folder.display().to_string());
-    let reported = Reported {
-        calibration: &calibration,
-        observations: &observations,
-        chain_file: study.chain.get_ref(),
-        chain_text: &chain_source.text,
-        folder: folder.as_deref(),
-        provenance: Provenance {
-            version: env!("CARGO_PKG_VERSION"),
-            command: command_line(),
-            date: date.clone(),
-            study: study_source.text.clone(),
-            files: files_read(arguments, &study_source, study.chain.get_ref(), &plan)?,
-        },
-    };
+    let reported = calibrated.reported(folder.as_deref());
     if arguments.dry_run {
         terminal::print(&match arguments.format {
             TextOrJson::Text => report::diff(&reported),
             TextOrJson::Json => report::json(&reported)?,
         })?;
-        return Ok(answer(&calibration));
+        return Ok(answer(reported.calibration));
     }
     if let Some(folder) = &arguments.out {
         report::write_all(&reported, folder)?;
@@ -102,7 +78,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         TextOrJson::Text => report::as_text(&reported, layout),
         TextOrJson::Json => report::json(&reported)?,
     })?;
-    Ok(answer(&calibration))
+    Ok(answer(reported.calibration))
 }
 
 /// The command as it was typed; a letter that is none is shown as such.
@@ -116,36 +92,10 @@ fn answer(calibration: &Calibration) -> Answer {
     if calibration.diagnosis.verdict.is_usable() { Answer::Done } else { Answer::No }
 }
 
-/// The study, the declaration and the data with their checksums.
-fn files_read(
-    arguments: &Arguments,
-    study: &Source,
-    chain: &str,
-    plan: &Plan,
-) -> Result<Vec<FileRead>, Failure> {
-    let data = plan.sources.iter().flat_map(|source| &source.paths).chain(&plan.hold_out.file);
-    let mut files = vec![(arguments.study.display().to_string(), arguments.study.clone())];
-    // What is no file, a pipe say, has been read already.
-    for path in std::iter::once(chain).chain(data.map(String::as_str)) {
-        files.push((path.to_owned(), study.beside(Path::new(path))));
-    }
-    let read = |(path, place): (String, PathBuf)| {
-        if !fs::metadata(&place).is_ok_and(|metadata| metadata.is_file()) {
-            return Ok(FileRead { path, sha256: None });
-        }
-        let bytes = fs::read(&place).map_err(|error| source::not_readable(&place, &error))?;
-        Ok(FileRead { path, sha256: Some(sha256::hex(&bytes)) })
-    };
-    files.into_iter().map(read).collect()
-}
-
 /// Refuses to write the results over what the study reads.
-fn refuse_to_replace(folder: &Path, plan: &Plan, [study, chain]: [&Source; 2]) -> Result<(), Failure> {
-    let data = plan.sources.iter().flat_map(|source| &source.paths).chain(&plan.hold_out.file);
-    let read: Vec<PathBuf> = data
-        .map(|path| study.beside(Path::new(path)))
-        .chain([study.path.clone(), chain.path.clone()])
-        .collect();
+fn refuse_to_replace(folder: &Path, studied: &Studied) -> Result<(), Failure> {
+    let mut read = studied.table_files();
+    read.extend([studied.study.path.clone(), studied.chain.path.clone()]);
     report::NAMES
         .iter()
         .try_for_each(|name| output::refuse_to_replace(&folder.join(name), read.iter().map(PathBuf::as_path)))
@@ -161,7 +111,10 @@ fn what_is_done(plan: &Plan, rows: usize) -> String {
 }
 
 /// Opens a data file that the study names.
-fn open_beside(study: &Source, path: &str) -> Result<Box<dyn Read>, DataError> {
+///
+/// # Errors
+/// It cannot be read.
+pub fn open_beside(study: &Source, path: &str) -> Result<Box<dyn Read>, DataError> {
     let beside = study.beside(Path::new(path));
     let unreadable = |error: &io::Error| {
         let why = match source::not_readable(&beside, error) {

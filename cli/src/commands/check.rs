@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use super::{Answer, TextOrJson};
 use crate::certificates::CertificateArguments;
-use crate::claims::{Checked, ClaimsFile, as_json, as_text};
+use crate::claims::{Checked, ClaimsFile, NamedClaim, as_json, as_text};
 use crate::failure::Failure;
 use crate::terminal;
 
@@ -35,14 +35,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let is_certified = arguments.certificate.is_wanted()?;
     let file = ClaimsFile::read(&arguments.claims)?;
-    let mut checker = Checker::new(&file.chain);
-    let mut checked = Vec::with_capacity(file.claims.len());
-    for claim in &file.claims {
-        let verdict = checker
-            .check(&claim.claim)
-            .map_err(|error| file.source.mistake(Mistake::new(claim.place.clone(), error.to_string())))?;
-        checked.push(Checked { claim, verdict });
-    }
+    let checked = checked(&file)?;
     let output = match arguments.format {
         TextOrJson::Text => as_text(&file, &checked),
         TextOrJson::Json => {
@@ -55,6 +48,23 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     terminal::print(&output)?;
     let all_hold = checked.iter().all(|checked| checked.verdict.holds());
     Ok(if all_hold { Answer::Done } else { Answer::No })
+}
+
+/// Every claim of a file with its verdict.
+///
+/// # Errors
+/// A claim that has no verdict, with its place.
+pub fn checked(file: &ClaimsFile) -> Result<Vec<Checked<'_>>, Failure> {
+    let mut checker = Checker::new(&file.chain);
+    let mut checked = Vec::with_capacity(file.claims.len());
+    for claim in &file.claims {
+        let NamedClaim { claim: asked, place, .. } = claim;
+        let verdict = checker
+            .check(asked)
+            .map_err(|error| file.source.mistake(Mistake::new(place.clone(), error.to_string())))?;
+        checked.push(Checked { claim, verdict });
+    }
+    Ok(checked)
 }
 
 /// The verdicts as a certificate.

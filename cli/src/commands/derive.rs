@@ -98,7 +98,7 @@ fn sections(chain: &Chain, forms: &[Form], style: print::Style, title: impl Fn(&
 }
 
 /// `pointing: error of the direction of device, to first order in the errors`
-fn title_of(chain: &Chain, form: &Form) -> String {
+pub fn title_of(chain: &Chain, form: &Form) -> String {
     let observable = chain.observable(form.observable);
     let (kind, unit) = match observable.kind {
         ObservableKind::Direction => ("direction", ""),

@@ -42,31 +42,8 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let is_certified = arguments.certificate.is_wanted()?;
     let source = Source::read(&arguments.chain)?;
     let chain = source.chain()?;
-    let chosen = observables(&chain, &arguments.observable)?;
-    let sets = if arguments.observable.is_empty() && chosen.len() > 1 {
-        chosen.iter().map(|&id| vec![id]).chain([chosen.clone()]).collect()
-    } else {
-        vec![chosen]
-    };
-    let candidate = arguments.candidate.as_deref().map(|text| candidate(&chain, text)).transpose()?;
-    let mut texts = Vec::new();
-    let mut answers = Vec::new();
-    let mut certified = Vec::new();
-    for set in &sets {
-        let failure = |error: identify::IdentifyError| Failure::Input(error.to_string());
-        let found = identify::identify(&chain, set).map_err(failure)?;
-        let mut text = identify::text(&found, &chain);
-        let mut answer = as_json(&chain, set, &found);
-        if let Some(candidate) = &candidate {
-            let mistaken = identify::mistaken_for(candidate, set).map_err(failure)?;
-            text.push_str("  the candidate:\n");
-            text.extend(identify::mistaken_text(&mistaken).lines().map(|line| format!("    {line}\n")));
-            answer["candidate"] = mistaken_json(&mistaken);
-        }
-        texts.push(text);
-        answers.push(answer);
-        certified.push(found);
-    }
+    let Identified { texts, answers, found: certified } =
+        identified(&chain, &arguments.observable, arguments.candidate.as_deref())?;
     let certificate = is_certified.then(|| certify(&source, &certified)).transpose()?;
     arguments.certificate.write(certificate.as_deref())?;
     terminal::print(&match arguments.format {
@@ -74,6 +51,51 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         TextOrJson::Json => format!("{:#}\n", json!({ "identifiability": answers })),
     })?;
     Ok(Answer::Done)
+}
+
+/// The answers for each set of observables.
+#[derive(Default)]
+pub struct Identified {
+    /// For reading.
+    pub texts: Vec<String>,
+    /// For programs.
+    pub answers: Vec<Value>,
+    found: Vec<Identifiability>,
+}
+
+/// What no data of the named observables can tell apart: of those together; if none is named, of each alone and of all.
+///
+/// # Errors
+/// A name that the chain does not declare, a candidate that cannot be read, or a chain that is too large.
+pub fn identified(
+    chain: &Chain,
+    names: &[String],
+    candidate_text: Option<&str>,
+) -> Result<Identified, Failure> {
+    let chosen = observables(chain, names)?;
+    let sets = if names.is_empty() && chosen.len() > 1 {
+        chosen.iter().map(|&id| vec![id]).chain([chosen.clone()]).collect()
+    } else {
+        vec![chosen]
+    };
+    let candidate = candidate_text.map(|text| candidate(chain, text)).transpose()?;
+    let mut all = Identified::default();
+    for set in &sets {
+        let failure = |error: identify::IdentifyError| Failure::Input(error.to_string());
+        let found = identify::identify(chain, set).map_err(failure)?;
+        let mut text = identify::text(&found, chain);
+        let mut answer = as_json(chain, set, &found);
+        if let Some(candidate) = &candidate {
+            let mistaken = identify::mistaken_for(candidate, set).map_err(failure)?;
+            text.push_str("  the candidate:\n");
+            text.extend(identify::mistaken_text(&mistaken).lines().map(|line| format!("    {line}\n")));
+            answer["candidate"] = mistaken_json(&mistaken);
+        }
+        all.texts.push(text);
+        all.answers.push(answer);
+        all.found.push(found);
+    }
+    Ok(all)
 }
 
 /// What has no influence, and what is one and the same, as a certificate.
@@ -122,7 +144,7 @@ fn candidate(chain: &Chain, text: &str) -> Result<Candidate, Failure> {
     let body = u16::try_from(index).map(BodyId).map_err(|error| wrong(error.to_string()))?;
     let factor = factor.trim();
     Candidate::parse(chain, body, Role::MotionError, factor)
-        .map_err(|mistakes: Mistakes| Failure::Mistakes(mistakes.render("--candidate", factor)))
+        .map_err(|mistakes: Mistakes| Failure::mistakes("--candidate", factor, &mistakes))
 }
 
 fn as_json(chain: &Chain, set: &[ObservableId], found: &Identifiability) -> Value {

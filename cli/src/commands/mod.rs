@@ -1,17 +1,17 @@
 //! The registry of commands: one file each, one line each in the table below.
 
 mod apply;
-mod bound;
-mod budget;
-mod calibrate;
-mod check;
+pub mod bound;
+pub mod budget;
+pub mod calibrate;
+pub mod check;
 mod completions;
-mod derive;
+pub mod derive;
 mod eval;
 mod generate;
-mod identify;
+pub mod identify;
 mod manual;
-mod simulate;
+pub mod simulate;
 
 use crate::failure::Failure;
 

@@ -72,49 +72,87 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     output::refuse_to_replace(&arguments.out, [arguments.chain.as_path(), &arguments.errors])?;
     let chain = Source::read(&arguments.chain)?.chain()?;
     let values = errors_file::values(&Source::read(&arguments.errors)?, &chain)?;
-    let noise = Noise::parse(&chain, &arguments.noise)?;
-    let chosen = measured(&chain, &arguments.observable, noise)?;
-    let mut evaluator = Evaluator::new(&chain, chosen, Exactness::Exact, Quantity::Value, &values);
     let given = ranges::of_chain(&chain, &arguments.range)?;
-    let ranges = ranges_of(&chain, &evaluator.readings, &given)?;
-
-    let mut poses = stream(arguments.seed, 0);
-    let mut errors = stream(arguments.seed, 1);
-    let header: Vec<String> = ranges
-        .iter()
-        .map(|range| heading(&chain, range))
-        .chain(column_names(&chain, &evaluator.observables)?)
-        .collect();
+    let mut simulation =
+        Simulation::new(&chain, &values, &arguments.noise, &arguments.observable, &given, arguments.seed)?;
     tables::write(&arguments.out, |writer| {
-        writer.header(&header)?;
+        writer.header(&simulation.header)?;
         let mut left = arguments.poses as usize;
         while left > 0 {
             let rows = left.min(CHUNK);
             left -= rows;
-            let mut readings: Vec<(SymbolId, Vec<f64>)> =
-                ranges.iter().map(|range| (range.symbol, Vec::with_capacity(rows))).collect();
-            for _ in 0..rows {
-                for (range, (_, column)) in ranges.iter().zip(&mut readings) {
-                    column.push(range.low + (range.high - range.low) * poses.random::<f64>());
-                }
-            }
-            let columns: Vec<_> = readings.iter().map(|(id, column)| (*id, column.as_slice())).collect();
-            let mut shown = evaluator.columns(&columns, rows)?;
-            for row in 0..rows {
-                for (&observable, shown) in evaluator.observables.iter().zip(shown.chunks_exact_mut(3)) {
-                    let kind = chain.observable(observable).kind;
-                    let moved = noise.add(kind, [shown[0][row], shown[1][row], shown[2][row]], &mut errors);
-                    for (column, component) in shown.iter_mut().zip(moved) {
-                        column[row] = component;
-                    }
-                }
-            }
-            let columns = readings.iter().map(|(_, column)| column).chain(&shown);
-            writer.rows(&columns.map(|column| Column::Numbers(column)).collect::<Vec<_>>(), rows)?;
+            let columns = simulation.rows(rows)?;
+            writer.rows(&columns.iter().map(|column| Column::Numbers(column)).collect::<Vec<_>>(), rows)?;
         }
         Ok(())
     })?;
     Ok(Answer::Done)
+}
+
+/// Measured data that are being made up.
+pub struct Simulation<'c> {
+    /// Names of the columns: readings, then components of observables.
+    pub header: Vec<String>,
+    chain: &'c Chain,
+    evaluator: Evaluator,
+    ranges: Vec<Range>,
+    noise: Noise,
+    poses: ChaCha8Rng,
+    errors: ChaCha8Rng,
+}
+
+impl<'c> Simulation<'c> {
+    /// Poses within ranges (a whole turn where none is given), seen with errors and noise.
+    ///
+    /// # Errors
+    /// Noise that cannot be read or fits no observable, a name that the chain does not declare, a range that is missing.
+    pub fn new(
+        chain: &'c Chain,
+        values: &[f64],
+        noise: &[String],
+        names: &[String],
+        given: &[Range],
+        seed: u64,
+    ) -> Result<Self, Failure> {
+        let noise = Noise::parse(chain, noise)?;
+        let chosen = measured(chain, names, noise)?;
+        let evaluator = Evaluator::new(chain, chosen, Exactness::Exact, Quantity::Value, values);
+        let ranges = ranges_of(chain, &evaluator.readings, given)?;
+        let header = ranges
+            .iter()
+            .map(|range| heading(chain, range))
+            .chain(column_names(chain, &evaluator.observables)?)
+            .collect();
+        let (poses, errors) = (stream(seed, 0), stream(seed, 1));
+        Ok(Self { header, chain, evaluator, ranges, noise, poses, errors })
+    }
+
+    /// The next rows, column by column, in SI.
+    ///
+    /// # Errors
+    /// A broken invariant of ours: columns of the wrong shape.
+    pub fn rows(&mut self, rows: usize) -> Result<Vec<Vec<f64>>, Failure> {
+        let mut readings: Vec<(SymbolId, Vec<f64>)> =
+            self.ranges.iter().map(|range| (range.symbol, Vec::with_capacity(rows))).collect();
+        for _ in 0..rows {
+            for (range, (_, column)) in self.ranges.iter().zip(&mut readings) {
+                column.push(range.low + (range.high - range.low) * self.poses.random::<f64>());
+            }
+        }
+        let columns: Vec<_> = readings.iter().map(|(id, column)| (*id, column.as_slice())).collect();
+        let mut shown = self.evaluator.columns(&columns, rows)?;
+        for row in 0..rows {
+            for (&observable, shown) in self.evaluator.observables.iter().zip(shown.chunks_exact_mut(3)) {
+                let kind = self.chain.observable(observable).kind;
+                let plain = [shown[0][row], shown[1][row], shown[2][row]];
+                let moved = self.noise.add(kind, plain, &mut self.errors);
+                for (column, component) in shown.iter_mut().zip(moved) {
+                    column[row] = component;
+                }
+            }
+        }
+        Ok(readings.into_iter().map(|(_, column)| column).chain(shown).collect())
+    }
 }
 
 /// The name of a column of readings, with its unit where readers would doubt that it is in SI.

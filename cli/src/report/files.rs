@@ -3,13 +3,13 @@
 use std::io::Write;
 use std::path::Path;
 
-use calibration::data::SiUnit;
 use calibration::diagnose::Diagnosis;
-use calibration::formats::ColumnName;
 use serde::Serialize;
 
 use super::errors::errors_toml;
-use super::{Provenance, Reported, diff, page, residuals};
+use super::page::page;
+use super::residuals::Cells;
+use super::{Provenance, Reported, diff, residuals};
 use crate::failure::Failure;
 use crate::output::Folder;
 use crate::{tables, terminal};
@@ -42,7 +42,7 @@ pub fn write_all(reported: &Reported<'_>, folder: &Path) -> Result<(), Failure> 
         }
     }
     files.write("residuals.csv", |file| write_residuals(reported, &folder.join("residuals.csv"), file))?;
-    files.write_text("report.html", &page::page(reported))?;
+    files.write_text("report.html", &page(reported))?;
     files.finish()
 }
 
@@ -72,45 +72,26 @@ pub fn json(reported: &Reported<'_>) -> Result<String, Failure> {
         schema: SCHEMA,
         diagnosis: &reported.calibration.diagnosis,
         diff: diff(reported),
-        provenance: &reported.provenance,
+        provenance: reported.provenance,
     };
     serde_json::to_string_pretty(&json)
         .map(|text| text + "\n")
         .map_err(|error| Failure::Input(format!("the report cannot be written as JSON: {error}")))
 }
 
-/// One row an observation: its number, the readings, and the residual components before and after, in SI.
+/// One row an observation, as [`table`](super::table) has them; a cell is empty where there is no number.
 fn write_residuals(reported: &Reported<'_>, path: &Path, file: &mut dyn Write) -> Result<(), Failure> {
-    let components = residuals::components(reported);
-    let columns = components.iter().flat_map(|component| {
-        let name = |when| format!("{}_{when} [{}]", component.name, component.unit);
-        [(name("before"), &component.before), (name("after"), &component.after)]
-    });
-    let (names, columns): (Vec<String>, Vec<&Vec<Option<f64>>>) = columns.unzip();
-    let weights = &reported.calibration.after.residuals.weight;
-    let readings = residuals::readings(reported).map(|(name, unit, _)| match unit {
-        SiUnit::ONE => name.to_owned(),
-        unit => format!("{name} [{unit}]"),
-    });
-    let others: Vec<String> = readings.chain(names).collect();
-    // A joint or input may have the name of one of these columns.
-    let own = |name: &str| {
-        let mut name = name.to_owned();
-        while others.iter().any(|other| ColumnName::parse(other).means(&name, &[])) {
-            name.push('_');
-        }
-        name
-    };
-    let (row, weight) = (own("row"), own("weight"));
-    let header = [&row].into_iter().chain(&others).chain([&weight]);
-    tables::csv_row(file, path, header.map(String::as_str))?;
+    let columns = residuals::table(reported);
+    tables::csv_row(file, path, columns.iter().map(|(name, _)| name.as_str()))?;
     for row in 0..reported.observations.rows() {
-        let number = reported.observations.row_numbers.get(row).map_or(row as u64 + 1, |&number| number);
-        let readings = residuals::readings(reported).map(|(_, _, values)| tables::number(values[row]));
-        let residuals = columns.iter().map(|column| column[row].map_or_else(String::new, tables::number));
-        let weight = tables::number(weights.get(row).copied().unwrap_or(1.0));
-        let cells: Vec<String> =
-            [number.to_string()].into_iter().chain(readings).chain(residuals).chain([weight]).collect();
+        let cells: Vec<String> = columns
+            .iter()
+            .map(|(_, cells)| match cells {
+                Cells::Rows(numbers) => numbers[row].to_string(),
+                Cells::Numbers(numbers) => tables::number(numbers[row]),
+                Cells::Residuals(numbers) => numbers[row].map_or_else(String::new, tables::number),
+            })
+            .collect();
         tables::csv_row(file, path, cells.iter().map(String::as_str))?;
     }
     Ok(())

@@ -13,6 +13,8 @@ use calibration::calibrate::Calibration;
 use calibration::data::Observations;
 
 pub use files::{NAMES, json, write_all};
+pub use page::{excerpt, page};
+pub use residuals::{Cells, table};
 pub use text::{Layout, as_text, diff};
 
 /// A calibration and what it was made from.
@@ -28,7 +30,7 @@ pub struct Reported<'a> {
     /// The folder that the files go to, if they are written.
     pub folder: Option<&'a str>,
     /// What it was made with.
-    pub provenance: Provenance,
+    pub provenance: &'a Provenance,
 }
 
 /// What a calibration was made with: enough to make it again.

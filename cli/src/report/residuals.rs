@@ -1,7 +1,10 @@
 //! Residuals row by row: before and after, beside the readings.
 
+use std::borrow::Cow;
+
 use calibration::data::SiUnit;
 use calibration::fit::FitResult;
+use calibration::formats::ColumnName;
 use model_core::SymbolId;
 
 use super::Reported;
@@ -62,4 +65,51 @@ pub fn readings<'a>(reported: &'a Reported<'_>) -> impl Iterator<Item = (&'a str
         let symbol = chain.symbol(*id);
         (symbol.name.as_str(), symbol.quantity.into(), values.as_slice())
     })
+}
+
+/// The cells of one column of [`table`].
+pub enum Cells<'a> {
+    /// Numbers of rows, from 1.
+    Rows(Vec<u64>),
+    /// A number in every row.
+    Numbers(Cow<'a, [f64]>),
+    /// Residuals; absent where the row has no such component.
+    Residuals(Vec<Option<f64>>),
+}
+
+/// One row an observation: its number, the readings, the residual components before and after, in SI, and its weight; each
+/// column by its name.
+#[must_use]
+pub fn table<'a>(reported: &'a Reported<'_>) -> Vec<(String, Cells<'a>)> {
+    let mut columns: Vec<(String, Cells<'a>)> = readings(reported)
+        .map(|(name, unit, values)| {
+            let name = match unit {
+                SiUnit::ONE => name.to_owned(),
+                unit => format!("{name} [{unit}]"),
+            };
+            (name, Cells::Numbers(values.into()))
+        })
+        .collect();
+    for component in components(reported) {
+        let name = |when| format!("{}_{when} [{}]", component.name, component.unit);
+        let names = [name("before"), name("after")];
+        columns.extend(names.into_iter().zip([component.before, component.after].map(Cells::Residuals)));
+    }
+    // A joint or input may have the name of one of these columns.
+    let own = |name: &str| {
+        let mut name = name.to_owned();
+        while columns.iter().any(|(other, _)| ColumnName::parse(other).means(&name, &[])) {
+            name.push('_');
+        }
+        name
+    };
+    let (row, weight) = (own("row"), own("weight"));
+    let observations = reported.observations;
+    let number = |row: usize| observations.row_numbers.get(row).map_or(row as u64 + 1, |&number| number);
+    let weights = &reported.calibration.after.residuals.weight;
+    let rows = observations.rows();
+    columns.insert(0, (row, Cells::Rows((0..rows).map(number).collect())));
+    let weights = (0..rows).map(|row| weights.get(row).copied().unwrap_or(1.0)).collect();
+    columns.push((weight, Cells::Numbers(Cow::Owned(weights))));
+    columns
 }

@@ -9,19 +9,20 @@ use calibration::formats::{
     self, Cells, ColumnName, DataError, Form, Kept, Options, ReadAs, TableReader, Wanted, declared_columns,
     find_reading,
 };
-use model_core::{Chain, SymbolId};
+use model_core::{Chain, ObservableId, SymbolId};
 
 use super::{CHUNK, failure, known_format};
+use crate::evaluation::readings_of;
 use crate::failure::Failure;
 use crate::source;
 
 /// A data file whose columns of readings are found by the names of joints and inputs.
-pub struct ReadingsTable {
-    reader: Box<dyn TableReader>,
+pub struct ReadingsTable<'t> {
+    reader: Box<dyn TableReader + 't>,
     /// Names that a column can have beside that of a reading.
     declared: Vec<String>,
     readings: Vec<Reading>,
-    /// Every column as it came, then the readings as numbers.
+    /// Every column as it came, if they are kept, then the readings as numbers.
     wanted: Vec<Wanted>,
     /// Whether a row has been read.
     started: bool,
@@ -38,7 +39,7 @@ struct Reading {
 
 /// Some rows of a [`ReadingsTable`].
 pub struct Rows {
-    /// Every column of the file as it came.
+    /// Every column of the file as it came, if they are kept.
     pub kept: Vec<Kept>,
     /// The readings, in SI.
     pub readings: Vec<(SymbolId, Vec<f64>)>,
@@ -46,7 +47,7 @@ pub struct Rows {
     pub count: usize,
 }
 
-impl ReadingsTable {
+impl<'t> ReadingsTable<'t> {
     /// Opens a file with the readings of a chain; `-` is standard input.
     ///
     /// # Errors
@@ -63,10 +64,16 @@ impl ReadingsTable {
             }
             formats::open(BufReader::new(file), &path.display().to_string(), &options)
         };
-        let reader = reader.map_err(failure)?;
-        let wanted = (0..reader.header().len()).map(|column| Wanted { column, form: Form::Kept }).collect();
+        let mut table = Self::of(reader.map_err(failure)?, chain);
+        let all = 0..table.header().len();
+        table.wanted = all.map(|column| Wanted { column, form: Form::Kept }).collect();
+        Ok(table)
+    }
+
+    /// The readings of a chain in an open table, of which nothing else is wanted.
+    pub fn of(reader: Box<dyn TableReader + 't>, chain: &Chain) -> Self {
         let declared = declared_columns(chain);
-        Ok(Self { reader, declared, readings: Vec::new(), wanted, started: false })
+        Self { reader, declared, readings: Vec::new(), wanted: Vec::new(), started: false }
     }
 
     /// The columns, as they stand in the header.
@@ -82,9 +89,24 @@ impl ReadingsTable {
 
     /// Whether there is a column, or more, for each of these joints and inputs.
     #[must_use]
-    pub fn has(&self, chain: &Chain, readings: &[SymbolId]) -> bool {
+    fn has(&self, chain: &Chain, readings: &[SymbolId]) -> bool {
         let missing = |&id: &SymbolId| matches!(self.find(chain, id), Err(DataError::MissingColumn { .. }));
         !readings.iter().any(missing)
+    }
+
+    /// The observables of these names; if there is none, all that the table has the readings for.
+    ///
+    /// # Errors
+    /// A name that the chain does not declare.
+    pub fn with_readings(&self, chain: &Chain, names: &[String]) -> Result<Vec<ObservableId>, Failure> {
+        let mut chosen = source::observables(chain, names)?;
+        if names.is_empty() {
+            let all = chosen.clone();
+            chosen.retain(|&observable| self.has(chain, &readings_of(chain, observable)));
+            // If none can be evaluated, the first one's missing column is what to say.
+            chosen.extend(all.first().filter(|_| chosen.is_empty()));
+        }
+        Ok(chosen)
     }
 
     fn declared(&self) -> Vec<&str> {

@@ -26,17 +26,11 @@ pub fn page(reported: &Reported<'_>) -> String {
     let answers = words::answers(diagnosis, reported.folder);
     let rows = Rows::of(reported);
     let used = &diagnosis.observations;
-    html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { "Calibration of " (reported.calibration.chain.name) ": " (answers.badge) }
-                style { (PreEscaped(include_str!("style.css"))) }
-            }
-            body {
-                (PreEscaped(HATCH))
+    document(
+        reported,
+        &answers,
+        &rows,
+        html! {
                 header {
                     strong { (reported.calibration.chain.name) }
                     p.quiet {
@@ -61,6 +55,44 @@ pub fn page(reported: &Reported<'_>) -> String {
                     (tables::details(reported))
                 }
                 footer.quiet { (provenance(reported)) }
+        },
+    )
+}
+
+/// The first screen and the pictures, as a page of their own.
+#[must_use]
+pub fn excerpt(reported: &Reported<'_>) -> String {
+    let diagnosis = &reported.calibration.diagnosis;
+    let answers = words::answers(diagnosis, reported.folder);
+    let rows = Rows::of(reported);
+    document(
+        reported,
+        &answers,
+        &rows,
+        html! {
+            main {
+                (answer::first_screen(diagnosis, &answers))
+                (pictures::residuals(reported, &rows))
+                (pictures::left(reported))
+            }
+        },
+    )
+}
+
+/// A page around what it shows.
+fn document(reported: &Reported<'_>, answers: &words::Answers, rows: &Rows, body: Markup) -> String {
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { "Calibration of " (reported.calibration.chain.name) ": " (answers.badge) }
+                style { (PreEscaped(include_str!("style.css"))) }
+            }
+            body {
+                (PreEscaped(HATCH))
+                (body)
                 script type="application/json" id="rows" { (PreEscaped(rows.json())) }
                 script { (PreEscaped(include_str!("script.js"))) }
             }

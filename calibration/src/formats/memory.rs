@@ -1,0 +1,170 @@
+//! Tables that a program holds in memory: named columns of numbers or texts, as a data frame hands them over.
+
+use super::header::{ColumnName, unique};
+use super::{Cell, Cells, Chunk, DataError, Form, Kept, TableReader, Wanted, clipped};
+
+/// A column that somebody else holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Column<'a> {
+    /// Numbers; NaN where the table has none.
+    Numbers(&'a [f64]),
+    /// Texts.
+    Texts(&'a [String]),
+}
+
+impl Column<'_> {
+    fn rows(&self) -> usize {
+        match self {
+            Self::Numbers(numbers) => numbers.len(),
+            Self::Texts(texts) => texts.len(),
+        }
+    }
+}
+
+/// A table in memory.
+#[derive(Debug)]
+pub struct Reader<'a> {
+    source: String,
+    header: Vec<ColumnName>,
+    columns: Vec<Column<'a>>,
+    rows: usize,
+    /// Rows that have been read.
+    row: usize,
+}
+
+impl<'a> Reader<'a> {
+    /// A table of a name. Names of columns carry units as the headers of separated values do.
+    ///
+    /// # Errors
+    /// No columns, a name twice, or columns of different lengths.
+    pub fn new(
+        source: &str,
+        columns: impl IntoIterator<Item = (&'a str, Column<'a>)>,
+    ) -> Result<Self, DataError> {
+        let (header, columns): (Vec<ColumnName>, Vec<Column<'a>>) =
+            columns.into_iter().map(|(name, column)| (ColumnName::parse(name), column)).unzip();
+        let Some(rows) = columns.first().map(Column::rows) else {
+            return Err(DataError::Unreadable {
+                file: source.to_string(),
+                why: "the table has no columns".to_string(),
+            });
+        };
+        unique(&header, source)?;
+        if let Some((name, other)) = header.iter().zip(&columns).find(|(_, column)| column.rows() != rows) {
+            let why = format!(
+                "column `{}` has {} rows, column `{}` has {rows}",
+                clipped(&name.full),
+                other.rows(),
+                clipped(&header[0].full)
+            );
+            return Err(DataError::Unreadable { file: source.to_string(), why });
+        }
+        Ok(Self { source: source.to_string(), header, columns, rows, row: 0 })
+    }
+
+    fn number(&self, column: usize, row: usize) -> Result<f64, DataError> {
+        let cell = || Cell {
+            file: self.source.clone(),
+            line: None,
+            row: row as u64 + 1,
+            column: self.header[column].full.clone(),
+        };
+        match self.columns[column] {
+            Column::Numbers(numbers) if numbers[row].is_finite() => Ok(numbers[row]),
+            Column::Numbers(numbers) => {
+                Err(DataError::NotFinite { cell: cell(), text: format!("{:?}", numbers[row]) })
+            }
+            Column::Texts(texts) => {
+                let text = texts[row].trim();
+                match text.parse::<f64>() {
+                    Ok(number) if number.is_finite() => Ok(number),
+                    Ok(_) => Err(DataError::NotFinite { cell: cell(), text: clipped(text) }),
+                    Err(_) if text.is_empty() => Err(DataError::EmptyCell { cell: cell() }),
+                    Err(_) => Err(DataError::NotANumber { cell: cell(), text: clipped(text) }),
+                }
+            }
+        }
+    }
+}
+
+impl TableReader for Reader<'_> {
+    fn source(&self) -> &str {
+        &self.source
+    }
+
+    fn header(&self) -> &[ColumnName] {
+        &self.header
+    }
+
+    fn read(&mut self, wanted: &[Wanted], at_most: usize) -> Result<Chunk, DataError> {
+        let rows = self.row..self.rows.min(self.row.saturating_add(at_most));
+        let texts = |column: usize| -> Vec<String> {
+            match self.columns[column] {
+                Column::Numbers(numbers) => numbers[rows.clone()].iter().map(|n| format!("{n:?}")).collect(),
+                Column::Texts(texts) => texts[rows.clone()].to_vec(),
+            }
+        };
+        let columns = wanted
+            .iter()
+            .map(|want| match want.form {
+                Form::Number(factor) => {
+                    let numbers = rows.clone().map(|row| Ok(self.number(want.column, row)? * factor));
+                    Ok(Cells::Numbers(numbers.collect::<Result<_, DataError>>()?))
+                }
+                Form::Label => Ok(Cells::Labels(texts(want.column))),
+                Form::Kept => Ok(Cells::Kept(Kept::Texts(texts(want.column)))),
+            })
+            .collect::<Result<_, DataError>>()?;
+        self.row = rows.end;
+        Ok(Chunk { columns, rows: (rows.start as u64 + 1..=rows.end as u64).collect() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NUMBERS: Wanted = Wanted { column: 0, form: Form::Number(2.0) };
+
+    #[test]
+    fn a_table_is_read_in_chunks_as_a_file_is() {
+        let names = ["Mars", "Moon", "Sun"].map(str::to_string);
+        let mut reader = Reader::new(
+            "frame",
+            [("az_deg", Column::Numbers(&[1.5, -4.0, 0.125])), ("name", Column::Texts(&names))],
+        )
+        .unwrap();
+        let wanted = [NUMBERS, Wanted { column: 1, form: Form::Label }];
+        let mut read = || reader.read(&wanted, 2).unwrap();
+        let labels = |labels: &[String]| Cells::Labels(labels.to_vec());
+        assert_eq!(
+            read(),
+            Chunk { columns: vec![Cells::Numbers(vec![3.0, -8.0]), labels(&names[..2])], rows: vec![1, 2] }
+        );
+        assert_eq!(
+            read(),
+            Chunk { columns: vec![Cells::Numbers(vec![0.25]), labels(&names[2..])], rows: vec![3] }
+        );
+        assert!(read().rows.is_empty());
+    }
+
+    #[test]
+    fn what_is_wrong_is_named_with_its_place() {
+        let texts = ["1.5", " ", "x", "inf"].map(str::to_string);
+        let message = |columns: &[(&str, Column<'_>)]| {
+            Reader::new("frame", columns.iter().copied())
+                .and_then(|mut reader| reader.read(&[NUMBERS], usize::MAX))
+                .map_err(|error| error.to_string())
+        };
+        insta::assert_debug_snapshot!([
+            message(&[]),
+            message(&[("az", Column::Numbers(&[])), ("az", Column::Numbers(&[]))]),
+            message(&[("az", Column::Numbers(&[1.0])), ("el", Column::Numbers(&[]))]),
+            message(&[("az", Column::Numbers(&[1.0, f64::NAN]))]),
+            message(&[("az", Column::Texts(&texts[..1]))]),
+            message(&[("az", Column::Texts(&texts[..2]))]),
+            message(&[("az", Column::Texts(&texts[2..3]))]),
+            message(&[("az", Column::Texts(&texts[3..]))]),
+        ]);
+    }
+}

@@ -1,0 +1,149 @@
+//! A calibration from a study to what is reported of it: what `calibrate` does, whoever asks for it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use calibration::calibrate::{Calibration, Request, Stage, calibrate_telling};
+use calibration::data::Observations;
+use calibration::study::{Loaded, OpenTable, Plan, Study};
+
+use crate::failure::Failure;
+use crate::report::{FileRead, Provenance, Reported};
+use crate::source::{self, Source};
+use crate::{date, sha256, tables, terminal};
+
+/// A study that was read, with the declaration that it names.
+pub struct Studied {
+    /// The study.
+    pub study: Source,
+    /// The declaration.
+    pub chain: Source,
+    /// The declaration's file, as the study names it.
+    pub chain_file: String,
+    /// What the study means.
+    pub plan: Plan,
+}
+
+/// A study with its data.
+pub struct Measured {
+    /// The study.
+    pub studied: Studied,
+    /// The data.
+    pub loaded: Loaded,
+}
+
+/// A calibration with everything that is reported of it.
+pub struct Calibrated {
+    /// What came of it.
+    pub calibration: Calibration,
+    studied: Studied,
+    observations: Observations,
+    provenance: Provenance,
+}
+
+impl Studied {
+    /// Resolves a study with the declaration that it names.
+    ///
+    /// # Errors
+    /// What is wrong with either, each with its place.
+    pub fn read(study: Source) -> Result<Self, Failure> {
+        let written = Study::from_text(&study.text).map_err(|mistakes| study.mistakes(&mistakes))?;
+        let chain_file = written.chain.get_ref().clone();
+        let chain = study.read_beside(Path::new(&chain_file))?;
+        Self::with(study, &written, chain_file, chain)
+    }
+
+    /// Resolves a study with a declaration that came from elsewhere than the file that it names.
+    ///
+    /// # Errors
+    /// What is wrong with either, each with its place.
+    pub fn of(study: Source, chain: Source) -> Result<Self, Failure> {
+        let written = Study::from_text(&study.text).map_err(|mistakes| study.mistakes(&mistakes))?;
+        Self::with(study, &written, chain.path.display().to_string(), chain)
+    }
+
+    fn with(study: Source, written: &Study, chain_file: String, chain: Source) -> Result<Self, Failure> {
+        let plan = written.plan(&chain.chain()?).map_err(|mistakes| study.mistakes(&mistakes))?;
+        Ok(Self { study, chain, chain_file, plan })
+    }
+
+    /// Every table that the study names, as it names them.
+    pub fn tables(&self) -> impl Iterator<Item = &str> {
+        let data = self.plan.sources.iter().flat_map(|source| &source.paths);
+        data.chain(&self.plan.hold_out.file).map(String::as_str)
+    }
+
+    /// Where the tables are, if they are files.
+    pub fn table_files(&self) -> Vec<PathBuf> {
+        self.tables().map(|path| self.study.beside(Path::new(path))).collect()
+    }
+
+    /// Reads the tables; warns of columns whose numbers are hardly in SI.
+    ///
+    /// # Errors
+    /// What is wrong with a table, with its place.
+    pub fn load(self, open: &mut OpenTable<'_>) -> Result<Measured, Failure> {
+        let loaded = self.plan.load_tables(open).map_err(tables::failure)?;
+        loaded.doubtful.iter().for_each(terminal::warn);
+        Ok(Measured { studied: self, loaded })
+    }
+
+    /// The study, the declaration and the data with their checksums. What is no file, a pipe or a table in memory, has been
+    /// read already.
+    fn files_read(&self) -> Result<Vec<FileRead>, Failure> {
+        let study = (self.study.path.display().to_string(), self.study.path.clone());
+        let chain = (self.chain_file.clone(), self.chain.path.clone());
+        let tables = self.tables().map(str::to_owned).zip(self.table_files());
+        let read = |(path, place): (String, PathBuf)| {
+            if !fs::metadata(&place).is_ok_and(|metadata| metadata.is_file()) {
+                return Ok(FileRead { path, sha256: None });
+            }
+            let bytes = fs::read(&place).map_err(|error| source::not_readable(&place, &error))?;
+            Ok(FileRead { path, sha256: Some(sha256::hex(&bytes)) })
+        };
+        [study, chain].into_iter().chain(tables).map(read).collect()
+    }
+}
+
+impl Measured {
+    /// Runs the loop; `command` says in the report how it was asked for, and `tell` hears of each stage.
+    ///
+    /// # Errors
+    /// The study asks for something that cannot be fitted.
+    pub fn calibrate(self, command: String, tell: &(dyn Fn(Stage) + Sync)) -> Result<Calibrated, Failure> {
+        let Self { studied, loaded: Loaded { observations, held_out, .. } } = self;
+        let date = date::today();
+        let request = Request {
+            text: &studied.chain.text,
+            plan: &studied.plan,
+            observations: &observations,
+            second: held_out.as_ref(),
+            when: &date,
+        };
+        let calibration =
+            calibrate_telling(request, tell).map_err(|error| Failure::Input(error.to_string()))?;
+        let provenance = Provenance {
+            version: env!("CARGO_PKG_VERSION"),
+            command,
+            date,
+            study: studied.study.text.clone(),
+            files: studied.files_read()?,
+        };
+        Ok(Calibrated { calibration, studied, observations, provenance })
+    }
+}
+
+impl Calibrated {
+    /// What is reported; `folder` is where the files go to, if they are written.
+    #[must_use]
+    pub fn reported<'a>(&'a self, folder: Option<&'a str>) -> Reported<'a> {
+        Reported {
+            calibration: &self.calibration,
+            observations: &self.observations,
+            chain_file: &self.studied.chain_file,
+            chain_text: &self.studied.chain.text,
+            folder,
+            provenance: &self.provenance,
+        }
+    }
+}

@@ -1,0 +1,303 @@
+//! The answers of the commands as values, for a program that has no command line: the Python package.
+//!
+//! Texts, names, units and words are those of the commands. What a command would warn of on standard error is returned by
+//! [`collecting`]. Answers for programs are JSON, with the keys of `--format json`.
+
+use std::path::Path;
+
+use calibration::formats::memory::Reader;
+use calibration::formats::{TableReader, open};
+use codegen::Form;
+use model_core::expr::Expr;
+use model_core::{Chain, ObservableId, forms, print, syntax};
+use serde_json::{Value, json};
+
+use crate::claims::{ClaimsFile, as_json};
+use crate::commands::{bound, budget, calibrate, check, derive, identify, simulate};
+use crate::evaluation::{self, Evaluator};
+use crate::ranges::{self, Range, RangeArgument};
+use crate::source::observables;
+use crate::tables::{self, ReadingsTable};
+use crate::{claims, errors_file, poses, report, terminal};
+
+pub use crate::calibrating::{Calibrated, Studied};
+pub use crate::evaluation::{Exactness, Quantity};
+pub use crate::failure::Failure;
+pub use crate::report::Cells;
+pub use crate::source::Source;
+pub use crate::terminal::collecting;
+pub use calibration::calibrate::Stage;
+pub use calibration::formats::memory::Column;
+
+/// An answer for reading, and the same for programs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Told {
+    /// For reading.
+    pub text: String,
+    /// For programs.
+    pub json: Value,
+}
+
+/// Reads a file of errors, a box of largest sizes, or the same text from elsewhere.
+///
+/// # Errors
+/// As the commands say of `--errors`.
+pub fn values(errors: &Source, chain: &Chain) -> Result<Vec<f64>, Failure> {
+    errors_file::values(errors, chain)
+}
+
+/// The observable of a name; without a name, the only one.
+///
+/// # Errors
+/// A name that the chain does not declare, or no name where it declares several.
+pub fn observable(chain: &Chain, name: Option<&str>) -> Result<ObservableId, Failure> {
+    let chosen = observables(chain, &name.map(str::to_owned).into_iter().collect::<Vec<_>>())?;
+    match chosen.as_slice() {
+        &[only] => Ok(only),
+        several => {
+            let names = several.iter().map(|&id| chain.observable(id).name.as_str());
+            let names = crate::source::listed(names);
+            Err(Failure::Input(format!("chain {} declares {names}: name one of them", chain.name)))
+        }
+    }
+}
+
+/// The joints and inputs that an observable depends on, in order of the chain.
+#[must_use]
+pub fn readings_of(chain: &Chain, observable: ObservableId) -> Vec<model_core::SymbolId> {
+    evaluation::readings_of(chain, observable)
+}
+
+/// What a form is called in code that is generated of it.
+#[must_use]
+pub fn form_name(form: Form) -> &'static str {
+    codegen::form_name(form)
+}
+
+/// The closed form of an observable's error, component by component.
+pub struct ClosedForm {
+    /// What it is, in words.
+    pub title: String,
+    /// The components in the plain syntax of amounts.
+    pub text: [String; 3],
+    /// The components in LaTeX, in printed symbols.
+    pub latex: [String; 3],
+    /// The components as trees, for other algebra systems.
+    pub trees: [Expr<std::ops::Range<usize>>; 3],
+}
+
+/// Derives a closed form: `order` 1, 2 or 3 in the errors.
+///
+/// # Errors
+/// Another order, or a form with more terms than can be held.
+pub fn closed_form(chain: &Chain, observable: ObservableId, order: u32) -> Result<ClosedForm, Failure> {
+    if !(1..=3).contains(&order) {
+        return Err(Failure::Input(format!("order {order}: closed forms are of order 1, 2 or 3")));
+    }
+    let form = forms::derive(chain, observable, order).map_err(|error| Failure::Input(error.to_string()))?;
+    let text = form.components.each_ref().map(|component| print::text(component, chain));
+    let latex = form.components.each_ref().map(|component| print::latex(component, chain));
+    let [x, y, z] = text.each_ref().map(|text| {
+        syntax::parse_amount(text).map_err(|mistakes| Failure::mistakes("the closed form", text, &mistakes))
+    });
+    Ok(ClosedForm { title: derive::title_of(chain, &form), trees: [x?, y?, z?], text, latex })
+}
+
+/// What no data can tell apart; as `identify`.
+///
+/// # Errors
+/// A name that the chain does not declare, or a candidate that cannot be read.
+pub fn identified(chain: &Chain, names: &[String], candidate: Option<&str>) -> Result<Told, Failure> {
+    let found = identify::identified(chain, names, candidate)?;
+    Ok(Told { text: found.texts.join("\n"), json: json!({ "identifiability": found.answers }) })
+}
+
+/// Ranges of joints and inputs by name, each as the command reads it behind the `=`: `-30 deg..60 deg`.
+///
+/// # Errors
+/// As the commands say of `--range`.
+pub fn ranges(chain: &Chain, given: &[(String, String)]) -> Result<Vec<Range>, Failure> {
+    let arguments = given
+        .iter()
+        .map(|(name, bounds)| {
+            format!("{name}={bounds}")
+                .parse()
+                .map_err(|why: &str| Failure::Input(format!("--range {name}={bounds}: {why}")))
+        })
+        .collect::<Result<Vec<RangeArgument>, _>>()?;
+    ranges::of_chain(chain, &arguments)
+}
+
+/// Proven bounds on what the first order leaves out; as `bound`.
+///
+/// # Errors
+/// As the command says.
+pub fn bounded(
+    chain: &Chain,
+    sizes: &Source,
+    names: &[String],
+    ranges: &[Range],
+    seed: u64,
+) -> Result<Told, Failure> {
+    let sizes = errors_file::largest_sizes(sizes, chain)?;
+    let answers = bound::bounds(chain, &sizes, ranges, names, seed)?;
+    let texts = answers.iter().map(|(bound, found)| model_core::remainder::text(bound, Some(found), chain));
+    let json: Vec<Value> = answers.iter().map(|(b, found)| bound::as_json(chain, b, found)).collect();
+    Ok(Told { text: texts.collect::<Vec<_>>().join("\n"), json: json!({ "bounds": json }) })
+}
+
+/// What each error does over a path, or over ranges; as `budget`.
+///
+/// # Errors
+/// As the command says.
+pub fn budgeted(
+    chain: &Chain,
+    sizes: &Source,
+    names: &[String],
+    path: Option<&str>,
+    ranges: &[Range],
+) -> Result<Told, Failure> {
+    use model_core::budget::Poses;
+    let sizes = errors_file::largest_sizes(sizes, chain)?;
+    let poses = match path {
+        Some(text) => Poses::Path(
+            poses::path(chain, text).map_err(|mistake| Source::of_text("--path", text).mistake(mistake))?,
+        ),
+        None => Poses::Ranges(poses::joint_ranges(ranges)),
+    };
+    let budgets = budget::measured(chain, &sizes, &poses, names)?;
+    let texts = budgets.iter().map(|one| plain(&budget::as_text(chain, one))).collect::<Vec<_>>();
+    let json: Vec<Value> = budgets.iter().map(|one| budget::as_json(chain, one, &poses)).collect();
+    Ok(Told { text: texts.join("\n"), json: json!({ "observables": json }) })
+}
+
+/// The verdicts on the claims of a file; as `check`.
+///
+/// # Errors
+/// As the command says.
+pub fn checked(claims: &Path) -> Result<Told, Failure> {
+    let file = ClaimsFile::read(claims)?;
+    let checked = check::checked(&file)?;
+    let json: Vec<Value> = checked.iter().map(|checked| as_json(&file, checked)).collect();
+    Ok(Told { text: plain(&claims::as_text(&file, &checked)), json: json!({ "claims": json }) })
+}
+
+/// Measured data that are made up; as `simulate`: names of columns, and the columns in SI.
+///
+/// # Errors
+/// As the command says.
+pub fn simulated(
+    chain: &Chain,
+    errors: &Source,
+    noise: &[String],
+    names: &[String],
+    ranges: &[Range],
+    (poses, seed): (usize, u64),
+) -> Result<Vec<(String, Vec<f64>)>, Failure> {
+    let values = errors_file::values(errors, chain)?;
+    let mut simulation = simulate::Simulation::new(chain, &values, noise, names, ranges, seed)?;
+    let columns = simulation.rows(poses)?;
+    Ok(simulation.header.into_iter().zip(columns).collect())
+}
+
+/// A table of a name in memory.
+///
+/// # Errors
+/// No columns, a name twice, or columns of different lengths.
+pub fn table<'a>(
+    name: &str,
+    columns: &[(&'a str, Column<'a>)],
+) -> Result<Box<dyn TableReader + 'a>, Failure> {
+    Ok(Box::new(Reader::new(name, columns.iter().copied()).map_err(tables::failure)?))
+}
+
+/// The observables over a table of readings, as `eval` and `apply` compute them: names of columns, and the columns in SI.
+///
+/// # Errors
+/// As the commands say of `--data` and `--observable`.
+pub fn evaluated(
+    chain: &Chain,
+    errors: &Source,
+    reader: Box<dyn TableReader + '_>,
+    names: &[String],
+    (form, quantity): (Exactness, Quantity),
+) -> Result<Vec<(String, Vec<f64>)>, Failure> {
+    let values = errors_file::values(errors, chain)?;
+    let mut table = ReadingsTable::of(reader, chain);
+    let chosen = table.with_readings(chain, names)?;
+    let mut evaluator = Evaluator::new(chain, chosen, form, quantity, &values);
+    table.want(chain, &evaluator.readings)?;
+    let header = evaluation::column_names(chain, &evaluator.observables)?;
+    let mut columns = vec![Vec::new(); header.len()];
+    while let Some(rows) = table.next()? {
+        let readings: Vec<_> = rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
+        let computed = evaluator.columns(&readings, rows.count)?;
+        columns.iter_mut().zip(computed).for_each(|(column, more)| column.extend(more));
+    }
+    table.doubtful().for_each(terminal::warn);
+    Ok(header.into_iter().zip(columns).collect())
+}
+
+/// Reads a study's tables, from memory where `in_memory` has one of that name and else from the files, and calibrates.
+/// `command` says in the report how it was asked for, and `tell` hears of each stage.
+///
+/// # Errors
+/// As `calibrate` says.
+pub fn calibrated(
+    studied: Studied,
+    in_memory: &[(&str, Vec<(&str, Column<'_>)>)],
+    command: String,
+    tell: &(dyn Fn(Stage) + Sync),
+) -> Result<Calibrated, Failure> {
+    let study = studied.study.clone();
+    let measured =
+        studied.load(&mut |path, options| match in_memory.iter().find(|(name, _)| *name == path) {
+            Some((name, columns)) => Ok(Box::new(Reader::new(name, columns.iter().copied())?)),
+            None => open(calibrate::open_beside(&study, path)?, path, options),
+        })?;
+    measured.calibrate(command, tell)
+}
+
+/// A calibration as the terminal shows it, without its colours.
+#[must_use]
+pub fn text(calibrated: &Calibrated, is_verbose: bool) -> String {
+    let layout = report::Layout { width: 100, verbose: is_verbose };
+    plain(&report::as_text(&calibrated.reported(None), layout))
+}
+
+/// `report.json`.
+///
+/// # Errors
+/// A number in it is none.
+pub fn report_json(calibrated: &Calibrated) -> Result<String, Failure> {
+    report::json(&calibrated.reported(None))
+}
+
+/// `report.html`; or only its first screen and its pictures.
+#[must_use]
+pub fn report_html(calibrated: &Calibrated, is_whole: bool) -> String {
+    let reported = calibrated.reported(None);
+    if is_whole { report::page(&reported) } else { report::excerpt(&reported) }
+}
+
+/// `residuals.csv`, as columns.
+///
+/// # Errors
+/// Whatever `visit` refuses.
+pub fn residuals<T>(calibrated: &Calibrated, visit: impl FnOnce(Vec<(String, Cells<'_>)>) -> T) -> T {
+    visit(report::table(&calibrated.reported(None)))
+}
+
+/// Writes every file of a calibration into a folder; they appear together, or not at all.
+///
+/// # Errors
+/// The folder or a file cannot be written.
+pub fn write(calibrated: &Calibrated, folder: &Path) -> Result<(), Failure> {
+    let name = folder.display().to_string();
+    report::write_all(&calibrated.reported(Some(&name)), folder)
+}
+
+/// A text without the colours of a terminal.
+fn plain(text: &str) -> String {
+    anstream::adapter::strip_str(text).to_string()
+}

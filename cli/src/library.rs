@@ -9,7 +9,7 @@ use calibration::formats::memory::Reader;
 use calibration::formats::{TableReader, open};
 use codegen::Form;
 use model_core::expr::Expr;
-use model_core::{Chain, ObservableId, forms, print, syntax};
+use model_core::{Chain, ObservableId, SymbolKind, forms, print, syntax};
 use serde_json::{Value, json};
 
 use crate::claims::{ClaimsFile, as_json};
@@ -273,6 +273,28 @@ pub fn report_json(calibrated: &Calibrated) -> Result<String, Failure> {
     report::json(&calibrated.reported(None))
 }
 
+/// `errors.toml`, if a usable model came out.
+#[must_use]
+pub fn errors_toml(calibrated: &Calibrated) -> Option<String> {
+    report::errors(&calibrated.reported(None))
+}
+
+/// The values of every error of the amended chain, and of constants that were fitted, in SI, if a usable model came out.
+#[must_use]
+pub fn estimates(calibrated: &Calibrated) -> Option<Vec<(String, f64)>> {
+    let calibration = &calibrated.calibration;
+    calibration.amended.as_ref()?;
+    let chain = &calibration.chain;
+    let nominal = chain.nominal_values();
+    let values = chain.symbols.iter().zip(&calibration.after.values).zip(nominal);
+    let told = values.filter(|((symbol, value), nominal)| match symbol.kind {
+        SymbolKind::Error => true,
+        SymbolKind::Constant => *value != nominal,
+        _ => false,
+    });
+    Some(told.map(|((symbol, &value), _)| (symbol.name.clone(), value)).collect())
+}
+
 /// `report.html`; or only its first screen and its pictures.
 #[must_use]
 pub fn report_html(calibrated: &Calibrated, is_whole: bool) -> String {
@@ -280,10 +302,7 @@ pub fn report_html(calibrated: &Calibrated, is_whole: bool) -> String {
     if is_whole { report::page(&reported) } else { report::excerpt(&reported) }
 }
 
-/// `residuals.csv`, as columns.
-///
-/// # Errors
-/// Whatever `visit` refuses.
+/// `residuals.csv`, as columns that `visit` sees.
 pub fn residuals<T>(calibrated: &Calibrated, visit: impl FnOnce(Vec<(String, Cells<'_>)>) -> T) -> T {
     visit(report::table(&calibrated.reported(None)))
 }

@@ -29,10 +29,7 @@ pub fn write_all(reported: &Reported<'_>, folder: &Path) -> Result<(), Failure> 
     let mut files = Folder::new(folder)?;
     files.write_text("report.json", &json(reported)?)?;
     let calibration = reported.calibration;
-    for (name, text) in [
-        ("amended.chain", calibration.amended.clone()),
-        ("errors.toml", calibration.amended.as_ref().map(|_| errors(reported))),
-    ] {
+    for (name, text) in [("amended.chain", calibration.amended.clone()), ("errors.toml", errors(reported))] {
         match text {
             Some(text) => files.write_text(name, &text)?,
             None if folder.join(name).exists() => {
@@ -46,10 +43,13 @@ pub fn write_all(reported: &Reported<'_>, folder: &Path) -> Result<(), Failure> 
     files.finish()
 }
 
-fn errors(reported: &Reported<'_>) -> String {
+/// `errors.toml`, where a usable model came out.
+#[must_use]
+pub fn errors(reported: &Reported<'_>) -> Option<String> {
     let calibration = reported.calibration;
+    calibration.amended.as_ref()?;
     let date = &reported.provenance.date;
-    errors_toml(&calibration.diagnosis.errors, &calibration.chain, &calibration.after.values, date)
+    Some(errors_toml(&calibration.diagnosis.errors, &calibration.chain, &calibration.after.values, date))
 }
 
 /// `report.json`: the diagnosis, and what it was made with.

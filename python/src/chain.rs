@@ -1,0 +1,360 @@
+//! A declared chain: its symbols, its forms as numbers over arrays, and what follows from it exactly.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use codegen::{Form, Program, build};
+use model_core::{ObservableId, ObservableKind, SymbolId, SymbolKind, names};
+use numpy::{PyArray, PyArrayMethods as _, PyReadwriteArray, PyUntypedArrayMethods as _, ndarray::IxDyn};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use trueaxis_cli::library::{self, Exactness, Failure, Quantity, Source, Told};
+
+use crate::formula::ClosedForm;
+use crate::tables::Table;
+use crate::{arrays, errors, rows};
+
+/// Names of columns and the columns, as Python gets them.
+pub type Columns = Vec<(String, Py<PyArray<f64, numpy::ndarray::Ix1>>)>;
+
+/// A text with the name that mistakes in it are shown with: `(name, text)`.
+type Text = (String, String);
+
+fn source((name, text): Text) -> Source {
+    Source::of_text(name, &text)
+}
+
+/// Numbers as NumPy holds them.
+pub fn as_arrays(py: Python<'_>, columns: Vec<(String, Vec<f64>)>) -> Columns {
+    columns.into_iter().map(|(name, column)| (name, PyArray::from_vec(py, column).unbind())).collect()
+}
+
+/// An answer for reading and, as JSON, for programs.
+pub fn told(told: Told) -> (String, String) {
+    (told.text, told.json.to_string())
+}
+
+/// A declared chain.
+#[pyclass(frozen, module = "trueaxis._native")]
+pub struct Chain {
+    source: Source,
+    chain: model_core::Chain,
+    programs: Mutex<BTreeMap<(ObservableId, Form, Vec<SymbolId>), Arc<Program>>>,
+}
+
+impl Chain {
+    fn new(py: Python<'_>, read: impl FnOnce() -> Result<Source, Failure> + Send) -> PyResult<Self> {
+        let (source, chain) = errors::run(py, || {
+            let source = read()?;
+            let chain = source.chain()?;
+            Ok((source, chain))
+        })?;
+        Ok(Self { source, chain, programs: Mutex::default() })
+    }
+
+    /// The text that it was read from.
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
+    /// The program of a form, built once.
+    fn program(&self, observable: ObservableId, form: Form, wrt: &[SymbolId]) -> Arc<Program> {
+        let key = (observable, form, wrt.to_vec());
+        // A thread that panicked while it held the lock left whole entries.
+        let programs = || self.programs.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(program) = programs().get(&key) {
+            return Arc::clone(program);
+        }
+        // Built without the lock: two threads may build the same, and keep one.
+        let program = Arc::new(build(&self.chain, &[observable], form, wrt));
+        Arc::clone(programs().entry(key).or_insert(program))
+    }
+
+    /// A symbol of some kinds by its name.
+    fn symbol(&self, name: &str, kinds: &[SymbolKind], what: &str) -> Result<SymbolId, Failure> {
+        let declared = || kinds.iter().flat_map(|&kind| self.chain.symbols_of(kind));
+        if let Some(id) = declared().find(|&id| self.chain.symbol(id).name == name) {
+            return Ok(id);
+        }
+        let declared = || declared().map(|id| self.chain.symbol(id).name.as_str());
+        let instead = match names::nearest(name, declared()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => {
+                let all: Vec<String> = declared().map(|name| format!("`{name}`")).collect();
+                format!("it has {}", all.join(", "))
+            }
+        };
+        Err(Failure::Input(format!("chain {} has no {what} `{name}`; {instead}", self.chain.name)))
+    }
+}
+
+/// Which form is evaluated, by its name.
+fn form_of(name: &str) -> PyResult<Form> {
+    Ok(match name {
+        "exact error" => Form::ExactError,
+        "exact value" => Form::ExactValue,
+        "first-order error" => Form::FirstOrderError,
+        "exact jacobian" => Form::ExactJacobian,
+        "first-order jacobian" => Form::FirstOrderJacobian,
+        _ => return Err(PyValueError::new_err(format!("there is no form `{name}`"))),
+    })
+}
+
+#[pymethods]
+impl Chain {
+    /// Reads a declaration from a text.
+    #[staticmethod]
+    fn from_text(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
+        let source = Source::of_text(name, text);
+        Self::new(py, || Ok(source))
+    }
+
+    /// Reads a declaration from a file.
+    #[staticmethod]
+    fn from_file(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        Self::new(py, || Source::read(&path))
+    }
+
+    /// The chain's name.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.chain.name
+    }
+
+    /// The declaration as written.
+    #[getter]
+    fn text(&self) -> &str {
+        &self.source.text
+    }
+
+    /// Where the declaration came from.
+    #[getter]
+    fn origin(&self) -> String {
+        self.source.path.display().to_string()
+    }
+
+    /// `(name, kind, unit)` of every declared symbol, in order.
+    #[getter]
+    fn symbols(&self) -> Vec<(&str, &'static str, &'static str)> {
+        let kinds = [
+            (SymbolKind::Joint, "joint"),
+            (SymbolKind::Input, "input"),
+            (SymbolKind::Error, "error"),
+            (SymbolKind::Constant, "constant"),
+        ];
+        kinds
+            .into_iter()
+            .flat_map(|(kind, word)| self.chain.symbols_of(kind).map(move |id| (id, word)))
+            .map(|(id, word)| {
+                let symbol = self.chain.symbol(id);
+                (symbol.name.as_str(), word, symbol.quantity.unit())
+            })
+            .collect()
+    }
+
+    /// `(name, kind, readings that it needs)` of every observable, in order.
+    #[getter]
+    fn observables(&self) -> Vec<(&str, &'static str, Vec<&str>)> {
+        (0u16..)
+            .map(ObservableId)
+            .zip(&self.chain.observables)
+            .map(|(id, observable)| {
+                let kind = match observable.kind {
+                    ObservableKind::Direction => "direction",
+                    ObservableKind::Point => "point",
+                };
+                let readings = library::readings_of(&self.chain, id);
+                let readings = readings.into_iter().map(|id| self.chain.symbol(id).name.as_str()).collect();
+                (observable.name.as_str(), kind, readings)
+            })
+            .collect()
+    }
+
+    /// Evaluates a form over columns of readings; the result has the shape `(3, rows)`, or `(3, wrt, rows)`.
+    #[pyo3(signature = (form, observable, readings, constants, errors, wrt, out, threads))]
+    #[expect(clippy::too_many_arguments, reason = "the Python package names them all")]
+    fn evaluate<'py>(
+        &self,
+        py: Python<'py>,
+        form: &str,
+        observable: Option<&str>,
+        readings: Vec<(String, Bound<'py, PyAny>)>,
+        constants: Vec<(String, f64)>,
+        errors: Text,
+        wrt: Vec<String>,
+        out: Option<Bound<'py, PyAny>>,
+        threads: Option<usize>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let form = form_of(form)?;
+        let chain = &self.chain;
+        let named = |name: &str| self.symbol(name, &[SymbolKind::Joint, SymbolKind::Input], "joint or input");
+        let fails = |failure: Failure| crate::errors::exception(py, &failure);
+        let observable = library::observable(chain, observable).map_err(fails)?;
+        let needed = library::readings_of(chain, observable);
+
+        let mut columns = Vec::new();
+        for (name, column) in &readings {
+            let id = named(name).map_err(fails)?;
+            columns.push((id, name, arrays::column(name, column)?));
+        }
+        let rows = columns.first().map_or(1, |(.., column)| column.len());
+        let longer = columns.iter().find(|(.., column)| column.len() != rows);
+        if let (Some((_, first, _)), Some((_, name, column))) = (columns.first(), longer) {
+            let found = column.len();
+            return Err(PyValueError::new_err(format!("`{name}` has {found} rows, `{first}` has {rows}")));
+        }
+        let errors = source(errors);
+        let mut values = crate::errors::run(py, || library::values(&errors, chain))?;
+        let mut given: Vec<SymbolId> = columns.iter().map(|&(id, ..)| id).collect();
+        for (name, value) in constants {
+            let id = named(&name).map_err(fails)?;
+            values[id.index()] = value;
+            given.push(id);
+        }
+        if let Some(&missing) = needed.iter().find(|id| !given.contains(id)) {
+            let (shown, missing) = (&chain.observable(observable).name, &chain.symbol(missing).name);
+            return Err(fails(Failure::Input(format!("`{shown}` needs readings of `{missing}`: give them"))));
+        }
+        let wrt: Vec<SymbolId> = wrt
+            .iter()
+            .map(|name| self.symbol(name, &[SymbolKind::Error, SymbolKind::Constant], "error"))
+            .collect::<Result<_, _>>()
+            .map_err(fails)?;
+
+        let shape = if form.is_jacobian() { vec![3, wrt.len(), rows] } else { vec![3, rows] };
+        let array = match &out {
+            Some(out) => taken(out, &shape)?,
+            None => PyArray::<f64, _>::zeros(py, IxDyn(&shape), false),
+        };
+        let mut writable: PyReadwriteArray<'_, f64, IxDyn> = array.try_readwrite().map_err(|error| {
+            PyValueError::new_err(format!("`out`: {error}: it must be writable, and none of the readings"))
+        })?;
+        let slices = columns
+            .iter()
+            .filter(|(id, ..)| needed.contains(id))
+            .map(|(id, _, column)| Ok((*id, column.as_slice()?)))
+            .collect::<PyResult<Vec<(SymbolId, &[f64])>>>()?;
+        let into = writable.as_slice_mut()?;
+        py.detach(|| {
+            let program = self.program(observable, form, &wrt);
+            rows::evaluate(&program, &slices, &values, into, rows, threads)
+        })
+        .map_err(|error| PyValueError::new_err(error.to_string()))?;
+        drop(writable);
+        Ok(array.into_any())
+    }
+
+    /// The closed form of an observable's error.
+    fn closed_form(&self, py: Python<'_>, observable: Option<&str>, order: u32) -> PyResult<ClosedForm> {
+        errors::run(py, || {
+            let observable = library::observable(&self.chain, observable)?;
+            library::closed_form(&self.chain, observable, order).map(ClosedForm::from)
+        })
+    }
+
+    /// What no data can tell apart.
+    fn identify(
+        &self,
+        py: Python<'_>,
+        observables: Vec<String>,
+        candidate: Option<&str>,
+    ) -> PyResult<(String, String)> {
+        errors::run(py, || library::identified(&self.chain, &observables, candidate)).map(told)
+    }
+
+    /// Proven bounds on what the first order leaves out.
+    fn bound(
+        &self,
+        py: Python<'_>,
+        sizes: Text,
+        observables: Vec<String>,
+        ranges: Vec<(String, String)>,
+        seed: u64,
+    ) -> PyResult<(String, String)> {
+        errors::run(py, || {
+            let ranges = library::ranges(&self.chain, &ranges)?;
+            library::bounded(&self.chain, &source(sizes), &observables, &ranges, seed)
+        })
+        .map(told)
+    }
+
+    /// What each error does.
+    fn budget(
+        &self,
+        py: Python<'_>,
+        sizes: Text,
+        observables: Vec<String>,
+        path: Option<&str>,
+        ranges: Vec<(String, String)>,
+    ) -> PyResult<(String, String)> {
+        errors::run(py, || {
+            let ranges = library::ranges(&self.chain, &ranges)?;
+            library::budgeted(&self.chain, &source(sizes), &observables, path, &ranges)
+        })
+        .map(told)
+    }
+
+    /// Measured data that are made up.
+    #[expect(clippy::too_many_arguments, reason = "the Python package names them all")]
+    fn simulate(
+        &self,
+        py: Python<'_>,
+        values: Text,
+        poses: u32,
+        noise: Vec<String>,
+        seed: u64,
+        ranges: Vec<(String, String)>,
+        observables: Vec<String>,
+    ) -> PyResult<Columns> {
+        let columns = errors::run(py, || {
+            let ranges = library::ranges(&self.chain, &ranges)?;
+            let size = (poses as usize, seed);
+            library::simulated(&self.chain, &source(values), &noise, &observables, &ranges, size)
+        })?;
+        Ok(as_arrays(py, columns))
+    }
+
+    /// Observables over a table of readings.
+    fn over_table(
+        &self,
+        py: Python<'_>,
+        table: (String, Vec<(String, Bound<'_, PyAny>)>),
+        values: Text,
+        observables: Vec<String>,
+        is_exact: bool,
+        is_value: bool,
+    ) -> PyResult<Columns> {
+        let (name, columns) = table;
+        let table = Table::of(columns)?;
+        let columns = table.columns()?;
+        let form = if is_exact { Exactness::Exact } else { Exactness::FirstOrder };
+        let quantity = if is_value { Quantity::Value } else { Quantity::Error };
+        let computed = errors::run(py, || {
+            let table = library::table(&name, &columns)?;
+            library::evaluated(&self.chain, &source(values), table, &observables, (form, quantity))
+        })?;
+        Ok(as_arrays(py, computed))
+    }
+}
+
+/// The verdicts on the claims of a file.
+#[pyfunction]
+pub fn check(py: Python<'_>, claims: PathBuf) -> PyResult<(String, String)> {
+    errors::run(py, || library::checked(&claims)).map(told)
+}
+
+/// The array that somebody gave for the result.
+fn taken<'py>(given: &Bound<'py, PyAny>, shape: &[usize]) -> PyResult<Bound<'py, PyArray<f64, IxDyn>>> {
+    let array = given
+        .cast::<PyArray<f64, IxDyn>>()
+        .ok()
+        .filter(|array| array.shape() == shape && array.is_c_contiguous());
+    let Some(array) = array else {
+        return Err(PyTypeError::new_err(format!(
+            "`out`: a contiguous NumPy array of float64 with the shape {shape:?} is needed; write \
+             numpy.empty({shape:?})"
+        )));
+    };
+    Ok(array.clone())
+}

@@ -1,0 +1,29 @@
+//! The native part of the Python package: chains, arrays and calibrations. What Python says better is in `trueaxis/`.
+
+mod arrays;
+mod calibration;
+mod chain;
+mod errors;
+mod formula;
+mod rows;
+mod tables;
+
+use pyo3::prelude::*;
+
+/// What `trueaxis` is made of; use `trueaxis` itself.
+#[pymodule]
+mod _native {
+    #[pymodule_export]
+    use super::calibration::{Calibration, Study, calibrate};
+    #[pymodule_export]
+    use super::chain::{Chain, check};
+    #[pymodule_export]
+    use super::formula::ClosedForm;
+
+    use super::*;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

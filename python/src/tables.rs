@@ -1,0 +1,46 @@
+//! Tables of data frames: named columns, numbers as they lie in memory and texts copied.
+
+use numpy::{PyArrayMethods as _, PyReadonlyArray1};
+use pyo3::prelude::*;
+use trueaxis_cli::library::Column;
+
+use crate::arrays;
+
+/// One column as Python handed it over.
+enum Held<'py> {
+    Numbers(PyReadonlyArray1<'py, f64>),
+    Texts(Vec<String>),
+}
+
+/// A table as Python handed it over: `[(name, array of float64 or list of str)]`.
+pub struct Table<'py> {
+    columns: Vec<(String, Held<'py>)>,
+}
+
+impl<'py> Table<'py> {
+    /// Takes the columns over.
+    pub fn of(given: Vec<(String, Bound<'py, PyAny>)>) -> PyResult<Self> {
+        let held = |(name, column): (String, Bound<'py, PyAny>)| {
+            let held = match column.extract::<Vec<String>>() {
+                Ok(texts) => Held::Texts(texts),
+                Err(_) => Held::Numbers(arrays::column(&name, &column)?),
+            };
+            Ok((name, held))
+        };
+        Ok(Self { columns: given.into_iter().map(held).collect::<PyResult<_>>()? })
+    }
+
+    /// The columns as the library reads them.
+    pub fn columns(&self) -> PyResult<Vec<(&str, Column<'_>)>> {
+        self.columns
+            .iter()
+            .map(|(name, held)| {
+                let column = match held {
+                    Held::Numbers(array) => Column::Numbers(array.as_slice()?),
+                    Held::Texts(texts) => Column::Texts(texts),
+                };
+                Ok((name.as_str(), column))
+            })
+            .collect()
+    }
+}

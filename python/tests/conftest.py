@@ -1,0 +1,42 @@
+"""Paths and declarations that several tests use."""
+
+from pathlib import Path
+
+import pytest
+
+import trueaxis
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+
+MOUNT = """
+/// An alt-azimuth mount.
+chain Mount {
+    body azimuth_axis on ground {
+        position_error: Rx(tilt_x), Ry(tilt_y);
+        motion:         Rz(-azimuth);
+        motion_error:   Rz(azimuth_index);
+    }
+    body elevation_axis on azimuth_axis {
+        position_error: Ry(nonperpendicularity);
+        motion:         Rx(elevation);
+        motion_error:   Rx(elevation_index);
+    }
+    body telescope on elevation_axis { position_error: Rz(collimation); }
+    observe pointing: direction(0, 1, 0) of telescope;
+}
+"""
+
+
+@pytest.fixture
+def examples():
+    return EXAMPLES
+
+
+@pytest.fixture
+def mount():
+    return trueaxis.Chain.from_text(MOUNT, "mount.chain")
+
+
+@pytest.fixture
+def scanner():
+    return trueaxis.Chain.from_file(EXAMPLES / "mobile-lidar" / "mobile-lidar.chain")

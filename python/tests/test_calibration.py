@@ -1,0 +1,143 @@
+"""Calibrations: of the example's study, and of tables in memory."""
+
+import json
+
+import numpy as np
+import pandas
+import polars
+import pytest
+
+import trueaxis
+
+ARCSEC = np.pi / 180 / 3600
+STUDY = """
+chain = "mount.chain"
+data = "table"
+[observed]
+kind = "direction"
+x = "pointing_x"
+y = "pointing_y"
+z = "pointing_z"
+[noise]
+sigma = "2 arcsec"
+[search]
+effects = []
+[hold_out]
+folds = 3
+seed = 1
+"""
+TRUE = {"collimation": 30 * ARCSEC, "tilt_x": 20 * ARCSEC, "tilt_y": -15 * ARCSEC, "elevation_index": 40 * ARCSEC}
+
+
+@pytest.fixture(scope="module")
+def example(tmp_path_factory):
+    from conftest import EXAMPLES
+
+    stages = []
+    calibration = trueaxis.calibrate(EXAMPLES / "mobile-lidar" / "study.toml", progress=stages.append)
+    assert stages
+    return calibration
+
+
+def test_the_main_job(example):
+    assert example.verdict in ("explained", "confounded")
+    assert example.effects.rows >= 1 and "beta" in example.effects["driver"]
+    assert example.errors.rows == 30 and example.errors["value"].dtype == np.float64
+    assert example.errors.to_pandas().shape == (30, 5)
+    assert example.report["schema"] == 2
+    assert example.chain is not None and len(example.chain.errors) > 30
+    assert set(example.values) >= set(example.chain.errors)
+    assert example.residuals.rows == example.report["observations"]["rows"]
+    assert "Calibration" not in example.text() and example.text() == repr(example) and "\x1b" not in example.text()
+    assert len(example.text(verbose=True)) > len(example.text())
+
+
+def test_a_notebook_shows_the_first_screen_and_the_pictures(example):
+    shown = example._repr_html_()
+    assert shown.startswith("<iframe") and "http-equiv" not in shown
+    page = example.html(whole=False)
+    assert page.count("<svg") >= 3 and 'id="answer"' in page and 'id="values"' not in page
+    assert 'id="values"' in example.html()
+
+
+def test_the_files_are_those_of_the_command(example, tmp_path):
+    example.write(tmp_path / "result")
+    names = {path.name for path in (tmp_path / "result").iterdir()}
+    assert names == {"report.html", "report.json", "amended.chain", "errors.toml", "residuals.csv"}
+    report = json.loads((tmp_path / "result" / "report.json").read_text())
+    assert report == example.report
+    assert (tmp_path / "result" / "amended.chain").read_text() == example.amended
+    again = trueaxis.Chain.from_file(tmp_path / "result" / "amended.chain")
+    readings = {name: 0.3 for name in again.joints}
+    np.testing.assert_allclose(
+        again.exact(readings, tmp_path / "result" / "errors.toml", "pointing"),
+        example.chain.exact(readings, example.values, "pointing"),
+        atol=1e-9,
+    )
+
+
+@pytest.fixture
+def table(mount):
+    return mount.simulate(TRUE, poses=300, noise="2 arcsec", seed=4, ranges={"elevation": ("10 deg", "80 deg")})
+
+
+@pytest.mark.parametrize("kind", ["pandas", "polars", "arrow", "dictionary"])
+def test_tables_of_every_library(mount, table, kind):
+    data = {"pandas": table.to_pandas, "polars": table.to_polars, "arrow": table.to_arrow, "dictionary": lambda: dict(table)}[kind]()
+    calibration = trueaxis.calibrate("study.toml", data, text=STUDY, chain=mount)
+    rows = dict(zip(calibration.errors["name"], zip(calibration.errors["value"], calibration.errors["standard_uncertainty"])))
+    for name, value in TRUE.items():
+        found, uncertainty = rows[name]
+        assert abs(found - value) < 5 * uncertainty < 10 * ARCSEC
+    corrected = calibration.apply(data)
+    assert isinstance(corrected, trueaxis.Table if kind == "dictionary" else type(data))
+
+
+def test_tables_by_name_and_files_beside(mount, table, tmp_path):
+    (tmp_path / "mount.chain").write_text(mount.text)
+    (tmp_path / "study.toml").write_text(STUDY.replace('"table"', '["a.csv", "b.csv"]'))
+    frame = table.to_pandas()
+    frame[150:].to_csv(tmp_path / "b.csv", index=False)
+    calibration = trueaxis.calibrate(tmp_path / "study.toml", {"a.csv": frame[:150]})
+    whole = trueaxis.calibrate("study.toml", frame, text=STUDY, chain=mount)
+    np.testing.assert_allclose(calibration.errors["value"], whole.errors["value"], rtol=1e-9)
+    for data, words in [(frame, "give a dictionary from each name"), ({"c.csv": frame}, "names no table `c.csv`")]:
+        with pytest.raises(trueaxis.TrueaxisError, match=words):
+            trueaxis.calibrate(tmp_path / "study.toml", data)
+    with pytest.raises(trueaxis.TrueaxisError, match="a.csv.*no such file"):
+        trueaxis.calibrate(tmp_path / "study.toml")
+
+
+def test_what_is_wrong_is_named_with_its_place(mount, table):
+    calibrate = lambda data, text=STUDY: trueaxis.calibrate("study.toml", data, text=text, chain=mount)
+    frame = table.to_pandas()
+    frame.loc[7, "pointing_x"] = np.nan
+    with pytest.raises(trueaxis.TrueaxisError, match="table: row 8, column `pointing_x`: `NaN` is not finite"):
+        calibrate(frame)
+    with pytest.raises(trueaxis.TrueaxisError, match="no column `pointing_y`"):
+        calibrate(polars.DataFrame({name: table[name] for name in table if name != "pointing_y"}))
+    with pytest.raises(trueaxis.TrueaxisError, match="no unit vector"):
+        calibrate({**table, "pointing_x": table["pointing_x"] + 1})
+    with pytest.raises(trueaxis.TrueaxisError, match="no rows"):
+        calibrate({name: [] for name in table})
+    with pytest.raises(trueaxis.MistakeError, match="study.toml:2") as raised:
+        calibrate(table, STUDY.replace("chain =", "chian ="))
+    assert raised.value.mistakes
+    with pytest.raises(TypeError, match="a table is needed"):
+        calibrate(3)
+
+
+def test_too_few_observations_are_an_outcome(mount, table):
+    few = {name: column[:2] for name, column in table.items()}
+    calibration = trueaxis.calibrate("study.toml", few, text=STUDY, chain=mount)
+    assert calibration.verdict == "too few observations" and calibration.amended is None
+    assert calibration.chain is None and calibration.values is None and "<iframe" in calibration._repr_html_()
+    with pytest.raises(trueaxis.TrueaxisError, match="no usable model"):
+        calibration.apply(few)
+
+
+def test_groups_are_texts(mount, table):
+    days = [f"day {row // 30}" for row in range(300)]
+    text = STUDY.replace('[noise]', '[noise]\ngroup = "day"')
+    calibration = trueaxis.calibrate("study.toml", pandas.DataFrame({**table, "day": days}), text=text, chain=mount)
+    assert calibration.verdict

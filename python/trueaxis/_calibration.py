@@ -1,0 +1,156 @@
+"""Calibrations: a study in, what came of it out, as values, tables and a page."""
+
+from __future__ import annotations
+
+import html
+import json
+import os
+from collections.abc import Callable, Mapping
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from . import _native
+from ._chain import Chain
+from ._tables import Table, columns_of
+
+
+class Calibration:
+    """What came of a study. A notebook shows the first screen of its report, with the pictures."""
+
+    def __init__(self, native: _native.Calibration):
+        self._native = native
+
+    @cached_property
+    def report(self) -> dict[str, Any]:
+        """The whole report, with the keys of ``report.json``."""
+        return json.loads(self._native.report())
+
+    @property
+    def verdict(self) -> str:
+        """``explained``, ``confounded``, ``structure remains``, …"""
+        return self.report["verdict"]
+
+    @cached_property
+    def errors(self) -> Table:
+        """A row an error: ``name``, ``value``, ``standard_uncertainty``, ``unit``, ``separable``."""
+        keys = ["name", "value", "standard_uncertainty", "unit", "separable"]
+        return _table(self.report["errors"], keys)
+
+    @cached_property
+    def effects(self) -> Table:
+        """A row an effect that was found: ``text``, ``body``, ``dof``, ``driver``, ``form``, ``names``, ``p_value``."""
+        keys = ["text", "body", "dof", "driver", "form", "names", "p_value"]
+        effects = [{**effect, "names": "; ".join(effect["names"])} for effect in self.report["effects"]]
+        return _table(effects, keys)
+
+    @cached_property
+    def residuals(self) -> Table:
+        """A row an observation: its number, the readings, the residual before and after, in SI, and its weight."""
+        return Table(dict(self._native.residuals()))
+
+    @property
+    def amended(self) -> str | None:
+        """The declaration with what was found, or none where no usable model came out."""
+        return self._native.amended
+
+    @cached_property
+    def chain(self) -> Chain | None:
+        """The amended declaration, read."""
+        return None if self.amended is None else Chain.from_text(self.amended, "amended.chain")
+
+    @property
+    def errors_toml(self) -> str | None:
+        """The estimates as a file of errors for ``chain``."""
+        return self._native.errors_toml
+
+    @property
+    def values(self) -> dict[str, float] | None:
+        """The estimates of errors, and of constants that were fitted, by name, in SI: ``errors`` of the methods of
+        ``chain``; none where no usable model came out."""
+        values = self._native.values
+        return None if values is None else dict(values)
+
+    def apply(self, table: Any) -> Any:
+        """New readings corrected with this calibration, as :meth:`Chain.apply` does."""
+        from ._errors import TrueaxisError
+
+        if self.chain is None or self.values is None:
+            raise TrueaxisError(f"no usable model came out ({self.verdict}): there is nothing to apply")
+        return self.chain.apply(table, self.values)
+
+    def text(self, *, verbose: bool = False) -> str:
+        """The summary as the command prints it."""
+        return self._native.text(verbose)
+
+    def html(self, *, whole: bool = True) -> str:
+        """``report.html``; or only its first screen and its pictures."""
+        return self._native.html(whole)
+
+    def write(self, folder: str | os.PathLike[str]) -> None:
+        """Writes every file of the command's ``--out``; they appear together, or not at all."""
+        self._native.write(os.fspath(folder))
+
+    def __repr__(self) -> str:
+        return self.text()
+
+    def _repr_html_(self) -> str:
+        page = html.escape(self.html(whole=False), quote=True)
+        # A page of its own: its style does not touch the notebook's, nor the notebook's it.
+        return (
+            f'<iframe title="Calibration" sandbox="allow-scripts" srcdoc="{page}" '
+            'style="width:100%;height:60em;border:0"></iframe>'
+        )
+
+
+def _table(rows: list[dict[str, Any]], keys: list[str]) -> Table:
+    columns = {key: [row.get(key) for row in rows] for key in keys}
+    is_number = {key: all(isinstance(cell, float) for cell in cells) for key, cells in columns.items()}
+    return Table({key: np.array(cells) if is_number[key] else cells for key, cells in columns.items()})
+
+
+def calibrate(
+    study: str | os.PathLike[str],
+    data: Any = None,
+    *,
+    text: str | None = None,
+    chain: Chain | None = None,
+    progress: Callable[[str], object] | None = None,
+) -> Calibration:
+    """Fits the errors to measured data, finds what the declaration lacks, and judges both on data that nobody fitted.
+
+    :param study: the path of the study file.
+    :param data: tables that stand for files that the study names: a pandas, Polars or Arrow table or a dictionary of columns
+        where it names one, else a dictionary from each name to its table. What is not given is read from its file.
+    :param text: the text of the study, where it is no file; ``study`` then only says where it would be.
+    :param chain: a declaration that stands for the one that the study names.
+    :param progress: called with a text when the next stage begins.
+    :raises MistakeError: mistakes in the study or the declaration.
+    :raises TrueaxisError: a file or a table that cannot be read, with the row and the column.
+    """
+    resolved = _native.Study(os.fspath(study), text, None if chain is None else chain._native)
+    tables = [] if data is None else _named(data, resolved.tables)
+    command = f"trueaxis.calibrate({os.fspath(study)!r})"
+    return Calibration(_native.calibrate(resolved, tables, command, progress))
+
+
+def _named(data: Any, names: list[str]) -> list[tuple[str, Any]]:
+    """Each table with the name that the study has for it."""
+    from ._errors import TrueaxisError
+
+    if isinstance(data, Mapping) and data and all(_is_frame(value) for value in data.values()):
+        for name in data:
+            if name not in names:
+                listed = ", ".join(f"`{name}`" for name in names)
+                raise TrueaxisError(f"the study names no table `{name}`: it names {listed}")
+        return [(name, columns_of(table)) for name, table in data.items()]
+    if len(names) != 1:
+        listed = ", ".join(f"`{name}`" for name in names)
+        raise TrueaxisError(f"the study names {listed}: give a dictionary from each name to its table")
+    return [(names[0], columns_of(data))]
+
+
+def _is_frame(value: Any) -> bool:
+    """Whether a value is a table, and no column of one."""
+    return isinstance(value, Mapping) or (hasattr(value, "columns") or hasattr(value, "column_names"))

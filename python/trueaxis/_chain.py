@@ -1,0 +1,364 @@
+"""Chains: the declaration, its errors as numbers over arrays, and what follows from it exactly."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+import numpy as np
+
+from . import _native
+from ._answers import Answer
+from ._inputs import Amount, Errors, errors_text, names, ranges
+from ._tables import Table, columns_of, with_columns
+
+if TYPE_CHECKING:
+    import sympy
+    from numpy.typing import NDArray
+
+Readings = Mapping[str, "NDArray[np.float64] | float"]
+"""Joints and inputs by name: an array with a number a row, or one number for all rows; rad and m."""
+Ranges = Mapping[str, "str | tuple[Amount, Amount]"]
+"""Joints and inputs by name: ``("-30 deg", "60 deg")`` or ``"-30 deg..60 deg"``."""
+
+
+class Symbol(NamedTuple):
+    """A declared name."""
+
+    name: str
+    kind: Literal["joint", "input", "error", "constant"]
+    unit: str
+    """``rad``, ``m`` or ``1``."""
+
+
+class Observable(NamedTuple):
+    """What an instrument shows."""
+
+    name: str
+    kind: Literal["direction", "point"]
+    """A direction is a unit vector; a point is in m."""
+    readings: list[str]
+    """The joints and inputs that it depends on."""
+
+
+class ClosedForm:
+    """The closed form of an observable's error: components x, y and z.
+
+    ``text`` has the plain syntax of amounts, ``latex`` the printed symbols, :meth:`sympy` expressions.
+    """
+
+    def __init__(self, native: _native.ClosedForm):
+        self._native = native
+
+    @property
+    def title(self) -> str:
+        """What it is, in words."""
+        return self._native.title
+
+    @property
+    def text(self) -> list[str]:
+        """The components in the plain syntax of amounts."""
+        return list(self._native.text)
+
+    @property
+    def latex(self) -> list[str]:
+        """The components in LaTeX."""
+        return list(self._native.latex)
+
+    def sympy(self) -> list[sympy.Expr]:
+        """The components as SymPy expressions; each name is a real symbol."""
+        from ._formula import expression
+
+        return [expression(steps) for steps in self._native.steps]
+
+    def __repr__(self) -> str:
+        lines = [f"  {axis} = {text}" for axis, text in zip("xyz", self.text)]
+        return "\n".join([self.title, *lines])
+
+    def _repr_latex_(self) -> str:
+        rows = r" \\ ".join(f"{axis} &= {latex}" for axis, latex in zip("xyz", self.latex))
+        return rf"$$\begin{{aligned}} {rows} \end{{aligned}}$$"
+
+
+class Chain:
+    """A declared chain; read one with :meth:`from_text` or :meth:`from_file`.
+
+    Evaluations hold no lock of the interpreter: several threads may use one chain at once. Arrays must be contiguous and
+    of float64; they are read in place, so nobody may write to them meanwhile.
+    """
+
+    def __init__(self, native: _native.Chain):
+        self._native = native
+
+    @classmethod
+    def from_text(cls, text: str, name: str = "declaration") -> Chain:
+        """Reads a declaration. Mistakes in it are shown under ``name``.
+
+        :raises MistakeError: with every mistake of the text.
+        """
+        return cls(_native.Chain.from_text(text, name))
+
+    @classmethod
+    def from_file(cls, path: str | os.PathLike[str]) -> Chain:
+        """Reads a ``.chain`` file.
+
+        :raises MistakeError: with every mistake of the file.
+        :raises TrueaxisError: the file cannot be read.
+        """
+        return cls(_native.Chain.from_file(os.fspath(path)))
+
+    def __reduce__(self):
+        return type(self).from_text, (self.text, self._native.origin)
+
+    def __repr__(self) -> str:
+        shown = ", ".join(observable.name for observable in self.observables)
+        return f"<trueaxis.Chain {self.name}: {len(self.errors)} errors; observables {shown}>"
+
+    def _repr_html_(self) -> str:
+        import html
+
+        return f"<pre>{html.escape(self.text)}</pre>"
+
+    @property
+    def name(self) -> str:
+        """The chain's name."""
+        return self._native.name
+
+    @property
+    def text(self) -> str:
+        """The declaration as written."""
+        return self._native.text
+
+    @property
+    def symbols(self) -> list[Symbol]:
+        """Every declared name with its kind and unit."""
+        return [Symbol(*symbol) for symbol in self._native.symbols]
+
+    def _of_kind(self, kind: str) -> list[str]:
+        return [symbol.name for symbol in self.symbols if symbol.kind == kind]
+
+    @property
+    def joints(self) -> list[str]:
+        """Names of the joints, in order."""
+        return self._of_kind("joint")
+
+    @property
+    def inputs(self) -> list[str]:
+        """Names of the measured side quantities, in order."""
+        return self._of_kind("input")
+
+    @property
+    def errors(self) -> list[str]:
+        """Names of the errors, in order: the columns of Jacobians."""
+        return self._of_kind("error")
+
+    @property
+    def constants(self) -> list[str]:
+        """Names of the constants, in order."""
+        return self._of_kind("constant")
+
+    @property
+    def observables(self) -> list[Observable]:
+        """What the instrument shows."""
+        return [Observable(*observable) for observable in self._native.observables]
+
+    def exact(
+        self,
+        readings: Readings,
+        errors: Errors = None,
+        observable: str | None = None,
+        *,
+        quantity: Literal["error", "value"] = "error",
+        out: NDArray[np.float64] | None = None,
+        threads: int | None = None,
+    ) -> NDArray[np.float64]:
+        """The exact error of an observable, without cancellation; or its value with errors.
+
+        :param readings: joints and inputs by name, rad and m: contiguous arrays of float64 of one length, or numbers that hold
+            for all rows. Names that the observable does not depend on may be given too.
+        :param errors: by name or pattern, numbers in SI or texts with a unit; or the path of a file. Errors not named are zero.
+        :param observable: which, where the chain declares several.
+        :param quantity: what the errors add to the observable, or the observable with its errors.
+        :param out: a contiguous array of float64 for the result, which is then not allocated.
+        :param threads: how many at most; as many as there are processors where none is given. No bit depends on it.
+        :returns: an array of shape ``(3, rows)``: x, y, z; ``(3,)`` where every reading is one number. Directions have no unit
+            (their error is in rad, to first order); points are in m.
+        """
+        if quantity not in ("error", "value"):
+            raise ValueError(f'quantity: write "error" or "value", not {quantity!r}')
+        return self._evaluate(f"exact {quantity}", readings, errors, observable, [], out, threads)
+
+    def first_order(
+        self,
+        readings: Readings,
+        errors: Errors = None,
+        observable: str | None = None,
+        *,
+        out: NDArray[np.float64] | None = None,
+        threads: int | None = None,
+    ) -> NDArray[np.float64]:
+        """The error of an observable to first order in the errors; arguments and result as of :meth:`exact`."""
+        return self._evaluate("first-order error", readings, errors, observable, [], out, threads)
+
+    def jacobian(
+        self,
+        readings: Readings,
+        errors: Errors = None,
+        observable: str | None = None,
+        *,
+        wrt: Iterable[str] | None = None,
+        form: Literal["first-order", "exact"] = "first-order",
+        out: NDArray[np.float64] | None = None,
+        threads: int | None = None,
+    ) -> NDArray[np.float64]:
+        """The derivatives of an observable with respect to errors.
+
+        :param wrt: names of errors, or of constants; every error, in order, where none is given.
+        :param form: ``"first-order"``: where every error is zero, the coefficients of :meth:`first_order`; ``"exact"``: at the
+            errors given.
+        :returns: an array of shape ``(3, len(wrt), rows)``, or ``(3, len(wrt))`` where every reading is one number; for an
+            angle in 1/rad times the observable's unit, for a length in 1/m times it.
+
+        Other arguments as of :meth:`exact`.
+        """
+        if form not in ("first-order", "exact"):
+            raise ValueError(f'form: write "first-order" or "exact", not {form!r}')
+        columns = self.errors if wrt is None else names(wrt)
+        return self._evaluate(f"{form} jacobian", readings, errors, observable, columns, out, threads)
+
+    def _evaluate(self, form, readings, errors, observable, wrt, out, threads):
+        columns, constants = [], []
+        for name, reading in readings.items():
+            is_number = isinstance(reading, (int, float, np.integer, np.floating)) and not isinstance(reading, bool)
+            (constants if is_number else columns).append((name, float(reading) if is_number else reading))
+        if threads is not None and threads < 1:
+            raise ValueError(f"threads: at least one is needed, not {threads}")
+        is_one = not columns
+        given = out.reshape(*out.shape, 1) if is_one and isinstance(out, np.ndarray) else out
+        result = self._native.evaluate(
+            form, observable, columns, constants, errors_text(errors), wrt, given, threads
+        )
+        if out is not None:
+            return out
+        return result[..., 0] if is_one else result
+
+    def closed_form(self, observable: str | None = None, order: int = 1) -> ClosedForm:
+        """The closed form of an observable's error, up to products of ``order`` errors (1, 2 or 3)."""
+        return ClosedForm(self._native.closed_form(observable, order))
+
+    def identify(
+        self, observables: str | Iterable[str] | None = None, *, candidate: str | None = None
+    ) -> Answer:
+        """What no data can tell apart: for each observable alone and all together, or for those named, together.
+
+        :param candidate: an effect that the declaration lacks, ``"middle Rx(x*cos(beta))"``: which declared errors it would
+            be mistaken for.
+        :returns: ``answer["identifiability"]`` is a list with an entry a set of observables.
+        """
+        return Answer._of(self._native.identify(names(observables), candidate))
+
+    def bound(
+        self,
+        sizes: Errors,
+        observables: str | Iterable[str] | None = None,
+        *,
+        ranges: Ranges | None = None,
+        seed: int = 1,
+    ) -> Answer:
+        """A proven bound on what the first-order form leaves out, while every error stays within its size.
+
+        :param sizes: the largest size of each error, as ``errors`` of :meth:`exact`.
+        :param ranges: of joints and inputs; joints without one make a full turn.
+        :returns: ``answer["bounds"]`` is a list with an entry an observable: ``bound``, ``largest_found`` (a search's),
+            ``unit``, ``shares``.
+        """
+        return Answer._of(self._native.bound(errors_text(sizes), names(observables), _ranges(ranges), seed))
+
+    def budget(
+        self,
+        sizes: Errors,
+        observables: str | Iterable[str] | None = None,
+        *,
+        path: str | None = None,
+        ranges: Ranges | None = None,
+    ) -> Answer:
+        """What each error alone does, and what all do together, over a path or over ranges.
+
+        :param path: joints and inputs as functions of t over (0, 2π): ``"alpha=t, beta=t/2"``.
+        :returns: ``answer["observables"]`` is a list with an entry an observable: ``errors`` (``sup`` and ``rms`` of each),
+            ``worst_case``, ``root_sum_square``, ``unit``.
+        """
+        if path is not None and ranges:
+            raise ValueError("give a path or ranges, not both")
+        return Answer._of(self._native.budget(errors_text(sizes), names(observables), path, _ranges(ranges)))
+
+    def simulate(
+        self,
+        errors: Errors,
+        *,
+        poses: int,
+        noise: Amount | Iterable[Amount],
+        seed: int,
+        ranges: Ranges | None = None,
+        observables: str | Iterable[str] | None = None,
+    ) -> Table:
+        """Measured data with normal noise, at joints drawn at random from their ranges (or a whole turn).
+
+        :param noise: the standard deviation: ``"2 arcsec"`` of directions, ``"0.1 mm"`` of points; both where both are seen.
+        :returns: a table of readings and of components of observables, rad and m.
+        """
+        noises = [noise] if isinstance(noise, (str, int, float)) else list(noise)
+        noises = [sigma if isinstance(sigma, str) else repr(float(sigma)) for sigma in noises]
+        columns = self._native.simulate(
+            errors_text(errors), poses, noises, seed, _ranges(ranges), names(observables)
+        )
+        return Table(dict(columns))
+
+    def eval(
+        self,
+        table: Any,
+        errors: Errors,
+        observables: str | Iterable[str] | None = None,
+        *,
+        form: Literal["exact", "first-order"] = "exact",
+        quantity: Literal["error", "value"] = "error",
+    ) -> Any:
+        """The error, or the value, of observables over a table of readings.
+
+        :param table: a pandas, Polars or Arrow table, or a dictionary of columns, with columns named like joints and inputs;
+            their names may carry units, ``"alpha [deg]"``.
+        :returns: the same kind of table (of a dictionary a :class:`Table`) with ``<observable>_x``, ``_y``, ``_z`` added, in SI.
+        """
+        if form not in ("exact", "first-order"):
+            raise ValueError(f'form: write "exact" or "first-order", not {form!r}')
+        if quantity not in ("error", "value"):
+            raise ValueError(f'quantity: write "error" or "value", not {quantity!r}')
+        added = self._native.over_table(
+            ("the table", columns_of(table)),
+            errors_text(errors),
+            names(observables),
+            form == "exact",
+            quantity == "value",
+        )
+        return with_columns(table, dict(added))
+
+    def apply(self, table: Any, errors: Errors, observables: str | Iterable[str] | None = None) -> Any:
+        """New readings corrected with calibrated errors: where the instrument really points, or its points really are.
+
+        Arguments and result as of :meth:`eval`.
+        """
+        return self.eval(table, errors, observables, quantity="value")
+
+
+def _ranges(given: Ranges | None) -> list[tuple[str, str]]:
+    return ranges(given)
+
+
+def check(claims: str | os.PathLike[str]) -> Answer:
+    """Checks the claims of a file: is the printed formula what the chain implies?
+
+    :returns: ``answer["claims"]`` is a list with an entry a claim: ``name``, ``verdict`` (``"holds"``, ``"differs"``,
+        ``"open"``), ``differences``.
+    """
+    return Answer._of(_native.check(os.fspath(claims)))

@@ -1,0 +1,40 @@
+"""What is wrong, as exceptions, in the words of the command; and what is doubtful, as warnings."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Mistake(NamedTuple):
+    """One mistake in a text that a person wrote."""
+
+    line: int
+    """Line of its first character, from 1."""
+    column: int
+    """Column of its first character, from 1."""
+    message: str
+    """What is wrong."""
+    help: str | None
+    """What to write instead."""
+
+
+class TrueaxisError(ValueError):
+    """Something to mend: the text says what is wrong, where, and what to write instead."""
+
+
+class MistakeError(TrueaxisError):
+    """Mistakes in a declaration, a study, a claims file or a file of errors, each with its place.
+
+    ``str(error)`` shows them below the lines that they stand on; ``error.mistakes`` lists them for programs.
+    """
+
+    def __init__(self, rendered: str, mistakes: list[tuple[int, int, str, str | None]] = []):
+        super().__init__(rendered)
+        self.mistakes: list[Mistake] = [Mistake(*mistake) for mistake in mistakes]
+
+    def __reduce__(self):
+        return type(self), (self.args[0], [tuple(mistake) for mistake in self.mistakes])
+
+
+class TrueaxisWarning(UserWarning):
+    """Something doubtful that the command would warn of: a bare number that can hardly be in SI, say."""

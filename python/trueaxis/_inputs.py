@@ -1,0 +1,72 @@
+"""What users write in Python, as the texts that the library reads: errors, ranges, names."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any, Union
+
+import numpy as np
+
+Amount = Union[float, str]
+"""A number in SI, or a text with a unit: ``"10 arcsec"``."""
+Errors = Union[Mapping[str, Amount], "os.PathLike[str]", str, None]
+"""Errors by name or pattern (``{"da*": "2 arcsec"}``), or the path of a file of them."""
+
+
+def amount(what: str, value: Any) -> str:
+    """An amount as TOML has it."""
+    if isinstance(value, str):
+        # JSON's texts are TOML's, but for this one letter.
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
+        raise TypeError(f'{what}: write a number in SI or a text with a unit, such as "2 arcsec", not {value!r}')
+    return repr(float(value))
+
+
+def errors_text(errors: Errors) -> tuple[str, str]:
+    """The name and the text of a file of errors."""
+    if errors is None:
+        return "errors", ""
+    if isinstance(errors, Mapping):
+        lines = [f"{amount('a name', str(name))} = {amount(str(name), value)}\n" for name, value in errors.items()]
+        return "errors", "".join(lines)
+    if isinstance(errors, (str, os.PathLike)):
+        return os.fspath(errors), read(errors)
+    raise TypeError(
+        f'errors: write a dictionary, {{"dtheta_y1": "10 arcsec"}}, or the path of a file, not {type(errors).__name__}'
+    )
+
+
+def read(path: str | os.PathLike[str]) -> str:
+    """A text file as UTF-8."""
+    from ._errors import TrueaxisError
+
+    try:
+        return Path(path).read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        raise TrueaxisError(f"cannot read `{path}`: it is not UTF-8 text; save it as such") from None
+
+
+def names(one_or_more: str | Iterable[str] | None) -> list[str]:
+    """Names of observables, or none."""
+    if one_or_more is None:
+        return []
+    return [one_or_more] if isinstance(one_or_more, str) else list(one_or_more)
+
+
+def ranges(given: Mapping[str, Any] | None) -> list[tuple[str, str]]:
+    """Ranges by name: ``{"elevation": ("10 deg", "80 deg")}`` or ``{"elevation": "10 deg..80 deg"}``."""
+
+    def text(name: str, bounds: Any) -> str:
+        if isinstance(bounds, str):
+            return bounds
+        try:
+            low, high = bounds
+        except (TypeError, ValueError):
+            raise TypeError(f'range of {name}: write ("10 deg", "80 deg"), not {bounds!r}') from None
+        return "..".join(b if isinstance(b, str) else amount(f"range of {name}", b) for b in (low, high))
+
+    return [(str(name), text(str(name), bounds)) for name, bounds in (given or {}).items()]

@@ -86,9 +86,6 @@ impl Builder {
         if let Some(number) = self.numbers[symbol.index()] {
             return self.constant(number);
         }
-        if let Some(ramp) = self.ramp(symbol) {
-            return crate::build::ramp(self, &ramp);
-        }
         let node = self.node(Op::Input(symbol));
         Value { node, negative: false }
     }

@@ -4,6 +4,7 @@
 //! null spaces. Nothing here reads a file, prints, or knows a clock.
 
 pub mod algebra;
+pub mod amount;
 pub mod budget;
 pub mod caution;
 pub mod certificate;

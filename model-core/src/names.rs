@@ -2,13 +2,6 @@
 //!
 //! Errors files, claims and study files share these, so that a pattern means the same everywhere.
 
-/// Whether a text can be a declared name: letters, digits and underscores, not a digit first, and no reserved word.
-#[must_use]
-pub fn is_name(text: &str) -> bool {
-    let is_word = syn::parse_str::<proc_macro2::Ident>(text).is_ok_and(|word| word == text);
-    is_word && !text.starts_with("r#") && !crate::check::is_reserved(text)
-}
-
 /// The candidate nearest to a name that is none of them, if one is near enough to have been meant.
 ///
 /// Near means: at most a third of the letters (and at least one) are changed, added, left out or swapped with
@@ -77,31 +70,6 @@ pub fn matches(pattern: &str, name: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_name_is_one_word_that_means_nothing_else() {
-        for name in ["q", "mirror_temp", "x1", "_x", "Δ"] {
-            assert!(is_name(name), "{name}");
-        }
-        for name in [
-            "",
-            "mirror-temp",
-            "fn",
-            "temp x",
-            "1x",
-            "pi",
-            "sin",
-            "ground",
-            "_",
-            "r#fn",
-            " q",
-            "q ",
-            "q\n",
-            "q//",
-        ] {
-            assert!(!is_name(name), "{name}");
-        }
-    }
 
     #[test]
     fn a_star_stands_for_any_letters() {

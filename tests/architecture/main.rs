@@ -1,5 +1,6 @@
 //! The invariants of ARCHITECTURE.md, held.
 
+mod circles;
 mod dependencies;
 mod house_rules;
 mod registries;

@@ -15,14 +15,16 @@ use std::cell::OnceCell;
 use model_core::{Chain, Mistakes};
 
 use crate::amend::{AmendError, amend, with_quantities_of};
+use crate::data::units::BareColumn;
 use crate::diagnose::{Confirmed, Diagnosis, Trace, diagnose, trace};
 use crate::fit::{FitResult, Outcome};
+use crate::formats::DataError;
 use crate::report::amendment;
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
 use crate::search::{SearchError, nested};
-use crate::study::Plan;
+use crate::study::{Loaded, Open, Plan, Study};
 use functions::{Settled, settled};
 use rounds::rounds;
 
@@ -62,6 +64,44 @@ pub enum CalibrateError {
     /// The text is not that of the chain.
     #[error(transparent)]
     Amend(#[from] AmendError),
+}
+
+/// Why a study has no calibration.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// The declaration is wrong.
+    #[error("the chain: {0}")]
+    Chain(Mistakes),
+    /// The study is wrong, or asks for what the chain does not have.
+    #[error("the study: {0}")]
+    Study(Mistakes),
+    /// A data file is wrong.
+    #[error(transparent)]
+    Data(#[from] DataError),
+    /// Nothing says the unit of a column, and its numbers are hardly in SI.
+    #[error("{0}")]
+    Doubtful(BareColumn),
+    /// The data cannot be fitted as the study asks.
+    #[error(transparent)]
+    Calibrate(#[from] CalibrateError),
+}
+
+impl Calibration {
+    /// Runs a study of a declaration: `open` gives the data files by their paths in the study, `when` is the date that the
+    /// amended declaration gives (`2026-11-21`).
+    ///
+    /// # Errors
+    /// What is wrong with the declaration, the study or the data; whatever the data say is in the diagnosis.
+    pub fn of(text: &str, study: &Study, open: &mut Open<'_>, when: &str) -> Result<Self, StudyError> {
+        let chain = Chain::from_text(text).map_err(StudyError::Chain)?;
+        let plan = study.plan(&chain).map_err(StudyError::Study)?;
+        let Loaded { observations, held_out, doubtful } = plan.load(open)?;
+        if let Some(column) = doubtful.into_iter().next() {
+            return Err(StudyError::Doubtful(column));
+        }
+        let second = held_out.as_ref();
+        Ok(calibrate(Request { text, plan: &plan, observations: &observations, second, when })?)
+    }
 }
 
 /// Runs the loop.

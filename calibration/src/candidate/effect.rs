@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use model_core::algebra::Poly;
 use model_core::{
-    Axis, BodyId, Chain, Factor, Motion, Quantity, Role, Symbol, SymbolId, SymbolKind, names, print,
+    Axis, BodyId, Chain, Factor, Motion, Quantity, Role, Symbol, SymbolId, SymbolKind, check, print,
 };
 
 /// A rotation about an axis, or a shift along one.
@@ -261,7 +261,7 @@ impl Function {
 
 /// The stem itself, or the stem with the first number that makes it a new name.
 fn free_name(chain: &Chain, stem: &str) -> String {
-    if chain.find_symbol(stem).is_none() && names::is_name(stem) {
+    if chain.find_symbol(stem).is_none() && check::is_name(stem) {
         return stem.to_owned();
     }
     let mut number = 2_u32;

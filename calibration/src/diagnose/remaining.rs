@@ -16,11 +16,11 @@ use crate::search::SearchError;
 use crate::search::columns::{self, Columns};
 use crate::search::contest::{Price, contender, criterion, most_telling};
 use crate::search::context::{Context, declared};
-use crate::search::flips::Signs;
 use crate::search::remains::{Statistic, along, combined, lagged, nearest};
 use crate::search::round::Round;
 use crate::search::scan::{Left, Sheet};
 use crate::search::select::class_columns;
+use crate::search::signs::Signs;
 
 /// Harmonics of each joint that are scanned, unless the study asks for more.
 const HARMONICS: u32 = 32;

@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use model_core::algebra::{AlgebraError, LowerError, Poly};
+use model_core::algebra::{AlgebraError, Poly};
+use model_core::amount::LowerError;
 use model_core::{Chain, Quantity, SymbolId, SymbolKind, names, syntax};
 
 use crate::candidate::{Effect, Family, Freedom, Function, Place, Setting};

@@ -34,6 +34,7 @@ pub(crate) mod round;
 pub(crate) mod row_set;
 pub mod scan;
 pub mod select;
+pub mod signs;
 mod stage;
 mod standardised;
 pub mod sweep;

@@ -6,8 +6,8 @@
 
 use rayon::prelude::*;
 
-use super::flips::Signs;
 use super::scan::{Left, Scan};
+use super::signs::Signs;
 
 /// Nearest neighbours of each observation in the space of all joints.
 const NEAREST: usize = 4;

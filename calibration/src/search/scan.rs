@@ -8,8 +8,9 @@ use std::ops::Range;
 use faer::{Mat, MatRef};
 use rayon::prelude::*;
 
-use super::flips::{Chance, Signs};
+use super::flips::Chance;
 use super::problem::{Problem, VISIBLE};
+use super::signs::Signs;
 use super::standardised::{Standardised, is_needed};
 use super::sweep::Sweep;
 use super::tail::Tails;

@@ -5,9 +5,10 @@ use faer::Mat;
 use faer::linalg::solvers::Solve;
 
 use super::classes::Class;
-use super::flips::{Family, Signs, familywise};
+use super::flips::{Family, familywise};
 use super::guards::Guards;
 use super::problem::Problem;
+use super::signs::Signs;
 use super::standardised::is_needed;
 use super::sweep::Sweep;
 use super::tail::Tails;

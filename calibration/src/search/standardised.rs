@@ -9,7 +9,7 @@
 
 use faer::{Mat, MatRef};
 
-use super::flips::Signs;
+use super::signs::Signs;
 
 /// Buckets of groups, for each fitted column and in all, from which on the plain flips, with each row's leverage undone, do
 /// as well.

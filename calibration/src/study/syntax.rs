@@ -12,8 +12,17 @@ use super::written::Study;
 /// Mistakes that are told of one text, at most.
 const TOLD: usize = 30;
 
-/// Reads a study file.
-pub(super) fn read(text: &str) -> Result<Study, Mistakes> {
+impl Study {
+    /// Reads a study file.
+    ///
+    /// # Errors
+    /// Every mistake of its form, each with its place.
+    pub fn from_text(text: &str) -> Result<Self, Mistakes> {
+        read(text)
+    }
+}
+
+fn read(text: &str) -> Result<Study, Mistakes> {
     let (mut table, errors) = DeTable::parse_recoverable(text);
     if !errors.is_empty() {
         return Err(Mistakes::locate(text, errors.iter().map(mistake)));

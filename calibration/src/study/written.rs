@@ -4,13 +4,11 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::marker::PhantomData;
 
-use model_core::Mistakes;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer, StrDeserializer};
 use serde::de::{Error, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
-use super::syntax;
 use crate::data::units::Amount;
 
 /// Names with what is said of them, in the order of the alphabet.
@@ -225,16 +223,6 @@ pub(super) struct NextTable {
     pub poses: Spanned<u64>,
     #[serde(default)]
     pub range: Table<[Amount; 2]>,
-}
-
-impl Study {
-    /// Reads a study file.
-    ///
-    /// # Errors
-    /// Every mistake of its form, each with its place.
-    pub fn from_text(text: &str) -> Result<Self, Mistakes> {
-        syntax::read(text)
-    }
 }
 
 /// Reads a value that may be written short (a text or number) or long (a table or list).

@@ -5,6 +5,7 @@
 
 use model_core::SymbolId;
 use model_core::algebra::{Poly, Rational, Term, Wave};
+use model_core::ramp::Ramp;
 
 use super::vectors::Turn;
 use crate::builder::{Builder, Value};
@@ -100,7 +101,7 @@ fn factors_by_stage(b: &mut Builder, term: &Term) -> (Value, Value) {
         Stage::Evaluated => evaluated = b.mul(evaluated, factor),
     };
     for &(symbol, exponent) in &term.powers {
-        let base = b.symbol(symbol);
+        let base = self::symbol(b, symbol);
         let factor = power(b, base, exponent);
         multiply(b, factor);
     }
@@ -158,4 +159,35 @@ fn harmonic(b: &mut Builder, symbol: SymbolId, multiple: u32) -> Turn {
             cos: b.dot([(one.cos, rest.cos), (-one.sin, rest.sin)]),
         }
     }
+}
+
+/// A symbol; one that stands for a ramp is computed from what the ramp is a function of.
+fn symbol(b: &mut Builder, symbol: SymbolId) -> Value {
+    match b.ramp(symbol) {
+        Some(ramp) => self::ramp(b, &ramp),
+        None => b.symbol(symbol),
+    }
+}
+
+/// The value of a ramp.
+fn ramp(b: &mut Builder, ramp: &Ramp) -> Value {
+    let fraction = ramp_fraction(b, ramp);
+    if ramp.is_step() { b.step(fraction) } else { b.saturate(fraction) }
+}
+
+/// How far the variable is from the first threshold to the second; for a step, how far it is beyond its threshold.
+pub(super) fn ramp_fraction(b: &mut Builder, ramp: &Ramp) -> Value {
+    let (at, from) = (b.symbol(ramp.of), lower(b, &ramp.from));
+    let distance = b.sub(at, from);
+    if ramp.is_step() {
+        return distance;
+    }
+    let width = ramp_width(b, ramp);
+    b.div(distance, width)
+}
+
+/// How far apart the thresholds are.
+pub(super) fn ramp_width(b: &mut Builder, ramp: &Ramp) -> Value {
+    let (from, to) = (lower(b, &ramp.from), lower(b, &ramp.to));
+    b.sub(to, from)
 }

@@ -17,7 +17,6 @@ use model_core::{Chain, ObservableId, SymbolId};
 use crate::builder::{Builder, Value};
 use crate::program::{Form, Layout, Program};
 use path::Path;
-pub(crate) use ramp::ramp;
 
 pub use product::{MatrixProduct, Step, matrix_product};
 

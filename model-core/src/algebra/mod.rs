@@ -4,7 +4,7 @@
 //! - [`Poly`][]: the canonical form, with sums, products, powers, reciprocals of sines and cosines.
 //! - [`AngleSum`][]: what a sine or cosine may be taken of.
 //! - [`Term`][]: a look inside, for printers and code generators.
-//! - [`Poly::from_expr`][]: from an expression as written.
+//! - [`crate::amount`]: from an expression as written.
 
 mod angle;
 mod atom;
@@ -13,7 +13,6 @@ mod circle;
 mod divide;
 mod fourier;
 mod grading;
-mod lower;
 mod multiply;
 mod poly;
 mod rational;
@@ -21,7 +20,7 @@ mod terms;
 
 pub use angle::AngleSum;
 pub use grading::BasisFunction;
-pub use lower::LowerError;
+pub(crate) use multiply::Budget;
 pub use poly::Poly;
 pub use rational::{DecimalError, Rational};
 pub use terms::{Pole, Term, Wave, WaveFactor};

@@ -27,13 +27,13 @@ impl Mul for &Poly {
 /// How much work may still be spent on products, in term products.
 ///
 /// What a user types is multiplied out within a budget; a formula of an instrument needs a tiny part of it.
-pub(super) struct Budget {
+pub(crate) struct Budget {
     left: Cell<usize>,
 }
 
 impl Budget {
     /// For one checked operation, or for one typed expression.
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self { left: Cell::new(SIZE_LIMIT) }
     }
 
@@ -64,7 +64,7 @@ impl Poly {
         self.pow_within(exponent, &Budget::new())
     }
 
-    pub(super) fn mul_within(&self, other: &Self, budget: &Budget) -> Result<Self, AlgebraError> {
+    pub(crate) fn mul_within(&self, other: &Self, budget: &Budget) -> Result<Self, AlgebraError> {
         let (a, b) = (degrees(self), degrees(other));
         let [power, harmonic, sin_pole, cos_pole] = std::array::from_fn(|i| a[i].saturating_add(b[i]));
         if power.max(sin_pole).max(cos_pole) > DEGREE_LIMIT {
@@ -86,7 +86,7 @@ impl Poly {
         Ok(product)
     }
 
-    pub(super) fn pow_within(&self, exponent: u32, budget: &Budget) -> Result<Self, AlgebraError> {
+    pub(crate) fn pow_within(&self, exponent: u32, budget: &Budget) -> Result<Self, AlgebraError> {
         // Numbers grow without any degree.
         let grows = self.as_constant().is_some_and(|value| !value.is_zero() && !value.abs().is_one());
         if grows && exponent > DEGREE_LIMIT {

@@ -118,6 +118,17 @@ impl Poly {
         result
     }
 
+    /// The sum of many, brought to canonical form once.
+    pub(crate) fn sum(addends: &[Self]) -> Self {
+        let mut sum = Self::zero();
+        for addend in addends {
+            for (coefficient, atoms) in addend.iter() {
+                sum.push(coefficient.clone(), atoms);
+            }
+        }
+        sum.normalised()
+    }
+
     /// Appends a term; the caller keeps the order of terms, and coefficients from zero.
     pub(super) fn push(&mut self, coefficient: Rational, atoms: &[Atom]) {
         if !coefficient.is_zero() {

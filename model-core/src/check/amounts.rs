@@ -4,7 +4,8 @@ use proc_macro2::Span;
 
 use super::scope::Scope;
 use super::words;
-use crate::algebra::{AlgebraError, LowerError, Poly};
+use crate::algebra::{AlgebraError, Poly};
+use crate::amount::LowerError;
 use crate::chain::{Axis, Motion, Role};
 use crate::expr::Expr;
 use crate::mistake::Mistake;

@@ -14,7 +14,7 @@ mod rules;
 mod scope;
 mod words;
 
-pub(crate) use words::is_reserved;
+pub use words::is_name;
 
 use proc_macro2::{Span, TokenStream};
 

@@ -88,6 +88,13 @@ pub fn advice<T>(words: &[(&str, T)], word: &Ident) -> String {
     }
 }
 
+/// Whether a text can be a declared name: letters, digits and underscores, not a digit first, and no reserved word.
+#[must_use]
+pub fn is_name(text: &str) -> bool {
+    let is_word = syn::parse_str::<Ident>(text).is_ok_and(|word| word == text);
+    is_word && !text.starts_with("r#") && !is_reserved(text)
+}
+
 /// Whether a word cannot be a name: it means something in an amount, or in Rust, into which chains are expanded.
 pub fn is_reserved(word: &str) -> bool {
     const RUST: [&str; 52] = [
@@ -103,4 +110,34 @@ pub fn is_reserved(word: &str) -> bool {
         || word == crate::syntax::RAMP
         || crate::syntax::FUNCTIONS.iter().any(|(function, _)| *function == word)
         || RUST.contains(&word)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_is_one_word_that_means_nothing_else() {
+        for name in ["q", "mirror_temp", "x1", "_x", "Δ"] {
+            assert!(is_name(name), "{name}");
+        }
+        for name in [
+            "",
+            "mirror-temp",
+            "fn",
+            "temp x",
+            "1x",
+            "pi",
+            "sin",
+            "ground",
+            "_",
+            "r#fn",
+            " q",
+            "q ",
+            "q\n",
+            "q//",
+        ] {
+            assert!(!is_name(name), "{name}");
+        }
+    }
 }

@@ -1,9 +1,9 @@
 //! Claims as data: what somebody says of a chain.
 
 use super::formula::PrintedVector;
+use super::radicand::Total;
 use super::ranks::Rank;
 use super::sizes::{Bound, Size};
-use super::total::Total;
 use crate::algebra::Poly;
 use crate::budget::{Measure, Poses};
 use crate::chain::{Axis, Chain, ObservableId};

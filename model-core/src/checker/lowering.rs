@@ -7,7 +7,8 @@ use std::ops::Range;
 
 use super::algebraic;
 use super::fraction::Fraction;
-use crate::algebra::{AlgebraError, AngleSum, LowerError, Poly, Rational};
+use crate::algebra::{AlgebraError, AngleSum, Poly, Rational};
+use crate::amount::LowerError;
 use crate::chain::Chain;
 use crate::expr::{Expr, Function, Node};
 use crate::mistake::Mistake;

@@ -17,6 +17,7 @@ mod fraction;
 pub mod hand;
 mod lowering;
 mod misreading;
+mod radicand;
 mod ranks;
 mod sizes;
 mod slip;
@@ -46,10 +47,11 @@ pub use claim::{Claim, ClosedForm, Combination, Comparison, Count, Faces, Order,
 pub use formula::{PrintedComponent, PrintedVector, TextPlace};
 pub use fraction::Fraction;
 pub use lowering::lower;
+pub use radicand::{Radicand, Total};
 pub use ranks::{Rank, RankSaid, RankVerdict};
 pub use sizes::{Bound, BoundVerdict, Combined, Limits, Outcome, Size, SizeMeasure, SizeVerdict};
 pub use slip::{FormSlip, FormSlipKind, TermSlip};
-pub use total::{Radicand, Total, TotalVerdict};
+pub use total::TotalVerdict;
 pub use verdict::{Counted, Difference, FormVerdict, Means, Measured, Verdict};
 
 /// Checks claims about one chain; what it derives for one claim it keeps for the next.

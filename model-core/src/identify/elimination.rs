@@ -3,11 +3,8 @@
 //! The entries are polynomials in constants. Rows are multiplied across rather than divided, so everything stays a
 //! polynomial, and zero is decided by the canonical form. Factors that this brings in are divided out again.
 
-use super::modular::independent;
+use super::modular::{Row, independent};
 use crate::algebra::{Poly, Rational};
-
-/// A linear combination of unknowns: columns in order, no coefficient zero.
-pub(super) type Row = Vec<(usize, Poly)>;
 
 /// Terms that the entries of one equation may have together.
 const TERMS_LIMIT: usize = 20_000;

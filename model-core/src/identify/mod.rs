@@ -18,7 +18,8 @@ use crate::algebra::{BasisFunction, Poly};
 use crate::chain::{Chain, Factor, ObservableId};
 use crate::forms::{self, FormError};
 use crate::symbol::{SymbolId, SymbolKind};
-use elimination::{Echelon, Row, TooLarge, entry};
+use elimination::{Echelon, TooLarge, entry};
+use modular::Row;
 
 pub use candidate::{Candidate, Mistaken, Verdict, mistaken_for};
 pub use words::{mistaken_text, text};

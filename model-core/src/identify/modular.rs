@@ -4,9 +4,11 @@
 //! others depend on them is likely only, and is decided afterwards in the canonical form: see
 //! [`super::elimination`].
 
-use super::elimination::Row;
 use crate::algebra::{Poly, Rational, Wave};
 use crate::symbol::SymbolId;
+
+/// A linear combination of unknowns: columns in order, no coefficient zero.
+pub(super) type Row = Vec<(usize, Poly)>;
 
 /// 2⁶¹ − 1.
 const PRIME: u64 = (1 << 61) - 1;

@@ -5,7 +5,8 @@ use std::ops::Range;
 
 use super::glyph::{self, Glyph, ReadGlyph};
 use super::token::Token;
-use super::{Unreadable, token, unknown};
+use super::unknown::{self, Known};
+use super::{Unreadable, token};
 use crate::chain::Chain;
 use crate::expr::{Expr, Node};
 use crate::mistake::Mistake;
@@ -35,6 +36,16 @@ pub(super) struct Entry {
     /// As it was given, for printing.
     pub printed: String,
     pub meaning: Meaning,
+}
+
+impl Entry {
+    /// The declared name that it stands for, if it is one.
+    fn name(&self) -> Option<&str> {
+        match &self.meaning {
+            Meaning::Amount(Expr { node: Node::Symbol(name), .. }) => Some(name),
+            _ => None,
+        }
+    }
 }
 
 #[derive(Debug, Clone)]
@@ -180,7 +191,12 @@ impl PrintedSymbols {
                 (None, _) => {}
             }
         }
-        Err(unknown::symbol(self, text, &read))
+        let known: Vec<Known<'_>> = self
+            .entries
+            .iter()
+            .map(|(key, entry)| Known { glyphs: &key.glyphs, printed: &entry.printed, name: entry.name() })
+            .collect();
+        Err(unknown::symbol(&known, |name| self.names.contains_key(name), text, &read))
     }
 
     /// Whether a symbol is known with other arguments.

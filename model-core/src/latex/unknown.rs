@@ -3,12 +3,26 @@
 use super::Unreadable;
 use super::commands::FUNCTIONS;
 use super::glyph::{self, Glyph, ReadGlyph};
-use super::printed::PrintedSymbols;
 use crate::mistake::Mistake;
 use crate::names;
 
-/// The mistake at a symbol that the table does not hold.
-pub(super) fn symbol(table: &PrintedSymbols, text: &str, read: &[ReadGlyph]) -> Unreadable {
+/// A symbol that a table holds.
+pub(super) struct Known<'a> {
+    /// Its letters.
+    pub glyphs: &'a [Glyph],
+    /// As it is printed.
+    pub printed: &'a str,
+    /// The declared name that it stands for, if it is one.
+    pub name: Option<&'a str>,
+}
+
+/// The mistake at a symbol that a table does not hold; `is_declared` tells the declared names.
+pub(super) fn symbol(
+    table: &[Known<'_>],
+    is_declared: impl Fn(&str) -> bool,
+    text: &str,
+    read: &[ReadGlyph],
+) -> Unreadable {
     let Some(first) = read.first() else {
         return Mistake::new(0..0, "a symbol is missing");
     };
@@ -17,9 +31,9 @@ pub(super) fn symbol(table: &PrintedSymbols, text: &str, read: &[ReadGlyph]) -> 
     let length =
         text[start..].find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(text.len() - start);
     let word = &text[start..start + length];
-    if word.len() > 1 && table.names.contains_key(word) {
-        let printed = table.entries.values().find_map(|entry| entry.stands_for(word));
-        let instead = printed.unwrap_or(word);
+    if word.len() > 1 && is_declared(word) {
+        let known = table.iter().find(|known| known.name == Some(word));
+        let instead = known.map_or(word, |known| known.printed);
         return Mistake::new(
             start..start + length,
             format!("in LaTeX the letters of `{word}` are symbols of their own"),
@@ -40,8 +54,7 @@ pub(super) fn symbol(table: &PrintedSymbols, text: &str, read: &[ReadGlyph]) -> 
     }
     // A control word that is none is likely a misspelt one: then its own letters count.
     let spell = if glyph::spelling(&glyphs).contains('\\') { glyph::normal_text } else { glyph::spelling };
-    let known: Vec<(String, &str)> =
-        table.entries.iter().map(|(key, entry)| (spell(&key.glyphs), entry.printed.as_str())).collect();
+    let known: Vec<(String, &str)> = table.iter().map(|known| (spell(known.glyphs), known.printed)).collect();
     // Any two single letters are one change apart: there is no likeness to speak of.
     let wanted = Some(spell(&glyphs)).filter(|spelling| spelling.chars().count() > 1);
     let nearest = wanted
@@ -49,18 +62,5 @@ pub(super) fn symbol(table: &PrintedSymbols, text: &str, read: &[ReadGlyph]) -> 
     match known.iter().find(|(spelling, _)| Some(spelling.as_str()) == nearest) {
         Some((_, printed)) => mistake.with_help(format!("did you mean `{printed}`?")),
         None => mistake.with_help(format!("name it under [symbols]: '{shown}' = \"…\"")),
-    }
-}
-
-impl super::printed::Entry {
-    /// The printed form, if it stands for this name.
-    fn stands_for(&self, wanted: &str) -> Option<&str> {
-        match &self.meaning {
-            super::printed::Meaning::Amount(amount) => match &amount.node {
-                crate::expr::Node::Symbol(name) if name == wanted => Some(self.printed.as_str()),
-                _ => None,
-            },
-            _ => None,
-        }
     }
 }

@@ -1,6 +1,7 @@
 //! Random expressions, their value in plain floating point, and random rewriting by true identities.
 
-use model_core::algebra::{AlgebraError, LowerError, Poly, Rational};
+use model_core::algebra::{AlgebraError, Poly, Rational};
+use model_core::amount::LowerError;
 use model_core::expr::{Expr, Function, Node};
 use model_core::symbol::SymbolId;
 use proptest::prelude::*;

@@ -1,7 +1,8 @@
 //! What a user may type is answered in bounded time and memory, with a reason.
 
 use super::expressions::{E, add, call, canonical, div, mul, number, pow, resolve, symbol};
-use model_core::algebra::{AlgebraError, DecimalError, LowerError, Poly, Rational};
+use model_core::algebra::{AlgebraError, DecimalError, Poly, Rational};
+use model_core::amount::LowerError;
 use model_core::expr::Function;
 
 fn lower(expression: &E) -> Result<Poly, LowerError<()>> {

@@ -67,7 +67,7 @@ fn departure_name(axis: Axis) -> Ident {
 pub fn helpers(context: &Context<'_>) -> TokenStream {
     let mut rotations = BTreeSet::new();
     let mut departures = BTreeSet::new();
-    for id in super::observable::ids(context.chain) {
+    for id in super::ids(context.chain) {
         for step in matrix_product(context.chain, id).steps {
             match step {
                 Step::Rotation { axis, .. } => rotations.insert(axis),

@@ -11,7 +11,7 @@ mod tokens;
 
 use codegen::Program;
 use codegen::backends::rust::{Pieces, Stages};
-use model_core::{Chain, Mistake, SymbolKind};
+use model_core::{Chain, Mistake, ObservableId, SymbolKind};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
@@ -28,6 +28,11 @@ struct Context<'a> {
 /// What a module has a structure of, in order.
 const KINDS: [SymbolKind; 4] =
     [SymbolKind::Joint, SymbolKind::Input, SymbolKind::Error, SymbolKind::Constant];
+
+/// The observables of a chain, in order.
+fn ids(chain: &Chain) -> impl Iterator<Item = ObservableId> {
+    (0u16..).map(ObservableId).take(chain.observables.len())
+}
 
 impl Context<'_> {
     /// Whether the chain has symbols of a kind.
@@ -253,7 +258,7 @@ fn instrument(context: &Context<'_>, documentation: &TokenStream) -> TokenStream
         }
     });
     let chain_name = &chain.name;
-    let observables: TokenStream = observable::ids(chain).map(|id| observable::items(context, id)).collect();
+    let observables: TokenStream = ids(chain).map(|id| observable::items(context, id)).collect();
     quote! {
         #documentation
         ///

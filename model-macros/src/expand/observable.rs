@@ -1,18 +1,13 @@
 //! The methods of one observable.
 
 use codegen::Form;
-use model_core::{Chain, ObservableId, ObservableKind, SymbolId, SymbolKind};
+use model_core::{ObservableId, ObservableKind, SymbolId, SymbolKind};
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::arguments::Arguments;
 use super::tokens::{ident, tokens};
 use super::{Context, closed_form, count, doc, exact, stages};
-
-/// The observables of a chain, in order.
-pub fn ids(chain: &Chain) -> impl Iterator<Item = ObservableId> {
-    (0u16..).map(ObservableId).take(chain.observables.len())
-}
 
 /// Everything of one observable.
 pub fn items(context: &Context<'_>, id: ObservableId) -> TokenStream {

@@ -1,9 +1,8 @@
 //! From an expression as written to the canonical form.
 
-use super::AlgebraError;
-use super::angle::AngleSum;
-use super::multiply::Budget;
-use super::poly::Poly;
+mod ramps;
+
+use crate::algebra::{AlgebraError, AngleSum, Budget, Poly};
 use crate::chain::Chain;
 use crate::expr::{Expr, Function, Node};
 use crate::symbol::{Quantity, SymbolId, SymbolKind};
@@ -155,13 +154,9 @@ where
             spine = left;
         }
         addends.push(spine);
-        let mut result = Poly::zero();
-        for addend in addends.into_iter().rev() {
-            for (coefficient, atoms) in self.value(addend)?.iter() {
-                result.push(coefficient.clone(), atoms);
-            }
-        }
-        Ok(result.normalised())
+        let addends: Vec<Poly> =
+            addends.into_iter().rev().map(|addend| self.value(addend)).collect::<Result<_, _>>()?;
+        Ok(Poly::sum(&addends))
     }
 
     /// A product or quotient, or one over it; the left spine is walked as in a sum.

@@ -1,0 +1,114 @@
+//! Random signs for the rows, drawn group by group.
+
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatRef, Par};
+use rand::Rng;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+
+/// Groups beyond this number are flipped together with their neighbours in the data: still a valid flip, and as
+/// good a sample of chance, at a cost that does not grow with the data.
+const MOST_FLIPPED: usize = 400;
+
+/// Random signs: one row a flip, one column a bucket of groups.
+#[derive(Debug, Clone)]
+pub struct Signs {
+    signs: Mat<f64>,
+    bucket_of_row: Vec<usize>,
+}
+
+impl Signs {
+    /// Signs for the rows whose groups are given. Where there are many groups, neighbours flip together: whatever
+    /// correlation is left between them then counts as chance.
+    #[must_use]
+    pub fn new(group_of_row: &[usize], flips: usize, seed: u64) -> Self {
+        Self::dealt(group_of_row, flips, seed, |number, groups, buckets| number * buckets / groups)
+    }
+
+    /// The same, but groups that flip together lie apart: correlation between neighbours is what is looked for.
+    #[must_use]
+    pub fn scattered(group_of_row: &[usize], flips: usize, seed: u64) -> Self {
+        // Steps by the golden section come back to a bucket after as many steps as there are, in no simple pattern.
+        let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
+        Self::dealt(group_of_row, flips, seed, |number, groups, buckets| match groups > buckets {
+            true => ((number as f64 * golden).fract() * buckets as f64) as usize % buckets,
+            false => number,
+        })
+    }
+
+    fn dealt(
+        group_of_row: &[usize],
+        flips: usize,
+        seed: u64,
+        bucket: impl Fn(usize, usize, usize) -> usize,
+    ) -> Self {
+        let mut numbers = std::collections::BTreeMap::new();
+        for &group in group_of_row {
+            let next = numbers.len();
+            numbers.entry(group).or_insert(next);
+        }
+        let groups = numbers.len();
+        let buckets = groups.min(MOST_FLIPPED);
+        let bucket_of_row =
+            group_of_row.iter().map(|group| bucket(numbers[group], groups, buckets)).collect();
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let mut bits = 0_u64;
+        let mut left = 0;
+        let signs = Mat::from_fn(flips, buckets, |_, _| {
+            if left == 0 {
+                bits = random.next_u64();
+                left = 64;
+            }
+            let sign = if bits & 1 == 0 { 1.0 } else { -1.0 };
+            bits >>= 1;
+            left -= 1;
+            sign
+        });
+        Self { signs, bucket_of_row }
+    }
+
+    /// How many flips.
+    #[must_use]
+    pub fn flips(&self) -> usize {
+        self.signs.nrows()
+    }
+
+    /// The bucket that each row is flipped with.
+    #[must_use]
+    pub fn bucket_of_row(&self) -> &[usize] {
+        &self.bucket_of_row
+    }
+
+    /// Σ column × residual within each bucket, buckets × columns.
+    #[must_use]
+    pub fn scores(&self, columns: MatRef<'_, f64>, residual: &[f64]) -> Mat<f64> {
+        let mut scores = Mat::zeros(self.buckets(), columns.ncols());
+        for (j, column) in columns.col_iter().enumerate() {
+            let target = scores.col_as_slice_mut(j);
+            for ((&bucket, &e), &z) in self.bucket_of_row.iter().zip(residual).zip(column.iter()) {
+                target[bucket] += z * e;
+            }
+        }
+        scores
+    }
+
+    /// Sums within buckets, then their signed sums: flips × columns.
+    #[must_use]
+    pub fn flip(&self, bucket_scores: MatRef<'_, f64>) -> Mat<f64> {
+        let mut sums = Mat::zeros(self.signs.nrows(), bucket_scores.ncols());
+        matmul(&mut sums, Accum::Replace, &self.signs, bucket_scores, 1.0, Par::Seq);
+        sums
+    }
+
+    /// The signs of one flip, bucket by bucket.
+    #[must_use]
+    pub fn of_flip(&self, flip: usize) -> Vec<f64> {
+        self.signs.row(flip).iter().copied().collect()
+    }
+
+    /// How many buckets.
+    #[must_use]
+    pub fn buckets(&self) -> usize {
+        self.signs.ncols()
+    }
+}

@@ -133,9 +133,12 @@ fn best(rows: &[DMatrix<f64>], covariance: &DMatrix<f64>, criterion: Criterion) 
         match criterion {
             Criterion::D => own.determinant(),
             Criterion::A => {
-                let inverse = own.try_inverse().unwrap_or_default();
                 let m = row.nrows();
-                (inverse.view((0, 0), (m, m)) * (&spread * spread.transpose())).trace()
+                let gain = |inverse: Matrix3<f64>| {
+                    (inverse.view((0, 0), (m, m)) * (&spread * spread.transpose())).trace()
+                };
+                // A pose at which nothing can be computed is no candidate.
+                own.try_inverse().map_or(f64::NAN, gain)
             }
         }
     };
@@ -181,8 +184,9 @@ pub(crate) fn spread(
     let generator = generator(joints(chain, observations).len());
     let mut axis = 0;
     for (id, values) in &mut spread.columns {
-        let measured = observations.column(*id).unwrap_or_default();
-        let mut sorted = measured.to_vec();
+        let measured = observations.column(*id);
+        let mut sorted = measured
+            .map_or_else(|| unreachable!("the columns are those of the observations"), <[f64]>::to_vec);
         sorted.sort_by(f64::total_cmp);
         let stated = ranges.iter().find(|(known, _)| known == id).map(|(_, range)| range.clone());
         let symbol = chain.symbol(*id);
@@ -196,7 +200,7 @@ pub(crate) fn spread(
             (None, Some(&low), Some(&high)) => (low, high),
             _ => (0.0, full),
         };
-        let step = generator.get(axis).copied().unwrap_or(0.5);
+        let step = generator[axis];
         axis += 1;
         *values =
             (0..CANDIDATES).map(|row| low + (high - low) * ((row as f64 + 0.5) * step).fract()).collect();

@@ -183,7 +183,7 @@ fn of_joints(chain: &Chain, observations: &Observations, series: &Series) -> Vec
         if symbol.kind != SymbolKind::Joint || symbol.quantity != Quantity::Angle {
             continue;
         }
-        let readings = values.get(series.rows.clone()).unwrap_or_default();
+        let readings = &values[series.rows.clone()];
         let largest_rad = readings.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
         let (source, joint) = (series.source.clone(), symbol.name.clone());
         if largest_rad > FURTHEST_RAD {

@@ -202,7 +202,7 @@ impl Model {
         let predicted = |row: usize| Vector3::new(outputs[0][row], outputs[1][row], outputs[2][row]);
         for row in 0..count {
             let predicted = predicted(row);
-            let measured = observations.measured.get(rows.start + row).copied().unwrap_or_default();
+            let measured = observations.measured[rows.start + row];
             let components = components(series.measure, &Vector3::from(measured), &predicted);
             let defined = components.iter().take(m).all(|(residual, _)| residual.is_finite());
             block.defined.push(defined);
@@ -232,7 +232,7 @@ impl vector::Work for Projection<'_> {
             return;
         }
         let width = jacobian.len() / (m * rows);
-        let derivatives = outputs.get(3 * rows..).unwrap_or_default();
+        let derivatives = &outputs[3 * rows..];
         for (column, target) in jacobian.chunks_exact_mut(m * rows).enumerate() {
             let along = |axis: usize| &derivatives[(axis * width + column) * rows..][..rows];
             let (dx, dy, dz) = (along(0), along(1), along(2));

@@ -117,7 +117,7 @@ impl Partial {
         if row > column {
             return 0.0;
         }
-        self.packed.get(column * (column + 1) / 2 + row).copied().unwrap_or_default()
+        self.packed[column * (column + 1) / 2 + row]
     }
 }
 

@@ -56,7 +56,7 @@ impl Statistic {
                 // What the regression alone makes of independent noise.
                 let expected = left.basis.col_iter().map(|u| both().map(|(i, j)| u[i] * u[j]).sum::<f64>());
                 let expected = -variance * expected.sum::<f64>();
-                let bucket = |row: usize| signs.bucket_of_row().get(first[row]).copied().unwrap_or(0);
+                let bucket = |row: usize| signs.bucket_of_row()[first[row]];
                 (bucket(a), bucket(b), product, expected)
             })
             .collect();

@@ -165,7 +165,7 @@ impl Plan {
 
     /// The readings of joints and inputs, derived ones included.
     fn readings(&self, source: &SourcePlan, columns: &Columns, rows: &Rows) -> Vec<(SymbolId, Vec<f64>)> {
-        let number = |at: usize| rows.numbers.get(at).cloned().unwrap_or_default();
+        let number = |at: usize| rows.numbers[at].clone();
         let read: Vec<(SymbolId, Vec<f64>)> =
             columns.readings.iter().map(|&(id, at)| (id, number(at))).collect();
         let named = |name: &str| {

@@ -69,8 +69,8 @@ impl AngleSum {
             Ok((symbol, product))
         });
         let multiples = if factor == 0 { Vec::new() } else { multiples.collect::<Result<Vec<_>, _>>()? };
-        let quarters = u32::from(self.quarters) * (factor % 4) % 4;
-        Ok(Self { multiples, quarters: u8::try_from(quarters).unwrap_or_default() })
+        let quarters = (0..factor % 4).fold(0, |sum, _| (sum + self.quarters) % 4);
+        Ok(Self { multiples, quarters })
     }
 
     /// The symbols and their whole multiples, by symbol.

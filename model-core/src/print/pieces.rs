@@ -224,7 +224,7 @@ fn in_powers(pieces: &[Piece], symbols: &[SymbolId], in_cosines: bool) -> Vec<Pi
         for function in &piece.functions {
             let (symbol, harmonic) = function.angle[0];
             let replaced: Vec<(Rational, Vec<Function>)> = if symbols.contains(&symbol)
-                && harmonic <= HARMONIC
+                && (1..=HARMONIC).contains(&harmonic)
             {
                 powers_of(harmonic, function.is_sine, in_cosines)
                     .into_iter()
@@ -258,7 +258,7 @@ fn in_powers(pieces: &[Piece], symbols: &[SymbolId], in_cosines: bool) -> Vec<Pi
 fn powers_of(harmonic: i32, is_sine: bool, in_cosines: bool) -> Vec<(Rational, u32, u32)> {
     // (c + i s)^k, real and imaginary part.
     let mut sum: BTreeMap<(u32, u32), Rational> = BTreeMap::new();
-    let k = u32::try_from(harmonic).unwrap_or(1);
+    let k = u32::try_from(harmonic).unwrap_or_else(|_| unreachable!("waves have positive multiples"));
     let mut binomial = Rational::ONE;
     for sines in 0..=k {
         let keeps = (sines % 2 == 1) == is_sine;
@@ -267,13 +267,14 @@ fn powers_of(harmonic: i32, is_sine: bool, in_cosines: bool) -> Vec<(Rational, u
             sum.insert((k - sines, sines), sign);
         }
         let (above, below) = (i64::from(k - sines), i64::from(sines + 1));
-        binomial = &binomial * &Rational::new(above, below).unwrap_or_default();
+        let ratio = Rational::new(above, below).unwrap_or_else(|| unreachable!("it is over one or more"));
+        binomial = &binomial * &ratio;
     }
     // s² = 1 − c², or c² = 1 − s².
     loop {
         let high = sum.keys().find(|(c, s)| if in_cosines { *s >= 2 } else { *c >= 2 }).copied();
         let Some((c, s)) = high else { break };
-        let coefficient = sum.remove(&(c, s)).unwrap_or_default();
+        let Some(coefficient) = sum.remove(&(c, s)) else { unreachable!("the key was found there") };
         let (one, other) =
             if in_cosines { ((c, s - 2), (c + 2, s - 2)) } else { ((c - 2, s), (c - 2, s + 2)) };
         for (key, sign) in [(one, Rational::ONE), (other, -&Rational::ONE)] {

@@ -102,8 +102,10 @@ fn column(term: VarianceTerm, observations: &Observations) -> Vec<f64> {
         VarianceTerm::Sin(id, multiple) => (id, Box::new(move |q: f64| (f64::from(multiple) * q).sin())),
         VarianceTerm::LogRange(id) => (id, Box::new(f64::ln)),
     };
-    let values: Vec<f64> =
-        observations.column(id).unwrap_or_default().iter().map(|&value| function(value)).collect();
+    let readings = observations
+        .column(id)
+        .unwrap_or_else(|| unreachable!("a variance goes with what the observations have readings of"));
+    let values: Vec<f64> = readings.iter().map(|&value| function(value)).collect();
     let mean = values.iter().sum::<f64>() / (values.len() as f64).max(1.0);
     values.into_iter().map(|value| value - mean).collect()
 }

@@ -44,7 +44,7 @@ impl Curves {
         let poses = Poses::Path(path.clone());
         // Says what the path leaves open.
         let first_order = FirstOrder::new(chain, observable, &sized(chain, sizes))?;
-        let space = Space::new(chain, observable, &poses, &first_order)?;
+        let space = Space::new(chain, observable, &poses, |symbol| first_order.harmonic(symbol))?;
         let probe = Probe::new(chain, observable);
         let range = Path::PARAMETER;
         let last = points.max(2) - 1;

@@ -99,7 +99,7 @@ impl Budget {
     ) -> Result<Self, BudgetError> {
         let errors = sized(chain, sizes);
         let first_order = FirstOrder::new(chain, observable, &errors)?;
-        let space = Space::new(chain, observable, poses, &first_order)?;
+        let space = Space::new(chain, observable, poses, |symbol| first_order.harmonic(symbol))?;
         let probe = Probe::new(chain, observable);
         let mut single: Vec<Vec<f64>> = errors.iter().map(|_| Vec::new()).collect();
         let mut values = chain.nominal_values();

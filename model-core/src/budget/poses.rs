@@ -4,7 +4,6 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::BudgetError;
-use super::first_order::FirstOrder;
 use super::quadrature::{self, Node as RuleNode, Rule};
 use crate::algebra::Poly;
 use crate::amount::LowerError;
@@ -151,12 +150,12 @@ const MOST_POSES: f64 = 200_000.0;
 const MOST_PANELS: f64 = 50_000.0;
 
 impl<'a> Space<'a> {
-    /// The poses as far as they move the observable.
+    /// The poses as far as they move the observable; `harmonic` is the highest multiple of each angle in its first-order form.
     pub fn new(
         chain: &Chain,
         observable: ObservableId,
         poses: &'a Poses,
-        waves: &FirstOrder,
+        harmonic: impl Fn(SymbolId) -> u32,
     ) -> Result<Self, BudgetError> {
         let needed = needed(chain, observable);
         let no_value = |id: SymbolId| BudgetError::NoValue {
@@ -170,7 +169,7 @@ impl<'a> Space<'a> {
                 }
                 let Range { start, end } = Path::PARAMETER;
                 // Squares turn twice as fast; a panel of eight nodes does half a wave to ten digits.
-                let waves = path.fastest(|symbol| waves.harmonic(symbol));
+                let waves = path.fastest(&harmonic);
                 let panels = (4.0 * waves).ceil().max(64.0);
                 Ok(Self {
                     kind: Kind::Path(path),
@@ -195,9 +194,7 @@ impl<'a> Space<'a> {
                 let wanted: Vec<Rule> = needed
                     .iter()
                     .zip(&bounds)
-                    .map(|(&id, &(low, high))| {
-                        Rule::for_squares(low, high, waves.harmonic(id), usual as usize)
-                    })
+                    .map(|(&id, &(low, high))| Rule::for_squares(low, high, harmonic(id), usual as usize))
                     .collect();
                 let is_sampled = wanted.iter().map(|rule| rule.len() as f64).product::<f64>() > MOST_POSES;
                 let axes = if is_sampled {

@@ -22,7 +22,7 @@ pub fn influences_at(
 ) -> Result<Vec<Vec<f64>>, BudgetError> {
     let errors = sized(chain, sizes);
     let first_order = FirstOrder::new(chain, observable, &errors)?;
-    let space = Space::new(chain, observable, poses, &first_order)?;
+    let space = Space::new(chain, observable, poses, |symbol| first_order.harmonic(symbol))?;
     let probe = Probe::new(chain, observable);
     let mut values = chain.nominal_values();
     let steps = steps(space.bounds.len());

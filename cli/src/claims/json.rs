@@ -37,6 +37,12 @@ pub fn as_json(file: &ClaimsFile, checked: &Checked<'_>) -> Value {
                 claim["corrected"] = form.corrected(&file.printed).to_vec().into();
             }
         }
+        Verdict::Equality(equality) => {
+            claim["difference"] = json!({
+                "text": equality.difference.show(&file.chain, print::Style::Text),
+                "latex": equality.difference.show(&file.printed, print::Style::Latex),
+            });
+        }
         Verdict::Total(total) => {
             let text = |value: &model_core::checker::Fraction| value.show(&file.chain, print::Style::Text);
             claim["differences"] = total

@@ -44,6 +44,12 @@ pub fn as_text(file: &ClaimsFile, checked: &[Checked<'_>]) -> String {
                 let hand = hand::of_claim(&file.hand, &file.chain, &claim.claim);
                 write_form(&mut out, &Written { chain: &file.printed, style, hand: &hand }, claim, form);
             }
+            Verdict::Equality(equality) => {
+                if !equality.difference.is_zero() {
+                    let difference = equality.difference.show_by(&file.printed, style, &file.hand);
+                    let _ = writeln!(out, "    the first less the second is {difference}");
+                }
+            }
             Verdict::Total(total) => write_total(&mut out, &file.printed, total, style),
             Verdict::Comparison(measured) => write_measured(&mut out, &file.chain, &claim.claim, measured),
             Verdict::Count(counted) => write_counted(&mut out, counted),

@@ -21,8 +21,8 @@ pub struct File {
     pub claim: Vec<Spanned<ClaimTable>>,
 }
 
-/// One claim: one of `components`, `total`, `compare`, `size`, `bound`, `count`, `rank`, `confounded`, `separable`, and what
-/// goes with it.
+/// One claim: one of `components`, `equal`, `total`, `compare`, `size`, `bound`, `count`, `rank`, `confounded`, `separable`, and
+/// what goes with it.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ClaimTable {
@@ -36,6 +36,7 @@ pub struct ClaimTable {
     pub path: Option<Spanned<String>>,
     pub range: Option<Spanned<Texts>>,
     pub components: Option<Spanned<Texts>>,
+    pub equal: Option<Spanned<Texts>>,
     pub total: Option<Spanned<String>>,
     pub compare: Option<Spanned<CompareTable>>,
     pub size: Option<Spanned<SizeTable>>,

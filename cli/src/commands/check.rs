@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use model_core::Mistake;
-use model_core::certificate::{Certificate, Declared};
+use model_core::certificate::{Certificate, Declared, Refusal};
 use model_core::checker::{Checker, Claim, Verdict};
 use serde_json::{Value, json};
 
@@ -15,8 +15,8 @@ use crate::terminal;
 
 /// Check published claims: is the printed formula what the chain implies?
 ///
-/// A claims file names a declaration and claims about it: closed forms in LaTeX as printed, total errors, comparisons
-/// of influences, sizes, bounds, counts, ranks. Formulas are decided by exact algebra. What differs is shown term by term, with the
+/// A claims file names a declaration and claims about it: closed forms in LaTeX as printed, equalities of two formulas, total
+/// errors, comparisons of influences, sizes, bounds, counts, ranks. Formulas are decided by exact algebra. What differs is shown term by term, with the
 /// place in the printed formula and the usual slip behind it. Exit code 1 if a claim does not hold.
 ///
 /// Example: trueaxis check examples/mobile-lidar/paper.toml
@@ -75,16 +75,14 @@ fn certify(file: &ClaimsFile, checked: &[Checked<'_>]) -> Result<String, Failure
     let mut certificate = Certificate::new(&declared);
     for Checked { claim, verdict } in checked {
         match (&claim.claim, verdict) {
-            (Claim::ClosedForm(form), Verdict::ClosedForm(verdict)) if form.is_plain() => {
-                certificate.closed_form(&claim.name, form, verdict).map_err(|refusal| {
-                    let message = format!("no certificate of this claim: {refusal}; nothing is written");
-                    file.source.mistake(Mistake::new(claim.place.clone(), message))
-                })?;
+            (Claim::ClosedForm(form), Verdict::ClosedForm(verdict)) => {
+                let written = certificate.closed_form(&claim.name, form, verdict);
+                note_refusal(&mut certificate, &claim.name, written);
             }
-            (Claim::ClosedForm(_), _) => certificate.not_certified(
-                &claim.name,
-                "certificates speak of whole vectors to an order, of one face, without quotients by sums, half angles and roots",
-            ),
+            (Claim::Equality(equality), Verdict::Equality(verdict)) => {
+                let written = certificate.equality(&claim.name, equality, verdict);
+                note_refusal(&mut certificate, &claim.name, written);
+            }
             (_, Verdict::Comparison(_) | Verdict::Size(_)) => {
                 certificate
                     .not_certified(&claim.name, "influences are measured in floating point, not proved");
@@ -103,8 +101,15 @@ fn certify(file: &ClaimsFile, checked: &[Checked<'_>]) -> Result<String, Failure
         terminal::note(format_args!("not certified: {note}"));
     }
     if certificate.is_empty() {
-        let why = "no claim of this file is a formula; there is nothing to certify, and nothing is written";
+        let why = "none of the claims of this file can be certified; nothing is written";
         return Err(Failure::Input(why.to_owned()));
     }
     Ok(certificate.finish(&file.source.path.display().to_string()))
+}
+
+/// A claim that cannot be certified is named in the certificate, and on the terminal, with the reason.
+fn note_refusal(certificate: &mut Certificate<'_>, name: &str, written: Result<(), Refusal>) {
+    if let Err(refusal) = written {
+        certificate.not_certified(name, &refusal.to_string());
+    }
 }

@@ -64,13 +64,37 @@ fn nothing_is_written_where_nothing_can_be_certified() {
     let names = folder.names();
     refused(
         &folder.trueaxis(&["check", "counts.toml", "--certificate", "c.v"]),
-        "there is nothing to certify",
+        "none of the claims of this file can be certified; nothing is written",
     );
     refused(
         &folder.trueaxis(&["derive", "steep.chain", "--certificate", "c.v"]),
         "no certificate of `o`: the sine or cosine of 25 times an angle; certificates go up to 24 times; nothing is written",
     );
     assert_eq!(folder.names(), names);
+}
+
+/// One claim that cannot be certified does not keep the others from it.
+#[test]
+fn what_cannot_be_certified_is_said_beside_what_is() {
+    let folder = folder("some");
+    folder.write(
+        "some.toml",
+        concat!(
+            "chain = \"mobile-lidar.chain\"\n",
+            "[[claim]]\nname = \"half\"\nequal = ['tan(beta/2)', 'sin(beta)/(1 + cos(beta))']\n",
+            "[[claim]]\nname = \"double\"\nequal = ['\\sin 2\\alpha', '2 \\cos\\alpha \\sin\\alpha']\n",
+            "[[claim]]\nname = \"other\"\nequal = ['cos(alpha + beta)', 'cos(alpha)*cos(beta) + sin(alpha)*sin(beta)']\n",
+        ),
+    );
+    let run = folder.trueaxis(&["check", "some.toml", "--certificate", "c.v"]);
+    assert_eq!(run.code, 1, "{}", run.stderr);
+    assert!(run.stderr.starts_with("not certified: half: certificates speak of"), "{}", run.stderr);
+    let text = folder.read("c.v");
+    for said in
+        ["(* Not certified: half: ", "Print Assumptions double.holds.", "Print Assumptions other.differs."]
+    {
+        assert!(text.contains(said), "{said}: {text}");
+    }
 }
 
 #[test]

@@ -43,32 +43,52 @@ impl Section<'_> {
         let difference = verdict.differences.first().ok_or(Refusal::NoWitness)?;
         let component = difference.component.index();
         let axis = difference.component.to_string();
-        let (printed, derived) =
-            (Expanded::new(&printed[component])?, Expanded::new(&verdict.derived[component])?);
-        let mut differs = Expanded::new(&claimed(verdict, component))?;
+        let formulas = [Expanded::new(&printed[component])?, Expanded::new(&verdict.derived[component])?];
+        // Errors that have no part in the difference are zero.
+        let declared = self.certificate.declared;
+        let without_part = |symbol: &SymbolId| {
+            declared.is_error(*symbol) && difference.error.iter().all(|(other, _)| other != symbol)
+        };
+        let zeros: Vec<SymbolId> = self.used.iter().copied().filter(without_part).collect();
+        let differs = Expanded::new(&claimed(verdict, component))?;
+        let Place { at: [printed, derived], premises, intros, by_value, points } =
+            self.place(differs, &formulas, &zeros)?;
+        let _ = writeln!(
+            self.out,
+            "\n(* Where the two are different numbers: {axis} is {printed} as printed, {derived} as derived. *)\n\
+             Lemma there : {premises}~ claim.\nProof.\n  intros {intros} C.\n  \
+             assert (E : {axis} printed = {printed}) by (cbv [{axis} printed]; {by_value}).\n  \
+             assert (D : {axis} derived = {derived}) by (cbv [{axis} derived]; {by_value}).\n  \
+             assert (H := f_equal {axis} (one_error _ _ _ _ C is_derived)). rewrite E, D in H. different H.\nQed."
+        );
+        self.conclude("So the formula as printed is not the error.", &points);
+        Ok(())
+    }
+
+    /// Values at which two formulas are different numbers, `differs` being what the one has and the other has not.
+    pub(super) fn place(
+        &self,
+        mut differs: Expanded,
+        formulas: &[Expanded; 2],
+        zeros: &[SymbolId],
+    ) -> Result<Place, Refusal> {
         let circles = self.angles.symbols();
-        let numbers: BTreeSet<SymbolId> = printed
-            .0
-            .keys()
-            .chain(derived.0.keys())
-            .flatten()
+        let numbers: BTreeSet<SymbolId> = formulas
+            .iter()
+            .flat_map(|formula| formula.0.keys().flatten())
             .filter(|(_, part, _)| *part == Part::Value)
             .map(|(symbol, ..)| *symbol)
             .collect();
-        let conditions = self.conditions.clone();
         let search = Search {
-            conditions: &conditions,
+            conditions: &self.conditions,
             is_angle: &|symbol| circles.contains(&symbol),
             is_number: &|symbol| numbers.contains(&symbol),
         };
-        // Errors that have no part in the difference are zero.
         let declared = self.certificate.declared;
         let mut values: Vec<(SymbolId, Value)> = Vec::new();
-        for &symbol in &self.used {
-            if declared.is_error(symbol) && difference.error.iter().all(|(other, _)| *other != symbol) {
-                values.push((symbol, Value::whole(0)));
-                differs = substitute(&differs, symbol, &Value::whole(0)).ok_or(Refusal::NoWitness)?;
-            }
+        for &symbol in zeros {
+            values.push((symbol, Value::whole(0)));
+            differs = substitute(&differs, symbol, &Value::whole(0)).ok_or(Refusal::NoWitness)?;
         }
         let involved: BTreeSet<SymbolId> = differs
             .0
@@ -102,13 +122,12 @@ impl Section<'_> {
             }
             Ok(formula.write(&|_| "PI".to_owned()))
         };
-        let (printed_value, derived_value) = (at(&printed)?, at(&derived)?);
         let equations: Vec<(String, String)> =
             values.iter().flat_map(|(symbol, value)| value.equations(&self.name(*symbol))).collect();
-        let premises: Vec<String> =
-            equations.iter().map(|(left, right)| format!("{left} = {right} -> ")).collect();
         let names: Vec<String> = (0..equations.len()).map(|index| format!("at_{index}")).collect();
         let rewrites: Vec<String> = names.iter().map(|name| format!("?{name}")).collect();
+        let rewrites =
+            if rewrites.is_empty() { String::new() } else { format!("rewrite {}; ", rewrites.join(", ")) };
         let mut points = String::new();
         for (index, [cosine, sine]) in values.iter().filter_map(|(_, value)| value.point()).enumerate() {
             let _ = write!(
@@ -116,32 +135,48 @@ impl Section<'_> {
                 "destruct (circle ({cosine}) ({sine})) as (angle_{index} & cosine_{index} & sine_{index}); [lra|]. "
             );
         }
-        let by_value = format!("angles; rewrite {}; values", rewrites.join(", "));
-        let intros = names.join(" ");
-        let _ = writeln!(
-            self.out,
-            "\n(* Where the two are different numbers: {axis} is {printed_value} as printed, {derived_value} as derived. *)\n\
-             Lemma there : {}~ claim.\nProof.\n  intros {intros} C.\n  \
-             assert (E : {axis} printed = {printed_value}) by (cbv [{axis} printed]; {by_value}).\n  \
-             assert (D : {axis} derived = {derived_value}) by (cbv [{axis} derived]; {by_value}).\n  \
-             assert (H := f_equal {axis} (one_error _ _ _ _ C is_derived)). rewrite E, D in H. different H.\nQed.",
-            premises.concat()
-        );
+        let [first, second] = formulas;
+        Ok(Place {
+            at: [at(first)?, at(second)?],
+            premises: equations.iter().map(|(left, right)| format!("{left} = {right} -> ")).collect(),
+            intros: names.join(" "),
+            by_value: format!("angles; {rewrites}values"),
+            points,
+        })
+    }
+
+    /// From one place at which the claim is wrong: it is not true of all values. The section is closed.
+    pub(super) fn conclude(&mut self, said: &str, points: &str) {
         self.close_section();
         let names: Vec<String> = self.used.iter().map(|symbol| self.name(*symbol)).collect();
         let conditions: Vec<String> =
             self.conditions.iter().map(|condition| format!("{} -> ", self.condition(*condition))).collect();
+        let (all, names) = match names.join(" ") {
+            none if none.is_empty() => (String::new(), String::new()),
+            names => (format!("forall {names} : R, "), format!(" {names}")),
+        };
         let _ = writeln!(
             self.out,
-            "(* So the formula as printed is not the error. *)\nTheorem differs : ~ (forall {} : R, {}claim {}).\nProof.\n  intro H. {points}\
+            "(* {said} *)\nTheorem differs : ~ ({all}{}claim{names}).\nProof.\n  intro H. {points}\
              eapply there; try reflexivity; try eassumption; try apply H;\n    \
              repeat match goal with E : _ = _ |- _ => rewrite E; clear E end; values.\nQed.",
-            names.join(" "),
             conditions.concat(),
-            names.join(" "),
         );
-        Ok(())
     }
+}
+
+/// A place at which two formulas are different numbers, in Coq's syntax.
+pub(super) struct Place {
+    /// The two numbers.
+    pub at: [String; 2],
+    /// `alpha = 0 -> beta = PI / 2 -> `
+    pub premises: String,
+    /// Names for these premises.
+    pub intros: String,
+    /// What calculates a formula there.
+    pub by_value: String,
+    /// Angles of which only cosine and sine are given: that there are such.
+    pub points: String,
 }
 
 /// What is printed less what is derived in a component, from the differences.

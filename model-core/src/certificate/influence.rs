@@ -56,8 +56,12 @@ impl Certificate<'_> {
             return Ok(());
         }
         let module = self.names.give(&wanted);
-        let question =
-            Question { observable, order: 1, kept: vec![first, other], zeros: self.zero_constants() };
+        let question = Question {
+            observable: Some(observable),
+            order: 1,
+            kept: vec![first, other],
+            zeros: self.zero_constants(),
+        };
         let certificate = &*self;
         let formulas = [&ratio.numerator, &ratio.denominator];
         let numbers = [
@@ -66,7 +70,7 @@ impl Certificate<'_> {
             certificate.as_printed(&Poly::zero())?,
         ];
         let mut section = Section::new(certificate, &question, &[&numbers])?;
-        section.open_plain(&module, &title, "size")?;
+        section.open_plain(&module, &title, Some("size"))?;
         let influence = |influence: &Influence| {
             let arguments = influence.symbols.iter().map(|symbol| {
                 if *symbol == influence.error {
@@ -125,7 +129,7 @@ impl Certificate<'_> {
         symbols.sort_unstable();
         symbols.dedup();
         let module = self.names.give(&format!("{name}_on_{shown}"));
-        let question = Question { observable, order: 1, kept: vec![error], zeros };
+        let question = Question { observable: Some(observable), order: 1, kept: vec![error], zeros };
         let mut section = Section::new(self, &question, &[&formula])?;
         section.open(&module, &title);
         section.formula("derived", &formula);

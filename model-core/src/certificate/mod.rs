@@ -8,6 +8,7 @@
 mod angles;
 mod declared;
 mod differs;
+mod equality;
 mod expanded;
 mod expression;
 mod influence;
@@ -59,7 +60,10 @@ pub enum Refusal {
         multiple: u32,
     },
     /// More than Coq calculates with in reasonable time.
-    #[error("a vector of {terms} terms; certificates go up to {limit}")]
+    #[error(
+        "a vector of {terms} terms on the way through the chain; certificates go up to {limit}, with which Coq is busy for minutes. \
+         A claim that keeps few errors has fewer"
+    )]
     TooLarge {
         /// How many terms there are.
         terms: usize,
@@ -149,7 +153,7 @@ impl<'a> Certificate<'a> {
         let form = forms::derive(chain, observable, order)?;
         let derived = self.printed(&form.components)?;
         let question = Question {
-            observable,
+            observable: Some(observable),
             order,
             kept: chain.symbols_of(SymbolKind::Error).collect(),
             zeros: Vec::new(),
@@ -185,15 +189,13 @@ impl<'a> Certificate<'a> {
             .components
             .each_ref()
             .map(|component| declared::without_places(&component.expression));
-        // A printed abbreviation stands for more than a symbol of the chain.
-        let chain = self.declared.chain();
-        let foreign =
-            |formula: &Expr<()>| formula.names().iter().any(|(name, ())| chain.find_symbol(name).is_none());
-        if printed.iter().any(foreign) {
-            return Err(Refusal::Claim);
-        }
-        let question =
-            Question { observable: claim.observable, order, kept: claim.kept.clone(), zeros: Vec::new() };
+        self.only_symbols_of_the_chain(&printed)?;
+        let question = Question {
+            observable: Some(claim.observable),
+            order,
+            kept: claim.kept.clone(),
+            zeros: Vec::new(),
+        };
         let name = self.names.give(title);
         let title = format!(
             "{title}: the error of {} to {} order, as printed",
@@ -325,6 +327,14 @@ impl<'a> Certificate<'a> {
     fn printed(&self, components: &[Poly; 3]) -> Result<[Expr<()>; 3], Refusal> {
         let [x, y, z] = components.each_ref().map(|component| self.as_printed(component));
         Ok([x?, y?, z?])
+    }
+
+    /// Refuses printed abbreviations: they stand for more than a symbol of the chain.
+    fn only_symbols_of_the_chain(&self, printed: &[Expr<()>]) -> Result<(), Refusal> {
+        let chain = self.declared.chain();
+        let foreign =
+            |formula: &Expr<()>| formula.names().iter().any(|(name, ())| chain.find_symbol(name).is_none());
+        if printed.iter().any(foreign) { Err(Refusal::Claim) } else { Ok(()) }
     }
 
     fn finish_section(&mut self, section: String, name: &str, theorem: &str) {

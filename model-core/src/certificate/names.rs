@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 
 use super::LIBRARY;
 
-/// Words of Coq's language and of its libraries that the text of a certificate uses.
-const WORDS: &str = "as at cofix do else end exists exists2 fix for forall fun if IF in let match mod Prop return Set SProp \
+/// Words of Coq's language (which of them are no names, its parser was asked) and of its libraries that the text of a certificate
+/// uses.
+const WORDS: &str = "Axiom CoFixpoint Eval Fixpoint Parameter Variable as at cofix do else end exists exists2 fix for forall fun if IF in let match mod Prop return Set SProp \
     then Type using where with by Definition Lemma Theorem Proof Qed Section End Module Variables Hypothesis Ltac From \
     Require Import Print Assumptions R PI sin cos tan atan pow sqrt list nil cons hd tl app length fst snd eq_refl f_equal \
     cos_plus sin_plus cos_neg sin_neg cos_PI2 sin_PI2 cos_PI sin_PI cos_0 sin_0 PI_RGT_0 PI_4 Rmult_1_l Rinv INR IZR \
@@ -13,7 +14,7 @@ const WORDS: &str = "as at cofix do else end exists exists2 fix for forall fun i
 
 /// Words that the text of a certificate gives a meaning to.
 const OWN: &str = "instrument vector printed derived claim holds differs there same_chain is_derived for_all size x_of_formula \
-    y_of_formula z_of_formula x_differs y_differs z_differs C E H D P Q";
+    y_of_formula z_of_formula first_formula second_formula x_differs y_differs z_differs C E H D P Q";
 /// Beginnings of such words, before a number or a name.
 const OWN_BEGINNINGS: [&str; 10] =
     ["from_", "step_", "cos_of_", "sin_of_", "body_", "at_", "defined_", "angle_", "cosine_", "sine_"];

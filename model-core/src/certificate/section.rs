@@ -17,12 +17,22 @@ use crate::symbol::SymbolId;
 /// What a statement is about.
 #[derive(Debug, Clone)]
 pub(super) struct Question {
-    pub observable: ObservableId,
+    /// `None` where the statement is about numbers alone.
+    pub observable: Option<ObservableId>,
     pub order: u32,
     /// The errors that are not zero, in order.
     pub kept: Vec<SymbolId>,
     /// Constants that are zero.
     pub zeros: Vec<SymbolId>,
+}
+
+impl Question {
+    fn observable(&self) -> ObservableId {
+        match self.observable {
+            Some(observable) => observable,
+            None => unreachable!("what an instrument shows is only asked for in statements about one"),
+        }
+    }
 }
 
 /// A statement that is being written.
@@ -52,7 +62,7 @@ impl<'c> Section<'c> {
     ) -> Result<Self, Refusal> {
         let declared = certificate.declared;
         let chain = declared.chain();
-        let observable = chain.observable(question.observable);
+        let observable = chain.observable(question.observable());
         let path = chain.path(observable.body);
         let mut section = Self {
             certificate,
@@ -70,7 +80,7 @@ impl<'c> Section<'c> {
         let lower = |expression: &Expr<()>| lower(certificate, question, expression);
         let mut angles = Angles::default();
         let mut divisors = Vec::new();
-        let vector = declared.observable(question.observable);
+        let vector = declared.observable(question.observable());
         for expression in vector.iter().chain(formulas.iter().copied().flatten()) {
             section.used.extend(declared.symbols_of(expression));
             angles.add_all(&lower, expression, &name)?;
@@ -106,6 +116,41 @@ impl<'c> Section<'c> {
         Ok(section)
     }
 
+    /// A statement about these formulas alone.
+    pub(super) fn of_numbers(
+        certificate: &'c Certificate<'c>,
+        question: &'c Question,
+        formulas: &[Expr<()>],
+    ) -> Result<Self, Refusal> {
+        let mut section = Self {
+            certificate,
+            question,
+            kind: ObservableKind::Direction,
+            path: Vec::new(),
+            used: Vec::new(),
+            conditions: Vec::new(),
+            angles: Angles::default(),
+            factors: Vec::new(),
+            states: Vec::new(),
+            out: String::new(),
+        };
+        let name = |expression: &Expr<()>| section_leaf(certificate, question, expression);
+        let lower = |expression: &Expr<()>| lower(certificate, question, expression);
+        let mut divisors = Vec::new();
+        for formula in formulas {
+            section.used.extend(certificate.declared.symbols_of(formula));
+            section.angles.add_all(&lower, formula, &name)?;
+            expression::divisors(formula, &mut divisors);
+        }
+        section.used.sort_unstable();
+        section.used.dedup();
+        section.used.retain(|symbol| !question.zeros.contains(symbol));
+        for divisor in divisors {
+            section.add_conditions(&divisor)?;
+        }
+        Ok(section)
+    }
+
     fn is_kept(&self, symbol: SymbolId) -> bool {
         self.question.kept.binary_search(&symbol).is_ok()
     }
@@ -127,7 +172,7 @@ impl<'c> Section<'c> {
     fn run(&mut self) -> Result<(), Refusal> {
         let declared = self.certificate.declared;
         let chain = declared.chain();
-        let components = &chain.observable(self.question.observable).components;
+        let components = &chain.observable(self.question.observable()).components;
         let [x, y, z] = components.each_ref().map(|component| put_zeros(self.question, component));
         self.states.push([x?, y?, z?].map(|component| jets::constant(&component, self.question.order)));
         for (body, index, amount) in self.factors.iter().rev() {
@@ -183,7 +228,7 @@ impl<'c> Section<'c> {
     pub(super) fn open(&mut self, module: &str, title: &str) {
         let certificate = self.certificate;
         let chain = certificate.declared.chain();
-        let observable = chain.observable(self.question.observable);
+        let observable = chain.observable(self.question.observable());
         let _ = writeln!(self.out, "(* {} *)\nModule {module}.\nSection for_all.", comment(title));
         let names: Vec<String> = self.used.iter().map(|symbol| self.name(*symbol)).collect();
         if !names.is_empty() {
@@ -214,23 +259,28 @@ impl<'c> Section<'c> {
             ObservableKind::Point => "point",
         };
         let _ = writeln!(self.out, "(* {}: a {what} in the frame of that body *)", comment(&observable.name));
-        self.formula("vector", certificate.declared.observable(self.question.observable));
+        self.formula("vector", certificate.declared.observable(self.question.observable()));
     }
 
-    /// The heading, the variables with one more, and the rules of calculation, for a statement about numbers.
-    pub(super) fn open_plain(&mut self, module: &str, title: &str, size: &str) -> Result<(), Refusal> {
+    /// The heading, the variables and besides them `more`, and the rules of calculation, for a statement about numbers.
+    pub(super) fn open_plain(
+        &mut self,
+        module: &str,
+        title: &str,
+        more: Option<&str>,
+    ) -> Result<(), Refusal> {
+        let kept = |symbol: &&SymbolId| !self.is_kept(**symbol);
         let names: Vec<String> = self
             .used
             .iter()
-            .filter(|symbol| !self.is_kept(**symbol))
+            .filter(kept)
             .map(|symbol| self.name(*symbol))
+            .chain(more.map(str::to_owned))
             .collect();
-        let _ = writeln!(
-            self.out,
-            "(* {} *)\nModule {module}.\nSection for_all.\nVariables {} {size} : R.",
-            comment(title),
-            names.join(" ")
-        );
+        let _ = writeln!(self.out, "(* {} *)\nModule {module}.\nSection for_all.", comment(title));
+        if !names.is_empty() {
+            let _ = writeln!(self.out, "Variables {} : R.", names.join(" "));
+        }
         self.write_conditions();
         let mut lemmas = String::new();
         self.angles.write(&mut lemmas, &|symbol| self.name(symbol))?;

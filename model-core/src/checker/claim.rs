@@ -1,5 +1,6 @@
 //! Claims as data: what somebody says of a chain.
 
+use super::equality::Equality;
 use super::formula::PrintedVector;
 use super::radicand::Total;
 use super::ranks::Rank;
@@ -16,6 +17,8 @@ use crate::symbol::{SymbolId, SymbolKind};
 pub enum Claim {
     /// A printed formula for the error of an observable.
     ClosedForm(Box<ClosedForm>),
+    /// Two printed formulas are one.
+    Equality(Box<Equality>),
     /// One error matters less than another.
     Comparison(Comparison),
     /// How many errors of a kind are declared.

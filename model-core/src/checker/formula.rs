@@ -5,9 +5,9 @@ use std::ops::Range;
 use super::algebraic;
 use super::fraction::Fraction;
 use super::lowering::{self, Sines};
-use crate::algebra::AlgebraError;
+use crate::algebra::{AlgebraError, Poly, Rational};
 use crate::chain::{Axis, Chain};
-use crate::expr::Expr;
+use crate::expr::{Expr, Node};
 use crate::latex::{self, PrintedSymbols};
 use crate::mistake::Mistake;
 use crate::symbol::SymbolId;
@@ -83,7 +83,7 @@ impl PrintedVector {
         axis: Axis,
         is_exact: bool,
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
-        let written = written(symbols, 0, text, axis.index())?;
+        let written = written(symbols, 0, text, Some(axis.index()))?;
         let sines = if is_exact { Sines::OfErrors } else { Sines::OfAngles };
         let value =
             lowering::fraction(chain, &written.1, sines).map_err(|mistake| vec![in_text(0, mistake)])?;
@@ -91,6 +91,38 @@ impl PrintedVector {
             .map_err(|error| vec![in_text(0, Mistake::new(0..text.len(), error.to_string()))])?;
         read.components.swap(0, axis.index());
         Ok(read)
+    }
+
+    /// Reads two formulas that name no component, as x and y, so that both are said in the same terms.
+    pub(super) fn read_pair(
+        chain: &Chain,
+        symbols: &PrintedSymbols,
+        texts: [&str; 2],
+    ) -> Result<Self, Vec<Mistake<TextPlace>>> {
+        let mut components = Vec::with_capacity(3);
+        let mut mistakes = Vec::new();
+        for (index, text) in texts.into_iter().enumerate() {
+            let read = written(symbols, index, text, None).and_then(|(text_index, expression)| {
+                match lowering::fraction(chain, &expression, Sines::OfErrors) {
+                    Ok(value) => Ok(PrintedComponent { text_index, expression, value }),
+                    Err(mistake) => Err(vec![in_text(text_index, mistake)]),
+                }
+            });
+            match read {
+                Ok(component) => components.push(component),
+                Err(found) => mistakes.extend(found),
+            }
+        }
+        let Ok([first, second]) = <[PrintedComponent; 2]>::try_from(components) else {
+            return Err(mistakes);
+        };
+        let whole = 0..texts[0].len();
+        let zero = Expr { node: Node::Number(Rational::ZERO), place: whole.clone() };
+        let nothing =
+            PrintedComponent { text_index: 0, expression: zero, value: Fraction::whole(Poly::zero()) };
+        Self { components: [first, second, nothing], halves: Vec::new(), has_roots: false }
+            .normalised(chain)
+            .map_err(|error| vec![in_text(0, Mistake::new(whole, error.to_string()))])
     }
 
     fn read_with(
@@ -146,7 +178,7 @@ impl PrintedVector {
         value: Fraction,
     ) -> Result<Self, AlgebraError> {
         let component = |value| PrintedComponent { text_index: 0, expression: expression.clone(), value };
-        let nothing = || component(Fraction::whole(crate::algebra::Poly::zero()));
+        let nothing = || component(Fraction::whole(Poly::zero()));
         Self { components: [component(value), nothing(), nothing()], halves: Vec::new(), has_roots: false }
             .normalised(chain)
     }
@@ -173,11 +205,7 @@ impl PrintedVector {
     }
 
     /// A derived amount in the same terms as the printed ones.
-    pub(super) fn translate(
-        &self,
-        chain: &Chain,
-        derived: &crate::algebra::Poly,
-    ) -> Result<crate::algebra::Poly, AlgebraError> {
+    pub(super) fn translate(&self, chain: &Chain, derived: &Poly) -> Result<Poly, AlgebraError> {
         let derived = algebraic::in_halves(derived, &self.halves)?;
         Ok(if self.has_roots {
             algebraic::reduced(&algebraic::with_special_constants(&derived, chain), chain)
@@ -199,7 +227,7 @@ fn expressions(symbols: &PrintedSymbols, texts: &[&str]) -> Result<Vec<Written>,
     let mut expressions = Vec::new();
     let mut mistakes = Vec::new();
     for (index, text) in texts.iter().enumerate() {
-        match written(symbols, index, text, index) {
+        match written(symbols, index, text, Some(index)) {
             Ok(component) => expressions.push(component),
             Err(found) => mistakes.extend(found),
         }
@@ -212,10 +240,14 @@ fn written(
     symbols: &PrintedSymbols,
     text_index: usize,
     text: &str,
-    axis: usize,
+    axis: Option<usize>,
 ) -> Result<Written, Vec<Mistake<TextPlace>>> {
     if is_latex(text) {
-        return latex::read_component(text, symbols, axis)
+        let read = match axis {
+            Some(axis) => latex::read_component(text, symbols, axis),
+            None => latex::read_formula(text, symbols),
+        };
+        return read
             .map(|expression| (text_index, expression))
             .map_err(|mistake| vec![in_text(text_index, mistake)]);
     }

@@ -2,8 +2,8 @@
 //!
 //! A [`Claim`] is data; [`Checker::check`] gives its [`Verdict`]. Closed forms are decided by exact algebra, term by term
 //! (`compare`, in canonical form, never by sampling), and a difference is traced to the slip behind it
-//! (`diagnosis` for terms, `misreading` for the order of transforms and left-out frames). Total errors (`total`) and what
-//! can be told apart (`ranks`) are decided, too. Comparisons and absolute sizes (`sizes`) are measured on the exact form
+//! (`diagnosis` for terms, `misreading` for the order of transforms and left-out frames). Equalities of two formulas
+//! (`equality`), total errors (`total`) and what can be told apart (`ranks`) are decided, too. Comparisons and absolute sizes (`sizes`) are measured on the exact form
 //! ([`crate::budget`]), bounds proven ([`crate::remainder`]); a verdict says by which means it came about. Claims files are read elsewhere; a claim that cannot be read is a
 //! [`Mistake`](crate::mistake::Mistake), never a verdict.
 
@@ -12,6 +12,7 @@ mod assert;
 mod claim;
 mod compare;
 mod diagnosis;
+mod equality;
 mod formula;
 mod fraction;
 pub mod hand;
@@ -44,6 +45,7 @@ use misreading::Misreading;
 pub use algebraic::extended;
 pub use assert::assert_closed_form;
 pub use claim::{Claim, ClosedForm, Combination, Comparison, Count, Faces, Order, errors_named};
+pub use equality::{Equality, EqualityVerdict};
 pub use formula::{PrintedComponent, PrintedVector, TextPlace};
 pub use fraction::Fraction;
 pub use lowering::lower;
@@ -100,6 +102,7 @@ impl<'a> Checker<'a> {
         match claim {
             Claim::ClosedForm(claim) => Ok(Verdict::ClosedForm(self.closed_form(claim)?)),
             Claim::Comparison(claim) => Ok(Verdict::Comparison(self.comparison(claim)?)),
+            Claim::Equality(claim) => Ok(Verdict::Equality(self.equality(claim)?)),
             Claim::Total(claim) => Ok(Verdict::Total(self.total(claim)?)),
             Claim::Rank(claim) => Ok(Verdict::Rank(self.rank(claim)?)),
             Claim::Size(claim) => Ok(Verdict::Size(self.size(claim)?)),

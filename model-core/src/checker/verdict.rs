@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::compare;
+use super::equality::EqualityVerdict;
 use super::fraction::Fraction;
 use super::ranks::RankVerdict;
 use super::sizes::{BoundVerdict, Outcome, SizeVerdict};
@@ -18,6 +19,8 @@ use crate::symbol::SymbolId;
 pub enum Verdict {
     /// Of a printed formula.
     ClosedForm(FormVerdict),
+    /// Of an equality of two formulas.
+    Equality(EqualityVerdict),
     /// Of a comparison.
     Comparison(Measured),
     /// Of a count.
@@ -55,6 +58,7 @@ impl Verdict {
     pub fn outcome(&self) -> Outcome {
         let holds = match self {
             Self::ClosedForm(form) => form.differences.is_empty(),
+            Self::Equality(equality) => equality.difference.is_zero(),
             Self::Comparison(measured) => measured.holds,
             Self::Count(counted) => counted.found == counted.claimed,
             Self::Total(total) => total.differences.is_empty(),
@@ -69,7 +73,9 @@ impl Verdict {
     #[must_use]
     pub fn means(&self) -> Means {
         match self {
-            Self::ClosedForm(_) | Self::Count(_) | Self::Total(_) | Self::Rank(_) => Means::Decided,
+            Self::ClosedForm(_) | Self::Equality(_) | Self::Count(_) | Self::Total(_) | Self::Rank(_) => {
+                Means::Decided
+            }
             Self::Comparison(_) | Self::Size(_) => Means::Sampled,
             Self::Bound(_) => Means::Proven,
         }

@@ -44,7 +44,7 @@ fn factor(line: &str) -> Option<(&str, &str)> {
 }
 
 /// Coq accepts the certificate and refuses every alteration of it, of which there are so many.
-fn every_alteration_is_refused(name: &str, text: &str, count: usize) {
+pub fn every_alteration_is_refused(name: &str, text: &str, count: usize) {
     let Some(folder) = coq::folder() else { return };
     assert!(coq::check(folder, name, text).is_ok(), "{name} itself is accepted");
     let altered = alterations(text);

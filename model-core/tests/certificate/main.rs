@@ -2,5 +2,6 @@
 
 mod alterations;
 mod coq;
+mod outside;
 mod statements;
 mod support;

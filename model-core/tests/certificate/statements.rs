@@ -11,10 +11,15 @@ use crate::support::{
 };
 
 /// Coq accepts a certificate of so many statements, and says that each rests on nothing but its real numbers.
-fn accepted(name: &str, text: &str, statements: usize) {
+pub fn accepted(name: &str, text: &str, statements: usize) {
     let Some(folder) = coq::folder() else { return };
     match coq::check(folder, name, text) {
-        Ok(assumptions) => assert_eq!(assumptions, AXIOMS.repeat(statements), "{name}"),
+        // An equality of numbers may need fewer of them.
+        Ok(assumptions) => {
+            let others = AXIOMS.iter().fold(assumptions.clone(), |rest, axiom| rest.replace(axiom, ""));
+            let told: Vec<&str> = others.lines().collect();
+            assert_eq!(told, vec!["Axioms:"; statements], "{name}: {assumptions}");
+        }
         Err(why) => panic!("{name}: {why}"),
     }
 }

@@ -7,18 +7,14 @@ use model_core::certificate::{Certificate, Declared, Refusal};
 use model_core::checker::{Checker, ClosedForm, Order, PrintedVector, errors_named};
 use model_core::latex::PrintedSymbols;
 
-/// The axioms of Coq's real numbers, as `Print Assumptions` prints them.
-pub const AXIOMS: &str = "\
-Axioms:
-ClassicalDedekindReals.sig_not_dec : forall P : Prop, {~ ~ P} + {~ P}
-ClassicalDedekindReals.sig_forall_dec
-  : forall P : nat -> Prop,
-    (forall n : nat, {P n} + {~ P n}) ->
-    {n : nat | ~ P n} + {forall n : nat, P n}
-FunctionalExtensionality.functional_extensionality_dep
-  : forall (A : Type) (B : A -> Type) (f g : forall x : A, B x),
-    (forall x : A, f x = g x) -> f = g
-";
+/// The axioms of Coq's real numbers, as `Print Assumptions` prints them below `Axioms:`.
+pub const AXIOMS: [&str; 3] = [
+    "ClassicalDedekindReals.sig_not_dec : forall P : Prop, {~ ~ P} + {~ P}\n",
+    "ClassicalDedekindReals.sig_forall_dec\n  : forall P : nat -> Prop,\n    (forall n : nat, {P n} + {~ P n}) ->\n    \
+     {n : nat | ~ P n} + {forall n : nat, P n}\n",
+    "FunctionalExtensionality.functional_extensionality_dep\n  : forall (A : Type) (B : A -> Type) (f g : forall x : A, B x),\n    \
+     (forall x : A, f x = g x) -> f = g\n",
+];
 
 /// The paper's chain.
 pub const MOBILE_LIDAR: &str = include_str!("../../../examples/mobile-lidar/mobile-lidar.chain");

@@ -2,12 +2,12 @@
 
 use model_core::algebra::AngleSum;
 use model_core::checker::{
-    Claim, ClosedForm, Combination, Faces, Order, PrintedVector, Radicand, Total, lower,
+    Claim, ClosedForm, Combination, Equality, Faces, Order, PrintedVector, Radicand, TextPlace, Total, lower,
 };
 use model_core::{Axis, Mistake, SymbolKind, syntax};
-use toml::Value;
+use toml::{Spanned, Value};
 
-use super::super::table::ClaimTable;
+use super::super::table::{ClaimTable, Texts};
 use super::{Place, Reader, each, place_in_string};
 
 impl Reader<'_> {
@@ -40,18 +40,43 @@ impl Reader<'_> {
                 printed,
             }))),
             Err(mistakes) => {
-                for mistake in mistakes {
-                    // A symbol that is unknown in one formula is unknown in all.
-                    let known = |earlier: &Mistake<Place>| earlier.message == mistake.message;
-                    if mistake.message.starts_with("unknown ") && self.mistakes.iter().any(known) {
-                        continue;
-                    }
-                    let string = texts.get(mistake.place.text_index).map(|(_, place)| place.clone());
-                    let place = string.map_or(components.span(), |string| {
-                        place_in_string(self.text, string, mistake.place.bytes)
-                    });
-                    self.mistake(place, mistake.message).help = mistake.help;
-                }
+                self.unreadable(components, mistakes);
+                None
+            }
+        }
+    }
+
+    /// Notes what cannot be read in formulas of the file.
+    fn unreadable(&mut self, formulas: &Spanned<Texts>, mistakes: Vec<Mistake<TextPlace>>) {
+        let texts = each(formulas);
+        for mistake in mistakes {
+            // A symbol that is unknown in one formula is unknown in all.
+            let known = |earlier: &Mistake<Place>| earlier.message == mistake.message;
+            if mistake.message.starts_with("unknown ") && self.mistakes.iter().any(known) {
+                continue;
+            }
+            let string = texts.get(mistake.place.text_index).map(|(_, place)| place.clone());
+            let place = string
+                .map_or(formulas.span(), |string| place_in_string(self.text, string, mistake.place.bytes));
+            self.mistake(place, mistake.message).help = mistake.help;
+        }
+    }
+
+    pub(super) fn equality(&mut self, claim: &ClaimTable) -> Option<Claim> {
+        let formulas = claim.equal.as_ref()?;
+        let texts = each(formulas);
+        let [(first, _), (second, _)] = texts.as_slice() else {
+            let message = format!(
+                "an equality is of two formulas; {} given",
+                if texts.len() == 1 { "one is".to_owned() } else { format!("{} are", texts.len()) }
+            );
+            self.mistake(formulas.span(), message).help = Some("equal = ['…', '…']".to_owned());
+            return None;
+        };
+        match Equality::read(self.chain, &self.symbols, [first, second]) {
+            Ok(equality) => Some(Claim::Equality(Box::new(equality))),
+            Err(mistakes) => {
+                self.unreadable(formulas, mistakes);
                 None
             }
         }

@@ -165,8 +165,8 @@ impl Reader<'_> {
                 self.mistake(place, message).help = Some("leave it out".to_owned());
             }
         }
-        let texts: Vec<String> = match (&claim.components, &claim.total) {
-            (Some(components), _) => each(components).into_iter().map(|(text, _)| text.to_owned()).collect(),
+        let texts: Vec<String> = match (claim.components.as_ref().or(claim.equal.as_ref()), &claim.total) {
+            (Some(formulas), _) => each(formulas).into_iter().map(|(text, _)| text.to_owned()).collect(),
             (None, Some(total)) => vec![total.get_ref().clone()],
             (None, None) => Vec::new(),
         };
@@ -325,13 +325,20 @@ struct Kind {
     read: fn(&mut Reader<'_>, &ClaimTable) -> Option<Claim>,
 }
 
-const KINDS: [Kind; 9] = [
+const KINDS: [Kind; 10] = [
     Kind {
         key: "components",
         name: "a closed form",
         takes: &["observable", "order", "keep", "neglect", "component", "faces"],
         place: |claim| span(&claim.components),
         read: |reader, claim| reader.closed_form(claim),
+    },
+    Kind {
+        key: "equal",
+        name: "an equality of two formulas",
+        takes: &[],
+        place: |claim| span(&claim.equal),
+        read: |reader, claim| reader.equality(claim),
     },
     Kind {
         key: "total",

@@ -10,6 +10,8 @@ use kuva::render::plots::Plot;
 use model_core::budget::{self, Curve, Curves};
 use model_core::{Chain, ObservableId, SymbolId};
 
+use crate::letters;
+
 /// Panels side by side.
 const ACROSS: usize = 3;
 /// Width and height of a panel, in pixels.
@@ -75,7 +77,7 @@ pub fn svg(chain: &Chain, observable: ObservableId, curves: &Curves) -> Option<S
             .collect();
         layouts.push(
             Layout::auto_from_plots(&lines)
-                .with_title(chain.symbol(error).name.clone())
+                .with_title(letters::plain(&chain.symbol(error).latex))
                 .with_x_label("t, rad")
                 .with_y_label(format!("influence, {unit}")),
         );

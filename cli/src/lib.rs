@@ -9,6 +9,7 @@ mod date;
 mod errors_file;
 mod evaluation;
 mod failure;
+mod letters;
 pub mod library;
 mod output;
 mod over_table;

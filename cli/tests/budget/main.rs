@@ -105,7 +105,7 @@ fn tables_and_figures_are_written() {
 
     let figure = folder.read("figures/pointing.svg");
     assert!(figure.starts_with("<svg") && figure.trim_end().ends_with("</svg>"));
-    assert!(figure.contains(">db2<") && !figure.contains(">dg2<"), "only what has an influence is drawn");
+    assert!(figure.contains(">Δβ₂<") && !figure.contains(">Δγ₂<"), "only what has an influence is drawn");
 }
 
 #[test]

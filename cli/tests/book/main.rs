@@ -7,7 +7,9 @@
 mod support;
 
 mod interactive;
+mod links;
 mod page;
+mod signatures;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -2,13 +2,15 @@
 //!
 //! One round ([`crate::search`]'s `round`) fits the declaration with the effects accepted so far, sets up the search at that fit and
 //! searches from there; rounds go on until one changes nothing (`rounds`). Rows that were set aside together are
-//! heard once more (`outliers`), shapes of the library compete with what the catalogue made of them (`functions`), and the search is repeated without each fold (`held_out`). What it all means is for
+//! heard once more (`outliers`), so is noise that remembers (`memory`), shapes of the library compete with what the catalogue made of them (`functions`), and the search is repeated without each fold (`held_out`). What it all means is for
 //! [`crate::diagnose`] to say, in words for [`crate::report`].
 
 mod functions;
 pub(crate) mod held_out;
+mod memory;
 mod outliers;
 mod rounds;
+mod shorter;
 
 use std::cell::OnceCell;
 
@@ -123,6 +125,7 @@ pub fn calibrate_telling(
     let observables: Vec<_> = request.observations.series.iter().map(|series| series.observable).collect();
     // Studies with functions that the library found live as long as the loops that read them.
     let plans: [OnceCell<Plan>; functions::MOST] = Default::default();
+    let remembering = OnceCell::new();
     let whole = Context { tell, ..Context::new(request, &observables, HELD)? };
 
     let first = Fitted::first(&whole)?;
@@ -133,11 +136,14 @@ pub fn calibrate_telling(
     let before = first.fit.clone();
     let round = rounds(&whole, Round::at(&whole, first)?)?;
     let round = outliers::reconsidered(&whole, round)?;
+    let (whole, round) = memory::settled(whole, &remembering, round)?;
     let Settled { whole, round, as_good } = settled(&whole, &plans, round)?;
+    let (round, left_out) = shorter::shortened(&whole, round)?;
     tell(Stage::HeldOut);
     let held_out = nested(&round.posed.problem, &round.classes, &whole.options);
     let rms = held_out::rms(&whole, &before, &round, &held_out)?;
-    let confirmed = Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good };
+    let confirmed =
+        Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good, left_out: &left_out };
     let diagnosis = diagnose(&whole, &before, &round.fitted, Ok(confirmed))?;
     let drawn = trace::drawn(request.observations, &round.fitted.fit);
     let traces = trace::traces(&whole, &round, &drawn)?;

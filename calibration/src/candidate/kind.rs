@@ -1,6 +1,7 @@
-//! What kind of side quantity an input is, told by its name, so that each family takes those that are its own.
+//! What kind of side quantity an input is, so that each family takes those that are its own: as its statement says, and told by
+//! its name where it says nothing.
 
-use model_core::{SymbolId, SymbolKind};
+use model_core::{Meaning, SymbolId, SymbolKind};
 
 use super::Setting;
 
@@ -55,6 +56,20 @@ const WORDS: &[(&str, Kind)] = &[
 impl Kind {
     /// The kind of an input.
     pub(crate) fn of(setting: &Setting<'_>, input: SymbolId) -> Self {
+        match setting.chain.symbol(input).meaning {
+            Some(Meaning::Temperature) => Self::Temperature,
+            Some(Meaning::Time) => Self::Time,
+            Some(Meaning::Side) => Self::Side,
+            Some(Meaning::Pressure | Meaning::Humidity) => Self::Other,
+            // Of which joint, of what range and whether it is a rotator's angle a statement does not say.
+            None
+            | Some(Meaning::Direction | Meaning::Rate | Meaning::Angle | Meaning::Length | Meaning::Range) => {
+                Self::by_name(setting, input)
+            }
+        }
+    }
+
+    fn by_name(setting: &Setting<'_>, input: SymbolId) -> Self {
         let name = setting.name(input);
         let of_joint = setting.joints().into_iter().find_map(|joint| {
             let rest = name.strip_prefix(setting.name(joint.symbol))?;

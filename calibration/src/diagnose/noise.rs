@@ -22,6 +22,9 @@ pub struct NoiseFound {
     pub variance: Vec<VarianceFound>,
     /// What a row keeps of the row before, if the rows remember.
     pub serial: Option<SerialFound>,
+    /// Whether rows remember in the order of the file, which nobody declared to be that of acquisition. Without
+    /// [serial](Self::serial) it may as well be something that the declaration lacks, and only the uncertainties allow for it.
+    pub undeclared_order: bool,
 }
 
 /// The noise of one file.
@@ -103,6 +106,7 @@ pub(super) fn noise(
             autoregressive: serial.autoregressive,
             moving_average: serial.moving_average,
         }),
+        undeclared_order: fit.noise.undeclared_order,
         series,
     }
 }

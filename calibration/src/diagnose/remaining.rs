@@ -35,6 +35,9 @@ const LAGS: std::ops::RangeInclusive<usize> = 1..=3;
 /// criterion.
 const BETTER: f64 = 3.0;
 
+/// Degrees of freedom of the residual, and groups of its rows, below which nothing can be told of its structure.
+const FEWEST: usize = 20;
+
 /// What is left of structure in the residual.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Remaining {
@@ -42,7 +45,7 @@ pub struct Remaining {
     pub p_value: f64,
     /// The rows that were looked at: all, or a sample from all over the data where they are many.
     pub rows: usize,
-    /// What was looked at.
+    /// What was looked at; nothing where too few degrees of freedom are left to tell.
     pub looked: Vec<Looked>,
     /// Where it sits, if one smooth function at one place explains the data better than the catalogue does.
     #[serde(rename = "where")]
@@ -147,6 +150,18 @@ pub(crate) fn remaining(whole: &Context<'_>, last: &Round<'_>) -> Result<Remaini
     let signs = Signs::scattered(last.posed.of_rows().group_of_row(), options.flips, options.seed);
     let left = Left::new(last.posed.of_rows(), &accepted, &signs);
 
+    let groups = last.posed.of_rows().groups();
+    if groups < FEWEST || left.residual.len() < left.basis.ncols() + FEWEST {
+        let (looked, shape) = (Vec::new(), Vec::new());
+        return Ok(Remaining {
+            p_value: 1.0,
+            rows: observations.rows(),
+            looked,
+            place: None,
+            shape,
+            offer: None,
+        });
+    }
     let mut statistics = neighbours(whole, last, &left, &signs);
     let waves = left.scan(harmonics.len(), |number| scanned.harmonics(observations, harmonics[number]));
     statistics.push(Statistic::of_scan("harmonics of a joint", &waves));

@@ -2,7 +2,7 @@
 
 use model_core::algebra::{AngleSum, Poly};
 
-use crate::candidate::{Effect, Family, Function, Setting};
+use crate::candidate::{Effect, Family, Function, JointAxis, Setting, seen};
 
 pub(super) const FAMILY: Family = Family {
     name: "refraction",
@@ -16,7 +16,11 @@ pub(super) const FAMILY: Family = Family {
 
 fn effects(setting: &Setting<'_>) -> Vec<Effect> {
     let mut effects = Vec::new();
-    for joint in setting.turning().into_iter().filter(|_| setting.aims()) {
+    let aiming = setting
+        .turning()
+        .into_iter()
+        .filter(|joint| setting.aims() && counts_from_the_horizon(setting, joint));
+    for joint in aiming {
         let name = setting.name(joint.symbol);
         let angle = AngleSum::symbol(joint.symbol);
         let (cosine, sine) = (Poly::cos(&angle), Poly::sin(&angle));
@@ -33,4 +37,11 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
         }
     }
     effects
+}
+
+/// Whether a joint turns about a level axis at all poses: only then is it an altitude or a zenith distance. Where the algebra
+/// cannot say, it is not.
+fn counts_from_the_horizon(setting: &Setting<'_>, joint: &JointAxis) -> bool {
+    seen::from_ground(setting, &setting.chain.gravity, joint.place())
+        .is_some_and(|gravity| gravity[joint.freedom.axis.index()].is_zero())
 }

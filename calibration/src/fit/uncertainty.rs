@@ -166,13 +166,22 @@ impl Solver<'_> {
         let counted: Vec<f64> = weight.iter().map(|weight| f64::from(u8::from(*weight > 0.0))).collect();
         let (q, e) = self.coordinates(course, &counted, root)?;
         let sigma = course.noise.sigma_without_memory();
-        let (beside, complete) =
-            trend::beside(self.chain, self.observations, &self.layout, &sigma, weight, &q);
+        let beside =
+            |most| trend::beside(self.chain, self.observations, &self.layout, &sigma, weight, &q, most);
+        let (few, complete) = beside(trend::MOST[0]);
         if options.serial && (declared || self.groups().is_none()) {
             let earns = serial::EARNS[usize::from(!declared)];
-            if let Some(memory) = serial::fit(&self.layout, &e, &q, &beside, earns) {
+            let fitted = |beside: &Mat<f64>| serial::fit(&self.layout, &e, &q, beside, earns);
+            if let Some(memory) = fitted(if options.beside_effects { &few } else { &q }) {
+                let certain = complete || declared || !options.beside_effects;
+                let thorough =
+                    if certain { None } else { Some(beside(trend::MOST[1])).filter(|found| found.1) };
+                let (memory, certain) = match thorough.and_then(|(all, _)| fitted(&all)) {
+                    Some(memory) => (memory, true),
+                    None => (memory, certain),
+                };
                 // Where a missing effect could look alike, only the uncertainties know of a memory that nobody declared.
-                let order = match (declared, complete) {
+                let order = match (declared, certain) {
                     (true, _) => Order::Declared,
                     (false, true) => Order::OfFile,
                     (false, false) => Order::Doubtful,
@@ -181,7 +190,7 @@ impl Solver<'_> {
             }
         }
         let groups = &self.observations.groups;
-        let of_groups = self.groups().and_then(|_| session::fit(&self.layout, groups, &e, &beside));
+        let of_groups = self.groups().and_then(|_| session::fit(&self.layout, groups, &e, &few));
         Ok(of_groups.map_or(Shared::Nothing, |(offsets, own)| Shared::Offsets(offsets, own)))
     }
 

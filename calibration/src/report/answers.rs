@@ -85,7 +85,14 @@ pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>) -> Answers {
     Answers {
         tone: tone(diagnosis),
         badge: badge(diagnosis),
-        happened: happened(diagnosis),
+        happened: if is_worse_elsewhere(diagnosis) {
+            format!(
+                "{} Where these data do not lie the effects make it worse: correct only where they do.",
+                happened(diagnosis)
+            )
+        } else {
+            happened(diagnosis)
+        },
         chance: effects.first().filter(|_| usable).map(|effect| chance_of(effect, diagnosis)),
         what,
         causes,
@@ -99,10 +106,15 @@ fn is_worse(diagnosis: &Diagnosis) -> bool {
     diagnosis.cautions.iter().any(|caution| matches!(caution, Caution::WorseHeldOut { .. }))
 }
 
+fn is_worse_elsewhere(diagnosis: &Diagnosis) -> bool {
+    diagnosis.cautions.iter().any(|caution| matches!(caution, Caution::WorseElsewhere { .. }))
+}
+
 fn tone(diagnosis: &Diagnosis) -> Tone {
     match diagnosis.verdict {
         Verdict::FitFailed | Verdict::TooFewObservations => Tone::Bad,
         _ if is_worse(diagnosis) => Tone::Bad,
+        _ if is_worse_elsewhere(diagnosis) => Tone::Careful,
         Verdict::Explained | Verdict::NothingDetectable => Tone::Good,
         Verdict::Confounded => Tone::Ambiguous,
         Verdict::UnnamedFunction | Verdict::StructureRemains | Verdict::NoiseExceedsStated => Tone::Careful,

@@ -8,6 +8,9 @@ use crate::diagnose::{Diagnosis, Form};
 #[must_use]
 pub fn remaining(diagnosis: &Diagnosis) -> Vec<String> {
     let Some(remaining) = &diagnosis.remaining else { return Vec::new() };
+    if remaining.looked.is_empty() {
+        return vec!["too few rows, or groups of rows, to tell whether what is left is noise".to_owned()];
+    }
     let chance = numbers::chance(remaining.p_value);
     let rows = diagnosis.observations.rows;
     let sampled = if remaining.rows < rows {

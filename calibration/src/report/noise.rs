@@ -32,11 +32,20 @@ pub fn noise(diagnosis: &Diagnosis) -> Vec<String> {
             terms.join(" ")
         ));
     }
-    if let Some(serial) = noise.serial {
-        said.push(format!(
-            "rows remember the row before: ARMA(1,1) with {:.3} and {:.3}",
-            serial.autoregressive, serial.moving_average
-        ));
+    match noise.serial {
+        Some(serial) => {
+            let order = if noise.undeclared_order { ", in the order of the file, which nobody declared" } else { "" };
+            said.push(format!(
+                "rows remember the row before{order}: ARMA(1,1) with {:.3} and {:.3}",
+                serial.autoregressive, serial.moving_average
+            ));
+        }
+        None if noise.undeclared_order => said.push(
+            "rows hang together in the order of the file, by a memory of the noise or by something that the declaration \
+             lacks: the uncertainties allow for it"
+                .to_owned(),
+        ),
+        None => {}
     }
     said
 }

@@ -8,7 +8,7 @@
 //! The pipeline reads from one place: deal groups to folds (`folds`), merge rows where they are many (`cells`), project
 //! (`problem`), merge what coincides (`classes`), test
 //! (`tail`, `flips`), select (`select`, within what `guards` allow), name the rivals (`rivals`), confirm on held-out folds
-//! (`nested`) and elsewhere (`elsewhere`), let a library of shapes compete (`library`), and look for structure that no candidate explains (`remains`, `scan`, `contest`).
+//! (`nested`) and elsewhere (`elsewhere`), let a memory of the noise (`memory`) and a library of shapes (`library`) compete, and look for structure that no candidate explains (`remains`, `scan`, `contest`).
 
 pub(crate) mod aside;
 pub mod cells;
@@ -23,6 +23,7 @@ pub mod flips;
 pub mod folds;
 mod guards;
 pub(crate) mod library;
+pub(crate) mod memory;
 pub mod nested;
 pub(crate) mod posed;
 pub mod problem;

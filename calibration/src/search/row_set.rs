@@ -93,6 +93,11 @@ impl<'a> Portion<'a> {
         column
     }
 
+    /// Components that follow each other in order of acquisition.
+    pub fn runs(&self) -> &[Run] {
+        &self.noise.runs
+    }
+
     /// Whether the last fit gave a component any weight.
     pub fn counts(&self, component: usize) -> bool {
         self.root_weight[component] > 0.0

@@ -279,6 +279,7 @@ impl Study {
             stated: None,
             variance: self.noise.variance,
             serial: self.noise.serial,
+            beside_effects: true,
         };
         Ok(FitOptions { estimate, start, robust: self.fit.robust, noise, max_iterations, sizes: Vec::new() })
     }

@@ -139,3 +139,32 @@ fn rows_in_sequence_bring_direction_and_drift() {
         assert!(names.iter().any(|found| found == name), "{name}: {names:?}");
     }
 }
+
+/// A column called otherwise, declared to be the same, is the same: families go by what an input is, not by its name.
+#[test]
+fn a_declared_meaning_counts_and_a_name_does_not() {
+    let families = |input: &str| {
+        let text = ARM.replacen("    body base", &format!("    input {input};\n    body base"), 1);
+        let name = input.split(':').next().unwrap_or_default();
+        let study = format!("[columns]\n{name} = {{ column = \"a\" }}\n[search]\ninputs = [\"{name}\"]\n");
+        let of = Asked::of(&text, "tip", "point", &study).catalogue().into_iter();
+        of.filter(|effect| effect.driver == name).map(|effect| effect.family).collect::<Vec<_>>()
+    };
+    for (named, otherwise) in
+        [("temperature", "zeit: temperature"), ("elapsed", "chaleur: time"), ("pier", "temp_side_time: side")]
+    {
+        let (by_name, declared) = (families(named), families(otherwise));
+        assert!(!by_name.is_empty(), "{named}");
+        assert_eq!(by_name, declared, "{named}, {otherwise}");
+    }
+}
+
+/// A declination is no altitude: its axis is level at two hour angles alone, and the tangent of it says nothing of the air.
+#[test]
+fn refraction_needs_an_axis_that_stays_level() {
+    let equatorial = example("equatorial/equatorial.chain");
+    let of = |text: &str, observable: &str| names(&Asked::of(text, observable, "direction", ""));
+    assert!(of(&equatorial, "sight").iter().all(|name| !name.starts_with("refraction")));
+    let mount = example("alt-azimuth/alt-azimuth.chain");
+    assert!(of(&mount, "sight").contains(&"refraction, cot of elevation".to_owned()));
+}

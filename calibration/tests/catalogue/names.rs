@@ -202,8 +202,6 @@ fn a_study_chooses_by_any_name() {
         [
             "encoder scale of azimuth",
             "encoder scale of elevation",
-            "refraction, tan of azimuth",
-            "refraction, cot of azimuth",
             "refraction, tan of elevation",
             "refraction, cot of elevation"
         ]

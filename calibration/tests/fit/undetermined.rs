@@ -64,7 +64,7 @@ fn coverage(errors_rad: f64, runs: u64) -> Vec<f64> {
         for (hit, one) in hits.iter_mut().zip(&result.estimable) {
             let truth: f64 =
                 one.combination.iter().map(|(id, ratio)| ratio * simulation.values[id.index()]).sum();
-            let reach = StudentsT::new(0.0, 1.0, one.degrees_of_freedom.min(1e9)).unwrap().inverse_cdf(0.975);
+            let reach = StudentsT::new(0.0, 1.0, one.degrees_of_freedom.min(1e4)).unwrap().inverse_cdf(0.975);
             let inside = (one.value - truth).abs() <= reach * one.standard_uncertainty.unwrap();
             *hit += f64::from(u8::from(inside)) / runs as f64;
         }

@@ -7,7 +7,7 @@
 mod estimate;
 mod layout;
 mod pool;
-pub(super) mod serial;
+pub(crate) mod serial;
 pub(super) mod session;
 pub(super) mod trend;
 mod variance;
@@ -37,6 +37,8 @@ pub struct NoiseOptions {
     pub variance: bool,
     /// Whether to look for serial correlation: in order of acquisition, or where none is declared in that of the file.
     pub serial: bool,
+    /// Whether what smooth functions of the readings follow as well is taken for effects that the chain lacks, not for memory.
+    pub beside_effects: bool,
 }
 
 impl NoiseOptions {
@@ -48,7 +50,7 @@ impl NoiseOptions {
 
 impl Default for NoiseOptions {
     fn default() -> Self {
-        Self { sigma: None, stated: None, variance: true, serial: true }
+        Self { sigma: None, stated: None, variance: true, serial: true, beside_effects: true }
     }
 }
 

@@ -10,7 +10,7 @@ use faer::{Mat, Side};
 use super::{Layout, Run, Serial};
 
 /// Components below which no serial correlation is looked for.
-const FEWEST: usize = 60;
+pub(crate) const FEWEST: usize = 60;
 
 /// Components from which on what the fit took out of the residuals makes no difference.
 const MANY: usize = 50_000;
@@ -62,7 +62,7 @@ struct Tried {
 /// them (n × k), `beside` those with what else they may hold, and `earns` what a model must gain over white noise.
 #[must_use]
 pub fn fit(layout: &Layout, values: &[f64], q: &Mat<f64>, beside: &Mat<f64>, earns: f64) -> Option<Memory> {
-    let length = layout.runs.iter().map(|run| (run.end - run.start) / run.stride.max(1)).max()?;
+    let length = longest(&layout.runs)?;
     if values.len() < FEWEST + beside.ncols() || length < 4 {
         return None;
     }
@@ -71,19 +71,8 @@ pub fn fit(layout: &Layout, values: &[f64], q: &Mat<f64>, beside: &Mat<f64>, ear
     }
     let problem = Problem::new(layout, values, beside);
     let white = problem.tried(Serial { autoregressive: 0.0, moving_average: 0.0 }, 0.0)?;
-    // Away from the circle by what so many rows can tell: at this coefficient a run remembers its beginning.
-    let largest = 1.0 - 1.0 / length as f64;
-    let mut tried = Vec::new();
-    for autoregressive in AUTOREGRESSIVE.into_iter().filter(|phi| *phi < largest).chain([largest]) {
-        let serial = |moving_average: f64| Serial { autoregressive, moving_average };
-        // A random walk has no coefficient to choose.
-        let free = if autoregressive == largest { 0.0 } else { 1.0 };
-        tried.extend(problem.tried(serial(0.0), 1.0));
-        tried.extend(MOVING_AVERAGE.into_iter().filter_map(|share| {
-            let theta = if share < 0.0 { share * autoregressive } else { share };
-            problem.tried(serial(theta), 1.0 + free)
-        }));
-    }
+    let tried: Vec<Tried> =
+        models(length).filter_map(|(serial, coefficients)| problem.tried(serial, coefficients)).collect();
     let best = tried.iter().min_by(|a, b| a.criterion.total_cmp(&b.criterion))?;
     if white.deviance - best.deviance < earns || best.criterion >= white.criterion {
         return None;
@@ -104,6 +93,27 @@ pub fn fit(layout: &Layout, values: &[f64], q: &Mat<f64>, beside: &Mat<f64>, ear
     let first = (1.0 + phi * theta) * (phi + theta) / (1.0 + 2.0 * phi * theta + theta * theta);
     let squares = first * first / (1.0 - phi * phi) * (1.0 - phi.powi(2 * length as i32));
     Some(Memory { serial, innovation, product, independent: values.len() as f64 / (1.0 + 2.0 * squares) })
+}
+
+/// The models that are tried on runs of at most so many rows, each with its number of coefficients.
+pub(crate) fn models(length: usize) -> impl Iterator<Item = (Serial, f64)> {
+    // Away from the circle by what so many rows can tell: at this coefficient a run remembers its beginning.
+    let largest = 1.0 - 1.0 / length as f64;
+    AUTOREGRESSIVE.into_iter().filter(move |phi| *phi < largest).chain([largest]).flat_map(move |phi| {
+        // A random walk has no coefficient to choose.
+        let free = if phi == largest { 0.0 } else { 1.0 };
+        let with = move |moving_average: f64| Serial { autoregressive: phi, moving_average };
+        let mixed = MOVING_AVERAGE.into_iter().map(move |share| {
+            let theta = if share < 0.0 { share * phi } else { share };
+            (with(theta), 1.0 + free)
+        });
+        std::iter::once((with(0.0), 1.0)).chain(mixed)
+    })
+}
+
+/// Rows of the longest run.
+pub(crate) fn longest(runs: &[Run]) -> Option<usize> {
+    runs.iter().map(|run| (run.end - run.start) / run.stride.max(1)).max()
 }
 
 /// The correlation of each value with the one before, in standard deviations of what chance makes.

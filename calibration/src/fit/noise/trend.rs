@@ -7,9 +7,12 @@ use model_core::{Chain, Quantity, SymbolKind};
 use super::Layout;
 use crate::data::Observations;
 
-/// Columns at most, and components for each.
-const MOST: usize = 60;
+/// Columns at most at a first look and at a thorough one, and components for each.
+pub const MOST: [usize; 2] = [60, 240];
 const COMPONENTS: usize = 6;
+
+/// Columns shorter than this are of what the data do not determine.
+const UNDETERMINED: f64 = 1e-3;
 
 /// The highest harmonic of a joint.
 const HARMONICS: u32 = 4;
@@ -18,8 +21,8 @@ const HARMONICS: u32 = 4;
 const NEW: f64 = 1e-4;
 
 /// An orthonormal basis that begins with `q` (n × k, orthonormal but for weights) and goes on with smooth functions of the
-/// readings, each divided by the standard deviation of its component; rows that count for nothing are zero. And whether these
-/// data have room for all of them.
+/// readings, each divided by the standard deviation of its component, `most` columns in all; rows that count for nothing are
+/// zero. And whether there was room for all of them.
 #[must_use]
 pub fn beside(
     chain: &Chain,
@@ -28,9 +31,10 @@ pub fn beside(
     sigma: &[f64],
     weight: &[f64],
     q: &Mat<f64>,
+    most: usize,
 ) -> (Mat<f64>, bool) {
     let n = layout.components();
-    let most = MOST.min(n / COMPONENTS);
+    let most = most.min(n / COMPONENTS);
     let mut basis: Vec<Vec<f64>> = Vec::new();
     let mut take = |mut column: Vec<f64>| {
         let before = norm(&column);
@@ -46,8 +50,9 @@ pub fn beside(
         }
         basis.len()
     };
-    (0..q.ncols()).for_each(|j| {
-        take(q.col_as_slice(j).to_vec());
+    let fitted = (0..q.ncols()).map(|j| q.col_as_slice(j).to_vec()).filter(|own| norm(own) > UNDETERMINED);
+    fitted.for_each(|own| {
+        take(own);
     });
     let readings: Vec<(bool, &[f64])> = observations
         .columns

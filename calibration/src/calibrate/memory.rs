@@ -1,0 +1,35 @@
+//! Noise that remembers, where effects were accepted that explain no more: the rounds begin anew with that memory whitened
+//! away, and what is found then is found beyond it.
+
+use std::cell::OnceCell;
+
+use super::CalibrateError;
+use super::rounds::rounds;
+use crate::fit::noise::NoiseOptions;
+use crate::search::Request;
+use crate::search::context::Context;
+use crate::search::fitted::Fitted;
+use crate::search::memory::explains;
+use crate::search::round::Round;
+use crate::study::Plan;
+
+/// The last round, or that of a search in which rows may remember; `place` is where the study that says so lives.
+pub(super) fn settled<'a>(
+    whole: Context<'a>,
+    place: &'a OnceCell<Plan>,
+    round: Round<'a>,
+) -> Result<(Context<'a>, Round<'a>), CalibrateError> {
+    let plan = whole.request.plan;
+    if !plan.fit.noise.serial || !explains(&round) {
+        return Ok((whole, round));
+    }
+    let plan = place.get_or_init(|| {
+        let mut remembering = plan.clone();
+        remembering.fit.noise = NoiseOptions { beside_effects: false, ..remembering.fit.noise };
+        remembering
+    });
+    let whole = Context { request: Request { plan, ..whole.request }, ..whole };
+    let first = Fitted::first(&whole)?;
+    let round = rounds(&whole, Round::at(&whole, first)?)?;
+    Ok((whole, round))
+}

@@ -1,0 +1,98 @@
+//! Effects, or a memory of the noise? Along a slow path through the joints noise that remembers looks like smooth functions of
+//! them. What the accepted effects explain is theirs only if they do it better than one number that says how much a row
+//! remembers of the row before.
+//!
+//! Source of the price of a choice: J. Chen and Z. Chen, "Extended Bayesian information criteria for model selection with
+//! large model spaces", Biometrika 95 (2008).
+
+use faer::Mat;
+
+use super::contest::ln_choices;
+use super::round::Round;
+use super::sweep::Sweep;
+use crate::fit::noise::serial::{EARNS, FEWEST, longest, models};
+use crate::fit::noise::{Run, Serial};
+
+/// Whether a memory of the row before, beside the declared errors alone, explains the data of a round as well as the effects
+/// that it accepted.
+pub(crate) fn explains(last: &Round<'_>) -> bool {
+    let (rows, fit) = (&last.posed.rows, &last.fitted.fit);
+    let mut groups = rows.observations.groups.clone();
+    groups.sort_unstable();
+    groups.dedup();
+    let grouped = groups.len() < rows.observations.groups.len();
+    let declared = rows.observations.in_sequence;
+    // Groups that somebody declared say what belongs together, unless rows are in an order of acquisition as well.
+    if last.fitted.found.is_empty() || fit.noise.serial.is_some() || (grouped && !declared) {
+        return false;
+    }
+    let declared_columns: Vec<Vec<f64>> = (0..rows.columns.declared.ncols())
+        .map(|column| rows.whiten(rows.columns.declared.col_as_slice(column)))
+        .collect();
+    let mut with_effects = declared_columns.clone();
+    for found in &last.fitted.found {
+        with_effects.extend(rows.effects[found.effect].iter().map(|column| rows.whiten(column)));
+    }
+    let values = rows.whiten(&rows.without);
+    let Some(length) = longest(rows.runs()).filter(|length| *length >= 4) else { return false };
+    if values.len() < FEWEST + with_effects.len() {
+        return false;
+    }
+    let price = (values.len() as f64).ln();
+    let effects = (with_effects.len() - declared_columns.len()) as f64 * price
+        + 2.0 * ln_choices(last.classes.len(), last.fitted.found.len());
+    let white = deviance(rows.runs(), &declared_columns, &values, None);
+    let explained = deviance(rows.runs(), &with_effects, &values, None);
+    let remembering = models(length)
+        .map(|(serial, _)| deviance(rows.runs(), &declared_columns, &values, Some(serial)))
+        .fold(f64::INFINITY, f64::min);
+    white - remembering > EARNS[usize::from(!declared)] && remembering + 2.0 * price <= explained + effects
+}
+
+/// −2 ln of the likelihood of values that some columns were fitted to.
+fn deviance(runs: &[Run], columns: &[Vec<f64>], values: &[f64], serial: Option<Serial>) -> f64 {
+    let count = columns.len();
+    let mut white = Mat::from_fn(values.len(), count + 1, |row, column| {
+        if column == count { values[row] } else { columns[column][row] }
+    });
+    let mut ln_first = 0.0;
+    if let Some(serial) = serial {
+        (0..=count).for_each(|column| {
+            runs.iter().for_each(|&run| serial.whiten(white.col_as_slice_mut(column), run))
+        });
+        ln_first = runs.iter().map(|run| 2.0 * run.stride as f64 * serial.gain().ln()).sum();
+    }
+    let mut sweep = Sweep::new(white.transpose() * &white);
+    (0..count).for_each(|column| {
+        sweep.add(column);
+    });
+    values.len() as f64 * sweep.entry(count, count).max(f64::MIN_POSITIVE).ln() + ln_first
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A wave of forty rows in even noise is no memory, and a slow walk is no wave.
+    #[test]
+    fn a_wave_and_a_walk_are_told_apart() {
+        let noise = |row: usize| ((row as f64 * 0.754_877_666).fract() - 0.5) * 3.46;
+        let runs = [Run { start: 0, end: 400, stride: 1 }];
+        let mean = vec![1.0; 400];
+        let wave: Vec<f64> = (0..400).map(|row| (row as f64 * 0.157).cos()).collect();
+        let waving: Vec<f64> = (0..400).map(|row| noise(row) + 2.0 * wave[row]).collect();
+        let mut at = 0.0;
+        let mut walk = Vec::new();
+        for row in 0..400 {
+            at += 0.3 * noise(7 * row + 3 * row * row);
+            walk.push(noise(row) + at);
+        }
+        let best = |values: &[f64]| {
+            let of = |(serial, _)| deviance(&runs, &[mean.clone()], values, Some(serial));
+            models(400).map(of).fold(f64::INFINITY, f64::min)
+        };
+        let explained = |values: &[f64]| deviance(&runs, &[mean.clone(), wave.clone()], values, None);
+        assert!(explained(&waving) < best(&waving) - 20.0);
+        assert!(best(&walk) < explained(&walk) - 20.0);
+    }
+}

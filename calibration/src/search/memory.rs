@@ -6,6 +6,7 @@
 //! large model spaces", Biometrika 95 (2008).
 
 use faer::Mat;
+use rayon::prelude::*;
 
 use super::contest::ln_choices;
 use super::round::Round;
@@ -14,39 +15,46 @@ use crate::fit::noise::serial::{EARNS, FEWEST, longest, models};
 use crate::fit::noise::{Run, Serial};
 
 /// Whether a memory of the row before, beside the declared errors alone, explains the data of a round as well as the effects
-/// that it accepted.
+/// that it accepted, whatever memory there is beside them.
 pub(crate) fn explains(last: &Round<'_>) -> bool {
-    let (rows, fit) = (&last.posed.rows, &last.fitted.fit);
+    let rows = &last.posed.rows;
     let mut groups = rows.observations.groups.clone();
     groups.sort_unstable();
     groups.dedup();
     let grouped = groups.len() < rows.observations.groups.len();
-    let declared = rows.observations.in_sequence;
+    let in_sequence = rows.observations.in_sequence;
     // Groups that somebody declared say what belongs together, unless rows are in an order of acquisition as well.
-    if last.fitted.found.is_empty() || fit.noise.serial.is_some() || (grouped && !declared) {
+    if last.fitted.found.is_empty() || (grouped && !in_sequence) {
         return false;
     }
-    let declared_columns: Vec<Vec<f64>> = (0..rows.columns.declared.ncols())
-        .map(|column| rows.whiten(rows.columns.declared.col_as_slice(column)))
+    let declared: Vec<Vec<f64>> = (0..rows.columns.declared.ncols())
+        .map(|column| rows.whiten_but_for_memory(rows.columns.declared.col_as_slice(column)))
         .collect();
-    let mut with_effects = declared_columns.clone();
+    let mut with_effects = declared.clone();
     for found in &last.fitted.found {
-        with_effects.extend(rows.effects[found.effect].iter().map(|column| rows.whiten(column)));
+        let own = rows.effects[found.effect].iter();
+        with_effects.extend(own.map(|column| rows.whiten_but_for_memory(column)));
     }
-    let values = rows.whiten(&rows.without);
+    let values = rows.whiten_but_for_memory(&rows.without);
     let Some(length) = longest(rows.runs()).filter(|length| *length >= 4) else { return false };
     if values.len() < FEWEST + with_effects.len() {
         return false;
     }
-    let price = (values.len() as f64).ln();
-    let effects = (with_effects.len() - declared_columns.len()) as f64 * price
+    let each = (values.len() as f64).ln();
+    let effects = (with_effects.len() - declared.len()) as f64 * each
         + 2.0 * ln_choices(last.classes.len(), last.fitted.found.len());
-    let white = deviance(rows.runs(), &declared_columns, &values, None);
-    let explained = deviance(rows.runs(), &with_effects, &values, None);
-    let remembering = models(length)
-        .map(|(serial, _)| deviance(rows.runs(), &declared_columns, &values, Some(serial)))
-        .fold(f64::INFINITY, f64::min);
-    white - remembering > EARNS[usize::from(!declared)] && remembering + 2.0 * price <= explained + effects
+    let deviance = |columns: &[Vec<f64>], serial| deviance(rows.runs(), columns, &values, serial);
+    let remembering = |columns: &[Vec<f64>]| {
+        let tried: Vec<f64> = models(length)
+            .collect::<Vec<_>>()
+            .into_par_iter()
+            .map(|(serial, _)| deviance(columns, Some(serial)))
+            .collect();
+        tried.into_iter().fold(f64::INFINITY, f64::min) + 2.0 * each
+    };
+    let (white, memory) = (deviance(&declared, None), remembering(&declared));
+    let explained = deviance(&with_effects, None).min(remembering(&with_effects));
+    white - memory + 2.0 * each > EARNS[usize::from(!in_sequence)] && memory <= explained + effects
 }
 
 /// −2 ln of the likelihood of values that some columns were fitted to.

@@ -98,6 +98,14 @@ impl<'a> Portion<'a> {
         &self.noise.runs
     }
 
+    /// The same as if no row remembered the one before.
+    pub fn whiten_but_for_memory(&self, column: &[f64]) -> Vec<f64> {
+        let mut column = column.to_vec();
+        self.noise.without_memory().whiten(&mut column);
+        column.iter_mut().zip(&self.root_weight).for_each(|(value, root)| *value *= root);
+        column
+    }
+
     /// Whether the last fit gave a component any weight.
     pub fn counts(&self, component: usize) -> bool {
         self.root_weight[component] > 0.0

@@ -13,7 +13,7 @@ use super::signs::Signs;
 
 /// Buckets of groups, for each fitted column and in all, from which on the plain flips, with each row's leverage undone, do
 /// as well.
-const MANY_FOR_A_COLUMN: usize = 8;
+const MANY_FOR_A_COLUMN: usize = 16;
 const MANY: usize = 100;
 
 /// Shares of a score's variance that a flip leaves below which it says nothing.

@@ -8,5 +8,6 @@ mod few;
 mod instruments;
 mod left_out;
 mod mistaken;
+mod remembering;
 mod simulated;
 mod taken_up;

@@ -1,0 +1,90 @@
+//! Noise that remembers, along a slow path through the joints, in an order that nobody declared: it looks like smooth functions
+//! of the joints, and is told as what it is.
+
+use calibration::data::{Measure, Observations, Series, tangent_frame};
+use calibration::diagnose::Diagnosis;
+use calibration::report::noise;
+use calibration::study::Study;
+use model_core::Chain;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::StandardNormal;
+
+use crate::simulated::{lidar, pointing, search};
+
+const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;
+const ROWS: usize = 300;
+
+/// What the search makes of the scanner along a path, `eccentric` off centre in beta, with noise of one and a half so many
+/// arcsec: each value keeps `kept` of the one before, and a walk steps by `step`.
+fn report(seed: u64, kept: f64, step: f64, eccentric: f64) -> Diagnosis {
+    let text = lidar();
+    let chain = Chain::from_text(&text).unwrap();
+    let study = "chain = \"c\"\nobservable = \"pointing\"\ndata = \"d\"\n[observed]\nkind = \"direction\"\n";
+    let plan = Study::from_text(study).unwrap().plan(&chain).unwrap();
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut normal = || -> f64 { random.sample(StandardNormal) };
+    let names = ["alpha", "beta", "gamma"];
+    let mut columns: Vec<_> = names.iter().map(|name| (chain.find_symbol(name).unwrap(), Vec::new())).collect();
+    let (mut state, mut walk) = ([normal(), normal()], [0.0; 2]);
+    let mut observed = Vec::new();
+    for row in 0..ROWS {
+        let turned = |turns: f64| 3.1 * (std::f64::consts::TAU * turns * row as f64 / ROWS as f64 + 0.4).sin();
+        let readings = [turned(1.0), turned(1.7), turned(2.4)];
+        columns.iter_mut().zip(readings).for_each(|((_, column), reading)| column.push(reading));
+        let beta = readings[1] + eccentric * readings[1].cos();
+        let aim = pointing(&chain, &[], [readings[0], beta, readings[2], 0.0, 0.0]);
+        state = state.map(|value| kept * value + (1.0 - kept * kept).sqrt() * normal());
+        walk = walk.map(|value| value + step * normal());
+        let [across, along] = tangent_frame(&aim);
+        let moved = [0, 1].map(|at| 2.0 * ARCSEC * (state[at] + walk[at]));
+        observed.push((aim + across * moved[0] + along * moved[1]).normalize().into());
+    }
+    columns.sort_by_key(|(id, _)| *id);
+    let observations = Observations {
+        series: vec![Series {
+            observable: chain.find_observable("pointing").unwrap(),
+            measure: Measure::Direction,
+            rows: 0..ROWS,
+            source: "simulated".to_owned(),
+        }],
+        columns,
+        measured: observed,
+        groups: (0..ROWS as u32).collect(),
+        row_numbers: (1..=ROWS as u64).collect(),
+        ..Observations::default()
+    };
+    search(&text, &plan, &observations).diagnosis
+}
+
+/// One of eight at most; without regard to memory it was every one.
+#[test]
+fn memory_is_no_effect() {
+    let mut accepted = Vec::new();
+    for (kept, step) in [(0.5, 0.0), (0.9, 0.0), (0.0, 0.2), (0.0, 0.4)] {
+        for seed in [1, 2] {
+            let report = report(seed, kept, step, 0.0);
+            if report.effects.is_empty() {
+                continue;
+            }
+            accepted.push((kept, step, seed, report.effects[0].names[0].clone()));
+        }
+    }
+    assert!(accepted.len() <= 1, "{accepted:?}");
+}
+
+/// It is said, with the order.
+#[test]
+fn memory_is_told() {
+    let report = report(3, 0.9, 0.0, 0.0);
+    assert!(report.noise.undeclared_order && report.noise.serial.is_some(), "{:?}", report.noise);
+    assert!(noise(&report).iter().any(|said| said.contains("in the order of the file")), "{:?}", noise(&report));
+}
+
+/// An effect well above the noise is no memory, though rows follow each other along a path.
+#[test]
+fn an_effect_is_no_memory() {
+    let report = report(4, 0.0, 0.0, 8.0 * ARCSEC);
+    let named = report.effects.iter().flat_map(|effect| effect.names.iter().chain(&effect.class));
+    assert!(named.into_iter().any(|name| name == "encoder eccentricity of beta"), "{:?}", report.effects);
+}

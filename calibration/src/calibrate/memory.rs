@@ -1,5 +1,5 @@
 //! Noise that remembers, where effects were accepted that explain no more: the rounds begin anew with that memory whitened
-//! away, and what is found then is found beyond it.
+//! away, and what is found then is found beyond it. If even that is no better than the memory, nothing is accepted.
 
 use std::cell::OnceCell;
 
@@ -30,6 +30,9 @@ pub(super) fn settled<'a>(
     });
     let whole = Context { request: Request { plan, ..whole.request }, ..whole };
     let first = Fitted::first(&whole)?;
-    let round = rounds(&whole, Round::at(&whole, first)?)?;
+    let mut round = rounds(&whole, Round::at(&whole, first)?)?;
+    if explains(&round) {
+        round = Round::at(&whole, Fitted::first(&whole)?)?;
+    }
     Ok((whole, round))
 }

@@ -25,11 +25,13 @@ fn report(seed: u64, kept: f64, step: f64, eccentric: f64) -> Diagnosis {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut normal = || -> f64 { random.sample(StandardNormal) };
     let names = ["alpha", "beta", "gamma"];
-    let mut columns: Vec<_> = names.iter().map(|name| (chain.find_symbol(name).unwrap(), Vec::new())).collect();
+    let mut columns: Vec<_> =
+        names.iter().map(|name| (chain.find_symbol(name).unwrap(), Vec::new())).collect();
     let (mut state, mut walk) = ([normal(), normal()], [0.0; 2]);
     let mut observed = Vec::new();
     for row in 0..ROWS {
-        let turned = |turns: f64| 3.1 * (std::f64::consts::TAU * turns * row as f64 / ROWS as f64 + 0.4).sin();
+        let turned =
+            |turns: f64| 3.1 * (std::f64::consts::TAU * turns * row as f64 / ROWS as f64 + 0.4).sin();
         let readings = [turned(1.0), turned(1.7), turned(2.4)];
         columns.iter_mut().zip(readings).for_each(|((_, column), reading)| column.push(reading));
         let beta = readings[1] + eccentric * readings[1].cos();
@@ -78,7 +80,11 @@ fn memory_is_no_effect() {
 fn memory_is_told() {
     let report = report(3, 0.9, 0.0, 0.0);
     assert!(report.noise.undeclared_order && report.noise.serial.is_some(), "{:?}", report.noise);
-    assert!(noise(&report).iter().any(|said| said.contains("in the order of the file")), "{:?}", noise(&report));
+    assert!(
+        noise(&report).iter().any(|said| said.contains("in the order of the file")),
+        "{:?}",
+        noise(&report)
+    );
 }
 
 /// An effect well above the noise is no memory, though rows follow each other along a path.

@@ -19,7 +19,7 @@ const MANY: usize = 50_000;
 const CLIP: f64 = 3.0;
 
 /// Coefficients of the value before that are tried, below the largest.
-const AUTOREGRESSIVE: [f64; 7] = [0.2, 0.4, 0.6, 0.8, 0.9, 0.95, 0.98];
+const AUTOREGRESSIVE: [f64; 10] = [0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98];
 
 /// Coefficients of the innovation before that are tried, as shares of the other coefficient below zero, and as they are above.
 const MOVING_AVERAGE: [f64; 5] = [-0.9, -0.75, -0.5, -0.25, 0.4];

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Blind trials of the whole command: coverage of its ±, false acceptances, held-out figure over new data.
 
-    cargo build --release -p trueaxis-cli
+    cargo build --release --bin trueaxis
     python3 benches/blind/blind.py --runs 100 [--only "few rows"] > table.md
 
 Each trial simulates an instrument with `simulate.py`, which shares no code with the project, calibrates it with the command, and
@@ -70,7 +70,7 @@ def trial(cell, seed):
             low, high = instrument.ranges[instrument.joints[0]]
             q[instrument.joints[0]] = low + (high - low) * (session[row] + rng.random()) / sessions
     unit = [[instrument.noise * (columns[k][row] + (shift[session[row]][k] if sessions else 0)) for k in range(3)] for row in range(rows)]
-    data = [measured(instrument, e, q, n) for q, n in zip(where, unit)]
+    data = [measured(instrument, e, q, n, cell.get("in_space", False)) for q, n in zip(where, unit)]
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         (folder / "i.chain").write_text(instrument.chain)
@@ -138,6 +138,8 @@ def cells(command):
     for noise in ("AR(0.5)", "AR(0.9)", "walk"):
         add("undeclared memory", mount, 300, noise, trajectory=True)
         add("undeclared memory", directions, 300, noise, trajectory=True)
+    for noise in ("AR(0.5)", "AR(0.9)", "walk"):
+        add("memory of the ground", directions, 300, noise, trajectory=True, in_space=True)
     for noise in ("t3", "outliers"):
         add("uneven", mount, 200, noise)
     for sessions in (6, 12, 60):

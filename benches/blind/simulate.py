@@ -178,9 +178,18 @@ def poses(instrument, rows, trajectory, random):
     return out
 
 
-def measured(instrument, e, q, noise):
-    """The observable with noise of three components; a direction stays of length one."""
-    v = [a + b for a, b in zip(instrument.value(e, q), noise)]
+def measured(instrument, e, q, noise, in_space=False):
+    """The observable with noise: of a point's three components; of a direction across and along the vertical, as an
+    instrument reads it, or of the three components of space, by which a drift of the ground moves it. A direction stays of
+    length one."""
+    value = instrument.value(e, q)
+    if instrument.point or in_space:
+        v = [a + b for a, b in zip(value, noise)]
+    else:
+        x, y, z = value
+        level = math.hypot(x, y) or 1e-300
+        across, along = (-y / level, x / level, 0.0), (-x * z / level, -y * z / level, level)
+        v = [a + noise[0] * b + noise[1] * c for a, b, c in zip(value, across, along)]
     if instrument.point:
         return v
     size = math.sqrt(sum(a * a for a in v))

@@ -17,6 +17,8 @@ pub struct ErrorFound {
     pub value: f64,
     /// Its standard uncertainty, SI; absent where these data do not determine it by itself.
     pub standard_uncertainty: Option<f64>,
+    /// Degrees of freedom behind the uncertainty, for Student's t; absent with it, and where the noise is known.
+    pub degrees_of_freedom: Option<f64>,
     /// Its SI unit: `rad`, `m`, `1`, `rad/K`, …
     pub unit: SiUnit,
     /// Whether these data determine it by itself.
@@ -56,13 +58,18 @@ pub(super) fn errors(whole: &Context<'_>, fitted: &Fitted) -> Vec<ErrorFound> {
         .iter()
         .zip(&fit.separable)
         .enumerate()
-        .map(|(at, (&id, &separable))| ErrorFound {
-            name: fitted.chain.symbol(id).name.clone(),
-            value: fit.values[id.index()],
-            standard_uncertainty: fit.standard_uncertainty(id).filter(|sigma| separable && sigma.is_finite()),
-            unit: unit_of(&whole.setting, &fitted.chain, id),
-            separable,
-            shown: fit.shown[at],
+        .map(|(at, (&id, &separable))| {
+            let standard_uncertainty = fit.standard_uncertainty(id).filter(|_| separable);
+            let freedom = fit.parameter_degrees_of_freedom[at];
+            ErrorFound {
+                name: fitted.chain.symbol(id).name.clone(),
+                value: fit.values[id.index()],
+                degrees_of_freedom: standard_uncertainty.map(|_| freedom).filter(|known| known.is_finite()),
+                standard_uncertainty,
+                unit: unit_of(&whole.setting, &fitted.chain, id),
+                separable,
+                shown: fit.shown[at],
+            }
         })
         .collect()
 }

@@ -91,6 +91,6 @@ fn memory_is_told() {
 #[test]
 fn an_effect_is_no_memory() {
     let report = report(4, 0.0, 0.0, 8.0 * ARCSEC);
-    let named = report.effects.iter().flat_map(|effect| effect.names.iter().chain(&effect.class));
-    assert!(named.into_iter().any(|name| name == "encoder eccentricity of beta"), "{:?}", report.effects);
+    let mut named = report.effects.iter().flat_map(|effect| effect.names.iter().chain(&effect.class));
+    assert!(named.any(|name| name == "encoder eccentricity of beta"), "{:?}", report.effects);
 }

@@ -137,6 +137,7 @@ mod tests {
                     name: amended.symbol(id).name.clone(),
                     value: value * 10_f64.powi(scale),
                     standard_uncertainty: Some(1e-6),
+                    degrees_of_freedom: None,
                     unit: SiUnit::RAD.per(SiUnit::KELVIN),
                     separable: true,
                     shown: true,

@@ -26,10 +26,8 @@ pub(super) fn shortened<'a>(
     if *after <= FAR * FAR * before || squares.len() != last.fitted.found.len() + 1 {
         return Ok((last, Vec::new()));
     }
-    let best = (0..squares.len()).min_by(|&a, &b| squares[a].total_cmp(&squares[b])).unwrap_or(0);
-    if best == 0 {
-        return Ok((last, Vec::new()));
-    }
+    let best = (0..squares.len()).min_by(|&a, &b| squares[a].total_cmp(&squares[b]));
+    let Some(best) = best.filter(|&first| first > 0) else { return Ok((last, Vec::new())) };
     let (kept, left_out) = last.fitted.found.split_at(best);
     let left_out: Vec<usize> = left_out.iter().map(|found| found.effect).collect();
     let fitted = Fitted::with(whole, kept.to_vec(), &last.fitted)?;

@@ -10,7 +10,6 @@ pub(crate) mod held_out;
 mod memory;
 mod outliers;
 mod rounds;
-mod shorter;
 
 use std::cell::OnceCell;
 
@@ -138,12 +137,10 @@ pub fn calibrate_telling(
     let round = outliers::reconsidered(&whole, round)?;
     let (whole, round) = memory::settled(whole, &remembering, round)?;
     let Settled { whole, round, as_good } = settled(&whole, &plans, round)?;
-    let (round, left_out) = shorter::shortened(&whole, round)?;
     tell(Stage::HeldOut);
     let held_out = nested(&round.posed.problem, &round.classes, &whole.options);
     let rms = held_out::rms(&whole, &before, &round, &held_out)?;
-    let confirmed =
-        Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good, left_out: &left_out };
+    let confirmed = Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good };
     let diagnosis = diagnose(&whole, &before, &round.fitted, Ok(confirmed))?;
     let drawn = trace::drawn(request.observations, &round.fitted.fit);
     let traces = trace::traces(&whole, &round, &drawn)?;

@@ -47,13 +47,6 @@ pub enum Caution {
         /// RMS after, SI.
         after: f64,
     },
-    /// Effects that stand out from the noise, and are not written: with them it is worse in regions of the joints that were
-    /// left out.
-    #[serde(rename = "effects left out")]
-    LeftOut {
-        /// Their names.
-        effects: Vec<String>,
-    },
     /// An effect hangs on fewer than five observations.
     #[serde(rename = "few observations behind an effect")]
     FewBehindAnEffect {

@@ -161,8 +161,6 @@ pub(crate) struct Confirmed<'a> {
     pub rms: BeforeAfter,
     /// Functions that explain the data about as well as accepted effects.
     pub as_good: &'a [AsGood],
-    /// Accepted effects that are not written, since with them it is worse elsewhere.
-    pub left_out: &'a [usize],
 }
 
 /// What fits and search come to. Without a search the fit alone is told: it failed, or had too few observations.
@@ -248,7 +246,6 @@ struct Found {
     remaining: Option<Remaining>,
     not_shown: Vec<NotShown>,
     search: Option<Searching>,
-    left_out: Vec<String>,
 }
 
 impl Found {
@@ -259,10 +256,7 @@ impl Found {
         for other in confirmed.as_good {
             let name = other.name(&last.fitted.chain);
             for &number in &other.instead_of {
-                // One that was left out since is not among them.
-                if let Some(effect) = effects.get_mut(number) {
-                    effect.rivals.push(name.clone());
-                }
+                effects[number].rivals.push(name.clone());
             }
         }
         let separating = |(at, others): (usize, &Others)| {
@@ -270,9 +264,7 @@ impl Found {
             separation(whole, last, at, &all, &others.behind)
         };
         (whole.tell)(Stage::Remaining);
-        let left_out = confirmed.left_out.iter().map(|&effect| whole.catalogue[effect].name.clone());
         Ok(Self {
-            left_out: left_out.collect(),
             separating: others.iter().enumerate().filter_map(separating).collect(),
             effects,
             remaining: Some(remaining::remaining(whole, last)?),
@@ -298,9 +290,6 @@ fn cautions(found: &Found, whole: &Context<'_>, rms: &BeforeAfter) -> Vec<Cautio
     for effect in found.effects.iter().filter(|effect| effect.observations < FEW) {
         let (effect, observations) = (effect.names[0].clone(), effect.observations);
         cautions.push(Caution::FewBehindAnEffect { effect, observations });
-    }
-    if !found.left_out.is_empty() {
-        cautions.push(Caution::LeftOut { effects: found.left_out.clone() });
     }
     if found.effects.len() >= whole.options.most {
         cautions.push(Caution::LimitOfEffects { effects: found.effects.len() });

@@ -20,11 +20,6 @@ pub fn caution(caution: &Caution, diagnosis: &Diagnosis) -> String {
             residual(*before),
             residual(*after)
         ),
-        Caution::LeftOut { effects } => format!(
-            "Not written, since with {} it gets worse in regions of the joints that were left out: {}.",
-            if effects.len() == 1 { "it" } else { "them" },
-            effects.join("; ")
-        ),
         Caution::FewBehindAnEffect { effect, observations } => {
             format!("{effect}: it rests on about {observations:.1} observations. Measure more there first.")
         }

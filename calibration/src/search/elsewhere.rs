@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::folds::Folds;
 use super::problem::Problem;
-use super::select::{State, class_columns, select};
+use super::select::{State, select};
 use crate::search::context::Context;
 use crate::search::round::Round;
 
@@ -56,43 +56,6 @@ impl Judged {
 
 /// Both outer thirds of each joint's range where the data are enough for it.
 pub(crate) fn elsewhere(whole: &Context<'_>, last: &Round<'_>) -> Vec<Elsewhere> {
-    let found = |region: &Region<'_, '_>| {
-        let before = State::declared(&region.seen, |fold| fold == 0).coefficients();
-        let after =
-            select(&region.seen, &last.classes, &[], |fold| fold == 0, &whole.options).state.coefficients();
-        region.judged([&before, &after])
-    };
-    thirds(whole, last).into_par_iter().filter_map(|third| Some(found(&Region::of(last, third)?))).collect()
-}
-
-/// Of none, of the first and so on of the accepted effects, the mean square of what they leave in the outer thirds, fitted to the
-/// other two each time; no more than the first entry without such regions.
-pub(crate) fn along_the_way(whole: &Context<'_>, last: &Round<'_>) -> Vec<f64> {
-    let blocks = class_columns(last.posed.of_rows(), &last.classes);
-    let accepted = last.accepted_classes();
-    let of_region = |region: Region<'_, '_>| -> Vec<Judged> {
-        let mut state = State::declared(&region.seen, |fold| fold == 0);
-        let before = state.coefficients();
-        let step = |class: &usize| {
-            state.add(&blocks[*class]);
-            region.judged([&before, &state.coefficients()]).kept
-        };
-        accepted.iter().map(step).collect()
-    };
-    let regions: Vec<Vec<Judged>> = thirds(whole, last)
-        .into_par_iter()
-        .filter_map(|third| Some(of_region(Region::of(last, third)?)))
-        .collect();
-    let sum = |at: usize| regions.iter().map(|way| way[at]).fold(Judged::default(), std::ops::Add::add);
-    let steps: Vec<Judged> = (0..accepted.len()).map(sum).filter(|judged| judged.rows > 0).collect();
-    let before = steps.first().map(|first| first.before / first.rows as f64);
-    before.into_iter().chain(steps.iter().map(|step| step.after / step.rows as f64)).collect()
-}
-
-/// An outer third of a joint's readings, from one to another.
-type Third = (SymbolId, f64, f64);
-
-fn thirds(whole: &Context<'_>, last: &Round<'_>) -> Vec<Third> {
     let observations = &*last.posed.rows.observations;
     let mut thirds = Vec::new();
     for (id, readings) in &observations.columns {
@@ -111,56 +74,41 @@ fn thirds(whole: &Context<'_>, last: &Round<'_>) -> Vec<Third> {
             thirds.extend(ends.map(|(from, to)| (*id, from, to)));
         }
     }
-    thirds
+    thirds.into_par_iter().filter_map(|(joint, from, to)| judged(whole, last, joint, from, to)).collect()
 }
 
-/// The problem without the rows of an outer third, which lie in its second fold.
-struct Region<'a, 'b> {
-    last: &'a Round<'b>,
-    held: Vec<bool>,
-    seen: Problem,
-}
-
-impl<'a, 'b> Region<'a, 'b> {
-    /// `None` where too few rows lie there, or are left.
-    fn of(last: &'a Round<'b>, (joint, from, to): Third) -> Option<Self> {
-        let rows = &last.posed.rows;
-        let problem = last.posed.of_rows();
-        let readings = rows.observations.column(joint)?;
-        let held: Vec<bool> =
-            rows.columns.row.iter().map(|&row| (from..=to).contains(&readings[row as usize])).collect();
-        let least = ROWS_FOR_AN_ERROR * problem.declared();
-        let out = held.iter().filter(|&&held| held).count();
-        if out < least || held.len() - out < least {
-            return None;
-        }
-        let folds = Folds::held_out(problem.group_of_row(), &held);
-        let mut seen = problem.with_folds(folds);
-        if let Some(reach) = problem.reach() {
-            seen = seen.with_reach(reach.without(|component| !held[component], joint));
-        }
-        Some(Self { last, held, seen })
+fn judged(whole: &Context<'_>, last: &Round<'_>, joint: SymbolId, from: f64, to: f64) -> Option<Elsewhere> {
+    let rows = &last.posed.rows;
+    let problem = last.posed.of_rows();
+    let readings = rows.observations.column(joint)?;
+    let held: Vec<bool> =
+        rows.columns.row.iter().map(|&row| (from..=to).contains(&readings[row as usize])).collect();
+    let least = ROWS_FOR_AN_ERROR * problem.declared();
+    let out = held.iter().filter(|&&held| held).count();
+    if out < least || held.len() - out < least {
+        return None;
     }
-
-    /// What coefficients before and after leave of the rows held out.
-    fn judged(&self, coefficients: [&[(usize, f64)]; 2]) -> Elsewhere {
-        let rows = &self.last.posed.rows;
-        let [before, after] = coefficients.map(|of| left(self.last, &self.seen, of));
-        let mut by_row = std::collections::BTreeMap::new();
-        for component in (0..self.held.len()).filter(|&component| self.held[component]) {
-            let (judged, kept) =
-                by_row.entry(rows.columns.row[component]).or_insert((Judged::default(), true));
-            judged.rows = 1;
-            judged.before += before[component] * before[component];
-            judged.after += after[component] * after[component];
-            *kept &= rows.counts(component);
-        }
-        let sum = |some: &dyn Fn(bool) -> bool| {
-            let own = by_row.values().filter(|(_, kept)| some(*kept)).map(|(judged, _)| *judged);
-            own.fold(Judged::default(), std::ops::Add::add)
-        };
-        Elsewhere { all: sum(&|_| true), kept: sum(&|kept| kept) }
+    let folds = Folds::held_out(problem.group_of_row(), &held);
+    let mut seen = problem.with_folds(folds);
+    if let Some(reach) = problem.reach() {
+        seen = seen.with_reach(reach.without(|component| !held[component], joint));
     }
+    let before = State::declared(&seen, |fold| fold == 0).coefficients();
+    let after = select(&seen, &last.classes, &[], |fold| fold == 0, &whole.options).state.coefficients();
+    let (before, after) = (left(last, &seen, &before), left(last, &seen, &after));
+    let mut by_row = std::collections::BTreeMap::new();
+    for component in (0..held.len()).filter(|&component| held[component]) {
+        let (judged, kept) = by_row.entry(rows.columns.row[component]).or_insert((Judged::default(), true));
+        judged.rows = 1;
+        judged.before += before[component] * before[component];
+        judged.after += after[component] * after[component];
+        *kept &= rows.counts(component);
+    }
+    let sum = |some: &dyn Fn(bool) -> bool| {
+        let own = by_row.values().filter(|(_, kept)| some(*kept)).map(|(judged, _)| *judged);
+        own.fold(Judged::default(), std::ops::Add::add)
+    };
+    Some(Elsewhere { all: sum(&|_| true), kept: sum(&|kept| kept) })
 }
 
 /// What coefficients leave of every component, before whitening.

@@ -132,9 +132,11 @@ fn a_dry_run_shows_the_difference_and_writes_nothing() {
 
 #[test]
 fn the_independent_simulators_still_write_the_data() {
-    for (example, files) in
-        [("mobile-lidar", &["measured.csv", "second-run.csv"][..]), ("turntable", &["measured.csv"][..])]
-    {
+    for (example, files) in [
+        ("mobile-lidar", &["measured.csv", "second-run.csv"][..]),
+        ("turntable", &["measured.csv"][..]),
+        ("course", &["secret.csv", "secret-2.csv", "secret-3.csv", "secret-4.csv"][..]),
+    ] {
         let folder = Folder::new(&format!("simulator-{example}"));
         folder.copy(&format!("examples/{example}/simulate.py"));
         let python = std::process::Command::new("python3").arg("simulate.py").current_dir(&folder.0).status();

@@ -74,5 +74,5 @@ pub use model_core::{Chain, checker::Checker, forms::derive, identify::identify,
 /// What the expansion of [`chain!`] uses; not meant for anything else.
 #[doc(hidden)]
 pub mod __private {
-    pub use nalgebra::{ComplexField, Matrix3, SMatrix, Vector3};
+    pub use nalgebra::{ComplexField, Matrix3, RealField, SMatrix, Vector3};
 }

@@ -66,7 +66,7 @@ fn derive(criterion: &mut Criterion) {
 fn decide(criterion: &mut Criterion) {
     let Some(chain) = parsed(MOBILE_LIDAR) else { return };
     let Ok(form) = forms::derive(&chain, BOTH[0], 1) else { return };
-    let component = &form.components[0];
+    let component = &form.components[0].above;
     let Ok(typed) = syntax::parse_amount(&print::text(component, &chain)) else { return };
     criterion.bench_function("decide whether a typed formula equals the derived one", |bencher| {
         bencher.iter(|| {

@@ -29,6 +29,8 @@ pub struct Evaluator {
     pub observables: Vec<ObservableId>,
     /// The joints and inputs that they need, each once, in order of the chain.
     pub readings: Vec<SymbolId>,
+    /// How many numbers the observables show together.
+    shown: usize,
     /// Programs whose outputs add up, each with the values of errors and constants.
     parts: Vec<(Interpreter, Vec<f64>)>,
 }
@@ -63,11 +65,11 @@ impl Evaluator {
             observables.iter().flat_map(|&observable| readings_of(chain, observable)).collect();
         readings.sort_unstable();
         readings.dedup();
-        Self { observables, readings, parts }
+        let shown = observables.iter().map(|&id| chain.observable(id).shown.len()).sum();
+        Self { observables, readings, shown, parts }
     }
 
-    /// The components of all observables over columns of readings, `3 * observables` columns, x, y, z first of the
-    /// first observable.
+    /// What all observables show over columns of readings, a column each, those of the first observable first.
     ///
     /// # Errors
     /// Columns of different lengths, or one missing.
@@ -76,7 +78,7 @@ impl Evaluator {
         readings: &[(SymbolId, &[f64])],
         rows: usize,
     ) -> Result<Vec<Vec<f64>>, Failure> {
-        let mut sum = vec![vec![0.0; rows]; 3 * self.observables.len()];
+        let mut sum = vec![vec![0.0; rows]; self.shown];
         let mut part = sum.clone();
         for (interpreter, values) in &mut self.parts {
             let mut out: Vec<&mut [f64]> = part.iter_mut().map(Vec::as_mut_slice).collect();
@@ -94,29 +96,29 @@ impl Evaluator {
 /// The joints and inputs that an observable depends on, in order of the chain.
 #[must_use]
 pub fn readings_of(chain: &Chain, observable: ObservableId) -> Vec<SymbolId> {
-    let components = chain.observable(observable).components.iter();
-    let mut symbols: Vec<SymbolId> = chain
-        .factors_to(observable)
-        .into_iter()
-        .map(|factor| &factor.amount)
-        .chain(components)
-        .flat_map(|amount| chain.symbols_in(amount))
-        .filter(|&id| matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input))
-        .collect();
-    symbols.sort_unstable();
-    symbols.dedup();
+    let mut symbols = chain.symbols_of_way(observable);
+    symbols.retain(|&id| matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input));
     symbols
 }
 
-/// Names of the columns of observables: `pointing_x`, `pointing_y`, `pointing_z`.
+/// Names of the columns of observables: `pointing_x`, `pointing_y`, `pointing_z`, or `sky_azimuth`.
 ///
 /// # Errors
 /// A joint or an input has the name of one.
 pub fn column_names(chain: &Chain, observables: &[ObservableId]) -> Result<Vec<String>, Failure> {
-    let names = observables.iter().map(|&id| &chain.observable(id).name);
-    let columns: Vec<String> =
-        names.flat_map(|name| ["x", "y", "z"].map(|axis| format!("{name}_{axis}"))).collect();
+    let columns: Vec<String> = observables
+        .iter()
+        .map(|&id| chain.observable(id))
+        .flat_map(|observable| observable.labels().map(|label| format!("{}_{label}", observable.name)))
+        .collect();
     let is_reading = |id| matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input);
+    let again = columns.iter().enumerate().find(|(at, name)| columns[..*at].contains(name));
+    if let Some((_, name)) = again {
+        return Err(Failure::Input(format!(
+            "two observables of chain {} have a column `{name}`: rename one",
+            chain.name
+        )));
+    }
     let taken = columns.iter().find(|name| chain.find_symbol(name).is_some_and(is_reading));
     match taken {
         None => Ok(columns),

@@ -79,11 +79,11 @@ pub struct ClosedForm {
     /// What it is, in words.
     pub title: String,
     /// The components in the plain syntax of amounts.
-    pub text: [String; 3],
+    pub text: Vec<String>,
     /// The components in LaTeX, in printed symbols.
-    pub latex: [String; 3],
+    pub latex: Vec<String>,
     /// The components as trees, for other algebra systems.
-    pub trees: [Expr<std::ops::Range<usize>>; 3],
+    pub trees: Vec<Expr<std::ops::Range<usize>>>,
 }
 
 /// Derives a closed form: `order` 1, 2 or 3 in the errors.
@@ -95,12 +95,14 @@ pub fn closed_form(chain: &Chain, observable: ObservableId, order: u32) -> Resul
         return Err(Failure::Input(format!("order {order}: closed forms are of order 1, 2 or 3")));
     }
     let form = forms::derive(chain, observable, order).map_err(|error| Failure::Input(error.to_string()))?;
-    let text = form.components.each_ref().map(|component| print::text(component, chain));
-    let latex = form.components.each_ref().map(|component| print::latex(component, chain));
-    let [x, y, z] = text.each_ref().map(|text| {
+    let shown =
+        |style| form.components.iter().map(|component| component.show(chain, style)).collect::<Vec<_>>();
+    let (text, latex) = (shown(print::Style::Text), shown(print::Style::Latex));
+    let trees = text.iter().map(|text| {
         syntax::parse_amount(text).map_err(|mistakes| Failure::mistakes("the closed form", text, &mistakes))
     });
-    Ok(ClosedForm { title: derive::title_of(chain, &form), trees: [x?, y?, z?], text, latex })
+    let trees = trees.collect::<Result<_, _>>()?;
+    Ok(ClosedForm { title: derive::title_of(chain, &form), trees, text, latex })
 }
 
 /// What no data can tell apart; as `identify`.

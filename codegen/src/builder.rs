@@ -9,7 +9,7 @@ use model_core::ramp::Ramp;
 use model_core::{Chain, SymbolId, SymbolKind};
 
 use crate::program::{Layout, Literal, NodeId, Op, Program, Stage};
-use crate::vector::sin_cos;
+use crate::vector::{arc_tangent, root, sin_cos};
 
 /// A node or its negative.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -112,6 +112,26 @@ impl Builder {
         let a = self.unsigned(a);
         let node = self.node(Op::Step(a));
         Value { node, negative: false }
+    }
+
+    /// The square root of what is not negative.
+    pub(crate) fn root(&mut self, a: Value) -> Value {
+        if let Some(number) = self.number(a) {
+            return self.constant(root(number));
+        }
+        let a = self.unsigned(a);
+        let node = self.node(Op::Root(a));
+        Value { node, negative: false }
+    }
+
+    /// The angle of the point (x, y).
+    pub(crate) fn arc_tangent(&mut self, y: Value, x: Value) -> Value {
+        if let (Some(y), Some(x)) = (self.number(y), self.number(x)) {
+            return self.constant(arc_tangent(y, x));
+        }
+        let x = self.unsigned(x);
+        let node = self.node(Op::ArcTangent(y.node, x));
+        Value { node, negative: y.negative }
     }
 
     /// The node of a value with its sign applied.

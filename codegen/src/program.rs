@@ -67,6 +67,10 @@ pub enum Op {
     Saturate(NodeId),
     /// 1 from `a = 0` on, 0 below; NaN stays NaN.
     Step(NodeId),
+    /// The square root; NaN below zero.
+    Root(NodeId),
+    /// The angle of the point (b, a), in (−π, π]: 0 where b > 0 and a = 0, a quarter turn where a > 0 and b = 0.
+    ArcTangent(NodeId, NodeId),
 }
 
 impl Op {
@@ -74,8 +78,17 @@ impl Op {
     pub fn operands(self) -> impl Iterator<Item = NodeId> {
         let (first, second) = match self {
             Self::Constant(_) | Self::Input(_) => (None, None),
-            Self::Neg(a) | Self::Sin(a) | Self::Cos(a) | Self::Saturate(a) | Self::Step(a) => (Some(a), None),
-            Self::Add(a, b) | Self::Sub(a, b) | Self::Mul(a, b) | Self::Div(a, b) => (Some(a), Some(b)),
+            Self::Neg(a)
+            | Self::Sin(a)
+            | Self::Cos(a)
+            | Self::Saturate(a)
+            | Self::Step(a)
+            | Self::Root(a) => (Some(a), None),
+            Self::Add(a, b)
+            | Self::Sub(a, b)
+            | Self::Mul(a, b)
+            | Self::Div(a, b)
+            | Self::ArcTangent(a, b) => (Some(a), Some(b)),
         };
         first.into_iter().chain(second)
     }
@@ -93,6 +106,8 @@ impl Op {
             Self::Sub(a, b) => Self::Sub(f(a), f(b)),
             Self::Mul(a, b) => Self::Mul(f(a), f(b)),
             Self::Div(a, b) => Self::Div(f(a), f(b)),
+            Self::Root(a) => Self::Root(f(a)),
+            Self::ArcTangent(a, b) => Self::ArcTangent(f(a), f(b)),
         }
     }
 }
@@ -109,15 +124,15 @@ pub enum Stage {
 /// What is computed of an observable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Form {
-    /// The observable with errors, no approximation: 3 components.
+    /// What the observable shows with errors, no approximation: its components, or its readings.
     ExactValue,
-    /// The observable with errors minus without, no approximation and no cancellation: 3 components.
+    /// What it shows with errors minus without, no approximation and no cancellation.
     ExactError,
-    /// The part of the error that is linear in the errors: 3 components.
+    /// The part of that which is linear in the errors.
     FirstOrderError,
-    /// Derivatives of the exact value at the errors given: 3 rows, a column for each symbol.
+    /// Derivatives of the exact value at the errors given: a row for each number shown, a column for each symbol.
     ExactJacobian,
-    /// Derivatives of the exact value where every error is zero: 3 rows, a column for each symbol. With
+    /// Derivatives of the exact value where every error is zero: as many rows, a column for each symbol. With
     /// respect to an error these are the coefficients of the first-order error.
     FirstOrderJacobian,
 }
@@ -130,14 +145,16 @@ impl Form {
     }
 }
 
-/// Which numbers a program puts out, in order: form by form, observable by observable, component x, y, z by
-/// component, and for Jacobians column by column.
+/// Which numbers a program puts out, in order: form by form, observable by observable, number shown by number shown (x, y,
+/// z, or readings), and for Jacobians column by column.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Layout {
     /// The forms, in order.
     pub forms: Vec<Form>,
     /// The observables of each form, in order.
     pub observables: Vec<ObservableId>,
+    /// How many numbers each observable shows.
+    pub shown: Vec<usize>,
     /// The symbols of a Jacobian's columns, in order.
     pub wrt: Vec<SymbolId>,
 }
@@ -146,7 +163,7 @@ impl Layout {
     /// How many numbers one form puts out.
     #[must_use]
     pub fn len_of(&self, form: Form) -> usize {
-        3 * self.observables.len() * if form.is_jacobian() { self.wrt.len() } else { 1 }
+        self.shown.iter().sum::<usize>() * if form.is_jacobian() { self.wrt.len() } else { 1 }
     }
 }
 
@@ -239,7 +256,9 @@ impl Program {
                 | Op::Mul(..)
                 | Op::Div(..)
                 | Op::Saturate(_)
-                | Op::Step(_) => tally.operations += 1,
+                | Op::Step(_)
+                | Op::Root(_)
+                | Op::ArcTangent(..) => tally.operations += 1,
                 Op::Sin(_) | Op::Cos(_) => tally.sines_and_cosines += 1,
             }
         }
@@ -338,7 +357,7 @@ pub struct Counts {
 /// How much one stage computes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Tally {
-    /// Additions, subtractions, multiplications, divisions and changes of sign.
+    /// Additions, subtractions, multiplications, divisions, changes of sign, roots and arc tangents.
     pub operations: usize,
     /// Sines and cosines, each counted as one.
     pub sines_and_cosines: usize,

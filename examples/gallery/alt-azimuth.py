@@ -1,6 +1,6 @@
 from sympy import cos, sin, symbols, tan
 
-from derive import R, first_order, judge, judge_rank
+from derive import R, circles, first_order, judge, judge_rank
 
 A, E = symbols("A E", real=True)
 errors = an, aw, ia, ie, ca, npae, tf = symbols("an aw ia ie ca npae tf", real=True)
@@ -14,3 +14,4 @@ judge("cross-elevation and elevation", form, [cross, 0, up])
 judge("azimuth itself, times cos E", form, [cos(E) * azimuth, 0, up])
 judge("azimuth without cos E", form, [azimuth, 0, up])
 judge_rank("all seven can be told apart", form, errors, 7, [A, E])
+judge("azimuth and elevation by the circles", circles(factors[2:], [0, 1, 0, 0], errors, E), [azimuth, up])

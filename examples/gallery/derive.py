@@ -37,6 +37,20 @@ def first_order(factors, vector, errors):
     return sum(columns, sp.zeros(3, 1))
 
 
+def circles(factors, vector, errors, elevation):
+    """The first order of an azimuth from y through x and of the elevation, of a way whose vector has this elevation."""
+    x, y, z = (product(factors) * sp.Matrix(vector))[:3, :]
+    zero = {error: 0 for error in errors}
+    level = sp.sqrt(x**2 + y**2)
+    total = sp.zeros(2, 1)
+    for error in errors:
+        turned, raised = sp.atan2(x, y).diff(error), sp.atan2(z, level).diff(error)
+        both = sp.Matrix([turned, raised]).subs(zero).applyfunc(sp.simplify)
+        # Where the elevation is below a quarter turn.
+        total += both.subs(sp.Abs(sp.cos(elevation)), sp.cos(elevation)) * error
+    return total
+
+
 def is_zero(expression):
     """Decided by the exponentials of the angles, not by sampling."""
     rewritten = sp.expand(sp.expand_trig(sp.together(expression)).rewrite(sp.exp))

@@ -1,6 +1,6 @@
 from sympy import cos, cot, pi, sin, symbols
 
-from derive import R, first_order, judge
+from derive import R, circles, first_order, judge
 
 H, V = symbols("H V", real=True)
 errors = wx, wy, h0, i, v0, c = symbols("wx wy h0 i v0 c", real=True)
@@ -14,3 +14,8 @@ judge("the same, as the quotients that are printed", form,
       [(h0 + c / sin(V) + i * cot(V) + (wx * sin(H) + wy * cos(H)) * cot(V)) * sin(V), 0, up])
 judge("tilt of the standing axis with the other sign", form.subs({e: 0 for e in (h0, i, v0, c)}),
       [-(wx * sin(H) + wy * cos(H)) * cos(V), 0, wx * cos(H) - wy * sin(H)])
+elevation = symbols("elevation", real=True)
+moved = circles([f.subs(V, pi / 2 - elevation) for f in factors[2:]], [0, 1, 0, 0], errors, elevation)
+moved = moved.subs(elevation, pi / 2 - V)
+judge("the readings of both circles", [moved[0], -moved[1]],
+      [h0 + c / sin(V) + i * cot(V) + (wx * sin(H) + wy * cos(H)) * cot(V), v0 - wx * cos(H) + wy * sin(H)])

@@ -2,9 +2,14 @@
 //!
 //! It has no places in a source text; those stay in [`crate::syntax`].
 
+pub mod reading;
+
+use std::borrow::Cow;
+
 use crate::algebra::Poly;
 use crate::ramp::Ramp;
 use crate::symbol::{Symbol, SymbolId, SymbolKind};
+use reading::Reading;
 
 /// A body of one chain: an index into [`Chain::bodies`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -109,7 +114,7 @@ impl std::fmt::Display for Axis {
     }
 }
 
-/// What an instrument shows, in the ground frame.
+/// What an instrument shows: a vector of one body, in the ground frame or in that of another body, and which numbers of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Observable {
     /// The declared name: `pointing`.
@@ -122,6 +127,21 @@ pub struct Observable {
     pub components: [Poly; 3],
     /// The body that carries it.
     pub body: BodyId,
+    /// The body in whose frame it is seen; `None` is the ground.
+    pub frame: Option<BodyId>,
+    /// The numbers that it shows of its vector, one to three; the components x, y, z unless the declaration says otherwise.
+    pub shown: Vec<Reading>,
+}
+
+/// One elementary transform on the way to an observable.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Passed<'a> {
+    /// The body that it belongs to.
+    pub body: BodyId,
+    /// The transform; the opposite one of the declaration's on the way out of the frame of a body.
+    pub factor: Cow<'a, Factor>,
+    /// Whether it is the opposite one.
+    pub is_reversed: bool,
 }
 
 /// Whether an observable is moved by shifts.
@@ -182,12 +202,39 @@ impl Chain {
         path
     }
 
-    /// Every factor on the way from the ground to an observable, in the order they multiply.
+    /// Every transform on the way from the frame that an observable is seen in to the body that carries it, in the order
+    /// they multiply. Bodies that both hang on turn both alike, and are not on the way.
     #[must_use]
-    pub fn factors_to(&self, observable: ObservableId) -> Vec<&Factor> {
-        self.path(self.observable(observable).body)
-            .into_iter()
-            .flat_map(|body| &self.body(body).factors)
-            .collect()
+    pub fn way(&self, observable: ObservableId) -> Vec<Passed<'_>> {
+        let observable = self.observable(observable);
+        let up = self.path(observable.body);
+        let down = observable.frame.map_or_else(Vec::new, |frame| self.path(frame));
+        let common = up.iter().zip(&down).take_while(|(a, b)| a == b).count();
+        let reversed = down[common..].iter().rev().flat_map(|&body| {
+            let factors = self.body(body).factors.iter().rev();
+            factors.map(move |factor| {
+                let opposite = Factor { amount: -&factor.amount, ..factor.clone() };
+                Passed { body, factor: Cow::Owned(opposite), is_reversed: true }
+            })
+        });
+        let straight = up[common..].iter().flat_map(|&body| {
+            let factors = self.body(body).factors.iter();
+            factors.map(move |factor| Passed { body, factor: Cow::Borrowed(factor), is_reversed: false })
+        });
+        reversed.chain(straight).collect()
+    }
+
+    /// The symbols that an observable depends on: of the transforms on its way and of its components, in order.
+    #[must_use]
+    pub fn symbols_of_way(&self, observable: ObservableId) -> Vec<SymbolId> {
+        let way = self.way(observable);
+        let amounts = way.iter().map(|passed| &passed.factor.amount);
+        let mut symbols: Vec<SymbolId> = amounts
+            .chain(&self.observable(observable).components)
+            .flat_map(|amount| self.symbols_in(amount))
+            .collect();
+        symbols.sort_unstable();
+        symbols.dedup();
+        symbols
     }
 }

@@ -25,6 +25,9 @@ pub mod symbol;
 pub mod syntax;
 pub mod unit;
 
-pub use chain::{Axis, Body, BodyId, Chain, Factor, Motion, Observable, ObservableId, ObservableKind, Role};
+pub use chain::reading as readings;
+pub use chain::{
+    Axis, Body, BodyId, Chain, Factor, Motion, Observable, ObservableId, ObservableKind, Passed, Role,
+};
 pub use mistake::{Mistake, Mistakes};
 pub use symbol::{Meaning, Quantity, Symbol, SymbolId, SymbolKind};

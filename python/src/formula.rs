@@ -12,11 +12,11 @@ pub struct ClosedForm {
     /// What it is, in words.
     title: String,
     /// Components in the plain syntax of amounts.
-    text: [String; 3],
+    text: Vec<String>,
     /// Components in LaTeX.
-    latex: [String; 3],
+    latex: Vec<String>,
     /// Components as steps for a stack.
-    steps: [Vec<Step>; 3],
+    steps: Vec<Vec<Step>>,
 }
 
 /// One step for a stack: what is done, the name or number that it is done with, and how many operands it takes.
@@ -24,11 +24,12 @@ type Step = (&'static str, String, usize);
 
 impl From<library::ClosedForm> for ClosedForm {
     fn from(form: library::ClosedForm) -> Self {
-        let steps = form.trees.each_ref().map(|tree| {
+        let steps = form.trees.iter().map(|tree| {
             let mut steps = Vec::new();
             push(tree, &mut steps);
             steps
         });
+        let steps = steps.collect();
         Self { title: form.title, text: form.text, latex: form.latex, steps }
     }
 }

@@ -64,7 +64,8 @@ pub fn starting_values(
 impl BasePose {
     /// The unknown pose that the path to an observable begins with, if it does.
     fn of(chain: &Chain, observable: ObservableId, options: &FitOptions) -> Option<Self> {
-        let factors = chain.factors_to(observable);
+        let way: Vec<_> = chain.way(observable).into_iter().map(|passed| passed.factor).collect();
+        let factors: Vec<&Factor> = way.iter().map(AsRef::as_ref).collect();
         let (first, rest) = factors.split_at_checked(6)?;
         let (shifts, turns) = first.split_at(3);
         let free = |factor: &Factor| {

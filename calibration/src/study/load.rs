@@ -215,7 +215,11 @@ impl Plan {
                 }
                 Kind::Spherical if observed.len() == 1 => Ok([at(0, row), 0.0, 0.0]),
                 Kind::Spherical => {
-                    let elevation = at(1, row);
+                    let (azimuth, second) = (at(0, row), at(1, row));
+                    let (direction, elevation) = match &source.convention {
+                        Some(convention) => convention.direction(azimuth, second),
+                        None => (direction_from_spherical(azimuth, second), second),
+                    };
                     if elevation.abs() > std::f64::consts::FRAC_PI_2 * (1.0 + 1e-9) {
                         let why = format!(
                             "an elevation of {:.1} deg is beyond the zenith: are the unit and the order of the columns right?",
@@ -223,7 +227,7 @@ impl Plan {
                         );
                         return Err(impossible(row, why));
                     }
-                    Ok(direction_from_spherical(at(0, row), elevation).into())
+                    Ok(direction.into())
                 }
                 Kind::Offset => {
                     for (id, readings) in readings {

@@ -11,6 +11,7 @@ mod inputs;
 mod load;
 mod mistakes;
 mod plan;
+mod shown;
 mod sigma;
 mod syntax;
 mod written;

@@ -2,10 +2,11 @@
 
 use std::ops::Range;
 
-use model_core::{Chain, Mistakes, ObservableId, Quantity, Symbol, SymbolId, SymbolKind, names};
+use model_core::{Axis, Chain, Mistakes, ObservableId, Quantity, Symbol, SymbolId, SymbolKind, names};
 use toml::Spanned;
 
 use super::mistakes::{Gathered, Outcome, Several, every, mistake, plain, unknown, within};
+use super::shown::{self, Convention};
 use super::written::{Column, Kind, Observed, Study, Table};
 use crate::candidate::Effect;
 use crate::data::units::{Amount, Unit};
@@ -66,6 +67,8 @@ pub struct SourcePlan {
     pub(super) readings: Vec<(SymbolId, Reading)>,
     pub(super) observed: Vec<ColumnPlan>,
     pub(super) kind: Kind,
+    /// What the angles are that are observed, where the declaration says so.
+    pub(super) convention: Option<Convention>,
     pub(super) sigma: Vec<ColumnPlan>,
 }
 
@@ -148,6 +151,7 @@ impl Study {
         };
         fit.noise.sigma = sigma;
         let (group, order) = (self.noise.group.0.clone(), self.noise.order.clone());
+        let chain = shown::vectors(chain);
         Ok(Plan { sources, fit, search, hold_out, next, group, order, format, chain })
     }
 
@@ -169,17 +173,26 @@ impl Study {
             let readings = mistakes.take(self.readings(chain, observable, columns));
             let shown = observable
                 .and_then(|observable| mistakes.take(observed_columns(chain, observable, observed)));
+            let convention = observable.and_then(|id| {
+                let (kind, place) = (observed.get_ref().kind, observed.span());
+                mistakes.take(shown::convention(chain.observable(id), kind, &place))
+            });
             let sigma = shown.as_ref().and_then(|(_, measure, _)| {
                 let first = *first_measure.get_or_insert(*measure);
                 mistakes.take(self.sigma_columns(own.as_ref(), *measure, first))
             });
             mistakes.none()?;
-            let (Some(observable), Some(readings), Some((kind, measure, observed)), Some(sigma)) =
-                (observable, readings, shown, sigma)
+            let (
+                Some(observable),
+                Some(readings),
+                Some((kind, measure, observed)),
+                Some(convention),
+                Some(sigma),
+            ) = (observable, readings, shown, convention, sigma)
             else {
                 unreachable!("what is missing comes with a mistake")
             };
-            Ok(SourcePlan { paths, observable, measure, readings, observed, kind, sigma })
+            Ok(SourcePlan { paths, observable, measure, readings, observed, kind, convention, sigma })
         }))
     }
 
@@ -351,12 +364,9 @@ fn matching(chain: &Chain, pattern: &Spanned<String>) -> Outcome<Vec<SymbolId>> 
 
 /// The joints and inputs that an observable depends on.
 fn needed(chain: &Chain, observable: ObservableId) -> Vec<SymbolId> {
-    let amounts = chain.factors_to(observable).into_iter().map(|factor| &factor.amount);
-    amounts
-        .chain(&chain.observable(observable).components)
-        .flat_map(|amount| chain.symbols_in(amount))
-        .filter(|&id| matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input))
-        .collect()
+    let mut symbols = chain.symbols_of_way(observable);
+    symbols.retain(|&id| matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input));
+    symbols
 }
 
 pub(super) fn column_plan(column: &Column, quantity: Quantity, place: &Range<usize>) -> Outcome<ColumnPlan> {
@@ -396,7 +406,9 @@ fn observed_columns(
     } else {
         (("azimuth", &observed.azimuth), ("elevation", &observed.elevation))
     };
-    let only_azimuth = azimuth.1.is_some() && elevation.1.is_none();
+    // An observable that shows an azimuth and an elevation has a column of its own name for each.
+    let has_pair = !observable.is_vector() && observable.shown.len() == 2;
+    let only_azimuth = azimuth.1.is_some() && elevation.1.is_none() && !has_pair;
     let (measure, quantity, keys) = match observed.kind {
         Kind::Direction => (Measure::Direction, Quantity::Number, xyz.to_vec()),
         Kind::Point => (Measure::Point, Quantity::Length, xyz.to_vec()),
@@ -418,6 +430,11 @@ fn observed_columns(
             declared: true,
             named: false,
         }),
+        None if !observable.is_vector() => {
+            let place = if matches!(key, "elevation" | "dec") { Axis::Y } else { Axis::X };
+            let name = shown::column(observable, place);
+            Ok(ColumnPlan { name, unit: None, quantity, declared: true, named: false })
+        }
         None => {
             let help = format!("write `{key} = {{ column = \"…\", unit = \"…\" }}`");
             Err(mistake(place.clone(), format!("no column is named for `{key}`"), help))

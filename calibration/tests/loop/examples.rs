@@ -49,15 +49,15 @@ fn the_eccentric_encoder_is_found_and_the_declaration_amended() {
     let amended = Chain::from_text(found.amended.as_ref().unwrap()).unwrap();
     for observable in [0, 1, 2].map(model_core::ObservableId) {
         let by_text: Vec<String> = amended
-            .factors_to(observable)
+            .way(observable)
             .iter()
-            .map(|f| model_core::print::text(&f.amount, &amended))
+            .map(|passed| model_core::print::text(&passed.factor.amount, &amended))
             .collect();
         let in_memory: Vec<String> = found
             .chain
-            .factors_to(observable)
+            .way(observable)
             .iter()
-            .map(|f| model_core::print::text(&f.amount, &found.chain))
+            .map(|passed| model_core::print::text(&passed.factor.amount, &found.chain))
             .collect();
         assert_eq!(by_text, in_memory);
     }

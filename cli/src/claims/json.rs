@@ -1,6 +1,6 @@
 //! Verdicts for programs.
 
-use model_core::checker::{Difference, Means, Outcome, Verdict};
+use model_core::checker::{Claim, Difference, Means, Outcome, Verdict};
 use model_core::print;
 use serde_json::{Value, json};
 
@@ -32,9 +32,13 @@ pub fn as_json(file: &ClaimsFile, checked: &Checked<'_>) -> Value {
                 .map(|difference| difference_as_json(file, checked.claim, difference))
                 .collect();
             if !form.differences.is_empty() {
-                claim["diagnosis"] =
-                    form.slips.iter().map(|slip| Value::from(slip.describe(&file.chain))).collect();
-                claim["corrected"] = form.corrected(&file.printed).to_vec().into();
+                if let Claim::ClosedForm(claimed) = &checked.claim.claim {
+                    let slips = form.slips.iter();
+                    claim["diagnosis"] = slips
+                        .map(|slip| Value::from(slip.describe(&file.chain, claimed.observable)))
+                        .collect();
+                }
+                claim["corrected"] = form.corrected(&file.printed).into();
             }
         }
         Verdict::Equality(equality) => {
@@ -82,8 +86,12 @@ pub fn as_json(file: &ClaimsFile, checked: &Checked<'_>) -> Value {
 /// Coefficients in the plain syntax of amounts, for programs, and in LaTeX.
 fn difference_as_json(file: &ClaimsFile, claim: &NamedClaim, difference: &Difference) -> Value {
     let (chain, printed) = (&file.chain, &file.printed);
+    let Claim::ClosedForm(claimed) = &claim.claim else {
+        unreachable!("only printed formulas have differences of components")
+    };
+    let shown = chain.observable(claimed.observable);
     let mut value = json!({
-        "component": difference.component.to_string(),
+        "component": shown.label(difference.component.index()),
         "error": difference.error_name(chain),
         "printed": difference.printed.show(chain, print::Style::Text),
         "derived": difference.derived.show(chain, print::Style::Text),
@@ -94,7 +102,7 @@ fn difference_as_json(file: &ClaimsFile, claim: &NamedClaim, difference: &Differ
         },
     });
     if let Some(slip) = &difference.slip {
-        value["slip"] = slip.describe(chain, print::Style::Text).into();
+        value["slip"] = slip.describe(chain, claimed.observable, print::Style::Text).into();
     }
     if let Some((_, before, width)) = place_in_text(claim, difference) {
         // Characters of the component as printed.

@@ -76,13 +76,16 @@ fn write_form(out: &mut String, written: &Written<'_>, claim: &NamedClaim, form:
     if form.differences.is_empty() {
         return;
     }
+    let Claim::ClosedForm(claimed) = &claim.claim else { return };
+    let observable = claimed.observable;
+    let shown = chain.observable(observable);
     for difference in &form.differences {
         let printed =
             quoted(claim, difference).unwrap_or_else(|| difference.printed.show_by(chain, style, hand));
         let _ = writeln!(
             out,
             "    {}, {}: printed {printed}, derived {}",
-            difference.component,
+            shown.label(difference.component.index()),
             print::poly(&difference.error_product(), chain, style),
             difference.derived.show_by(chain, style, hand),
         );
@@ -91,15 +94,21 @@ fn write_form(out: &mut String, written: &Written<'_>, claim: &NamedClaim, form:
             let _ = writeln!(out, "        {shown}\n        {padding}{BAD}{}{BAD:#}", "^".repeat(width));
         }
         if let Some(slip) = &difference.slip {
-            let _ = writeln!(out, "        {}", slip.describe(chain, style));
+            let _ = writeln!(out, "        {}", slip.describe(chain, observable, style));
         }
     }
     for slip in &form.slips {
-        let _ = writeln!(out, "    {}", slip.describe(chain));
+        let _ = writeln!(out, "    {}", slip.describe(chain, observable));
     }
-    let _ = writeln!(out, "    what the chain implies:");
-    for (axis, component) in ["x", "y", "z"].iter().zip(&form.derived) {
-        let _ = writeln!(out, "        {axis}: {}", print::by_hand(component, chain, style, hand));
+    let roots: Vec<String> = form
+        .positive
+        .iter()
+        .map(|root| format!("{} > 0", print::by_hand(root, chain, style, hand)))
+        .collect();
+    let place = if roots.is_empty() { String::new() } else { format!(", where {}", roots.join(" and ")) };
+    let _ = writeln!(out, "    what the chain implies{place}:");
+    for (label, component) in shown.labels().zip(&form.derived) {
+        let _ = writeln!(out, "        {label}: {}", component.show_by(chain, style, hand));
     }
 }
 
@@ -142,8 +151,7 @@ fn write_total(out: &mut String, chain: &Chain, total: &TotalVerdict, style: pri
         );
     }
     if !total.differences.is_empty() {
-        let _ =
-            writeln!(out, "    what belongs below the root: {}", print::poly(&total.derived, chain, style));
+        let _ = writeln!(out, "    what belongs below the root: {}", total.derived.show(chain, style));
     }
 }
 

@@ -90,7 +90,9 @@ pub fn bounds(
         match answer {
             Ok(answer) => answers.push(answer),
             // Nobody asked for this observable in particular; the others still have an answer.
-            Err(error @ DomainError::RangeNeeded { .. }) if names.is_empty() => {
+            Err(error @ (DomainError::RangeNeeded { .. } | DomainError::NoProof { .. }))
+                if names.is_empty() =>
+            {
                 let name = &chain.observable(observable).name;
                 terminal::warn(format_args!("{name} is left out: {}", failure(error)));
             }

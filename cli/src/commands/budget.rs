@@ -111,7 +111,7 @@ fn failure(error: &BudgetError) -> Failure {
         BudgetError::NoValue { name, .. } => {
             format!("{error}: name {name} in --path, or say --range \"{name}=lo..hi\"")
         }
-        BudgetError::NotFinite { .. } | BudgetError::Form(_) => error.to_string(),
+        BudgetError::NotFinite { .. } | BudgetError::Form(_) | BudgetError::Units { .. } => error.to_string(),
     })
 }
 
@@ -169,6 +169,9 @@ pub fn as_text(chain: &Chain, budget: &Budget) -> String {
     let heading = format!("  {:width$}  {:>14}  {:>12}  {:>12}\n", "error", "size", "largest", "rms");
     let title_end = out.find('\n').map_or(0, |end| end + 1);
     out.insert_str(title_end, &heading);
+    if budget.is_sampled {
+        out.push_str("  some rms comes from scattered poses and is right to about a percent\n");
+    }
     out
 }
 
@@ -234,6 +237,7 @@ pub fn as_json(chain: &Chain, budget: &Budget, poses: &Poses) -> Value {
         })
         .collect();
     json!({
+        "is_sampled": budget.is_sampled,
         "name": chain.observable(budget.observable).name,
         "unit": budget.unit(chain),
         "errors": errors,

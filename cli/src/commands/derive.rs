@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use model_core::algebra::{Fraction, Poly};
 use model_core::certificate::{Certificate, Declared};
 use model_core::forms::{self, Form};
 use model_core::{Chain, ObservableId, ObservableKind, print};
@@ -100,23 +101,64 @@ fn sections(chain: &Chain, forms: &[Form], style: print::Style, title: impl Fn(&
 /// `pointing: error of the direction of device, to first order in the errors`
 pub fn title_of(chain: &Chain, form: &Form) -> String {
     let observable = chain.observable(form.observable);
-    let (kind, unit) = match observable.kind {
-        ObservableKind::Direction => ("direction", ""),
-        ObservableKind::Point => ("point", ", in m"),
+    let kind = match observable.kind {
+        ObservableKind::Direction => "direction",
+        ObservableKind::Point => "point",
     };
+    let mut units: Vec<&str> = observable.shown.iter().map(|reading| reading.unit(observable.kind)).collect();
+    units.dedup();
+    let unit = match units.as_slice() {
+        ["1"] => String::new(),
+        units => format!(", in {}", units.join(" and ")),
+    };
+    let read = if observable.is_vector() {
+        String::new()
+    } else {
+        let readings: Vec<String> = observable.shown.iter().map(|reading| reading.describe()).collect();
+        format!("{} of the ", readings.join(", "))
+    };
+    let the = if observable.is_vector() { "the " } else { "" };
+    let frame = observable
+        .frame
+        .map_or(String::new(), |frame| format!(" in the frame of {}", chain.body(frame).name));
+    let roots: Vec<String> =
+        unique_roots(form).map(|root| format!("{} > 0", print::text(root, chain))).collect();
+    let place = if roots.is_empty() { String::new() } else { format!(", where {}", roots.join(" and ")) };
     let order = ["first", "second", "third"].get(form.order as usize - 1).copied().unwrap_or("higher");
     let body = &chain.body(observable.body).name;
-    format!("{}: error of the {kind} of {body}, to {order} order in the errors{unit}", observable.name)
+    format!(
+        "{}: error of {the}{read}{kind} of {body}{frame}, to {order} order in the errors{unit}{place}",
+        observable.name
+    )
+}
+
+/// What has to be positive for a form to be right, each once.
+fn unique_roots(form: &Form) -> impl Iterator<Item = &Poly> {
+    let roots: Vec<&Poly> = form.positive.iter().flatten().collect();
+    roots
+        .clone()
+        .into_iter()
+        .enumerate()
+        .filter(move |(at, root)| !roots[..*at].contains(root))
+        .map(|(_, root)| root)
 }
 
 fn as_json(chain: &Chain, forms: &[Form], order: u32) -> serde_json::Value {
     let observables: Vec<serde_json::Value> = forms
         .iter()
         .map(|form| {
-            let [x, y, z] = form.components.each_ref().map(|component| {
-                json!({"text": print::text(component, chain), "latex": print::latex(component, chain)})
-            });
-            json!({"name": chain.observable(form.observable).name, "components": {"x": x, "y": y, "z": z}})
+            let observable = chain.observable(form.observable);
+            let shown = |style| move |component: &Fraction| component.show(chain, style);
+            let (text, latex) = (shown(print::Style::Text), shown(print::Style::Latex));
+            let components: serde_json::Map<String, serde_json::Value> = observable
+                .labels()
+                .zip(&form.components)
+                .map(|(label, component)| {
+                    (label.to_owned(), json!({"text": text(component), "latex": latex(component)}))
+                })
+                .collect();
+            let positive: Vec<String> = unique_roots(form).map(|root| print::text(root, chain)).collect();
+            json!({"name": observable.name, "components": components, "positive": positive})
         })
         .collect();
     json!({"chain": chain.name, "order": order, "observables": observables})

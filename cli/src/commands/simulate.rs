@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use calibration::data::units::{Amount, Plausible};
 use calibration::formats::ColumnName;
-use model_core::{Chain, ObservableId, ObservableKind, Quantity as Measures, SymbolId};
+use model_core::{Chain, Observable, ObservableId, ObservableKind, Quantity as Measures, SymbolId};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
@@ -23,7 +23,7 @@ use crate::{output, tables, terminal};
 ///
 /// Joints are drawn at random, turning joints from a whole turn unless --range says otherwise; what the chain shows
 /// there is exact, with normal noise: for a direction along each of two directions across it, for a point along x, y
-/// and z. Angles are written in rad and lengths in m. An effect that another declaration lacks comes from
+/// and z, for an angle or a range in that itself. Angles are written in rad and lengths in m. An effect that another declaration lacks comes from
 /// simulating with a richer one.
 ///
 /// Example: trueaxis simulate examples/mobile-lidar/off-centre.chain --errors
@@ -142,11 +142,14 @@ impl<'c> Simulation<'c> {
         let columns: Vec<_> = readings.iter().map(|(id, column)| (*id, column.as_slice())).collect();
         let mut shown = self.evaluator.columns(&columns, rows)?;
         for row in 0..rows {
-            for (&observable, shown) in self.evaluator.observables.iter().zip(shown.chunks_exact_mut(3)) {
-                let kind = self.chain.observable(observable).kind;
-                let plain = [shown[0][row], shown[1][row], shown[2][row]];
-                let moved = self.noise.add(kind, plain, &mut self.errors);
-                for (column, component) in shown.iter_mut().zip(moved) {
+            let mut rest = shown.as_mut_slice();
+            for &observable in &self.evaluator.observables {
+                let observable = self.chain.observable(observable);
+                let (own, behind) = std::mem::take(&mut rest).split_at_mut(observable.shown.len());
+                rest = behind;
+                let plain: Vec<f64> = own.iter().map(|column| column[row]).collect();
+                let moved = self.noise.add(observable, &plain, &mut self.errors);
+                for (column, component) in own.iter_mut().zip(moved) {
                     column[row] = component;
                 }
             }
@@ -176,7 +179,7 @@ fn stream(seed: u64, purpose: u64) -> ChaCha8Rng {
 fn measured(chain: &Chain, names: &[String], noise: Noise) -> Result<Vec<ObservableId>, Failure> {
     let all = observables(chain, names)?;
     let (chosen, silent): (Vec<_>, Vec<_>) =
-        all.into_iter().partition(|&id| noise.of(chain.observable(id).kind).is_some());
+        all.into_iter().partition(|&id| measures_of(chain.observable(id)).all(|one| noise.of(one).is_some()));
     let silent: Vec<&str> = silent.into_iter().map(|id| chain.observable(id).name.as_str()).collect();
     if silent.is_empty() {
         return Ok(chosen);
@@ -240,11 +243,8 @@ impl Noise {
             {
                 if measures.is_none_or(|measured| measured == quantity) {
                     let si = amount.to_si(quantity).map_err(|error| wrong(error.to_string()))?;
-                    let shown = chain.observables.iter().map(|shown| measure_of(shown.kind));
-                    if measures.is_none()
-                        && plausible.refuses(quantity, si)
-                        && shown.clone().any(|q| q == quantity)
-                    {
+                    let mut shown = chain.observables.iter().flat_map(measures_of);
+                    if measures.is_none() && plausible.refuses(quantity, si) && shown.any(|q| q == quantity) {
                         let (unit, likely) = match quantity {
                             Measures::Length => ("m", "mm"),
                             _ => ("rad", "arcsec"),
@@ -262,38 +262,42 @@ impl Noise {
         Ok(noise)
     }
 
-    /// The standard deviation for one kind of observable, SI.
-    fn of(self, kind: ObservableKind) -> Option<f64> {
-        match kind {
-            ObservableKind::Direction => self.angle_rad,
-            ObservableKind::Point => self.length_m,
+    /// The standard deviation of what measures something, SI.
+    fn of(self, measures: Measures) -> Option<f64> {
+        match measures {
+            Measures::Angle => self.angle_rad,
+            Measures::Length => self.length_m,
+            Measures::Number => unreachable!("noise is of angles and lengths"),
         }
     }
 
     /// What is measured where the instrument shows `shown`.
-    fn add(self, kind: ObservableKind, shown: [f64; 3], chance: &mut ChaCha8Rng) -> [f64; 3] {
-        let sigma = self.of(kind).unwrap_or_default();
-        let mut draw = || -> f64 { sigma * chance.sample::<f64, _>(StandardNormal) };
-        match kind {
-            ObservableKind::Point => shown.map(|component| component + draw()),
-            ObservableKind::Direction => {
+    fn add(self, observable: &Observable, shown: &[f64], chance: &mut ChaCha8Rng) -> Vec<f64> {
+        let mut draw = |measures: Measures| -> f64 {
+            self.of(measures).unwrap_or_default() * chance.sample::<f64, _>(StandardNormal)
+        };
+        match (observable.kind, shown) {
+            (ObservableKind::Direction, &[x, y, z]) if observable.is_vector() => {
                 // Normal noise along x, y and z, projected off the direction, is normal along any two directions
                 // across it.
-                let noise = [draw(), draw(), draw()];
-                let shown = of_length_one(shown);
+                let noise = [0; 3].map(|_| draw(Measures::Angle));
+                let shown = of_length_one([x, y, z]);
                 let along: f64 = noise.iter().zip(shown).map(|(n, s)| n * s).sum();
-                of_length_one([0, 1, 2].map(|axis| shown[axis] + noise[axis] - along * shown[axis]))
+                of_length_one([0, 1, 2].map(|axis| shown[axis] + noise[axis] - along * shown[axis])).to_vec()
+            }
+            _ => {
+                measures_of(observable).zip(shown).map(|(measures, number)| number + draw(measures)).collect()
             }
         }
     }
 }
 
-/// What the noise of an observable measures.
-fn measure_of(kind: ObservableKind) -> Measures {
-    match kind {
-        ObservableKind::Direction => Measures::Angle,
-        ObservableKind::Point => Measures::Length,
-    }
+/// What the noise of each number of an observable measures; a component of a direction moves as an angle does.
+fn measures_of(observable: &Observable) -> impl Iterator<Item = Measures> + '_ {
+    observable.shown.iter().map(|reading| match reading.unit(observable.kind) {
+        "m" => Measures::Length,
+        _ => Measures::Angle,
+    })
 }
 
 /// The direction of a vector.

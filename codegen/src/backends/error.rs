@@ -34,6 +34,25 @@ pub enum GenerateError {
     /// Single precision is asked for in a language that has none here.
     #[error("single precision is written in Rust and C only")]
     SinglePrecision,
+    /// Single precision is asked for of readings.
+    #[error(
+        "single precision has no arc tangent here, which `{name}` needs: observe its components, `x, y, z of …`"
+    )]
+    SingleReading {
+        /// The observable.
+        name: String,
+    },
+    /// Derivatives are asked for of an angle that has none where there are no errors.
+    #[error(
+        "the angle off the axis of `{name}` has no derivative where errors are zero: leave out {}",
+        super::form_name(*form)
+    )]
+    NoDerivative {
+        /// The observable.
+        name: String,
+        /// The form.
+        form: Form,
+    },
     /// A value is neither one of an error nor of a constant, or not a number.
     #[error(
         "`{name}` cannot be written into the file: only errors and constants can, with finite values, each once"

@@ -182,7 +182,7 @@ export function {name}Rows(p{arguments}, out) {{
     fn places(&self, form: Form) -> Vec<String> {
         let mut places = Vec::new();
         for &id in self.shared.unit.observables {
-            for component in 0..3 {
+            for component in 0..self.shared.shown(id) {
                 let component = format!("{}[{component}]", self.names.observable(id));
                 if form.is_jacobian() {
                     places.extend(
@@ -204,9 +204,11 @@ export function {name}Rows(p{arguments}, out) {{
                 if form.is_jacobian() { format!("      [{row}],\n") } else { format!("      {row},\n") }
             })
             .collect();
-        let observables = self.shared.unit.observables.iter().zip(rows.chunks(3));
-        let fields: String = observables
-            .map(|(&id, rows)| format!("    {}: [\n{}    ],\n", self.names.observable(id), rows.concat()))
+        let fields: String = self
+            .shared
+            .by_observable(&rows)
+            .into_iter()
+            .map(|(id, rows)| format!("    {}: [\n{}    ],\n", self.names.observable(id), rows.concat()))
             .collect();
         format!("{{\n{fields}  }}")
     }
@@ -235,7 +237,12 @@ impl Notation for JavaScript<'_> {
         match function {
             Function::Saturate => format!("saturate({a})"),
             Function::Step => format!("step({a})"),
+            Function::Root => format!("Math.sqrt({a})"),
         }
+    }
+
+    fn arc_tangent(&self, y: &str, x: &str) -> String {
+        format!("Math.atan2({y}, {x})")
     }
 
     fn name(&self, name: Name) -> String {

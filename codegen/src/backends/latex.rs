@@ -29,7 +29,11 @@ fn one_form(shared: &Shared<'_>, function: &unit::Function) -> String {
     let mut results = Vec::new();
     for &id in shared.unit.observables {
         let name = shared.unit.chain.observable(id).name.replace('_', "\\_");
-        for component in ["x", "y", "z"] {
+        for label in shared.unit.chain.observable(id).labels() {
+            let component = match label.len() {
+                1 => label.to_owned(),
+                _ => format!("{{\\text{{{}}}}}", label.replace('_', " ")),
+            };
             let observed = format!("\\mathrm{{{name}}}_{component}");
             match function.form {
                 Form::ExactValue => {
@@ -127,7 +131,12 @@ impl Notation for Latex<'_> {
         match function {
             Function::Saturate => format!("\\operatorname{{ramp}}({a}, 0, 1)"),
             Function::Step => format!("\\operatorname{{ramp}}({a}, 0, 0)"),
+            Function::Root => format!("\\sqrt{{{a}}}"),
         }
+    }
+
+    fn arc_tangent(&self, y: &str, x: &str) -> String {
+        format!("\\operatorname{{atan2}}({y}, {x})")
     }
 
     fn number(&self, value: f64) -> String {

@@ -16,6 +16,7 @@ mod unit;
 
 use std::collections::BTreeSet;
 
+use model_core::readings::Measures;
 use model_core::{Chain, SymbolId, SymbolKind};
 
 pub use error::GenerateError;
@@ -129,6 +130,17 @@ fn check(unit: &Unit<'_>, language: Language, file_name: &str) -> Result<(), Gen
     }
     if unit.precision == Precision::Single && !matches!(language, Language::Rust | Language::C) {
         return Err(GenerateError::SinglePrecision);
+    }
+    for &id in unit.observables {
+        let observable = unit.chain.observable(id);
+        let name = || observable.name.clone();
+        if unit.precision == Precision::Single && !observable.has_components_only() {
+            return Err(GenerateError::SingleReading { name: name() });
+        }
+        let is_off_axis = observable.shown.iter().any(|reading| reading.measures == Measures::OffAxis);
+        if let Some(&form) = unit.forms.iter().find(|form| is_off_axis && form.is_jacobian()) {
+            return Err(GenerateError::NoDerivative { name: name(), form });
+        }
     }
     let mut seen = BTreeSet::new();
     for &(id, value) in unit.values {

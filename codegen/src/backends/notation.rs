@@ -32,6 +32,9 @@ pub(crate) trait Notation {
     /// A function of an expression.
     fn call(&self, function: Function, a: &str) -> String;
 
+    /// The angle of the point (x, y).
+    fn arc_tangent(&self, y: &str, x: &str) -> String;
+
     /// What a·b + c is called, up to the first operand, if it is not written as product and sum.
     fn mul_add(&self) -> Option<&'static str> {
         None
@@ -71,6 +74,11 @@ pub(crate) trait Notation {
                         binding: Binding::Product,
                     },
                 }
+            }
+            Expr::ArcTangent(operands) => {
+                let [y, x] = operands.as_ref();
+                let text = self.arc_tangent(&self.text(y), &self.text(x));
+                Bound { text, binding: Binding::Atom }
             }
             Expr::Call(function, a) => {
                 Bound { text: self.call(*function, &self.text(a)), binding: Binding::Atom }

@@ -86,17 +86,25 @@ impl File<'_> {
         let arguments: Vec<&str> = self.shared.pose.iter().map(|group| group.argument).collect();
         let parameters: String = arguments.iter().map(|argument| format!(", {argument}")).collect();
         let arguments = arguments.join(", ");
-        let shape = if form.is_jacobian() {
-            format!("(3, {})", self.shared.columns.len())
-        } else {
-            "(3,)".to_owned()
+        let shape = |shown: usize| {
+            if form.is_jacobian() {
+                format!("({shown}, {})", self.shared.columns.len())
+            } else {
+                format!("({shown},)")
+            }
         };
         let outputs: Vec<String> =
             lowered.outputs.iter().map(|value| format!("            {},\n", python.text(value))).collect();
-        let per_observable = 3 * self.shared.columns_of(form);
-        let stacks: String = outputs
-            .chunks(per_observable)
-            .map(|outputs| format!("        _stack([\n{}        ], {shape}, poses),\n", outputs.concat()))
+        let rows: Vec<String> =
+            outputs.chunks(self.shared.columns_of(form).max(1)).map(<[_]>::concat).collect();
+        let stacks: String = self
+            .shared
+            .by_observable(&rows)
+            .into_iter()
+            .map(|(id, rows)| {
+                let shape = shape(self.shared.shown(id));
+                format!("        _stack([\n{}        ], {shape}, poses),\n", rows.concat())
+            })
             .collect();
         format!(
             "
@@ -142,7 +150,12 @@ impl Notation for Python<'_> {
         match function {
             Function::Saturate => format!("np.clip({a}, 0.0, 1.0)"),
             Function::Step => format!("np.heaviside({a}, 1.0)"),
+            Function::Root => format!("np.sqrt({a})"),
         }
+    }
+
+    fn arc_tangent(&self, y: &str, x: &str) -> String {
+        format!("np.arctan2({y}, {x})")
     }
 
     fn name(&self, name: Name) -> String {

@@ -146,6 +146,29 @@ impl<'a> Shared<'a> {
         self.pose.iter().flat_map(|group| group.symbols.iter().copied())
     }
 
+    /// How many numbers an observable shows.
+    pub(crate) fn shown(&self, id: ObservableId) -> usize {
+        self.unit.chain.observable(id).shown.len()
+    }
+
+    /// The number that every observable shows, if it is one.
+    pub(crate) fn shown_by_each(&self) -> Option<usize> {
+        let mut counts = self.unit.observables.iter().map(|&id| self.shown(id));
+        let first = counts.next()?;
+        counts.all(|count| count == first).then_some(first)
+    }
+
+    /// What belongs to each number that is shown, observable by observable.
+    pub(crate) fn by_observable<'t, T>(&self, mut rows: &'t [T]) -> Vec<(ObservableId, &'t [T])> {
+        let mut parts = Vec::new();
+        for &id in self.unit.observables {
+            let (own, rest) = rows.split_at(self.shown(id).min(rows.len()));
+            parts.push((id, own));
+            rows = rest;
+        }
+        parts
+    }
+
     /// How many numbers a form has for each component of an observable.
     pub(crate) fn columns_of(&self, form: Form) -> usize {
         if form.is_jacobian() { self.columns.len() } else { 1 }
@@ -164,6 +187,19 @@ impl<'a> Shared<'a> {
              Angles are in radians, lengths in metres, points and directions in the ground frame.\n",
             env!("CARGO_PKG_VERSION")
         ));
+        for &id in self.unit.observables {
+            let observable = chain.observable(id);
+            let mut said = Vec::new();
+            if !observable.is_vector() {
+                said.extend(observable.shown.iter().map(|reading| reading.describe()));
+            }
+            let frame = observable.frame.map(|frame| format!("in the frame of {}", chain.body(frame).name));
+            if !said.is_empty() || frame.is_some() {
+                let parts = [Some(said.join(", ")).filter(|said| !said.is_empty()), frame];
+                let parts: Vec<String> = parts.into_iter().flatten().collect();
+                text.push_str(&format!("{}: {}.\n", observable.name, parts.join(", ")));
+            }
+        }
         if self.unit.precision == Precision::Single {
             text.push_str(
                 "Single precision: sines and cosines are at most 0.9 units in the last place off for any angle, by the same\n\

@@ -28,11 +28,12 @@ pub(super) fn value(b: &mut Builder, path: &Path) -> Vector {
     carried.down(b, path, Origin::Difference)
 }
 
-/// The observable with errors minus without.
-pub(super) fn error(b: &mut Builder, path: &Path) -> Vector {
+/// The observable without errors, and what they add to it.
+pub(super) fn both(b: &mut Builder, path: &Path) -> (Vector, Vector) {
     let (nominal, error) = (components(b, path), component_errors(b, path));
     let mut carried = Carried::new(nominal, error);
-    carried.down(b, path, Origin::Nominal)
+    let error = carried.down(b, path, Origin::Nominal);
+    (carried.nominal[0], error)
 }
 
 /// The observable in the frame of the body that carries it, without errors.

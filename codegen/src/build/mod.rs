@@ -10,20 +10,23 @@ mod jacobian;
 mod path;
 mod product;
 mod ramp;
+mod readings;
 mod vectors;
 
-use model_core::{Chain, ObservableId, SymbolId};
+use model_core::{Chain, ObservableId, SymbolId, SymbolKind};
 
 use crate::builder::{Builder, Value};
 use crate::program::{Form, Layout, Program};
 use path::Path;
+use vectors::{NOTHING, Vector};
 
 pub use product::{MatrixProduct, Step, matrix_product};
 
 /// The program of one form of some observables. `wrt` are the columns of Jacobians; other forms ignore it.
 ///
 /// Outputs come observable by observable, component by component, column by column:
-/// `out[(3 * observable + component) * wrt.len() + column]`.
+/// `out[(place + component) * wrt.len() + column]`, the place being how many numbers the observables before show: three for
+/// each vector.
 #[must_use]
 pub fn build(chain: &Chain, observables: &[ObservableId], form: Form, wrt: &[SymbolId]) -> Program {
     build_all(chain, observables, &[form], wrt)
@@ -46,7 +49,12 @@ pub(crate) struct Builds<'a> {
 impl Builds<'_> {
     /// One program for several forms.
     pub(crate) fn build(&self, observables: &[ObservableId], forms: &[Form], wrt: &[SymbolId]) -> Program {
-        let layout = Layout { forms: forms.to_vec(), observables: observables.to_vec(), wrt: wrt.to_vec() };
+        let layout = Layout {
+            forms: forms.to_vec(),
+            observables: observables.to_vec(),
+            shown: observables.iter().map(|&id| self.chain.observable(id).shown.len()).collect(),
+            wrt: wrt.to_vec(),
+        };
         let paths: Vec<Path> =
             observables.iter().map(|&observable| path::path(self.chain, observable)).collect();
         let motions = paths.iter().map(first_order::motions).max().unwrap_or(0);
@@ -69,23 +77,76 @@ impl Builds<'_> {
             for path in paths {
                 let b = &mut b;
                 match form {
-                    Form::ExactValue => outputs.extend(exact::value(b, path)),
-                    Form::ExactError => outputs.extend(exact::error(b, path)),
-                    Form::FirstOrderError => outputs.extend(first_order::error(b, chain, path, meeting)),
+                    Form::ExactValue if path.has_components_only() => {
+                        let value = exact::value(b, path);
+                        outputs.extend(path.components_of(&value));
+                    }
+                    Form::ExactValue => {
+                        let (nominal, error) = exact::both(b, path);
+                        outputs
+                            .extend(path.shown.iter().map(|one| readings::value(b, one, &nominal, &error)));
+                    }
+                    Form::ExactError => {
+                        let (nominal, error) = exact::both(b, path);
+                        outputs
+                            .extend(path.shown.iter().map(|one| readings::error(b, one, &nominal, &error)));
+                    }
+                    Form::FirstOrderError => {
+                        let error = first_order::error(b, chain, path, meeting);
+                        let nominal = nominal(b, path);
+                        outputs.extend(path.shown.iter().map(|one| readings::rate(b, one, &nominal, &error)));
+                    }
                     Form::ExactJacobian | Form::FirstOrderJacobian => {
                         let at = if form == Form::ExactJacobian {
                             jacobian::At::Errors
                         } else {
                             jacobian::At::Nominal
                         };
-                        let columns = jacobian::columns(b, chain, path, at, &layout.wrt);
-                        outputs.extend((0..3).flat_map(|i| columns.iter().map(move |column| column[i])));
+                        outputs.extend(jacobian_rows(b, chain, path, at, &layout.wrt));
                     }
                 }
             }
         }
         b.finish(layout.clone(), &outputs)
     }
+}
+
+/// The vector without errors, where a reading needs it.
+fn nominal(b: &mut Builder, path: &Path) -> Vector {
+    if path.has_components_only() { NOTHING } else { exact::both(b, path).0 }
+}
+
+/// The rows of a Jacobian, one behind the other.
+fn jacobian_rows(
+    b: &mut Builder,
+    chain: &Chain,
+    path: &Path,
+    at: jacobian::At,
+    wrt: &[SymbolId],
+) -> Vec<Value> {
+    let columns = jacobian::columns(b, chain, path, at, wrt);
+    if path.has_components_only() {
+        let component = |i: usize| columns.iter().map(move |column| column[i]);
+        return path.axes().flat_map(component).collect();
+    }
+    let (nominal, error) = match at {
+        jacobian::At::Errors => exact::both(b, path),
+        jacobian::At::Nominal => (exact::both(b, path).0, NOTHING),
+    };
+    let real = vectors::add(b, &nominal, &error);
+    // The vector without errors changes with joints, inputs and constants.
+    let designed = jacobian::columns(b, chain, path, jacobian::At::Nominal, wrt);
+    let of_design = |symbol: SymbolId, column: &Vector| {
+        if chain.symbol(symbol).kind == SymbolKind::Error { NOTHING } else { *column }
+    };
+    let mut rows = Vec::new();
+    for one in &path.shown {
+        for (index, &symbol) in wrt.iter().enumerate() {
+            let change = of_design(symbol, &designed[index]);
+            rows.push(readings::derivative(b, one, (&nominal, &change), &error, (&real, &columns[index])));
+        }
+    }
+    rows
 }
 
 /// All operations, then those of every pose.

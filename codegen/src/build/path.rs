@@ -2,7 +2,11 @@
 //! errors add to it.
 
 use model_core::algebra::Poly;
+use model_core::readings::Reading;
 use model_core::{Axis, Chain, Motion, ObservableId, ObservableKind, SymbolId, SymbolKind};
+
+use super::vectors::Vector;
+use crate::builder::Value;
 
 /// An amount in two parts.
 pub(super) struct Split {
@@ -29,19 +33,40 @@ pub(super) struct Step {
 
 /// The way to an observable.
 pub(super) struct Path {
-    /// From the ground up.
+    /// From the frame that it is seen in up.
     pub(super) steps: Vec<Step>,
     pub(super) kind: ObservableKind,
     /// In the frame of the body that carries it.
     pub(super) components: [Split; 3],
+    /// What is shown of it.
+    pub(super) shown: Vec<Reading>,
+}
+
+impl Path {
+    /// Whether nothing but components is shown.
+    pub(super) fn has_components_only(&self) -> bool {
+        self.shown.iter().all(|reading| reading.component().is_some())
+    }
+
+    /// The axes of the components that are shown.
+    pub(super) fn axes(&self) -> impl Iterator<Item = usize> {
+        self.shown.iter().filter_map(|reading| reading.component().map(Axis::index))
+    }
+
+    /// The components of a vector that are shown.
+    pub(super) fn components_of(&self, vector: &Vector) -> impl Iterator<Item = Value> {
+        self.axes().map(|axis| vector[axis])
+    }
 }
 
 /// Shifts do not move directions, so the way of a direction has none.
 pub(super) fn path(chain: &Chain, observable: ObservableId) -> Path {
+    let shown = chain.observable(observable).shown.clone();
     let kind = chain.observable(observable).kind;
     let steps = chain
-        .factors_to(observable)
+        .way(observable)
         .into_iter()
+        .map(|passed| passed.factor)
         .filter(|factor| kind == ObservableKind::Point || factor.motion == Motion::Rotation)
         .map(|factor| Step {
             motion: factor.motion,
@@ -51,7 +76,7 @@ pub(super) fn path(chain: &Chain, observable: ObservableId) -> Path {
         .collect();
     let components =
         chain.observable(observable).components.each_ref().map(|amount| Split::new(chain, amount));
-    Path { steps, kind, components }
+    Path { steps, kind, components, shown }
 }
 
 pub(super) fn is_error(chain: &Chain, symbol: SymbolId) -> bool {

@@ -88,6 +88,7 @@ pub fn matrix_product(chain: &Chain, observable: ObservableId) -> MatrixProduct 
             });
         }
     }
-    let layout = Layout { forms: Vec::new(), observables: vec![observable], wrt: Vec::new() };
+    let layout =
+        Layout { forms: Vec::new(), observables: vec![observable], shown: Vec::new(), wrt: Vec::new() };
     MatrixProduct { program: b.finish(layout, &outputs), steps }
 }

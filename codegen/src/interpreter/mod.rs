@@ -8,7 +8,7 @@ mod tape;
 use model_core::SymbolId;
 
 use crate::program::{NodeId, Op, Program, Stage};
-use crate::vector::{saturate, sin_cos, step};
+use crate::vector::{arc_tangent, root, saturate, sin_cos, step};
 use tape::Tape;
 
 /// Runs one program, on its own working memory: no call allocates.
@@ -134,6 +134,8 @@ impl Interpreter {
                 Op::Cos(a) => sin_cos(at(a)).1,
                 Op::Saturate(a) => saturate(at(a)),
                 Op::Step(a) => step(at(a)),
+                Op::Root(a) => root(at(a)),
+                Op::ArcTangent(a, b) => arc_tangent(at(a), at(b)),
             };
         }
     }

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use model_core::SymbolId;
 
 use crate::program::{NodeId, Op, Program, Stage};
-use crate::vector::{self, Arithmetic, Portable, ROWS, saturate, sin_cos_rows, step};
+use crate::vector::{self, Arithmetic, Portable, ROWS, arc_tangent, root, saturate, sin_cos_rows, step};
 
 /// Rows that are loaded before any is stored.
 const LANES: usize = 8;
@@ -35,6 +35,15 @@ enum Instruction {
     },
     Step {
         a: usize,
+        to: usize,
+    },
+    Root {
+        a: usize,
+        to: usize,
+    },
+    ArcTangent {
+        a: usize,
+        b: usize,
         to: usize,
     },
     Add {
@@ -145,6 +154,8 @@ impl Blocks<'_, '_> {
             Instruction::Neg { a, to } => map(slot(a), slot(a), slot(to), |a, _| -a),
             Instruction::Saturate { a, to } => map(slot(a), slot(a), slot(to), |a, _| saturate(a)),
             Instruction::Step { a, to } => map(slot(a), slot(a), slot(to), |a, _| step(a)),
+            Instruction::Root { a, to } => map(slot(a), slot(a), slot(to), |a, _| root(a)),
+            Instruction::ArcTangent { a, b, to } => map(slot(a), slot(b), slot(to), arc_tangent),
             Instruction::Add { a, b, to } => map(slot(a), slot(b), slot(to), |a, b| a + b),
             Instruction::Sub { a, b, to } => map(slot(a), slot(b), slot(to), |a, b| a - b),
             Instruction::Mul { a, b, to } => map(slot(a), slot(b), slot(to), |a, b| a * b),
@@ -270,6 +281,8 @@ impl<'p> Planner<'p> {
             (Op::Neg(_), &[a]) => Instruction::Neg { a, to },
             (Op::Saturate(_), &[a]) => Instruction::Saturate { a, to },
             (Op::Step(_), &[a]) => Instruction::Step { a, to },
+            (Op::Root(_), &[a]) => Instruction::Root { a, to },
+            (Op::ArcTangent(..), &[a, b]) => Instruction::ArcTangent { a, b, to },
             (Op::Add(..), &[a, b]) => Instruction::Add { a, b, to },
             (Op::Sub(..), &[a, b]) => Instruction::Sub { a, b, to },
             (Op::Mul(..), &[a, b]) => Instruction::Mul { a, b, to },

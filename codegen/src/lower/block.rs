@@ -214,6 +214,8 @@ impl<'a> Lowering<'a> {
             Op::Neg(a) => (self.read(a).neg(), vec![a]),
             Op::Saturate(a) => (Expr::Call(Function::Saturate, Box::new(self.read(a))), vec![a]),
             Op::Step(a) => (Expr::Call(Function::Step, Box::new(self.read(a))), vec![a]),
+            Op::Root(a) => (Expr::Call(Function::Root, Box::new(self.read(a))), vec![a]),
+            Op::ArcTangent(a, b) => (Expr::arc_tangent(self.read(a), self.read(b)), vec![a, b]),
             Op::Sin(angle) => wave(Wave::Sine, angle),
             Op::Cos(angle) => wave(Wave::Cosine, angle),
             Op::Input(symbol) => (Expr::Symbol(symbol), vec![]),

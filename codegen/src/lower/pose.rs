@@ -127,6 +127,8 @@ impl<'a> Lowering<'a> {
             Op::Div(a, b) => infix(Infix::Div, a, b),
             Op::Saturate(a) => Expr::Call(Function::Saturate, Box::new(self.read(a))),
             Op::Step(a) => Expr::Call(Function::Step, Box::new(self.read(a))),
+            Op::Root(a) => Expr::Call(Function::Root, Box::new(self.read(a))),
+            Op::ArcTangent(a, b) => Expr::arc_tangent(self.read(a), self.read(b)),
             Op::Sin(_) | Op::Cos(_) => unreachable!("sines and cosines have a statement of their own"),
         }
     }

@@ -19,6 +19,8 @@ pub(crate) enum Expr {
     Infix(Infix, Box<[Expr; 2]>),
     /// A function of one value.
     Call(Function, Box<Expr>),
+    /// The angle of the point (b, a).
+    ArcTangent(Box<[Expr; 2]>),
     /// `a * b + c`, rounded once on processors that can.
     MulAdd(Box<[Expr; 3]>),
 }
@@ -26,6 +28,10 @@ pub(crate) enum Expr {
 impl Expr {
     pub(crate) fn neg(self) -> Self {
         Self::Neg(Box::new(self))
+    }
+
+    pub(crate) fn arc_tangent(a: Self, b: Self) -> Self {
+        Self::ArcTangent(Box::new([a, b]))
     }
 
     pub(crate) fn infix(infix: Infix, a: Self, b: Self) -> Self {
@@ -37,6 +43,7 @@ impl Expr {
         match self {
             Self::Number(_) | Self::Symbol(_) | Self::Named(_) => 1,
             Self::Neg(a) | Self::Call(_, a) => a.leaves(),
+            Self::ArcTangent(operands) => operands.iter().map(Self::leaves).sum(),
             Self::Infix(_, operands) => operands.iter().map(Self::leaves).sum(),
             Self::MulAdd(operands) => operands.iter().map(Self::leaves).sum(),
         }
@@ -52,13 +59,15 @@ pub(crate) enum Infix {
     Div,
 }
 
-/// A function without branches that every language has.
+/// A function of one value that every language has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Function {
     /// `a` between 0 and 1, and the nearer of the two outside; NaN stays NaN.
     Saturate,
     /// 1 from `a = 0` on, 0 below; NaN stays NaN.
     Step,
+    /// The square root; NaN below zero.
+    Root,
 }
 
 /// What a value is called.

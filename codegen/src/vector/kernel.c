@@ -207,6 +207,48 @@ TRUEAXIS_INLINE double trueaxis_step(double x)
     return x >= 0.0 ? 1.0 : x < 0.0 ? 0.0 : x;
 }
 
+/* The square root, at most a unit in the last place off; NaN below zero. */
+TRUEAXIS_INLINE double trueaxis_root(double x)
+{
+    const double scaled = x < 1e-280 ? x * 1.6069380442589903e60 : x;
+    const double back = x < 1e-280 ? 7.888609052210118e-31 : 1.0;
+    double y = trueaxis_number((trueaxis_bits(scaled) >> 1) + 0x1ff7a3bea91d9b1bULL);
+    y = 0.5 * (y + scaled / y);
+    y = 0.5 * (y + scaled / y);
+    y = 0.5 * (y + scaled / y);
+    y = 0.5 * (y + scaled / y);
+    return x > 0.0 ? y * back : x == 0.0 ? 0.0 : trueaxis_number(0x7ff8000000000000ULL);
+}
+
+/* The angle of the point (x, y); see `kernel.rs`. */
+TRUEAXIS_INLINE double trueaxis_arc_tangent(double y, double x)
+{
+    const uint64_t sign = 0x8000000000000000ULL;
+    const double height = trueaxis_number(trueaxis_bits(y) & ~sign);
+    const double width = trueaxis_number(trueaxis_bits(x) & ~sign);
+    const int is_steep = height > width;
+    const double small = is_steep ? width : height, larger = is_steep ? height : width;
+    const double large = larger == 0.0 ? 1.0 : larger, ratio = small / large;
+    const int is_diagonal = ratio > 0.41421356237309503;
+    const double r = is_diagonal ? (small - large) / (small + large) : ratio;
+    const double z = r * r;
+    double above = -8.750608600031904122785e-1, below = z + 2.485846490142306297962e1;
+    double near, octant, quarter, half;
+    above = above * z - 1.615753718733365076637e1;
+    above = above * z - 7.500855792314704667340e1;
+    above = above * z - 1.228866684490136173410e2;
+    above = above * z - 6.485021904942025371773e1;
+    below = below * z + 1.650270098316988542046e2;
+    below = below * z + 4.328810604912902668951e2;
+    below = below * z + 4.853903996359136964868e2;
+    below = below * z + 1.945506571482613964425e2;
+    near = r * (z * above / below) + r;
+    octant = is_diagonal ? 0.7853981633974483 + (near + 3.061616997868383e-17) : near;
+    quarter = is_steep ? (1.5707963267948966 - octant) + 6.123233995736766e-17 : octant;
+    half = x < 0.0 ? (3.141592653589793 - quarter) + 1.2246467991473532e-16 : quarter;
+    return trueaxis_number(trueaxis_bits(half) | (trueaxis_bits(y) & sign));
+}
+
 /* Upper half of the product. */
 TRUEAXIS_INLINE uint64_t trueaxis_product_high(uint64_t a, uint64_t b)
 {

@@ -213,3 +213,57 @@ pub fn step(x: f64) -> f64 {
         x
     }
 }
+
+/// The square root, at most a unit in the last place off; NaN below zero.
+#[inline(always)]
+pub fn root(x: f64) -> f64 {
+    // Far below, powers of two keep the steps from losing digits.
+    let (scaled, back) =
+        if x < 1e-280 { (x * 1.6069380442589903e60, 7.888609052210118e-31) } else { (x, 1.0) };
+    // Half the exponent is a root that is right to four per cent; each step of Newton's squares what is missing.
+    let mut y = f64::from_bits((scaled.to_bits() >> 1) + 0x1ff7_a3be_a91d_9b1b);
+    y = 0.5 * (y + scaled / y);
+    y = 0.5 * (y + scaled / y);
+    y = 0.5 * (y + scaled / y);
+    y = 0.5 * (y + scaled / y);
+    if x > 0.0 {
+        y * back
+    } else if x == 0.0 {
+        0.0
+    } else {
+        f64::NAN
+    }
+}
+
+/// The angle of the point (x, y), in (−π, π], at most two units in the last place off; 0 at the origin, NaN where a
+/// coordinate is no finite number.
+///
+/// The smaller coordinate over the larger one, counted from the diagonal where it is nearer to that, leaves |r| ≤ tan π/8.
+/// Source: S. Moshier, Cephes Mathematical Library (1989), `atan.c`, for the rational function.
+#[inline(always)]
+pub fn arc_tangent(y: f64, x: f64) -> f64 {
+    const SIGN: u64 = 1 << 63;
+    let (height, width) = (f64::from_bits(y.to_bits() & !SIGN), f64::from_bits(x.to_bits() & !SIGN));
+    let is_steep = height > width;
+    let (small, large) = if is_steep { (width, height) } else { (height, width) };
+    let large = if large == 0.0 { 1.0 } else { large };
+    let ratio = small / large;
+    let is_diagonal = ratio > 0.41421356237309503;
+    let r = if is_diagonal { (small - large) / (small + large) } else { ratio };
+    let z = r * r;
+    let mut above = -8.750608600031904122785e-1;
+    above = above * z - 1.615753718733365076637e1;
+    above = above * z - 7.500855792314704667340e1;
+    above = above * z - 1.228866684490136173410e2;
+    above = above * z - 6.485021904942025371773e1;
+    let mut below = z + 2.485846490142306297962e1;
+    below = below * z + 1.650270098316988542046e2;
+    below = below * z + 4.328810604912902668951e2;
+    below = below * z + 4.853903996359136964868e2;
+    below = below * z + 1.945506571482613964425e2;
+    let near = r * (z * above / below) + r;
+    let octant = if is_diagonal { 0.7853981633974483 + (near + 3.061616997868383e-17) } else { near };
+    let quarter = if is_steep { (1.5707963267948966 - octant) + 6.123233995736766e-17 } else { octant };
+    let half = if x < 0.0 { (3.141592653589793 - quarter) + 1.2246467991473532e-16 } else { quarter };
+    f64::from_bits(half.to_bits() | y.to_bits() & SIGN)
+}

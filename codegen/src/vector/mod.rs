@@ -25,8 +25,8 @@ pub mod single {
 }
 
 pub use sine_cosine::{
-    Arithmetic, Block, Path, Portable, ROWS, Rows, WIDEST, Waves, Work, path, run, run_block, run_rows,
-    saturate, sin_cos, sin_cos_rows, sin_cos_with, sin_cos_without_branch, step, whole,
+    Arithmetic, Block, Path, Portable, ROWS, Rows, WIDEST, Waves, Work, arc_tangent, path, root, run,
+    run_block, run_rows, saturate, sin_cos, sin_cos_rows, sin_cos_with, sin_cos_without_branch, step, whole,
 };
 
 /// The parts of the module `sine_cosine` in generated Rust, in order.

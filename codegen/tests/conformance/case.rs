@@ -3,7 +3,7 @@
 use codegen::{File, Form, Interpreter, Language, NodeId, Op, Program, Stage, Unit, build, generate};
 use model_core::{Chain, ObservableId, SymbolId, SymbolKind};
 
-use crate::support::{CHAINS, errors, pose, random, read};
+use crate::support::{CHAINS, READINGS, errors, pose, random, read};
 
 pub const FORMS: [(Form, &str); 5] = [
     (Form::ExactValue, "exact_value"),
@@ -39,7 +39,12 @@ pub struct Case {
 
 impl Case {
     pub fn all() -> Vec<Self> {
-        CHAINS.into_iter().map(|(name, text)| Self::new(name, text)).collect()
+        CHAINS.into_iter().chain([READINGS]).map(|(name, text)| Self::new(name, text)).collect()
+    }
+
+    /// How many numbers all observables show together.
+    pub fn shown(&self) -> usize {
+        self.chain.observables.iter().map(|observable| observable.shown.len()).sum()
     }
 
     fn new(name: &'static str, text: &'static str) -> Self {
@@ -120,10 +125,16 @@ impl Case {
                 })
                 .collect();
             // One scale for each observable: its largest output.
-            let per_observable = (program.outputs().len() / self.observables.len()).max(1);
+            let columns = if form.is_jacobian() { self.errors().len() } else { 1 };
+            let starts: Vec<usize> = std::iter::once(0)
+                .chain(self.chain.observables.iter().scan(0, |end, observable| {
+                    *end += observable.shown.len() * columns;
+                    Some(*end)
+                }))
+                .collect();
             let scale = |output: usize| {
-                let start = output / per_observable * per_observable;
-                let outputs = expected.iter().flat_map(|out| &out[start..start + per_observable]);
+                let own = starts.windows(2).find(|ends| output < ends[1]).unwrap();
+                let outputs = expected.iter().flat_map(|out| &out[own[0]..own[1]]);
                 outputs.fold(0.0_f64, |scale, value| scale.max(value.abs()))
             };
             let scales: Vec<f64> = (0..program.outputs().len()).map(scale).collect();

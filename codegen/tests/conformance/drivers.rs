@@ -53,8 +53,7 @@ pub fn rust(cases: &[Case]) -> String {
             let kind: String =
                 form_name.split('_').map(|word| word[..1].to_uppercase() + &word[1..]).collect();
             let flat = if form.is_jacobian() { ".into_iter().flatten()" } else { ".into_iter()" };
-            let outputs =
-                3 * case.observables.len() * if form.is_jacobian() { case.errors().len() } else { 1 };
+            let outputs = case.shown() * if form.is_jacobian() { case.errors().len() } else { 1 };
             let one = if form.is_jacobian() {
                 "core::array::from_fn(|_| core::array::from_fn(|_| slices.next().unwrap()))"
             } else {

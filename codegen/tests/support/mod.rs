@@ -21,6 +21,10 @@ pub const CHAINS: [(&str, &str); 13] = [
     ("words", include_str!("../chains/words.chain")),
 ];
 
+/// Angles, ranges and other frames: what is shown beside vectors in double precision alone.
+#[allow(dead_code, reason = "not every suite needs it")]
+pub const READINGS: (&str, &str) = ("readings", include_str!("../chains/readings.chain"));
+
 pub fn read(name: &str, text: &str) -> Chain {
     Chain::from_text(text).unwrap_or_else(|mistakes| panic!("{}", mistakes.render(name, text)))
 }

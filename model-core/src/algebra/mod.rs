@@ -4,6 +4,7 @@
 //! - [`Poly`][]: the canonical form, with sums, products, powers, reciprocals of sines and cosines.
 //! - [`AngleSum`][]: what a sine or cosine may be taken of.
 //! - [`Term`][]: a look inside, for printers and code generators.
+//! - [`Fraction`][]: a quotient of two canonical forms.
 //! - [`crate::amount`]: from an expression as written.
 
 mod angle;
@@ -12,13 +13,16 @@ mod calculus;
 mod circle;
 mod divide;
 mod fourier;
+mod fraction;
 mod grading;
 mod multiply;
 mod poly;
 mod rational;
+mod root;
 mod terms;
 
 pub use angle::AngleSum;
+pub use fraction::Fraction;
 pub use grading::BasisFunction;
 pub(crate) use multiply::Budget;
 pub use poly::Poly;

@@ -212,6 +212,19 @@ impl Rational {
         if self.is_negative() { -self } else { self.clone() }
     }
 
+    /// The number whose square this is, not negative; `None` if none is rational, or beyond machine words.
+    #[must_use]
+    pub fn square_root(&self) -> Option<Self> {
+        let root = |square: i64| {
+            let root = square.checked_isqrt()?;
+            (root * root == square).then_some(root)
+        };
+        match &self.0 {
+            Repr::Small { numerator, denominator } => Self::new(root(*numerator)?, root(denominator.get())?),
+            Repr::Big(_) => None,
+        }
+    }
+
     /// The largest number of which both are whole multiples; one if a machine word does not hold them.
     #[must_use]
     pub fn common_measure(&self, other: &Self) -> Self {

@@ -3,7 +3,7 @@
 use super::first_order::FirstOrder;
 use super::poses::{Path, Poses, Space};
 use super::probe::Probe;
-use super::{BudgetError, sized};
+use super::{BudgetError, one_unit, sized};
 use crate::chain::{Chain, ObservableId};
 use crate::symbol::SymbolId;
 
@@ -41,6 +41,7 @@ impl Curves {
         points: usize,
         steps: u32,
     ) -> Result<Self, BudgetError> {
+        one_unit(chain, observable)?;
         let poses = Poses::Path(path.clone());
         // Says what the path leaves open.
         let first_order = FirstOrder::new(chain, observable, &sized(chain, sizes))?;

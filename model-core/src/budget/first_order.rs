@@ -9,9 +9,10 @@ use crate::symbol::{SymbolId, SymbolKind};
 /// The first-order columns of the errors that have a size.
 pub(super) struct FirstOrder {
     columns: Vec<(SymbolId, [Poly; 3])>,
-    /// The observable in its body: a direction's influence is an angle, whatever its length.
-    length: [Poly; 3],
-    kind: ObservableKind,
+    /// Whether the columns are those of the form, not only what stands above a stroke in it.
+    is_whole: bool,
+    /// The observable in its body, where its influence is an angle whatever its length.
+    length: Option<[Poly; 3]>,
     /// By [`SymbolId`]: the highest multiple in any column.
     harmonics: Vec<u32>,
     ramps: Vec<SymbolId>,
@@ -23,16 +24,23 @@ impl FirstOrder {
         observable: ObservableId,
         errors: &[(SymbolId, f64)],
     ) -> Result<Self, FormError> {
-        let mut columns = forms::derive(chain, observable, 1)?.columns(chain);
+        let form = forms::derive(chain, observable, 1)?;
+        let is_whole = form.is_whole();
+        let mut columns = form.columns(chain);
         columns.retain(|(error, _)| errors.iter().any(|(sized, _)| sized == error));
         let mut harmonics = vec![0; chain.symbols.len()];
         for symbol in chain.symbols_of(SymbolKind::Joint).chain(chain.symbols_of(SymbolKind::Input)) {
             let parts = columns.iter().flat_map(|(_, column)| column);
-            harmonics[symbol.index()] = parts.map(|part| part.highest_harmonic(symbol)).max().unwrap_or(0);
+            let below = form.components.iter().map(|component| &component.below);
+            let waves = parts.chain(below).map(|part| part.highest_harmonic(symbol));
+            harmonics[symbol.index()] = waves.max().unwrap_or(0);
         }
         let ramps = chain.ramps.iter().map(|ramp| ramp.symbol).collect();
         let observable = chain.observable(observable);
-        Ok(Self { columns, length: observable.components.clone(), kind: observable.kind, harmonics, ramps })
+        // The components of a direction make an angle by its length.
+        let is_angle = observable.is_vector() && observable.kind == ObservableKind::Direction;
+        let length = is_angle.then(|| observable.components.clone());
+        Ok(Self { columns, is_whole, length, harmonics, ramps })
     }
 
     /// The highest multiple of a joint or input in any column.
@@ -46,14 +54,17 @@ impl FirstOrder {
         let turning = space.turning()?;
         // A ramp is no wave, and has no exact mean here.
         let is_turning = |symbol: SymbolId| turning.contains(&symbol) || self.ramps.contains(&symbol);
+        if !self.is_whole {
+            return None;
+        }
         let (_, column) = self.columns.iter().find(|(symbol, _)| *symbol == error)?;
         let mut sum = 0.0;
         for part in column {
             sum += part.mean_square_over_turns(is_turning, values)?;
         }
-        let length_squared = match self.kind {
-            ObservableKind::Point => 1.0,
-            ObservableKind::Direction => self.length.iter().map(|part| part.eval(values).powi(2)).sum(),
+        let length_squared = match &self.length {
+            None => 1.0,
+            Some(length) => length.iter().map(|part| part.eval(values).powi(2)).sum(),
         };
         let rms = size.abs() * (sum / length_squared).sqrt();
         rms.is_finite().then_some(rms)

@@ -76,6 +76,16 @@ pub enum BudgetError {
     /// The observable has no first-order form.
     #[error(transparent)]
     Form(#[from] FormError),
+    /// An observable shows angles and lengths together.
+    #[error("{observable} shows {one} and {other}, whose errors are not of one unit: observe them apart")]
+    Units {
+        /// The observable.
+        observable: String,
+        /// What it shows first.
+        one: &'static str,
+        /// What has another unit.
+        other: &'static str,
+    },
     /// The observable has no finite value at a pose.
     #[error("{observable} has no finite value at {pose}")]
     NotFinite {
@@ -97,6 +107,7 @@ impl Budget {
         sizes: &[f64],
         poses: &Poses,
     ) -> Result<Self, BudgetError> {
+        one_unit(chain, observable)?;
         let errors = sized(chain, sizes);
         let first_order = FirstOrder::new(chain, observable, &errors)?;
         let space = Space::new(chain, observable, poses, |symbol| first_order.harmonic(symbol))?;
@@ -168,19 +179,35 @@ impl Budget {
         })
     }
 
-    /// The unit of the influences: `rad` or `m`.
+    /// The unit of the influences: `rad`, `m` or `1`.
     #[must_use]
     pub fn unit(&self, chain: &Chain) -> &'static str {
         unit(chain, self.observable)
     }
 }
 
-/// The unit of influences on an observable: `rad` or `m`.
+/// The unit of influences on an observable: `rad` or `m`, and `1` for single components of a direction.
 #[must_use]
 pub fn unit(chain: &Chain, observable: ObservableId) -> &'static str {
-    match chain.observable(observable).kind {
-        ObservableKind::Direction => "rad",
-        ObservableKind::Point => "m",
+    let observable = chain.observable(observable);
+    match observable.kind {
+        ObservableKind::Direction if observable.is_vector() => "rad",
+        kind => observable.shown.first().map_or("1", |reading| reading.unit(kind)),
+    }
+}
+
+/// What an observable shows has to be of one unit, so that its errors can be added up.
+pub(crate) fn one_unit(chain: &Chain, id: ObservableId) -> Result<(), BudgetError> {
+    let observable = chain.observable(id);
+    let unit = unit(chain, id);
+    let differs = |reading: &&crate::chain::reading::Reading| reading.unit(observable.kind) != unit;
+    match observable.shown.iter().find(differs).filter(|_| !observable.is_vector()) {
+        None => Ok(()),
+        Some(other) => Err(BudgetError::Units {
+            observable: observable.name.clone(),
+            one: observable.label(0),
+            other: other.word,
+        }),
     }
 }
 

@@ -304,13 +304,7 @@ impl<'a> Space<'a> {
 
 /// The joints and inputs that an observable depends on, in order.
 fn needed(chain: &Chain, observable: ObservableId) -> Vec<SymbolId> {
-    let amounts = chain.factors_to(observable).into_iter().map(|factor| &factor.amount);
-    let mut symbols: Vec<SymbolId> = amounts
-        .chain(&chain.observable(observable).components)
-        .flat_map(|amount| chain.symbols_in(amount))
-        .filter(|&id| matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input))
-        .collect();
-    symbols.sort_unstable();
-    symbols.dedup();
+    let mut symbols = chain.symbols_of_way(observable);
+    symbols.retain(|&id| matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input));
     symbols
 }

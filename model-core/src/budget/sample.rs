@@ -3,7 +3,7 @@
 use super::first_order::FirstOrder;
 use super::poses::{Poses, Space};
 use super::probe::Probe;
-use super::{BudgetError, sized};
+use super::{BudgetError, one_unit, sized};
 use crate::chain::{Chain, ObservableId};
 
 /// The influence of every error with a size (see [`super::Budget::measure`]) at `count` poses, pose by pose.
@@ -20,6 +20,7 @@ pub fn influences_at(
     poses: &Poses,
     count: usize,
 ) -> Result<Vec<Vec<f64>>, BudgetError> {
+    one_unit(chain, observable)?;
     let errors = sized(chain, sizes);
     let first_order = FirstOrder::new(chain, observable, &errors)?;
     let space = Space::new(chain, observable, poses, |symbol| first_order.harmonic(symbol))?;

@@ -17,11 +17,12 @@ impl Section<'_> {
     pub(super) fn refute(&mut self, claim: &ClosedForm, verdict: &FormVerdict) -> Result<(), Refusal> {
         let printed = claim.printed.components.each_ref().map(|component| component.value.above.clone());
         self.prepare()?;
-        self.difference(&printed, &verdict.derived)?;
+        let derived = super::whole(&verdict.derived)?;
+        self.difference(&printed, &derived)?;
         self.canonical("derived")?;
         let statement = self.statement("derived");
         self.reach("derived", "is_derived", &statement)?;
-        self.witness(&printed, verdict)
+        self.witness(&printed, &derived, verdict)
     }
 
     /// What is printed, less what is derived.
@@ -39,11 +40,16 @@ impl Section<'_> {
     }
 
     /// The values at which the two differ, and that the claim is therefore false.
-    fn witness(&mut self, printed: &[Poly; 3], verdict: &FormVerdict) -> Result<(), Refusal> {
+    fn witness(
+        &mut self,
+        printed: &[Poly; 3],
+        derived: &[Poly; 3],
+        verdict: &FormVerdict,
+    ) -> Result<(), Refusal> {
         let difference = verdict.differences.first().ok_or(Refusal::NoWitness)?;
         let component = difference.component.index();
         let axis = difference.component.to_string();
-        let formulas = [Expanded::new(&printed[component])?, Expanded::new(&verdict.derived[component])?];
+        let formulas = [Expanded::new(&printed[component])?, Expanded::new(&derived[component])?];
         // Errors that have no part in the difference are zero.
         let declared = self.certificate.declared;
         let without_part = |symbol: &SymbolId| {

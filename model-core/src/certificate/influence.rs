@@ -3,10 +3,9 @@
 use std::fmt::Write as _;
 
 use super::section::{Question, Section};
-use super::{Certificate, Refusal};
+use super::{Certificate, Refusal, vector_to_order};
 use crate::algebra::Poly;
 use crate::chain::ObservableId;
-use crate::forms;
 use crate::identify::Ratio;
 use crate::symbol::{SymbolId, SymbolKind};
 
@@ -107,7 +106,7 @@ impl Certificate<'_> {
         }
         let chain = self.declared.chain();
         let zeros = self.zero_constants();
-        let form = forms::derive(chain, observable, 1)?;
+        let form = vector_to_order(chain, observable, 1)?;
         let only = |component: &Poly| {
             let others = |symbol: SymbolId| self.declared.is_error(symbol) && symbol != error;
             let alone = component.graded_part(others, 0);
@@ -115,7 +114,7 @@ impl Certificate<'_> {
                 poly.substitute(*zero, &Poly::zero()).map_err(|_| Refusal::Divisor)
             })
         };
-        let [x, y, z] = form.components.each_ref().map(only);
+        let [x, y, z] = form.each_ref().map(only);
         let components = [x?, y?, z?];
         let formula = self.printed(&components)?;
         let (name, shown) = (&chain.symbol(error).name, &chain.observable(observable).name);

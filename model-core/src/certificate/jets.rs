@@ -3,7 +3,7 @@
 use super::Refusal;
 use super::declared::WrittenFactor;
 use crate::algebra::{AngleSum, Poly, Rational};
-use crate::chain::{Axis, Motion, ObservableKind};
+use crate::chain::{Motion, ObservableKind};
 use crate::forms::FormError;
 use crate::symbol::SymbolId;
 
@@ -40,9 +40,9 @@ pub(super) fn moved(
             *component = component.iter().zip(amount).map(|(a, b)| a + b).collect();
         }
         Motion::Rotation => {
-            let angle = AngleSum::from_poly(&amount[0]).map_err(|error| FormError {
+            let angle = AngleSum::from_poly(&amount[0]).map_err(|error| FormError::Factor {
                 body: body.to_owned(),
-                axis: letter(factor.axis),
+                axis: factor.axis,
                 error,
             })?;
             let (cosine, sine) = waves(&angle, amount);
@@ -107,10 +107,6 @@ fn product(a: &Jet, b: &Jet) -> Jet {
 
 fn combined(a: &Jet, b: &Jet, subtract: bool) -> Jet {
     a.iter().zip(b).map(|(a, b)| if subtract { a - b } else { a + b }).collect()
-}
-
-fn letter(axis: Axis) -> char {
-    ['x', 'y', 'z'][axis.index()]
 }
 
 /// The derivatives at t = 0 from the powers of t: times 1, 1, 2, 6.

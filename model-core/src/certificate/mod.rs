@@ -21,8 +21,8 @@ mod witness;
 
 use std::fmt::Write as _;
 
-use crate::algebra::{AlgebraError, Poly};
-use crate::chain::{Axis, BodyId, Motion, ObservableId, Role};
+use crate::algebra::{AlgebraError, Fraction, Poly};
+use crate::chain::{Axis, BodyId, Chain, Motion, ObservableId, Role};
 use crate::checker::{ClosedForm, FormVerdict, Order};
 use crate::expr::Expr;
 use crate::forms::{self, FormError};
@@ -86,7 +86,8 @@ pub enum Refusal {
     Ramp,
     /// A claim of another kind than certificates speak of.
     #[error(
-        "certificates speak of whole vectors to an order, of one face, without quotients by sums, half angles and roots"
+        "certificates speak of whole vectors in the ground frame to an order, of one face, without quotients by sums, half \
+         angles and roots"
     )]
     Claim,
     /// A quotient that exists nowhere, or not where the claim is looked at.
@@ -150,8 +151,7 @@ impl<'a> Certificate<'a> {
     /// [`Refusal`].
     pub fn derived(&mut self, observable: ObservableId, order: u32) -> Result<(), Refusal> {
         let chain = self.declared.chain();
-        let form = forms::derive(chain, observable, order)?;
-        let derived = self.printed(&form.components)?;
+        let derived = self.printed(&vector_to_order(chain, observable, order)?)?;
         let question = Question {
             observable: Some(observable),
             order,
@@ -211,7 +211,7 @@ impl<'a> Certificate<'a> {
             let section = section.close_all(&name);
             self.finish_section(section, &name, "holds");
         } else {
-            let derived = self.printed(&verdict.derived)?;
+            let derived = self.printed(&whole(&verdict.derived)?)?;
             let mut section = Section::new(self, &question, &[&printed, &derived])?;
             section.open(&name, &format!("{title}: differs from what the chain implies"));
             section.formula("printed", &printed);
@@ -366,5 +366,24 @@ fn ordinal(order: u32) -> &'static str {
         1 => "first",
         2 => "second",
         _ => "third",
+    }
+}
+
+/// The error of an observable that is a vector in the ground frame: certificates know no others.
+fn vector_to_order(chain: &Chain, id: ObservableId, order: u32) -> Result<[Poly; 3], Refusal> {
+    let observable = chain.observable(id);
+    if !observable.is_vector() || observable.frame.is_some() {
+        return Err(Refusal::Claim);
+    }
+    whole(&forms::derive(chain, id, order)?.components)
+}
+
+/// Three components that are no quotients.
+fn whole(components: &[Fraction]) -> Result<[Poly; 3], Refusal> {
+    match components {
+        [x, y, z] if components.iter().all(Fraction::is_whole) => {
+            Ok([x, y, z].map(|part| part.above.clone()))
+        }
+        _ => Err(Refusal::Claim),
     }
 }

@@ -63,6 +63,9 @@ impl<'c> Section<'c> {
         let declared = certificate.declared;
         let chain = declared.chain();
         let observable = chain.observable(question.observable());
+        if !observable.is_vector() || observable.frame.is_some() {
+            return Err(Refusal::Claim);
+        }
         let path = chain.path(observable.body);
         let mut section = Self {
             certificate,

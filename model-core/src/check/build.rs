@@ -7,8 +7,9 @@ use super::amounts::Purpose;
 use super::printed_form;
 use super::quantity::inferred;
 use super::scope::documentation;
-use super::words::{OBSERVABLE_KINDS, meaning};
+use super::words::{self, OBSERVABLE_KINDS, meaning};
 use crate::algebra::{Poly, Rational};
+use crate::chain::reading::COMPONENTS;
 use crate::chain::{Body, BodyId, Chain, Factor, Observable, ObservableKind};
 use crate::symbol::{Quantity, Symbol, SymbolId, SymbolKind};
 use crate::syntax::declaration::{BodyStatement, ObserveStatement};
@@ -41,6 +42,11 @@ pub fn chain(subject: &Subject<'_>) -> Chain {
                     kind: meaning(&OBSERVABLE_KINDS, &observe.kind).unwrap_or(ObservableKind::Point),
                     components: components(subject, observe),
                     body: ids.get(&observe.body.to_string()).copied()?,
+                    frame: observe.frame.as_ref().and_then(|frame| ids.get(&frame.to_string()).copied()),
+                    shown: match observe.readings.as_slice() {
+                        [] => COMPONENTS.to_vec(),
+                        readings => readings.iter().filter_map(words::reading).collect(),
+                    },
                 })
             })
             .collect(),

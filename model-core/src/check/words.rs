@@ -2,9 +2,11 @@
 
 use proc_macro2::Ident;
 
+use crate::chain::reading::{Reading, SignedAxis};
 use crate::chain::{Axis, Motion, ObservableKind, Role};
 use crate::names::nearest;
 use crate::symbol::{Meaning, Quantity};
+use crate::syntax::declaration::{AxisTerm, ReadingTerm};
 
 /// The body that is not declared: what the instrument stands on.
 pub const GROUND: &str = "ground";
@@ -30,6 +32,19 @@ pub const TRANSFORMS: [(&str, (Motion, Axis)); 6] = [
 /// The kinds of observables.
 pub const OBSERVABLE_KINDS: [(&str, ObservableKind); 2] =
     [("direction", ObservableKind::Direction), ("point", ObservableKind::Point)];
+
+/// The axes that readings are told by.
+pub const AXES: [(&str, Axis); 3] = [("x", Axis::X), ("y", Axis::Y), ("z", Axis::Z)];
+
+/// What a reading as written means; `None` if its word, or its axes, mean nothing.
+pub fn reading(written: &ReadingTerm) -> Option<Reading> {
+    let reading = Reading::of_word(&written.word.to_string())?;
+    let Some(axes) = &written.axes else { return Some(reading) };
+    let axis = |term: &AxisTerm| {
+        meaning(&AXES, &term.axis).map(|axis| SignedAxis { axis, is_negative: term.is_negative })
+    };
+    reading.with_axes(&axes.iter().map(axis).collect::<Option<Vec<_>>>()?)
+}
 
 /// The quantities that constants may state.
 pub const QUANTITIES: [(&str, Quantity); 2] = [("angle", Quantity::Angle), ("length", Quantity::Length)];

@@ -3,7 +3,7 @@
 //! equality stays a decision. Source: numbers made of roots of different primes have one normal form, because the
 //! products of such roots are linearly independent over the rationals.
 
-use crate::algebra::{AlgebraError, AngleSum, Poly, Rational, Term, Wave};
+use crate::algebra::{AlgebraError, AngleSum, Fraction, Poly, Rational, Term, Wave};
 use crate::chain::Chain;
 use crate::latex::{ROOTS, root_name};
 use crate::symbol::{Quantity, Symbol, SymbolId, SymbolKind};
@@ -142,6 +142,12 @@ pub(super) fn reduced(poly: &Poly, chain: &Chain) -> Poly {
         }
         &sum + &product
     })
+}
+
+/// The same function with the roots of numbers multiplied out.
+pub(super) fn reduced_fraction(value: Fraction, chain: &Chain) -> Fraction {
+    let [above, below] = [&value.above, &value.below].map(|poly| reduced(poly, chain));
+    Fraction::new(above, below).unwrap_or(value)
 }
 
 /// Whether roots of numbers occur.

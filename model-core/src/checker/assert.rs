@@ -8,12 +8,18 @@ use crate::latex::PrintedSymbols;
 use crate::print::Style;
 
 /// Asserts that the error of an observable has this closed form, in LaTeX with the chain's printed symbols or in the
-/// plain syntax of amounts. `kept` names the errors that are not zero, by name or pattern.
+/// plain syntax of amounts: one formula for each number that it shows. `kept` names the errors that are not zero, by name or pattern.
 ///
 /// # Panics
 /// The formula cannot be read, or differs from what the chain implies; the message says where and what belongs there.
 #[track_caller]
-pub fn assert_closed_form(chain: &Chain, observable: &str, order: u32, kept: &[&str], components: [&str; 3]) {
+pub fn assert_closed_form<const N: usize>(
+    chain: &Chain,
+    observable: &str,
+    order: u32,
+    kept: &[&str],
+    components: [&str; N],
+) {
     if let Err(message) = closed_form(chain, observable, order, kept, &components) {
         panic!("{message}");
     }
@@ -25,7 +31,7 @@ pub(super) fn closed_form(
     observable: &str,
     order: u32,
     kept: &[&str],
-    components: &[&str; 3],
+    components: &[&str],
 ) -> Result<(), String> {
     let chain = &extended(chain);
     let id = chain
@@ -38,15 +44,17 @@ pub(super) fn closed_form(
     errors.sort_unstable();
     errors.dedup();
     let symbols = PrintedSymbols::of_chain(chain);
-    let printed = PrintedVector::read(chain, &symbols, components).map_err(|mistakes| {
-        let mut said = String::new();
-        for mistake in mistakes {
-            let text = components.get(mistake.place.text_index).copied().unwrap_or_default();
-            let place = text.get(mistake.place.bytes.clone()).unwrap_or_default();
-            let _ = writeln!(said, "`{text}`, at `{place}`: {}", mistake.message);
-        }
-        said
-    })?;
+    let shown = chain.observable(id);
+    let printed =
+        PrintedVector::read_shown(chain, &symbols, shown, components, false).map_err(|mistakes| {
+            let mut said = String::new();
+            for mistake in mistakes {
+                let text = components.get(mistake.place.text_index).copied().unwrap_or_default();
+                let place = text.get(mistake.place.bytes.clone()).unwrap_or_default();
+                let _ = writeln!(said, "`{text}`, at `{place}`: {}", mistake.message);
+            }
+            said
+        })?;
     let order = Order::UpTo(order);
     let claim = ClosedForm { observable: id, order, only: None, faces: None, kept: errors, printed };
     let verdict = Checker::new(chain).closed_form(&claim).map_err(|error| error.to_string())?;
@@ -58,7 +66,8 @@ pub(super) fn closed_form(
         let error = difference.error_name(chain);
         let [printed, derived] =
             [&difference.printed, &difference.derived].map(|value| value.show(chain, Style::Text));
-        let _ = writeln!(said, "  {}, {error}: printed {printed}, derived {derived}", difference.component);
+        let label = chain.observable(id).label(difference.component.index());
+        let _ = writeln!(said, "  {label}, {error}: printed {printed}, derived {derived}");
     }
     Err(said)
 }

@@ -40,7 +40,7 @@ pub struct ClosedForm {
     pub observable: ObservableId,
     /// How many errors a product may have.
     pub order: Order,
-    /// The one component that is claimed; all three if `None`.
+    /// The one number that is claimed, by its place among those that are shown, the first being x; all of them if `None`.
     pub only: Option<Axis>,
     /// Combined over two faces, or as it is.
     pub faces: Option<Faces>,

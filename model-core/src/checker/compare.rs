@@ -3,9 +3,11 @@
 
 use std::collections::BTreeMap;
 
+use super::CheckError;
 use super::claim::{ClosedForm, Combination, Faces};
-use crate::algebra::{AlgebraError, Poly, Rational};
+use crate::algebra::{AlgebraError, Fraction, Poly, Rational};
 use crate::chain::{Axis, Chain};
+use crate::print;
 use crate::symbol::{SymbolId, SymbolKind};
 
 /// A product of errors: symbols and powers, by symbol.
@@ -20,9 +22,38 @@ pub(super) type Columns = [Parts; 3];
 /// x, y and z.
 pub(super) const AXES: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
 
-/// A form by products of errors.
-pub(super) fn columns(chain: &Chain, components: &[Poly; 3]) -> Columns {
-    components.each_ref().map(|component| parts(chain, component))
+/// A form by products of errors: at most three numbers, each with what stands below it and what has to be positive.
+#[derive(Debug, Clone)]
+pub(super) struct Implied {
+    pub columns: Columns,
+    pub below: [Poly; 3],
+    pub positive: [Vec<Poly>; 3],
+}
+
+impl Implied {
+    /// Of the numbers that an observable shows; the places behind them are empty on both sides of a comparison.
+    pub fn new(chain: &Chain, components: &[Fraction], positive: &[Vec<Poly>]) -> Self {
+        let mut implied = Self {
+            columns: Columns::default(),
+            below: [Poly::one(), Poly::one(), Poly::one()],
+            positive: Default::default(),
+        };
+        for (place, component) in components.iter().enumerate().take(3) {
+            implied.columns[place] = parts(chain, &component.above);
+            implied.below[place] = component.below.clone();
+            implied.positive[place] = positive.get(place).cloned().unwrap_or_default();
+        }
+        implied
+    }
+
+    /// Leaves one component.
+    pub fn clear_but(&mut self, only: Axis) {
+        for axis in AXES.into_iter().filter(|axis| *axis != only) {
+            self.columns[axis.index()].clear();
+            self.below[axis.index()] = Poly::one();
+            self.positive[axis.index()].clear();
+        }
+    }
 }
 
 /// A component by products of errors.
@@ -74,14 +105,26 @@ pub(super) fn ramp_of(chain: &Chain, columns: &Columns, faces: &Faces) -> Option
     ramps.flat_map(|ramp| ramp.depends_on()).find(|id| faces.second.iter().any(|(joint, _)| joint == id))
 }
 
-/// The errors of two faces, combined.
-pub(super) fn over_faces(chain: &Chain, columns: &Columns, faces: &Faces) -> Result<Columns, AlgebraError> {
-    let mut result = Columns::default();
-    for (combined, component) in result.iter_mut().zip(columns) {
-        let first = total(component);
-        let mut second = first.clone();
-        for (joint, amount) in &faces.second {
-            second = second.substitute(*joint, amount)?;
+/// The errors of two faces, combined. A form is odd in each of the roots that it has a sign for, so where such a root turns
+/// negative in the second face the form there is the negative one.
+pub(super) fn over_faces(chain: &Chain, implied: &Implied, faces: &Faces) -> Result<Implied, CheckError> {
+    let turned = |poly: &Poly| -> Result<Poly, AlgebraError> {
+        faces.second.iter().try_fold(poly.clone(), |poly, (joint, amount)| poly.substitute(*joint, amount))
+    };
+    let mut result = implied.clone();
+    for (place, combined) in result.columns.iter_mut().enumerate() {
+        if implied.below[place] != Poly::one() {
+            return Err(CheckError::FacesOfQuotient(print::text(&implied.below[place], chain)));
+        }
+        let first = total(&implied.columns[place]);
+        let mut second = turned(&first)?;
+        for root in &implied.positive[place] {
+            let there = turned(root)?;
+            if there == -root {
+                second = -&second;
+            } else if there != *root {
+                return Err(CheckError::SignInFace(print::text(root, chain)));
+            }
         }
         let half = Rational::half();
         *combined = parts(
@@ -99,13 +142,14 @@ pub(super) fn over_faces(chain: &Chain, columns: &Columns, faces: &Faces) -> Res
 /// Every component in other terms.
 pub(super) fn translated(
     chain: &Chain,
-    columns: &Columns,
+    implied: &Implied,
     claim: &ClosedForm,
-) -> Result<Columns, AlgebraError> {
-    let mut result = Columns::default();
-    for (translated, parts) in result.iter_mut().zip(columns) {
-        let whole = claim.printed.translate(chain, &total(parts))?;
-        *translated = self::parts(chain, &whole);
+) -> Result<Implied, AlgebraError> {
+    let mut result = implied.clone();
+    for place in 0..result.columns.len() {
+        let whole = claim.printed.translate(chain, &total(&implied.columns[place]))?;
+        result.columns[place] = parts(chain, &whole);
+        result.below[place] = claim.printed.translate(chain, &implied.below[place])?;
     }
     Ok(result)
 }

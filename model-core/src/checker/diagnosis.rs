@@ -5,12 +5,11 @@ use std::ops::Range;
 
 use super::claim::Order;
 use super::compare::{Columns, Pair};
-use super::fraction::Fraction;
 use super::lowering::{self, Sines};
 use super::slip::TermSlip;
 use super::terms::{PrintedTerm, TermFactor};
 use super::{ClosedForm, compare};
-use crate::algebra::{AngleSum, Poly, Rational};
+use crate::algebra::{AngleSum, Fraction, Poly, Rational};
 use crate::chain::{Axis, Chain};
 use crate::expr::{Expr, Function, Node};
 use crate::symbol::{SymbolId, SymbolKind};

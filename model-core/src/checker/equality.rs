@@ -1,8 +1,8 @@
 //! That two printed formulas say the same at all values of their symbols: two ways of printing one thing.
 
 use super::algebraic;
-use super::fraction::Fraction;
 use super::{CheckError, Checker, PrintedComponent, PrintedVector, TextPlace};
+use crate::algebra::Fraction;
 use crate::chain::Chain;
 use crate::latex::PrintedSymbols;
 use crate::mistake::Mistake;
@@ -56,7 +56,7 @@ impl Checker<'_> {
     /// The difference has too many terms.
     pub(super) fn equality(&self, claim: &Equality) -> Result<EqualityVerdict, CheckError> {
         let [first, second] = claim.formulas();
-        let difference = first.value.sum(&second.value.negated())?.reduced(self.chain);
+        let difference = algebraic::reduced_fraction(first.value.sum(&second.value.negated())?, self.chain);
         let shown = |poly| algebraic::in_wholes(poly, self.chain);
         let difference = Fraction::new(shown(&difference.above), shown(&difference.below))
             .unwrap_or_else(|| unreachable!("no printed formula stands over zero"));

@@ -3,10 +3,10 @@
 use std::ops::Range;
 
 use super::algebraic;
-use super::fraction::Fraction;
 use super::lowering::{self, Sines};
-use crate::algebra::{AlgebraError, Poly, Rational};
-use crate::chain::{Axis, Chain};
+use crate::algebra::{AlgebraError, Fraction, Poly, Rational};
+use crate::chain::reading::Reading;
+use crate::chain::{Axis, Chain, Observable};
 use crate::expr::{Expr, Node};
 use crate::latex::{self, PrintedSymbols};
 use crate::mistake::Mistake;
@@ -57,22 +57,27 @@ impl PrintedVector {
         symbols: &PrintedSymbols,
         texts: &[&str],
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
-        Self::read_with(chain, symbols, texts, Sines::OfAngles)
+        Self::read_with(chain, symbols, &[Some(0), Some(1), Some(2)], texts, Sines::OfAngles)
     }
 
-    /// The same for an exact form, in which sines and cosines of errors stand.
+    /// The same for what an observable shows: as many formulas as it shows numbers. In an exact form sines and cosines of
+    /// errors stand.
     ///
     /// # Errors
     /// What cannot be read, with its place.
-    pub fn read_exact(
+    pub fn read_shown(
         chain: &Chain,
         symbols: &PrintedSymbols,
+        observable: &Observable,
         texts: &[&str],
+        is_exact: bool,
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
-        Self::read_with(chain, symbols, texts, Sines::OfErrors)
+        let axes: Vec<Option<usize>> =
+            observable.shown.iter().map(|reading| reading.component().map(Axis::index)).collect();
+        Self::read_with(chain, symbols, &axes, texts, Sines::of_form(is_exact))
     }
 
-    /// Reads the formula of one component; the others are not claimed.
+    /// Reads the formula of one of the numbers that an observable shows; the others are not claimed.
     ///
     /// # Errors
     /// What cannot be read, with its place.
@@ -80,16 +85,18 @@ impl PrintedVector {
         chain: &Chain,
         symbols: &PrintedSymbols,
         text: &str,
-        axis: Axis,
+        observable: &Observable,
+        place: Axis,
         is_exact: bool,
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
-        let written = written(symbols, 0, text, Some(axis.index()))?;
-        let sines = if is_exact { Sines::OfErrors } else { Sines::OfAngles };
+        let axis = observable.shown.get(place.index()).and_then(Reading::component);
+        let written = written(symbols, 0, text, axis.map(Axis::index))?;
+        let sines = Sines::of_form(is_exact);
         let value =
             lowering::fraction(chain, &written.1, sines).map_err(|mistake| vec![in_text(0, mistake)])?;
         let mut read = Self::of_one(chain, &written.1, value)
             .map_err(|error| vec![in_text(0, Mistake::new(0..text.len(), error.to_string()))])?;
-        read.components.swap(0, axis.index());
+        read.components.swap(0, place.index());
         Ok(read)
     }
 
@@ -128,10 +135,11 @@ impl PrintedVector {
     fn read_with(
         chain: &Chain,
         symbols: &PrintedSymbols,
+        axes: &[Option<usize>],
         texts: &[&str],
         sines: Sines,
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
-        let expressions = expressions(symbols, texts)?;
+        let expressions = expressions(symbols, axes, texts)?;
         let end = texts.len().saturating_sub(1);
         let at_end = || TextPlace { text_index: end, bytes: 0..texts.get(end).map_or(0, |text| text.len()) };
         let count = expressions.len();
@@ -146,23 +154,35 @@ impl PrintedVector {
         if !mistakes.is_empty() {
             return Err(mistakes);
         }
-        if !(3..=4).contains(&count) {
-            let message = format!("{count} components, where a vector has three");
-            return Err(vec![
-                Mistake::new(at_end(), message)
-                    .with_help("give x, y and z, and if you like the homogeneous 0 behind them"),
-            ]);
+        let has_fourth = count == 4 && axes.len() == 3;
+        if count != axes.len() && !has_fourth {
+            let (wanted, help) = match axes.len() {
+                3 => (
+                    "a vector has three".to_owned(),
+                    "give x, y and z, and if you like the homogeneous 0 behind them",
+                ),
+                1 => ("the observable shows one number".to_owned(), "give one formula"),
+                n => (format!("the observable shows {n} numbers"), "give one formula for each"),
+            };
+            let message = format!("{count} components, where {wanted}");
+            return Err(vec![Mistake::new(at_end(), message).with_help(help)]);
         }
-        if values.len() == 4 && values.pop().is_some_and(|fourth| !fourth.is_zero()) {
+        if has_fourth && values.pop().is_some_and(|fourth| !fourth.is_zero()) {
             let (text_index, fourth) = &expressions[3];
             let place = TextPlace { text_index: *text_index, bytes: fourth.place.clone() };
             return Err(vec![Mistake::new(place, "the fourth component of an error is always 0")]);
         }
-        let components: Vec<PrintedComponent> = expressions
+        let mut components: Vec<PrintedComponent> = expressions
             .into_iter()
             .zip(values)
             .map(|((text_index, expression), value)| PrintedComponent { text_index, expression, value })
             .collect();
+        // Behind what is shown nothing is claimed.
+        let nothing = components
+            .first()
+            .cloned()
+            .map(|first| PrintedComponent { value: Fraction::whole(Poly::zero()), ..first });
+        components.extend(std::iter::repeat_n(nothing, 3_usize.saturating_sub(count)).flatten());
         let Ok(components) = <[PrintedComponent; 3]>::try_from(components) else {
             return Err(vec![Mistake::new(at_end(), "a vector has three components")]);
         };
@@ -198,7 +218,7 @@ impl PrintedVector {
                 let poly = algebraic::in_halves(poly, &self.halves)?;
                 Ok(if self.has_roots { algebraic::with_special_constants(&poly, chain) } else { poly })
             });
-            let value = Fraction { above: above?, below: below? }.reduced(chain);
+            let value = algebraic::reduced_fraction(Fraction { above: above?, below: below? }, chain);
             self.components[component].value = value;
         }
         Ok(self)
@@ -219,15 +239,20 @@ impl PrintedVector {
 type Written = (usize, Expr<Range<usize>>);
 
 /// The components as written.
-fn expressions(symbols: &PrintedSymbols, texts: &[&str]) -> Result<Vec<Written>, Vec<Mistake<TextPlace>>> {
-    if let [text] = texts {
+fn expressions(
+    symbols: &PrintedSymbols,
+    axes: &[Option<usize>],
+    texts: &[&str],
+) -> Result<Vec<Written>, Vec<Mistake<TextPlace>>> {
+    if let ([text], [_, _, ..]) = (texts, axes) {
         let components = latex::read_vector(text, symbols).map_err(|mistake| vec![in_text(0, mistake)])?;
         return Ok(components.into_iter().map(|component| (0, component)).collect());
     }
     let mut expressions = Vec::new();
     let mut mistakes = Vec::new();
     for (index, text) in texts.iter().enumerate() {
-        match written(symbols, index, text, Some(index)) {
+        // A fourth component stands behind z.
+        match written(symbols, index, text, axes.get(index).copied().unwrap_or(Some(index))) {
             Ok(component) => expressions.push(component),
             Err(found) => mistakes.extend(found),
         }

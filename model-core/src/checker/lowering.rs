@@ -6,8 +6,7 @@
 use std::ops::Range;
 
 use super::algebraic;
-use super::fraction::Fraction;
-use crate::algebra::{AlgebraError, AngleSum, Poly, Rational};
+use crate::algebra::{AlgebraError, AngleSum, Fraction, Poly, Rational};
 use crate::amount::LowerError;
 use crate::chain::Chain;
 use crate::expr::{Expr, Function, Node};
@@ -27,6 +26,13 @@ pub(super) enum Sines {
     OfErrors,
 }
 
+impl Sines {
+    /// Those of an exact form, or of one to an order.
+    pub(super) fn of_form(is_exact: bool) -> Self {
+        if is_exact { Self::OfErrors } else { Self::OfAngles }
+    }
+}
+
 /// What an expression over the symbols of an extended chain says.
 pub(super) fn fraction(chain: &Chain, expression: &Written, sines: Sines) -> Result<Fraction, Refusal> {
     let lowering = Lowering { chain, sines };
@@ -37,7 +43,7 @@ pub(super) fn fraction(chain: &Chain, expression: &Written, sines: Sines) -> Res
         }
         Err(error) => return Err(explained(chain, &error)),
     };
-    Ok(value.reduced(chain))
+    Ok(algebraic::reduced_fraction(value, chain))
 }
 
 /// The canonical form of an expression over the symbols of a chain.

@@ -2,22 +2,25 @@
 //! reversed. A printed formula that equals one of these tells where its author went astray.
 
 use super::claim::{ClosedForm, Order};
-use super::compare::{self, AXES, Columns, Monomial};
+use super::compare::{self, AXES, Columns, Implied, Monomial};
 use super::slip::{FormSlip, FormSlipKind, factor_name};
 use crate::algebra::Poly;
-use crate::chain::{Chain, Factor, Motion, ObservableId, Role};
+use crate::chain::{BodyId, Chain, Factor, Motion, ObservableId, Role};
 
 /// One misreading and the form that follows from it.
 #[derive(Debug, Clone)]
 pub(super) struct Misreading {
     kind: FormSlipKind,
-    columns: Columns,
+    implied: Implied,
 }
 
 /// Every misreading of the way to an observable, the likelier kinds first.
 pub(super) fn of_chain(chain: &Chain, observable: ObservableId, order: Order) -> Vec<Misreading> {
-    let places: Vec<(usize, usize)> = chain
-        .path(chain.observable(observable).body)
+    // Each body on the way, with the places of its factors, from the ground up.
+    let mut bodies: Vec<BodyId> = chain.way(observable).iter().map(|passed| passed.body).collect();
+    bodies.sort_unstable();
+    bodies.dedup();
+    let places: Vec<(usize, usize)> = bodies
         .into_iter()
         .flat_map(|body| (0..chain.body(body).factors.len()).map(move |factor| (usize::from(body.0), factor)))
         .collect();
@@ -53,8 +56,7 @@ pub(super) fn of_chain(chain: &Chain, observable: ObservableId, order: Order) ->
     misread
         .into_iter()
         .filter_map(|(kind, other)| {
-            let components = super::derived(&other, observable, order).ok()?;
-            Some(Misreading { kind, columns: compare::columns(&other, &components) })
+            Some(Misreading { kind, implied: super::derived(&other, observable, order).ok()? })
         })
         .collect()
 }
@@ -75,7 +77,7 @@ pub(super) fn explain(
     printed: &Columns,
     derived: &Columns,
     misreadings: &[Misreading],
-    prepare: impl Fn(&Columns) -> Option<Columns>,
+    prepare: impl Fn(&Implied) -> Option<Columns>,
 ) -> Vec<FormSlip> {
     let whole = |kind| vec![FormSlip { kind, error: None }];
     if let Some(kind) = components(printed, derived) {
@@ -83,7 +85,7 @@ pub(super) fn explain(
     }
     let misread: Vec<(&FormSlipKind, Columns)> = misreadings
         .iter()
-        .filter_map(|misreading| Some((&misreading.kind, prepare(&misreading.columns)?)))
+        .filter_map(|misreading| Some((&misreading.kind, prepare(&misreading.implied)?)))
         .collect();
     if let Some((kind, _)) = misread.iter().find(|(_, columns)| columns == printed) {
         return whole((*kind).clone());

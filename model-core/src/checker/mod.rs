@@ -14,10 +14,10 @@ mod compare;
 mod diagnosis;
 mod equality;
 mod formula;
-mod fraction;
 pub mod hand;
 mod lowering;
 mod misreading;
+mod other_reading;
 mod radicand;
 mod ranks;
 mod sizes;
@@ -38,16 +38,16 @@ use crate::forms::{self, FormError};
 use crate::identify::IdentifyError;
 use crate::print;
 use crate::remainder::DomainError;
-use compare::Columns;
+use compare::{Columns, Implied};
 use diagnosis::Case;
 use misreading::Misreading;
 
+pub use crate::algebra::Fraction;
 pub use algebraic::extended;
 pub use assert::assert_closed_form;
 pub use claim::{Claim, ClosedForm, Combination, Comparison, Count, Faces, Order, errors_named};
 pub use equality::{Equality, EqualityVerdict};
 pub use formula::{PrintedComponent, PrintedVector, TextPlace};
-pub use fraction::Fraction;
 pub use lowering::lower;
 pub use radicand::{Radicand, Total};
 pub use ranks::{Rank, RankSaid, RankVerdict};
@@ -60,7 +60,7 @@ pub use verdict::{Counted, Difference, FormVerdict, Means, Measured, Verdict};
 #[derive(Debug)]
 pub struct Checker<'a> {
     chain: &'a Chain,
-    forms: BTreeMap<(ObservableId, Order), Columns>,
+    forms: BTreeMap<(ObservableId, Order), Implied>,
     misreadings: BTreeMap<(ObservableId, Order), Vec<Misreading>>,
 }
 
@@ -73,6 +73,12 @@ pub enum CheckError {
     /// The derived form cannot be said in the terms of the printed one: half angles below a stroke, or too many terms.
     #[error("the derived form cannot be said in the terms of the printed one: {0}")]
     Terms(#[from] AlgebraError),
+    /// A mean over faces of quotients.
+    #[error("faces are combined where the algebra can divide; here {0} stands below")]
+    FacesOfQuotient(String),
+    /// The sign of a root in the second face cannot be told.
+    #[error("whether {0} is positive or negative in the second face cannot be told from its first")]
+    SignInFace(String),
     /// In the second face a ramp would be another one.
     #[error("a ramp of {0} has no form in the second face")]
     Ramp(String),
@@ -122,35 +128,26 @@ impl<'a> Checker<'a> {
     pub fn closed_form(&mut self, claim: &ClosedForm) -> Result<FormVerdict, CheckError> {
         let chain = self.chain;
         let below = claim.printed.components.each_ref().map(|component| &component.value.below);
-        let printed = claim
+        let above = claim
             .printed
             .components
             .each_ref()
             .map(|component| compare::parts(chain, &component.value.above));
-        // What the chain implies, as the claim has it: kept errors, faces, terms of the print.
-        let prepare = |columns: &Columns| -> Result<Columns, AlgebraError> {
-            let mut columns = compare::kept(chain, columns, claim)?;
-            if let Some(faces) = &claim.faces {
-                columns = compare::over_faces(chain, &columns, faces)?;
-            }
-            if let Some(only) = claim.only {
-                let others = compare::AXES.into_iter().filter(|axis| *axis != only);
-                others.for_each(|axis| columns[axis.index()].clear());
-            }
-            compare::translated(chain, &columns, claim)
-        };
-        let columns = self.columns(claim.observable, claim.order)?;
-        if let Some(joint) = claim.faces.as_ref().and_then(|faces| compare::ramp_of(chain, columns, faces)) {
-            return Err(CheckError::Ramp(chain.symbol(joint).name.clone()));
-        }
-        let implied = prepare(columns)?;
-        let derived = compare::multiplied(&implied, below);
+        let implied = claimed(chain, claim, self.columns(claim.observable, claim.order)?)?;
+        // Both sides are multiplied by what stands below on either.
+        let printed = compare::multiplied(&above, implied.below.each_ref());
+        let derived = compare::multiplied(&implied.columns, below);
         let zero = Poly::zero();
         let pairs = compare::differing(&printed, &derived, &zero);
         let mut differences = Vec::with_capacity(pairs.len());
-        let case = Case { chain, claim, printed: &printed, derived: &derived, below };
+        let scale: [Poly; 3] = std::array::from_fn(|place| below[place] * &implied.below[place]);
+        let case = Case { chain, claim, printed: &printed, derived: &derived, below: scale.each_ref() };
         let mut terms = None;
         let shown = |poly: &Poly| algebraic::in_wholes(poly, chain);
+        let quotient = |above: &Poly, below: &Poly| {
+            let quotient = Fraction::new(shown(above), shown(below));
+            quotient.unwrap_or_else(|| unreachable!("no formula stands over zero"))
+        };
         for pair in &pairs {
             // Terms of a component are multiplied out once, and only if something differs there.
             if terms.as_ref().is_none_or(|(axis, _)| *axis != pair.component) {
@@ -159,35 +156,48 @@ impl<'a> Checker<'a> {
             }
             let terms = terms.as_ref().map_or(&[][..], |(_, terms)| terms);
             let finding = case.diagnose(*pair, terms);
-            let axis = pair.component.index();
-            let truth = implied[axis].get(pair.error).unwrap_or(&zero);
-            let print = Fraction::new(shown(pair.printed), shown(below[axis]));
+            let place = pair.component.index();
+            let part = |columns: &Columns| columns[place].get(pair.error).unwrap_or(&zero).clone();
             differences.push(Difference {
                 component: pair.component,
                 error: pair.error.clone(),
-                printed: print.unwrap_or_else(|| unreachable!("no printed formula stands over zero")),
-                derived: Fraction::whole(shown(truth)),
+                printed: quotient(&part(&above), below[place]),
+                derived: quotient(&part(&implied.columns), &implied.below[place]),
                 place: finding.place,
                 term: finding.term,
                 slip: finding.slip,
             });
         }
-        let slips = if differences.len() < 2 {
-            Vec::new()
-        } else {
-            let prepare = |columns: &Columns| Some(compare::multiplied(&prepare(columns).ok()?, below));
+        let mut slips = Vec::new();
+        if differences.len() > 1 {
+            // A misreading that divides by something else is compared with no print.
+            let prepare = |other: &Implied| {
+                let other = claimed(chain, claim, other).ok()?;
+                (other.below == implied.below).then(|| compare::multiplied(&other.columns, below))
+            };
             let misreadings = self.misreadings(claim.observable, claim.order);
-            misreading::explain(claim, &printed, &derived, misreadings, prepare)
-        };
-        let derived = implied.each_ref().map(|parts| shown(&compare::total(parts)));
-        Ok(FormVerdict { differences, slips, derived })
+            slips = misreading::explain(claim, &printed, &derived, misreadings, prepare);
+        }
+        if !differences.is_empty() {
+            slips.extend(other_reading::explain(chain, claim, &above, &differences));
+        }
+        let count = chain.observable(claim.observable).shown.len();
+        let derived =
+            (0..count).map(|place| quotient(&compare::total(&implied.columns[place]), &implied.below[place]));
+        let mut positive: Vec<Poly> = Vec::new();
+        for root in implied.positive.concat() {
+            if !positive.contains(&root) {
+                positive.push(root);
+            }
+        }
+        Ok(FormVerdict { differences, slips, derived: derived.collect(), positive })
     }
 
-    fn columns(&mut self, observable: ObservableId, order: Order) -> Result<&Columns, FormError> {
+    fn columns(&mut self, observable: ObservableId, order: Order) -> Result<&Implied, FormError> {
         let key = (observable, order);
         if !self.forms.contains_key(&key) {
-            let components = derived(self.chain, observable, order)?;
-            self.forms.insert(key, compare::columns(self.chain, &components));
+            let implied = derived(self.chain, observable, order)?;
+            self.forms.insert(key, implied);
         }
         Ok(&self.forms[&key])
     }
@@ -217,18 +227,41 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// The error of an observable as far as an order goes.
-fn derived(chain: &Chain, observable: ObservableId, order: Order) -> Result<[Poly; 3], FormError> {
-    match order {
-        Order::UpTo(order) => Ok(forms::derive(chain, observable, order)?.components),
-        Order::Exact => forms::exact_symbolic(chain, observable),
+/// What the errors add to what an observable shows, as far as an order goes.
+fn derived(chain: &Chain, observable: ObservableId, order: Order) -> Result<Implied, FormError> {
+    let (components, positive) = match order {
+        Order::UpTo(order) => {
+            let form = forms::derive(chain, observable, order)?;
+            (form.components, form.positive)
+        }
+        Order::Exact => {
+            let exact = forms::exact_symbolic(chain, observable)?;
+            (exact.into_iter().map(Fraction::whole).collect(), Vec::new())
+        }
+    };
+    Ok(Implied::new(chain, &components, &positive))
+}
+
+/// What the chain implies, as the claim has it: kept errors, faces, one component, terms of the print.
+fn claimed(chain: &Chain, claim: &ClosedForm, implied: &Implied) -> Result<Implied, CheckError> {
+    let mut implied = Implied { columns: compare::kept(chain, &implied.columns, claim)?, ..implied.clone() };
+    if let Some(faces) = &claim.faces {
+        if let Some(joint) = compare::ramp_of(chain, &implied.columns, faces) {
+            return Err(CheckError::Ramp(chain.symbol(joint).name.clone()));
+        }
+        implied = compare::over_faces(chain, &implied, faces)?;
     }
+    if let Some(only) = claim.only {
+        implied.clear_but(only);
+    }
+    Ok(compare::translated(chain, &implied, claim)?)
 }
 
 impl FormVerdict {
-    /// The formula that the chain implies, in LaTeX, one text a component, in the printed forms of `chain`.
+    /// The formula that the chain implies, in LaTeX, one text for each number that is shown, in the printed forms of
+    /// `chain`.
     #[must_use]
-    pub fn corrected(&self, chain: &Chain) -> [String; 3] {
-        self.derived.each_ref().map(|component| print::latex(component, chain))
+    pub fn corrected(&self, chain: &Chain) -> Vec<String> {
+        self.derived.iter().map(|component| component.show(chain, print::Style::Latex)).collect()
     }
 }

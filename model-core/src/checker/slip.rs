@@ -1,7 +1,8 @@
 //! The usual slips, in a referee's words.
 
 use crate::algebra::{Poly, Rational};
-use crate::chain::{Axis, Chain, Factor, Motion};
+use crate::chain::reading::{Measures, Reading};
+use crate::chain::{Axis, Chain, Factor, Motion, ObservableId};
 use crate::print;
 use crate::symbol::SymbolId;
 
@@ -81,12 +82,20 @@ pub enum FormSlipKind {
     LeftOut(String),
     /// A transform of the instrument as designed was made the other way, as `Rx(beta) of middle`.
     Reversed(String),
+    /// A component is the error of another reading.
+    OtherReading {
+        /// What the print gives.
+        printed: Reading,
+        /// What is claimed.
+        derived: Reading,
+    },
 }
 
 impl TermSlip {
     /// The slip in words, formulas in the style that is asked for.
     #[must_use]
-    pub fn describe(&self, chain: &Chain, style: print::Style) -> String {
+    pub fn describe(&self, chain: &Chain, observable: ObservableId, style: print::Style) -> String {
+        let label = |axis: &Axis| chain.observable(observable).label(axis.index());
         let show = |poly: &Poly| print::poly(poly, chain, style);
         let and_sign = |sign: bool| if sign { ", and the other sign" } else { "" };
         match self {
@@ -104,8 +113,10 @@ impl TermSlip {
             }
             Self::ExtraFactor(factor) => format!("the factor {} is too much", show(factor)),
             Self::MissingFactor(factor) => format!("the factor {} is missing", show(factor)),
-            Self::BelongsTo(axis) => format!("the term belongs into component {axis}"),
-            Self::StandsIn(axis) => format!("the term is missing here and stands in component {axis}"),
+            Self::BelongsTo(axis) => format!("the term belongs into component {}", label(axis)),
+            Self::StandsIn(axis) => {
+                format!("the term is missing here and stands in component {}", label(axis))
+            }
         }
     }
 }
@@ -113,13 +124,16 @@ impl TermSlip {
 impl FormSlip {
     /// The slip in words.
     #[must_use]
-    pub fn describe(&self, chain: &Chain) -> String {
+    pub fn describe(&self, chain: &Chain, observable: ObservableId) -> String {
+        let label = |axis: &Axis| chain.observable(observable).label(axis.index());
         let what = match &self.kind {
             FormSlipKind::SwappedComponents(a, b) => {
-                format!("components {a} and {b} stand in each other's place")
+                format!("components {} and {} stand in each other's place", label(a), label(b))
             }
             FormSlipKind::ShiftedComponents => "the components are shifted round".to_owned(),
-            FormSlipKind::RunTogether(a, b) => format!("components {a} and {b} are run together in {a}"),
+            FormSlipKind::RunTogether(a, b) => {
+                format!("components {0} and {1} are run together in {0}", label(a), label(b))
+            }
             FormSlipKind::OppositeSign => {
                 "every sign is the other one: the error is counted the other way".to_owned()
             }
@@ -130,11 +144,31 @@ impl FormSlip {
             FormSlipKind::Reversed(factor) => {
                 format!("a reversed transform: this follows if {factor} goes the other way")
             }
+            FormSlipKind::OtherReading { printed, derived } => {
+                format!(
+                    "another reading: this is the error of {}, not of {}",
+                    in_words(printed),
+                    in_words(derived)
+                )
+            }
         };
         match self.error {
             Some(error) => format!("all terms of {}: {what}", chain.symbol(error).name),
             None => what,
         }
+    }
+}
+
+/// A reading with what tells it from the others.
+fn in_words(reading: &Reading) -> String {
+    match reading.measures {
+        Measures::Azimuth { .. } => format!("the {} (\u{394}A)", reading.describe()),
+        Measures::CrossElevation { zero, through } => {
+            format!(
+                "the azimuth from {zero} through {through} times the cosine of the elevation (\u{394}A cos E)"
+            )
+        }
+        _ => format!("the {}", reading.describe()),
     }
 }
 

@@ -41,7 +41,8 @@ fn shown(chain: &Chain, verdict: &FormVerdict, components: &[&str]) -> Vec<Strin
                 [&difference.printed, &difference.derived].map(|value| value.show(chain, Style::Text));
             let text = components[difference.component.index()];
             let place = difference.place.clone().map_or("nowhere", |place| &text[place]);
-            let slip = difference.slip.as_ref().map(|slip| slip.describe(chain, Style::Text));
+            let slip =
+                difference.slip.as_ref().map(|slip| slip.describe(chain, ObservableId(0), Style::Text));
             format!(
                 "{}, {}: {printed} | {derived} | {place} | {}",
                 difference.component,
@@ -50,7 +51,7 @@ fn shown(chain: &Chain, verdict: &FormVerdict, components: &[&str]) -> Vec<Strin
             )
         })
         .collect();
-    lines.extend(verdict.slips.iter().map(|slip| slip.describe(chain)));
+    lines.extend(verdict.slips.iter().map(|slip| slip.describe(chain, ObservableId(0))));
     lines
 }
 
@@ -138,7 +139,11 @@ fn usual_slips_are_named_with_their_place() {
 fn what_concerns_whole_components_is_said_once() {
     let chain = chain();
     let slips = |components: &[&str]| -> Vec<String> {
-        verdict(&chain, 1, components).slips.iter().map(|slip| slip.describe(&chain)).collect()
+        verdict(&chain, 1, components)
+            .slips
+            .iter()
+            .map(|slip| slip.describe(&chain, ObservableId(0)))
+            .collect()
     };
     let [x, y, z] = RIGHT;
     assert_eq!(slips(&[y, x, z]), ["components x and y stand in each other's place"]);
@@ -162,7 +167,7 @@ fn a_wrong_order_and_a_missing_frame_are_recognised() {
         "0",
     ];
     let said: Vec<String> =
-        verdict(&chain, 1, &wrong).slips.iter().map(|slip| slip.describe(&chain)).collect();
+        verdict(&chain, 1, &wrong).slips.iter().map(|slip| slip.describe(&chain, ObservableId(0))).collect();
     assert_eq!(said, ["a missing frame: this follows without Rx(beta) of middle"]);
 }
 

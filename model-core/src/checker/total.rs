@@ -4,10 +4,10 @@
 use super::algebraic;
 use super::claim::Order;
 use super::compare::{self, Monomial};
-use super::fraction::Fraction;
 use super::radicand::Total;
 use super::{CheckError, Checker, ClosedForm};
-use crate::algebra::Poly;
+use crate::algebra::{Fraction, Poly};
+use crate::budget;
 
 /// What is said of a total error. It holds if there is no difference.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,7 +15,7 @@ pub struct TotalVerdict {
     /// The products of two errors whose factors below the root differ: printed and derived.
     pub differences: Vec<(Monomial, Fraction, Fraction)>,
     /// What belongs below the root.
-    pub derived: Poly,
+    pub derived: Fraction,
 }
 
 impl Checker<'_> {
@@ -33,12 +33,18 @@ impl Checker<'_> {
             kept: claim.kept.clone(),
             printed: claim.radicand.value.clone(),
         };
-        let kept = compare::kept(chain, self.columns(claim.observable, Order::UpTo(1))?, &form)?;
-        let mut square = Poly::zero();
-        for component in &kept {
-            let component = compare::total(component);
-            square = &square + &component.checked_mul(&component)?;
+        budget::one_unit(chain, claim.observable)?;
+        let implied = self.columns(claim.observable, Order::UpTo(1))?;
+        let kept = compare::kept(chain, &implied.columns, &form)?;
+        let mut square = Fraction::whole(Poly::zero());
+        for (component, below) in kept.iter().zip(&implied.below) {
+            let component = Fraction::new(compare::total(component), below.clone())
+                .unwrap_or_else(|| unreachable!("no form stands over zero"));
+            square = square.sum(&component.product(&component)?)?;
         }
+        // Both sides are multiplied by what stands below the derived one.
+        let below = form.printed.translate(chain, &square.below)?;
+        let square = square.above;
         let square = form.printed.translate(chain, &square)?;
         let value = &form.printed.components[0].value;
         let zero = Poly::zero();
@@ -50,13 +56,15 @@ impl Checker<'_> {
             .filter_map(|error| {
                 let (print, truth) =
                     (printed.get(error).unwrap_or(&zero), derived.get(error).unwrap_or(&zero));
-                if *print == truth * &value.below {
+                if print * &below == truth * &value.below {
                     return None;
                 }
                 let print = Fraction::new(shown(print), shown(&value.below))?;
-                Some((error.clone(), print, Fraction::whole(shown(truth))))
+                Some((error.clone(), print, Fraction::new(shown(truth), shown(&below))?))
             })
             .collect();
-        Ok(TotalVerdict { differences, derived: shown(&square) })
+        let derived = Fraction::new(shown(&square), shown(&below))
+            .unwrap_or_else(|| unreachable!("no form stands over zero"));
+        Ok(TotalVerdict { differences, derived })
     }
 }

@@ -4,12 +4,11 @@ use std::ops::Range;
 
 use super::compare;
 use super::equality::EqualityVerdict;
-use super::fraction::Fraction;
 use super::ranks::RankVerdict;
 use super::sizes::{BoundVerdict, Outcome, SizeVerdict};
 use super::slip::{FormSlip, TermSlip};
 use super::total::TotalVerdict;
-use crate::algebra::Poly;
+use crate::algebra::{Fraction, Poly};
 use crate::chain::{Axis, Chain};
 use crate::print;
 use crate::symbol::SymbolId;
@@ -89,14 +88,16 @@ pub struct FormVerdict {
     pub differences: Vec<Difference>,
     /// What explains several differences at once.
     pub slips: Vec<FormSlip>,
-    /// The formula that the chain implies.
-    pub derived: [Poly; 3],
+    /// The formula that the chain implies: one for each number that is shown.
+    pub derived: Vec<Fraction>,
+    /// What has to be positive for that to be right: see [`crate::forms::Form::positive`].
+    pub positive: Vec<Poly>,
 }
 
 /// A term that differs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Difference {
-    /// In which component.
+    /// In which component; for readings the place among those that are shown, the first being x.
     pub component: Axis,
     /// The error, or the product of errors: symbols and powers, by symbol. Empty for what has no error in it.
     pub error: Vec<(SymbolId, u32)>,

@@ -4,9 +4,12 @@
 //! R − 1, so that it keeps full relative precision however small the errors are. Its first order and the rest are kept
 //! apart, so that the remainder keeps full relative precision too.
 
+mod reading;
+
 use nalgebra::Vector3;
 
 use crate::algebra::Poly;
+use crate::chain::reading::Reading;
 use crate::chain::{Axis, Chain, Motion, ObservableId, ObservableKind};
 use crate::forms::error_table;
 use crate::ramp::Ramp;
@@ -15,9 +18,11 @@ use crate::symbol::{SymbolId, SymbolKind};
 /// The factors of one observable, with every amount split by degree in the errors.
 #[derive(Debug, Clone)]
 pub struct Path {
-    /// From the device to the ground.
+    /// From the device to the frame that it is seen in.
     steps: Vec<Step>,
     vector: [Split; 3],
+    /// What is shown of the vector.
+    shown: Vec<Reading>,
     /// The ramps that the amounts use.
     ramps: Vec<Ramp>,
 }
@@ -47,7 +52,7 @@ struct Parts {
 }
 
 impl Path {
-    /// The way from an observable to the ground.
+    /// The way from an observable to the frame that it is seen in.
     #[must_use]
     pub fn new(chain: &Chain, id: ObservableId) -> Self {
         let is_error = error_table(chain);
@@ -59,13 +64,19 @@ impl Path {
         let observable = chain.observable(id);
         let moves = |motion| motion == Motion::Rotation || observable.kind == ObservableKind::Point;
         let steps = chain
-            .factors_to(id)
+            .way(id)
             .into_iter()
             .rev()
+            .map(|passed| passed.factor)
             .filter(|factor| moves(factor.motion))
             .map(|factor| Step { motion: factor.motion, axis: factor.axis, amount: split(&factor.amount) })
             .collect();
-        let mut path = Self { steps, vector: observable.components.each_ref().map(split), ramps: Vec::new() };
+        let mut path = Self {
+            steps,
+            vector: observable.components.each_ref().map(split),
+            shown: observable.shown.clone(),
+            ramps: Vec::new(),
+        };
         path.ramps = path.own_symbols().into_iter().filter_map(|id| chain.ramp(id).cloned()).collect();
         path
     }
@@ -92,7 +103,7 @@ impl Path {
         symbols
     }
 
-    /// The observable with errors, in the ground frame. `values` is indexed by
+    /// The vector of the observable with errors, in the frame that it is seen in. `values` is indexed by
     /// [`SymbolId`], in SI units, π included; ramps follow from the others.
     #[must_use]
     pub fn value(&self, values: &[f64]) -> Vector3<f64> {
@@ -100,17 +111,33 @@ impl Path {
         parts.nominal + (parts.first + parts.rest)
     }
 
-    /// What the errors add to the observable: exact, with full relative precision.
+    /// What the errors add to the vector of the observable: exact, with full relative precision.
     #[must_use]
     pub fn error(&self, values: &[f64]) -> Vector3<f64> {
         let parts = self.parts(values);
         parts.first + parts.rest
     }
 
-    /// The error less its first order: with full relative precision, far below the rounding of the error itself.
+    /// The error of the vector less its first order: with full relative precision, far below the rounding of the error itself.
     #[must_use]
     pub fn remainder(&self, values: &[f64]) -> Vector3<f64> {
         self.parts(values).rest
+    }
+
+    /// What the observable shows, with errors: one number for each reading.
+    #[must_use]
+    pub fn shown(&self, values: &[f64]) -> Vec<f64> {
+        let parts = self.parts(values);
+        let error = parts.first + parts.rest;
+        self.shown.iter().map(|reading| reading.value(&parts.nominal, &error)).collect()
+    }
+
+    /// What the errors add to what the observable shows: exact, with full relative precision.
+    #[must_use]
+    pub fn shown_error(&self, values: &[f64]) -> Vec<f64> {
+        let parts = self.parts(values);
+        let error = parts.first + parts.rest;
+        self.shown.iter().map(|reading| reading.error(&parts.nominal, &error)).collect()
     }
 
     fn parts(&self, values: &[f64]) -> Parts {
@@ -193,13 +220,13 @@ fn sine_less_angle(angle_rad: f64) -> f64 {
     -angle_rad * square / 6.0 * series
 }
 
-/// The observable with errors, in the ground frame: see [`Path::value`].
+/// The vector of the observable with errors: see [`Path::value`].
 #[must_use]
 pub fn value(chain: &Chain, observable: ObservableId, values: &[f64]) -> Vector3<f64> {
     Path::new(chain, observable).value(values)
 }
 
-/// What the errors add to the observable: see [`Path::error`].
+/// What the errors add to the vector of the observable: see [`Path::error`].
 #[must_use]
 pub fn error(chain: &Chain, observable: ObservableId, values: &[f64]) -> Vector3<f64> {
     Path::new(chain, observable).error(values)

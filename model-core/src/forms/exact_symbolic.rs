@@ -3,22 +3,32 @@
 use super::FormError;
 use super::graded::rotate;
 use crate::algebra::{AngleSum, Poly};
-use crate::chain::{Chain, Motion, ObservableId, ObservableKind};
+use crate::chain::{Axis, Chain, Motion, ObservableId, ObservableKind};
 use crate::forms::error_table;
 
-/// The error of an observable without approximation: the transform with errors minus the transform without, times
-/// its vector.
+/// What the errors add to the components that an observable shows, without approximation: the transform with errors minus
+/// the transform without, times its vector.
 ///
 /// # Errors
 /// [`FormError`] if a rotation is by anything but whole multiples of symbols and quarter turns: the sine of
-/// `sag*cos(beta)` is no trigonometric polynomial. Truncated forms ([`super::derive`]) exist all the same.
-pub fn exact_symbolic(chain: &Chain, observable: ObservableId) -> Result<[Poly; 3], FormError> {
+/// `sag*cos(beta)` is no trigonometric polynomial; or if something else than components is shown. Truncated forms
+/// ([`super::derive`]) exist all the same.
+pub fn exact_symbolic(chain: &Chain, observable: ObservableId) -> Result<Vec<Poly>, FormError> {
     let is_error = error_table(chain);
+    let shown = &chain.observable(observable).shown;
+    let axes: Vec<Axis> = shown
+        .iter()
+        .map(|reading| {
+            reading.component().ok_or_else(|| FormError::NotExact {
+                observable: chain.observable(observable).name.clone(),
+                reading: reading.words(),
+            })
+        })
+        .collect::<Result<_, _>>()?;
     let with_errors = transformed(chain, observable, Clone::clone)?;
     let without =
         transformed(chain, observable, |poly| poly.graded_part(|symbol| is_error[symbol.index()], 0))?;
-    let [[x, y, z], [x0, y0, z0]] = [with_errors, without];
-    Ok([&x - &x0, &y - &y0, &z - &z0])
+    Ok(axes.into_iter().map(|axis| &with_errors[axis.index()] - &without[axis.index()]).collect())
 }
 
 fn transformed(
@@ -28,21 +38,20 @@ fn transformed(
 ) -> Result<[Poly; 3], FormError> {
     let observable = chain.observable(id);
     let mut vector = observable.components.each_ref().map(&amount_of);
-    for body in chain.path(observable.body).into_iter().rev().map(|id| chain.body(id)) {
-        for factor in body.factors.iter().rev() {
-            let amount = amount_of(&factor.amount);
-            match factor.motion {
-                Motion::Translation if observable.kind == ObservableKind::Direction => {}
-                Motion::Translation => {
-                    let component = &mut vector[factor.axis.index()];
-                    *component = &*component + &amount;
-                }
-                Motion::Rotation => {
-                    let angle = AngleSum::from_poly(&amount)
-                        .map_err(|error| FormError::new(&body.name, factor.axis, error))?;
-                    let (cosine, sine) = angle.cos_sin();
-                    rotate(&mut vector, factor.axis, &cosine, &sine);
-                }
+    for passed in chain.way(id).into_iter().rev() {
+        let factor = &passed.factor;
+        let amount = amount_of(&factor.amount);
+        match factor.motion {
+            Motion::Translation if observable.kind == ObservableKind::Direction => {}
+            Motion::Translation => {
+                let component = &mut vector[factor.axis.index()];
+                *component = &*component + &amount;
+            }
+            Motion::Rotation => {
+                let angle = AngleSum::from_poly(&amount)
+                    .map_err(|error| FormError::new(&chain.body(passed.body).name, factor.axis, error))?;
+                let (cosine, sine) = angle.cos_sin();
+                rotate(&mut vector, factor.axis, &cosine, &sine);
             }
         }
     }

@@ -10,50 +10,43 @@ type Vector = [Poly; 3];
 /// Terms that a form may have on its way; far beyond what anybody reads, and still in memory.
 const TERMS_LIMIT: usize = 1_000_000;
 
-/// The parts of degree 1 to `order` of an observable, added up.
-pub(super) fn error_up_to(chain: &Chain, id: ObservableId, order: u32) -> Result<Vector, FormError> {
+/// The vector of an observable in the frame that it is seen in, by degree in the errors, from 0 to `order`.
+pub(super) fn parts_up_to(chain: &Chain, id: ObservableId, order: u32) -> Result<Vec<Vector>, FormError> {
     let is_error = error_table(chain);
     let grade = |poly: &Poly, degree| poly.graded_part(|symbol| is_error[symbol.index()], degree);
     let observable = chain.observable(id);
     let mut parts: Vec<Vector> =
         (0..=order).map(|degree| observable.components.each_ref().map(|poly| grade(poly, degree))).collect();
-    for body in chain.path(observable.body).into_iter().rev().map(|id| chain.body(id)) {
-        for factor in body.factors.iter().rev() {
-            let amount: Vec<Poly> = (0..=order).map(|degree| grade(&factor.amount, degree)).collect();
-            match factor.motion {
-                Motion::Translation if observable.kind == ObservableKind::Direction => {}
-                Motion::Translation => {
-                    for (part, shift) in parts.iter_mut().zip(&amount) {
-                        if !shift.is_zero() {
-                            let component = &mut part[factor.axis.index()];
-                            *component = &*component + shift;
-                        }
+    for passed in chain.way(id).into_iter().rev() {
+        let factor = &passed.factor;
+        let refuse = |error| FormError::new(&chain.body(passed.body).name, factor.axis, error);
+        let amount: Vec<Poly> = (0..=order).map(|degree| grade(&factor.amount, degree)).collect();
+        match factor.motion {
+            Motion::Translation if observable.kind == ObservableKind::Direction => {}
+            Motion::Translation => {
+                for (part, shift) in parts.iter_mut().zip(&amount) {
+                    if !shift.is_zero() {
+                        let component = &mut part[factor.axis.index()];
+                        *component = &*component + shift;
                     }
                 }
-                Motion::Rotation => {
-                    rotate_by_error(&mut parts, factor.axis, &amount);
-                    if parts.iter().flatten().map(Poly::len).sum::<usize>() > TERMS_LIMIT {
-                        return Err(FormError::new(&body.name, factor.axis, AlgebraError::TooLarge));
-                    }
-                    let angle = AngleSum::from_poly(&amount[0])
-                        .map_err(|error| FormError::new(&body.name, factor.axis, error))?;
-                    if !angle.is_zero() {
-                        let (cosine, sine) = angle.cos_sin();
-                        for part in &mut parts {
-                            rotate(part, factor.axis, &cosine, &sine);
-                        }
+            }
+            Motion::Rotation => {
+                rotate_by_error(&mut parts, factor.axis, &amount);
+                if parts.iter().flatten().map(Poly::len).sum::<usize>() > TERMS_LIMIT {
+                    return Err(refuse(AlgebraError::TooLarge));
+                }
+                let angle = AngleSum::from_poly(&amount[0]).map_err(refuse)?;
+                if !angle.is_zero() {
+                    let (cosine, sine) = angle.cos_sin();
+                    for part in &mut parts {
+                        rotate(part, factor.axis, &cosine, &sine);
                     }
                 }
             }
         }
     }
-    let mut sum = Vector::default();
-    for part in parts.iter().skip(1) {
-        for (total, component) in sum.iter_mut().zip(part) {
-            *total = &*total + component;
-        }
-    }
-    Ok(sum)
+    Ok(parts)
 }
 
 /// The two axes that a rotation mixes, in right-handed order.

@@ -4,78 +4,150 @@
 
 mod exact_symbolic;
 mod graded;
+mod reading;
 
-use crate::algebra::{AlgebraError, Poly};
+use crate::algebra::{AlgebraError, Fraction, Poly};
+use crate::chain::reading::Reading;
 use crate::chain::{Axis, Chain, ObservableId};
 use crate::symbol::{SymbolId, SymbolKind};
+use reading::{NoSeries, ReadSeries};
 
 pub use exact_symbolic::exact_symbolic;
 
-/// The error of an observable up to an order in the errors, in the ground frame: a difference of vectors without unit
-/// for a direction, in metres for a point.
+/// What the errors add to what an observable shows, up to an order in the errors. Components of a direction have no unit,
+/// those of a point and ranges are in metres, angles in radians.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Form {
     /// Of which observable.
     pub observable: ObservableId,
     /// Products of more than this many errors are dropped.
     pub order: u32,
-    /// x, y and z.
-    pub components: [Poly; 3],
+    /// One for each number that is shown. A quotient only where the algebra cannot carry the division out, with what does not
+    /// depend on the errors below; its first-order columns are then those of what stands above.
+    pub components: Vec<Fraction>,
+    /// For each number that is shown, what has to be positive for its form to be right: with `cos E` for the distance from an
+    /// axis, an elevation has its sign only where `cos E > 0`.
+    pub positive: Vec<Vec<Poly>>,
 }
 
-/// A factor of the chain that has no closed form.
+/// What has no closed form.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("R{axis} of body `{body}`: {error}")]
-pub struct FormError {
-    /// The body whose factor it is.
-    pub body: String,
-    /// The axis of the rotation: `x`, `y` or `z`.
-    pub axis: char,
-    /// What the algebra says.
-    pub error: AlgebraError,
+pub enum FormError {
+    /// A factor of the chain.
+    #[error("R{axis} of body `{body}`: {error}")]
+    Factor {
+        /// The body whose factor it is.
+        body: String,
+        /// The axis of the rotation.
+        axis: Axis,
+        /// What the algebra says.
+        error: AlgebraError,
+    },
+    /// A reading that divides by a root which is no canonical form.
+    #[error(
+        "the {reading} of `{observable}` has no closed form: a length stands in it whose square has no root; \
+         observe components, which have one: `x, y, z of …`"
+    )]
+    Root {
+        /// The observable.
+        observable: String,
+        /// The reading in words.
+        reading: String,
+    },
+    /// A reading that is no smooth function of the errors where they are zero.
+    #[error(
+        "the {reading} of `{observable}` has no closed form: where there are no errors it is no smooth function of them; \
+         observe components, which have one: `x, y, z of …`"
+    )]
+    NotSmooth {
+        /// The observable.
+        observable: String,
+        /// The reading in words.
+        reading: String,
+    },
+    /// A reading without truncation.
+    #[error(
+        "the {reading} of `{observable}` has no exact form without an arc tangent or a root; claim it to an order, or components: \
+         `x, y, z of …`"
+    )]
+    NotExact {
+        /// The observable.
+        observable: String,
+        /// The reading in words.
+        reading: String,
+    },
 }
 
 impl FormError {
     fn new(body: &str, axis: Axis, error: AlgebraError) -> Self {
-        let axis = match axis {
-            Axis::X => 'x',
-            Axis::Y => 'y',
-            Axis::Z => 'z',
-        };
-        Self { body: body.to_owned(), axis, error }
+        Self::Factor { body: body.to_owned(), axis, error }
+    }
+
+    fn of_reading(chain: &Chain, observable: ObservableId, reading: &Reading, why: NoSeries) -> Self {
+        let (observable, reading) = (chain.observable(observable).name.clone(), reading.words());
+        match why {
+            NoSeries::Root => Self::Root { observable, reading },
+            NoSeries::NotSmooth => Self::NotSmooth { observable, reading },
+        }
     }
 }
 
-/// The error of an observable up to `order` in the errors, derived from the exact product by truncating while
-/// multiplying.
+/// What the errors add to what an observable shows, up to `order` in the errors, derived from the exact product by
+/// truncating while multiplying.
 ///
 /// # Errors
 /// [`FormError`] if a rotation by a nominal amount is no [`AngleSum`](crate::algebra::AngleSum) (a chain from
-/// [`check`](crate::check) has none such), or if the form would have more than a million terms.
+/// [`check`](crate::check) has none such), if the form would have more than a million terms, or if a reading has no closed
+/// form.
 pub fn derive(chain: &Chain, observable: ObservableId, order: u32) -> Result<Form, FormError> {
-    let components = graded::error_up_to(chain, observable, order)?;
-    Ok(Form { observable, order, components })
+    let parts = graded::parts_up_to(chain, observable, order)?;
+    let (mut components, mut positive) = (Vec::new(), Vec::new());
+    for reading in &chain.observable(observable).shown {
+        let read = reading::read(reading, &parts);
+        let ReadSeries { value, positive: roots } =
+            read.map_err(|why| FormError::of_reading(chain, observable, reading, why))?;
+        components.push(value);
+        positive.push(roots);
+    }
+    Ok(Form { observable, order, components, positive })
+}
+
+/// What the errors would add to another reading of the same vector.
+pub(crate) fn derive_reading(
+    chain: &Chain,
+    observable: ObservableId,
+    order: u32,
+    reading: &Reading,
+) -> Result<ReadSeries, FormError> {
+    let parts = graded::parts_up_to(chain, observable, order)?;
+    reading::read(reading, &parts).map_err(|why| FormError::of_reading(chain, observable, reading, why))
 }
 
 impl Form {
-    /// The first-order columns: for every error of the chain, in order, what multiplies it in x, y and z. Errors that
-    /// do not occur have zeros.
+    /// The first-order columns: for every error of the chain, in order, what multiplies it in each component, above the
+    /// stroke if that is a quotient. Errors and numbers that are not shown have zeros.
     #[must_use]
     pub fn columns(&self, chain: &Chain) -> Vec<(SymbolId, [Poly; 3])> {
         let is_error = error_table(chain);
         let mut columns: Vec<(SymbolId, [Poly; 3])> =
             chain.symbols_of(SymbolKind::Error).map(|error| (error, Default::default())).collect();
-        for (axis, component) in self.components.iter().enumerate() {
-            let parts = component.collect_by(|symbol| is_error[symbol.index()]);
+        for (place, component) in self.components.iter().enumerate() {
+            let parts = component.above.collect_by(|symbol| is_error[symbol.index()]);
             for (monomial, coefficient) in parts {
                 if let [(error, 1)] = monomial.as_slice()
                     && let Ok(index) = columns.binary_search_by_key(error, |(symbol, _)| *symbol)
                 {
-                    columns[index].1[axis] = coefficient;
+                    columns[index].1[place] = coefficient;
                 }
             }
         }
         columns
+    }
+
+    /// Whether no component is a quotient.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.components.iter().all(Fraction::is_whole)
     }
 }
 

@@ -169,9 +169,13 @@ fn equations(
 }
 
 /// The chain without the constant transforms between the ground and the first thing that moves or errs on the way to an
-/// observable: they turn what is seen as a whole, which takes nothing from it and adds nothing.
+/// observable: they turn what is seen as a whole, which takes nothing from it and adds nothing. Where no whole vector is
+/// shown, or not in the ground frame, they stay.
 fn without_placement(chain: &Chain, observable: ObservableId) -> Chain {
     let mut chain = chain.clone();
+    if !chain.observable(observable).is_vector() || chain.observable(observable).frame.is_some() {
+        return chain;
+    }
     for body in chain.path(chain.observable(observable).body) {
         let is_fixed = |factor: &Factor| {
             let symbols = factor.amount.symbols();

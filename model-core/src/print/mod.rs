@@ -1,10 +1,11 @@
 //! Formulas as a paper prints them: collected by error, in the symbols of the chain.
 //!
 //! [`text`] is the plain syntax of amounts, and reads back; [`latex`] uses each symbol's printed form;
-//! [`markdown`] is the same between dollars. [`form`] prints the three components of a form. Of a few exact ways to write
+//! [`markdown`] is the same between dollars. [`form`] prints what a form has for each number that is shown. Of a few exact ways to write
 //! the functions of angles the shortest is taken (`pieces`); a [`Hand`] says which ways a paper has itself.
 
 mod collect;
+mod fraction;
 mod notation;
 mod pieces;
 #[cfg(test)]
@@ -72,25 +73,31 @@ pub fn by_hand(poly: &Poly, chain: &Chain, style: Style, hand: &Hand) -> String 
 /// The components of a form, one a line, each with its name; in LaTeX as an `aligned` block, in Markdown as a list.
 #[must_use]
 pub fn form(form: &Form, chain: &Chain, style: Style) -> String {
-    let name = &chain.observable(form.observable).name;
-    let rows = form.components.iter().zip(["x", "y", "z"]);
+    let observable = chain.observable(form.observable);
+    let name = &observable.name;
+    let rows = form.components.iter().zip(observable.labels());
     match style {
-        Style::Text => {
-            rows.map(|(component, axis)| format!("{name}_{axis} = {}\n", text(component, chain))).collect()
-        }
+        Style::Text => rows
+            .map(|(component, label)| format!("{name}_{label} = {}\n", component.show(chain, style)))
+            .collect(),
         Style::Latex => {
             let rows: Vec<String> = rows
-                .map(|(component, axis)| {
+                .map(|(component, label)| {
                     let name = name.replace('_', "\\_");
-                    format!("  \\text{{{name}}}_{axis} &= {}", latex(component, chain))
+                    format!("  \\text{{{name}}}_{} &= {}", subscript(label), component.show(chain, style))
                 })
                 .collect();
             format!("\\begin{{aligned}}\n{}\n\\end{{aligned}}\n", rows.join(" \\\\\n"))
         }
         Style::Markdown => rows
-            .map(|(component, axis)| format!("- {name}, {axis}: {}\n", markdown(component, chain)))
+            .map(|(component, label)| format!("- {name}, {label}: {}\n", component.show(chain, style)))
             .collect(),
     }
+}
+
+/// The name of what is shown as a subscript: one letter as it is.
+fn subscript(label: &str) -> String {
+    if label.len() == 1 { label.to_owned() } else { format!("{{\\text{{{}}}}}", label.replace('_', " ")) }
 }
 
 /// The symbols of a monomial and their powers.

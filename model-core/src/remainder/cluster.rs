@@ -35,7 +35,7 @@ pub(super) fn clusters(
     let mut cluster = Cluster::default();
     // Which axis of the cluster's frame each local axis lies along; directions do not matter for bounds.
     let mut frame = [0, 1, 2];
-    for factor in chain.factors_to(id) {
+    for factor in chain.way(id).into_iter().map(|passed| passed.factor) {
         let axis = factor.axis.index();
         match factor.motion {
             Motion::Translation if observable.kind == ObservableKind::Direction => {}

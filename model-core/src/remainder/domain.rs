@@ -33,6 +33,14 @@ pub enum DomainError {
         /// The symbol.
         name: String,
     },
+    /// Something else than components of a vector is shown.
+    #[error("no bound is proven for the {reading} of `{observable}`; bound its vector: `x, y, z of …`")]
+    NoProof {
+        /// The observable.
+        observable: String,
+        /// The reading in words.
+        reading: String,
+    },
     /// A range in which a denominator vanishes.
     #[error(
         "`{name}` passes a place where the {function} in a denominator is zero; state a range that keeps away"

@@ -13,7 +13,8 @@ mod search;
 mod upper;
 mod words;
 
-use crate::chain::{Chain, ObservableId};
+use crate::chain::reading::Reading;
+use crate::chain::{Axis, Chain, ObservableId};
 use crate::symbol::SymbolId;
 use cluster::{Cluster, Element, clusters};
 use majorant::Majorant;
@@ -55,8 +56,10 @@ pub struct PairShare {
 /// Joints without a range turn freely; the bound then holds at all of their angles.
 ///
 /// # Errors
-/// [`DomainError`] if a joint or input without a range stands outside of sines and cosines, or a denominator vanishes.
+/// [`DomainError`] if a joint or input without a range stands outside of sines and cosines, a denominator vanishes, or
+/// something else than components is shown. The bound of some components is that of the whole vector.
 pub fn bound(chain: &Chain, observable: ObservableId, domain: &Domain) -> Result<Bound, DomainError> {
+    shown_axes(chain, observable)?;
     let clusters = clusters(chain, observable, domain)?;
     let mut prefix = Prefix::new(chain.symbols.len());
     let mut table = PairTable::new(chain.symbols.len());
@@ -77,6 +80,18 @@ pub fn bound(chain: &Chain, observable: ObservableId, domain: &Domain) -> Result
         tail: tail.get(),
         shares,
     })
+}
+
+/// The axes of the components that are shown.
+fn shown_axes(chain: &Chain, id: ObservableId) -> Result<Vec<Axis>, DomainError> {
+    let observable = chain.observable(id);
+    let axis = |reading: &Reading| {
+        reading.component().ok_or_else(|| DomainError::NoProof {
+            observable: observable.name.clone(),
+            reading: reading.words(),
+        })
+    };
+    observable.shown.iter().map(axis).collect()
 }
 
 /// Bounds on the product of all clusters passed, by degree in the errors.

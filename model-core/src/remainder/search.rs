@@ -1,6 +1,7 @@
 //! A search for the largest remainder in a domain: many starts, each climbing one symbol at a time.
 
 use super::domain::{Domain, DomainError};
+use super::shown_axes;
 use crate::chain::{Chain, ObservableId};
 use crate::exact::Path;
 use crate::symbol::{SymbolId, SymbolKind};
@@ -24,7 +25,7 @@ const ROUNDS: u32 = 30;
 /// Searches a domain for the largest |exact − first order| of an observable. The same seed finds the same.
 ///
 /// # Errors
-/// [`DomainError::RangeNeeded`] if an input has no range.
+/// [`DomainError`] if an input has no range, or something else than components is shown.
 pub fn search(
     chain: &Chain,
     observable: ObservableId,
@@ -32,8 +33,12 @@ pub fn search(
     starts: u32,
     seed: u64,
 ) -> Result<Found, DomainError> {
+    let axes = shown_axes(chain, observable)?;
     let path = Path::new(chain, observable);
-    let length = |values: &[f64]| path.remainder(values).norm();
+    let length = |values: &[f64]| {
+        let remainder = path.remainder(values);
+        axes.iter().map(|axis| remainder[axis.index()].powi(2)).sum::<f64>().sqrt()
+    };
     let nominal = chain.nominal_values();
     let mut climbed = Vec::new();
     let mut cornered = Vec::new();

@@ -120,19 +120,42 @@ pub struct SymbolStatement {
     pub latex: String,
 }
 
-/// `observe pointing: direction(0, 0, 1) of device;`
+/// `observe pointing: direction(0, 0, 1) of device;`, `observe sky: azimuth(x, -y), elevation of direction(0, 0, 1) of
+/// device in mount;`
 #[derive(Debug, Clone)]
 pub struct ObserveStatement {
     /// The `///` lines above it.
     pub documentation: String,
     /// The name.
     pub name: Ident,
+    /// What is read of the vector, in order; nothing for the vector itself.
+    pub readings: Vec<ReadingTerm>,
     /// `direction` or `point`, as written.
     pub kind: Ident,
     /// The components; `None` for one that could not be read.
     pub components: [Option<Expr<Span>>; 3],
     /// The name of the body that carries it.
     pub body: Ident,
+    /// The name of the body in whose frame it is seen, if one is given.
+    pub frame: Option<Ident>,
+}
+
+/// `azimuth(x, -y)`
+#[derive(Debug, Clone)]
+pub struct ReadingTerm {
+    /// The word.
+    pub word: Ident,
+    /// The axes behind it; `None` without parentheses.
+    pub axes: Option<Vec<AxisTerm>>,
+}
+
+/// `x` or `-x`
+#[derive(Debug, Clone)]
+pub struct AxisTerm {
+    /// Whether a minus stands before it.
+    pub is_negative: bool,
+    /// The axis, as written.
+    pub axis: Ident,
 }
 
 /// `gravity: (0, 0, -1);`

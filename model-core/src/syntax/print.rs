@@ -5,8 +5,8 @@ use std::fmt::{self, Display, Formatter};
 
 use super::amount::{FUNCTIONS, RAMP};
 use super::declaration::{
-    BodyStatement, ConstantStatement, Declaration, FactorGroup, FactorTerm, GravityStatement, InputStatement,
-    ObserveStatement, Statement, SymbolStatement,
+    AxisTerm, BodyStatement, ConstantStatement, Declaration, FactorGroup, FactorTerm, GravityStatement,
+    InputStatement, ObserveStatement, ReadingTerm, Statement, SymbolStatement,
 };
 use crate::expr::{Expr, Node};
 
@@ -50,13 +50,21 @@ impl Display for Declaration {
                 Statement::Observe(ObserveStatement {
                     documentation: text,
                     name,
+                    readings,
                     kind,
                     components,
                     body,
+                    frame,
                 }) => {
                     documentation(f, "    ", text)?;
                     let [x, y, z] = components.each_ref().map(|component| Written(component.as_ref()));
-                    writeln!(f, "    observe {name}: {kind}({x}, {y}, {z}) of {body};")?;
+                    write!(f, "    observe {name}: ")?;
+                    write_readings(f, readings)?;
+                    write!(f, "{kind}({x}, {y}, {z}) of {body}")?;
+                    if let Some(frame) = frame {
+                        write!(f, " in {frame}")?;
+                    }
+                    writeln!(f, ";")?;
                 }
                 Statement::Gravity(GravityStatement { components, .. }) => {
                     let [x, y, z] = components.each_ref().map(|component| Written(component.as_ref()));
@@ -88,6 +96,19 @@ fn write_body(f: &mut Formatter<'_>, body: &BodyStatement) -> fmt::Result {
         }
     }
     writeln!(f, "    }}")
+}
+
+/// `azimuth(x, -y), elevation of `, and nothing without readings.
+fn write_readings(f: &mut Formatter<'_>, readings: &[ReadingTerm]) -> fmt::Result {
+    for (index, ReadingTerm { word, axes }) in readings.iter().enumerate() {
+        write!(f, "{}{word}", if index > 0 { ", " } else { "" })?;
+        if let Some(axes) = axes {
+            let sign = |axis: &AxisTerm| if axis.is_negative { "-" } else { "" };
+            let axes: Vec<String> = axes.iter().map(|axis| format!("{}{}", sign(axis), axis.axis)).collect();
+            write!(f, "({})", axes.join(", "))?;
+        }
+    }
+    if readings.is_empty() { Ok(()) } else { write!(f, " of ") }
 }
 
 /// An amount, or nothing where it could not be read.

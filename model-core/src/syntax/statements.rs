@@ -6,8 +6,8 @@ use syn::buffer::Cursor;
 
 use super::amount;
 use super::declaration::{
-    BodyStatement, ConstantStatement, Declaration, FactorGroup, FactorTerm, GravityStatement, InputStatement,
-    ObserveStatement, Statement, SymbolStatement,
+    AxisTerm, BodyStatement, ConstantStatement, Declaration, FactorGroup, FactorTerm, GravityStatement,
+    InputStatement, ObserveStatement, ReadingTerm, Statement, SymbolStatement,
 };
 use super::tokens::Reader;
 use crate::expr::Expr;
@@ -24,6 +24,10 @@ const INPUT_HELP: &str = "write `input name;`, or say what it is: `input name: t
 const SYMBOL_HELP: &str = r#"write `symbol name = r"\delta_1";`"#;
 const OBSERVE_HELP: &str =
     "write `observe name: direction(0, 0, 1) of body;` or `observe name: point(0, 0, 0) of body;`";
+const READING_HELP: &str = "write `observe name: azimuth, elevation of direction(0, 0, 1) of body;`";
+const AXES_HELP: &str = "write axes, as `azimuth(x, -y)` or `elevation(z)`";
+const FRAME_HELP: &str =
+    "write `in body`, or leave it out: what is observed is then seen in the ground frame";
 const GRAVITY_HELP: &str = "write `gravity: (0, 0, -1);`";
 const FACTORS_HELP: &str = "write `motion: Rz(alpha);`, and so on";
 const FACTOR_HELP: &str = "write a factor as `Rx(amount)`, with Rx, Ry, Rz, Tx, Ty or Tz";
@@ -229,12 +233,61 @@ fn observe(reader: &mut Reader<'_, '_>, documentation: String) -> Read<ObserveSt
     reader.keyword("observe", OBSERVE_HELP)?;
     let name = reader.name("the name of the observable").map_err(|m| m.with_help(OBSERVE_HELP))?;
     reader.expect_mark(':', OBSERVE_HELP)?;
+    let mut readings = Vec::new();
+    if is_reading(reader) {
+        readings.push(reading(reader)?);
+        while reader.mark(',').is_some() {
+            readings.push(reading(reader)?);
+        }
+        reader.keyword("of", READING_HELP)?;
+    }
     let kind = reader.name("`direction` or `point`").map_err(|m| m.with_help(OBSERVE_HELP))?;
     let components = components(reader, OBSERVE_HELP)?;
     reader.keyword("of", OBSERVE_HELP)?;
     let body = reader.name("the name of the body").map_err(|m| m.with_help(OBSERVE_HELP))?;
+    let frame = match reader.peek_word() {
+        Some(word) if word == "in" => {
+            reader.word();
+            Some(reader.name("the name of a body").map_err(|m| m.with_help(FRAME_HELP))?)
+        }
+        _ => None,
+    };
     reader.end_of_statement()?;
-    Ok(ObserveStatement { documentation, name, kind, components, body })
+    Ok(ObserveStatement { documentation, name, readings, kind, components, body, frame })
+}
+
+/// Whether a reading stands here and not the vector itself: a word, perhaps with axes, before `,` or before `of` and a
+/// vector.
+fn is_reading(reader: &Reader<'_, '_>) -> bool {
+    let Some((_, rest)) = reader.cursor.ident() else { return false };
+    let group = rest.group(Delimiter::Parenthesis);
+    let rest = group.map_or(rest, |(_, _, behind)| behind);
+    if rest.punct().is_some_and(|(mark, _)| mark.as_char() == ',') {
+        return true;
+    }
+    let Some((_, behind_of)) = rest.ident().filter(|(word, _)| word == "of") else { return false };
+    let is_vector =
+        behind_of.ident().is_some_and(|(_, behind)| behind.group(Delimiter::Parenthesis).is_some());
+    group.is_none() || is_vector
+}
+
+fn reading(reader: &mut Reader<'_, '_>) -> Read<ReadingTerm> {
+    let word = reader.name("what is read, as `azimuth`").map_err(|m| m.with_help(READING_HELP))?;
+    let Some((inside, parentheses)) = reader.group(Delimiter::Parenthesis) else {
+        return Ok(ReadingTerm { word, axes: None });
+    };
+    let axes = reader.inside(inside, parentheses.close, |reader| {
+        let mut axes = Vec::new();
+        while !reader.is_at_end() {
+            let is_negative = reader.mark('-').is_some();
+            axes.push(AxisTerm { is_negative, axis: reader.name("an axis")? });
+            if !reader.is_at_end() {
+                reader.expect_mark(',', AXES_HELP)?;
+            }
+        }
+        Ok(axes)
+    });
+    Ok(ReadingTerm { word, axes: Some(axes.map_err(|mistake: Mistake<Span>| mistake.with_help(AXES_HELP))?) })
 }
 
 fn gravity(reader: &mut Reader<'_, '_>) -> Read<GravityStatement> {

@@ -12,24 +12,31 @@ const MAX_TURNS: usize = 7;
 /// The constants with the closed form, as plain text and in LaTeX.
 pub fn constants(chain: &Chain, id: ObservableId) -> Option<TokenStream> {
     let turns = chain
-        .factors_to(id)
+        .way(id)
         .into_iter()
+        .map(|passed| passed.factor)
         .filter(|factor| factor.role == Role::Motion && factor.motion == Motion::Rotation);
     if turns.count() > MAX_TURNS {
         return None;
     }
     let form = forms::derive(chain, id, 1).ok()?;
     let name = &chain.observable(id).name;
-    let plain = form.components.each_ref().map(|component| print::text(component, chain));
-    let latex = form.components.each_ref().map(|component| print::latex(component, chain));
+    let shown =
+        |style| form.components.iter().map(|component| component.show(chain, style)).collect::<Vec<_>>();
+    let (plain, latex) = (shown(print::Style::Text), shown(print::Style::Latex));
+    let count = super::count(plain.len());
+    let mut labels: Vec<&str> = chain.observable(id).labels().collect();
+    let last = labels.pop().unwrap_or_default();
+    let labels =
+        if labels.is_empty() { last.to_owned() } else { format!("{} and {last}", labels.join(", ")) };
     let (plain_name, latex_name) = (constant(name, ""), constant(name, "_LATEX"));
-    let plain_doc = doc(&format!("The first-order error of `{name}` as text: x, y and z."));
-    let latex_doc = doc(&format!("The first-order error of `{name}` in LaTeX: x, y and z."));
+    let plain_doc = doc(&format!("The first-order error of `{name}` as text: {labels}."));
+    let latex_doc = doc(&format!("The first-order error of `{name}` in LaTeX: {labels}."));
     Some(quote! {
         #plain_doc
-        pub const #plain_name: [&'static str; 3] = [#(#plain),*];
+        pub const #plain_name: [&'static str; #count] = [#(#plain),*];
         #latex_doc
-        pub const #latex_name: [&'static str; 3] = [#(#latex),*];
+        pub const #latex_name: [&'static str; #count] = [#(#latex),*];
     })
 }
 

@@ -67,7 +67,8 @@ fn departure_name(axis: Axis) -> Ident {
 pub fn helpers(context: &Context<'_>) -> TokenStream {
     let mut rotations = BTreeSet::new();
     let mut departures = BTreeSet::new();
-    for id in super::ids(context.chain) {
+    let vectors = super::ids(context.chain).filter(|&id| context.chain.observable(id).is_vector());
+    for id in vectors {
         for step in matrix_product(context.chain, id).steps {
             match step {
                 Step::Rotation { axis, .. } => rotations.insert(axis),

@@ -5,6 +5,7 @@ mod closed_form;
 mod exact;
 mod names;
 mod observable;
+mod readings;
 #[cfg(test)]
 mod tests;
 mod tokens;
@@ -109,6 +110,8 @@ pub fn module(chain: &Chain, names: &Names) -> Result<TokenStream, Vec<Mistake<S
     let structures = tokens(&structures, names);
     let rows = (context.has(SymbolKind::Joint) || context.has(SymbolKind::Input)).then(|| rows(&context));
     let ramps = (!chain.ramps.is_empty()).then(ramps);
+    let has_angles = chain.observables.iter().any(|observable| !observable.has_components_only());
+    let angles = has_angles.then(angles);
     let helpers = exact::helpers(&context);
     Ok(quote! {
         #documentation
@@ -141,9 +144,25 @@ pub fn module(chain: &Chain, names: &Names) -> Result<TokenStream, Vec<Mistake<S
             #structures
             #rows
             #ramps
+            #angles
             #helpers
         }
     })
+}
+
+/// What readings are made of.
+fn angles() -> TokenStream {
+    quote! {
+        /// The square root.
+        fn root(x: f64) -> f64 {
+            ComplexField::sqrt(x)
+        }
+
+        /// The angle of the point (x, y).
+        fn arc_tangent(y: f64, x: f64) -> f64 {
+            ::trueaxis::__private::RealField::atan2(y, x)
+        }
+    }
 }
 
 /// What ramps are made of.
@@ -173,19 +192,20 @@ fn rows(context: &Context<'_>) -> TokenStream {
     quote! {
         #lengths_differ
 
-        /// Fills x, y and z row by row.
-        fn fill(
-            out: [&mut [f64]; 3],
+        /// Fills a slice for each number, row by row.
+        fn fill<const N: usize>(
+            mut out: [&mut [f64]; N],
             have_length: impl Fn(usize) -> bool,
-            value: impl Fn(usize) -> [f64; 3],
+            value: impl Fn(usize) -> [f64; N],
         ) -> Result<(), LengthsDiffer> {
-            let [x, y, z] = out;
-            let rows = x.len();
-            if !(y.len() == rows && z.len() == rows && have_length(rows)) {
+            let rows = out[0].len();
+            if !(out.iter().all(|slice| slice.len() == rows) && have_length(rows)) {
                 return Err(LengthsDiffer);
             }
             for row in 0..rows {
-                [x[row], y[row], z[row]] = value(row);
+                for (slice, number) in out.iter_mut().zip(value(row)) {
+                    slice[row] = number;
+                }
             }
             Ok(())
         }

@@ -1,36 +1,63 @@
 //! The methods of one observable.
 
 use codegen::Form;
+use model_core::readings::{Measures, Reading};
 use model_core::{ObservableId, ObservableKind, SymbolId, SymbolKind};
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::arguments::Arguments;
 use super::tokens::{ident, tokens};
-use super::{Context, closed_form, count, doc, exact, stages};
+use super::{Context, closed_form, count, doc, exact, readings, stages};
 
 /// Everything of one observable.
 pub fn items(context: &Context<'_>, id: ObservableId) -> TokenStream {
     let closed_form = closed_form::constants(context.chain, id);
     let arguments = Arguments::of(context, id);
-    let exact = exact_methods(context, id, &arguments);
+    let exact = if context.chain.observable(id).is_vector() {
+        exact_methods(context, id, &arguments)
+    } else {
+        readings::exact_methods(context, id, &arguments)
+    };
     let first_order = first_order_methods(context, id, &arguments);
-    let jacobian = context.has(SymbolKind::Error).then(|| jacobian_methods(context, id, &arguments));
+    let has_derivatives =
+        context.chain.observable(id).shown.iter().all(|one| one.measures != Measures::OffAxis);
+    let jacobian = (has_derivatives && context.has(SymbolKind::Error))
+        .then(|| jacobian_methods(context, id, &arguments));
     quote! { #closed_form #exact #first_order #jacobian }
 }
 
 /// What a person reads of an observable: its documentation, and its unit.
-fn meaning(context: &Context<'_>, id: ObservableId) -> (String, &'static str) {
+pub fn meaning(context: &Context<'_>, id: ObservableId) -> (String, String) {
     let observable = context.chain.observable(id);
     let first = match observable.documentation.as_str() {
         "" => format!("The observable `{}`.", observable.name),
         documentation => documentation.to_owned(),
     };
-    let unit = match observable.kind {
-        ObservableKind::Direction => "a direction, without unit",
-        ObservableKind::Point => "a point, in metres",
+    let frame = match observable.frame {
+        None => "in the ground frame".to_owned(),
+        Some(frame) => format!("in the frame of {}", context.chain.body(frame).name),
     };
-    (first, unit)
+    let shown = match observable.kind {
+        _ if !observable.is_vector() => {
+            let unit = |reading: &Reading| match reading.unit(observable.kind) {
+                "rad" => "in radians",
+                "m" => "in metres",
+                _ => "without unit",
+            };
+            let shown = observable.shown.iter().map(|one| format!("{}, {}", one.describe(), unit(one)));
+            shown.collect::<Vec<_>>().join("; ")
+        }
+        ObservableKind::Direction => "a direction, without unit".to_owned(),
+        ObservableKind::Point => "a point, in metres".to_owned(),
+    };
+    (first, format!("{frame}: {shown}"))
+}
+
+/// The text with a capital letter in front.
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 fn exact_methods(context: &Context<'_>, id: ObservableId, arguments: &Arguments) -> TokenStream {
@@ -39,13 +66,16 @@ fn exact_methods(context: &Context<'_>, id: ObservableId, arguments: &Arguments)
     let method = ident(name, context.names);
     let (parts, error) = (format_ident!("{name}_parts"), format_ident!("{name}_error"));
     let (documentation, unit) = meaning(context, id);
-    let value_doc = doc(&format!("{documentation}\n\nWith its errors, in the ground frame: {unit}."));
+    let value_doc = doc(&format!("{documentation}\n\nWith its errors, {unit}."));
+    let in_frame = capitalised(unit.split(':').next().unwrap_or_default());
     let error_doc = doc(&format!(
-        "What the errors add to [`{name}`](Self::{name}), exactly.\n\nIn the ground frame, with full relative precision however small the errors are."
+        "What the errors add to [`{name}`](Self::{name}), exactly.\n\n{in_frame}, with full relative precision however small the errors are."
     ));
     let parts_doc = doc(&format!("[`{name}`](Self::{name}) without errors, and what they add."));
     let body = exact::body(context, id);
     let rows = rows(
+        context,
+        id,
         &format_ident!("{name}_error_rows"),
         &format!("[`{name}_error`](Self::{name}_error) of many poses."),
         arguments,
@@ -91,7 +121,10 @@ fn first_order_methods(context: &Context<'_>, id: ObservableId, arguments: &Argu
     let kept = count(code.kept());
     let (prepared, evaluated) = (code.prepared(), code.evaluated());
     let outputs = code.outputs.iter().map(|text| tokens(text, context.names));
+    let (shown, vector) = (shown(context, id), vector(context, id));
     let rows = rows(
+        context,
+        id,
         &format_ident!("{name}_first_order_rows"),
         &format!("[`{name}_first_order`](Self::{name}_first_order) of many poses."),
         arguments,
@@ -101,7 +134,7 @@ fn first_order_methods(context: &Context<'_>, id: ObservableId, arguments: &Argu
     quote! {
         #documentation
         #[must_use]
-        pub fn #method(&self, #one) -> Vector3<f64> {
+        pub fn #method(&self, #one) -> #vector {
             Self::#at(&self.#prepare(), #passed).into()
         }
 
@@ -111,7 +144,7 @@ fn first_order_methods(context: &Context<'_>, id: ObservableId, arguments: &Argu
         }
 
         #at_doc
-        fn #at(p: &[f64; #kept], #one) -> [f64; 3] {
+        fn #at(p: &[f64; #kept], #one) -> [f64; #shown] {
             #evaluated
             [#(#outputs),*]
         }
@@ -120,8 +153,26 @@ fn first_order_methods(context: &Context<'_>, id: ObservableId, arguments: &Argu
     }
 }
 
-/// A method that fills three slices, if poses can differ.
-fn rows(
+/// How many numbers an observable shows.
+pub fn shown(context: &Context<'_>, id: ObservableId) -> Literal {
+    count(context.chain.observable(id).shown.len())
+}
+
+/// The type of what an observable shows.
+pub fn vector(context: &Context<'_>, id: ObservableId) -> TokenStream {
+    match context.chain.observable(id).shown.len() {
+        3 => quote! { Vector3<f64> },
+        n => {
+            let n = count(n);
+            quote! { SMatrix<f64, #n, 1> }
+        }
+    }
+}
+
+/// A method that fills a slice for each number that is shown, if poses can differ.
+pub fn rows(
+    context: &Context<'_>,
+    id: ObservableId,
     method: &Ident,
     documentation: &str,
     arguments: &Arguments,
@@ -131,17 +182,20 @@ fn rows(
     if arguments.is_empty {
         return None;
     }
-    let documentation = doc(documentation);
+    let shown = shown(context, id);
+    let mut labels: Vec<&str> = context.chain.observable(id).labels().collect();
+    let last = labels.pop().unwrap_or_default();
+    let labels =
+        if labels.is_empty() { last.to_owned() } else { format!("{} and {last}", labels.join(", ")) };
+    let documentation = doc(&format!("{documentation}\n\n`out` receives {labels}."));
     let Arguments { many, have_length, .. } = arguments;
     Some(quote! {
         #documentation
         ///
-        /// `out` receives x, y and z.
-        ///
         /// # Errors
         ///
         /// If the slices have different lengths.
-        pub fn #method(&self, #many out: [&mut [f64]; 3]) -> Result<(), LengthsDiffer> {
+        pub fn #method(&self, #many out: [&mut [f64]; #shown]) -> Result<(), LengthsDiffer> {
             #before
             fill(out, |rows| #have_length, |row| #value)
         }
@@ -161,8 +215,10 @@ fn jacobian_methods(context: &Context<'_>, id: ObservableId, arguments: &Argumen
     let code = stages(context, &codegen::build(context.chain, &[id], Form::FirstOrderJacobian, &errors));
     let statements = code.both_stages();
     let outputs: Vec<TokenStream> = code.outputs.iter().map(|text| tokens(text, context.names)).collect();
+    let height = context.chain.observable(id).shown.len();
+    let shown = shown(context, id);
     let columns = (0..errors.len()).map(|column| {
-        let rows = (0..3).map(|row| &outputs[row * errors.len() + column]);
+        let rows = (0..height).map(|row| &outputs[row * errors.len() + column]);
         quote! { [#(#rows),*] }
     });
     let rows = (!arguments.is_empty).then(|| {
@@ -172,7 +228,7 @@ fn jacobian_methods(context: &Context<'_>, id: ObservableId, arguments: &Argumen
             /// # Errors
             ///
             /// If the slices have different lengths.
-            pub fn #rows(&self, #many out: &mut [SMatrix<f64, 3, #count>]) -> Result<(), LengthsDiffer> {
+            pub fn #rows(&self, #many out: &mut [SMatrix<f64, #shown, #count>]) -> Result<(), LengthsDiffer> {
                 let rows = out.len();
                 if !(#have_length) {
                     return Err(LengthsDiffer);
@@ -187,7 +243,7 @@ fn jacobian_methods(context: &Context<'_>, id: ObservableId, arguments: &Argumen
     quote! {
         #documentation
         #[must_use]
-        pub fn #method(&self, #one) -> SMatrix<f64, 3, #count> {
+        pub fn #method(&self, #one) -> SMatrix<f64, #shown, #count> {
             #statements
             SMatrix::from([#(#columns),*])
         }

@@ -67,6 +67,9 @@ impl Mount {
 
 /// What is observed, in the ground frame.
 fn observed(setting: &Setting<'_>, observable: ObservableId) -> Option<[Poly; 3]> {
+    if setting.chain.observable(observable).frame.is_some() {
+        return None;
+    }
     let &body = setting.chain.path(setting.chain.observable(observable).body).first()?;
     let place = Place { body, role: Role::PositionError, freedom: Freedom::ALL[0] };
     let seen = seen::observed(setting, observable, place)?;

@@ -4,11 +4,11 @@ use model_core::algebra::AngleSum;
 use model_core::checker::{
     Claim, ClosedForm, Combination, Equality, Faces, Order, PrintedVector, Radicand, TextPlace, Total, lower,
 };
-use model_core::{Axis, Mistake, SymbolKind, syntax};
+use model_core::{Axis, Mistake, Observable, SymbolKind, names, syntax};
 use toml::{Spanned, Value};
 
 use super::super::table::{ClaimTable, Texts};
-use super::{Place, Reader, each, place_in_string};
+use super::{Place, Reader, each, listed, place_in_string};
 
 impl Reader<'_> {
     pub(super) fn closed_form(&mut self, claim: &ClaimTable) -> Option<Claim> {
@@ -17,18 +17,20 @@ impl Reader<'_> {
         let order = self.order(claim);
         let kept = self.kept(claim);
         let faces = self.faces(claim)?;
-        let only = self.component(claim)?;
+        let shown = self.chain.observable(observable);
+        let only = self.component(claim, shown)?;
         let texts = each(components);
         let plain: Vec<&str> = texts.iter().map(|(text, _)| *text).collect();
         let is_exact = order == Some(Order::Exact);
         let read = match (only, plain.as_slice()) {
-            (Some(axis), [text]) => PrintedVector::read_one(self.chain, &self.symbols, text, axis, is_exact),
+            (Some(axis), [text]) => {
+                PrintedVector::read_one(self.chain, &self.symbols, text, shown, axis, is_exact)
+            }
             (Some(_), _) => {
                 self.mistake(components.span(), "one component is claimed, and several formulas are given");
                 return None;
             }
-            (None, texts) if is_exact => PrintedVector::read_exact(self.chain, &self.symbols, texts),
-            (None, texts) => PrintedVector::read(self.chain, &self.symbols, texts),
+            (None, texts) => PrintedVector::read_shown(self.chain, &self.symbols, shown, texts, is_exact),
         };
         match read {
             Ok(printed) => Some(Claim::ClosedForm(Box::new(ClosedForm {
@@ -112,17 +114,23 @@ impl Reader<'_> {
     }
 
     /// The one component that is claimed, if it is one; `None` for a mistake.
-    fn component(&mut self, claim: &ClaimTable) -> Option<Option<Axis>> {
+    fn component(&mut self, claim: &ClaimTable, shown: &Observable) -> Option<Option<Axis>> {
         let Some(component) = &claim.component else { return Some(None) };
-        match component.get_ref().as_str() {
-            "x" => Some(Some(Axis::X)),
-            "y" => Some(Some(Axis::Y)),
-            "z" => Some(Some(Axis::Z)),
-            other => {
-                self.mistake(component.span(), format!("component `{other}` is none of x, y and z"));
-                None
-            }
+        let wanted = component.get_ref().as_str();
+        let found =
+            [Axis::X, Axis::Y, Axis::Z].into_iter().zip(shown.labels()).find(|(_, label)| *label == wanted);
+        if let Some((place, _)) = found {
+            return Some(Some(place));
         }
+        let labels = listed(shown.labels());
+        let message = if shown.is_vector() {
+            format!("component `{wanted}` is none of x, y and z")
+        } else {
+            format!("`{}` shows no `{wanted}`, it shows {labels}", shown.name)
+        };
+        self.mistake(component.span(), message).help =
+            names::nearest(wanted, shown.labels()).map(|near| format!("did you mean `{near}`?"));
+        None
     }
 
     /// The second face, if there is one; `None` for a mistake.

@@ -49,7 +49,12 @@ impl Notation for C<'_> {
         match function {
             Function::Saturate => format!("trueaxis_saturate({a})"),
             Function::Step => format!("trueaxis_step({a})"),
+            Function::Root => format!("trueaxis_root({a})"),
         }
+    }
+
+    fn arc_tangent(&self, y: &str, x: &str) -> String {
+        format!("trueaxis_arc_tangent({y}, {x})")
     }
 
     fn mul_add(&self) -> Option<&'static str> {

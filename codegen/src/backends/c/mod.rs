@@ -106,29 +106,38 @@ impl File<'_> {
     /// What functions put out.
     fn results(&self) -> String {
         let mut text = String::new();
+        let count = if self.shared.shown_by_each() == Some(3) { "Three" } else { "The" };
         for (is_jacobian, name, about) in [
-            (false, "observed", "Three components for each observable."),
+            (false, "observed", format!("{count} components for each observable.")),
             (
                 true,
                 "jacobian",
-                "Three rows for each observable, a column for each error, in the order of the errors.",
+                format!(
+                    "{count} rows for each observable, a column for each error, in the order of the errors."
+                ),
             ),
         ] {
             if !self.shared.functions.iter().any(|function| function.form.is_jacobian() == is_jacobian) {
                 continue;
             }
-            let shape =
-                if is_jacobian { format!("[3][{}]", self.shared.columns.len()) } else { "[3]".to_owned() };
+            let shape = |id| {
+                let shown = self.shared.shown(id);
+                if is_jacobian {
+                    format!("[{shown}][{}]", self.shared.columns.len())
+                } else {
+                    format!("[{shown}]")
+                }
+            };
             let fields = |of: &str| -> Vec<(String, String)> {
                 let observables = self.shared.unit.observables.iter();
                 let field = |&id| {
                     let about = self.shared.describe_observable(id);
-                    (format!("{of}{}{shape}", self.names.observable(id)), about)
+                    (format!("{of}{}{}", self.names.observable(id), shape(id)), about)
                 };
                 observables.map(field).collect()
             };
             let of = format!("{} ", real(self.shared.unit.precision));
-            text.push_str(&self.structure(name, about, &fields(&of)));
+            text.push_str(&self.structure(name, &about, &fields(&of)));
             if self.shared.has_rows() {
                 let about = format!("{about} An array of poses each.");
                 text.push_str(&self.structure(&format!("{name}_rows"), &about, &fields("double *")));
@@ -244,7 +253,7 @@ typedef struct {{
     fn places(&self, form: Form) -> Vec<String> {
         let mut places = Vec::new();
         for &id in self.shared.unit.observables {
-            for component in 0..3 {
+            for component in 0..self.shared.shown(id) {
                 let component = format!("{}[{component}]", self.names.observable(id));
                 if form.is_jacobian() {
                     places.extend(

@@ -2,6 +2,8 @@
 
 use super::code::C;
 use super::{File, result};
+use model_core::ObservableId;
+
 use crate::backends::notation::Scope;
 use crate::backends::unit::{Function, Group, Precision, form_name};
 use crate::lower::{Block, Fixed, block};
@@ -46,9 +48,11 @@ pub(super) fn declarations(file: &File<'_>, function: &Function) -> String {
     if function.form.is_jacobian() {
         let distinct = lowered(function).distinct;
         let columns = file.shared.columns.len();
-        let observables = file.shared.unit.observables.iter().map(|&id| file.names.observable(id));
-        let fields: String =
-            observables.map(|name| format!("    unsigned short {name}[3][{columns}];\n")).collect();
+        let observables = file.shared.unit.observables.iter();
+        let observables = observables.map(|&id| (file.names.observable(id), file.shared.shown(id)));
+        let fields: String = observables
+            .map(|(name, shown)| format!("    unsigned short {name}[{shown}][{columns}];\n"))
+            .collect();
         let signature = block_signature(file, function);
         text.push_str(&format!(
             "
@@ -313,13 +317,17 @@ fn of_jacobian(file: &File<'_>, function: &Function, lowered: &Block) -> String 
     let columns: String = (0..read.len()).map(|index| format!(", columns[{index}]")).collect();
     let whole = whole(file, &read);
     let columns_out = file.shared.columns.len();
-    let observables = || file.shared.unit.observables.iter().map(|&id| file.names.observable(id));
     let rows: Vec<String> = lowered
         .places
         .chunks(columns_out.max(1))
         .map(|row| format!("{{{}}}", row.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")))
         .collect();
-    let fields: String = rows.chunks(3).map(|rows| format!("    {{{}}},\n", rows.join(", "))).collect();
+    let fields: String = file
+        .shared
+        .by_observable(&rows)
+        .into_iter()
+        .map(|(_, rows)| format!("    {{{}}},\n", rows.join(", ")))
+        .collect();
     let parts = file.of_pose(&|group| {
         let (singular, argument) = (group.singular(), group.argument);
         let start = |&id| {
@@ -330,12 +338,30 @@ fn of_jacobian(file: &File<'_>, function: &Function, lowered: &Block) -> String 
         format!("        {prefix}_{singular}_rows part_of_{argument} = *{argument};\n{fields}")
     });
     let parts_passed = file.of_pose(&|group| format!("&part_of_{}, ", group.argument));
-    let copies: String = observables()
-        .map(|observable| {
-            format!(
-                "                for (row = 0; row < count; row++)
+    let copy = |&id: &ObservableId| {
+        let observable = file.names.observable(id);
+        format!(
+            "                for (row = 0; row < count; row++)
                     out->{observable}[component][column][start + row] =
                         block.values[{prefix}_{name}_place.{observable}[component][column]][row];
+"
+        )
+    };
+    // Observables that show as many numbers are copied together.
+    let mut counts: Vec<usize> =
+        file.shared.unit.observables.iter().map(|&id| file.shared.shown(id)).collect();
+    counts.sort_unstable();
+    counts.dedup();
+    let copies: String = counts
+        .into_iter()
+        .map(|count| {
+            let alike = file.shared.unit.observables.iter().filter(|&&id| file.shared.shown(id) == count);
+            let copies: String = alike.map(copy).collect();
+            format!(
+                "        for (component = 0; component < {count}; component++) {{
+            for (column = 0; column < {columns_out}; column++) {{
+{copies}            }}
+        }}
 "
             )
         })
@@ -363,11 +389,7 @@ TRUEAXIS_INLINE void {prefix}_{name}_on(const int fused, {parameters})
         const size_t count = rows - start < TRUEAXIS_ROWS ? rows - start : TRUEAXIS_ROWS;
         TRUEAXIS_ALIGNED {prefix}_{name}_block block;
 {parts}        {prefix}_{name}_rows_of_block(prepared, count, {parts_passed}&block);
-        for (component = 0; component < 3; component++) {{
-            for (column = 0; column < {columns_out}; column++) {{
-{copies}            }}
-        }}
-    }}
+{copies}    }}
 }}
 "
     )

@@ -64,7 +64,12 @@ impl Notation for Rust<'_> {
         match function {
             Function::Saturate => format!("{}saturate({a})", self.kernel),
             Function::Step => format!("{}step({a})", self.kernel),
+            Function::Root => format!("{}root({a})", self.kernel),
         }
+    }
+
+    fn arc_tangent(&self, y: &str, x: &str) -> String {
+        format!("{}arc_tangent({y}, {x})", self.kernel)
     }
 
     fn mul_add(&self) -> Option<&'static str> {

@@ -54,13 +54,20 @@ impl File<'_> {
         if self.shared.has_rows() {
             text.extend(self.shared.pose.iter().map(|group| types::rows(chain, self.names, group)));
         }
+        // Observables that show different counts of numbers have types of their own.
+        let observables = self.shared.unit.observables;
+        let kinds: Vec<String> = match self.shared.shown_by_each() {
+            Some(_) => vec!["T".to_owned()],
+            None => (0..observables.len()).map(|index| format!("T{index}")).collect(),
+        };
         text.push_str(&format!(
-            "\n/// One thing for each observable.\n#[derive(Debug, Clone, Copy, PartialEq, Default)]\n{ALLOW}\npub struct Observed<T> {{\n"
+            "\n/// One thing for each observable.\n#[derive(Debug, Clone, Copy, PartialEq, Default)]\n{ALLOW}\npub struct Observed<{}> {{\n",
+            kinds.join(", ")
         ));
-        for &id in self.shared.unit.observables {
+        for (&id, kind) in observables.iter().zip(kinds.iter().cycle()) {
             text.push_str("    ");
             text.push_str(&comments::rust_doc(&self.shared.describe_observable(id)));
-            text.push_str(&format!("    pub {}: T,\n", self.names.observable(id)));
+            text.push_str(&format!("    pub {}: {kind},\n", self.names.observable(id)));
         }
         text.push_str("}\n");
         text
@@ -180,10 +187,19 @@ impl {kind} {{
 
     /// The type of one observable's part of a form, of numbers or of something else.
     fn shape(&self, form: Form, of: &str) -> String {
-        if form.is_jacobian() {
-            format!("[[{of}; {}]; 3]", self.shared.columns.len())
-        } else {
-            format!("[{of}; 3]")
+        let shape = |shown: usize| {
+            if form.is_jacobian() {
+                format!("[[{of}; {}]; {shown}]", self.shared.columns.len())
+            } else {
+                format!("[{of}; {shown}]")
+            }
+        };
+        match self.shared.shown_by_each() {
+            Some(shown) => shape(shown),
+            None => {
+                let observables = self.shared.unit.observables.iter();
+                observables.map(|&id| shape(self.shared.shown(id))).collect::<Vec<_>>().join(", ")
+            }
         }
     }
 
@@ -195,7 +211,7 @@ impl {kind} {{
             .map(|row| if form.is_jacobian() { format!("[{}]", row.join(", ")) } else { row.concat() })
             .collect();
         let mut text = String::from("Observed {\n");
-        for (&id, rows) in self.shared.unit.observables.iter().zip(rows.chunks(3)) {
+        for (id, rows) in self.shared.by_observable(&rows) {
             text.push_str(&format!("            {}: [\n", self.names.observable(id)));
             text.extend(rows.iter().map(|row| format!("                {row},\n")));
             text.push_str("            ],\n");

@@ -49,7 +49,8 @@ impl<'a> Pieces<'a> {
     }
 
     /// The code of one pose, where `errors`, `constants`, `joints` and `inputs` hold their symbols and `p` is what was
-    /// kept; `sin_cos` is the function that gives sine and cosine, and `saturate` and `step` are those of ramps.
+    /// kept; `sin_cos` is the function that gives sine and cosine, `saturate` and `step` are those of ramps, `root` and
+    /// `arc_tangent` those of readings.
     #[must_use]
     pub fn stages(&self, program: &Program, sin_cos: &str) -> Stages {
         let (scope, constants) = (Scope::Pose, Constants::Fields);

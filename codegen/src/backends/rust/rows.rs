@@ -89,10 +89,10 @@ fn columns(file: &File<'_>, lowered: &Block) -> Vec<String> {
 
 /// `mark: [out0, out1, out2], rim: […]`
 fn pattern(file: &File<'_>, name: &str) -> String {
-    let fields = file.shared.unit.observables.iter().enumerate().map(|(index, &id)| {
-        let places: Vec<String> = (3 * index..3 * index + 3).map(|place| format!("{name}{place}")).collect();
-        format!("{}: [{}]", file.names.observable(id), places.join(", "))
-    });
+    let count = file.shared.unit.observables.iter().map(|&id| file.shared.shown(id)).sum::<usize>();
+    let places: Vec<String> = (0..count).map(|place| format!("{name}{place}")).collect();
+    let fields = file.shared.by_observable(&places).into_iter();
+    let fields = fields.map(|(id, places)| format!("{}: [{}]", file.names.observable(id), places.join(", ")));
     fields.collect::<Vec<_>>().join(", ")
 }
 
@@ -308,11 +308,9 @@ fn jacobian_block(file: &File<'_>, function: &Function, lowered: &Block) -> Stri
         .collect();
     let fields: String = file
         .shared
-        .unit
-        .observables
-        .iter()
-        .zip(rows.chunks(3))
-        .map(|(&id, rows)| {
+        .by_observable(&rows)
+        .into_iter()
+        .map(|(id, rows)| {
             format!("            {}: [\n{}            ],\n", file.names.observable(id), rows.concat())
         })
         .collect();

@@ -7,6 +7,7 @@ mod names;
 mod observables;
 mod quantities;
 mod ramps;
+mod readings;
 
 use proc_macro2::Span;
 
@@ -37,6 +38,8 @@ pub const RULES: &[(&str, Rule)] = &[
     ("a symbol measures one thing", quantities::one_quantity_each),
     ("an observable is a direction or a point", observables::kind_is_known),
     ("an observable belongs to a body that exists", observables::body_exists),
+    ("an observable shows readings that fit it, each once", readings::readings_are_known),
+    ("an observable is seen in the frame of another body", readings::frame_exists),
     ("an observable is made of constants and inputs", observables::components_are_known),
     ("a direction has a length", observables::direction_is_not_zero),
     ("gravity is declared once, as a direction", observables::gravity_is_a_direction),

@@ -26,8 +26,10 @@ pub fn body_exists(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
     for observe in subject.declaration.observables() {
         if observe.body == GROUND {
             mistakes.push(
-                Mistake::new(observe.body.span(), "an observable of the ground never moves")
-                    .with_help("write the name of a body"),
+                Mistake::new(observe.body.span(), "an observable of the ground never moves").with_help(
+                    "write the name of a body; what stands still and is seen from a body is of a body without factors: \
+                     `body sky on ground { }`",
+                ),
             );
         } else if !subject.declaration.bodies().any(|body| body.name == observe.body) {
             mistakes.push(unknown_body(subject, &observe.body.to_string(), observe.body.span()));

@@ -1,10 +1,8 @@
 //! A quotient of two canonical forms: what a printed formula may be that divides by sums or measured distances. Two are
 //! equal if and only if they are after multiplying out, for products of functions that are not zero are not zero.
 
-use super::algebraic;
-use crate::algebra::{AlgebraError, Poly};
-use crate::chain::Chain;
-use crate::print::{self, Hand};
+use super::{AlgebraError, Poly};
+use crate::symbol::SymbolId;
 
 /// `above / below`; below is never zero.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,7 +33,7 @@ impl Fraction {
     }
 
     /// A quotient with the division carried out where it can be; `None` for a division by zero.
-    pub(super) fn new(above: Poly, below: Poly) -> Option<Self> {
+    pub(crate) fn new(above: Poly, below: Poly) -> Option<Self> {
         if below.is_zero() {
             return None;
         }
@@ -53,7 +51,7 @@ impl Fraction {
         }
     }
 
-    pub(super) fn sum(&self, other: &Self) -> Result<Self, AlgebraError> {
+    pub(crate) fn sum(&self, other: &Self) -> Result<Self, AlgebraError> {
         if self.below == other.below {
             let above = &self.above + &other.above;
             return Ok(Self::new(above, self.below.clone()).unwrap_or_else(|| Self::whole(Poly::zero())));
@@ -63,7 +61,7 @@ impl Fraction {
         Ok(Self::new(above, below).unwrap_or_else(|| Self::whole(Poly::zero())))
     }
 
-    pub(super) fn product(&self, other: &Self) -> Result<Self, AlgebraError> {
+    pub(crate) fn product(&self, other: &Self) -> Result<Self, AlgebraError> {
         if self.below == other.above && !self.is_whole() {
             return Ok(Self { above: self.above.clone(), below: other.below.clone() });
         }
@@ -73,7 +71,7 @@ impl Fraction {
     }
 
     /// One over this; `None` if it is zero.
-    pub(super) fn inverse(&self) -> Option<Self> {
+    pub(crate) fn inverse(&self) -> Option<Self> {
         Self::new(self.below.clone(), self.above.clone())
     }
 
@@ -83,37 +81,37 @@ impl Fraction {
         Self { above: -&self.above, below: self.below.clone() }
     }
 
-    /// The same function with the roots of numbers multiplied out.
-    pub(super) fn reduced(self, chain: &Chain) -> Self {
-        let [above, below] = [&self.above, &self.below].map(|poly| algebraic::reduced(poly, chain));
-        Self::new(above, below).unwrap_or(self)
+    /// The product, however large it is: for what was derived, not typed.
+    #[must_use]
+    pub(crate) fn product_of_any_size(&self, other: &Self) -> Self {
+        let (above, below) = (&self.above * &other.above, &self.below * &other.below);
+        Self::new(above, below).unwrap_or_else(|| unreachable!("nothing stands over zero"))
     }
 
-    /// The formula in a style.
+    /// The value; see [`Poly::eval`].
     #[must_use]
-    pub fn show(&self, chain: &Chain, style: print::Style) -> String {
-        self.show_by(chain, style, &Hand::default())
-    }
-
-    /// The formula in a style and in the way of a paper.
-    #[must_use]
-    pub fn show_by(&self, chain: &Chain, style: print::Style, hand: &Hand) -> String {
-        let part = |poly| print::by_hand(poly, chain, style, hand);
+    pub fn eval(&self, values: &[f64]) -> f64 {
         if self.is_whole() {
-            return part(&self.above);
+            self.above.eval(values)
+        } else {
+            self.above.eval(values) / self.below.eval(values)
         }
-        match style {
-            print::Style::Text => format!("({})/({})", part(&self.above), part(&self.below)),
-            print::Style::Latex => format!("\\frac{{{}}}{{{}}}", part(&self.above), part(&self.below)),
-            print::Style::Markdown => format!("${}$", self.show_by(chain, print::Style::Latex, hand)),
-        }
+    }
+
+    /// The symbols that occur, in order.
+    #[must_use]
+    pub fn symbols(&self) -> Vec<SymbolId> {
+        let mut symbols = [self.above.symbols(), self.below.symbols()].concat();
+        symbols.sort_unstable();
+        symbols.dedup();
+        symbols
     }
 }
 
 /// The powers of symbols that every term above and below has.
-fn common_powers(above: &Poly, below: &Poly) -> Vec<(crate::SymbolId, u32)> {
+fn common_powers(above: &Poly, below: &Poly) -> Vec<(SymbolId, u32)> {
     let above = above.monomial_content();
-    let shared = |(symbol, power): (crate::SymbolId, u32)| {
+    let shared = |(symbol, power): (SymbolId, u32)| {
         above.iter().find(|(other, _)| *other == symbol).map(|&(_, n)| (symbol, n.min(power)))
     };
     below.monomial_content().into_iter().filter_map(shared).collect()

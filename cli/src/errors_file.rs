@@ -6,7 +6,7 @@ use std::path::Path;
 
 use calibration::data::units::{Amount, Plausible};
 use model_core::mistake::Mistake;
-use model_core::{Chain, Quantity, SymbolId, SymbolKind, names};
+use model_core::{Chain, SymbolId, SymbolKind, names};
 use toml::Spanned;
 
 use crate::failure::Failure;
@@ -114,13 +114,13 @@ fn warn_of_missing_units(chain: &Chain, entries: &Entries, settings: &Settings) 
     let plausible = Plausible::errors(chain);
     for (&id, (value, place)) in settings {
         let symbol = chain.symbol(id);
-        let bare = entries.values().any(|amount| amount.span() == *place && amount.get_ref().unit.is_none());
-        if bare && symbol.kind == SymbolKind::Error && plausible.refuses(symbol.quantity, *value) {
-            let (name, si) = (&symbol.name, symbol.quantity.unit());
-            let likely = if symbol.quantity == Quantity::Angle { "arcsec" } else { "mm" };
-            terminal::warn(format_args!(
-                "{name} = {value} has no unit and is taken as {value} {si}; did you mean {name} = \"{value} {likely}\"?"
-            ));
+        let Some(amount) = entries.values().find(|amount| amount.span() == *place) else { continue };
+        if symbol.kind == SymbolKind::Error {
+            let name = &symbol.name;
+            let meant = |unit: &str| format!("{name} = \"{value} {unit}\"");
+            let written = format!("{name} = {value}");
+            let doubt = plausible.doubt(symbol.quantity, &[*amount.get_ref()], &written, meant);
+            doubt.iter().for_each(terminal::warn);
         }
     }
 }

@@ -17,9 +17,11 @@ mod poses;
 mod ranges;
 mod report;
 mod sha256;
+mod sizes;
 mod source;
 mod tables;
 mod terminal;
+mod wrap;
 
 use std::process::ExitCode;
 

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use calibration::data::units::{Amount, Plausible, si_and_likely};
+use calibration::data::units::{Amount, Plausible};
 use model_core::algebra::Rational;
 use model_core::budget::{JointRange, Path, PathError};
 use model_core::expr::{Expr, Node};
@@ -50,12 +50,9 @@ fn amount_in_t(
     let quantity = chain.find_symbol(name).map_or(Quantity::Number, |id| chain.symbol(id).quantity);
     if let (Some(symbol), Ok(written)) = (chain.find_symbol(name), Amount::parse(amount)) {
         let plausible = Plausible::readings(chain, symbol);
-        if written.unit.is_none() && plausible.refuses(quantity, written.number) {
-            let (si, likely) = si_and_likely(quantity);
-            terminal::warn(format_args!(
-                "{name}={amount} has no unit and is taken as {si}; did you mean {name}={amount} {likely}?"
-            ));
-        }
+        let meant = |unit: &str| format!("{name}={amount} {unit}");
+        let doubt = plausible.doubt(quantity, &[written], &format!("{name}={amount}"), meant);
+        doubt.iter().for_each(terminal::warn);
         let value =
             written.to_si(quantity).map_err(|error| Mistake::new(place.clone(), error.to_string()))?;
         let size = Rational::parse_decimal(&format!("{:e}", value.abs()));

@@ -1,6 +1,6 @@
 //! Ranges of joints and inputs on the command line: `--range "elevation=10 deg..80 deg"`.
 
-use calibration::data::units::{Amount, Plausible, si_and_likely};
+use calibration::data::units::{Amount, Plausible};
 use model_core::{Chain, SymbolId, SymbolKind, names};
 
 use crate::failure::Failure;
@@ -80,13 +80,9 @@ pub fn read(chain: &Chain, argument: &RangeArgument) -> Result<Range, String> {
     // `-30..30 deg`: the unit of the upper bound holds for both.
     lower.unit = lower.unit.or(upper.unit);
     let plausible = Plausible::readings(chain, symbol);
-    let bare = [lower, upper].into_iter().filter(|bound| bound.unit.is_none());
-    if bare.clone().any(|bound| plausible.refuses(quantity, bound.number)) {
-        let (si, likely) = si_and_likely(quantity);
-        terminal::warn(format_args!(
-            "--range {name}={low}..{high} has no unit and is taken as {si}; did you mean \"{name}={low}..{high} {likely}\"?"
-        ));
-    }
+    let written = format!("--range {name}={low}..{high}");
+    let meant = |unit: &str| format!("\"{name}={low}..{high} {unit}\"");
+    plausible.doubt(quantity, &[lower, upper], &written, meant).iter().for_each(terminal::warn);
     let high = upper.to_si(quantity).map_err(|why| wrong(high, why))?;
     let low = lower.to_si(quantity).map_err(|why| wrong(low, why))?;
     if low > high {

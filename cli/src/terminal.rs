@@ -3,7 +3,7 @@
 
 use std::cell::RefCell;
 use std::fmt::Display;
-use std::io::Write as _;
+use std::io::{IsTerminal as _, Write as _};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
@@ -11,6 +11,7 @@ use anstyle::{AnsiColor, Style};
 use indicatif::ProgressBar;
 
 use crate::failure::Failure;
+use crate::wrap;
 
 /// Style of the word `error`.
 pub const BAD: Style = AnsiColor::Red.on_default().bold();
@@ -21,15 +22,36 @@ pub const GOOD: Style = AnsiColor::Green.on_default().bold();
 /// Style of headings.
 pub const HEADING: Style = Style::new().bold();
 
-/// Letters that a line of text has: as many as the variable `COLUMNS` says, within reason.
+/// Letters that a line of text has: as many as the variable `COLUMNS` says, or the terminal has, within reason.
 #[must_use]
 pub fn width() -> usize {
-    let columns = std::env::var("COLUMNS").ok().and_then(|columns| columns.parse::<usize>().ok());
-    columns.unwrap_or(WIDTH).clamp(40, WIDTH)
+    let said = std::env::var("COLUMNS").ok().and_then(|columns| columns.parse::<usize>().ok());
+    let seen = || terminal_size::terminal_size().map(|(width, _)| usize::from(width.0));
+    said.or_else(seen).unwrap_or(WITHOUT_TERMINAL).clamp(NARROWEST, WIDEST)
 }
 
+/// Letters of a line where nobody says.
+const WITHOUT_TERMINAL: usize = 80;
+/// Letters of a line that a table still fits in.
+const NARROWEST: usize = 40;
 /// Letters of a line that reads well.
-const WIDTH: usize = 100;
+const WIDEST: usize = 100;
+
+/// Writes a text for reading to standard output, its long lines broken at the width of the terminal.
+///
+/// # Errors
+/// As [`print`].
+pub fn print_text(text: &str) -> Result<(), Failure> {
+    print(&wrap::text(text, width()))
+}
+
+/// Writes formulas to standard output: their lines are broken only where a person looks.
+///
+/// # Errors
+/// As [`print`].
+pub fn print_formulas(text: &str) -> Result<(), Failure> {
+    if std::io::stdout().is_terminal() { print_text(text) } else { print(text) }
+}
 
 /// Writes a result to standard output.
 ///
@@ -82,8 +104,11 @@ pub fn note(message: impl Display) {
 }
 
 fn say(message: impl Display) {
+    let message = message.to_string();
+    let message =
+        if std::io::stderr().is_terminal() { wrap::text(&message, width()) } else { message + "\n" };
     // Where standard error is closed there is nobody to tell.
-    let _ = writeln!(anstream::stderr(), "{message}");
+    let _ = anstream::stderr().write_all(message.as_bytes());
 }
 
 /// A line on standard error that says where a long run is, where a person looks; drop it to take it away.

@@ -3,78 +3,12 @@
 use rand::RngExt as _;
 use rand_chacha::ChaCha8Rng;
 
+use crate::intruders::INTRUDERS;
+
 /// Changes of one input at most.
 const CHANGES: usize = 6;
 /// An input never grows beyond this, in bytes.
 const LONGEST: usize = 1 << 16;
-
-/// What may come in where it has no business.
-const INTRUDERS: &[&str] = &[
-    "(",
-    ")",
-    "{",
-    "}",
-    "[",
-    "]",
-    "[[x]]",
-    "\"",
-    "'",
-    ";",
-    ",",
-    "=",
-    "*",
-    "/",
-    "^",
-    "^9",
-    "^99999",
-    "-",
-    "--",
-    "+",
-    "\\",
-    "//",
-    "///",
-    "/*",
-    "*/",
-    "#",
-    "\n",
-    "\r",
-    "\r\n",
-    "\t",
-    "\u{0}",
-    "\u{feff}",
-    "\u{2028}",
-    "é",
-    "°",
-    "0",
-    "-1",
-    "1e999",
-    "1e-999",
-    "4294967295",
-    "99999999999999999999",
-    "NaN",
-    "inf",
-    "1/0",
-    "sin(",
-    "cos(",
-    "tan(",
-    "ramp(",
-    "pi",
-    "body",
-    "on ground",
-    "input",
-    "const",
-    "observe",
-    "motion",
-    "motion_error",
-    "direction(",
-    "point(",
-    " [deg]",
-    "_deg",
-    "5 arcsec",
-    "mm",
-    "true",
-    "((((((((((((((((",
-];
 
 /// Numbers that stand in a digit's place.
 const NUMBERS: [&str; 8] =

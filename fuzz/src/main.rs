@@ -4,6 +4,7 @@
 //! larger than [`LARGEST_KIB`]. It needs nothing but a stable compiler; the same seed tries the same inputs.
 
 mod change;
+mod intruders;
 mod targets;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};

@@ -54,10 +54,6 @@ fn study(input: &[u8]) {
 fn table(input: &[u8]) {
     let Ok(mut reader) = formats::open(input, "f.csv", &Options::default()) else { return };
     let names: Vec<String> = reader.header().iter().map(|name| name.full.clone()).collect();
-    if names.iter().all(|name| name.trim().is_empty()) {
-        // A table of columns without names is no table that a command would write.
-        return;
-    }
     let wanted: Vec<Wanted> = (0..names.len()).map(|column| Wanted { column, form: Form::Kept }).collect();
     let Ok(chunk) = reader.read(&wanted, ROWS) else { return };
     let columns: Vec<Vec<String>> = chunk.columns.iter().map(texts).collect();

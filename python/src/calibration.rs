@@ -122,11 +122,14 @@ impl Calibration {
         let columns = py.detach(|| {
             library::residuals(&self.0, |columns| {
                 let numbers = |cells: Cells<'_>| match cells {
-                    Cells::Rows(rows) => rows.into_iter().map(|row| row as f64).collect(),
-                    Cells::Numbers(numbers) => numbers.into_owned(),
-                    Cells::Residuals(some) => some.into_iter().map(|r| r.unwrap_or(f64::NAN)).collect(),
+                    Cells::Rows(rows) => Some(rows.into_iter().map(|row| row as f64).collect()),
+                    Cells::Numbers(numbers) => Some(numbers.into_owned()),
+                    Cells::Residuals(some) => Some(some.into_iter().map(|r| r.unwrap_or(f64::NAN)).collect()),
+                    // An array holds numbers; the files and names of rows are those of the caller's own table.
+                    Cells::Texts(_) => None,
                 };
-                columns.into_iter().map(|(name, cells)| (name, numbers(cells))).collect::<Vec<_>>()
+                let numbers = |(name, cells)| Some((name, numbers(cells)?));
+                columns.into_iter().filter_map(numbers).collect::<Vec<_>>()
             })
         });
         as_arrays(py, columns)

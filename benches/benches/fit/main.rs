@@ -10,7 +10,7 @@ use std::io::Write as _;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use calibration::data::{Measure, Observations, Series, direction_from_offset};
+use calibration::data::{Measure, Observations, Origins, Series, direction_from_offset};
 use calibration::fit::{FitOptions, Next, Streamed, StreamedResult, fit};
 use model_core::{Chain, SymbolId, SymbolKind, exact};
 use rand::{RngExt, SeedableRng};
@@ -59,6 +59,7 @@ fn simulate(chain: &Chain, observable: &str, joints: &[(&str, f64, f64)], rows: 
         groups: (0..).take(rows).collect(),
         in_sequence: false,
         row_numbers: (1..).take(rows).collect(),
+        origins: Origins::default(),
     }
 }
 

@@ -3,11 +3,13 @@
 //! Files become observations in [`crate::study`]; nothing here knows a file's format.
 
 pub mod derive;
+mod origin;
 mod si_unit;
 mod tangent;
 pub mod units;
 
 pub use derive::{DeriveError, Derived, parse_derived};
+pub use origin::{Origin, Origins};
 pub use si_unit::SiUnit;
 pub use tangent::{direction_from_offset, direction_from_spherical, tangent_frame};
 
@@ -95,6 +97,8 @@ pub struct Observations {
     pub in_sequence: bool,
     /// Number of each row in its file, counted from 1 without the header.
     pub row_numbers: Vec<u64>,
+    /// Where each row stands.
+    pub origins: Origins,
 }
 
 impl Observations {
@@ -150,6 +154,7 @@ impl Observations {
             groups: rows.iter().filter_map(|&row| self.groups.get(row).copied()).collect(),
             in_sequence: self.in_sequence,
             row_numbers: rows.iter().filter_map(|&row| self.row_numbers.get(row).copied()).collect(),
+            origins: self.origins.select(&rows),
         }
     }
 }

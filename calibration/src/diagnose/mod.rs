@@ -21,7 +21,7 @@ mod verdict;
 
 use serde::Serialize;
 
-use crate::data::SiUnit;
+use crate::data::{Origin, SiUnit};
 use crate::design::discrimination::separation;
 use crate::design::{Criterion, Proposal, Separation, propose};
 use crate::effects::SHAPE;
@@ -133,6 +133,15 @@ pub struct Used {
 pub struct SetAsideRow {
     /// Its number in its file, from 1.
     pub row: u64,
+    /// Its file, where the observations come from several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+    /// Its line in the file, from 1, where the format has lines.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub line: Option<u64>,
+    /// Its own name, where the study says a column of names.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub id: Option<String>,
     /// Why.
     pub why: String,
 }
@@ -310,7 +319,11 @@ fn used(whole: &Context<'_>, fit: &FitResult) -> Used {
         set_aside: fit
             .set_aside
             .iter()
-            .map(|aside| SetAsideRow { row: row_number(aside.row), why: aside.why.to_string() })
+            .map(|aside| {
+                let Origin { file, line, name } = observations.origins.of(aside.row);
+                let (file, id) = (file.map(str::to_owned), name.map(str::to_owned));
+                SetAsideRow { row: row_number(aside.row), file, line, id, why: aside.why.to_string() }
+            })
             .collect(),
     }
 }

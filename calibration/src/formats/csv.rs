@@ -46,7 +46,7 @@ impl<R: Read> Reader<R> {
         let mut records = Records::new(io::Cursor::new(head).chain(reader), separator, line_end);
         let mut record = Record::default();
         let any = records.read(&mut record).map_err(|error| unreadable(source, error))?;
-        if !any || record.cells().all(<[u8]>::is_empty) {
+        if !any {
             return Err(DataError::Empty { file: source.to_string() });
         }
         if !record.lines().is_empty() {
@@ -165,7 +165,7 @@ impl<R: Read> TableReader for Reader<R> {
 
     fn read(&mut self, wanted: &[Wanted], at_most: usize) -> Result<Chunk, DataError> {
         let mut columns = super::no_cells(wanted);
-        let mut rows = Vec::new();
+        let (mut rows, mut lines) = (Vec::new(), Vec::new());
         let mut bytes = 0;
         while rows.len() < at_most && bytes < CHUNK_BYTES {
             let more =
@@ -185,8 +185,9 @@ impl<R: Read> TableReader for Reader<R> {
                 DataError::BadLine { file, line, why: why.to_string() }
             })?;
             rows.push(self.row);
+            lines.push(self.record.line);
         }
-        Ok(Chunk { columns, rows })
+        Ok(Chunk { columns, rows, lines })
     }
 }
 
@@ -236,13 +237,10 @@ mod tests {
 
     #[test]
     fn dialects_read_alike() {
-        let expected = Ok(Chunk {
-            columns: vec![
-                Cells::Numbers(vec![3.0, -8.0]),
-                Cells::Labels(vec!["Mars".to_string(), "Moon".to_string()]),
-            ],
-            rows: vec![1, 2],
-        });
+        let expected = vec![
+            Cells::Numbers(vec![3.0, -8.0]),
+            Cells::Labels(vec!["Mars".to_string(), "Moon".to_string()]),
+        ];
         for text in [
             "az,name\n1.5,Mars\n-4,Moon\n",
             "az;name\r\n1,5;Mars\r\n-4;Moon",
@@ -253,7 +251,31 @@ mod tests {
             "az,name\n1.5, \"Mars\" \n\"-4\",Moon\n",
             "\"az, to the east\",name\n1.5,Mars\n-4,\"Moon\"\n",
         ] {
-            assert_eq!(read(text.as_bytes()), expected, "{text}");
+            let chunk = read(text.as_bytes());
+            assert_eq!(chunk.as_ref().map(|chunk| chunk.rows.as_slice()), Ok([1, 2].as_slice()), "{text}");
+            assert_eq!(chunk.map(|chunk| chunk.columns), Ok(expected.clone()), "{text}");
+        }
+    }
+
+    #[test]
+    fn rows_know_their_lines() {
+        let text = "# c\naz,name\n1,Mars\n\n2,\"two\nlines\"\n3,Moon\n";
+        assert_eq!(
+            read(text.as_bytes()).map(|chunk| (chunk.rows, chunk.lines)),
+            Ok((vec![1, 2, 3], vec![3, 5, 7]))
+        );
+    }
+
+    #[test]
+    fn columns_without_a_name_go_along_and_a_header_without_one_is_refused() {
+        let columns =
+            |text: &str| read(text.as_bytes()).map(|chunk| chunk.columns.len()).map_err(|e| e.to_string());
+        assert_eq!(columns("az;name;;\n1;Mars;;\n"), Ok(2));
+        for text in [",,\n1,2,3\n", "\"\"\n1\n", "\" \",\n1,2\n"] {
+            assert!(
+                columns(text).is_err_and(|why| why.contains("no column of the header has a name")),
+                "{text}"
+            );
         }
     }
 

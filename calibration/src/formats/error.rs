@@ -63,6 +63,12 @@ pub enum DataError {
         /// Name of the file.
         file: String,
     },
+    /// A header in which no column has a name.
+    #[error("{file}: no column of the header has a name: the first line was expected to name the columns")]
+    NoNames {
+        /// Name of the file.
+        file: String,
+    },
     /// A header and nothing else.
     #[error("{file}: there are no rows below the header")]
     NoRows {
@@ -216,10 +222,12 @@ pub enum DataError {
         why: String,
     },
     /// A row whose numbers cannot be what they are said to be.
-    #[error("{file}: row {row}: {why}")]
+    #[error("{file}: {}row {row}: {why}", line.map_or(String::new(), |line| format!("line {line}, ")))]
     Impossible {
         /// Name of the file.
         file: String,
+        /// Line in the file, from 1, where the format has lines.
+        line: Option<u64>,
         /// Row, from 1, without the header.
         row: u64,
         /// Why it cannot be, and what was expected.

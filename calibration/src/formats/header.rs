@@ -217,10 +217,15 @@ fn missing(header: &[ColumnName], name: &str, file: &str) -> DataError {
     DataError::MissingColumn { file: file.to_owned(), column: name.to_owned(), help }
 }
 
-/// Refuses a header in which a name stands twice.
+/// Refuses a header without a name, or in which a name stands twice. Columns without a name there may be several of, as nobody
+/// can ask for one.
 pub(super) fn unique(header: &[ColumnName], file: &str) -> Result<(), DataError> {
     let mut seen = std::collections::BTreeSet::new();
-    match header.iter().find(|column| !seen.insert(column.full.as_str())) {
+    let mut named = header.iter().filter(|column| !column.full.is_empty()).peekable();
+    if named.peek().is_none() {
+        return Err(DataError::NoNames { file: file.to_owned() });
+    }
+    match named.find(|column| !seen.insert(column.full.as_str())) {
         None => Ok(()),
         Some(twice) => Err(DataError::DuplicateColumn { file: file.to_owned(), column: twice.full.clone() }),
     }

@@ -102,6 +102,8 @@ pub struct Chunk {
     pub columns: Vec<Cells>,
     /// Number of each row, counted from 1 without the header.
     pub rows: Vec<u64>,
+    /// The line that each row starts on, from 1; none where the format has no lines.
+    pub lines: Vec<u64>,
 }
 
 /// A table that is read front to back.

@@ -164,7 +164,7 @@ impl TableReader for Reader {
             }
             rows.push(self.row);
         }
-        Ok(Chunk { columns, rows })
+        Ok(Chunk { columns, rows, lines: Vec::new() })
     }
 }
 
@@ -218,6 +218,7 @@ mod tests {
         let expected = Chunk {
             columns: vec![Cells::Numbers(vec![3.0, -8.0, 0.25]), Cells::Labels(labels)],
             rows: vec![1, 2, 3],
+            lines: Vec::new(),
         };
         for bytes in [SNAPPY, ZSTD] {
             assert_eq!(read(bytes).as_ref(), Ok(&expected));

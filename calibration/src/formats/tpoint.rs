@@ -120,7 +120,8 @@ impl TableReader for Reader {
             }
         };
         let columns = wanted.iter().map(column).collect::<Result<_, _>>()?;
-        Ok(Chunk { columns, rows: (start + 1..=end).map(|row| row as u64).collect() })
+        let lines = records.iter().map(|(line, _)| *line).collect();
+        Ok(Chunk { columns, rows: (start + 1..=end).map(|row| row as u64).collect(), lines })
     }
 }
 

@@ -14,6 +14,7 @@ mod left;
 mod next;
 mod noise;
 pub mod numbers;
+mod rows;
 
 pub use answers::{Answers, Step, Tone, answers};
 pub use causes::{cause, form, sentence_case};
@@ -24,3 +25,4 @@ pub use hidden::{fate, size};
 pub use left::{function_form, remaining};
 pub use next::{PoseTable, pose_tables};
 pub use noise::noise;
+pub use rows::row;

@@ -3,12 +3,12 @@
 use model_core::SymbolId;
 
 use super::plan::{ColumnPlan, Plan, Reading, SourcePlan};
-use crate::data::units::BareColumn;
+use crate::data::units::{BareColumn, Plausible};
 use crate::formats::{
     DataError, Form, ReadAs, TableReader, Wanted, declared_columns, find_column, find_reading,
 };
 
-/// Readings whose unit nothing says, each with its place among the numbers.
+/// Columns whose unit nothing says, each with its place among the numbers.
 type PlacedBareColumns = Vec<(usize, BareColumn)>;
 
 /// Which of the numbers read is what.
@@ -55,14 +55,15 @@ impl Columns {
                 }
             }
         }
-        let labels = plan.group.iter().chain(&plan.order).cloned().collect();
+        let labels = plan.group.iter().chain(&plan.id).chain(&plan.order).cloned().collect();
         Self { plans, readings, observed, sigma, times, labels }
     }
 
-    /// The columns of a file, and those of readings whose unit nothing says, each with its place among the numbers.
+    /// The columns of a file, and those whose unit nothing says, each with its place among the numbers.
     pub fn wanted(
         &self,
         plan: &Plan,
+        source: &SourcePlan,
         reader: &dyn TableReader,
     ) -> Result<(Vec<Wanted>, PlacedBareColumns), DataError> {
         let (header, file) = (reader.header(), reader.source());
@@ -81,8 +82,15 @@ impl Columns {
             let read = ReadAs { quantity: *quantity, stated: *unit, declared: own };
             let factor = header[found].factor(read, file)?;
             let symbol = self.readings.iter().find(|(_, reading)| *reading == at).map(|(symbol, _)| *symbol);
-            if let Some(symbol) = symbol.filter(|_| header[found].is_bare(read)) {
-                bare.push((at, BareColumn::new(&plan.chain, symbol, &header[found].full, file)));
+            let plausible = if let Some(symbol) = symbol {
+                Plausible::readings(&plan.chain, symbol)
+            } else if self.sigma.contains(&at) {
+                Plausible::noise(&plan.chain)
+            } else {
+                Plausible::measured(&plan.chain, source.observable)
+            };
+            if header[found].is_bare(read) {
+                bare.push((at, BareColumn::new(plausible, *quantity, &header[found].full, file)));
             }
             wanted.push(Wanted { column: found, form: Form::Number(factor) });
         }

@@ -45,6 +45,8 @@ struct Rows {
     numbers: Vec<Vec<f64>>,
     labels: Vec<Vec<String>>,
     row_numbers: Vec<u64>,
+    /// The file of each row, and its line there; 0 where the format has no lines.
+    places: Vec<(u32, u64)>,
     /// Memory that these take, in bytes.
     bytes: usize,
 }
@@ -104,10 +106,12 @@ impl Plan {
             numbers: vec![Vec::new(); columns.plans.len()],
             labels: vec![Vec::new(); columns.labels.len()],
             row_numbers: Vec::new(),
+            places: Vec::new(),
             bytes: 0,
         };
         for path in paths {
-            rows.append(self, &mut *open(path, &self.format)?, &columns, doubtful)?;
+            let file = all.origins.file(path);
+            rows.append((self, source), &mut *open(path, &self.format)?, file, &columns, doubtful)?;
         }
         let file = paths.join(", ");
         if rows.row_numbers.is_empty() {
@@ -142,7 +146,7 @@ impl Plan {
         } else if !all.sigma.is_empty() {
             all.sigma.resize(start + count, UNSTATED);
         }
-        let grouping = columns.labels.len() - usize::from(self.order.is_some());
+        let grouping = self.group.len();
         for row in 0..count {
             let group = if grouping == 0 {
                 u32::try_from(start + row).unwrap_or(u32::MAX)
@@ -154,6 +158,10 @@ impl Plan {
             all.groups.push(group);
         }
         all.row_numbers.extend(&rows.row_numbers);
+        all.origins.extend(
+            &rows.places,
+            self.id.as_ref().and_then(|_| rows.labels.get(grouping)).map(Vec::as_slice),
+        );
         all.series.push(Series {
             observable: source.observable,
             measure: source.measure,
@@ -197,6 +205,7 @@ impl Plan {
         let at = |component: usize, row: usize| observed.get(component).map_or(0.0, |values| values[row]);
         let impossible = |row: usize, why: String| DataError::Impossible {
             file: file.to_string(),
+            line: rows.line(row),
             row: rows.row_numbers[row],
             why,
         };
@@ -260,7 +269,8 @@ fn sigma(columns: &Columns, rows: &Rows, file: &str) -> Result<Vec<[f64; 3]>, Da
                 return Ok(sigma);
             }
             let why = "a standard uncertainty must be positive".to_string();
-            Err(DataError::Impossible { file: file.to_string(), row: rows.row_numbers[row], why })
+            let (line, row) = (rows.line(row), rows.row_numbers[row]);
+            Err(DataError::Impossible { file: file.to_string(), line, row, why })
         })
         .collect()
 }
@@ -269,20 +279,23 @@ impl Rows {
     /// Appends all rows of one file, and the columns of it that are doubtful.
     fn append(
         &mut self,
-        plan: &Plan,
+        (plan, source): (&Plan, &SourcePlan),
         reader: &mut dyn TableReader,
+        file: u32,
         columns: &Columns,
         doubtful: &mut Vec<BareColumn>,
     ) -> Result<(), DataError> {
-        let (wanted, mut bare) = columns.wanted(plan, reader)?;
+        let (wanted, mut bare) = columns.wanted(plan, source, reader)?;
         let before = self.row_numbers.last().copied().unwrap_or_default();
         loop {
             let chunk = reader.read(&wanted, CHUNK)?;
             if chunk.rows.is_empty() {
                 break;
             }
-            self.bytes += chunk.rows.len() * size_of::<u64>();
+            self.bytes += chunk.rows.len() * (size_of::<u64>() + size_of::<(u32, u64)>());
             self.row_numbers.extend(chunk.rows.iter().map(|row| before + row));
+            let lines = chunk.lines.iter().copied().chain(std::iter::repeat(0));
+            self.places.extend(lines.take(chunk.rows.len()).map(|line| (file, line)));
             let (mut numbers, mut labels) = (self.numbers.iter_mut().enumerate(), self.labels.iter_mut());
             for cells in chunk.columns {
                 match cells {
@@ -327,5 +340,11 @@ impl Rows {
             *column = order.iter().map(|&row| column[row].clone()).collect();
         }
         self.row_numbers = order.iter().map(|&row| self.row_numbers[row]).collect();
+        self.places = order.iter().map(|&row| self.places[row]).collect();
+    }
+
+    /// The line that a row stands on, where the format has lines.
+    fn line(&self, row: usize) -> Option<u64> {
+        self.places.get(row).map(|place| place.1).filter(|&line| line > 0)
     }
 }

@@ -5,10 +5,12 @@
 //! (`load`). Whatever is wrong with a study is told at once, each mistake with its place (`mistakes`, `syntax`).
 
 mod columns;
+mod doubts;
 mod effects;
 mod format;
 mod inputs;
 mod load;
+mod memory;
 mod mistakes;
 mod plan;
 mod shown;

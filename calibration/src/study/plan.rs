@@ -9,7 +9,7 @@ use super::mistakes::{Gathered, Outcome, Several, every, mistake, plain, unknown
 use super::shown::{self, Convention};
 use super::written::{Column, Kind, Observed, Study, Table};
 use crate::candidate::Effect;
-use crate::data::units::{Amount, Unit};
+use crate::data::units::{Amount, Doubt, Unit};
 use crate::data::{Measure, derive::Derived, derive::parse_derived};
 use crate::fit::FitOptions;
 use crate::fit::noise::NoiseOptions;
@@ -30,6 +30,11 @@ pub struct Plan {
     pub hold_out: HoldOut,
     /// Where to propose to measure next.
     pub next: Option<NextPoses>,
+    /// Where the data are to be had, for whoever has not got them.
+    pub data_from: Option<String>,
+    /// Bare numbers of the study that are hardly in SI.
+    pub doubts: Vec<Doubt>,
+    pub(super) id: Option<String>,
     pub(super) group: Vec<String>,
     pub(super) order: Option<String>,
     pub(super) format: Options,
@@ -136,6 +141,11 @@ impl Study {
             sources.as_ref().map(|sources| sources.iter().map(|source| source.observable).collect());
         // What the catalogue holds depends on what was observed.
         let search = mistakes.take(self.search(&chain, observables.as_deref()));
+        if let (Some(search), Some(fit), Some(observables), Some(format)) =
+            (&search, &fit, &observables, &format)
+        {
+            mistakes.take(self.fits_into_memory(search, &chain, observables, fit.estimate.len(), format));
+        }
         mistakes.none()?;
         let (
             Some(sources),
@@ -150,9 +160,10 @@ impl Study {
             unreachable!("what is missing comes with a mistake")
         };
         fit.noise.sigma = sigma;
-        let (group, order) = (self.noise.group.0.clone(), self.noise.order.clone());
+        let (id, group, order) = (self.id.clone(), self.noise.group.0.clone(), self.noise.order.clone());
+        let (data_from, doubts) = (self.data_from.clone(), self.doubts(&chain, &sources));
         let chain = shown::vectors(chain);
-        Ok(Plan { sources, fit, search, hold_out, next, group, order, format, chain })
+        Ok(Plan { sources, fit, search, hold_out, next, data_from, doubts, id, group, order, format, chain })
     }
 
     /// What is read, source by source.

@@ -66,7 +66,7 @@ fn is_amount(sigma: &Spanned<Sigma>) -> bool {
 }
 
 /// What residuals measure.
-fn quantity(measure: Measure) -> Quantity {
+pub(super) fn quantity(measure: Measure) -> Quantity {
     match measure {
         Measure::Direction | Measure::Azimuth => Quantity::Angle,
         Measure::Point | Measure::Range => Quantity::Length,

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::marker::PhantomData;
 
-use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer, StrDeserializer};
+use serde::de::value::{
+    F64Deserializer, I64Deserializer, MapAccessDeserializer, SeqAccessDeserializer, StrDeserializer,
+};
 use serde::de::{Error, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
@@ -27,6 +29,10 @@ pub struct Study {
     pub observable: Option<Spanned<String>>,
     /// Paths of the data files, relative to the study.
     pub data: Spanned<OneOrMore>,
+    /// Where the data are to be had, for whoever has not got them.
+    pub data_from: Option<String>,
+    /// The column of the data files that names their rows.
+    pub id: Option<String>,
     /// The separator of the data files, where it cannot be seen from their header.
     pub separator: Option<Spanned<char>>,
     /// What lines of the data files that are comments begin with, where there are any below the header.
@@ -304,7 +310,11 @@ impl<'de> Visitor<'de> for Short<Sigma> {
     }
 
     fn visit_f64<E: Error>(self, number: f64) -> Result<Sigma, E> {
-        Ok(Sigma::Amount(Amount { number, unit: None }))
+        Amount::deserialize(F64Deserializer::new(number)).map(Sigma::Amount)
+    }
+
+    fn visit_i64<E: Error>(self, number: i64) -> Result<Sigma, E> {
+        Amount::deserialize(I64Deserializer::new(number)).map(Sigma::Amount)
     }
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Sigma, A::Error> {

@@ -1,6 +1,6 @@
 //! Instruments with known errors at random poses, observed with known noise.
 
-use calibration::data::{Measure, Observations, Series, direction_from_offset};
+use calibration::data::{Measure, Observations, Origins, Series, direction_from_offset};
 use model_core::{Chain, SymbolId, SymbolKind, exact, names};
 use nalgebra::Vector3;
 use rand::{Rng, RngExt, SeedableRng};
@@ -119,6 +119,7 @@ impl Simulation {
             groups: (0..).take(rows).collect(),
             in_sequence: false,
             row_numbers: (1..).take(rows).collect(),
+            origins: Origins::default(),
         }
     }
 }

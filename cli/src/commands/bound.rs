@@ -10,6 +10,7 @@ use super::{Answer, TextOrJson};
 use crate::errors_file;
 use crate::failure::Failure;
 use crate::ranges::{self, Range, RangeArgument};
+use crate::sizes::SizesArgument;
 use crate::source::observables;
 use crate::terminal;
 
@@ -19,15 +20,14 @@ use crate::terminal;
 /// error stays within its largest size, at all angles of the joints or in the ranges given. The bound is proven and
 /// rounded up. Beside it stands the largest difference that a search found: the truth lies between the two.
 ///
-/// Example: trueaxis bound examples/mobile-lidar/mobile-lidar.chain --errors examples/mobile-lidar/box.toml
+/// Example: trueaxis bound examples/mobile-lidar/mobile-lidar.chain --sizes examples/mobile-lidar/box.toml
 /// --observable pointing
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The declaration
     chain: PathBuf,
-    /// Largest sizes of the errors
-    #[arg(long, value_name = "BOX.toml")]
-    errors: PathBuf,
+    #[command(flatten)]
+    sizes: SizesArgument,
     /// Only this observable (may be given several times); default: every one
     #[arg(long)]
     observable: Vec<String>,
@@ -47,7 +47,7 @@ const STARTS: u32 = 24;
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let (chain, sizes) = errors_file::chain_and_sizes(&arguments.chain, &arguments.errors)?;
+    let (chain, sizes) = errors_file::chain_and_sizes(&arguments.chain, arguments.sizes.needed()?)?;
     let ranges = ranges::of_chain(&chain, &arguments.range)?;
     let answers = bounds(&chain, &sizes, &ranges, &arguments.observable, arguments.seed)?;
     let printed = match arguments.format {
@@ -61,7 +61,10 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
             format!("{:#}\n", json!({ "bounds": bounds }))
         }
     };
-    terminal::print(&printed)?;
+    match arguments.format {
+        TextOrJson::Text => terminal::print_text(&printed)?,
+        TextOrJson::Json => terminal::print(&printed)?,
+    }
     Ok(Answer::Done)
 }
 

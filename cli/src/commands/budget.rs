@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 use super::{Answer, TextOrJson};
 use crate::failure::Failure;
 use crate::ranges::{self, RangeArgument};
+use crate::sizes::SizesArgument;
 use crate::source::{Source, observables};
 use crate::terminal::{self, HEADING};
 use crate::{curves, errors_file, output, poses};
@@ -21,15 +22,14 @@ use crate::{curves, errors_file, output, poses};
 /// along a path of one parameter t over (0, 2π), or over ranges (joints without one make a full turn). The worst case
 /// is the sum of all influences at a pose, the root sum square what to expect of independent errors.
 ///
-/// Example: trueaxis budget examples/mobile-lidar/mobile-lidar.chain --errors examples/mobile-lidar/box.toml
+/// Example: trueaxis budget examples/mobile-lidar/mobile-lidar.chain --sizes examples/mobile-lidar/box.toml
 /// --observable pointing --path "alpha=t, beta=t, gamma=t" --steps 5 --out figures
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The declaration
     chain: PathBuf,
-    /// Sizes of the errors
-    #[arg(long, value_name = "BOX.toml")]
-    errors: PathBuf,
+    #[command(flatten)]
+    sizes: SizesArgument,
     /// Only this observable (may be given several times); default: every one
     #[arg(long)]
     observable: Vec<String>,
@@ -55,7 +55,7 @@ const POINTS: usize = 361;
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let (chain, sizes) = errors_file::chain_and_sizes(&arguments.chain, &arguments.errors)?;
+    let (chain, sizes) = errors_file::chain_and_sizes(&arguments.chain, arguments.sizes.needed()?)?;
     let poses = match &arguments.path {
         Some(text) => Poses::Path(poses::path(&chain, text).map_err(|mistake| {
             let source = Source { path: "--path".into(), text: text.clone() };
@@ -77,7 +77,10 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
             format!("{:#}\n", json!({ "observables": budgets }))
         }
     };
-    terminal::print(&printed)?;
+    match arguments.format {
+        TextOrJson::Text => terminal::print_text(&printed)?,
+        TextOrJson::Json => terminal::print(&printed)?,
+    }
     Ok(Answer::Done)
 }
 

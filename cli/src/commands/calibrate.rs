@@ -46,11 +46,15 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let studied = Studied::read(Source::read(&arguments.study)?)?;
     if let Some(folder) = &arguments.out {
+        if folder.is_file() {
+            return Err(Failure::write(folder, &io::Error::other("a file has this name; name a folder")));
+        }
         refuse_to_replace(folder, &studied)?;
     }
-    let study = studied.study.clone();
-    let measured =
-        studied.load(&mut |path, options| formats::open(open_beside(&study, path)?, path, options))?;
+    let (study, from) = (studied.study.clone(), studied.plan.data_from.clone());
+    let measured = studied.load(&mut |path, options| {
+        formats::open(open_beside(&study, path, from.as_deref())?, path, options)
+    })?;
     terminal::note(format_args!(
         "{}",
         what_is_done(&measured.studied.plan, measured.loaded.observations.rows())
@@ -110,16 +114,22 @@ fn what_is_done(plan: &Plan, rows: usize) -> String {
     format!("{rows} observations; fitting {} errors, searching, and {folds}", plan.fit.estimate.len())
 }
 
-/// Opens a data file that the study names.
+/// Opens a data file that the study names; one that is not there comes with where the study says that it is to be had.
 ///
 /// # Errors
 /// It cannot be read.
-pub fn open_beside(study: &Source, path: &str) -> Result<Box<dyn Read>, DataError> {
+pub fn open_beside(study: &Source, path: &str, from: Option<&str>) -> Result<Box<dyn Read>, DataError> {
     let beside = study.beside(Path::new(path));
     let unreadable = |error: &io::Error| {
         let why = match source::not_readable(&beside, error) {
             Failure::Read { why, .. } => why,
             other => other.to_string(),
+        };
+        let why = match from {
+            Some(from) if error.kind() == io::ErrorKind::NotFound => {
+                format!("{why}; the study says where the data are to be had: {from}")
+            }
+            _ => why,
         };
         DataError::Unreadable { file: beside.display().to_string(), why }
     };

@@ -45,7 +45,10 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     };
     let certificate = is_certified.then(|| certify(&file, &checked)).transpose()?;
     arguments.certificate.write(certificate.as_deref())?;
-    terminal::print(&output)?;
+    match arguments.format {
+        TextOrJson::Text => terminal::print_formulas(&output)?,
+        TextOrJson::Json => terminal::print(&output)?,
+    }
     let all_hold = checked.iter().all(|checked| checked.verdict.holds());
     Ok(if all_hold { Answer::Done } else { Answer::No })
 }

@@ -72,7 +72,10 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     };
     let certificate = is_certified.then(|| certify(&source, &chosen, arguments.order)).transpose()?;
     arguments.certificate.write(certificate.as_deref())?;
-    terminal::print(&printed)?;
+    match arguments.format {
+        Format::Text => terminal::print_formulas(&printed)?,
+        Format::Latex | Format::Markdown | Format::Json => terminal::print(&printed)?,
+    }
     Ok(Answer::Done)
 }
 

@@ -11,14 +11,14 @@ use super::Answer;
 use crate::errors_file;
 use crate::failure::Failure;
 use crate::output;
+use crate::sizes::SizesArgument;
 use crate::source::{Source, observables};
-use crate::terminal;
 
 /// Generate evaluators in another language.
 ///
 /// Writes functions for the value, the exact error, the first-order error and both Jacobians of the observables, for
 /// one pose and for arrays of poses; what depends on the errors alone is prepared once. The file needs nothing but
-/// its language.
+/// its language. With --sizes it states them, and how far the first order can be off there.
 ///
 /// Example: trueaxis generate examples/mobile-lidar/mobile-lidar.chain --language rust --observable pointing
 /// --out mobile_lidar.rs
@@ -45,12 +45,8 @@ pub struct Arguments {
     /// the errors named there
     #[arg(long, value_name = "ERRORS.toml")]
     values: Option<PathBuf>,
-    /// Largest sizes of the errors: the file then states them, and how far the first order can be off
-    #[arg(long, value_name = "BOX.toml")]
-    sizes: Option<PathBuf>,
-    /// The same, by its former name
-    #[arg(long, value_name = "BOX.toml", hide = true, conflicts_with = "sizes")]
-    errors: Option<PathBuf>,
+    #[command(flatten)]
+    sizes: SizesArgument,
     /// Where to write; what belongs beside it (a header) goes into the same folder; - is standard output
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
@@ -133,12 +129,8 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let source = Source::read(&arguments.chain)?;
     let chain = source.chain()?;
     let chosen = observables(&chain, &arguments.observable)?;
-    if arguments.errors.is_some() {
-        terminal::warn(format_args!(
-            "--errors is called --sizes here: values to write into the file go by --values"
-        ));
-    }
-    let remarks = match arguments.sizes.as_ref().or(arguments.errors.as_ref()) {
+    let sizes = arguments.sizes.given();
+    let remarks = match sizes {
         Some(path) => remarks(&chain, &chosen, path)?,
         None => Vec::new(),
     };
@@ -178,13 +170,8 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut batch = output::Batch::default();
     for (index, (file, beside)) in files.iter().zip(&beside).enumerate() {
         let path = if index == 0 { &arguments.out } else { beside };
-        let read = [
-            Some(&arguments.chain),
-            arguments.values.as_ref(),
-            arguments.sizes.as_ref(),
-            arguments.errors.as_ref(),
-        ];
-        output::refuse_to_replace(path, read.into_iter().flatten().map(PathBuf::as_path))?;
+        let read = [Some(arguments.chain.as_path()), arguments.values.as_deref(), sizes];
+        output::refuse_to_replace(path, read.into_iter().flatten())?;
         batch.write_text(path, &file.text)?;
     }
     batch.finish()?;

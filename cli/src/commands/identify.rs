@@ -46,10 +46,10 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         identified(&chain, &arguments.observable, arguments.candidate.as_deref())?;
     let certificate = is_certified.then(|| certify(&source, &certified)).transpose()?;
     arguments.certificate.write(certificate.as_deref())?;
-    terminal::print(&match arguments.format {
-        TextOrJson::Text => texts.join("\n"),
-        TextOrJson::Json => format!("{:#}\n", json!({ "identifiability": answers })),
-    })?;
+    match arguments.format {
+        TextOrJson::Text => terminal::print_text(&texts.join("\n"))?,
+        TextOrJson::Json => terminal::print(&format!("{:#}\n", json!({ "identifiability": answers })))?,
+    }
     Ok(Answer::Done)
 }
 

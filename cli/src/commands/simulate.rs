@@ -227,7 +227,7 @@ impl Noise {
     /// Reads every `--noise`; a number without a unit holds for directions (rad) and points (m).
     fn parse(chain: &Chain, texts: &[String]) -> Result<Self, Failure> {
         let mut noise = Self::default();
-        let plausible = Plausible::errors(chain);
+        let plausible = Plausible::noise(chain);
         for text in texts {
             let wrong = |why: String| Failure::Input(format!("--noise: {why}"));
             let amount = Amount::parse(text).map_err(|error| wrong(error.to_string()))?;
@@ -244,15 +244,9 @@ impl Noise {
                 if measures.is_none_or(|measured| measured == quantity) {
                     let si = amount.to_si(quantity).map_err(|error| wrong(error.to_string()))?;
                     let mut shown = chain.observables.iter().flat_map(measures_of);
-                    if measures.is_none() && plausible.refuses(quantity, si) && shown.any(|q| q == quantity) {
-                        let (unit, likely) = match quantity {
-                            Measures::Length => ("m", "mm"),
-                            _ => ("rad", "arcsec"),
-                        };
-                        terminal::warn(format_args!(
-                            "--noise {text} has no unit and is taken as {text} {unit}; did you mean --noise \"{text} {likely}\"?"
-                        ));
-                    }
+                    let meant = |unit: &str| format!("--noise \"{text} {unit}\"");
+                    let doubt = plausible.doubt(quantity, &[amount], &format!("--noise {text}"), meant);
+                    doubt.filter(|_| shown.any(|q| q == quantity)).iter().for_each(terminal::warn);
                     if sigma.replace(si).is_some() {
                         return Err(wrong(format!("`{text}`: the noise of one kind is given twice")));
                     }

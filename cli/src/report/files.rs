@@ -88,6 +88,7 @@ fn write_residuals(reported: &Reported<'_>, path: &Path, file: &mut dyn Write) -
             .iter()
             .map(|(_, cells)| match cells {
                 Cells::Rows(numbers) => numbers[row].to_string(),
+                Cells::Texts(texts) => texts[row].clone(),
                 Cells::Numbers(numbers) => tables::number(numbers[row]),
                 Cells::Residuals(numbers) => numbers[row].map_or_else(String::new, tables::number),
             })

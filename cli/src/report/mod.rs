@@ -7,7 +7,6 @@ mod files;
 mod page;
 mod residuals;
 mod text;
-mod wrap;
 
 use calibration::calibrate::Calibration;
 use calibration::data::Observations;

@@ -69,15 +69,17 @@ pub fn readings<'a>(reported: &'a Reported<'_>) -> impl Iterator<Item = (&'a str
 
 /// The cells of one column of [`table`].
 pub enum Cells<'a> {
-    /// Numbers of rows, from 1.
+    /// Numbers of rows or lines, from 1.
     Rows(Vec<u64>),
+    /// Texts: files, names of rows.
+    Texts(Vec<String>),
     /// A number in every row.
     Numbers(Cow<'a, [f64]>),
     /// Residuals; absent where the row has no such component.
     Residuals(Vec<Option<f64>>),
 }
 
-/// One row an observation: its number, the readings, the residual components before and after, in SI, and its weight; each
+/// One row an observation: its number; its file, line and name, as far as there are such; the readings, the residual components before and after, in SI, and its weight; each
 /// column by its name.
 #[must_use]
 pub fn table<'a>(reported: &'a Reported<'_>) -> Vec<(String, Cells<'a>)> {
@@ -103,12 +105,25 @@ pub fn table<'a>(reported: &'a Reported<'_>) -> Vec<(String, Cells<'a>)> {
         }
         name
     };
-    let (row, weight) = (own("row"), own("weight"));
+    let [row, file, line, id, weight] = ["row", "file", "line", "id", "weight"].map(own);
     let observations = reported.observations;
     let number = |row: usize| observations.row_numbers.get(row).map_or(row as u64 + 1, |&number| number);
     let weights = &reported.calibration.after.residuals.weight;
     let rows = observations.rows();
-    columns.insert(0, (row, Cells::Rows((0..rows).map(number).collect())));
+    let origins = &observations.origins;
+    let lines: Option<Vec<u64>> = (0..rows).map(|row| origins.of(row).line).collect();
+    let text = |text: Option<&str>| text.unwrap_or_default().to_owned();
+    let places = [
+        Some((row, Cells::Rows((0..rows).map(number).collect()))),
+        origins
+            .has_files()
+            .then(|| (file, Cells::Texts((0..rows).map(|row| text(origins.of(row).file)).collect()))),
+        lines.filter(|_| rows > 0).map(|lines| (line, Cells::Rows(lines))),
+        origins
+            .has_names()
+            .then(|| (id, Cells::Texts((0..rows).map(|row| text(origins.of(row).name)).collect()))),
+    ];
+    columns.splice(0..0, places.into_iter().flatten());
     let weights = (0..rows).map(|row| weights.get(row).copied().unwrap_or(1.0)).collect();
     columns.push((weight, Cells::Numbers(Cow::Owned(weights))));
     columns

@@ -7,8 +7,8 @@ use calibration::report::{self as words, Answers, Tone, numbers, sentence_case};
 use similar::TextDiff;
 
 use super::Reported;
-use super::wrap::paragraph;
 use crate::terminal::{BAD, CAREFUL, GOOD, HEADING};
+use crate::wrap::paragraph;
 
 /// Lines of a list that the terminal shows.
 const LINES: usize = 5;
@@ -220,7 +220,7 @@ impl Page {
         }
         self.heading(&format!("{} of {} observations set aside", used.set_aside.len(), used.rows));
         for aside in used.set_aside.iter().take(most) {
-            self.say("  ", &format!("row {}: {}", aside.row, aside.why));
+            self.say("  ", &format!("{}: {}", words::row(aside), aside.why));
         }
         if used.set_aside.len() > most {
             self.say("  ", &format!("and {} more; report.json lists all", used.set_aside.len() - most));

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufReader};
 use std::path::Path;
 
-use calibration::data::units::BareColumn;
+use calibration::data::units::{BareColumn, Plausible};
 use calibration::formats::{
     self, Cells, ColumnName, DataError, Form, Kept, Options, ReadAs, TableReader, Wanted, declared_columns,
     find_reading,
@@ -130,7 +130,9 @@ impl<'t> ReadingsTable<'t> {
             let symbol = chain.symbol(id);
             let read = ReadAs { quantity: symbol.quantity, stated: None, declared: Some(&symbol.name) };
             let factor = name.factor(read, source).map_err(failure)?;
-            let bare = name.is_bare(read).then(|| BareColumn::new(chain, id, &name.full, source));
+            let plausible = Plausible::readings(chain, id);
+            let bare = || BareColumn::new(plausible, symbol.quantity, &name.full, source);
+            let bare = name.is_bare(read).then(bare);
             self.readings.push(Reading { symbol: id, column, bare });
             self.wanted.push(Wanted { column, form: Form::Number(factor) });
         }

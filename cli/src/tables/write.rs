@@ -78,7 +78,15 @@ impl TableWriter<'_> {
         match self {
             Self::Csv { path, file } => csv_row(*file, path, header.iter().map(String::as_str)),
             #[cfg(feature = "parquet")]
-            Self::Parquet { names, .. } => {
+            Self::Parquet { path, names, .. } => {
+                if header.iter().filter(|name| name.is_empty()).count() > 1 {
+                    let message = format!(
+                        "`{}`: several columns have no name, and a Parquet file could not tell them apart: name them, or write a \
+                         .csv file",
+                        path.display()
+                    );
+                    return Err(Failure::Input(message));
+                }
                 *names = header.to_vec();
                 Ok(())
             }

@@ -45,7 +45,7 @@ fn what_an_eccentric_encoder_would_be_mistaken_for() {
 fn the_bound_is_above_what_a_search_finds_and_below_twice_that() {
     let sizes = "examples/mobile-lidar/box.toml";
     for observable in ["pointing", "position"] {
-        let arguments = ["bound", LIDAR, "--errors", sizes, "--observable", observable, "--format", "json"];
+        let arguments = ["bound", LIDAR, "--sizes", sizes, "--observable", observable, "--format", "json"];
         let answer: Value = serde_json::from_str(&answered(&arguments)).expect("JSON");
         let ratio = answer["bounds"][0]["ratio"].as_f64().expect("a number");
         assert!((1.0..2.0).contains(&ratio), "{observable}: {ratio}");
@@ -56,6 +56,6 @@ fn the_bound_is_above_what_a_search_finds_and_below_twice_that() {
 fn a_range_makes_a_bound_for_the_target() {
     let sizes = "examples/mobile-lidar/box.toml";
     let range = ["--range", "range=1 m..50 m", "--observable", "target"];
-    let answer = answered(&[["bound", LIDAR, "--errors", sizes].as_slice(), &range].concat());
+    let answer = answered(&[["bound", LIDAR, "--sizes", sizes].as_slice(), &range].concat());
     assert!(answer.starts_with("target: |exact - first order| is never more than "), "{answer}");
 }

@@ -12,7 +12,7 @@ const BOX: &str = "examples/mobile-lidar/box.toml";
 const TOGETHER: &str = "alpha=t, beta=t, gamma=t";
 
 fn budget(more: &[&str]) -> Run {
-    let mut arguments = vec!["budget", LIDAR, "--errors", BOX];
+    let mut arguments = vec!["budget", LIDAR, "--sizes", BOX];
     arguments.extend(more);
     trueaxis(&arguments)
 }
@@ -58,7 +58,7 @@ fn tables_and_figures_are_written() {
     let run = folder.trueaxis(&[
         "budget",
         "mobile-lidar.chain",
-        "--errors",
+        "--sizes",
         "box.toml",
         "--path",
         "alpha=t, beta=t, gamma=t, range=20 m",

@@ -11,7 +11,7 @@ use model_core::Quantity;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-pub use plausible::{BareColumn, Plausible, si_and_likely};
+pub use plausible::{BareColumn, Doubt, Plausible};
 
 /// A unit of angle, of length or of nothing.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,12 +3,20 @@
 use std::fmt;
 
 use model_core::chain::Motion;
-use model_core::{Chain, ObservableKind, Quantity, Role, SymbolId, SymbolKind};
+use model_core::{Chain, ObservableId, ObservableKind, Quantity, Role, SymbolId, SymbolKind};
+
+use super::Amount;
 
 /// Readings of a joint beyond a turn and a bit were hardly meant in radians.
 const FARTHEST_READING_RAD: f64 = 6.5;
-/// A small angle (an error, a standard deviation) above this was hardly meant in radians.
+/// A small angle (an error) above this was hardly meant in radians.
 const LARGEST_ERROR_RAD: f64 = 0.2;
+/// A standard deviation above this was hardly meant in radians.
+const LARGEST_NOISE_RAD: f64 = 0.01;
+/// A standard deviation above this was hardly meant in metres, where the chain says no length to compare with.
+const LARGEST_NOISE_M: f64 = 0.1;
+/// A standard deviation above this share of the largest length of its chain was hardly meant in metres.
+const NOISE_OF_SIZE: f64 = 0.1;
 /// How many times the largest length of its chain a joint hardly travels.
 const FARTHEST_TRAVEL: f64 = 100.0;
 
@@ -18,21 +26,44 @@ pub struct Plausible {
     largest_angle_rad: f64,
     /// None where the chain says no length to compare with.
     largest_length_m: Option<f64>,
+    /// The unit of angles that is meant most often where a bare number is too large for radians.
+    likely_angle: &'static str,
 }
 
 impl Plausible {
     /// The readings of a joint or input. A measured length need not have anything to do with the chain's.
     #[must_use]
     pub fn readings(chain: &Chain, symbol: SymbolId) -> Self {
-        let travel = largest_length_m(chain).map(|size| FARTHEST_TRAVEL * size);
         let is_joint = chain.symbol(symbol).kind == SymbolKind::Joint;
-        Self { largest_angle_rad: FARTHEST_READING_RAD, largest_length_m: travel.filter(|_| is_joint) }
+        Self::far(travel_m(chain).filter(|_| is_joint))
     }
 
-    /// Errors of a chain, and standard deviations of what it shows.
+    /// What is measured of an observable. How far the target of a measured range is says nothing of the size of the
+    /// instrument.
+    #[must_use]
+    pub fn measured(chain: &Chain, observable: ObservableId) -> Self {
+        let components = &chain.observable(observable).components;
+        let moves = |id| matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input);
+        let is_fixed = !components.iter().flat_map(|amount| chain.symbols_in(amount)).any(moves);
+        Self::far(travel_m(chain).filter(|_| is_fixed))
+    }
+
+    fn far(largest_length_m: Option<f64>) -> Self {
+        Self { largest_angle_rad: FARTHEST_READING_RAD, largest_length_m, likely_angle: "deg" }
+    }
+
+    /// Errors of a chain.
     #[must_use]
     pub fn errors(chain: &Chain) -> Self {
-        Self { largest_angle_rad: LARGEST_ERROR_RAD, largest_length_m: largest_length_m(chain) }
+        let largest_length_m = largest_length_m(chain);
+        Self { largest_angle_rad: LARGEST_ERROR_RAD, largest_length_m, likely_angle: "arcsec" }
+    }
+
+    /// Standard deviations of what a chain shows.
+    #[must_use]
+    pub fn noise(chain: &Chain) -> Self {
+        let largest = largest_length_m(chain).map_or(LARGEST_NOISE_M, |size| NOISE_OF_SIZE * size);
+        Self { largest_angle_rad: LARGEST_NOISE_RAD, largest_length_m: Some(largest), likely_angle: "arcsec" }
     }
 
     /// Whether a bare number, taken as SI, is hardly in SI.
@@ -44,6 +75,53 @@ impl Plausible {
             Quantity::Number => false,
         }
     }
+
+    /// The unit that is meant most often where a bare number is too large for the SI unit.
+    fn likely(&self, quantity: Quantity) -> &'static str {
+        match quantity {
+            Quantity::Angle => self.likely_angle,
+            Quantity::Length => "mm",
+            Quantity::Number => "1",
+        }
+    }
+
+    /// A remark if one of some amounts is a bare number that is hardly in SI: `written` is what stands there, and `meant` what
+    /// to write with the unit that is likely.
+    #[must_use]
+    pub fn doubt(
+        &self,
+        quantity: Quantity,
+        amounts: &[Amount],
+        written: &str,
+        meant: impl FnOnce(&str) -> String,
+    ) -> Option<Doubt> {
+        let bare = |amount: &Amount| amount.unit.is_none() && self.refuses(quantity, amount.number);
+        amounts.iter().any(bare).then(|| Doubt {
+            written: written.to_owned(),
+            si: quantity.unit(),
+            meant: meant(self.likely(quantity)),
+        })
+    }
+}
+
+/// A bare number that somebody wrote and that is hardly in SI.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Doubt {
+    written: String,
+    si: &'static str,
+    meant: String,
+}
+
+impl fmt::Display for Doubt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { written, si, meant } = self;
+        write!(f, "{written} has no unit and is taken as {si}; did you mean {meant}?")
+    }
+}
+
+/// How far a joint of a chain may travel.
+fn travel_m(chain: &Chain) -> Option<f64> {
+    largest_length_m(chain).map(|size| FARTHEST_TRAVEL * size)
 }
 
 /// The largest length that a chain says: of a constant, of a fixed shift, of a point.
@@ -76,16 +154,10 @@ pub struct BareColumn {
 }
 
 impl BareColumn {
-    /// A column with the readings of a joint or input, taken as SI; no number seen yet.
+    /// A column of numbers, taken as SI; no number seen yet.
     #[must_use]
-    pub fn new(chain: &Chain, symbol: SymbolId, column: &str, file: &str) -> Self {
-        Self {
-            file: file.to_owned(),
-            column: column.to_owned(),
-            quantity: chain.symbol(symbol).quantity,
-            plausible: Plausible::readings(chain, symbol),
-            farthest_si: 0.0,
-        }
+    pub fn new(plausible: Plausible, quantity: Quantity, column: &str, file: &str) -> Self {
+        Self { file: file.to_owned(), column: column.to_owned(), quantity, plausible, farthest_si: 0.0 }
     }
 
     /// Takes note of numbers of the column.
@@ -105,24 +177,13 @@ impl BareColumn {
 impl fmt::Display for BareColumn {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { file, column, farthest_si: farthest, .. } = self;
-        let (si, likely) = si_and_likely(self.quantity);
+        let (si, likely) = (self.quantity.unit(), self.plausible.likely(self.quantity));
         write!(
             f,
             "{file}: column `{column}` reaches {farthest} and has no unit; it is taken as {si}: if it is in {likely}, write \
              `{column} [{likely}]` in the header, and `{column} [{si}]` if not"
         )
     }
-}
-
-/// The SI unit of a quantity, and the unit that is most often meant where a bare number is too large for it.
-#[must_use]
-pub fn si_and_likely(quantity: Quantity) -> (&'static str, &'static str) {
-    let likely = match quantity {
-        Quantity::Angle => "deg",
-        Quantity::Length => "mm",
-        Quantity::Number => "1",
-    };
-    (quantity.unit(), likely)
 }
 
 #[cfg(test)]
@@ -143,7 +204,8 @@ mod tests {
         let doubted = |name: &str, number: f64| {
             let chain = chain.as_ref()?;
             let symbol = chain.find_symbol(name)?;
-            let mut column = BareColumn::new(chain, symbol, name, "f.csv");
+            let (plausible, quantity) = (Plausible::readings(chain, symbol), chain.symbol(symbol).quantity);
+            let mut column = BareColumn::new(plausible, quantity, name, "f.csv");
             column.see(&[0.1, number, -0.2]);
             Some(column.is_doubtful())
         };

@@ -207,8 +207,8 @@ fn set_aside(diagnosis: &Diagnosis) -> Markup {
                 summary { (aside.len()) " rows set aside" }
                 (scrolled("Rows set aside", &html! {
                     table {
-                        thead { tr { th.number scope="col" { "row" } th scope="col" { "why" } } }
-                        tbody { @for aside in aside.iter().take(LISTED) { tr { td.number { (aside.row) } td { (aside.why) } } } }
+                        thead { tr { th scope="col" { "row" } th scope="col" { "why" } } }
+                        tbody { @for aside in aside.iter().take(LISTED) { tr { td { (words::row(aside)) } td { (aside.why) } } } }
                     }
                 }))
                 @if aside.len() > LISTED { p { "The first " (LISTED) " of " (aside.len()) "; report.json lists all." } }

@@ -9,6 +9,7 @@ mod date;
 mod errors_file;
 mod evaluation;
 mod failure;
+mod init;
 mod letters;
 pub mod library;
 mod output;

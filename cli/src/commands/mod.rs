@@ -10,6 +10,7 @@ pub mod derive;
 mod eval;
 mod generate;
 pub mod identify;
+mod init;
 mod manual;
 pub mod simulate;
 
@@ -56,6 +57,7 @@ macro_rules! commands {
 }
 
 commands! {
+    Init => init,
     Derive => derive,
     Identify => identify,
     Bound => bound,

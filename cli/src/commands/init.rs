@@ -1,0 +1,160 @@
+//! `trueaxis init`: a chain and a study to start from, out of a table of data.
+
+use std::fs::{self, File};
+use std::io::{self, BufReader, Read};
+use std::path::{Path, PathBuf};
+
+use calibration::formats::{self, DataError, Options};
+use calibration::study::Study;
+use model_core::Chain;
+
+use super::Answer;
+use crate::failure::Failure;
+use crate::init::templates::{self, TEMPLATES};
+use crate::init::{self, Draft, Look};
+use crate::{output, source, terminal};
+
+/// Begin: write a chain and a study for a table of data.
+///
+/// Looks at the header and the rows, and writes NAME.chain, with the errors that are usual for this kind of instrument,
+/// and NAME.toml, ready to run. What can be seen is not asked: which column is what, in which unit, which way angles
+/// run. Nothing is overwritten.
+///
+/// Example: trueaxis init examples/course/secret.csv --out mount.toml
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// Measured data: a table with a header
+    #[arg(required_unless_present = "list")]
+    data: Option<PathBuf>,
+    /// The kind of instrument, where the header does not say it plainly
+    #[arg(long, value_name = "NAME", value_parser = TEMPLATES.iter().map(|template| template.name).collect::<Vec<_>>())]
+    template: Option<String>,
+    /// The study to write, the chain beside it; default: named like the data, beside them
+    #[arg(long, value_name = "STUDY.toml")]
+    out: Option<PathBuf>,
+    /// Only list the kinds of instruments, with the columns that each looks for
+    #[arg(long, conflicts_with_all = ["data", "template", "out"])]
+    list: bool,
+}
+
+/// Runs the command.
+pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
+    let Some(data) = arguments.data.as_ref().filter(|_| !arguments.list) else {
+        let lines =
+            TEMPLATES.iter().map(|one| format!("{:14} {}\n{:17}{}\n", one.name, one.what, "", one.looks_for));
+        terminal::print_text(&lines.collect::<String>())?;
+        return Ok(Answer::Done);
+    };
+    if data == Path::new("-") {
+        return Err(Failure::Input(
+            "name a file with the data: the study has to say where they are".to_owned(),
+        ));
+    }
+    let look = look(data)?;
+    let template = match arguments.template.as_deref().and_then(templates::named) {
+        Some(template) => template,
+        None => init::choose(&look).map_err(Failure::Input)?,
+    };
+    let draft = (template.draft)(&look).map_err(Failure::Input)?;
+    let study_file = arguments.out.clone().unwrap_or_else(|| data.with_extension("toml"));
+    let chain_file = study_file.with_extension("chain");
+    let written = [&study_file, &chain_file];
+    if study_file == chain_file {
+        return Err(Failure::Input(format!(
+            "`{}` is where the chain goes: name the study with --out, as `{}`",
+            study_file.display(),
+            study_file.with_extension("toml").display()
+        )));
+    }
+    if let Some(there) = written.into_iter().find(|file| fs::symlink_metadata(file).is_ok()) {
+        return Err(Failure::Input(format!(
+            "`{}` is there already, and nothing is overwritten: name another study with --out",
+            there.display()
+        )));
+    }
+    let study =
+        init::study(&draft, &look, [&name(&chain_file)?, &beside(&study_file, data)?, &text(&study_file)?]);
+    hold(&draft, &study, data)?;
+    let mut batch = output::Batch::default();
+    batch.write_text(&chain_file, &draft.chain)?;
+    batch.write_text(&study_file, &study)?;
+    batch.finish()?;
+    for remark in &draft.remarks {
+        terminal::note(format_args!("note: {remark}"));
+    }
+    terminal::print_text(&format!(
+        "{}: {}\n  the declaration: {}\n  the study: {}\nnext: trueaxis calibrate {}\n",
+        template.name,
+        template.what,
+        chain_file.display(),
+        study_file.display(),
+        study_file.display()
+    ))?;
+    Ok(Answer::Done)
+}
+
+/// The data as they are looked at.
+fn look(data: &Path) -> Result<Look, Failure> {
+    let file = open(data).map_err(|error| Failure::Input(error.to_string()))?;
+    let mut reader = formats::open(file, &data.display().to_string(), &Options::default())
+        .map_err(|error| Failure::Input(error.to_string()))?;
+    Look::at(&mut *reader).map_err(Failure::Input)
+}
+
+fn open(data: &Path) -> Result<Box<dyn Read>, DataError> {
+    let unreadable = |error: &io::Error| DataError::Unreadable {
+        file: data.display().to_string(),
+        why: source::not_readable(data, error).to_string(),
+    };
+    let file = File::open(data).map_err(|error| unreadable(&error))?;
+    if file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
+        return Err(unreadable(&io::ErrorKind::IsADirectory.into()));
+    }
+    Ok(Box::new(BufReader::new(file)))
+}
+
+/// Holds what is to be written to what it is read with: the chain, the study, and every row of the data.
+fn hold(draft: &Draft, study: &str, data: &Path) -> Result<(), Failure> {
+    let ours = |what: &str, why: String| {
+        Failure::Input(format!("{what} cannot be read again, and nothing is written: {why}"))
+    };
+    let chain = Chain::from_text(&draft.chain).map_err(|mistakes| {
+        ours("the chain that was made of these data", mistakes.render("chain", &draft.chain))
+    })?;
+    let plan = Study::from_text(study)
+        .and_then(|study| study.plan(&chain))
+        .map_err(|mistakes| ours("the study that was made of these data", mistakes.render("study", study)))?;
+    let loaded = plan.load(&mut |_: &str| open(data)).map_err(|error| Failure::Input(error.to_string()))?;
+    loaded.doubtful.iter().for_each(terminal::warn);
+    Ok(())
+}
+
+/// A path as a study says it.
+fn text(path: &Path) -> Result<String, Failure> {
+    let text = path.to_str().map(str::to_owned);
+    text.ok_or_else(|| {
+        Failure::Input(format!("`{}` is no UTF-8, and no study could name it: rename it", path.display()))
+    })
+}
+
+/// The last part of a path.
+fn name(path: &Path) -> Result<String, Failure> {
+    text(Path::new(path.file_name().unwrap_or_default()))
+}
+
+/// Where the data are, as seen from the study's folder.
+fn beside(study: &Path, data: &Path) -> Result<String, Failure> {
+    let folder = |path: &Path| match path.parent() {
+        Some(parent) if parent != Path::new("") => parent.to_owned(),
+        _ => PathBuf::from("."),
+    };
+    let own = folder(study);
+    let from = fs::canonicalize(&own).map_err(|error| Failure::write(study, &error))?;
+    let to = fs::canonicalize(folder(data)).map_err(|error| Failure::read(data, &error))?;
+    let common = from.components().zip(to.components()).take_while(|(one, other)| one == other).count();
+    let up = from.components().skip(common).map(|_| Path::new("..").to_owned());
+    let down = to.components().skip(common).map(|part| PathBuf::from(part.as_os_str()));
+    let mut path: PathBuf = up.chain(down).collect();
+    path.push(data.file_name().unwrap_or_default());
+    Ok(text(&path)?.replace(std::path::MAIN_SEPARATOR, "/"))
+}

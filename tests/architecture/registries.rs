@@ -3,8 +3,13 @@
 use crate::sources::below;
 
 /// The registries of the project.
-const REGISTRIES: &[&str] =
-    &["cli/src/commands", "codegen/src/backends", "calibration/src/effects", "calibration/src/formats"];
+const REGISTRIES: &[&str] = &[
+    "cli/src/commands",
+    "cli/src/init/templates",
+    "codegen/src/backends",
+    "calibration/src/effects",
+    "calibration/src/formats",
+];
 
 #[test]
 fn no_file_of_a_registry_is_forgotten_by_its_table() {

@@ -12,6 +12,7 @@ use super::Answer;
 use crate::failure::Failure;
 use crate::init::templates::{self, TEMPLATES};
 use crate::init::{self, Draft, Look};
+use crate::wrap::paragraph;
 use crate::{output, source, terminal};
 
 /// Begin: write a chain and a study for a table of data.
@@ -40,9 +41,12 @@ pub struct Arguments {
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let Some(data) = arguments.data.as_ref().filter(|_| !arguments.list) else {
-        let lines =
-            TEMPLATES.iter().map(|one| format!("{:14} {}\n{:17}{}\n", one.name, one.what, "", one.looks_for));
-        terminal::print_text(&lines.collect::<String>())?;
+        let mut list = String::new();
+        for one in TEMPLATES {
+            paragraph(&mut list, &format!("{:15}", one.name), one.what, terminal::width());
+            paragraph(&mut list, "                 columns: ", one.looks_for, terminal::width());
+        }
+        terminal::print(&list)?;
         return Ok(Answer::Done);
     };
     if data == Path::new("-") {

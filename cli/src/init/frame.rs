@@ -11,6 +11,8 @@ use super::look::Read;
 const FOLLOWS: f64 = 0.94;
 /// What is between true angles and readings, and is worth starting the fit from, in rad.
 const WORTH_STARTING: f64 = 0.01;
+/// What is more than this is where a scale begins, and no small error, in rad.
+const NO_ERROR: f64 = 0.1;
 
 /// Senses of both axes and what looks forward.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,6 +64,17 @@ impl Frame {
         Self { first, second, forward: (quarters.rem_euclid(4.0)) as u8 % 4, left }
     }
 
+    /// How the first joint moves, from where its scale begins.
+    pub fn turns(&self, joint: &str) -> String {
+        format!("Rz({}{joint}{})", sign(self.first), beginning(self.left[0]))
+    }
+
+    /// How the second joint moves, from where its scale begins.
+    pub fn tilts(&self, joint: &str) -> String {
+        let (axis, sense) = self.raising();
+        format!("R{axis}({}{joint}{})", sign(sense * self.second), beginning(sense * self.left[1]))
+    }
+
     /// A turn about the first axis, by an amount in the sense of its joint.
     pub fn turn(&self, amount: &str) -> String {
         format!("Rz({}{amount})", sign(self.first))
@@ -106,7 +119,7 @@ impl Frame {
 
     /// Where the fit of the two indices starts, in the senses of their joints; nothing where that is near zero.
     pub fn starts(&self, names: [&'static str; 2]) -> Vec<(&'static str, String)> {
-        let [turned, raised] = self.left;
+        let [turned, raised] = self.left.map(|left| left - begins(left));
         [(names[0], self.first * turned), (names[1], self.second * raised)]
             .into_iter()
             .filter(|(name, left)| !name.is_empty() && left.abs() > WORTH_STARTING)
@@ -117,6 +130,24 @@ impl Frame {
 
 fn sign(sense: f64) -> &'static str {
     if sense < 0.0 { "-" } else { "" }
+}
+
+/// Where a scale begins, to a tenth of a degree, if that is no small error: in rad.
+fn begins(left: f64) -> f64 {
+    if left.abs() > NO_ERROR { f64::from(tenths(left)) * PI / 1800.0 } else { 0.0 }
+}
+
+fn tenths(angle: f64) -> i32 {
+    (angle.to_degrees() * 10.0).round() as i32
+}
+
+/// The same as it stands behind a joint: ` - 401*pi/1800`.
+fn beginning(left: f64) -> String {
+    match (begins(left) == 0.0, tenths(left)) {
+        (true, _) => String::new(),
+        (false, tenths) if tenths < 0 => format!(" - {}*pi/1800", -tenths),
+        (false, tenths) => format!(" + {tenths}*pi/1800"),
+    }
 }
 
 /// An angle between −π and π.
@@ -150,6 +181,15 @@ mod tests {
     }
 
     #[test]
+    fn where_a_scale_begins_is_no_error() {
+        let reading: Vec<f64> = (0..30).map(f64::from).collect();
+        let azimuth = reading.iter().map(|reading| -reading - 0.7).collect();
+        let Some(frame) = Frame::following(&read(reading), &read(azimuth)) else { panic!("it follows") };
+        assert_eq!(frame.turns("a"), "Rz(a + 401*pi/1800)");
+        assert_eq!(frame.starts(["index", ""]), []);
+    }
+
+    #[test]
     fn every_usual_frame_is_recognised_by_its_rows() {
         let azimuth: Vec<f64> = (0..40).map(|row| 0.37 * f64::from(row)).collect();
         let elevation: Vec<f64> = (0..40).map(|row| 0.2 + 0.9 * (0.7 * f64::from(row)).sin().abs()).collect();
@@ -163,15 +203,15 @@ mod tests {
         ];
         for (direction, turn, tilt, sight) in frames {
             let vectors: Vec<[f64; 3]> =
-                azimuth.iter().zip(&elevation).map(|(&a, &e)| direction(a + 0.2, e)).collect();
+                azimuth.iter().zip(&elevation).map(|(&a, &e)| direction(a + 0.05, e)).collect();
             let frame = Frame::seen(&read(azimuth.clone()), &read(elevation.clone()), &vectors);
             let Some(frame) = frame else { panic!("{turn}, {tilt}") };
             assert_eq!(
                 (frame.turn("a").as_str(), frame.tilt("e").as_str(), frame.sight()),
                 (turn, tilt, sight)
             );
-            // Readings 0.2 rad behind the truth.
-            assert_eq!(frame.starts(["index", ""]), [("index", "11.459 deg".to_owned())]);
+            // Readings 0.05 rad behind the truth.
+            assert_eq!(frame.starts(["index", ""]), [("index", "2.865 deg".to_owned())]);
         }
         let nowhere: Vec<[f64; 3]> =
             (0..40).map(|row| [f64::from(row).sin(), f64::from(row).cos(), 0.0]).collect();

@@ -65,6 +65,8 @@ pub struct Column {
     unknown: Option<String>,
     /// Its cells, if all of them are numbers.
     numbers: Option<Vec<f64>>,
+    /// The first row whose cell is no number.
+    no_number: Option<usize>,
     /// How many different texts it holds.
     pub different: usize,
     rows: usize,
@@ -110,10 +112,12 @@ impl Look {
         Ok(Self { file, columns })
     }
 
-    fn of(&self, parts: &[Part]) -> impl Iterator<Item = &Column> {
-        self.columns.iter().filter(|column| {
-            column.numbers.is_some() && column.part().is_some_and(|part| parts.contains(&part))
-        })
+    /// The columns of some parts: those that hold numbers, or else those that only their names speak for.
+    fn of(&self, parts: &[Part]) -> Vec<&Column> {
+        let of = |column: &&Column| column.part().is_some_and(|part| parts.contains(&part));
+        let all: Vec<&Column> = self.columns.iter().filter(of).collect();
+        let numbers: Vec<&Column> = all.iter().copied().filter(|column| column.numbers.is_some()).collect();
+        if numbers.is_empty() { all } else { numbers }
     }
 
     /// The column with the instrument's own reading of a part.
@@ -121,9 +125,9 @@ impl Look {
     /// # Errors
     /// Several could be meant.
     pub fn reading(&self, parts: &[Part]) -> Result<Option<&Column>, String> {
-        let said: Vec<&Column> = self.of(parts).filter(|column| column.side() == Side::Reading).collect();
-        let unsaid = || self.of(parts).filter(|column| column.side() == Side::Unsaid).collect();
-        self.one(if said.is_empty() { unsaid() } else { said })
+        let on = |side| self.of(parts).into_iter().filter(|column| column.side() == side).collect::<Vec<_>>();
+        let said = on(Side::Reading);
+        self.one(if said.is_empty() { on(Side::Unsaid) } else { said })
     }
 
     /// The column with the truth of a part: said to be, or the other one beside a reading.
@@ -131,10 +135,9 @@ impl Look {
     /// # Errors
     /// Several could be meant.
     pub fn truth(&self, parts: &[Part]) -> Result<Option<&Column>, String> {
-        let of = |side| self.of(parts).filter(move |column| column.side() == side);
-        let said: Vec<&Column> = of(Side::True).collect();
-        let beside =
-            || if of(Side::Reading).next().is_some() { of(Side::Unsaid).collect() } else { Vec::new() };
+        let on = |side| self.of(parts).into_iter().filter(|column| column.side() == side).collect::<Vec<_>>();
+        let said = on(Side::True);
+        let beside = || if on(Side::Reading).is_empty() { Vec::new() } else { on(Side::Unsaid) };
         self.one(if said.is_empty() { beside() } else { said })
     }
 
@@ -162,11 +165,7 @@ impl Look {
         self.reading(parts)?.ok_or_else(|| {
             let there: Vec<String> =
                 self.columns.iter().map(|column| format!("`{}`", column.name.full)).collect();
-            format!(
-                "{}: no column of numbers for {what}: call it {names}; the file has {}",
-                self.file,
-                there.join(", ")
-            )
+            format!("{}: no column for {what}: call it {names}; the file has {}", self.file, there.join(", "))
         })
     }
 
@@ -200,7 +199,7 @@ impl Look {
                     },
                     Ok,
                 )?;
-                Ok(column.read(unit))
+                column.read(unit, &self.file)
             })
             .collect()
     }
@@ -220,7 +219,7 @@ impl Look {
                     ));
                     Unit::find("m")
                 });
-                Ok(column.read(unit.unwrap_or_else(|| unreachable!("m is a unit"))))
+                column.read(unit.unwrap_or_else(|| unreachable!("m is a unit")), &self.file)
             })
             .collect()
     }
@@ -246,8 +245,9 @@ impl Column {
         }
         let unknown = text.filter(|_| unit.is_none()).map(str::to_owned);
         let numbers = texts.iter().map(|text| number(text)).collect();
+        let no_number = texts.iter().position(|text| number(text).is_none());
         let different: std::collections::BTreeSet<&str> = texts.iter().map(|text| text.trim()).collect();
-        Self { name, words, unit, unknown, numbers, different: different.len(), rows: texts.len() }
+        Self { name, words, unit, unknown, numbers, no_number, different: different.len(), rows: texts.len() }
     }
 
     /// What it is of.
@@ -301,9 +301,16 @@ impl Column {
         }
     }
 
-    fn read(&self, unit: Unit) -> Read {
+    fn read(&self, unit: Unit, file: &str) -> Result<Read, String> {
+        let column = self.name.full.clone();
+        if let Some(row) = self.no_number {
+            return Err(format!(
+                "{file}: `{column}` has a cell that is no number in row {}: fill it in, or leave such rows out",
+                row + 1
+            ));
+        }
         let si = self.values().iter().map(|number| number * unit.in_si).collect();
-        Read { column: self.name.full.clone(), unit: Some(unit.name), si }
+        Ok(Read { column, unit: Some(unit.name), si })
     }
 }
 

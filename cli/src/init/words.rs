@@ -107,7 +107,10 @@ const PARTS: &[(Part, &[&str])] = &[
     (Part::X, &["x", "east"]),
     (Part::Y, &["y", "north"]),
     (Part::Z, &["z", "up"]),
-    (Part::Name, &["id", "row", "name", "nr", "no", "number", "label"]),
+    (
+        Part::Name,
+        &["id", "row", "name", "nr", "no", "number", "label", "star", "object", "target", "point", "pose"],
+    ),
 ];
 
 /// The words of a name, in small letters: `trueAz_2` is `true`, `az`, `2`.

@@ -47,12 +47,7 @@ fn what_cannot_be_begun_is_refused_with_words_and_nothing_is_written() {
         ("length", "az [mm],el [deg],x,y,z", &[], "does not fit what it is"),
         ("no-truth", "az,el,p,q,r", &[], "nothing says where the instrument truly pointed"),
         ("two", "az_1,az_2,el,y,z", &["--template", "alt-azimuth"], "could each be meant"),
-        (
-            "missing",
-            "az,tilt,x,y,z",
-            &["--template", "alt-azimuth"],
-            "no column of numbers for the elevation",
-        ),
+        ("missing", "az,tilt,x,y,z", &["--template", "alt-azimuth"], "no column for the elevation"),
         ("other", "az,el,x,y,z", &["--template", "arm"], "0 columns of joints"),
         ("sideways", "el,az,x,y,z", &[], "do not follow"),
         ("misspelt", "az,el,x,y,z", &["--template", "alt-azimut"], "alt-azimuth"),
@@ -76,7 +71,7 @@ fn files_that_are_no_tables_are_refused() {
     for (file, said) in [
         ("empty.csv", "the file is empty"),
         ("header.csv", "no rows below the header"),
-        ("cell.csv", "no column of numbers for the elevation"),
+        ("cell.csv", "`el` has a cell that is no number in row 1"),
         ("missing.csv", "there is no such file"),
         (".", "it is a folder"),
         ("-", "name a file"),

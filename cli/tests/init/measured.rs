@@ -75,7 +75,7 @@ fn others_data() {
 #[test]
 fn data_without_a_truth_are_refused_with_what_is_missing() {
     for (file, said) in [
-        ("total-station-30m.csv", "nothing says where the point truly was"),
+        ("total-station-30m.csv", "has a cell that is no number in row 1"),
         ("ball-sockets.csv", "7 columns of joints"),
     ] {
         let Some(text) = of_others(file) else { continue };

@@ -140,11 +140,11 @@ def arm():
 
 def encoder():
     # It counts backwards, and starts anywhere.
-    p = {"index": -40.0123 * DEG}
+    p = {"index": -0.0123 * DEG}
     rows = ["reference_deg,count,raw_deg"]
     for row in range(120):
         raw = 3.0 * row + chance.uniform(0, 1)
-        azimuth = -raw - p["index"] / DEG + chance.gauss(0, 0.002)
+        azimuth = -raw + 40 - p["index"] / DEG + chance.gauss(0, 0.002)
         rows.append(f"{azimuth % 360:.6f},{int(raw * 45.5)},{raw:.6f}")
     return p, rows
 

@@ -39,7 +39,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
 }
 
 fn chain(frame: &Frame, statements: &str) -> String {
-    let (turn, tilt) = (frame.turn("azimuth"), frame.tilt("elevation"));
+    let (turn, tilt) = (frame.turns("azimuth"), frame.tilts("elevation"));
     let (turn_index, tilt_index) = (frame.turn("azimuth_index"), frame.tilt("elevation_index"));
     let (roll, droop) = (frame.roll("nonperpendicularity"), frame.raise("droop*cos(elevation)"));
     let sight = frame.sight();

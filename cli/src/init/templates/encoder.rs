@@ -49,7 +49,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
 }
 
 fn chain(frame: &Frame, statements: &str) -> String {
-    let (turn, index) = (frame.turn("reading"), frame.turn("index"));
+    let (turn, index) = (frame.turns("reading"), frame.turn("index"));
     format!(
         "/// A rotary encoder: one joint, and what turns on it.
 chain Encoder {{

@@ -54,7 +54,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
 }
 
 fn chain(frame: &Frame, statements: &str, pier: &str) -> String {
-    let (turn, tilt, turn_index) = (frame.turn("ha"), frame.tilt("dec"), frame.turn("ha_index"));
+    let (turn, tilt, turn_index) = (frame.turns("ha"), frame.tilts("dec"), frame.turn("ha_index"));
     let tilt_index = frame.tilt(&format!("{pier}dec_index"));
     let roll = frame.roll(&format!("{pier}nonperpendicularity"));
     let (sight, down) = (frame.sight(), frame.down());

@@ -41,8 +41,8 @@ fn draft(look: &Look) -> Result<Draft, String> {
 }
 
 fn chain(frame: &Frame, statements: &str, rolls: bool) -> String {
-    let (turn, turn_index) = (frame.turn("pan"), frame.turn("pan_index"));
-    let (tilt, tilt_index) = (frame.tilt("tilt"), frame.tilt("tilt_index"));
+    let (turn, turn_index) = (frame.turns("pan"), frame.turn("pan_index"));
+    let (tilt, tilt_index) = (frame.tilts("tilt"), frame.tilt("tilt_index"));
     let (skew, roll, up) = (frame.roll("nonperpendicularity"), frame.roll("roll"), frame.raise("sight_up"));
     let sight = frame.sight();
     let (device, third) = if rolls {

@@ -48,7 +48,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
 
 fn chain(frame: &Frame, statements: &str) -> String {
     let (turn, index, rise, sight) =
-        (frame.turn("angle"), frame.turn("index"), frame.raise("rise"), frame.sight());
+        (frame.turns("angle"), frame.turn("index"), frame.raise("rise"), frame.sight());
     format!(
         "/// A turntable with a pointer on it. z points along its axis.
 chain Turntable {{

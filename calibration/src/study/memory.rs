@@ -11,11 +11,11 @@ use super::written::{SearchTable, Study};
 use crate::catalogue::{catalogue, chosen};
 use crate::formats::Options;
 
-/// Matrices that are held at most for each fold, and besides; measured at 10 and 40 folds with a margin of a quarter.
-const MATRICES_A_FOLD: f64 = 5.0;
-const MATRICES_BESIDES: f64 = 15.0;
+/// Matrices that are held at most for each fold, and besides; measured at 10, 40 and 100 folds, with a margin of a quarter.
+const MATRICES_A_FOLD: f64 = 4.0;
+const MATRICES_BESIDES: f64 = 35.0;
 
-const GIB: f64 = (1_u64 << 30) as f64;
+const MIB: f64 = (1_u64 << 20) as f64;
 
 impl Study {
     /// Refuses a search that would take more than the memory that the study allows.
@@ -44,14 +44,14 @@ impl Study {
         } else {
             self.hold_out.folds.span()
         };
-        let (needed, allowed) = (bytes / GIB, format.memory_bytes as f64 / GIB);
+        let (needed, allowed) = ((bytes / MIB).ceil(), format.memory_bytes >> 20);
         let message = format!(
-            "a search among {functions} functions in {folds} folds takes about {needed:.1} GiB of memory, and {allowed:.1} \
-             GiB are allowed"
+            "a search among {functions} functions in {folds} folds takes about {needed} MiB of memory, and {allowed} MiB \
+             are allowed"
         );
         let help = format!(
             "ask for fewer harmonics or folds, name the effects that may be found, or write memory = \"{:.0} GiB\"",
-            needed.ceil()
+            (needed / 1024.0).ceil()
         );
         Err(mistake(place, message, help))
     }

@@ -205,3 +205,62 @@ fn names_of_a_study_are_names_of_the_language() {
         assert!(told.iter().any(|line| line.contains("a few words on one line")), "{name}: {told:#?}");
     }
 }
+
+#[test]
+fn a_search_that_would_not_fit_into_the_memory_is_refused_before_it_begins() {
+    let asked = |text: &str, search: &str, folds: &str| {
+        let study = format!("{text}\n{STUDY}").replace("[search]", &format!("[search]\n{search}"));
+        observations(&format!("{study}\n[hold_out]\n{folds}\n"), NIGHT).map(|_| ())
+    };
+    assert_eq!(asked("", "", "folds = 10"), Ok(()));
+    for (text, search, folds) in [
+        ("", "harmonics = 400", "folds = 1000"),
+        ("memory = \"16 MiB\"", "harmonics = 60", "folds = 10"),
+        ("memory = \"16 MiB\"", "", "folds = 1000"),
+    ] {
+        let why = asked(text, search, folds).expect_err("too much");
+        assert!(why.contains("MiB are allowed") && why.contains("write memory = "), "{why}");
+    }
+    assert_eq!(asked("memory = \"64 GiB\"", "harmonics = 400", "folds = 1000"), Ok(()));
+    let why = asked("", "harmonics = 1000", "folds = 10").expect_err("beyond all");
+    assert!(why.contains("harmonics from 0 to 400"), "{why}");
+}
+
+#[test]
+fn bare_numbers_that_are_hardly_in_si_are_doubted() {
+    let chain = Chain::from_text(MOUNT).unwrap();
+    let doubts = |from: &str, to: &str| -> Vec<String> {
+        let study = STUDY.replace(from, to) + "\n[next]\nposes = 3\nrange = { elevation = [0.2, 1.2] }\n";
+        let plan = Study::from_text(&study).unwrap().plan(&chain).unwrap();
+        plan.doubts.iter().map(ToString::to_string).collect()
+    };
+    assert_eq!(doubts("", ""), [String::new(); 0]);
+    let said = "sigma = 2 has no unit and is taken as rad; did you mean sigma = \"2 arcsec\"?";
+    for written in ["sigma = 2", "sigma = 2.0", "sigma = \"2\""] {
+        assert_eq!(doubts("sigma = \"2 arcsec\"", written), [said]);
+    }
+    assert_eq!(doubts("sigma = \"2 arcsec\"", "sigma = 1e-5"), [String::new(); 0]);
+    assert_eq!(
+        doubts("elevation_index = \"1 arcmin\"", "elevation_index = 60"),
+        [
+            "elevation_index = 60 has no unit and is taken as rad; did you mean elevation_index = \"60 arcsec\"?"
+        ]
+    );
+}
+
+#[test]
+fn rows_know_their_lines_and_their_names() {
+    let read = observations(&format!("id = \"day\"\n{STUDY}"), NIGHT).unwrap();
+    let place = |row: usize| (read.origins.of(row).line, read.origins.of(row).name);
+    // In the order of time: the second row of the file comes first.
+    assert_eq!(
+        (0..4).map(place).collect::<Vec<_>>(),
+        [(Some(3), Some("a")), (Some(5), Some("a")), (Some(2), Some("b")), (Some(4), Some("b"))]
+    );
+    let of_some = read.origins.select(&[3, 0]);
+    assert_eq!((of_some.of(0).line, of_some.of(1).line), (Some(4), Some(3)));
+    assert!(
+        observations(&format!("id = \"star\"\n{STUDY}"), NIGHT)
+            .is_err_and(|why| why.contains("no column `star`"))
+    );
+}

@@ -7,6 +7,7 @@
 mod columns;
 mod doubts;
 mod effects;
+mod estimated;
 mod format;
 mod inputs;
 mod load;

@@ -2,9 +2,10 @@
 
 use std::ops::Range;
 
-use model_core::{Axis, Chain, Mistakes, ObservableId, Quantity, Symbol, SymbolId, SymbolKind, names};
+use model_core::{Axis, Chain, Mistakes, ObservableId, Quantity, SymbolId, SymbolKind};
 use toml::Spanned;
 
+use super::estimated::{estimable, matching};
 use super::mistakes::{Gathered, Outcome, Several, every, mistake, plain, unknown, within};
 use super::shown::{self, Convention};
 use super::written::{Column, Kind, Observed, Study, Table};
@@ -337,40 +338,6 @@ impl Study {
         let count = usize::try_from(*next.poses.get_ref()).unwrap_or(usize::MAX);
         Ok(ranges.map(|ranges| NextPoses { count, ranges }))
     }
-}
-
-/// Whether a symbol can be estimated.
-fn is_estimable(symbol: &Symbol) -> bool {
-    matches!(symbol.kind, SymbolKind::Error | SymbolKind::Constant)
-}
-
-/// The error or constant of a name.
-fn estimable(chain: &Chain, name: &Spanned<String>) -> Outcome<SymbolId> {
-    let found = chain.find_symbol(name.get_ref()).filter(|&id| is_estimable(chain.symbol(id)));
-    found.ok_or_else(|| {
-        let all = chain.symbols.iter().filter(|symbol| is_estimable(symbol));
-        let names = all.map(|symbol| symbol.name.as_str());
-        unknown(name.span(), "error or constant", name.get_ref(), names)
-    })
-}
-
-/// The errors or constants that a name or a pattern means.
-fn matching(chain: &Chain, pattern: &Spanned<String>) -> Outcome<Vec<SymbolId>> {
-    if !names::is_pattern(pattern.get_ref()) {
-        return estimable(chain, pattern).map(|id| vec![id]);
-    }
-    let of = |kind| -> Vec<SymbolId> {
-        let all = chain.symbols_of(kind);
-        all.filter(|&id| names::matches(pattern.get_ref(), &chain.symbol(id).name)).collect()
-    };
-    // A pattern means errors; constants are freed by it only where no error matches.
-    let matched = Some(of(SymbolKind::Error)).filter(|errors| !errors.is_empty());
-    let matched = matched.unwrap_or_else(|| of(SymbolKind::Constant));
-    if matched.is_empty() {
-        let message = format!("no error or constant matches `{}`", pattern.get_ref());
-        return Err(plain(pattern.span(), message));
-    }
-    Ok(matched)
 }
 
 /// The joints and inputs that an observable depends on.

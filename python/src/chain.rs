@@ -189,7 +189,7 @@ impl Chain {
         let form = form_of(form)?;
         let chain = &self.chain;
         let named = |name: &str| self.symbol(name, &[SymbolKind::Joint, SymbolKind::Input], "joint or input");
-        let fails = |failure: Failure| crate::errors::exception(py, &failure);
+        let fails = |failure: Failure| errors::exception(py, &failure);
         let observable = library::observable(chain, observable).map_err(fails)?;
         let needed = library::readings_of(chain, observable);
 
@@ -205,7 +205,7 @@ impl Chain {
             return Err(PyValueError::new_err(format!("`{name}` has {found} rows, `{first}` has {rows}")));
         }
         let errors = source(errors);
-        let mut values = crate::errors::run(py, || library::values(&errors, chain))?;
+        let mut values = errors::run(py, || library::values(&errors, chain))?;
         let mut given: Vec<SymbolId> = columns.iter().map(|&(id, ..)| id).collect();
         for (name, value) in constants {
             let id = named(&name).map_err(fails)?;

@@ -1,6 +1,6 @@
 //! Tables of data frames: named columns, numbers as they lie in memory and texts copied.
 
-use numpy::{PyArrayMethods as _, PyReadonlyArray1};
+use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use trueaxis_cli::library::Column;
 

@@ -42,10 +42,10 @@ def example(tmp_path_factory):
 def test_the_main_job(example):
     assert example.verdict in ("explained", "confounded")
     assert example.effects.rows >= 1 and "beta" in example.effects["driver"]
-    assert example.errors.rows == 30 and example.errors["value"].dtype == np.float64
-    assert example.errors.to_pandas().shape == (30, 5)
+    # The declared errors, and the coefficients of what was found.
+    assert set(example.errors["name"]) == set(example.chain.errors) and len(example.chain.errors) > 30
+    assert example.errors["value"].dtype == np.float64 and example.errors.to_pandas().shape[1] == 5
     assert example.report["schema"] == 2
-    assert example.chain is not None and len(example.chain.errors) > 30
     assert set(example.values) >= set(example.chain.errors)
     assert example.residuals.rows == example.report["observations"]["rows"]
     assert "Calibration" not in example.text() and example.text() == repr(example) and "\x1b" not in example.text()
@@ -88,7 +88,7 @@ def test_tables_of_every_library(mount, table, kind):
     rows = dict(zip(calibration.errors["name"], zip(calibration.errors["value"], calibration.errors["standard_uncertainty"])))
     for name, value in TRUE.items():
         found, uncertainty = rows[name]
-        assert abs(found - value) < 5 * uncertainty < 10 * ARCSEC
+        assert abs(found - value) < 5 * uncertainty and uncertainty < 3 * ARCSEC
     corrected = calibration.apply(data)
     assert isinstance(corrected, trueaxis.Table if kind == "dictionary" else type(data))
 

@@ -212,8 +212,8 @@ def test_names_are_checked(mount, scanner):
         mount.exact({"azimuth": 0.1, "elevaton": 0.2})
     with pytest.raises(trueaxis.TrueaxisError, match="`pointing` needs readings of `elevation`"):
         mount.exact({"azimuth": 0.1})
-    with pytest.raises(trueaxis.TrueaxisError, match="no observable `point`; did you mean `pointing`?"):
-        mount.exact(readings, observable="point")
+    with pytest.raises(trueaxis.TrueaxisError, match="no observable `pointng`; did you mean `pointing`?"):
+        mount.exact(readings, observable="pointng")
     with pytest.raises(trueaxis.TrueaxisError, match="no error `colimation`; did you mean `collimation`?"):
         mount.jacobian(readings, wrt=["colimation"])
     with pytest.raises(trueaxis.TrueaxisError, match="declares `pointing`, .*: name one of them"):
@@ -229,5 +229,5 @@ def test_names_are_checked(mount, scanner):
 
 
 def test_a_bare_number_that_is_no_radian_is_doubted(mount):
-    with pytest.warns(trueaxis.TrueaxisWarning, match='did you mean collimation = "10.0 arcsec"'):
+    with pytest.warns(trueaxis.TrueaxisWarning, match='did you mean collimation = "10 arcsec"'):
         mount.exact({"azimuth": 0.1, "elevation": 0.2}, {"collimation": 10.0})

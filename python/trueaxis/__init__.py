@@ -15,6 +15,7 @@ Angles are radians and lengths metres everywhere, unless a text says another uni
 from ._answers import Answer
 from ._calibration import Calibration, calibrate
 from ._chain import Chain, ClosedForm, Observable, Symbol, check
+from ._cluster import apply
 from ._errors import Mistake, MistakeError, TrueaxisError, TrueaxisWarning
 from ._native import __version__
 from ._tables import Table
@@ -32,6 +33,7 @@ __all__ = [
     "TrueaxisError",
     "TrueaxisWarning",
     "__version__",
+    "apply",
     "calibrate",
     "check",
 ]

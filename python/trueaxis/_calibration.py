@@ -34,7 +34,7 @@ class Calibration:
 
     @cached_property
     def errors(self) -> Table:
-        """A row an error: ``name``, ``value``, ``standard_uncertainty``, ``unit``, ``separable``."""
+        """A row an error, those of the effects that were found among them: ``name``, ``value``, ``standard_uncertainty``, ``unit``, ``separable``."""
         keys = ["name", "value", "standard_uncertainty", "unit", "separable"]
         return _table(self.report["errors"], keys)
 

@@ -154,7 +154,8 @@ def _mixed(values: list[Any]) -> np.ndarray | list[str]:
     """Numbers with nothing in some rows are numbers, where NaN says so; all else is texts."""
 
     def is_none(value: Any) -> bool:
-        return value is None or type(value).__name__ in ("NAType", "NaTType")
+        is_nan = isinstance(value, float) and value != value
+        return value is None or is_nan or type(value).__name__ in ("NAType", "NaTType")
 
     def is_number(value: Any) -> bool:
         return isinstance(value, (int, float, np.number)) and not isinstance(value, bool)

@@ -116,7 +116,7 @@ impl TableReader for Reader<'_> {
             })
             .collect::<Result<_, DataError>>()?;
         self.row = rows.end;
-        Ok(Chunk { columns, rows: (rows.start as u64 + 1..=rows.end as u64).collect(), lines: Vec::new() })
+        Ok(Chunk { columns, rows: (rows.start as u64 + 1..=rows.end as u64).collect() })
     }
 }
 
@@ -139,19 +139,11 @@ mod tests {
         let labels = |labels: &[String]| Cells::Labels(labels.to_vec());
         assert_eq!(
             read(),
-            Chunk {
-                columns: vec![Cells::Numbers(vec![3.0, -8.0]), labels(&names[..2])],
-                rows: vec![1, 2],
-                lines: Vec::new()
-            }
+            Chunk { columns: vec![Cells::Numbers(vec![3.0, -8.0]), labels(&names[..2])], rows: vec![1, 2] }
         );
         assert_eq!(
             read(),
-            Chunk {
-                columns: vec![Cells::Numbers(vec![0.25]), labels(&names[2..])],
-                rows: vec![3],
-                lines: Vec::new()
-            }
+            Chunk { columns: vec![Cells::Numbers(vec![0.25]), labels(&names[2..])], rows: vec![3] }
         );
         assert!(read().rows.is_empty());
     }
@@ -164,15 +156,25 @@ mod tests {
                 .and_then(|mut reader| reader.read(&[NUMBERS], usize::MAX))
                 .map_err(|error| error.to_string())
         };
-        insta::assert_debug_snapshot!([
-            message(&[]),
-            message(&[("az", Column::Numbers(&[])), ("az", Column::Numbers(&[]))]),
-            message(&[("az", Column::Numbers(&[1.0])), ("el", Column::Numbers(&[]))]),
-            message(&[("az", Column::Numbers(&[1.0, f64::NAN]))]),
-            message(&[("az", Column::Texts(&texts[..1]))]),
-            message(&[("az", Column::Texts(&texts[..2]))]),
-            message(&[("az", Column::Texts(&texts[2..3]))]),
-            message(&[("az", Column::Texts(&texts[3..]))]),
-        ]);
+        let cases: [(&[(&str, Column<'_>)], &str); 7] = [
+            (&[], "frame: the table has no columns"),
+            (
+                &[("az", Column::Numbers(&[])), ("az", Column::Numbers(&[]))],
+                "frame: column `az` is there twice",
+            ),
+            (
+                &[("az", Column::Numbers(&[1.0])), ("el", Column::Numbers(&[]))],
+                "frame: column `el` has 0 rows, column `az` has 1",
+            ),
+            (&[("az", Column::Numbers(&[1.0, f64::NAN]))], "frame: row 2, column `az`: `NaN` is not finite"),
+            (&[("az", Column::Texts(&texts[..2]))], "frame: row 2, column `az`: the cell is empty"),
+            (&[("az", Column::Texts(&texts[2..3]))], "frame: row 1, column `az`: `x` is no number"),
+            (&[("az", Column::Texts(&texts[3..]))], "frame: row 1, column `az`: `inf` is not finite"),
+        ];
+        for (columns, expected) in cases {
+            let told = message(columns).unwrap_err();
+            assert!(told.starts_with(expected), "{told}");
+        }
+        assert!(message(&[("az", Column::Texts(&texts[..1]))]).is_ok());
     }
 }

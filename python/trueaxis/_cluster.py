@@ -1,0 +1,186 @@
+"""Folders of Parquet files: corrected file by file, in this process or on a Dask cluster."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import shutil
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ._chain import Chain
+from ._errors import TrueaxisError
+from ._inputs import Errors, errors_text, names
+from ._native import __version__
+from ._tables import Table, columns_of, with_columns
+
+if TYPE_CHECKING:
+    import distributed
+
+_ROWS = 1 << 18
+"""Rows that are in memory at a time, a file that is being corrected."""
+_SECONDS = 10
+"""How long a scheduler may take to answer."""
+_WORKER_SECONDS = 60
+"""How long its first worker may take to join."""
+
+
+def apply(
+    source: str | os.PathLike[str] | Iterable[str | os.PathLike[str]],
+    chain: Chain,
+    errors: Errors,
+    out: str | os.PathLike[str],
+    *,
+    observables: str | Iterable[str] | None = None,
+    client: distributed.Client | str | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> Table:
+    """Corrects Parquet files with calibrated errors, as :meth:`Chain.apply` corrects a table; memory is that of some chunks.
+
+    :param source: a folder of ``.parquet`` files, one file, or a list of files.
+    :param out: a folder that is not there yet. It appears with a file for each, of the same name, when all are done.
+    :param client: a Dask client, or the address of a scheduler: its workers do a file each, and must see the same folders. If a
+        worker dies, others do its files again. Without one, the processors of this machine do them.
+    :param progress: called with how many files are done, of how many.
+    :returns: a row a file: ``file``, ``rows``.
+    :raises TrueaxisError: a file that cannot be read, a worker of another version, a scheduler that does not answer; each by
+        name. Nothing is left at ``out`` then.
+    """
+    files = _files(source)
+    target = Path(out).absolute()
+    if target.exists():
+        raise TrueaxisError(f"`{out}` is there already: name a folder that is not")
+    if not target.parent.is_dir():
+        raise TrueaxisError(f"cannot write `{out}`: the folder it would lie in is not there; create it first")
+    # What is wrong with the errors is told before a worker is asked.
+    name, text = errors_text(errors)
+    chosen = names(observables)
+    chain.eval({reading: [0.5] for reading in chain.joints + chain.inputs}, errors, observables)
+    staged = target.with_name(f".{target.name}.{secrets.token_hex(8)}.partial")
+    staged.mkdir()
+    tasks = [(str(file), str(staged / file.name), chain, name, text, chosen, __version__) for file in files]
+    rows: dict[str, int] = {}
+    try:
+        for done, (file, count) in enumerate(_run(tasks, client), 1):
+            rows[file] = count
+            if progress is not None:
+                progress(done, len(tasks))
+        staged.rename(target)
+    finally:
+        shutil.rmtree(staged, ignore_errors=True)
+    listed = [str(file) for file in files]
+    return Table({"file": listed, "rows": [rows[file] for file in listed]})
+
+
+def _files(source: Any) -> list[Path]:
+    if isinstance(source, (str, os.PathLike)):
+        path = Path(source)
+        if path.is_dir():
+            files = sorted(path.glob("*.parquet"))
+            if not files:
+                raise TrueaxisError(f"`{source}`: there is no .parquet file in this folder")
+        else:
+            files = [path]
+    else:
+        files = [Path(file) for file in source]
+        if not files:
+            raise TrueaxisError("no files are given")
+    seen: set[str] = set()
+    for file in files:
+        if not file.is_file():
+            raise TrueaxisError(f"cannot read `{file}`: there is no such file")
+        if file.name in seen:
+            raise TrueaxisError(f"two files are named `{file.name}`: their results would be one file")
+        seen.add(file.name)
+    return [file.absolute() for file in files]
+
+
+def _run(tasks: list[tuple], client: distributed.Client | str | None) -> Iterator[tuple[str, int]]:
+    """What each task returns, as it is done."""
+    if client is None:
+        with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
+            futures = [pool.submit(_apply_file, task) for task in tasks]
+            try:
+                for future in as_completed(futures):
+                    yield future.result()
+            finally:
+                for future in futures:
+                    future.cancel()
+        return
+    import distributed
+
+    own = None
+    if isinstance(client, str):
+        client = own = _connected(client)
+    try:
+        try:
+            client.wait_for_workers(1, timeout=_WORKER_SECONDS)
+        except TimeoutError:
+            address = client.scheduler.address
+            raise TrueaxisError(f"the scheduler at `{address}` has no worker: start one with `dask worker {address}`") from None
+        futures = client.map(_apply_file, tasks, pure=False, key=f"trueaxis-{secrets.token_hex(4)}")
+        try:
+            for future in distributed.as_completed(futures):
+                yield future.result()
+        finally:
+            client.cancel(futures)
+    finally:
+        if own is not None:
+            own.close()
+
+
+def _connected(address: str) -> distributed.Client:
+    import distributed
+
+    try:
+        return distributed.Client(address, timeout=_SECONDS)
+    except (OSError, ValueError) as error:
+        raise TrueaxisError(f"no scheduler answers at `{address}`: {error}") from None
+
+
+def _apply_file(task: tuple) -> tuple[str, int]:
+    """Corrects one file, chunk by chunk; the result takes its name when it is whole."""
+    source, out, chain, name, text, observables, version = task
+    if version != __version__:
+        raise TrueaxisError(
+            f"{_worker()} runs trueaxis {__version__}, the program that asks {version}: install the same version everywhere"
+        )
+    import pyarrow
+    import pyarrow.parquet as parquet
+
+    # A worker that died may have left a part of it.
+    partial = f"{out}.{secrets.token_hex(8)}.partial"
+    rows, writer = 0, None
+    try:
+        with parquet.ParquetFile(source) as file:
+            for batch in file.iter_batches(batch_size=_ROWS):
+                table = pyarrow.Table.from_batches([batch])
+                # Rows in messages are counted from the start of the chunk.
+                place = f"{source}, behind row {rows}" if rows else source
+                added = chain._native.over_table((place, columns_of(table)), (name, text), observables, True, True)
+                corrected = with_columns(table, dict(added))
+                if writer is None:
+                    writer = parquet.ParquetWriter(partial, corrected.schema)
+                writer.write_table(corrected)
+                rows += table.num_rows
+        if writer is None:
+            raise TrueaxisError(f"{source}: there are no rows")
+        writer.close()
+        os.replace(partial, out)
+    except (pyarrow.ArrowException, OSError) as error:
+        raise TrueaxisError(f"{source}: {error}") from None
+    finally:
+        if os.path.exists(partial):
+            os.remove(partial)
+    return source, rows
+
+
+def _worker() -> str:
+    try:
+        import distributed
+
+        return f"worker {distributed.get_worker().address}"
+    except (ImportError, ValueError):
+        return "this process"

@@ -7,6 +7,7 @@ mod bad_studies;
 mod instruments;
 mod observations;
 mod ranges;
+mod readings;
 mod unusable;
 
 use serde_json::Value;

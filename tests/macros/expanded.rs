@@ -643,19 +643,20 @@ pub mod thermal {
         }
     }
     impl core::error::Error for LengthsDiffer {}
-    /// Fills x, y and z row by row.
-    fn fill(
-        out: [&mut [f64]; 3],
+    /// Fills a slice for each number, row by row.
+    fn fill<const N: usize>(
+        mut out: [&mut [f64]; N],
         have_length: impl Fn(usize) -> bool,
-        value: impl Fn(usize) -> [f64; 3],
+        value: impl Fn(usize) -> [f64; N],
     ) -> Result<(), LengthsDiffer> {
-        let [x, y, z] = out;
-        let rows = x.len();
-        if !(y.len() == rows && z.len() == rows && have_length(rows)) {
+        let rows = out[0].len();
+        if !(out.iter().all(|slice| slice.len() == rows) && have_length(rows)) {
             return Err(LengthsDiffer);
         }
         for row in 0..rows {
-            [x[row], y[row], z[row]] = value(row);
+            for (slice, number) in out.iter_mut().zip(value(row)) {
+                slice[row] = number;
+            }
         }
         Ok(())
     }

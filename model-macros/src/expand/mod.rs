@@ -6,6 +6,7 @@ mod exact;
 mod names;
 mod observable;
 mod readings;
+mod shown;
 #[cfg(test)]
 mod tests;
 mod tokens;

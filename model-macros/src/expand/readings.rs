@@ -6,7 +6,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::arguments::Arguments;
-use super::observable::{meaning, rows, vector};
+use super::shown::{meaning, rows, vector};
 use super::tokens::{ident, tokens};
 use super::{Context, doc, stages};
 

@@ -13,3 +13,4 @@ pub mod formats;
 pub mod report;
 pub mod search;
 pub mod study;
+pub mod tolerance;

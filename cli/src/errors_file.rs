@@ -1,12 +1,15 @@
-//! Errors files (`E.toml`, `BOX.toml`): a value, or a largest size, for errors named plainly or by pattern.
+//! Errors files (`E.toml`, `BOX.toml`): a value, or a largest size, for errors named plainly or by pattern; and, where a
+//! calibration wrote it, the ranges of joints and inputs that it was found over.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::ops::Range;
 use std::path::Path;
 
 use calibration::data::units::{Amount, Plausible};
 use model_core::mistake::Mistake;
 use model_core::{Chain, SymbolId, SymbolKind, names};
+use serde::de::{self, Deserialize, Deserializer, IntoDeserializer as _};
 use toml::Spanned;
 
 use crate::failure::Failure;
@@ -15,6 +18,95 @@ use crate::terminal;
 
 /// Names as written, with their quantities, each with its place.
 type Entries = BTreeMap<Spanned<String>, Spanned<Amount>>;
+
+/// The table of the ranges that a calibration was found over. No symbol of a chain has a name with a hyphen.
+pub const FOUND_OVER: &str = "found-over";
+
+/// What stands behind a key.
+enum Entry {
+    Amount(Amount),
+    Ranges(BTreeMap<Spanned<String>, Spanned<[Amount; 2]>>),
+}
+
+impl<'de> Deserialize<'de> for Entry {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Visitor;
+        impl<'de> de::Visitor<'de> for Visitor {
+            type Value = Entry;
+
+            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+                formatter.write_str("a number (SI) or a quantity with its unit, as in \"2 arcsec\"")
+            }
+
+            fn visit_f64<E: de::Error>(self, number: f64) -> Result<Entry, E> {
+                Amount::deserialize(number.into_deserializer()).map(Entry::Amount)
+            }
+
+            fn visit_i64<E: de::Error>(self, number: i64) -> Result<Entry, E> {
+                Amount::deserialize(number.into_deserializer()).map(Entry::Amount)
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<Entry, E> {
+                Amount::deserialize(text.into_deserializer()).map(Entry::Amount)
+            }
+
+            fn visit_map<A: de::MapAccess<'de>>(self, map: A) -> Result<Entry, A::Error> {
+                Deserialize::deserialize(de::value::MapAccessDeserializer::new(map)).map(Entry::Ranges)
+            }
+        }
+        deserializer.deserialize_any(Visitor)
+    }
+}
+
+/// A range that a calibration was found over, SI; `low <= high`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FoundOver {
+    /// The joint or input.
+    pub symbol: SymbolId,
+    /// The smallest reading.
+    pub low: f64,
+    /// The largest reading.
+    pub high: f64,
+}
+
+/// The ranges that the file says a calibration was found over; none if it says nothing of them.
+///
+/// # Errors
+/// A name that is no joint or input of the chain, or a range that is none; each with its place.
+pub fn found_over(source: &Source, chain: &Chain) -> Result<Vec<FoundOver>, Failure> {
+    let entries: BTreeMap<Spanned<String>, Spanned<Entry>> = source.toml()?;
+    let mut found = Vec::new();
+    for (name, entry) in &entries {
+        let Entry::Ranges(ranges) = entry.get_ref() else { continue };
+        if name.get_ref() != FOUND_OVER {
+            let message = format!("`{}` is a table, and errors have values", name.get_ref());
+            let help = format!("write a quantity; the one table here is [{FOUND_OVER}]");
+            return Err(source.mistake(Mistake::new(name.span(), message).with_help(help)));
+        }
+        for (name, range) in ranges {
+            let movable = chain.symbols_of(SymbolKind::Joint).chain(chain.symbols_of(SymbolKind::Input));
+            let Some(symbol) = movable.clone().find(|&id| chain.symbol(id).name == *name.get_ref()) else {
+                let message = format!("chain {} has no joint or input `{}`", chain.name, name.get_ref());
+                let mistake = Mistake::new(name.span(), message);
+                let near = names::nearest(name.get_ref(), movable.map(|id| chain.symbol(id).name.as_str()));
+                return Err(source.mistake(match near {
+                    Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
+                    None => mistake.with_help("leave the line out"),
+                }));
+            };
+            let wrong = |why: String| source.mistake(Mistake::new(range.span(), why));
+            let quantity = chain.symbol(symbol).quantity;
+            let [low, high] = *range.get_ref();
+            let low = low.to_si(quantity).map_err(|why| wrong(why.to_string()))?;
+            let high = high.to_si(quantity).map_err(|why| wrong(why.to_string()))?;
+            if low > high {
+                return Err(wrong("the lower bound is above the upper one; swap them".to_owned()));
+            }
+            found.push(FoundOver { symbol, low, high });
+        }
+    }
+    Ok(found)
+}
 
 /// What the file sets: values in SI, each with the place of its quantity.
 type Settings = BTreeMap<SymbolId, (f64, Range<usize>)>;
@@ -70,7 +162,17 @@ pub fn largest_sizes(source: &Source, chain: &Chain) -> Result<Vec<f64>, Failure
 
 /// A plain name wins over a pattern, and a pattern with more letters over one with fewer.
 fn read(source: &Source, chain: &Chain, kinds: &[SymbolKind]) -> Result<Settings, Failure> {
-    let entries: Entries = source.toml()?;
+    // What it was found over is read with everything else, so that no command takes a file that another refuses.
+    found_over(source, chain)?;
+    let all: BTreeMap<Spanned<String>, Spanned<Entry>> = source.toml()?;
+    let amount = |(name, entry): (Spanned<String>, Spanned<Entry>)| {
+        let place = entry.span();
+        match entry.into_inner() {
+            Entry::Amount(amount) => Some((name, Spanned::new(place, amount))),
+            Entry::Ranges(_) => None,
+        }
+    };
+    let entries: Entries = all.into_iter().filter_map(amount).collect();
     let mut ranked: Vec<_> =
         entries.iter().map(|(name, amount)| (rank(name.get_ref()), name, amount)).collect();
     ranked.sort_by_key(|&(rank, ..)| rank);
@@ -104,7 +206,7 @@ fn read(source: &Source, chain: &Chain, kinds: &[SymbolKind]) -> Result<Settings
 }
 
 /// How much a name says: more letters beside its stars say more, and a plain name says everything.
-fn rank(name: &str) -> usize {
+pub fn rank(name: &str) -> usize {
     if names::is_pattern(name) { name.chars().filter(|&letter| letter != '*').count() } else { usize::MAX }
 }
 

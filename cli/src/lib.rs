@@ -1,5 +1,7 @@
 //! The `trueaxis` command as a library: arguments in, exit code out. What a command does stands in `commands`.
 
+mod apply;
+mod budget;
 mod calibrating;
 mod certificates;
 mod claims;

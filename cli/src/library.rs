@@ -12,6 +12,7 @@ use model_core::expr::Expr;
 use model_core::{Chain, ObservableId, SymbolKind, forms, print, syntax};
 use serde_json::{Value, json};
 
+use crate::budget::Measured;
 use crate::claims::{ClaimsFile, as_json};
 use crate::commands::{bound, budget, calibrate, check, derive, identify, simulate};
 use crate::evaluation::{self, Evaluator};
@@ -167,9 +168,11 @@ pub fn budgeted(
         ),
         None => Poses::Ranges(poses::joint_ranges(ranges)),
     };
-    let budgets = budget::measured(chain, &sizes, &poses, names)?;
-    let texts = budgets.iter().map(|one| plain(&budget::as_text(chain, one))).collect::<Vec<_>>();
-    let json: Vec<Value> = budgets.iter().map(|one| budget::as_json(chain, one, &poses)).collect();
+    let budgets = budget::measured(chain, &sizes, &poses, names)?.into_iter();
+    let budgets: Vec<Measured> =
+        budgets.map(|budget| Measured { budget, designed: None, curves: None }).collect();
+    let texts = budgets.iter().map(|one| plain(&crate::budget::as_text(chain, one))).collect::<Vec<_>>();
+    let json: Vec<Value> = budgets.iter().map(|one| crate::budget::as_json(chain, one, &poses)).collect();
     Ok(Told { text: texts.join("\n"), json: json!({ "observables": json }) })
 }
 

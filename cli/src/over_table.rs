@@ -1,14 +1,15 @@
-//! A quantity of observables over a table of readings: what `eval` and `apply` both do.
+//! Readings in, more columns out: what `eval` and `apply` both do with a table.
 
 use std::path::PathBuf;
 
 use model_core::Chain;
 
+use crate::errors_file::{self, FoundOver};
 use crate::evaluation::{Evaluator, Exactness, Quantity, column_names};
 use crate::failure::Failure;
 use crate::source::Source;
-use crate::tables::{self, Column, ReadingsTable};
-use crate::{errors_file, output, terminal};
+use crate::tables::{self, Column, ReadingsTable, Rows};
+use crate::{output, terminal};
 
 /// What is evaluated over which table, and where to.
 #[derive(Debug, clap::Args)]
@@ -23,7 +24,7 @@ pub struct OverTable {
     errors: PathBuf,
     /// Only this observable (may be given several times); default: every one that the data has the readings for
     #[arg(long)]
-    observable: Vec<String>,
+    pub observable: Vec<String>,
     /// What lines of the data begin with that are comments, where there are any below the header
     #[arg(long, value_name = "LETTER", value_parser = comment_mark)]
     comment: Option<u8>,
@@ -39,44 +40,75 @@ fn comment_mark(text: &str) -> Result<u8, &'static str> {
     }
 }
 
+/// What was read before any row.
+pub struct Opened {
+    /// The declaration.
+    pub chain: Chain,
+    /// The value of every symbol, SI.
+    pub values: Vec<f64>,
+    /// The ranges that the errors were found over, if the file says so.
+    pub found: Vec<FoundOver>,
+    /// The readings.
+    pub table: ReadingsTable<'static>,
+}
+
 impl OverTable {
+    /// Reads the declaration and the errors, and opens the table.
+    ///
+    /// # Errors
+    /// One of them has a mistake, or the output would replace one.
+    pub fn open(&self) -> Result<Opened, Failure> {
+        output::refuse_to_replace(&self.out, [self.chain.as_path(), &self.errors])?;
+        let chain = Source::read(&self.chain)?.chain()?;
+        let errors = Source::read(&self.errors)?;
+        let values = errors_file::values(&errors, &chain)?;
+        let found = errors_file::found_over(&errors, &chain)?;
+        let table = ReadingsTable::open(&self.data, &chain, self.comment)?;
+        Ok(Opened { chain, values, found, table })
+    }
+
     /// Writes the table with a quantity of each observable; returns which columns of the input these replace.
     ///
     /// # Errors
     /// The declaration, the errors or the readings have a mistake, or the place cannot be written.
     pub fn evaluate(&self, form: Exactness, quantity: Quantity) -> Result<Vec<String>, Failure> {
-        output::refuse_to_replace(&self.out, [self.chain.as_path(), &self.errors])?;
-        let chain = Source::read(&self.chain)?.chain()?;
-        let values = errors_file::values(&Source::read(&self.errors)?, &chain)?;
-        let table = ReadingsTable::open(&self.data, &chain, self.comment)?;
+        let Opened { chain, values, mut table, .. } = self.open()?;
         let chosen = table.with_readings(&chain, &self.observable)?;
-        self.write(&chain, table, Evaluator::new(&chain, chosen, form, quantity, &values))
+        let mut evaluator = Evaluator::new(&chain, chosen, form, quantity, &values);
+        table.want(&chain, &evaluator.readings)?;
+        let added = column_names(&chain, &evaluator.observables)?;
+        self.write(table, &added, |rows| {
+            let readings: Vec<_> = rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
+            evaluator.columns(&readings, rows.count)
+        })
     }
 
-    /// Writes the table with the evaluator's columns; returns which columns of the input these replace.
-    fn write(
+    /// Writes the table with the columns that `compute` makes of its rows; returns which columns of the input these replace.
+    ///
+    /// # Errors
+    /// A row cannot be read or computed, or the place cannot be written.
+    pub fn write(
         &self,
-        chain: &Chain,
         mut table: ReadingsTable<'_>,
-        mut evaluator: Evaluator,
+        added: &[String],
+        mut compute: impl FnMut(&Rows) -> Result<Vec<Vec<f64>>, Failure>,
     ) -> Result<Vec<String>, Failure> {
-        table.want(chain, &evaluator.readings)?;
-        let added = column_names(chain, &evaluator.observables)?;
+        // A unit in brackets is not part of the name.
+        let bare = |name: &str| name.split(" [").next().map(str::to_owned);
+        let named: Vec<String> = added.iter().filter_map(|name| bare(name)).collect();
         let is_replaced: Vec<bool> =
-            table.header().iter().map(|column| added.iter().any(|name| table.means(column, name))).collect();
+            table.header().iter().map(|column| named.iter().any(|name| table.means(column, name))).collect();
         let names = |replaced: bool| {
             let header = table.header().iter().zip(&is_replaced);
             header.filter(move |(_, is)| **is == replaced).map(|(column, _)| column.full.clone())
         };
         let replaced: Vec<String> = names(true).collect();
-        let header: Vec<String> = names(false).chain(added).collect();
+        let header: Vec<String> = names(false).chain(added.iter().cloned()).collect();
         let mut not_finite = 0;
         tables::write(&self.out, |writer| {
             writer.header(&header)?;
             while let Some(rows) = table.next()? {
-                let readings: Vec<_> =
-                    rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
-                let computed = evaluator.columns(&readings, rows.count)?;
+                let computed = compute(&rows)?;
                 let is_finite = |row: &usize| computed.iter().all(|column| column[*row].is_finite());
                 not_finite += (0..rows.count).filter(|row| !is_finite(row)).count();
                 let kept = rows.kept.iter().zip(&is_replaced).filter(|(_, replaced)| !**replaced);

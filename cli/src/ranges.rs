@@ -30,6 +30,12 @@ impl std::str::FromStr for RangeArgument {
     }
 }
 
+impl std::fmt::Display for RangeArgument {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} from {} to {}", self.name, self.low, self.high)
+    }
+}
+
 /// The range of one joint or input, in SI; `low <= high`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {

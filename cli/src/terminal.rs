@@ -128,3 +128,9 @@ pub fn report_failure(failure: &Failure) {
         _ => say(format_args!("{BAD}error{BAD:#}: {failure}")),
     }
 }
+
+/// The command as it was typed; a letter that is none is shown as such.
+pub fn command_line() -> String {
+    let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
+    words.collect::<Vec<_>>().join(" ")
+}

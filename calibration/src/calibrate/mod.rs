@@ -17,7 +17,7 @@ use model_core::{Chain, Mistakes};
 
 use crate::amend::{AmendError, amend, with_quantities_of};
 use crate::data::units::BareColumn;
-use crate::diagnose::{Confirmed, Diagnosis, Trace, diagnose, trace};
+use crate::diagnose::{Confirmed, Diagnosis, Trace, diagnose, rounding, trace};
 use crate::fit::{FitResult, Outcome};
 use crate::formats::DataError;
 use crate::report::amendment;
@@ -133,10 +133,17 @@ pub fn calibrate_telling(
         return unusable(&whole, first);
     }
     let before = first.fit.clone();
-    let round = rounds(&whole, Round::at(&whole, first)?)?;
-    let round = outliers::reconsidered(&whole, round)?;
-    let (whole, round) = memory::settled(whole, &remembering, round)?;
-    let Settled { whole, round, as_good } = settled(&whole, &plans, round)?;
+    let round = Round::at(&whole, first)?;
+    // What rounding leaves has a structure of its own; there is nothing to search in it.
+    let is_rounding = rounding(request.observations, &before).is_some();
+    let (whole, round) = if is_rounding {
+        (whole, round)
+    } else {
+        let round = outliers::reconsidered(&whole, rounds(&whole, round)?)?;
+        memory::settled(whole, &remembering, round)?
+    };
+    let plans = if is_rounding { &plans[..0] } else { &plans[..] };
+    let Settled { whole, round, as_good } = settled(&whole, plans, round)?;
     tell(Stage::HeldOut);
     let held_out = nested(&round.posed.problem, &round.classes, &whole.options);
     let rms = held_out::rms(&whole, &before, &round, &held_out)?;

@@ -17,6 +17,9 @@ const OUT_OF_PLACE: f64 = 0.2;
 const FURTHEST_RAD: f64 = 4.0 * std::f64::consts::TAU;
 const NEAREST_RAD: f64 = 0.12;
 
+/// Residuals of this share of what was measured (of a radian for directions) are what some fifty roundings leave.
+const ROUNDING: f64 = 1e-14;
+
 /// An angle that is no small error.
 const LARGE_RAD: f64 = 0.5;
 
@@ -123,6 +126,14 @@ pub enum Caution {
         /// The usual distance that was measured, m; none for directions.
         measured_m: Option<f64>,
     },
+    /// What is left is the rounding of the numbers: nothing can be searched in it.
+    #[serde(rename = "residual is rounding")]
+    ResidualIsRounding {
+        /// RMS of the residual, SI.
+        rms: f64,
+        /// Its unit.
+        unit: SiUnit,
+    },
     /// An angle that is no small error.
     #[serde(rename = "error not small")]
     ErrorNotSmall {
@@ -165,6 +176,7 @@ pub fn of_data(chain: &Chain, observations: &Observations, fit: &FitResult) -> V
         cautions.extend(of_joints(chain, observations, series));
         cautions.extend(out_of_place(observations, series, fit));
     }
+    cautions.extend(rounding(observations, fit));
     for (&parameter, &separable) in fit.parameters.iter().zip(&fit.separable) {
         let (symbol, value_rad) = (chain.symbol(parameter), fit.values[parameter.index()]);
         let angle = symbol.kind == SymbolKind::Error && symbol.quantity == Quantity::Angle;
@@ -195,15 +207,35 @@ fn of_joints(chain: &Chain, observations: &Observations, series: &Series) -> Vec
     cautions
 }
 
-fn out_of_place(observations: &Observations, series: &Series, fit: &FitResult) -> Option<Caution> {
-    let rms = rms_of(series, observations, fit);
-    let measured_m = match series.measure {
+/// Whether all that the fit leaves is the rounding of the numbers, as of data that were made up without noise.
+#[must_use]
+pub fn rounding(observations: &Observations, fit: &FitResult) -> Option<Caution> {
+    let of_series = |series: &Series| {
+        let measured = distance_m(observations, series).unwrap_or(1.0);
+        (rms_of(series, observations, fit), measured, series.measure.unit())
+    };
+    let all: Vec<(f64, f64, SiUnit)> = observations.series.iter().map(of_series).collect();
+    if all.is_empty() || all.iter().any(|(rms, measured, _)| rms.is_nan() || *rms > ROUNDING * measured) {
+        return None;
+    }
+    let largest = all.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+    largest.map(|(rms, _, unit)| Caution::ResidualIsRounding { rms, unit })
+}
+
+/// The usual distance that a series measures, m; none for directions.
+fn distance_m(observations: &Observations, series: &Series) -> Option<f64> {
+    match series.measure {
         Measure::Direction | Measure::Azimuth => None,
         Measure::Point | Measure::Range => {
             let distance = |row: usize| nalgebra::Vector3::from(observations.measured[row]).norm();
             Some(robust::median(series.rows.clone().map(distance).collect()))
         }
-    };
+    }
+}
+
+fn out_of_place(observations: &Observations, series: &Series, fit: &FitResult) -> Option<Caution> {
+    let rms = rms_of(series, observations, fit);
+    let measured_m = distance_m(observations, series);
     (rms > OUT_OF_PLACE * measured_m.unwrap_or(1.0)).then(|| Caution::OutOfPlace {
         source: series.source.clone(),
         rms,

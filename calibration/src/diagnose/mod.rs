@@ -37,7 +37,7 @@ use effects::Others;
 use rms::BeforeAfter;
 use verdict::Evidence;
 
-pub use caution::{Caution, of_data};
+pub use caution::{Caution, of_data, rounding};
 pub use detectability::NotShown;
 pub use effects::{Cause, EffectFound, Relation, Side};
 pub use ended::Ended;

@@ -84,6 +84,9 @@ pub(super) fn verdict(evidence: Evidence<'_>) -> Verdict {
     }
     if any(|caution| matches!(caution, Caution::FewBehindAnEffect { .. })) {
         Verdict::TooFewObservations
+    } else if any(|caution| matches!(caution, Caution::ResidualIsRounding { .. })) && !evidence.effects {
+        // Rounding has a structure of its own, and no noise to tell it from.
+        Verdict::NothingDetectable
     } else if evidence.unnamed {
         Verdict::UnnamedFunction
     } else if evidence.structure {
@@ -109,6 +112,7 @@ mod tests {
         let few = Ended::TooFewObservations { components: 2, parameters: 3 };
         let noisy = [Caution::NoiseExceedsStated { ratio: 2.3 }];
         let thin = [Caution::FewBehindAnEffect { effect: "drift".into(), observations: 3.1 }];
+        let rounded = [Caution::ResidualIsRounding { rms: 1e-16, unit: crate::data::SiUnit::RAD }];
         let whole = Evidence {
             ended: &fine,
             unnamed: false,
@@ -129,6 +133,8 @@ mod tests {
             (none, Verdict::NothingDetectable),
             (Evidence { cautions: &noisy, ..none }, Verdict::NoiseExceedsStated),
             (Evidence { cautions: &noisy, ..whole }, Verdict::Explained),
+            (Evidence { cautions: &rounded, structure: true, unnamed: true, ..none }, Verdict::NothingDetectable),
+            (Evidence { cautions: &rounded, ..whole }, Verdict::Explained),
         ] {
             assert_eq!(verdict(evidence), expected, "{evidence:?}");
             assert_eq!(serde_json_key(expected), expected.key());

@@ -178,6 +178,11 @@ fn happened(diagnosis: &Diagnosis) -> String {
                 "The residual is {ratio}as large as the stated noise, and nothing in the catalogue explains it."
             )
         }
+        Verdict::NothingDetectable
+            if diagnosis.cautions.iter().any(|caution| matches!(caution, Caution::ResidualIsRounding { .. })) =>
+        {
+            "The declaration explains these data to the last digit; what is left is rounding.".to_owned()
+        }
         Verdict::NothingDetectable => {
             "No effect that the declaration lacks stands out from the noise.".to_owned()
         }

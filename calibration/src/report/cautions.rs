@@ -59,6 +59,10 @@ pub fn caution(caution: &Caution, diagnosis: &Diagnosis) -> String {
                 told(*measured, SiUnit::METRE)
             ),
         },
+        Caution::ResidualIsRounding { rms, unit } => format!(
+            "What is left, {}, is the rounding of the numbers: these data have no noise, so that no effect was searched for.",
+            told(*rms, *unit)
+        ),
         Caution::ErrorNotSmall { error, value_rad } => format!(
             "`{error}` comes out at {:.0} deg, which is no small error: a swapped sign, an axis or an offset in the \
              declaration?",

@@ -1,9 +1,15 @@
-//! `trueaxis apply`: new data corrected with a calibrated model.
+//! `trueaxis apply`: new data corrected with a calibrated model, and readings that point where somebody wants.
+
+use calibration::formats::ColumnName;
+use model_core::{ObservableId, Quantity as Measures, SymbolId, SymbolKind};
 
 use super::Answer;
-use crate::evaluation::{Exactness, Quantity};
+use crate::apply::{As, Outside, Seen, Solver};
+use crate::evaluation::{Evaluator, Exactness, Quantity, column_names};
 use crate::failure::Failure;
-use crate::over_table::OverTable;
+use crate::over_table::{Opened, OverTable};
+use crate::source::{listed, observables};
+use crate::terminal;
 
 /// Correct new data with a calibrated model.
 ///
@@ -11,15 +17,146 @@ use crate::over_table::OverTable;
 /// `<observable>_x`, `_y`, `_z`: where the instrument with its calibrated errors really points, or where its points
 /// really are. Columns of these names in the input, computed without the errors, are replaced.
 ///
+/// With --solve it goes the other way: it reads where the instrument is to point, in the columns that it would write
+/// without, and writes the readings of the joints that do so, with the angle or distance that remains. Columns of the
+/// joints in the input are where the search starts; without any it starts from the nearest of poses spread over the ranges
+/// that the model was found over.
+///
 /// Example: trueaxis apply result/amended.chain --errors result/errors.toml --data new.csv --out corrected.csv
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     #[command(flatten)]
     table: OverTable,
+    /// How directions are written, and read with --solve: angles are written in degrees
+    #[arg(long = "as", value_enum, default_value_t = As::Vector)]
+    form: As,
+    /// Write the correction, too: what the calibrated errors add to each column
+    #[arg(long)]
+    correction: bool,
+    /// Find the readings of the joints that point at what the table wants
+    #[arg(long)]
+    solve: bool,
 }
+
+/// What remains of a target is rounding below this, in rad, or in m.
+const REACHED: f64 = 1e-9;
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    arguments.table.evaluate(Exactness::Exact, Quantity::Value)?;
+    if arguments.solve { solve(arguments)? } else { correct(arguments)? }
     Ok(Answer::Done)
+}
+
+fn correct(arguments: &Arguments) -> Result<(), Failure> {
+    let Opened { chain, values, found, mut table } = arguments.table.open()?;
+    let chosen = table.with_readings(&chain, &arguments.table.observable)?;
+    let is_named = !arguments.table.observable.is_empty();
+    let seen: Vec<Seen> = chosen
+        .iter()
+        .map(|&observable| Seen::new(&chain, observable, arguments.form, is_named))
+        .collect::<Result<_, _>>()?;
+    let evaluator =
+        |quantity| Evaluator::new(&chain, chosen.clone(), Exactness::Exact, quantity, &values);
+    let mut value = evaluator(Quantity::Value);
+    let mut error = arguments.correction.then(|| evaluator(Quantity::Error));
+    table.want(&chain, &value.readings)?;
+    // Says if a joint has the name of a column.
+    column_names(&chain, &chosen)?;
+    let added: Vec<String> =
+        seen.iter().flat_map(|seen| seen.headers(&chain, arguments.correction)).collect();
+    let mut outside = Outside::new(found);
+    arguments.table.write(table, &added, |rows| {
+        let readings: Vec<(SymbolId, &[f64])> =
+            rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
+        outside.see(&chain, &readings, &mut value)?;
+        let values = value.columns(&readings, rows.count)?;
+        let errors = error.as_mut().map(|error| error.columns(&readings, rows.count)).transpose()?;
+        let parts = |columns: &[Vec<f64>], at: usize| columns[3 * at..3 * at + 3].to_vec();
+        let mut columns = Vec::new();
+        for (at, seen) in seen.iter().enumerate() {
+            let error = errors.as_ref().map(|errors| parts(errors, at));
+            columns.extend(seen.columns(&parts(&values, at), error.as_deref()));
+        }
+        Ok(columns)
+    })?;
+    outside.warn(&chain);
+    Ok(())
+}
+
+fn solve(arguments: &Arguments) -> Result<(), Failure> {
+    let Opened { chain, values, found, mut table } = arguments.table.open()?;
+    let observable = match observables(&chain, &arguments.table.observable)?.as_slice() {
+        [one] => *one,
+        several => {
+            let names = listed(several.iter().map(|&id: &ObservableId| chain.observable(id).name.as_str()));
+            return Err(Failure::Input(format!("say which of {names} is wanted: --observable NAME")));
+        }
+    };
+    let seen = Seen::new(&chain, observable, arguments.form, true)?;
+    let readings = crate::evaluation::readings_of(&chain, observable);
+    let joints: Vec<SymbolId> =
+        readings.into_iter().filter(|&id| chain.symbol(id).kind == SymbolKind::Joint).collect();
+    let has_starts = table.has(&chain, &joints);
+    let mut solver = Solver::new(&chain, observable, &values, &found, has_starts)?;
+    table.want(&chain, &solver.given)?;
+    for (name, quantity) in seen.read_names(&chain) {
+        table.want_other(&name, quantity)?;
+    }
+    // What the readings would be without the errors: the correction is the difference.
+    let mut without = values.clone();
+    chain.symbols_of(SymbolKind::Error).for_each(|error| without[error.index()] = 0.0);
+    let mut ideal = arguments.correction.then(|| Solver::new(&chain, observable, &without, &found, true)).transpose()?;
+    let unit = |joint: SymbolId| chain.symbol(joint).quantity;
+    let name = |joint: SymbolId| &chain.symbol(joint).name;
+    let mut added: Vec<String> =
+        solver.joints.iter().map(|&joint| ColumnName::of_si(name(joint), unit(joint))).collect();
+    if arguments.correction {
+        added.extend(solver.joints.iter().map(|&joint| match unit(joint) {
+            Measures::Angle => format!("{}_correction [arcsec]", name(joint)),
+            other => ColumnName::of_si(&format!("{}_correction", name(joint)), other),
+        }));
+    }
+    let quantity = model_core::budget::unit(&chain, observable);
+    added.push(format!("{}_remaining [{quantity}]", chain.observable(observable).name));
+    let mut outside = Outside::new(found.clone());
+    let mut checked = Evaluator::new(&chain, vec![observable], Exactness::Exact, Quantity::Value, &values);
+    let (mut missed, mut farthest, mut count) = (0, 0.0_f64, 0);
+    arguments.table.write(table, &added, |rows| {
+        let columns: Vec<&[f64]> = rows.others.iter().map(Vec::as_slice).collect();
+        let wanted: Vec<[f64; 3]> = (0..rows.count).map(|row| seen.vector(&columns, row)).collect();
+        let solved = solver.solve(&rows.readings, &wanted)?;
+        let inputs = rows.readings.iter().filter(|(id, _)| !solver.joints.contains(id));
+        let set: Vec<(SymbolId, Vec<f64>)> =
+            inputs.cloned().chain(solver.joints.iter().copied().zip(solved.joints.clone())).collect();
+        let set_columns: Vec<(SymbolId, &[f64])> = set.iter().map(|(id, column)| (*id, column.as_slice())).collect();
+        outside.see(&chain, &set_columns, &mut checked)?;
+        for remaining in &solved.remaining {
+            count += 1;
+            if *remaining > REACHED {
+                missed += 1;
+                farthest = farthest.max(*remaining);
+            }
+        }
+        let mut out = solved.joints.clone();
+        if let Some(ideal) = &mut ideal {
+            let nominal = ideal.solve(&set, &wanted)?;
+            for ((joint, set), nominal) in solver.joints.iter().zip(&solved.joints).zip(&nominal.joints) {
+                let scale = if unit(*joint) == Measures::Angle { 648_000.0 / std::f64::consts::PI } else { 1.0 };
+                out.push(set.iter().zip(nominal).map(|(set, nominal)| (set - nominal) * scale).collect());
+            }
+        }
+        out.push(solved.remaining);
+        Ok(out)
+    })?;
+    outside.warn(&chain);
+    if missed > 0 {
+        let far = match quantity {
+            "rad" => format!("{:.3e} arcsec", farthest * 648_000.0 / std::f64::consts::PI),
+            _ => format!("{farthest:.3e} m"),
+        };
+        terminal::warn(format_args!(
+            "{missed} of {count} targets are out of reach: up to {far} remain; the readings come nearest"
+        ));
+    }
+    Ok(())
 }

@@ -61,7 +61,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     ));
 
     let progress = terminal::progress();
-    let calibrated = measured.calibrate(command_line(), &|stage| progress.set_message(stage.to_string()));
+    let calibrated = measured.calibrate(terminal::command_line(), &|stage| progress.set_message(stage.to_string()));
     progress.finish_and_clear();
     let calibrated = calibrated?;
     let folder = arguments.out.as_ref().map(|folder| folder.display().to_string());
@@ -83,12 +83,6 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         TextOrJson::Json => report::json(&reported)?,
     })?;
     Ok(answer(reported.calibration))
-}
-
-/// The command as it was typed; a letter that is none is shown as such.
-fn command_line() -> String {
-    let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
-    words.collect::<Vec<_>>().join(" ")
 }
 
 /// No, where no usable model came out.

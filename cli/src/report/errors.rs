@@ -2,13 +2,23 @@
 
 use std::fmt::Write as _;
 
+use calibration::data::Observations;
 use calibration::diagnose::ErrorFound;
 use calibration::report::numbers;
 use model_core::{Chain, Quantity, SymbolKind};
 
-/// Every value of a calibrated model that differs from what its declaration says, each with a remark for people.
+use crate::errors_file::{FOUND_OVER, FoundOver};
+
+/// Every value of a calibrated model that differs from what its declaration says, each with a remark for people; and the
+/// ranges of the readings that it was found from.
 #[must_use]
-pub fn errors_toml(found: &[ErrorFound], chain: &Chain, values: &[f64], date: &str) -> String {
+pub fn errors_toml(
+    found: &[ErrorFound],
+    chain: &Chain,
+    values: &[f64],
+    date: &str,
+    over: &[FoundOver],
+) -> String {
     let mut text = format!(
         "# Errors of {}, calibrated on {date}; for `trueaxis eval`, `trueaxis apply` and amended.chain.\n",
         chain.name
@@ -38,7 +48,34 @@ pub fn errors_toml(found: &[ErrorFound], chain: &Chain, values: &[f64], date: &s
             );
         }
     }
+    if !over.is_empty() {
+        let _ = writeln!(
+            text,
+            "\n# The readings that this was found from; `trueaxis apply` says which rows are outside.\n[{FOUND_OVER}]"
+        );
+    }
+    for range in over {
+        let symbol = chain.symbol(range.symbol);
+        let [low, high] = [range.low, range.high].map(|bound| written(bound, symbol.quantity));
+        let _ = writeln!(text, "{} = [{low}, {high}]", key(&symbol.name));
+    }
     text
+}
+
+/// The ranges of the readings of the rows that count, SI; nothing of a column without a finite number.
+#[must_use]
+pub fn ranges_of(observations: &Observations, weight: &[f64]) -> Vec<FoundOver> {
+    let mut ranges = Vec::new();
+    for (symbol, column) in &observations.columns {
+        let counted = column.iter().zip(weight).filter(|(value, weight)| value.is_finite() && **weight > 0.0);
+        let (low, high) = counted.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (value, _)| {
+            (low.min(*value), high.max(*value))
+        });
+        if low <= high {
+            ranges.push(FoundOver { symbol: *symbol, low, high });
+        }
+    }
+    ranges
 }
 
 /// A name as a key of TOML: quoted where it has letters that a bare key cannot have.
@@ -144,10 +181,21 @@ mod tests {
                 })
                 .collect();
             let nominal = amended.nominal_values();
-            let written = errors_toml(&found, &amended, &nominal, "2026-11-21");
+            let over: Vec<FoundOver> = inputs
+                .iter()
+                .map(|&symbol| FoundOver { symbol, low: -values[0].abs(), high: values[1].abs() })
+                .collect();
+            let written = errors_toml(&found, &amended, &nominal, "2026-11-21", &over);
             let read = Chain::from_text(&text).unwrap();
             let source = Source { path: PathBuf::from("errors.toml"), text: written.clone() };
             let values = errors_file::values(&source, &read).map_err(|error| TestCaseError::fail(format!("{error}\n{written}")))?;
+            let again = errors_file::found_over(&source, &read).map_err(|error| TestCaseError::fail(format!("{error}\n{written}")))?;
+            prop_assert_eq!(again.len(), over.len());
+            for range in &over {
+                let name = &amended.symbol(range.symbol).name;
+                let symbol = read.find_symbol(name).unwrap();
+                prop_assert!(again.contains(&FoundOver { symbol, ..*range }), "{}", name);
+            }
             for error in &found {
                 let id = read.find_symbol(&error.name).unwrap();
                 prop_assert_eq!(values[id.index()], error.value, "{}", error.name);

@@ -6,7 +6,7 @@ use std::path::Path;
 use calibration::diagnose::Diagnosis;
 use serde::Serialize;
 
-use super::errors::errors_toml;
+use super::errors::{errors_toml, ranges_of};
 use super::page::page;
 use super::residuals::Cells;
 use super::{Provenance, Reported, diff, residuals};
@@ -49,7 +49,9 @@ pub fn errors(reported: &Reported<'_>) -> Option<String> {
     let calibration = reported.calibration;
     calibration.amended.as_ref()?;
     let date = &reported.provenance.date;
-    Some(errors_toml(&calibration.diagnosis.errors, &calibration.chain, &calibration.after.values, date))
+    let after = &calibration.after;
+    let over = ranges_of(reported.observations, &after.residuals.weight);
+    Some(errors_toml(&calibration.diagnosis.errors, &calibration.chain, &after.values, date, &over))
 }
 
 /// `report.json`: the diagnosis, and what it was made with.

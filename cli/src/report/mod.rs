@@ -4,7 +4,7 @@
 
 mod errors;
 mod files;
-mod page;
+pub mod page;
 mod residuals;
 mod text;
 

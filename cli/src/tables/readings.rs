@@ -9,7 +9,7 @@ use calibration::formats::{
     self, Cells, ColumnName, DataError, Form, Kept, Options, ReadAs, TableReader, Wanted, declared_columns,
     find_reading,
 };
-use model_core::{Chain, ObservableId, SymbolId};
+use model_core::{Chain, ObservableId, Quantity, SymbolId};
 
 use super::{CHUNK, failure, known_format};
 use crate::evaluation::readings_of;
@@ -43,6 +43,8 @@ pub struct Rows {
     pub kept: Vec<Kept>,
     /// The readings, in SI.
     pub readings: Vec<(SymbolId, Vec<f64>)>,
+    /// Other columns that were asked for, in SI.
+    pub others: Vec<Vec<f64>>,
     /// How many rows these are.
     pub count: usize,
 }
@@ -89,7 +91,7 @@ impl<'t> ReadingsTable<'t> {
 
     /// Whether there is a column, or more, for each of these joints and inputs.
     #[must_use]
-    fn has(&self, chain: &Chain, readings: &[SymbolId]) -> bool {
+    pub fn has(&self, chain: &Chain, readings: &[SymbolId]) -> bool {
         let missing = |&id: &SymbolId| matches!(self.find(chain, id), Err(DataError::MissingColumn { .. }));
         !readings.iter().any(missing)
     }
@@ -139,6 +141,19 @@ impl<'t> ReadingsTable<'t> {
         Ok(())
     }
 
+    /// Asks for another column by its name, after all readings; without a unit in the header it is in SI.
+    ///
+    /// # Errors
+    /// As [`ReadingsTable::want`].
+    pub fn want_other(&mut self, name: &str, quantity: Quantity) -> Result<(), Failure> {
+        let source = self.reader.source();
+        let column = find_reading(self.reader.header(), name, &self.declared(), source).map_err(failure)?;
+        let read = ReadAs { quantity, stated: None, declared: Some(name) };
+        let factor = self.reader.header()[column].factor(read, source).map_err(failure)?;
+        self.wanted.push(Wanted { column, form: Form::Number(factor) });
+        Ok(())
+    }
+
     /// The next rows; `None` at the end.
     ///
     /// # Errors
@@ -150,14 +165,17 @@ impl<'t> ReadingsTable<'t> {
             return if self.started { Ok(None) } else { Err(failure(DataError::NoRows { file })) };
         }
         self.started = true;
-        let mut rows = Rows { kept: Vec::new(), readings: Vec::new(), count: chunk.rows.len() };
+        let mut rows =
+            Rows { kept: Vec::new(), readings: Vec::new(), others: Vec::new(), count: chunk.rows.len() };
         let mut readings = self.readings.iter_mut();
         for column in chunk.columns {
             match column {
                 Cells::Kept(kept) => rows.kept.push(kept),
                 Cells::Numbers(numbers) => {
+                    // Those of the readings come first.
                     let Some(reading) = readings.next() else {
-                        unreachable!("a column of numbers for each reading is wanted")
+                        rows.others.push(numbers);
+                        continue;
                     };
                     reading.bare.iter_mut().for_each(|bare| bare.see(&numbers));
                     rows.readings.push((reading.symbol, numbers));

@@ -48,6 +48,11 @@ impl FirstOrder {
         self.harmonics[symbol.index()]
     }
 
+    /// What a unit of an error adds to the observable in the ground frame; none if it adds nothing.
+    pub fn column(&self, error: SymbolId) -> Option<&[Poly; 3]> {
+        self.columns.iter().find(|(symbol, _)| *symbol == error).map(|(_, column)| column)
+    }
+
     /// The root mean square of the influence of an error of this size, exact, if the poses are full turns of joints that
     /// stand in sines and cosines alone. `values` holds everything that is fixed.
     pub fn rms(&self, space: &Space<'_>, error: SymbolId, size: f64, values: &[f64]) -> Option<f64> {
@@ -57,7 +62,7 @@ impl FirstOrder {
         if !self.is_whole {
             return None;
         }
-        let (_, column) = self.columns.iter().find(|(symbol, _)| *symbol == error)?;
+        let column = self.column(error)?;
         let mut sum = 0.0;
         for part in column {
             sum += part.mean_square_over_turns(is_turning, values)?;

@@ -7,6 +7,7 @@
 //!
 //! - [`Poses`]: along a path of one parameter, or over ranges of joints and inputs.
 //! - [`Budget::measure`]: the influences and their sums.
+//! - [`Sensitivity`]: the first-order columns at poses, from which tolerances are summed.
 //! - [`Curves::along`]: the influences point by point along a path, for plots.
 
 mod curves;
@@ -15,6 +16,7 @@ mod poses;
 mod probe;
 mod quadrature;
 mod sample;
+mod sensitivity;
 mod summary;
 
 #[cfg(test)]
@@ -29,8 +31,9 @@ use probe::Probe;
 use summary::summarise;
 
 pub use curves::{Curve, Curves};
-pub use poses::{JointRange, Path, PathError, Poses};
+pub use poses::{JointRange, Path, PathError, Poses, spread};
 pub use sample::influences_at;
+pub use sensitivity::Sensitivity;
 pub use summary::{Measure, Summary};
 
 /// What every error does to an observable over a set of poses.

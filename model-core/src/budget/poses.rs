@@ -308,3 +308,18 @@ fn needed(chain: &Chain, observable: ObservableId) -> Vec<SymbolId> {
     symbols.retain(|&id| matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input));
     symbols
 }
+
+/// Points spread evenly over a box, the same ones each time: those of the Kronecker sequence of the generalised golden ratio.
+///
+/// Source: M. Roberts, "The unreasonable effectiveness of quasirandom sequences" (2018): steps 1/φ, 1/φ², … with φ the
+/// positive root of x^(d+1) = x + 1.
+pub fn spread(bounds: &[(f64, f64)], count: usize) -> impl Iterator<Item = Vec<f64>> {
+    let exponent = 1.0 / (bounds.len() as f64 + 1.0);
+    let root = (0..60).fold(2.0_f64, |root, _| (1.0 + root).powf(exponent));
+    let steps: Vec<f64> = (1..=bounds.len()).map(|power| root.powf(-(power as f64)).fract()).collect();
+    (1..=count).map(move |index| {
+        let fraction = |step: &f64| (0.5 + step * index as f64).fract();
+        let parameters = bounds.iter().zip(&steps);
+        parameters.map(|((low, high), step)| low + (high - low) * fraction(step)).collect()
+    })
+}

@@ -1,7 +1,7 @@
 //! Influences at poses spread evenly over a set of poses, for what only the distribution says: percentiles.
 
 use super::first_order::FirstOrder;
-use super::poses::{Poses, Space};
+use super::poses::{Poses, Space, spread};
 use super::probe::Probe;
 use super::{BudgetError, one_unit, sized};
 use crate::chain::{Chain, ObservableId};
@@ -26,16 +26,8 @@ pub fn influences_at(
     let space = Space::new(chain, observable, poses, |symbol| first_order.harmonic(symbol))?;
     let probe = Probe::new(chain, observable);
     let mut values = chain.nominal_values();
-    let steps = steps(space.bounds.len());
     let mut found = Vec::with_capacity(count);
-    for index in 0..count {
-        let fraction = |step: &f64| (0.5 + step * (index + 1) as f64).fract();
-        let parameters: Vec<f64> = space
-            .bounds
-            .iter()
-            .zip(&steps)
-            .map(|((low, high), step)| low + (high - low) * fraction(step))
-            .collect();
+    for parameters in spread(&space.bounds, count) {
         space.set(&parameters, &mut values);
         let nominal = probe.nominal(&values);
         let influences: Vec<f64> =
@@ -49,14 +41,4 @@ pub fn influences_at(
         found.push(influences);
     }
     Ok(found)
-}
-
-/// 1/φ, 1/φ², … with φ the positive root of x^(d+1) = x + 1.
-fn steps(dimensions: usize) -> Vec<f64> {
-    let exponent = 1.0 / (dimensions as f64 + 1.0);
-    let mut root: f64 = 2.0;
-    for _ in 0..60 {
-        root = (1.0 + root).powf(exponent);
-    }
-    (1..=dimensions).map(|power| root.powf(-(power as f64)).fract()).collect()
 }

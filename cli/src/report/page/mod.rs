@@ -5,7 +5,7 @@ mod answer;
 mod chain;
 mod pictures;
 mod rows;
-mod svg;
+pub mod svg;
 mod tables;
 
 use calibration::report as words;
@@ -18,6 +18,9 @@ use rows::Rows;
 const HATCH: &str = "<svg width=\"0\" height=\"0\" style=\"position:absolute;width:0\" aria-hidden=\"true\"><defs><pattern id=\"h\" \
                      width=\"5\" height=\"5\" patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\"><path d=\"M0 0V5\" \
                      style=\"stroke:var(--before);stroke-width:2.4\"/></pattern></defs></svg>";
+
+/// What pages look like.
+pub const STYLE: &str = include_str!("style.css");
 
 /// The whole page.
 #[must_use]
@@ -88,7 +91,7 @@ fn document(reported: &Reported<'_>, answers: &words::Answers, rows: &Rows, body
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { "Calibration of " (reported.calibration.chain.name) ": " (answers.badge) }
-                style { (PreEscaped(include_str!("style.css"))) }
+                style { (PreEscaped(STYLE)) }
             }
             body {
                 (PreEscaped(HATCH))

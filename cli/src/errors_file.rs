@@ -84,11 +84,11 @@ pub fn found_over(source: &Source, chain: &Chain) -> Result<Vec<FoundOver>, Fail
             return Err(source.mistake(Mistake::new(name.span(), message).with_help(help)));
         }
         for (name, range) in ranges {
-            let movable = chain.symbols_of(SymbolKind::Joint).chain(chain.symbols_of(SymbolKind::Input));
-            let Some(symbol) = movable.clone().find(|&id| chain.symbol(id).name == *name.get_ref()) else {
+            let movable = || chain.symbols_of(SymbolKind::Joint).chain(chain.symbols_of(SymbolKind::Input));
+            let Some(symbol) = movable().find(|&id| chain.symbol(id).name == *name.get_ref()) else {
                 let message = format!("chain {} has no joint or input `{}`", chain.name, name.get_ref());
                 let mistake = Mistake::new(name.span(), message);
-                let near = names::nearest(name.get_ref(), movable.map(|id| chain.symbol(id).name.as_str()));
+                let near = names::nearest(name.get_ref(), movable().map(|id| chain.symbol(id).name.as_str()));
                 return Err(source.mistake(match near {
                     Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
                     None => mistake.with_help("leave the line out"),

@@ -78,7 +78,8 @@ impl OverTable {
         table.want(&chain, &evaluator.readings)?;
         let added = column_names(&chain, &evaluator.observables)?;
         self.write(table, &added, |rows| {
-            let readings: Vec<_> = rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
+            let readings: Vec<_> =
+                rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
             evaluator.columns(&readings, rows.count)
         })
     }

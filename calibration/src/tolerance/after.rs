@@ -3,8 +3,8 @@
 use model_core::budget::Sensitivity;
 use nalgebra::DMatrix;
 
-use super::spread::{Spread, norm_squared};
 use super::Tolerance;
+use super::spread::{Spread, norm_squared};
 
 /// Poses that will be measured.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,20 +47,20 @@ pub fn after(of_use: &Sensitivity, campaign: &Campaign, tolerances: &[Tolerance]
             }
         }
     }
-    let Some(factor) = information.cholesky() else {
-        unreachable!("one plus a sum of squares is positive")
-    };
+    let Some(factor) = information.cholesky() else { unreachable!("one plus a sum of squares is positive") };
     // information = L Lᵀ, so that its inverse is L⁻ᵀ L⁻¹.
     let Some(inverse) = factor.l().try_inverse() else {
         unreachable!("the factor's diagonal is at least one")
     };
     let (root, kept) = (inverse.transpose(), inverse.transpose() * &inverse);
-    let scaled = |matrix: &DMatrix<f64>| DMatrix::from_fn(n, n, |row, column| sigma[row] * matrix[(row, column)]);
+    let scaled =
+        |matrix: &DMatrix<f64>| DMatrix::from_fn(n, n, |row, column| sigma[row] * matrix[(row, column)]);
     let (root, kept) = (scaled(&root), scaled(&kept));
     let squares = |columns: &[[f64; 3]], through: &DMatrix<f64>| -> Vec<f64> {
         (0..n)
             .map(|at| {
-                let part = [0, 1, 2].map(|axis| (0..n).map(|i| columns[i][axis] * through[(i, at)]).sum::<f64>());
+                let part =
+                    [0, 1, 2].map(|axis| (0..n).map(|i| columns[i][axis] * through[(i, at)]).sum::<f64>());
                 norm_squared(&part)
             })
             .collect()

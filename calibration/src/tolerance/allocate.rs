@@ -2,8 +2,8 @@
 
 use model_core::budget::Sensitivity;
 
-use super::spread::norm_squared;
 use super::Tolerance;
+use super::spread::norm_squared;
 
 /// What is wanted.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,7 +29,9 @@ pub struct Allocation {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NotAllocated {
     /// The finest sizes do more.
-    #[error("with every error at its finest the root sum square is {smallest:e}, above the {wanted:e} that is wanted")]
+    #[error(
+        "with every error at its finest the root sum square is {smallest:e}, above the {wanted:e} that is wanted"
+    )]
     Unreachable {
         /// The least that can be reached, rad or m.
         smallest: f64,
@@ -37,7 +39,9 @@ pub enum NotAllocated {
         wanted: f64,
     },
     /// Means that are not zero move everything at once.
-    #[error("the table's mean is not zero, and sizes are allocated to errors that may go either way; shift the table")]
+    #[error(
+        "the table's mean is not zero, and sizes are allocated to errors that may go either way; shift the table"
+    )]
     Mean,
     /// Nothing to allocate to.
     #[error("no error with a size does anything at these poses")]
@@ -65,7 +69,8 @@ pub fn allocate(
         .iter()
         .enumerate()
         .map(|(error, tolerance)| {
-            let columns = (0..sensitivity.poses()).map(|pose| norm_squared(&sensitivity.at_pose(pose)[error]));
+            let columns =
+                (0..sensitivity.poses()).map(|pose| norm_squared(&sensitivity.at_pose(pose)[error]));
             columns.sum::<f64>() / poses * tolerance.distribution.standard_deviation().powi(2)
         })
         .collect();

@@ -45,7 +45,9 @@ pub enum DistributionError {
     #[error("a table needs two rows at least, of a value and how often it comes")]
     FewRows,
     /// A value beyond the size.
-    #[error("row {row}: the value {value} is beyond the size; values are fractions of the size, from -1 to 1")]
+    #[error(
+        "row {row}: the value {value} is beyond the size; values are fractions of the size, from -1 to 1"
+    )]
     Beyond {
         /// Counted from 1.
         row: usize,
@@ -183,7 +185,8 @@ impl Shape {
             let ((a, p), (b, q)) = ((pair[0].0, pair[0].1 / most), (pair[1].0, pair[1].1 / most));
             let (middle, m) = (f64::midpoint(a, b), f64::midpoint(p, q));
             for (power, sum) in (0..).zip(&mut sums) {
-                *sum += (b - a) / 6.0 * (p * a.powi(power) + 4.0 * m * middle.powi(power) + q * b.powi(power));
+                *sum +=
+                    (b - a) / 6.0 * (p * a.powi(power) + 4.0 * m * middle.powi(power) + q * b.powi(power));
             }
             cumulative.push(sums[0]);
         }

@@ -128,7 +128,10 @@ pub fn simulate(
                 let lanes = LANES.min(count - start);
                 let mut drawn = vec![[0.0; LANES]; sources.len()];
                 for lane in 0..lanes {
-                    drawn.iter_mut().zip(&sources).for_each(|(drawn, source)| drawn[lane] = source.draw(&mut chance));
+                    drawn
+                        .iter_mut()
+                        .zip(&sources)
+                        .for_each(|(drawn, source)| drawn[lane] = source.draw(&mut chance));
                 }
                 found.extend_from_slice(&reduced.over_poses(&drawn, lanes, &mut bins)[..lanes]);
             }
@@ -144,7 +147,11 @@ pub fn simulate(
             largest.push(most);
         }
     }
-    Simulation { rms: Sample::of_values(rms), largest: Sample::of_values(largest), single: Sample::of_bins(&bins) }
+    Simulation {
+        rms: Sample::of_values(rms),
+        largest: Sample::of_values(largest),
+        single: Sample::of_bins(&bins),
+    }
 }
 
 /// The columns of all poses as a product of few: pose by pose what makes x, y and z of the reduced numbers.

@@ -1,7 +1,7 @@
 //! What a registration takes out: a turn and a shift of everything that is seen, which errors cannot be told from.
 
-use model_core::budget::Sensitivity;
 use model_core::ObservableKind;
+use model_core::budget::Sensitivity;
 use nalgebra::DMatrix;
 
 /// The sensitivity with every column cleared of what a common turn, and for points a common shift, explains.
@@ -13,9 +13,8 @@ pub fn registered(sensitivity: &Sensitivity) -> Sensitivity {
     let middle = match sensitivity.kind {
         ObservableKind::Direction => [0.0; 3],
         // A turn about the middle is the farthest from a shift.
-        ObservableKind::Point => {
-            [0, 1, 2].map(|axis: usize| sensitivity.places.iter().map(|place| place[axis]).sum::<f64>() / count)
-        }
+        ObservableKind::Point => [0, 1, 2]
+            .map(|axis: usize| sensitivity.places.iter().map(|place| place[axis]).sum::<f64>() / count),
     };
     let moves = match sensitivity.kind {
         ObservableKind::Direction => 3,
@@ -36,7 +35,8 @@ pub fn registered(sensitivity: &Sensitivity) -> Sensitivity {
     });
     let basis = orthonormal(rigid);
     let errors = sensitivity.errors.len();
-    let columns = DMatrix::from_fn(rows, errors, |row, error| sensitivity.columns[row / 3 * errors + error][row % 3]);
+    let columns =
+        DMatrix::from_fn(rows, errors, |row, error| sensitivity.columns[row / 3 * errors + error][row % 3]);
     let seen = &columns - &basis * (basis.transpose() * &columns);
     let column = |at: usize| [0, 1, 2].map(|axis| seen[(at / errors * 3 + axis, at % errors)]);
     Sensitivity { columns: (0..poses * errors).map(column).collect(), ..sensitivity.clone() }

@@ -39,7 +39,8 @@ impl Spread {
 
 /// The largest value and its place, the first of equals.
 pub(super) fn largest(values: &[f64]) -> (usize, f64) {
-    let better = |best: (usize, f64), (at, &value): (usize, &f64)| if value > best.1 { (at, value) } else { best };
+    let better =
+        |best: (usize, f64), (at, &value): (usize, &f64)| if value > best.1 { (at, value) } else { best };
     values.iter().enumerate().fold((0, 0.0), better)
 }
 
@@ -53,7 +54,8 @@ pub fn root_sum_square(sensitivity: &Sensitivity, tolerances: &[Tolerance]) -> S
     let pose = |pose: usize| {
         let columns = sensitivity.at_pose(pose);
         let square = |(column, sigma): (&[f64; 3], &f64)| norm_squared(column) * sigma * sigma;
-        let shift = [0, 1, 2].map(|axis| columns.iter().zip(&mean).map(|(c, mean)| c[axis] * mean).sum::<f64>());
+        let shift =
+            [0, 1, 2].map(|axis| columns.iter().zip(&mean).map(|(c, mean)| c[axis] * mean).sum::<f64>());
         (columns.iter().zip(&sigma).map(square).collect(), norm_squared(&shift))
     };
     Spread::new(tolerances.len(), (0..sensitivity.poses()).map(pose))

@@ -59,9 +59,8 @@ fn one_error_is_what_geometry_says() {
 fn the_worst_case_is_the_longest_of_all_signs() {
     let mut chance = ChaCha8Rng::seed_from_u64(3);
     for case in 0..60 {
-        let mut columns: Vec<Vector3<f64>> = (0..9)
-            .map(|_| Vector3::from_fn(|_, _| chance.random_range(-1.0..1.0)))
-            .collect();
+        let mut columns: Vec<Vector3<f64>> =
+            (0..9).map(|_| Vector3::from_fn(|_, _| chance.random_range(-1.0..1.0))).collect();
         // Columns of one direction, of one plane, along an axis, zero: what instruments have.
         match case % 5 {
             1 => columns[3] = columns[0] * -2.0,
@@ -71,10 +70,15 @@ fn the_worst_case_is_the_longest_of_all_signs() {
             _ => columns[4] = Vector3::zeros(),
         }
         let tried = (0_u32..1 << columns.len()).map(|signs| {
-            let signed = columns.iter().enumerate().map(|(at, c)| if signs >> at & 1 == 0 { *c } else { -*c });
+            let signed =
+                columns.iter().enumerate().map(|(at, c)| if signs >> at & 1 == 0 { *c } else { -*c });
             signed.sum::<Vector3<f64>>().norm()
         });
-        assert_relative_eq!(worst::longest(columns.iter().copied()), tried.fold(0.0, f64::max), max_relative = 1e-12);
+        assert_relative_eq!(
+            worst::longest(columns.iter().copied()),
+            tried.fold(0.0, f64::max),
+            max_relative = 1e-12
+        );
     }
     assert_eq!(worst::longest(std::iter::empty()), 0.0);
     assert_relative_eq!(worst::longest([Vector3::new(0.0, -2.0, 0.0)].into_iter()), 2.0);
@@ -95,7 +99,11 @@ fn a_table_is_drawn_as_it_stands() {
         // Four standard errors of the part, by the density at the place.
         let slack = 4.0 * (part * (1.0 - part) / 200_000.0).sqrt() / (2.0 * (1.0 - expected / 1e-3)) * 1e-3;
         for sample in [&drawn.rms, &drawn.largest, &drawn.single] {
-            assert!((sample.percentile(part) - expected).abs() < slack, "{part}: {}", sample.percentile(part));
+            assert!(
+                (sample.percentile(part) - expected).abs() < slack,
+                "{part}: {}",
+                sample.percentile(part)
+            );
         }
         assert!((drawn.largest.within(expected) - part).abs() < 0.005);
     }
@@ -127,7 +135,8 @@ fn draws_are_the_same_whatever_the_threads() {
 
 #[test]
 fn allocated_sizes_keep_what_is_wanted_at_the_least_cost() {
-    let (sensitivity, tolerances) = lidar(&[("db2", 5e-5), ("dx1", 3e-4), ("dtheta_y1", 5e-5), ("dg4", 5e-5)], 90);
+    let (sensitivity, tolerances) =
+        lidar(&[("db2", 5e-5), ("dx1", 3e-4), ("dtheta_y1", 5e-5), ("dg4", 5e-5)], 90);
     let costs = vec![1.0, 4.0, 1.0, 1.0];
     let wish = Wish { wanted: 2e-4, costs: costs.clone(), finest: vec![0.0; 4] };
     let found = allocate(&sensitivity, &tolerances, &wish).unwrap();
@@ -145,32 +154,44 @@ fn allocated_sizes_keep_what_is_wanted_at_the_least_cost() {
     // Any other sizes that do as much cost more.
     let mut chance = ChaCha8Rng::seed_from_u64(1);
     for _ in 0..50 {
-        let other = found.sizes.iter().map(|size| size.map(|size| size * chance.random_range(0.8..1.25))).collect::<Vec<_>>();
+        let other = found
+            .sizes
+            .iter()
+            .map(|size| size.map(|size| size * chance.random_range(0.8..1.25)))
+            .collect::<Vec<_>>();
         let factor = 2e-4 / root_sum_square(&sensitivity, &with(&other)).rms;
         let other: Vec<Option<f64>> = other.iter().map(|size| size.map(|size| size * factor)).collect();
         assert!(cost(&other) >= found.costs.1 * (1.0 - 1e-9));
     }
     // What cannot be made finer takes its part first.
     let finest: Vec<f64> = tolerances.iter().map(|t| 0.5 * t.size).collect();
-    let halved: Vec<Tolerance> = tolerances.iter().map(|t| Tolerance { size: 0.5 * t.size, ..t.clone() }).collect();
+    let halved: Vec<Tolerance> =
+        tolerances.iter().map(|t| Tolerance { size: 0.5 * t.size, ..t.clone() }).collect();
     let smallest = root_sum_square(&sensitivity, &halved).rms;
     let held = |wanted: f64| {
         allocate(&sensitivity, &tolerances, &Wish { wanted, costs: costs.clone(), finest: finest.clone() })
     };
     match held(0.9 * smallest) {
-        Err(NotAllocated::Unreachable { smallest: told, .. }) => assert_relative_eq!(told, smallest, max_relative = 1e-9),
+        Err(NotAllocated::Unreachable { smallest: told, .. }) => {
+            assert_relative_eq!(told, smallest, max_relative = 1e-9)
+        }
         other => panic!("{other:?}"),
     }
     let kept = held(1.05 * smallest).unwrap();
     assert!(kept.sizes.iter().zip(&finest).all(|(size, finest)| size.is_none_or(|size| size >= *finest)));
-    assert_relative_eq!(root_sum_square(&sensitivity, &with(&kept.sizes)).rms, 1.05 * smallest, max_relative = 1e-9);
+    assert_relative_eq!(
+        root_sum_square(&sensitivity, &with(&kept.sizes)).rms,
+        1.05 * smallest,
+        max_relative = 1e-9
+    );
 }
 
 /// One tilt seen n times: 1/σ² + n c²/s². What is never seen stays as it was.
 #[test]
 fn what_remains_of_one_error_is_in_closed_form() {
     let (sensitivity, tolerances) = lidar(&[("db2", 1e-4), ("dg4", 1e-4)], 40);
-    let remains = after(&sensitivity, &Campaign { sensitivity: sensitivity.clone(), sigma: 1e-4 }, &tolerances);
+    let remains =
+        after(&sensitivity, &Campaign { sensitivity: sensitivity.clone(), sigma: 1e-4 }, &tolerances);
     let sigma = tolerances[0].standard_deviation();
     let expected = (sigma.powi(-2) + 40.0 * (10.0_f64 / 1e-4).powi(2)).powf(-0.5);
     assert_relative_eq!(remains.standard_deviations[0], expected, max_relative = 1e-12);

@@ -31,7 +31,9 @@ pub fn worst_case(sensitivity: &Sensitivity, tolerances: &[Tolerance]) -> Vec<f6
 pub(super) fn longest(columns: impl Iterator<Item = Vector3<f64>>) -> f64 {
     let apart = merged(columns);
     let Some(first) = apart.first() else { return 0.0 };
-    let Some(plane) = apart.iter().skip(1).map(|other| first.cross(other)).next() else { return first.norm() };
+    let Some(plane) = apart.iter().skip(1).map(|other| first.cross(other)).next() else {
+        return first.norm();
+    };
     let mut best = 0.0_f64;
     if apart.iter().all(|column| within(column, &plane)) {
         return longest_in_plane(&Vector3::zeros(), &plane, &apart).sqrt();
@@ -64,8 +66,7 @@ fn longest_in_plane(beside: &Vector3<f64>, normal: &Vector3<f64>, flat: &[Vector
     for (edge, along) in flat.iter().enumerate() {
         let across = normal.cross(along);
         let others = flat.iter().enumerate().filter(|(other, _)| *other != edge);
-        let corner: Vector3<f64> =
-            others.map(|(_, column)| column * column.dot(&across).signum()).sum();
+        let corner: Vector3<f64> = others.map(|(_, column)| column * column.dot(&across).signum()).sum();
         for corner in [corner, -corner] {
             for along in [*along, -along] {
                 best = best.max((beside + corner + along).norm_squared());
@@ -85,7 +86,8 @@ fn merged(columns: impl Iterator<Item = Vector3<f64>>) -> Vec<Vector3<f64>> {
         if column.norm() <= 1e-14 * largest {
             continue;
         }
-        let same = |other: &&mut Vector3<f64>| column.cross(other).norm() <= SINE * column.norm() * other.norm();
+        let same =
+            |other: &&mut Vector3<f64>| column.cross(other).norm() <= SINE * column.norm() * other.norm();
         match apart.iter_mut().find(same) {
             Some(other) => *other += column * column.dot(other).signum(),
             None => apart.push(column),

@@ -52,7 +52,9 @@ impl Outside {
         self.rows += rows;
         let mut is_outside = vec![false; rows];
         for watched in &mut self.ranges {
-            let Some((symbol, column)) = readings.iter().find(|(id, _)| *id == watched.found.symbol) else { continue };
+            let Some((symbol, column)) = readings.iter().find(|(id, _)| *id == watched.found.symbol) else {
+                continue;
+            };
             let turns = match watched.turns {
                 Some(turns) => turns,
                 None => turns(chain, *symbol, readings, evaluator)?,
@@ -61,7 +63,8 @@ impl Outside {
             let (low, high) = (watched.found.low, watched.found.high);
             let slack = SLACK * (high - low).max(low.abs()).max(high.abs());
             for (value, is_outside) in column.iter().zip(&mut is_outside) {
-                let by = if turns { beside(*value, low, high) } else { (low - value).max(value - high).max(0.0) };
+                let by =
+                    if turns { beside(*value, low, high) } else { (low - value).max(value - high).max(0.0) };
                 if by > slack {
                     *is_outside = true;
                     watched.outside += 1;
@@ -121,7 +124,10 @@ fn turns(
     evaluator: &mut Evaluator,
 ) -> Result<bool, Failure> {
     let declared = chain.symbol(symbol);
-    if declared.kind != SymbolKind::Joint || declared.quantity != Quantity::Angle || !evaluator.readings.contains(&symbol) {
+    if declared.kind != SymbolKind::Joint
+        || declared.quantity != Quantity::Angle
+        || !evaluator.readings.contains(&symbol)
+    {
         return Ok(false);
     }
     let rows = readings.first().map_or(0, |(_, column)| column.len()).min(TRIED);
@@ -133,12 +139,18 @@ fn turns(
                 (id, column[..rows].iter().map(|value| value + turn).collect())
             })
             .collect();
-        let moved: Vec<(SymbolId, &[f64])> = moved.iter().map(|(id, column)| (*id, column.as_slice())).collect();
+        let moved: Vec<(SymbolId, &[f64])> =
+            moved.iter().map(|(id, column)| (*id, column.as_slice())).collect();
         evaluator.columns(&moved, rows)
     };
     let (here, there) = (at(0.0)?, at(TAU)?);
-    let far = here.iter().flatten().map(|value| value.abs()).filter(|value| value.is_finite()).fold(1.0, f64::max);
-    Ok(here.iter().flatten().zip(there.iter().flatten()).all(|(a, b)| (a - b).abs() <= SAME * far || a.is_nan()))
+    let far =
+        here.iter().flatten().map(|value| value.abs()).filter(|value| value.is_finite()).fold(1.0, f64::max);
+    Ok(here
+        .iter()
+        .flatten()
+        .zip(there.iter().flatten())
+        .all(|(a, b)| (a - b).abs() <= SAME * far || a.is_nan()))
 }
 
 /// A reading as people read it.

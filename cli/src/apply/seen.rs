@@ -143,11 +143,16 @@ mod tests {
     #[test]
     fn a_turn_is_the_difference_of_the_angles() {
         let direction = |a: f64, e: f64| [a.sin() * e.cos(), a.cos() * e.cos(), e.sin()];
-        for (a, e, da, de) in [(0.3, 0.5, 1e-3, -2e-3), (3.1, -1.2, 0.2, 0.1), (6.28, 0.0, 0.02, 1e-9), (-2.0, 1.4, 0.0, 0.0)] {
+        for (a, e, da, de) in
+            [(0.3, 0.5, 1e-3, -2e-3), (3.1, -1.2, 0.2, 0.1), (6.28, 0.0, 0.02, 1e-9), (-2.0, 1.4, 0.0, 0.0)]
+        {
             let (from, to) = (direction(a, e), direction(a + da, e + de));
             let added = [0, 1, 2].map(|axis: usize| to[axis] - from[axis]);
             let [grown_a, grown_e] = turn(to, added);
-            assert!((grown_a - da).abs() < 1e-14 && (grown_e - de).abs() < 1e-14, "{a} {e}: {grown_a} {grown_e}");
+            assert!(
+                (grown_a - da).abs() < 1e-14 && (grown_e - de).abs() < 1e-14,
+                "{a} {e}: {grown_a} {grown_e}"
+            );
             let [there_a, there_e] = angles(to);
             assert!((there_a - (a + da).rem_euclid(TAU)).abs() < 1e-14 && (there_e - (e + de)).abs() < 1e-14);
         }

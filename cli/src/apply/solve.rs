@@ -55,8 +55,7 @@ impl Solver {
         found: &[FoundOver],
         has_starts: bool,
     ) -> Result<Self, Failure> {
-        let evaluator =
-            Evaluator::new(chain, vec![observable], Exactness::Exact, Computed::Value, values);
+        let evaluator = Evaluator::new(chain, vec![observable], Exactness::Exact, Computed::Value, values);
         let shown = chain.observable(observable);
         let of_kind = |kind: SymbolKind| -> Vec<SymbolId> {
             evaluator.readings.iter().copied().filter(|&id| chain.symbol(id).kind == kind).collect()
@@ -136,7 +135,10 @@ impl Solver {
                 }
             }
             let there = self.shown(given, &next, rows)?;
-            for row in (0..rows).filter(|row| !is_done[*row]) {
+            for row in 0..rows {
+                if is_done[row] {
+                    continue;
+                }
                 let [before, after] = [&shown, &there].map(|shown| distance(&wanted[row], &shown[row]));
                 if after < before {
                     for (at, next) in at.iter_mut().zip(&next) {
@@ -227,7 +229,8 @@ fn step(slope: DMatrix<f64>, left: &DVector<f64>, damping: f64) -> Vec<f64> {
     let (Some(u), Some(v)) = (&parts.u, &parts.v_t) else { unreachable!("both factors were asked for") };
     let most = parts.singular_values.max();
     let mut step = vec![0.0; joints];
-    for (at, &length) in parts.singular_values.iter().enumerate().filter(|(_, length)| **length > WEAK * most) {
+    for (at, &length) in parts.singular_values.iter().enumerate().filter(|(_, length)| **length > WEAK * most)
+    {
         let along = u.column(at).dot(left) * length / (length * length + damping * most * most);
         step.iter_mut().zip(v.row(at).iter()).for_each(|(step, part)| *step += along * part);
     }

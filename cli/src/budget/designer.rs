@@ -3,11 +3,12 @@
 use std::path::Path;
 
 use calibration::tolerance::{
-    After, Allocation, Campaign, NotAllocated, Sensitivity, Simulation, Spread, Tolerance, Wish, after, allocate,
-    registered, root_sum_square, simulate, worst_case,
+    After, Allocation, Campaign, NotAllocated, Sensitivity, Simulation, Spread, Tolerance, Wish, after,
+    allocate, registered, root_sum_square, simulate, worst_case,
 };
 use model_core::budget::{BudgetError, Poses};
 use model_core::{Chain, ObservableId, SymbolId};
+use nalgebra::DMatrix;
 
 use super::options::{DesignerArguments, at_observable, is_meant_for};
 use super::size;
@@ -65,17 +66,20 @@ impl Designed {
         for text in [&arguments.wanted, &arguments.noise].into_iter().flatten() {
             if !is_named && !is_meant_for(text, shown.kind) {
                 let name = &shown.name;
-                terminal::warn(format_args!("{name} is left out of what tolerances come to: {text} is not of its kind"));
+                terminal::warn(format_args!(
+                    "{name} is left out of what tolerances come to: {text} is not of its kind"
+                ));
                 return Ok(None);
             }
         }
         let input = |error: BudgetError| Failure::Input(error.to_string());
         let tolerances = arguments.tolerances(chain, sizes)?;
-        let plain = Sensitivity::over(chain, observable, sizes, poses, arguments.poses as usize).map_err(input)?;
+        let plain =
+            Sensitivity::over(chain, observable, sizes, poses, arguments.poses as usize).map_err(input)?;
         let seen = |plain: Sensitivity| if arguments.registered { registered(&plain) } else { plain };
         let sensitivity = seen(plain);
         let now = root_sum_square(&sensitivity, &tolerances);
-        let draw = |root| {
+        let draw = |root: Option<&DMatrix<f64>>| {
             let simulate = |draws| simulate(&sensitivity, &tolerances, root, draws as usize, arguments.seed);
             arguments.draws.map(simulate)
         };
@@ -85,8 +89,9 @@ impl Designed {
                 let wanted = at_observable("--wanted", text, &shown.name, shown.kind)?;
                 let (costs, finest) = arguments.limits(chain, &tolerances)?;
                 let wish = Wish { wanted, costs, finest };
-                let allocation = allocate(&sensitivity, &tolerances, &wish)
-                    .map_err(|why| not_allocated(&shown.name, text, &why, model_core::budget::unit(chain, observable)))?;
+                let allocation = allocate(&sensitivity, &tolerances, &wish).map_err(|why| {
+                    not_allocated(&shown.name, text, &why, model_core::budget::unit(chain, observable))
+                })?;
                 Some((wanted, allocation))
             }
         };
@@ -94,11 +99,15 @@ impl Designed {
             (Some(campaign), Some(noise)) => {
                 let sigma = at_observable("--noise", noise, &shown.name, shown.kind)?;
                 let measured = match campaign.parse::<usize>() {
-                    Ok(0) => return Err(Failure::Input("--campaign 0: there is nothing to measure".to_owned())),
+                    Ok(0) => {
+                        return Err(Failure::Input("--campaign 0: there is nothing to measure".to_owned()));
+                    }
                     Ok(count) if count <= 1_000_000 => {
                         Sensitivity::over(chain, observable, sizes, poses, count).map_err(input)?
                     }
-                    Ok(_) => return Err(Failure::Input(format!("--campaign {campaign}: at most 1000000 poses"))),
+                    Ok(_) => {
+                        return Err(Failure::Input(format!("--campaign {campaign}: at most 1000000 poses")));
+                    }
                     Err(_) => {
                         let readings = readings(chain, observable, Path::new(campaign))?;
                         Sensitivity::at(chain, observable, sizes, &readings).map_err(input)?

@@ -11,7 +11,7 @@ use model_core::budget::{Budget, Curves};
 
 use crate::claims::{Checked, ClaimsFile};
 
-pub use designer::{Designed, Remaining};
+pub use designer::Designed;
 pub use options::DesignerArguments;
 pub use page::page;
 pub use tables::{as_csv, as_json};

@@ -80,10 +80,11 @@ impl DesignerArguments {
     pub fn limits(&self, chain: &Chain, tolerances: &[Tolerance]) -> Result<(Vec<f64>, Vec<f64>), Failure> {
         let mut sizes = vec![0.0; chain.symbols.len()];
         tolerances.iter().for_each(|tolerance| sizes[tolerance.error.index()] = tolerance.size);
-        let costs = by_error(chain, &sizes, "--cost", &self.cost, None, |text, _| match text.parse::<f64>() {
-            Ok(cost) if cost.is_finite() && cost > 0.0 => Ok(cost),
-            _ => Err(format!("`{text}` is no cost; write a number above zero")),
-        })?;
+        let costs =
+            by_error(chain, &sizes, "--cost", &self.cost, None, |text, _| match text.parse::<f64>() {
+                Ok(cost) if cost.is_finite() && cost > 0.0 => Ok(cost),
+                _ => Err(format!("`{text}` is no cost; write a number above zero")),
+            })?;
         let finest = by_error(chain, &sizes, "--finest", &self.finest, None, |text, error| {
             positive(text, chain.symbol(error).quantity, true)
         })?;
@@ -193,7 +194,9 @@ fn table(path: &Path) -> Result<Distribution, String> {
             ([_, _], []) if rows.is_empty() && at == 0 => {}
             _ => {
                 let place = format!("{}:{}", path.display(), at + 1);
-                return Err(format!("{place}: `{line}` is not two numbers; write a value and how often it comes"));
+                return Err(format!(
+                    "{place}: `{line}` is not two numbers; write a value and how often it comes"
+                ));
             }
         }
     }
@@ -205,7 +208,8 @@ fn table(path: &Path) -> Result<Distribution, String> {
 pub fn is_meant_for(text: &str, kind: ObservableKind) -> bool {
     let unit: Option<Unit> = Amount::parse(text).ok().and_then(|amount| amount.unit);
     match (unit.map(|unit| unit.quantity), kind) {
-        (Some(Quantity::Angle), ObservableKind::Point) | (Some(Quantity::Length), ObservableKind::Direction) => false,
+        (Some(Quantity::Angle), ObservableKind::Point)
+        | (Some(Quantity::Length), ObservableKind::Direction) => false,
         _ => true,
     }
 }

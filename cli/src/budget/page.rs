@@ -162,7 +162,11 @@ fn over_poses(chain: &Chain, one: &Measured, designed: &Designed) -> Markup {
     let (unit, factor) = reading_unit(one.budget.unit(chain));
     let remaining = designed.remaining.as_ref().map(|remaining| &remaining.after.spread.by_pose);
     let all = designed.worst.iter().chain(&designed.now.by_pose).copied();
-    let y = Axis::around(format!("{} error, {unit}", name(chain, one)), all.map(|value| value * factor).chain([0.0]), false);
+    let y = Axis::around(
+        format!("{} error, {unit}", name(chain, one)),
+        all.map(|value| value * factor).chain([0.0]),
+        false,
+    );
     let mut picture = Picture::new(560.0, 330.0, Axis::around("t, rad", t.iter().copied(), false), y);
     let mut line = |class: &str, values: &[f64]| {
         picture.line(class, t.iter().copied().zip(values.iter().map(|value| value * factor)));
@@ -342,7 +346,13 @@ fn claims(shown: &Shown<'_>) -> Markup {
                             tr {
                                 th scope="row" { (one.claim.name) }
                                 td { @if one.verdict.holds() { "✓ holds" } @else { "✗ does not hold" } }
-                                td.number { @if let Verdict::Comparison(measured) = &one.verdict { (format!("{:.4}", measured.ratio)) } }
+                                td.number { @match &one.verdict {
+                                    Verdict::Comparison(measured) => @match measured.ratio {
+                                        Some(ratio) => { (format!("{ratio:.4}")) }
+                                        None => { "–" }
+                                    },
+                                    _ => {}
+                                } }
                             }
                         }
                     }

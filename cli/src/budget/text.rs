@@ -73,13 +73,17 @@ fn tolerances(chain: &Chain, budget: &Budget, designed: &Designed) -> String {
         let Some(drawn) = drawn else { continue };
         let wanted = designed.wanted.as_ref().map(|(wanted, _)| *wanted);
         line(title, &PARTS.map(|part| format!("{} %", short(100.0 * part))));
-        for (label, (_, sample)) in ["  at one pose", "  rms over the poses", "  largest over them"].into_iter().zip(samples(drawn)) {
+        for (label, (_, sample)) in
+            ["  at one pose", "  rms over the poses", "  largest over them"].into_iter().zip(samples(drawn))
+        {
             line(label, &PARTS.map(|part| told(sample.percentile(part))));
         }
         if let Some(wanted) = wanted {
             let cells = samples(drawn).map(|(_, sample)| format!("{:.1} %", 100.0 * sample.within(wanted)));
             line("  within what is wanted", &[]);
-            for (label, cell) in ["    at one pose", "    rms over the poses", "    largest over them"].into_iter().zip(cells) {
+            for (label, cell) in
+                ["    at one pose", "    rms over the poses", "    largest over them"].into_iter().zip(cells)
+            {
                 line(label, &[cell]);
             }
         }

@@ -43,7 +43,11 @@ const REACHED: f64 = 1e-9;
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    if arguments.solve { solve(arguments)? } else { correct(arguments)? }
+    if arguments.solve {
+        solve(arguments)?
+    } else {
+        correct(arguments)?
+    }
     Ok(Answer::Done)
 }
 
@@ -55,8 +59,7 @@ fn correct(arguments: &Arguments) -> Result<(), Failure> {
         .iter()
         .map(|&observable| Seen::new(&chain, observable, arguments.form, is_named))
         .collect::<Result<_, _>>()?;
-    let evaluator =
-        |quantity| Evaluator::new(&chain, chosen.clone(), Exactness::Exact, quantity, &values);
+    let evaluator = |quantity| Evaluator::new(&chain, chosen.clone(), Exactness::Exact, quantity, &values);
     let mut value = evaluator(Quantity::Value);
     let mut error = arguments.correction.then(|| evaluator(Quantity::Error));
     table.want(&chain, &value.readings)?;
@@ -105,7 +108,8 @@ fn solve(arguments: &Arguments) -> Result<(), Failure> {
     // What the readings would be without the errors: the correction is the difference.
     let mut without = values.clone();
     chain.symbols_of(SymbolKind::Error).for_each(|error| without[error.index()] = 0.0);
-    let mut ideal = arguments.correction.then(|| Solver::new(&chain, observable, &without, &found, true)).transpose()?;
+    let mut ideal =
+        arguments.correction.then(|| Solver::new(&chain, observable, &without, &found, true)).transpose()?;
     let unit = |joint: SymbolId| chain.symbol(joint).quantity;
     let name = |joint: SymbolId| &chain.symbol(joint).name;
     let mut added: Vec<String> =
@@ -128,7 +132,8 @@ fn solve(arguments: &Arguments) -> Result<(), Failure> {
         let inputs = rows.readings.iter().filter(|(id, _)| !solver.joints.contains(id));
         let set: Vec<(SymbolId, Vec<f64>)> =
             inputs.cloned().chain(solver.joints.iter().copied().zip(solved.joints.clone())).collect();
-        let set_columns: Vec<(SymbolId, &[f64])> = set.iter().map(|(id, column)| (*id, column.as_slice())).collect();
+        let set_columns: Vec<(SymbolId, &[f64])> =
+            set.iter().map(|(id, column)| (*id, column.as_slice())).collect();
         outside.see(&chain, &set_columns, &mut checked)?;
         for remaining in &solved.remaining {
             count += 1;
@@ -141,7 +146,8 @@ fn solve(arguments: &Arguments) -> Result<(), Failure> {
         if let Some(ideal) = &mut ideal {
             let nominal = ideal.solve(&set, &wanted)?;
             for ((joint, set), nominal) in solver.joints.iter().zip(&solved.joints).zip(&nominal.joints) {
-                let scale = if unit(*joint) == Measures::Angle { 648_000.0 / std::f64::consts::PI } else { 1.0 };
+                let scale =
+                    if unit(*joint) == Measures::Angle { 648_000.0 / std::f64::consts::PI } else { 1.0 };
                 out.push(set.iter().zip(nominal).map(|(set, nominal)| (set - nominal) * scale).collect());
             }
         }

@@ -8,7 +8,7 @@ use std::path::Path;
 use calibration::formats::DataError;
 
 use crate::failure::Failure;
-pub use readings::ReadingsTable;
+pub use readings::{ReadingsTable, Rows};
 pub use write::{Column, csv_row, number, write};
 
 /// Rows that are read, computed and written at a time.

@@ -3,6 +3,8 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod designer;
+
 use serde_json::Value;
 use support::{Folder, Run, trueaxis};
 
@@ -78,6 +80,7 @@ fn tables_and_figures_are_written() {
         names,
         [
             "budget.csv",
+            "budget.html",
             "pointing.csv",
             "pointing.svg",
             "position.csv",

@@ -133,7 +133,10 @@ mod tests {
             (none, Verdict::NothingDetectable),
             (Evidence { cautions: &noisy, ..none }, Verdict::NoiseExceedsStated),
             (Evidence { cautions: &noisy, ..whole }, Verdict::Explained),
-            (Evidence { cautions: &rounded, structure: true, unnamed: true, ..none }, Verdict::NothingDetectable),
+            (
+                Evidence { cautions: &rounded, structure: true, unnamed: true, ..none },
+                Verdict::NothingDetectable,
+            ),
             (Evidence { cautions: &rounded, ..whole }, Verdict::Explained),
         ] {
             assert_eq!(verdict(evidence), expected, "{evidence:?}");

@@ -179,7 +179,10 @@ fn happened(diagnosis: &Diagnosis) -> String {
             )
         }
         Verdict::NothingDetectable
-            if diagnosis.cautions.iter().any(|caution| matches!(caution, Caution::ResidualIsRounding { .. })) =>
+            if diagnosis
+                .cautions
+                .iter()
+                .any(|caution| matches!(caution, Caution::ResidualIsRounding { .. })) =>
         {
             "The declaration explains these data to the last digit; what is left is rounding.".to_owned()
         }

@@ -61,7 +61,8 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     ));
 
     let progress = terminal::progress();
-    let calibrated = measured.calibrate(terminal::command_line(), &|stage| progress.set_message(stage.to_string()));
+    let calibrated =
+        measured.calibrate(terminal::command_line(), &|stage| progress.set_message(stage.to_string()));
     progress.finish_and_clear();
     let calibrated = calibrated?;
     let folder = arguments.out.as_ref().map(|folder| folder.display().to_string());

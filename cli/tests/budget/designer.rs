@@ -46,17 +46,22 @@ fn tolerances_come_to_what_the_independent_program_says() {
     let target = ["--observable", "target", "--path", PATH, "--format", "json"];
     let run = budget(
         &folder,
-        &[&target[..], &["--draws", "200000", "--wanted", "0.5 mm", "--campaign", "100", "--noise", "0.3 mm"]].concat(),
+        &[
+            &target[..],
+            &["--draws", "200000", "--wanted", "0.5 mm", "--campaign", "100", "--noise", "0.3 mm"],
+        ]
+        .concat(),
     );
     let found = tolerances(&run);
-    let registered = budget(
-        &folder,
-        &[&target[..], &["--registered", "--campaign", "100", "--noise", "0.3 mm"]].concat(),
-    );
+    let registered =
+        budget(&folder, &[&target[..], &["--registered", "--campaign", "100", "--noise", "0.3 mm"]].concat());
     let registered = tolerances(&registered);
     let size = |name: &str| {
         let errors = found["errors"].as_array().map_or(&[][..], Vec::as_slice);
-        errors.iter().find(|error| error["name"] == name).map_or(Value::Null, |error| error["size_for_wanted"].clone())
+        errors
+            .iter()
+            .find(|error| error["name"] == name)
+            .map_or(Value::Null, |error| error["size_for_wanted"].clone())
     };
     for (name, value) in [
         ("expected rms", &found["root_sum_square"]["rms"]),
@@ -112,10 +117,8 @@ fn what_comes_out_goes_in_again() {
     // Nothing is cheaper than what is cheapest.
     assert!(number(&again["wanted"]["cost_then"]) <= number(&again["wanted"]["cost_now"]) * (1.0 + 1e-9));
 
-    let poses: String = (0..100)
-        .map(|at| 3.6 * (f64::from(at) + 0.5))
-        .map(|t| format!("{t},{t},{t},10\n"))
-        .collect();
+    let poses: String =
+        (0..100).map(|at| 3.6 * (f64::from(at) + 0.5)).map(|t| format!("{t},{t},{t},10\n")).collect();
     folder.write("poses.csv", format!("alpha [deg],beta [deg],gamma [deg],range\n{poses}"));
     let with = |campaign: &str| {
         let run = budget(&folder, &[&target[..], &["--campaign", campaign, "--noise", "0.1 mm"]].concat());
@@ -180,7 +183,13 @@ fn the_page_stands_alone() {
     assert!(run.stderr.contains("pointing is left out"), "{}", run.stderr);
     let page = folder.read("out/budget.html");
     assert!(page.len() < 1_000_000, "{}", page.len());
-    for wanted in ["What to tighten first", "Along the path", "Draws of all errors", "Sizes for 0.500 mm", "does not hold"] {
+    for wanted in [
+        "What to tighten first",
+        "Along the path",
+        "Draws of all errors",
+        "Sizes for 0.500 mm",
+        "does not hold",
+    ] {
         assert!(page.contains(wanted), "{wanted}");
     }
     // Figures 7 and 8: a panel an error that does something, five lines each.
@@ -193,7 +202,10 @@ fn the_page_stands_alone() {
 #[test]
 fn what_a_designer_mistypes_is_named() {
     let folder = folder("budget_mistyped");
-    folder.write("wrong.csv", "value,frequency\n-1,0\n2,1\n").write("words.csv", "a,b\nc,d\n").write("poses.csv", "alpha,bta\n1,2\n");
+    folder
+        .write("wrong.csv", "value,frequency\n-1,0\n2,1\n")
+        .write("words.csv", "a,b\nc,d\n")
+        .write("poses.csv", "alpha,bta\n1,2\n");
     let target = ["--observable", "target", "--path", PATH];
     for (more, wanted) in [
         (&["--distribution", "unifrom"][..], "did you mean `uniform`?"),
@@ -220,7 +232,10 @@ fn what_a_designer_mistypes_is_named() {
         assert_eq!((run.code, run.stdout.as_str()), (2, ""), "{more:?}: {}", run.stderr);
         assert!(run.stderr.contains(wanted), "{more:?}: {}", run.stderr);
     }
-    assert_eq!(folder.names(), ["box.toml", "mobile-lidar.chain", "paper.toml", "poses.csv", "words.csv", "wrong.csv"]);
+    assert_eq!(
+        folder.names(),
+        ["box.toml", "mobile-lidar.chain", "paper.toml", "poses.csv", "words.csv", "wrong.csv"]
+    );
 }
 
 /// The same whatever the number of threads.

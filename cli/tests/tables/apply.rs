@@ -3,7 +3,8 @@
 use crate::support::Folder;
 
 const MOUNT: &str = "examples/alt-azimuth/alt-azimuth.chain";
-const ERRORS: &str = "tilt_east = \"30 arcsec\"\ncollimation = \"60 arcsec\"\nelevation_index = \"-20 arcsec\"\n";
+const ERRORS: &str =
+    "tilt_east = \"30 arcsec\"\ncollimation = \"60 arcsec\"\nelevation_index = \"-20 arcsec\"\n";
 
 fn folder(name: &str, errors: &str) -> Folder {
     let folder = Folder::new(name);
@@ -45,7 +46,9 @@ fn angles_are_corrected_as_the_textbook_says() {
     let folder = self::folder("apply_collimation", "collimation = \"60 arcsec\"\n");
     folder.write("data.csv", "azimuth [deg],elevation [deg]\n120,45\n0,60\n");
     let (_, rows, _) = apply(&folder, "data.csv", &["--as", "azimuth-elevation", "--correction"]);
-    for (found, secant) in column(&rows, "sight_azimuth_correction [arcsec]").into_iter().zip([2f64.sqrt(), 2.0]) {
+    for (found, secant) in
+        column(&rows, "sight_azimuth_correction [arcsec]").into_iter().zip([2f64.sqrt(), 2.0])
+    {
         // The chain turns collimation from the line of sight towards smaller azimuth, exact to the third order.
         assert!((found.abs() - 60.0 * secant).abs() < 1e-5, "{found}");
     }
@@ -55,7 +58,8 @@ fn angles_are_corrected_as_the_textbook_says() {
 #[test]
 fn solved_readings_point_at_what_was_wanted() {
     let folder = folder("apply_solve", ERRORS);
-    let wanted = "star,sight_azimuth [deg],sight_elevation [deg]\nVega,120,45\nlow,300,5\nhigh,10,88\nPole,0,90\n";
+    let wanted =
+        "star,sight_azimuth [deg],sight_elevation [deg]\nVega,120,45\nlow,300,5\nhigh,10,88\nPole,0,90\n";
     folder.write("wanted.csv", wanted);
     let options = ["--as", "azimuth-elevation", "--solve", "--correction"];
     let (code, rows, stderr) = apply(&folder, "wanted.csv", &options);
@@ -68,13 +72,18 @@ fn solved_readings_point_at_what_was_wanted() {
     let text: Vec<String> = rows.iter().map(|row| row.join(",")).collect();
     folder.write("solved.csv", text.join("\n") + "\n");
     let (_, again, _) = apply(&folder, "solved.csv", &["--as", "azimuth-elevation"]);
-    for (name, expected) in [("sight_azimuth [deg]", [120.0, 300.0, 10.0]), ("sight_elevation [deg]", [45.0, 5.0, 88.0])] {
+    for (name, expected) in
+        [("sight_azimuth [deg]", [120.0, 300.0, 10.0]), ("sight_elevation [deg]", [45.0, 5.0, 88.0])]
+    {
         for (found, expected) in column(&again, name).into_iter().zip(expected) {
             assert!((found - expected).abs() < 1e-11, "{name}: {found} {expected}");
         }
     }
     // Readings in the table are where the search starts: beyond the zenith the mount points there with its other face.
-    folder.write("faces.csv", "azimuth [deg],elevation [deg],sight_x,sight_y,sight_z\n300,135,0.6123724,-0.3535534,0.7071068\n");
+    folder.write(
+        "faces.csv",
+        "azimuth [deg],elevation [deg],sight_x,sight_y,sight_z\n300,135,0.6123724,-0.3535534,0.7071068\n",
+    );
     let (_, other, stderr) = apply(&folder, "faces.csv", &["--solve"]);
     assert_eq!(stderr, "");
     let elevation = column(&other, "elevation")[0].to_degrees();
@@ -91,9 +100,21 @@ fn rows_outside_what_the_model_was_found_over_are_counted() {
     assert_eq!((code, rows.len()), (0, 5));
     // 200° is -160°, which is within; 175° is 5° beyond.
     assert!(stderr.contains("2 of 4 rows are outside what the model was found over"), "{stderr}");
-    assert!(stderr.contains("azimuth by up to 5.0000°") && stderr.contains("elevation by up to 5.0000°"), "{stderr}");
+    assert!(
+        stderr.contains("azimuth by up to 5.0000°") && stderr.contains("elevation by up to 5.0000°"),
+        "{stderr}"
+    );
     // Every command reads the file.
-    let run = folder.trueaxis(&["eval", "alt-azimuth.chain", "--errors", "errors.toml", "--data", "data.csv", "--out", "e.csv"]);
+    let run = folder.trueaxis(&[
+        "eval",
+        "alt-azimuth.chain",
+        "--errors",
+        "errors.toml",
+        "--data",
+        "data.csv",
+        "--out",
+        "e.csv",
+    ]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     for (table, wanted) in [
         ("[found-over]\nazimut = [0, 1]\n", "did you mean `azimuth`?"),
@@ -113,9 +134,12 @@ fn rows_outside_what_the_model_was_found_over_are_counted() {
 fn what_cannot_be_applied_is_said() {
     let folder = folder("apply_wrong", ERRORS);
     folder.copy("examples/mobile-lidar/mobile-lidar.chain").write("lidar.toml", "db2 = \"5 arcsec\"\n");
-    folder.write("data.csv", "alpha,beta,gamma,range\n1,2,3,10\n").write("sight.csv", "sight_x,sight_y\n0,1\n");
+    folder
+        .write("data.csv", "alpha,beta,gamma,range\n1,2,3,10\n")
+        .write("sight.csv", "sight_x,sight_y\n0,1\n");
     let lidar = |more: &[&str]| {
-        let fixed = ["apply", "mobile-lidar.chain", "--errors", "lidar.toml", "--data", "data.csv", "--out", "-"];
+        let fixed =
+            ["apply", "mobile-lidar.chain", "--errors", "lidar.toml", "--data", "data.csv", "--out", "-"];
         folder.trueaxis(&[&fixed[..], more].concat())
     };
     for (more, wanted) in [
@@ -133,5 +157,8 @@ fn what_cannot_be_applied_is_said() {
     // Points stay points where directions become angles.
     let run = lidar(&["--as", "ha-dec"]);
     let header = run.stdout.lines().next().unwrap_or_default();
-    assert!(header.contains("pointing_ha [deg],pointing_dec [deg],position_x,position_y,position_z"), "{header}");
+    assert!(
+        header.contains("pointing_ha [deg],pointing_dec [deg],position_x,position_y,position_z"),
+        "{header}"
+    );
 }

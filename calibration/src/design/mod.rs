@@ -19,6 +19,10 @@ pub use discrimination::{Separation, Told};
 /// Poses that are compared.
 const CANDIDATES: usize = 600;
 
+/// One pose is proposed so often at most: a rule that wants more of it is met about as well by its neighbours, which show
+/// what the model lacks, too.
+const OFTEN: usize = 2;
+
 /// Sweeps of exchange at most.
 const SWEEPS: usize = 5;
 
@@ -95,7 +99,7 @@ pub fn propose(
     let mut covariance = before.clone();
     let mut chosen: Vec<usize> = Vec::new();
     for _ in 0..count.min(rows.len()) {
-        let Some(best) = best(&rows, &covariance, criterion) else { break };
+        let Some(best) = best(&rows, &covariance, criterion, &chosen) else { break };
         covariance = with(&covariance, &rows[best], 1.0);
         chosen.push(best);
     }
@@ -103,7 +107,9 @@ pub fn propose(
         let mut exchanged = false;
         for slot in 0..chosen.len() {
             let without = with(&covariance, &rows[chosen[slot]], -1.0);
-            let Some(best) = best(&rows, &without, criterion) else { continue };
+            let others: Vec<usize> =
+                chosen.iter().enumerate().filter(|(other, _)| *other != slot).map(|(_, row)| *row).collect();
+            let Some(best) = best(&rows, &without, criterion, &others) else { continue };
             exchanged |= best != chosen[slot];
             chosen[slot] = best;
             covariance = with(&without, &rows[best], 1.0);
@@ -125,8 +131,13 @@ pub fn propose(
     Ok(Proposal { criterion, joints, poses, uncertainties })
 }
 
-/// The candidate that gains most.
-fn best(rows: &[DMatrix<f64>], covariance: &DMatrix<f64>, criterion: Criterion) -> Option<usize> {
+/// The candidate that gains most, of those that are not [`OFTEN`] among the chosen ones.
+fn best(
+    rows: &[DMatrix<f64>],
+    covariance: &DMatrix<f64>,
+    criterion: Criterion,
+    chosen: &[usize],
+) -> Option<usize> {
     let gain = |row: &DMatrix<f64>| {
         let spread = row * covariance;
         let own = small(&(&spread * row.transpose()));
@@ -142,7 +153,8 @@ fn best(rows: &[DMatrix<f64>], covariance: &DMatrix<f64>, criterion: Criterion) 
             }
         }
     };
-    let gains = rows.iter().map(gain).enumerate();
+    let may_come = |at: usize| chosen.iter().filter(|&&row| row == at).count() < OFTEN;
+    let gains = rows.iter().enumerate().filter(|(at, _)| may_come(*at)).map(|(at, row)| (at, gain(row)));
     gains.filter(|(_, gain)| gain.is_finite()).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(at, _)| at)
 }
 

@@ -40,6 +40,9 @@ addEventListener("load", () => {
     document.getElementById("show-after").click();
     say("toggle", getComputedStyle(document.querySelector("path.before")).display === "none"
       && getComputedStyle(document.querySelector("path.after")).display !== "none");
+    const grow = document.querySelector(".grow"), card = grow.closest(".card"), narrow = card.offsetWidth;
+    grow.click();
+    say("enlarged", grow.getAttribute("aria-pressed") === "true" && card.offsetWidth >= narrow && !!grow.getAttribute("aria-label"));
     document.getElementById("clear").click();
     say("cleared", !document.querySelector(".over .marked"));
     say("names", [...document.querySelectorAll("svg")].every((s) => s.getAttribute("aria-hidden") || s.getAttribute("aria-label")));
@@ -97,7 +100,7 @@ fn the_page_answers_to_a_person() {
         let (_, answers) =
             dom.split_once("id=\"said\">").unwrap_or_else(|| panic!("{width}: nothing said: {said}"));
         let answers = answers.split('<').next().unwrap_or_default();
-        for name in ["wide", "hover", "brushed", "told", "toggle", "cleared", "names", "ids"] {
+        for name in ["wide", "hover", "brushed", "told", "toggle", "enlarged", "cleared", "names", "ids"] {
             assert!(answers.contains(&format!("{name}=true")), "{width}: {answers}");
         }
     }

@@ -16,6 +16,10 @@ use crate::report::Reported;
 const CARD: (f64, f64) = (380.0, 262.0);
 const BROAD: (f64, f64) = (1140.0, 250.0);
 
+/// More arrows than these are drawn as means of cells, so many across and so many up.
+const ARROWS: usize = 500;
+const CELLS: (usize, usize) = (22, 14);
+
 /// Bins of means along a reading, and of a histogram.
 const BINS: usize = 12;
 const BARS: usize = 24;
@@ -179,20 +183,41 @@ fn map(reported: &Reported<'_>, rows: &Rows) -> Markup {
     before.sort_by(f64::total_cmp);
     let typical = before.get(before.len() * 19 / 20).copied().unwrap_or(1.0).max(f64::MIN_POSITIVE);
     let scale = 22.0 / typical;
+    let in_cells = places.len() > ARROWS;
     for (class, columns) in
         [("before", [&first.before, &second.before]), ("after", [&first.after, &second.after])]
     {
         let arrows = (0..places.len()).filter(|&at| !rows.aside[at]).filter_map(|at| {
             Some((places[at]?, (scale * columns[0].values[at]?, scale * columns[1].values[at]?)))
         });
-        picture.arrows(class, arrows);
+        if in_cells {
+            picture.arrows(class, means_of_cells(arrows, picture.cells(CELLS)).into_iter());
+        } else {
+            picture.arrows(class, arrows);
+        }
     }
+    let each =
+        if in_cells { "Each line is the mean over a cell" } else { "Each line starts where was measured" };
     let note = format!(
-        "Each line starts where was measured and runs along the residual; {} long: {}. Dashed: before. Solid: after.",
+        "{each} and runs along the residual; {} long: {}. Dashed: before. Solid: after.",
         "a tenth of the height",
         numbers::told_in(22.0 / scale * rows.unit.in_si, &rows.unit)
     );
     card(title, &note, &picture.finish(&format!("{title}: {note}")))
+}
+
+/// A place and an arrow from there.
+type Arrow = ((f64, f64), (f64, f64));
+
+/// The mean place and the mean arrow of each cell, in order of the cells.
+fn means_of_cells(arrows: impl Iterator<Item = Arrow>, cell: impl Fn((f64, f64)) -> usize) -> Vec<Arrow> {
+    let mut sums = vec![[0.0; 5]; CELLS.0 * CELLS.1];
+    for ((x, y), (dx, dy)) in arrows {
+        let sum = &mut sums[cell((x, y))];
+        sum.iter_mut().zip([1.0, x, y, dx, dy]).for_each(|(sum, value)| *sum += value);
+    }
+    let filled = sums.into_iter().filter(|sum| sum[0] > 0.0);
+    filled.map(|[count, x, y, dx, dy]| ((x / count, y / count), (dx / count, dy / count))).collect()
 }
 
 /// One component against another.

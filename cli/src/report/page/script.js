@@ -1,4 +1,4 @@
-// Hover names the row, a drag marks the rows in every picture, Escape or Clear forgets them. Without it the page is whole.
+// Hover names the row, a drag marks the rows in every picture, Escape or Clear forgets them; a button enlarges a picture. Without it the page is whole.
 (() => {
   const data = JSON.parse(document.getElementById("rows").textContent);
   const count = data.rows.length;
@@ -80,8 +80,16 @@
       });
       draw();
     });
-    picture.svg.addEventListener("dblclick", () => picture.svg.closest(".card")?.classList.toggle("wide"));
   }
+  document.querySelectorAll(".grid > .card > svg").forEach((svg) => {
+    const card = svg.parentElement, grow = document.createElement("button");
+    if (card.classList.contains("wide")) return;
+    grow.type = "button"; grow.className = "grow"; grow.textContent = "Enlarge";
+    grow.setAttribute("aria-pressed", "false");
+    grow.setAttribute("aria-label", `Enlarge: ${card.querySelector("h3")?.textContent ?? "picture"}`);
+    grow.addEventListener("click", () => grow.setAttribute("aria-pressed", String(card.classList.toggle("wide"))));
+    card.prepend(grow);
+  });
   const forget = () => { marked = new Set(); draw(); };
   clear.addEventListener("click", forget);
   addEventListener("keydown", (event) => { if (event.key === "Escape") forget(); });

@@ -84,6 +84,18 @@ impl Picture {
         self
     }
 
+    /// Which of some cells, so many across and so many up, a point lies in.
+    pub fn cells(&self, (across, up): (usize, usize)) -> impl Fn((f64, f64)) -> usize + use<> {
+        let (x, y) = (self.x.clone(), self.y.clone());
+        // Within the axes by their making; what is not goes to the nearest cell.
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let index = |axis: &Axis, value: f64, count: usize| {
+            let share = (value - axis.low) / (axis.high - axis.low) * count as f64;
+            (share.max(0.0) as usize).min(count - 1)
+        };
+        move |(at_x, at_y)| index(&y, at_y, up) * across + index(&x, at_x, across)
+    }
+
     fn at(&self, x: f64, y: f64) -> (f64, f64) {
         let across = (x - self.x.low) / (self.x.high - self.x.low);
         let up = (y - self.y.low) / (self.y.high - self.y.low);

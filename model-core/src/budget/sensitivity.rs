@@ -39,7 +39,7 @@ impl Sensitivity {
         count: usize,
     ) -> Result<Self, BudgetError> {
         let first_order = FirstOrder::new(chain, observable, &sized(chain, sizes))?;
-        let space = Space::new(chain, observable, poses, &first_order)?;
+        let space = Space::new(chain, observable, poses, |symbol| first_order.harmonic(symbol))?;
         let probe = Probe::new(chain, observable);
         let mut found = Self::empty(chain, observable, sizes);
         let parameters: Vec<Vec<f64>> = match poses {

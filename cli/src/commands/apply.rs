@@ -1,6 +1,5 @@
 //! `trueaxis apply`: new data corrected with a calibrated model, and readings that point where somebody wants.
 
-use calibration::formats::ColumnName;
 use model_core::{ObservableId, Quantity as Measures, SymbolId, SymbolKind};
 
 use super::Answer;
@@ -112,12 +111,17 @@ fn solve(arguments: &Arguments) -> Result<(), Failure> {
         arguments.correction.then(|| Solver::new(&chain, observable, &without, &found, true)).transpose()?;
     let unit = |joint: SymbolId| chain.symbol(joint).quantity;
     let name = |joint: SymbolId| &chain.symbol(joint).name;
+    // A reading beyond a turn would be doubted without its unit.
+    let with_unit = |name: &str, quantity: Measures| match quantity {
+        Measures::Number => name.to_owned(),
+        quantity => format!("{name} [{}]", quantity.unit()),
+    };
     let mut added: Vec<String> =
-        solver.joints.iter().map(|&joint| ColumnName::of_si(name(joint), unit(joint))).collect();
+        solver.joints.iter().map(|&joint| with_unit(name(joint), unit(joint))).collect();
     if arguments.correction {
         added.extend(solver.joints.iter().map(|&joint| match unit(joint) {
             Measures::Angle => format!("{}_correction [arcsec]", name(joint)),
-            other => ColumnName::of_si(&format!("{}_correction", name(joint)), other),
+            other => with_unit(&format!("{}_correction", name(joint)), other),
         }));
     }
     let quantity = model_core::budget::unit(&chain, observable);

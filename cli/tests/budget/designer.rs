@@ -217,7 +217,7 @@ fn what_a_designer_mistypes_is_named() {
         (&["--distribution", "table nothing.csv"], "nothing.csv"),
         (&["--wanted", "0.5"], "has no unit"),
         (&["--wanted", "5 arcsec"], "`arcsec` measures an angle, but a length is wanted"),
-        (&["--wanted", "-1 mm"], "is no size"),
+        (&["--wanted=-1 mm"], "is no size"),
         (&["--wanted", "0.1 mm", "--finest", "d[xyz]*=0.2 mm"], "no error `d[xyz]*`"),
         (&["--wanted", "0.1 mm", "--finest", "dx*=0.2 mm"], "the root sum square is 0.2309 mm"),
         (&["--wanted", "0.1 mm", "--cost", "da1=0"], "`0` is no cost"),

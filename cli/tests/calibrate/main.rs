@@ -5,6 +5,7 @@ mod support;
 
 mod bad_studies;
 mod instruments;
+mod noiseless;
 mod observations;
 mod ranges;
 mod readings;

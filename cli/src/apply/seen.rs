@@ -18,12 +18,13 @@ pub enum As {
 }
 
 /// One observable as its columns have it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Seen {
-    /// Which.
-    pub observable: ObservableId,
+    observable: ObservableId,
     form: As,
     is_direction: bool,
+    /// Names of what is shown, in the form that it is written in.
+    parts: Vec<&'static str>,
 }
 
 const ARCSEC: f64 = PI / 648_000.0;
@@ -35,50 +36,58 @@ impl Seen {
     /// Angles are asked of a point that was named.
     pub fn new(chain: &Chain, observable: ObservableId, form: As, is_named: bool) -> Result<Self, Failure> {
         let shown = chain.observable(observable);
-        let is_direction = shown.kind == ObservableKind::Direction;
+        let is_direction = shown.kind == ObservableKind::Direction && shown.is_vector();
+        if is_named && !shown.is_vector() && form != As::Vector {
+            let name = &shown.name;
+            return Err(Failure::Input(format!(
+                "`{name}` shows single readings, which are written as they are; leave --as out, or name a direction with --observable"
+            )));
+        }
         if is_named && !is_direction && form != As::Vector {
             let name = &shown.name;
             return Err(Failure::Input(format!(
                 "`{name}` is a point, and angles say where a direction goes; leave --as out, or name a direction with --observable"
             )));
         }
-        Ok(Self { observable, form: if is_direction { form } else { As::Vector }, is_direction })
+        let form = if is_direction { form } else { As::Vector };
+        let parts = match form {
+            As::Vector => shown.labels().collect(),
+            As::AzimuthElevation => vec!["azimuth", "elevation"],
+            As::HaDec => vec!["ha", "dec"],
+        };
+        Ok(Self { observable, form, is_direction, parts })
     }
 
-    /// Names of what it has, with what they measure.
-    fn parts(self) -> &'static [&'static str] {
-        match self.form {
-            As::Vector => &["x", "y", "z"],
-            As::AzimuthElevation => &["azimuth", "elevation"],
-            As::HaDec => &["ha", "dec"],
-        }
+    /// How many numbers the observable shows.
+    pub fn shown(&self, chain: &Chain) -> usize {
+        chain.observable(self.observable).shown.len()
     }
 
     /// Names of the columns that are read, without a unit, and what they measure.
-    pub fn read_names(self, chain: &Chain) -> Vec<(String, Quantity)> {
+    pub fn read_names(&self, chain: &Chain) -> Vec<(String, Quantity)> {
         let name = &chain.observable(self.observable).name;
         let quantity = match (self.form, self.is_direction) {
             (As::Vector, true) => Quantity::Number,
             (As::Vector, false) => Quantity::Length,
             _ => Quantity::Angle,
         };
-        self.parts().iter().map(|part| (format!("{name}_{part}"), quantity)).collect()
+        self.parts.iter().map(|part| (format!("{name}_{part}"), quantity)).collect()
     }
 
     /// Headers of the columns that are written; with the correction if that is wanted.
-    pub fn headers(self, chain: &Chain, correction: bool) -> Vec<String> {
+    pub fn headers(&self, chain: &Chain, correction: bool) -> Vec<String> {
         let name = &chain.observable(self.observable).name;
         let (unit, small) = match self.form {
             As::Vector => ("", ""),
             _ => (" [deg]", " [arcsec]"),
         };
-        let own = self.parts().iter().map(|part| format!("{name}_{part}{unit}"));
-        let corrections = self.parts().iter().filter(|_| correction);
+        let own = self.parts.iter().map(|part| format!("{name}_{part}{unit}"));
+        let corrections = self.parts.iter().filter(|_| correction);
         own.chain(corrections.map(|part| format!("{name}_{part}_correction{small}"))).collect()
     }
 
     /// The columns that are written, from the value with the errors and what the errors add to it.
-    pub fn columns(self, value: &[Vec<f64>], error: Option<&[Vec<f64>]>) -> Vec<Vec<f64>> {
+    pub fn columns(&self, value: &[Vec<f64>], error: Option<&[Vec<f64>]>) -> Vec<Vec<f64>> {
         if self.form == As::Vector {
             return value.iter().chain(error.into_iter().flatten()).cloned().collect();
         }
@@ -99,7 +108,7 @@ impl Seen {
     }
 
     /// The vector that columns say, as they were read: of length one for a direction.
-    pub fn vector(self, columns: &[&[f64]], row: usize) -> [f64; 3] {
+    pub fn vector(&self, columns: &[&[f64]], row: usize) -> [f64; 3] {
         match self.form {
             As::Vector => {
                 let vector = [0, 1, 2].map(|axis: usize| columns[axis][row]);

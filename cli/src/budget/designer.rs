@@ -63,6 +63,18 @@ impl Designed {
         is_named: bool,
     ) -> Result<Option<Self>, Failure> {
         let shown = chain.observable(observable);
+        if !shown.is_vector() && !is_named {
+            if arguments.is_asked() {
+                let name = &shown.name;
+                terminal::warn(format_args!(
+                    "{name} is left out of what tolerances come to: it shows single readings"
+                ));
+            }
+            return Ok(None);
+        }
+        if !shown.is_vector() && !arguments.is_asked() {
+            return Ok(None);
+        }
         for text in [&arguments.wanted, &arguments.noise].into_iter().flatten() {
             if !is_named && !is_meant_for(text, shown.kind) {
                 let name = &shown.name;

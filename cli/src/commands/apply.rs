@@ -73,11 +73,11 @@ fn correct(arguments: &Arguments) -> Result<(), Failure> {
         outside.see(&chain, &readings, &mut value)?;
         let values = value.columns(&readings, rows.count)?;
         let errors = error.as_mut().map(|error| error.columns(&readings, rows.count)).transpose()?;
-        let parts = |columns: &[Vec<f64>], at: usize| columns[3 * at..3 * at + 3].to_vec();
-        let mut columns = Vec::new();
-        for (at, seen) in seen.iter().enumerate() {
-            let error = errors.as_ref().map(|errors| parts(errors, at));
-            columns.extend(seen.columns(&parts(&values, at), error.as_deref()));
+        let (mut columns, mut at) = (Vec::new(), 0);
+        for seen in &seen {
+            let own = at..at + seen.shown(&chain);
+            at = own.end;
+            columns.extend(seen.columns(&values[own.clone()], errors.as_ref().map(|errors| &errors[own])));
         }
         Ok(columns)
     })?;
@@ -94,6 +94,12 @@ fn solve(arguments: &Arguments) -> Result<(), Failure> {
             return Err(Failure::Input(format!("say which of {names} is wanted: --observable NAME")));
         }
     };
+    if !chain.observable(observable).is_vector() {
+        let name = &chain.observable(observable).name;
+        return Err(Failure::Input(format!(
+            "`{name}` shows single readings; joints are solved for a whole direction or point: name one with --observable"
+        )));
+    }
     let seen = Seen::new(&chain, observable, arguments.form, true)?;
     let readings = crate::evaluation::readings_of(&chain, observable);
     let joints: Vec<SymbolId> =

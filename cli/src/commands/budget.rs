@@ -149,7 +149,10 @@ fn failure(error: &BudgetError) -> Failure {
         BudgetError::NoValue { name, .. } => {
             format!("{error}: name {name} in --path, or say --range \"{name}=lo..hi\"")
         }
-        BudgetError::NotFinite { .. } | BudgetError::Form(_) | BudgetError::Units { .. } => error.to_string(),
+        BudgetError::NotFinite { .. }
+        | BudgetError::Form(_)
+        | BudgetError::Units { .. }
+        | BudgetError::NotVector { .. } => error.to_string(),
     })
 }
 

@@ -89,6 +89,14 @@ pub enum BudgetError {
         /// What has another unit.
         other: &'static str,
     },
+    /// Tolerances are summed as vectors.
+    #[error(
+        "{observable} shows single readings, and tolerances are summed for whole directions and points: observe one"
+    )]
+    NotVector {
+        /// The observable.
+        observable: String,
+    },
     /// The observable has no finite value at a pose.
     #[error("{observable} has no finite value at {pose}")]
     NotFinite {

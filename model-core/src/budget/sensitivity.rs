@@ -38,6 +38,7 @@ impl Sensitivity {
         poses: &Poses,
         count: usize,
     ) -> Result<Self, BudgetError> {
+        whole_vector(chain, observable)?;
         let first_order = FirstOrder::new(chain, observable, &sized(chain, sizes))?;
         let space = Space::new(chain, observable, poses, |symbol| first_order.harmonic(symbol))?;
         let probe = Probe::new(chain, observable);
@@ -68,6 +69,7 @@ impl Sensitivity {
         sizes: &[f64],
         readings: &[(SymbolId, Vec<f64>)],
     ) -> Result<Self, BudgetError> {
+        whole_vector(chain, observable)?;
         let first_order = FirstOrder::new(chain, observable, &sized(chain, sizes))?;
         let probe = Probe::new(chain, observable);
         let mut found = Self::empty(chain, observable, sizes);
@@ -133,4 +135,13 @@ impl Sensitivity {
     pub fn at_pose(&self, pose: usize) -> &[[f64; 3]] {
         &self.columns[pose * self.errors.len()..(pose + 1) * self.errors.len()]
     }
+}
+
+/// What an observable shows has to be its whole vector.
+fn whole_vector(chain: &Chain, id: ObservableId) -> Result<(), BudgetError> {
+    let observable = chain.observable(id);
+    if observable.is_vector() {
+        return Ok(());
+    }
+    Err(BudgetError::NotVector { observable: observable.name.clone() })
 }

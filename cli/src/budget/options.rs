@@ -160,7 +160,7 @@ fn by_error<T: Clone>(
         }
         matched.retain(|error| sizes[error.index()] != 0.0);
         if matched.is_empty() {
-            return Err(wrong(format!("the sizes leave `{pattern}` out: give it one in --errors")));
+            return Err(wrong(format!("the sizes leave `{pattern}` out: give it one in --sizes")));
         }
         let rank = errors_file::rank(pattern);
         for error in matched {

@@ -19,7 +19,7 @@ fn folder(name: &str) -> Folder {
 }
 
 fn budget(folder: &Folder, more: &[&str]) -> Run {
-    let mut arguments = vec!["budget", "mobile-lidar.chain", "--errors", "box.toml"];
+    let mut arguments = vec!["budget", "mobile-lidar.chain", "--sizes", "box.toml"];
     arguments.extend(more);
     folder.trueaxis(&arguments)
 }
@@ -245,7 +245,7 @@ fn the_seed_says_what_is_drawn() {
         let run = trueaxis(&[
             "budget",
             LIDAR,
-            "--errors",
+            "--sizes",
             "examples/mobile-lidar/box.toml",
             "--observable",
             "pointing",

@@ -116,7 +116,7 @@ impl TableReader for Reader<'_> {
             })
             .collect::<Result<_, DataError>>()?;
         self.row = rows.end;
-        Ok(Chunk { columns, rows: (rows.start as u64 + 1..=rows.end as u64).collect() })
+        Ok(Chunk { columns, rows: (rows.start as u64 + 1..=rows.end as u64).collect(), lines: Vec::new() })
     }
 }
 
@@ -139,11 +139,19 @@ mod tests {
         let labels = |labels: &[String]| Cells::Labels(labels.to_vec());
         assert_eq!(
             read(),
-            Chunk { columns: vec![Cells::Numbers(vec![3.0, -8.0]), labels(&names[..2])], rows: vec![1, 2] }
+            Chunk {
+                columns: vec![Cells::Numbers(vec![3.0, -8.0]), labels(&names[..2])],
+                rows: vec![1, 2],
+                lines: Vec::new()
+            }
         );
         assert_eq!(
             read(),
-            Chunk { columns: vec![Cells::Numbers(vec![0.25]), labels(&names[2..])], rows: vec![3] }
+            Chunk {
+                columns: vec![Cells::Numbers(vec![0.25]), labels(&names[2..])],
+                rows: vec![3],
+                lines: Vec::new()
+            }
         );
         assert!(read().rows.is_empty());
     }

@@ -84,10 +84,17 @@ fn certify(source: &Source, chosen: &[ObservableId], order: u32) -> Result<Strin
     let declared = Declared::from_text(&source.text).map_err(|mistakes| source.mistakes(&mistakes))?;
     let mut certificate = Certificate::new(&declared);
     for &observable in chosen {
-        certificate.derived(observable, order).map_err(|refusal| {
+        if let Err(refusal) = certificate.derived(observable, order) {
             let name = &declared.chain().observable(observable).name;
-            Failure::Input(format!("no certificate of `{name}`: {refusal}; nothing is written"))
-        })?;
+            certificate.not_certified(name, &refusal.to_string());
+        }
+    }
+    if certificate.is_empty() {
+        let why = certificate.notes().join("; ");
+        return Err(Failure::Input(format!("no certificate of {why}; nothing is written")));
+    }
+    for note in certificate.notes() {
+        terminal::note(format_args!("not certified: {note}"));
     }
     Ok(certificate.finish(&source.path.display().to_string()))
 }

@@ -68,7 +68,7 @@ fn nothing_is_written_where_nothing_can_be_certified() {
     );
     refused(
         &folder.trueaxis(&["derive", "steep.chain", "--certificate", "c.v"]),
-        "no certificate of `o`: the sine or cosine of 25 times an angle; certificates go up to 24 times; nothing is written",
+        "no certificate of o: the sine or cosine of 25 times an angle; certificates go up to 24 times; nothing is written",
     );
     assert_eq!(folder.names(), names);
 }
@@ -95,6 +95,27 @@ fn what_cannot_be_certified_is_said_beside_what_is() {
     {
         assert!(text.contains(said), "{said}: {text}");
     }
+}
+
+/// Angles are read off a vector; certificates speak of the vector.
+#[test]
+fn an_observable_that_cannot_be_certified_leaves_the_others() {
+    let folder = folder("angles");
+    folder.write(
+        "angles.chain",
+        "chain C { body a on ground { motion: Rz(q); motion_error: Rx(e); } observe o: direction(0, 1, 0) of a; \
+         observe sky: azimuth(y, x), elevation of direction(0, 1, 0) of a; }",
+    );
+    let run = folder.trueaxis(&["derive", "angles.chain", "--certificate", "c.v"]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(
+        run.stderr.starts_with("not certified: sky: certificates speak of whole vectors"),
+        "{}",
+        run.stderr
+    );
+    assert!(folder.read("c.v").ends_with("Print Assumptions o.holds.\n"), "{}", folder.read("c.v"));
+    let run = folder.trueaxis(&["derive", "angles.chain", "--observable", "sky", "--certificate", "d.v"]);
+    refused(&run, "no certificate of sky: certificates speak of whole vectors");
 }
 
 #[test]

@@ -31,7 +31,7 @@ pub fn width() -> usize {
 }
 
 /// Letters of a line where nobody says.
-const WITHOUT_TERMINAL: usize = 80;
+const WITHOUT_TERMINAL: usize = 100;
 /// Letters of a line that a table still fits in.
 const NARROWEST: usize = 40;
 /// Letters of a line that reads well.

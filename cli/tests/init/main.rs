@@ -88,5 +88,5 @@ fn the_templates_are_listed() {
     {
         assert!(run.stdout.contains(name), "{run}");
     }
-    assert!(run.stdout.lines().all(|line| line.chars().count() <= 80), "{run}");
+    assert!(run.stdout.lines().all(|line| line.chars().count() <= 100), "{run}");
 }

@@ -235,7 +235,7 @@ fn bare_numbers_that_are_hardly_in_si_are_doubted() {
         plan.doubts.iter().map(ToString::to_string).collect()
     };
     assert_eq!(doubts("", ""), [String::new(); 0]);
-    let said = "sigma = 2 has no unit and is taken as rad; did you mean sigma = \"2 arcsec\"?";
+    let said = "sigma = 2 has no unit and is taken as 2 rad; did you mean sigma = \"2 arcsec\"?";
     for written in ["sigma = 2", "sigma = 2.0", "sigma = \"2\""] {
         assert_eq!(doubts("sigma = \"2 arcsec\"", written), [said]);
     }
@@ -243,7 +243,7 @@ fn bare_numbers_that_are_hardly_in_si_are_doubted() {
     assert_eq!(
         doubts("elevation_index = \"1 arcmin\"", "elevation_index = 60"),
         [
-            "elevation_index = 60 has no unit and is taken as rad; did you mean elevation_index = \"60 arcsec\"?"
+            "elevation_index = 60 has no unit and is taken as 60 rad; did you mean elevation_index = \"60 arcsec\"?"
         ]
     );
 }

@@ -98,7 +98,10 @@ impl Plausible {
         let bare = |amount: &Amount| amount.unit.is_none() && self.refuses(quantity, amount.number);
         amounts.iter().any(bare).then(|| Doubt {
             written: written.to_owned(),
-            si: quantity.unit(),
+            taken: match amounts {
+                [one] => format!("{} {}", one.number, quantity.unit()),
+                _ => quantity.unit().to_owned(),
+            },
             meant: meant(self.likely(quantity)),
         })
     }
@@ -108,14 +111,14 @@ impl Plausible {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Doubt {
     written: String,
-    si: &'static str,
+    taken: String,
     meant: String,
 }
 
 impl fmt::Display for Doubt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { written, si, meant } = self;
-        write!(f, "{written} has no unit and is taken as {si}; did you mean {meant}?")
+        let Self { written, taken, meant } = self;
+        write!(f, "{written} has no unit and is taken as {taken}; did you mean {meant}?")
     }
 }
 

@@ -17,6 +17,20 @@ impl Study {
     ///
     /// # Errors
     /// Every mistake of its form, each with its place.
+    ///
+    /// # Example
+    ///
+    /// ```
+    /// use calibration::study::Study;
+    ///
+    /// let text = "chain = 'mount.chain'\ndata = 'stars.csv'\n[observed]\nkind = 'direction'\nx = 'x'\ny = 'y'\nz = 'z'\n";
+    /// let study = Study::from_text(text)?;
+    /// assert_eq!(study.chain.get_ref(), "mount.chain");
+    ///
+    /// let mistakes = Study::from_text(&text.replace("kind", "kidn")).unwrap_err();
+    /// assert!(mistakes.to_string().contains("kidn"));
+    /// # Ok::<(), model_core::Mistakes>(())
+    /// ```
     pub fn from_text(text: &str) -> Result<Self, Mistakes> {
         read(text)
     }

@@ -27,6 +27,27 @@ pub use product::{MatrixProduct, Step, matrix_product};
 /// Outputs come observable by observable, component by component, column by column:
 /// `out[(place + component) * wrt.len() + column]`, the place being how many numbers the observables before show: three for
 /// each vector.
+///
+/// # Example
+///
+/// ```
+/// use codegen::{Form, Interpreter, build};
+/// use model_core::Chain;
+///
+/// let chain = Chain::from_text(
+///     "chain Table { body top on ground { motion: Rz(turn); motion_error: Rz(index); } \
+///      observe edge: direction(1, 0, 0) of top; }",
+/// )?;
+/// let edge = chain.find_observable("edge").ok_or("none")?;
+/// let program = build(&chain, &[edge], Form::FirstOrderError, &[]);
+///
+/// let mut values = chain.nominal_values();
+/// values[chain.find_symbol("index").ok_or("none")?.index()] = 1e-4;
+/// let mut error = [0.0; 3];
+/// Interpreter::new(&program).eval(&values, &mut error)?;
+/// assert_eq!(error, [0.0, 1e-4, 0.0]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn build(chain: &Chain, observables: &[ObservableId], form: Form, wrt: &[SymbolId]) -> Program {
     build_all(chain, observables, &[form], wrt)

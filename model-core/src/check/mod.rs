@@ -37,6 +37,24 @@ impl Chain {
     /// # Errors
     ///
     /// Every mistake in it, sorted by place.
+    ///
+    /// # Example
+    ///
+    /// ```
+    /// use model_core::{Chain, forms, print};
+    ///
+    /// let text = "chain Table { body top on ground { motion: Rz(turn); motion_error: Rz(index); } \
+    ///             observe edge: direction(1, 0, 0) of top; }";
+    /// let chain = Chain::from_text(text)?;
+    /// let edge = chain.find_observable("edge").ok_or("no such observable")?;
+    /// let error = forms::derive(&chain, edge, 1)?;
+    /// assert_eq!(error.components.each_ref().map(|part| print::text(part, &chain)),
+    ///     ["-index*sin(turn)", "index*cos(turn)", "0"]);
+    ///
+    /// let mistakes = Chain::from_text(&text.replace("index", "turn")).unwrap_err();
+    /// assert!(mistakes.to_string().contains("turn"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn from_text(text: &str) -> Result<Self, Mistakes> {
         let tokens = match syntax::tokens_of(text) {
             Ok(tokens) => tokens,

@@ -92,6 +92,26 @@ impl From<TooLarge> for IdentifyError {
 ///
 /// # Errors
 /// See [`IdentifyError`].
+///
+/// # Example
+///
+/// Two turns about the same axis are one to all data:
+///
+/// ```
+/// use model_core::{Chain, identify::identify};
+///
+/// let chain = Chain::from_text(
+///     "chain Table { body top on ground { motion: Rz(turn); motion_error: Rz(index), Rx(wobble); } \
+///      body mark on top { position_error: Rz(offset); } observe edge: direction(1, 0, 0) of mark; }",
+/// )?;
+/// let edge = chain.find_observable("edge").ok_or("no such observable")?;
+/// let found = identify(&chain, &[edge])?;
+/// let name = |id| chain.symbol(id).name.as_str();
+/// assert_eq!(found.alike[0].iter().map(|one| name(one.error)).collect::<Vec<_>>(), ["index", "offset"]);
+/// // The edge lies along x: nothing shows a turn about it.
+/// assert_eq!(found.invisible.iter().map(|&id| name(id)).collect::<Vec<_>>(), ["wobble"]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn identify(chain: &Chain, observables: &[ObservableId]) -> Result<Identifiability, IdentifyError> {
     let errors: Vec<SymbolId> = chain.symbols_of(SymbolKind::Error).collect();
     let echelon = equations(chain, observables, &errors, Echelon::default())?;

@@ -58,6 +58,24 @@ pub struct PairShare {
 /// # Errors
 /// [`DomainError`] if a joint or input without a range stands outside of sines and cosines, a denominator vanishes, or
 /// something else than components is shown. The bound of some components is that of the whole vector.
+///
+/// # Example
+///
+/// ```
+/// use model_core::{Chain, remainder::{Domain, bound}};
+///
+/// let chain = Chain::from_text(
+///     "chain Table { body top on ground { motion: Rz(turn); motion_error: Rz(index); } \
+///      observe edge: direction(1, 0, 0) of top; }",
+/// )?;
+/// let (edge, index) = (chain.find_observable("edge").ok_or("none")?, chain.find_symbol("index").ok_or("none")?);
+/// let mut domain = Domain::new(&chain);
+/// domain.set_range(&chain, index, -1e-3, 1e-3)?;
+/// let bound = bound(&chain, edge, &domain)?.value;
+/// // What the first order leaves out of a turn by ε is ε²/2 to next order.
+/// assert!(bound >= 0.5e-6 && bound < 0.51e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn bound(chain: &Chain, observable: ObservableId, domain: &Domain) -> Result<Bound, DomainError> {
     shown_axes(chain, observable)?;
     let clusters = clusters(chain, observable, domain)?;

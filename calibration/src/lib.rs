@@ -10,6 +10,7 @@ pub mod diagnose;
 pub mod effects;
 pub mod fit;
 pub mod formats;
+pub mod objects;
 pub mod report;
 pub mod search;
 pub mod study;

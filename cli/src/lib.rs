@@ -19,6 +19,7 @@ mod over_table;
 mod poses;
 mod ranges;
 mod report;
+mod set_up;
 mod sha256;
 mod sizes;
 mod source;

@@ -60,6 +60,7 @@ fn simulate(chain: &Chain, observable: &str, joints: &[(&str, f64, f64)], rows: 
         in_sequence: false,
         row_numbers: (1..).take(rows).collect(),
         origins: Origins::default(),
+        unknowns: None,
     }
 }
 

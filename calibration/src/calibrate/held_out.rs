@@ -157,7 +157,7 @@ fn predicted_of(
             *left -= by_fold[last.posed.fold_of(start + component)] * value;
         }
     }
-    left
+    portion.with_objects_anew(left)
 }
 
 /// RMS over observations of the length of the residual, and how many they are; `None` without observations. Rows at which

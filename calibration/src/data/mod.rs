@@ -7,6 +7,7 @@ mod origin;
 mod si_unit;
 mod tangent;
 pub mod units;
+pub mod unknowns;
 
 pub use derive::{DeriveError, Derived, parse_derived};
 pub use origin::{Origin, Origins};
@@ -16,6 +17,8 @@ pub use tangent::{direction_from_offset, direction_from_spherical, tangent_frame
 use std::ops::Range;
 
 use model_core::{ObservableId, SymbolId};
+
+use unknowns::Unknowns;
 
 /// What the numbers of one observation are, and with that how many residual components it has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -29,6 +32,17 @@ pub enum Measure {
     Range,
     /// An azimuth alone, from y through x; one residual component, rad.
     Azimuth,
+    /// A point on an unknown plane; one residual component, in metres: how far off the plane.
+    Plane,
+    /// A point that is an unknown target's, seen from a station; three residual components across, up and along the beam,
+    /// in metres.
+    Target,
+    /// A point that stays where it is, however it is reached; three residual components x, y, z, in metres.
+    Fixed,
+    /// The length of a wire from an unknown anchor to the point; one residual component, in metres.
+    Wire,
+    /// A direction that is an unknown point's from a station; two residual components across and along, rad.
+    Sight,
 }
 
 impl Measure {
@@ -36,9 +50,9 @@ impl Measure {
     #[must_use]
     pub fn components(self) -> usize {
         match self {
-            Self::Direction => 2,
-            Self::Point => 3,
-            Self::Range | Self::Azimuth => 1,
+            Self::Direction | Self::Sight => 2,
+            Self::Point | Self::Target | Self::Fixed => 3,
+            Self::Range | Self::Azimuth | Self::Plane | Self::Wire => 1,
         }
     }
 
@@ -46,8 +60,10 @@ impl Measure {
     #[must_use]
     pub fn unit(self) -> SiUnit {
         match self {
-            Self::Direction | Self::Azimuth => SiUnit::RAD,
-            Self::Point | Self::Range => SiUnit::METRE,
+            Self::Direction | Self::Azimuth | Self::Sight => SiUnit::RAD,
+            Self::Point | Self::Range | Self::Plane | Self::Target | Self::Fixed | Self::Wire => {
+                SiUnit::METRE
+            }
         }
     }
 
@@ -55,10 +71,23 @@ impl Measure {
     #[must_use]
     pub fn component_names(self) -> &'static [&'static str] {
         match self {
-            Self::Direction => &["across", "along"],
-            Self::Point => &["x", "y", "z"],
+            Self::Direction | Self::Sight => &["across", "along"],
+            Self::Point | Self::Fixed => &["x", "y", "z"],
             Self::Range => &["range"],
             Self::Azimuth => &["azimuth"],
+            Self::Plane => &["off_plane"],
+            Self::Target => &["across", "up", "along"],
+            Self::Wire => &["length"],
+        }
+    }
+
+    /// What the same poses show where nothing stands that was observed: the point or the direction itself.
+    #[must_use]
+    pub fn bare(self) -> Self {
+        match self {
+            Self::Plane | Self::Target | Self::Fixed | Self::Wire => Self::Point,
+            Self::Sight => Self::Direction,
+            Self::Direction | Self::Point | Self::Range | Self::Azimuth => self,
         }
     }
 }
@@ -86,7 +115,8 @@ pub struct Observations {
     pub series: Vec<Series>,
     /// Readings of joints and inputs in SI, one value a row, sorted by symbol.
     pub columns: Vec<(SymbolId, Vec<f64>)>,
-    /// What was measured: a unit vector, a point in m, `[range_m, 0, 0]` or `[azimuth_rad, 0, 0]`.
+    /// What was measured: a unit vector, a point in m, `[range_m, 0, 0]`, `[azimuth_rad, 0, 0]`, `[length_m, 0, 0]`; zeros where
+    /// a row has readings alone.
     pub measured: Vec<[f64; 3]>,
     /// Stated standard uncertainties of the residual components in rad or m; empty if none were stated, [`UNSTATED`] in
     /// the rows of a series that states none.
@@ -99,6 +129,8 @@ pub struct Observations {
     pub row_numbers: Vec<u64>,
     /// Where each row stands.
     pub origins: Origins,
+    /// The objects and stations that nobody knows, if rows observe any.
+    pub unknowns: Option<Unknowns>,
 }
 
 impl Observations {
@@ -119,6 +151,13 @@ impl Observations {
     pub fn column(&self, symbol: SymbolId) -> Option<&[f64]> {
         let at = self.columns.binary_search_by_key(&symbol, |(id, _)| *id).ok()?;
         self.columns.get(at).map(|(_, values)| values.as_slice())
+    }
+
+    /// The same poses with nothing that stands anywhere: the points and directions themselves.
+    #[must_use]
+    pub fn bare(&self) -> Self {
+        let series = self.series.iter().map(|own| Series { measure: own.measure.bare(), ..own.clone() });
+        Self { series: series.collect(), unknowns: None, ..self.clone() }
     }
 
     /// The number of residual components of all observations together.
@@ -155,6 +194,7 @@ impl Observations {
             in_sequence: self.in_sequence,
             row_numbers: rows.iter().filter_map(|&row| self.row_numbers.get(row).copied()).collect(),
             origins: self.origins.select(&rows),
+            unknowns: self.unknowns.as_ref().map(|unknowns| unknowns.select(&rows)),
         }
     }
 }

@@ -225,7 +225,9 @@ pub fn rounding(observations: &Observations, fit: &FitResult) -> Option<Caution>
 /// The usual distance that a series measures, m; none for directions.
 fn distance_m(observations: &Observations, series: &Series) -> Option<f64> {
     match series.measure {
-        Measure::Direction | Measure::Azimuth => None,
+        Measure::Direction | Measure::Azimuth | Measure::Sight => None,
+        // Nobody knows where these are.
+        Measure::Plane | Measure::Target | Measure::Fixed | Measure::Wire => None,
         Measure::Point | Measure::Range => {
             let distance = |row: usize| nalgebra::Vector3::from(observations.measured[row]).norm();
             Some(robust::median(series.rows.clone().map(distance).collect()))

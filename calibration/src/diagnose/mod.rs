@@ -274,7 +274,10 @@ impl Found {
         };
         (whole.tell)(Stage::Remaining);
         Ok(Self {
-            separating: others.iter().enumerate().filter_map(separating).collect(),
+            separating: match whole.request.observations.unknowns {
+                Some(_) => Vec::new(),
+                None => others.iter().enumerate().filter_map(separating).collect(),
+            },
             effects,
             remaining: Some(remaining::remaining(whole, last)?),
             not_shown: detectability::not_shown(whole, last, &confirmed.rms),
@@ -331,6 +334,10 @@ fn used(whole: &Context<'_>, fit: &FitResult) -> Used {
 /// The poses that the study asks for; none if it asks for none, or if they cannot be computed.
 fn next_poses(whole: &Context<'_>, last: &Fitted) -> Vec<Proposal> {
     let Some(next) = &whole.request.plan.next else { return Vec::new() };
+    if whole.request.observations.unknowns.is_some() {
+        // A pose says nothing where no object stands.
+        return Vec::new();
+    }
     let proposal = |criterion| {
         let observations = whole.request.observations;
         propose(&last.chain, observations, &last.fit, next.count, &next.ranges, criterion).ok()

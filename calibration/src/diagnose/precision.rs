@@ -113,6 +113,10 @@ fn all_round(
     observations: &Observations,
     fit: &FitResult,
 ) -> Option<Vec<(Vec<usize>, usize)>> {
+    if observations.unknowns.is_some() {
+        // Which poses, places and objects would do is for `objects::identify` to say.
+        return Some(Vec::new());
+    }
     let rows = 24 * fit.parameters.len() + 48;
     let mut spread = observations.clone();
     let mut start = 0;
@@ -158,6 +162,10 @@ fn all_round(
 
 /// Rows whose leverage is several times the mean, the largest first.
 fn leverage(chain: &Chain, observations: &Observations, fit: &FitResult) -> Vec<(u64, f64)> {
+    if observations.unknowns.is_some() {
+        // Much of a row's own leverage goes into its object.
+        return Vec::new();
+    }
     let Ok(of_row) = leverages(chain, observations, fit) else { return Vec::new() };
     let mean = fit.rank as f64 / (observations.rows() as f64).max(1.0);
     let mut high: Vec<(u64, f64)> = of_row

@@ -121,7 +121,10 @@ impl BasePose {
 
 /// The turn and shift that make the sum of the distances between two sets of points small, whatever the outliers; `None` for
 /// points that are no numbers.
-fn align_robustly(from: &[Vector3<f64>], to: &[Vector3<f64>]) -> Option<(Matrix3<f64>, Vector3<f64>)> {
+pub(crate) fn align_robustly(
+    from: &[Vector3<f64>],
+    to: &[Vector3<f64>],
+) -> Option<(Matrix3<f64>, Vector3<f64>)> {
     let mut weight = vec![1.0; from.len()];
     let mut best = align(from, to, &weight)?;
     for _ in 0..ROUNDS {

@@ -144,12 +144,13 @@ impl Solver<'_> {
             let point = &course.point;
             let tally = &point.sweep.tally;
             let step = course.subspace.step(&self.partial(&point.sweep), damping, &point.rest);
-            let step = step.times(tally.stride());
+            let stride = tally.stride();
+            let step = step.times(stride);
             if step.length <= negligible && damping < 1e-3 {
                 return Ok(());
             }
             self.iterations += 1;
-            let values = self.moved(&point.values, &step.change);
+            let values = self.moved(point, &step.change, stride);
             let rest = self.rest_at(&values, &course.subspace, &point.rest);
             let next = self.point(values, noise, course.weighting, rest)?;
             if next.objective() <= point.objective() * (1.0 + 1e-9) {

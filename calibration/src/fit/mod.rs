@@ -10,9 +10,10 @@ mod few;
 mod model;
 pub mod noise;
 mod normal;
+pub(crate) mod objects;
 mod outcome;
 mod partial;
-mod residual;
+pub(crate) mod residual;
 pub mod robust;
 mod size;
 mod solve;
@@ -28,6 +29,7 @@ use model_core::{Chain, SymbolId, SymbolKind};
 use crate::fit::noise::{Noise, NoiseOptions};
 use sweep::Weighting;
 
+pub(crate) use align::align_robustly;
 pub use model::{Block, Model};
 pub use normal::{Rest, Step};
 pub use outcome::{Outcome, Reason, SetAside, Why};
@@ -45,7 +47,8 @@ pub use uncertainty::Estimable;
 pub struct FitOptions {
     /// The errors and constants to estimate, in the order of the result.
     pub estimate: Vec<SymbolId>,
-    /// The value of every symbol at the start, SI, indexed by symbol; those not estimated keep it.
+    /// The value of every symbol at the start, SI, indexed by symbol; those not estimated keep it. Where rows observe objects,
+    /// their numbers and those of stations may stand behind them: else they start from where the observations say they are.
     pub start: Vec<f64>,
     /// Whether observations far from the rest lose their weight (Tukey's biweight on the observation's norm).
     pub robust: bool,
@@ -55,6 +58,9 @@ pub struct FitOptions {
     pub max_iterations: usize,
     /// The size of errors as far as it is known, as a standard deviation, SI: what those are given that the data do not show.
     pub sizes: Vec<(SymbolId, f64)>,
+    /// Whether a combination counts as shown only where the data say more of it than the sizes do. Where nobody knows where
+    /// anything is, an arm could else shrink until its residuals vanish.
+    pub anchored: bool,
 }
 
 impl FitOptions {
@@ -68,6 +74,7 @@ impl FitOptions {
             noise: NoiseOptions::default(),
             max_iterations: 50,
             sizes: Vec::new(),
+            anchored: false,
         }
     }
 
@@ -99,7 +106,8 @@ pub struct FitResult {
     pub outcome: Outcome,
     /// What was estimated, in the order of the matrices.
     pub parameters: Vec<SymbolId>,
-    /// The value of every symbol of the chain, SI, indexed by symbol: estimates, and what was held fixed.
+    /// The value of every symbol of the chain, SI, indexed by symbol: estimates, and what was held fixed. Behind them the
+    /// numbers of objects and stations, where rows observe any.
     pub values: Vec<f64>,
     /// Covariance of the estimates, p × p, SI, infinite where the data leave no degrees of freedom to know it from. What is not
     /// determined is as uncertain as its [size](Self::sizes) says, and its influence on the rest is in it.

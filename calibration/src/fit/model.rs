@@ -9,7 +9,9 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 
 use super::FitError;
+use super::objects;
 use super::residual::components;
+use crate::data::unknowns::WIDTH;
 use crate::data::{Observations, Series};
 
 /// Rows evaluated at a time: what a block holds stays in the second-level cache.
@@ -26,6 +28,8 @@ pub struct Model {
     columns: usize,
     /// One per series of the observations: exact value, then the columns of the exact Jacobian.
     programs: Vec<Program>,
+    /// Symbols of the chain; values behind them are those of objects and stations.
+    symbols: usize,
 }
 
 /// Residuals of some rows of one series, before whitening. Arrays hold all rows of the first component, then all of the
@@ -44,6 +48,9 @@ pub struct Block {
     jacobian: Vec<f64>,
     /// Gradient of each predicted component by x, y, z of the observable: an array of rows for each of the three.
     gradient: Vec<f64>,
+    /// Per row and component the derivatives of what is predicted by what is unknown of object and station, row by row;
+    /// empty where nothing is.
+    pub(crate) unknown: Vec<[f64; WIDTH]>,
     /// What the program puts out.
     outputs: Vec<f64>,
 }
@@ -107,7 +114,13 @@ impl Model {
             let wrt: Vec<SymbolId> = kept.iter().map(|&parameter| parameters[parameter]).collect();
             programs = build(&wrt);
         }
-        Ok(Self { parameters: parameters.to_vec(), column_of, columns: kept.len(), programs })
+        Ok(Self {
+            parameters: parameters.to_vec(),
+            column_of,
+            columns: kept.len(),
+            programs,
+            symbols: chain.symbols.len(),
+        })
     }
 
     /// The programs of the observables' values alone.
@@ -116,7 +129,8 @@ impl Model {
         let series = observations.series.iter();
         let programs =
             series.map(|series| build_all(chain, &[series.observable], &[Form::ExactValue], &[])).collect();
-        Self { parameters: Vec::new(), column_of: Vec::new(), columns: 0, programs }
+        let symbols = chain.symbols.len();
+        Self { parameters: Vec::new(), column_of: Vec::new(), columns: 0, programs, symbols }
     }
 
     /// What is estimated, in the order of the columns.
@@ -136,6 +150,11 @@ impl Model {
     #[must_use]
     pub fn columns(&self) -> usize {
         self.columns
+    }
+
+    /// The numbers of objects and stations among values.
+    pub(crate) fn state<'a>(&self, values: &'a [f64]) -> &'a [f64] {
+        values.get(self.symbols..).unwrap_or_default()
     }
 
     /// Evaluates all rows, block by block on all threads; `f` makes of each block (with the index of its series and
@@ -195,6 +214,13 @@ impl Model {
         block.gradient.resize(3 * m * count, 0.0);
         block.jacobian.resize(self.columns * m * count, 0.0);
         block.defined.clear();
+        block.unknown.clear();
+        let (values, state) = values.split_at_checked(self.symbols).ok_or_else(|| FitError::WrongShape {
+            why: format!("{} values for {} symbols", values.len(), self.symbols),
+        })?;
+        let unknowns = observations.unknowns.as_ref();
+        let first = unknowns.map(|unknowns| [unknowns.first_of_stations(), unknowns.first_of_objects()]);
+        let of_objects = series.measure != series.measure.bare();
         let mut outputs: Vec<&mut [f64]> = block.outputs.chunks_exact_mut(count.max(1)).collect();
         interpreter
             .eval_batch(&columns, values, &mut outputs)
@@ -202,8 +228,23 @@ impl Model {
         let predicted = |row: usize| Vector3::new(outputs[0][row], outputs[1][row], outputs[2][row]);
         for row in 0..count {
             let predicted = predicted(row);
-            let measured = observations.measured[rows.start + row];
-            let components = components(series.measure, &Vector3::from(measured), &predicted);
+            let measured = Vector3::from(observations.measured[rows.start + row]);
+            let seen = unknowns.zip(first.as_ref()).and_then(|(unknowns, first)| {
+                let row = rows.start + row;
+                objects::seen(unknowns, first, state, row, series.measure, &measured, &predicted)
+            });
+            let (components, unknown) = match seen {
+                Some(seen) => seen,
+                None if of_objects => {
+                    return Err(FitError::WrongShape {
+                        why: "a row observes an object that is none".to_owned(),
+                    });
+                }
+                None => (components(series.measure, &measured, &predicted), Default::default()),
+            };
+            if unknowns.is_some() {
+                block.unknown.extend(unknown.into_iter().take(m));
+            }
             let defined = components.iter().take(m).all(|(residual, _)| residual.is_finite());
             block.defined.push(defined);
             for (component, (residual, gradient)) in components.iter().take(m).enumerate() {

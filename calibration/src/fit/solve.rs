@@ -11,6 +11,7 @@ use super::size::Size;
 use super::sweep::{Sweep, Weighting, residuals, sweep};
 use super::{FitError, FitOptions, FitResult, Model, Outcome, Partial, Residuals, SetAside, Subspace, Why};
 use crate::data::Observations;
+use crate::data::unknowns::Unknowns;
 use crate::fit::noise::{self, Layout, Noise};
 
 /// The noise is known when no standard deviation changes by more than this share.
@@ -42,7 +43,8 @@ pub(super) struct Solver<'a> {
 /// # Errors
 /// What the caller did wrong: nothing to estimate, a parameter that is neither error nor constant, missing readings.
 pub fn fit(chain: &Chain, observations: &Observations, options: &FitOptions) -> Result<FitResult, FitError> {
-    if options.start.len() != chain.symbols.len() {
+    let unknown = observations.unknowns.as_ref().map_or(0, Unknowns::numbers);
+    if ![0, unknown].map(|more| chain.symbols.len() + more).contains(&options.start.len()) {
         let why = format!("{} starting values for {} symbols", options.start.len(), chain.symbols.len());
         return Err(FitError::WrongShape { why });
     }
@@ -63,7 +65,7 @@ pub fn fit(chain: &Chain, observations: &Observations, options: &FitOptions) -> 
 
 impl Solver<'_> {
     fn run(mut self) -> Result<FitResult, FitError> {
-        let start = starting_values(self.chain, self.observations, self.options)?;
+        let start = self.with_state(starting_values(self.chain, self.observations, self.options)?);
         let weighting = self.options.weighting();
         let mut course = self.course(&start, weighting)?;
         if self.doubtful(&course)? {
@@ -82,7 +84,7 @@ impl Solver<'_> {
         let lost = weight.iter().filter(|weight| **weight == 0.0).count();
         let many = !self.are_few(course.subspace.rank()) && lost as f64 > DOUBTFUL * weight.len() as f64;
         let plain = self.plain.get_or_init(|| Model::without_columns(self.chain, self.observations));
-        let nominal = residuals(plain, self.observations, &self.chain.nominal_values())?;
+        let nominal = residuals(plain, self.observations, &self.nominal())?;
         let worse = self.ln_scale(&course.point.sweep.residual) > self.ln_scale(&nominal);
         Ok(course.stopped.is_some() || many || worse)
     }
@@ -90,9 +92,9 @@ impl Solver<'_> {
     /// The best of some courses from other starts and this one: that with the smallest residual by its medians.
     fn elsewhere(&mut self, course: Course) -> Result<Course, FitError> {
         let mut best = course;
-        let squares = self.course(&self.options.start.clone(), Weighting::Full)?;
-        let nominal = self.chain.nominal_values();
-        for start in [squares.point.values, self.options.start.clone(), nominal] {
+        let given = self.with_state(self.options.start.clone());
+        let squares = self.course(&given, Weighting::Full)?;
+        for start in [squares.point.values, given, self.nominal()] {
             let other = self.course(&start, self.options.weighting())?;
             let scale = |course: &Course| self.ln_scale(&course.point.sweep.residual);
             if scale(&other) < scale(&best) {
@@ -125,10 +127,33 @@ impl Solver<'_> {
         Ok(Point { values, sweep, rest })
     }
 
-    pub(super) fn moved(&self, values: &[f64], change: &[f64]) -> Vec<f64> {
-        let mut values = values.to_vec();
-        for (parameter, change) in self.model.parameters().iter().zip(change) {
+    /// Values with the numbers of objects and stations behind them: zero, as they count from where they are taken to be.
+    fn with_state(&self, mut values: Vec<f64>) -> Vec<f64> {
+        let unknown = self.observations.unknowns.as_ref().map_or(0, Unknowns::numbers);
+        values.resize(self.chain.symbols.len() + unknown, 0.0);
+        values
+    }
+
+    fn nominal(&self) -> Vec<f64> {
+        self.with_state(self.chain.nominal_values())
+    }
+
+    /// The values after a step that was made `stride` times as long; objects and stations follow the errors.
+    pub(super) fn moved(&self, from: &Point, change: &[f64], stride: f64) -> Vec<f64> {
+        let mut values = from.values.clone();
+        let mut by_column = vec![0.0; self.model.columns()];
+        for ((parameter, change), column) in
+            self.model.parameters().iter().zip(change).zip(self.model.column_of())
+        {
             values[parameter.index()] += change;
+            if let Some(column) = *column {
+                by_column[column] += change;
+            }
+        }
+        if let Some(eliminated) = &from.sweep.eliminated {
+            let state = eliminated.moved(self.model.state(&from.values), &by_column, stride);
+            values.truncate(self.chain.symbols.len());
+            values.extend(state);
         }
         values
     }
@@ -137,8 +162,13 @@ impl Solver<'_> {
         sweep.tally.partial.spread(self.model.column_of())
     }
 
-    /// What the data determine: every error at zero, constants where they are.
+    /// What the data determine: every error at zero, constants where they are. Of an anchored fit, what they tell more of
+    /// than the sizes do, where the errors are: only there are residuals no larger than the noise.
     pub(super) fn determined(&self, values: &[f64], noise: &Noise) -> Result<Subspace, FitError> {
+        if self.options.anchored {
+            let partial = self.partial(&self.sweep(values, noise, Weighting::Full)?);
+            return Ok(Subspace::beyond(&partial, self.first_sizes()));
+        }
         let mut values = values.to_vec();
         for &parameter in self.model.parameters() {
             if self.chain.symbol(parameter).kind == SymbolKind::Error {
@@ -216,11 +246,14 @@ impl Solver<'_> {
 
     /// How many independent numbers of the data the estimates use up.
     pub(super) fn used(&self, course: &Course) -> f64 {
-        course.subspace.used(&self.partial(&course.point.sweep), &course.point.rest)
+        let sweep = &course.point.sweep;
+        let of_objects = sweep.eliminated.as_ref().map_or(0.0, |eliminated| eliminated.taken);
+        of_objects + course.subspace.used(&self.partial(sweep), &course.point.rest)
     }
 
     fn result(self, course: Course) -> Result<FitResult, FitError> {
         let rank = course.subspace.rank();
+        let of_objects = course.point.sweep.eliminated.as_ref().map_or(0, |own| own.taken as usize);
         let (norms, weight) = self.norms_and_weights(&course);
         let kept = self.layout.row.iter().filter(|&&row| weight[row as usize] > 0.0).count();
         let (uncertainty, shared) = self.uncertainty(&course, &weight)?;
@@ -233,7 +266,7 @@ impl Solver<'_> {
         }
         let parameters = self.model.parameters().to_vec();
         let outcome = match stopped {
-            _ if kept <= rank => {
+            _ if kept <= rank + of_objects => {
                 Outcome::TooFewObservations { components: kept, parameters: parameters.len(), rank }
             }
             None => Outcome::Converged { iterations: self.iterations },

@@ -64,6 +64,27 @@ impl Subspace {
         Self { scale, unseen, pivots, size: Vec::new(), axes: Mat::zeros(p, p) }.resized(size)
     }
 
+    /// What the rows tell more of than the sizes do: combinations whose standard uncertainty from the whitened rows is below
+    /// that of a prior of these sizes, SI, length p.
+    #[must_use]
+    pub fn beyond(partial: &Partial, size: Vec<f64>) -> Self {
+        let p = partial.parameters;
+        let factor = partial.factor();
+        let scaled = Mat::from_fn(p, p, |row, column| factor[(row, column)] * size[column]);
+        let unseen = match scaled.svd() {
+            Ok(svd) => {
+                let values = svd.S().column_vector();
+                let rank = (0..p).filter(|&at| values[at] > 1.0).count();
+                svd.V().subcols(rank, p - rank).to_owned()
+            }
+            // Only numbers that are none do not factor: nothing is seen then.
+            Err(_) => Mat::identity(p, p),
+        };
+        let (unseen, pivots) = echelon(unseen);
+        let scale = size.iter().map(|size| 1.0 / size).collect();
+        Self { scale, unseen, pivots, size: Vec::new(), axes: Mat::zeros(p, p) }.resized(size)
+    }
+
     /// The same combinations with other sizes.
     #[must_use]
     pub fn resized(mut self, size: Vec<f64>) -> Self {

@@ -5,6 +5,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::model::{Block, Model};
+use super::objects::{Collected, Eliminated};
 use super::partial::{Partial, Rows};
 use super::{FitError, robust};
 use crate::data::Observations;
@@ -130,15 +131,16 @@ impl Tally {
         if self.kept > 0 { (self.squares / self.kept as f64).sqrt() } else { 0.0 }
     }
 
-    /// Takes in a block whose components have these standard deviations, row by row, without the rows that are aside.
-    fn with_block(
-        mut self,
+    /// Takes in a block whose components have these standard deviations, row by row, without the rows that are aside: all
+    /// but its factor. Returns what whitening and weight multiply each component by.
+    fn weighed(
+        &mut self,
         block: &Block,
         first_kind: usize,
         sigma: &[f64],
         weighting: Weighting,
         aside: &[bool],
-    ) -> Self {
+    ) -> Vec<f64> {
         let (rows, m) = (block.rows, block.components);
         let mut root = vec![0.0; rows * m];
         for row in 0..rows {
@@ -170,9 +172,27 @@ impl Tally {
                 root[at] = weight.sqrt() / sigma;
             }
         }
-        self.partial = self.partial.with(scaled(block, &root));
-        self
+        root
     }
+}
+
+/// The rows of a block that count, each component times its factor, with what is unknown of them; `start` is the first row.
+fn collected(block: &Block, root: &[f64], start: usize) -> Collected {
+    let mut collected = Collected::default();
+    let count = block.rows;
+    for (row, component) in (0..count).flat_map(|row| (0..block.components).map(move |c| (row, c))) {
+        let at = component * count + row;
+        let root = root[at];
+        if root == 0.0 {
+            continue;
+        }
+        collected.row.push((start + row) as u32);
+        let unknown = block.unknown[row * block.components + component];
+        collected.values.extend(unknown.iter().map(|value| value * root));
+        collected.values.extend(block.columns().map(|column| column[at] * root));
+        collected.values.push(block.residual[at] * root);
+    }
+    collected
 }
 
 /// The rows of a block, each component times its factor.
@@ -194,6 +214,8 @@ pub struct Sweep {
     pub residual: Vec<f64>,
     /// Per row, whether the chain has a finite value there.
     pub defined: Vec<bool>,
+    /// What was eliminated, where rows observe objects.
+    pub eliminated: Option<Eliminated>,
 }
 
 /// The first kind of component of each series, and how many there are.
@@ -215,7 +237,8 @@ pub fn tally(
     sigma: &[f64],
     weighting: Weighting,
 ) -> Result<Tally, FitError> {
-    Ok(sweep_with(model, observations, layout, values, sigma, weighting, &[], |_| ())?.0)
+    let (tally, _, _) = sweep_with(model, observations, layout, values, sigma, weighting, &[], |_| ())?;
+    Ok(tally)
 }
 
 /// The same without the rows that are aside (one flag a row, or none at all), residuals kept.
@@ -229,9 +252,10 @@ pub fn sweep(
     aside: &[bool],
 ) -> Result<Sweep, FitError> {
     let keep = |block: &Block| (block.by_row(&block.residual).collect::<Vec<_>>(), block.defined.clone());
-    let (tally, kept) = sweep_with(model, observations, layout, values, sigma, weighting, aside, keep)?;
+    let (tally, kept, eliminated) =
+        sweep_with(model, observations, layout, values, sigma, weighting, aside, keep)?;
     let (residual, defined): (Vec<_>, Vec<_>) = kept.into_iter().unzip();
-    Ok(Sweep { tally, residual: residual.concat(), defined: defined.concat() })
+    Ok(Sweep { tally, residual: residual.concat(), defined: defined.concat(), eliminated })
 }
 
 /// Residuals alone.
@@ -250,19 +274,35 @@ fn sweep_with<T: Send>(
     weighting: Weighting,
     aside: &[bool],
     keep: impl Fn(&Block) -> T + Sync,
-) -> Result<(Tally, Vec<T>), FitError> {
+) -> Result<(Tally, Vec<T>, Option<Eliminated>), FitError> {
     let (first_kind, kinds) = first_kinds(observations);
     let empty = Tally::new(model.columns(), kinds);
     let parts = model.map_blocks(observations, values, |series, rows, block| {
         let own = layout.first[rows.start]..layout.first[rows.end];
-        let (sigma, aside) = (&sigma[own], aside.get(rows).unwrap_or_default());
-        (empty.clone().with_block(block, first_kind[series], sigma, weighting, aside), keep(block))
+        let (sigma, aside) = (&sigma[own], aside.get(rows.clone()).unwrap_or_default());
+        let mut tally = empty.clone();
+        let root = tally.weighed(block, first_kind[series], sigma, weighting, aside);
+        let rows = observations.unknowns.as_ref().map(|_| collected(block, &root, rows.start));
+        if rows.is_none() {
+            tally.partial = tally.partial.with(scaled(block, &root));
+        }
+        (tally, keep(block), rows)
     })?;
     let mut whole = empty.clone();
     let mut kept = Vec::with_capacity(parts.len());
-    for (part, own) in parts {
+    let mut rows = Vec::new();
+    for (part, own, collected) in parts {
         whole = whole.merge(&part);
         kept.push(own);
+        rows.extend(collected);
     }
-    Ok((whole, kept))
+    let eliminated = observations.unknowns.as_ref().map(|unknowns| {
+        let components = rows.iter().map(|rows| rows.row.len() as u64).sum();
+        let state = model.state(values);
+        let eliminated = Eliminated::of(unknowns, &rows, state, model.columns(), components);
+        whole.partial = eliminated.partial.clone();
+        whole.objective += eliminated.objective;
+        eliminated
+    });
+    Ok((whole, kept, eliminated))
 }

@@ -10,6 +10,7 @@ use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use super::cluster::{Clusters, Share};
 use super::descent::Course;
+use super::objects::Reduction;
 use super::solve::Solver;
 use super::stated::{Agreement, Stated};
 use super::subspace::Subspace;
@@ -269,13 +270,21 @@ impl Solver<'_> {
                     q.col_as_slice_mut(j).iter_mut().zip(&values).for_each(|(q, value)| *q += share * value);
                 }
             }
-            (q, residual)
+            (q, residual, block.unknown.clone())
         })?;
         let mut whole = Mat::zeros(self.layout.components(), k);
         let mut residual = Vec::with_capacity(self.layout.components());
-        for (q, own) in parts {
+        let mut unknown = Vec::new();
+        for (q, own, of_objects) in parts {
             whole.subrows_mut(residual.len(), own.len()).copy_from(&q);
             residual.extend(own);
+            unknown.extend(of_objects);
+        }
+        if let Some(unknowns) = &self.observations.unknowns {
+            let row = &self.layout.row;
+            let scale = row.iter().zip(sigma.iter()).map(|(&row, sigma)| weight[row as usize].sqrt() / sigma);
+            Reduction::new(unknowns, row, &unknown, scale.collect())
+                .project(unknowns, row, &unknown, &mut whole);
         }
         Ok((whole, residual))
     }

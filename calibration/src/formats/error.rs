@@ -41,6 +41,12 @@ impl fmt::Display for Cell {
 /// What is wrong with a data file.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum DataError {
+    /// Its rows do not say where something unknown is.
+    #[error("{why}")]
+    NotPlaced {
+        /// What, and what to add.
+        why: String,
+    },
     /// It cannot be read.
     #[error("{file}: {why}")]
     Unreadable {

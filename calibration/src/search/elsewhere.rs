@@ -57,6 +57,10 @@ impl Judged {
 /// Both outer thirds of each joint's range where the data are enough for it.
 pub(crate) fn elsewhere(whole: &Context<'_>, last: &Round<'_>) -> Vec<Elsewhere> {
     let observations = &*last.posed.rows.observations;
+    if observations.unknowns.is_some() {
+        // A region cuts through objects: what stands inside and outside would be one unknown.
+        return Vec::new();
+    }
     let mut thirds = Vec::new();
     for (id, readings) in &observations.columns {
         if whole.setting.chain.symbol(*id).kind != SymbolKind::Joint {

@@ -5,10 +5,11 @@ use model_core::{Chain, SymbolId};
 
 use super::context::{Context, Found, declared};
 use super::{SearchError, Stage};
+use crate::data::unknowns::Unknowns;
 use crate::fit::noise::{Layout, NoiseOptions};
 use crate::fit::{FitOptions, FitResult, fit};
 use crate::search::ProblemError;
-use crate::search::columns::{Probed, places};
+use crate::search::columns::{Columns, Probed, places};
 
 /// A fit of the declaration with the effects accepted so far.
 pub(crate) struct Fitted {
@@ -20,7 +21,7 @@ pub(crate) struct Fitted {
     pub errors: Vec<Vec<SymbolId>>,
     /// The fit of that chain.
     pub fit: FitResult,
-    /// Combinations of the declared errors that these data determine, one a column.
+    /// Combinations of the declared errors that these data determine, one a column; behind them the numbers of stations.
     pub combinations: Mat<f64>,
     /// That chain at the fit, with a probe at each place of the catalogue.
     pub probed: Probed,
@@ -54,7 +55,15 @@ impl Fitted {
             options.start[parameter.index()] = last.fit.values[parameter.index()];
         }
         options.start.resize(chain.symbols.len(), 0.0);
+        // Objects and stations start where they came to stand.
+        options.start.extend(&last.fit.values[last.chain.symbols.len()..]);
         Self::of(whole, chain, kept, errors, options)
+    }
+
+    /// The combinations for columns that may know of no stations.
+    pub fn of_errors(&self, columns: &Columns) -> Mat<f64> {
+        let errors = columns.declared.ncols();
+        self.combinations.subrows(0, errors).to_owned()
     }
 
     fn of(
@@ -73,17 +82,25 @@ impl Fitted {
         let fit = fit(&chain, observations, &options)?;
         let places = places(&whole.catalogue);
         let probed = Probed::new(&chain, observations, declared(whole), &fit.values, &places)?;
-        let combinations = determined(&fit, declared(whole).len())?;
+        let of_stations = observations.unknowns.as_ref().map_or(0, Unknowns::of_stations);
+        let combinations = determined(&fit, declared(whole).len(), of_stations)?;
         Ok(Self { chain, found, errors, fit, combinations, probed, layout: Layout::of(observations) })
     }
 }
 
 /// An orthonormal basis of the declared errors' space without what the fit found undetermined; the rest would only
 /// be seen through products of errors.
-fn determined(fit: &FitResult, declared: usize) -> Result<Mat<f64>, ProblemError> {
+fn determined(fit: &FitResult, declared: usize, of_stations: usize) -> Result<Mat<f64>, ProblemError> {
     let null = fit.null_space.subrows(0, declared);
     let svd = null.svd().map_err(|_| ProblemError::Singular)?;
     let values = svd.S().column_vector();
     let rank = (0..values.nrows()).filter(|&i| values[i] > 1e-8).count();
-    Ok(svd.U().subcols(rank, declared - rank).to_owned())
+    let mut combinations = Mat::zeros(declared + of_stations, declared - rank + of_stations);
+    combinations
+        .submatrix_mut(0, 0, declared, declared - rank)
+        .copy_from(svd.U().subcols(rank, declared - rank));
+    for number in 0..of_stations {
+        combinations[(declared + number, declared - rank + number)] = 1.0;
+    }
+    Ok(combinations)
 }

@@ -43,6 +43,24 @@ impl Folds {
         Self { group_of_row, fold_of_group, rows_of_fold }
     }
 
+    /// The same, where units of several groups are held out together: of each row its group and its unit.
+    #[must_use]
+    pub fn deal_together(groups: &[usize], units: &[usize], folds: usize, seed: u64) -> Self {
+        let dealt = Self::deal(units, folds, seed);
+        let (group_of_row, count) = number(groups);
+        let mut fold_of_group = vec![0; count];
+        for (row, &group) in group_of_row.iter().enumerate() {
+            fold_of_group[group] = dealt.of_row(row);
+        }
+        Self { group_of_row, fold_of_group, rows_of_fold: dealt.rows_of_fold }
+    }
+
+    /// Counts a row less in its fold: one that says nothing.
+    pub fn without_component(&mut self, row: usize) {
+        let fold = self.of_row(row);
+        self.rows_of_fold[fold] = self.rows_of_fold[fold].saturating_sub(1);
+    }
+
     /// Two folds: the rows to learn from (0) and those held out (1). A group with rows in both is two groups.
     #[must_use]
     pub fn held_out(groups: &[usize], held: &[bool]) -> Self {

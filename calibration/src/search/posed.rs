@@ -6,7 +6,7 @@ use faer::Mat;
 use model_core::SymbolKind;
 use rayon::prelude::*;
 
-use super::row_set::{Portion, all_rows, chunks, groups, sample};
+use super::row_set::{Portion, all_rows, chunks, dealt, sample};
 use crate::data::Observations;
 use crate::search::columns::{Columns, Seen, keep};
 use crate::search::context::Context;
@@ -42,8 +42,7 @@ impl<'a> Posed<'a> {
     /// At a fit.
     pub fn at(whole: &Context<'a>, fitted: &Fitted) -> Result<Self, SearchError> {
         let hold_out = &whole.request.plan.hold_out;
-        let groups = groups(whole.request.observations, &fitted.layout.row);
-        let folds = Folds::deal(&groups, hold_out.folds, hold_out.seed);
+        let folds = dealt(whole.request.observations, &fitted.layout.row, hold_out.folds, hold_out.seed);
         let functions: usize = whole.catalogue.iter().map(|effect| effect.functions.len()).sum();
         let width = fitted.combinations.ncols() + functions + 1;
         if folds.rows() * width <= whole.held {
@@ -96,8 +95,8 @@ impl<'a> Posed<'a> {
         let mut rows =
             Portion::of(whole, fitted, &sample(observations, few, whole.request.plan.hold_out.seed))?;
         rows.keep(&usable);
-        let groups = groups(&rows.observations, &rows.columns.row);
-        let sampled = problem(whole, fitted, &usable, &rows.whitened(), Folds::deal(&groups, 1, 0))?;
+        let of_rows = dealt(&rows.observations, &rows.columns.row, 1, 0);
+        let sampled = problem(whole, fitted, &usable, &rows.whitened(), of_rows)?;
         let of_sample = reach(whole, fitted, &sampled, &rows, &usable)?;
         let sampled = sampled.with_reach(of_sample);
         let reach = reach(whole, fitted, &problem_of_all, &rows, &usable)?;
@@ -186,7 +185,7 @@ fn reach(
     let limits = plan.next.as_ref().map_or(&[][..], |next| &next.ranges);
     let poses = further_out(&fitted.chain, all, limits, FURTHER_OUT, plan.hold_out.seed);
     let mut columns = fitted.probed.columns(&poses)?;
-    columns.declared = &columns.declared * &fitted.combinations;
+    columns.declared = &columns.declared * fitted.of_errors(&columns);
     let (mut effects, _) = columns.of_part(&fitted.chain, &whole.catalogue, &poses, &fitted.fit.values);
     keep(&mut effects, usable);
     let scales: Vec<f64> = all
@@ -233,7 +232,17 @@ fn reach(
             components: chosen,
         }
     };
-    let inside = part(&rows.columns, &rows.effects, &rows.observations);
+    // How far effects reach is told by what they do to points, wherever the objects are that were observed.
+    let inside = if all.unknowns.is_some() {
+        let bare = rows.observations.bare();
+        let mut columns = fitted.probed.columns(&bare)?;
+        columns.declared = &columns.declared * fitted.of_errors(&columns);
+        let (mut effects, _) = columns.of_part(&fitted.chain, &whole.catalogue, &bare, &fitted.fit.values);
+        keep(&mut effects, usable);
+        part(&columns, &effects, &bare)
+    } else {
+        part(&rows.columns, &rows.effects, &rows.observations)
+    };
     Ok(Reach::new(inside, part(&columns, &effects, &poses)))
 }
 

@@ -9,11 +9,13 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 use crate::data::Observations;
+use crate::data::unknowns::Object;
 use crate::fit::noise::{Layout, Noise, Run};
-use crate::search::SearchError;
+use crate::fit::objects::Reduction;
 use crate::search::columns::{Columns, Seen, keep};
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
+use crate::search::{Folds, SearchError};
 
 /// Rows of a chunk.
 const CHUNK: usize = 8192;
@@ -37,6 +39,8 @@ pub(crate) struct Portion<'a> {
     noise: Noise,
     /// Root of the robust weight of each component.
     root_weight: Vec<f64>,
+    /// What takes the objects out of columns, where rows observe any.
+    reduction: Option<Reduction>,
 }
 
 impl<'a> Portion<'a> {
@@ -62,7 +66,12 @@ impl<'a> Portion<'a> {
         }
         let weight = stretches.iter().flat_map(|stretch| &fitted.fit.residuals.weight[stretch.clone()]);
         let weight: Vec<f64> = weight.map(|weight| weight.sqrt()).collect();
-        let root_weight = columns.row.iter().map(|&row| weight[row as usize]).collect();
+        let root_weight: Vec<f64> = columns.row.iter().map(|&row| weight[row as usize]).collect();
+        let noise = fitted.fit.noise.of_runs(&runs(all, &fitted.layout, stretches));
+        let reduction = observations.unknowns.as_ref().map(|unknowns| {
+            let scale = noise.sigma.iter().zip(&root_weight).map(|(sigma, root)| root / sigma).collect();
+            Reduction::new(unknowns, &columns.row, &columns.unknown, scale)
+        });
         let mut end = 0;
         let of_portion = stretches.iter().map(|stretch| {
             end += stretch.len();
@@ -70,7 +79,8 @@ impl<'a> Portion<'a> {
         });
         Ok(Self {
             stretches: of_portion.collect(),
-            noise: fitted.fit.noise.of_runs(&runs(all, &fitted.layout, stretches)),
+            noise,
+            reduction,
             observations,
             columns,
             effects,
@@ -85,11 +95,27 @@ impl<'a> Portion<'a> {
         keep(&mut self.effects, usable);
     }
 
-    /// A column of residual components, whitened as the fit whitened its own.
+    /// A column of residual components, whitened as the fit whitened its own, without what objects explain of it.
     pub fn whiten(&self, column: &[f64]) -> Vec<f64> {
         let mut column = column.to_vec();
         self.noise.whiten(&mut column);
         column.iter_mut().zip(&self.root_weight).for_each(|(value, root)| *value *= root);
+        if let Some(reduction) = &self.reduction {
+            reduction.reduce(&mut column);
+        }
+        column
+    }
+
+    /// Whether whitening makes of a component more than a multiple of itself.
+    pub fn mixes_rows(&self) -> bool {
+        self.noise.serial.is_some() || self.reduction.is_some()
+    }
+
+    /// Takes out of a column before whitening what objects, each estimated from its own rows alone, explain of it.
+    pub fn with_objects_anew(&self, mut column: Vec<f64>) -> Vec<f64> {
+        if let Some(reduction) = &self.reduction {
+            reduction.estimate_anew(&mut column);
+        }
         column
     }
 
@@ -137,6 +163,26 @@ fn runs(observations: &Observations, layout: &Layout, stretches: &[Range<usize>]
 /// The group of each component, by its row.
 pub(crate) fn groups(observations: &Observations, row: &[u32]) -> Vec<usize> {
     row.iter().map(|&row| observations.groups[row as usize] as usize).collect()
+}
+
+/// The rows in folds: what is declared a group is held out together, and so is what observes one object.
+pub(crate) fn dealt(observations: &Observations, row: &[u32], folds: usize, seed: u64) -> Folds {
+    let groups = groups(observations, row);
+    let Some(unknowns) = &observations.unknowns else { return Folds::deal(&groups, folds, seed) };
+    let together = unknowns.together(&observations.groups);
+    let units: Vec<usize> = row.iter().map(|&row| together[row as usize]).collect();
+    let mut dealt = Folds::deal_together(&groups, &units, folds, seed);
+    // The components that go into an object's numbers say nothing of anything else.
+    let mut left: Vec<usize> = unknowns.objects.iter().map(Object::numbers).collect();
+    for (component, &row) in row.iter().enumerate() {
+        if let Some(left) = unknowns.object[row as usize].map(|object| &mut left[object as usize])
+            && *left > 0
+        {
+            *left -= 1;
+            dealt.without_component(component);
+        }
+    }
+    dealt
 }
 
 /// All rows, one stretch a series.

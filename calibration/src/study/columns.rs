@@ -55,7 +55,9 @@ impl Columns {
                 }
             }
         }
-        let labels = plan.group.iter().chain(&plan.id).chain(&plan.order).cloned().collect();
+        let of_objects = source.object.iter().chain(&source.station);
+        let labels =
+            plan.group.iter().chain(&plan.id).chain(of_objects).chain(&plan.order).cloned().collect();
         Self { plans, readings, observed, sigma, times, labels }
     }
 

@@ -10,8 +10,10 @@ use super::columns::Columns;
 use super::plan::{Plan, Reading, SourcePlan};
 use super::written::Kind;
 use crate::data::units::BareColumn;
+use crate::data::unknowns::{Shape, Station, Unknowns};
 use crate::data::{Observations, Series, UNSTATED, direction_from_offset, direction_from_spherical};
 use crate::formats::{self, Cells, DataError, TableReader};
+use crate::objects::{StartError, check_named, place};
 
 /// Opens a data file of a study by its path as the study writes it.
 pub type Open<'a> = dyn FnMut(&str) -> Result<Box<dyn Read>, DataError> + 'a;
@@ -84,6 +86,8 @@ impl Plan {
             }
             _ => None,
         };
+        self.place_objects(&mut observations)
+            .map_err(|error| DataError::NotPlaced { why: error.to_string() })?;
         Ok(Loaded { observations, held_out, doubtful })
     }
 
@@ -147,6 +151,7 @@ impl Plan {
             all.sigma.resize(start + count, UNSTATED);
         }
         let grouping = self.group.len();
+        self.append_objects(all, source, &rows, start);
         for row in 0..count {
             let group = if grouping == 0 {
                 u32::try_from(start + row).unwrap_or(u32::MAX)
@@ -169,6 +174,54 @@ impl Plan {
             source: file,
         });
         Ok(())
+    }
+
+    /// Says where objects and stations are to start.
+    fn place_objects(&self, observations: &mut Observations) -> Result<(), StartError> {
+        let Some(unknowns) = &observations.unknowns else { return Ok(()) };
+        let stations = self.places.stations.iter().map(|station| station.label.as_str());
+        let objects = self.places.objects.iter().map(|object| object.label.as_str());
+        check_named(unknowns, stations, objects)?;
+        place(&self.chain, observations, &self.fit.start)
+    }
+
+    /// The objects and stations of the rows of a source, those behind `start`.
+    fn append_objects(&self, all: &mut Observations, source: &SourcePlan, rows: &Rows, start: usize) {
+        let count = rows.row_numbers.len();
+        let Some(shape) = Shape::of(source.measure) else {
+            if let Some(unknowns) = &mut all.unknowns {
+                unknowns.object.extend(std::iter::repeat_n(None, count));
+                unknowns.station.extend(std::iter::repeat_n(0, count));
+            }
+            return;
+        };
+        let unknowns = all.unknowns.get_or_insert_with(|| Unknowns {
+            stations: vec![Station::ground()],
+            object: vec![None; start],
+            station: vec![0; start],
+            ..Unknowns::default()
+        });
+        let label = |from: usize, of: &[String], row: usize| {
+            let parts = rows.labels[from..from + of.len()].iter().map(|labels| labels[row].as_str());
+            parts.collect::<Vec<_>>().join(" ")
+        };
+        let from = self.group.len() + usize::from(self.id.is_some());
+        for row in 0..count {
+            let name = label(from, &source.object, row);
+            let known = unknowns.objects.iter().position(|own| own.label == name && own.shape == shape);
+            let object = known.unwrap_or_else(|| {
+                unknowns.objects.push(self.places.object(&name, shape));
+                unknowns.objects.len() - 1
+            });
+            let name = label(from + source.object.len(), &source.station, row);
+            let known = unknowns.stations.iter().position(|own| own.label == name);
+            let station = known.unwrap_or_else(|| {
+                unknowns.stations.push(self.places.station(&name));
+                unknowns.stations.len() - 1
+            });
+            unknowns.object.push(u32::try_from(object).ok());
+            unknowns.station.push(u32::try_from(station).unwrap_or(u32::MAX));
+        }
     }
 
     /// The readings of joints and inputs, derived ones included.
@@ -252,7 +305,11 @@ impl Plan {
                 Kind::Range if at(0, row) < 0.0 => {
                     Err(impossible(row, format!("a range of {} m is negative", at(0, row))))
                 }
-                Kind::Range => Ok([at(0, row), 0.0, 0.0]),
+                Kind::Wire if at(0, row) < 0.0 => {
+                    Err(impossible(row, format!("a length of {} m is negative", at(0, row))))
+                }
+                Kind::Range | Kind::Wire => Ok([at(0, row), 0.0, 0.0]),
+                Kind::Plane | Kind::Target | Kind::Fixed | Kind::Sight => Ok([0.0; 3]),
             })
             .collect()
     }

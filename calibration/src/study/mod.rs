@@ -13,6 +13,8 @@ mod inputs;
 mod load;
 mod memory;
 mod mistakes;
+mod next;
+mod places;
 mod plan;
 mod shown;
 mod sigma;

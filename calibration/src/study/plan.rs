@@ -11,6 +11,7 @@ use super::shown::{self, Convention};
 use super::written::{Column, Kind, Observed, Study, Table};
 use crate::candidate::Effect;
 use crate::data::units::{Amount, Doubt, Unit};
+use crate::data::unknowns::Places;
 use crate::data::{Measure, derive::Derived, derive::parse_derived};
 use crate::fit::FitOptions;
 use crate::fit::noise::NoiseOptions;
@@ -36,6 +37,8 @@ pub struct Plan {
     /// Bare numbers of the study that are hardly in SI.
     pub doubts: Vec<Doubt>,
     pub(super) id: Option<String>,
+    /// Where objects and stations are as far as the study says.
+    pub places: Places,
     pub(super) group: Vec<String>,
     pub(super) order: Option<String>,
     pub(super) format: Options,
@@ -76,6 +79,9 @@ pub struct SourcePlan {
     /// What the angles are that are observed, where the declaration says so.
     pub(super) convention: Option<Convention>,
     pub(super) sigma: Vec<ColumnPlan>,
+    /// The columns that name what was observed, and where from.
+    pub(super) object: Vec<String>,
+    pub(super) station: Vec<String>,
 }
 
 /// What the search for missing effects is asked for.
@@ -147,6 +153,8 @@ impl Study {
         {
             mistakes.take(self.fits_into_memory(search, &chain, observables, fit.estimate.len(), format));
         }
+        let places = sources.as_ref().and_then(|sources| mistakes.take(self.places(sources)));
+        let sizes = sources.as_ref().and_then(|sources| mistakes.take(self.tolerances(&chain, sources)));
         mistakes.none()?;
         let (
             Some(sources),
@@ -156,15 +164,33 @@ impl Study {
             Some(next),
             Some(format),
             Some(sigma),
-        ) = (sources, fit, search, hold_out, next, format, sigma)
+            Some(places),
+            Some(sizes),
+        ) = (sources, fit, search, hold_out, next, format, sigma, places, sizes)
         else {
             unreachable!("what is missing comes with a mistake")
         };
         fit.noise.sigma = sigma;
+        fit.sizes = sizes;
+        self.with_objects(&sources, &mut fit)?;
         let (id, group, order) = (self.id.clone(), self.noise.group.0.clone(), self.noise.order.clone());
         let (data_from, doubts) = (self.data_from.clone(), self.doubts(&chain, &sources));
         let chain = shown::vectors(chain);
-        Ok(Plan { sources, fit, search, hold_out, next, data_from, doubts, id, group, order, format, chain })
+        Ok(Plan {
+            sources,
+            fit,
+            search,
+            hold_out,
+            next,
+            places,
+            data_from,
+            doubts,
+            id,
+            group,
+            order,
+            format,
+            chain,
+        })
     }
 
     /// What is read, source by source.
@@ -183,12 +209,16 @@ impl Study {
             }
             let observable = mistakes.take(self.observable(chain, observable.as_ref()));
             let readings = mistakes.take(self.readings(chain, observable, columns));
-            let shown = observable
-                .and_then(|observable| mistakes.take(observed_columns(chain, observable, observed)));
+            let shown = observable.and_then(|observable| {
+                mistakes.take(self.check_observed(chain, observable, observed))?;
+                mistakes.take(observed_columns(chain, observable, observed))
+            });
             let convention = observable.and_then(|id| {
                 let (kind, place) = (observed.get_ref().kind, observed.span());
                 mistakes.take(shown::convention(chain.observable(id), kind, &place))
             });
+            let [object, station] =
+                [&observed.get_ref().object, &observed.get_ref().station].map(|own| own.0.clone());
             let sigma = shown.as_ref().and_then(|(_, measure, _)| {
                 let first = *first_measure.get_or_insert(*measure);
                 mistakes.take(self.sigma_columns(own.as_ref(), *measure, first))
@@ -204,7 +234,18 @@ impl Study {
             else {
                 unreachable!("what is missing comes with a mistake")
             };
-            Ok(SourcePlan { paths, observable, measure, readings, observed, kind, convention, sigma })
+            Ok(SourcePlan {
+                paths,
+                observable,
+                measure,
+                readings,
+                observed,
+                kind,
+                convention,
+                sigma,
+                object,
+                station,
+            })
         }))
     }
 
@@ -306,7 +347,8 @@ impl Study {
             serial: self.noise.serial,
             beside_effects: true,
         };
-        Ok(FitOptions { estimate, start, robust: self.fit.robust, noise, max_iterations, sizes: Vec::new() })
+        let rest = FitOptions::for_chain(chain);
+        Ok(FitOptions { estimate, start, robust: self.fit.robust, noise, max_iterations, ..rest })
     }
 
     fn held_out(&self) -> Outcome<HoldOut> {
@@ -314,29 +356,6 @@ impl Study {
         within(folds.span(), "folds", *folds.get_ref(), 2..=1000)?;
         let folds = usize::try_from(*folds.get_ref()).unwrap_or(usize::MAX);
         Ok(HoldOut { folds, file: self.hold_out.file.clone(), seed: self.hold_out.seed })
-    }
-
-    fn next(&self, chain: &Chain) -> Outcome<Option<NextPoses>> {
-        let Some(next) = &self.next else { return Ok(None) };
-        let mut mistakes = Gathered::default();
-        mistakes.take(within(next.poses.span(), "poses", *next.poses.get_ref(), 1..=10_000));
-        let joints = || chain.symbols_of(SymbolKind::Joint);
-        let ranges = mistakes.take(every(next.range.iter().map(|(name, range)| {
-            let id = joints().find(|&id| chain.symbol(id).name == *name.get_ref()).ok_or_else(|| {
-                let names: Vec<&str> = joints().map(|id| chain.symbol(id).name.as_str()).collect();
-                unknown(name.span(), "joint", name.get_ref(), names.iter().copied())
-            })?;
-            let [low, high] = range.get_ref();
-            let quantity = chain.symbol(id).quantity;
-            let (low, high) = (si(low, quantity, &range.span())?, si(high, quantity, &range.span())?);
-            if low > high {
-                return Err(mistake(range.span(), "the range ends before it starts", "swap the two"));
-            }
-            Ok((id, low..high))
-        })));
-        mistakes.none()?;
-        let count = usize::try_from(*next.poses.get_ref()).unwrap_or(usize::MAX);
-        Ok(ranges.map(|ranges| NextPoses { count, ranges }))
     }
 }
 
@@ -364,20 +383,6 @@ fn observed_columns(
 ) -> Outcome<(Kind, Measure, Vec<ColumnPlan>)> {
     let (observed, place) = (written.get_ref(), written.span());
     let observable = chain.observable(id);
-    let is_point = observable.kind == model_core::ObservableKind::Point;
-    let wants_point = matches!(observed.kind, Kind::Point | Kind::Range);
-    if is_point != wants_point {
-        let (what, help) = if is_point {
-            ("a point", "write kind = \"point\" or \"range\", or name another observable")
-        } else {
-            (
-                "a direction",
-                "write kind = \"direction\", \"spherical\" or \"offset\", or name another observable",
-            )
-        };
-        let message = format!("`{}` is {what}, which this kind does not measure", observable.name);
-        return Err(mistake(place, message, help));
-    }
     let xyz = [("x", &observed.x), ("y", &observed.y), ("z", &observed.z)];
     let (azimuth, elevation) = if observed.ha.is_some() || observed.dec.is_some() {
         (("ha", &observed.ha), ("dec", &observed.dec))
@@ -397,6 +402,11 @@ fn observed_columns(
             (Measure::Direction, Quantity::Angle, keys)
         }
         Kind::Range => (Measure::Range, Quantity::Length, vec![("range", &observed.range)]),
+        Kind::Plane => (Measure::Plane, Quantity::Length, Vec::new()),
+        Kind::Target => (Measure::Target, Quantity::Length, Vec::new()),
+        Kind::Fixed => (Measure::Fixed, Quantity::Length, Vec::new()),
+        Kind::Wire => (Measure::Wire, Quantity::Length, vec![("length", &observed.length)]),
+        Kind::Sight => (Measure::Sight, Quantity::Angle, Vec::new()),
     };
     let plan = |(key, column): (&str, &Option<Column>)| match column {
         Some(column) => column_plan(column, quantity, &place),

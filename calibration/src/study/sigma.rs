@@ -68,8 +68,13 @@ fn is_amount(sigma: &Spanned<Sigma>) -> bool {
 /// What residuals measure.
 pub(super) fn quantity(measure: Measure) -> Quantity {
     match measure {
-        Measure::Direction | Measure::Azimuth => Quantity::Angle,
-        Measure::Point | Measure::Range => Quantity::Length,
+        Measure::Direction | Measure::Azimuth | Measure::Sight => Quantity::Angle,
+        Measure::Point
+        | Measure::Range
+        | Measure::Plane
+        | Measure::Target
+        | Measure::Fixed
+        | Measure::Wire => Quantity::Length,
     }
 }
 

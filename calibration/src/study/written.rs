@@ -64,6 +64,39 @@ pub struct Study {
     /// Further data that observe otherwise.
     #[serde(default)]
     pub(super) also: Vec<Also>,
+    /// Where stations stood, as far as that is known.
+    #[serde(default)]
+    pub(super) stations: Table<StationTable>,
+    /// Where objects are, as far as that is known.
+    #[serde(default)]
+    pub(super) objects: Table<ObjectTable>,
+}
+
+/// `[stations]`: a pose, known exactly, with standard uncertainties, or roughly as a start.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct StationTable {
+    pub x: Option<Amount>,
+    pub y: Option<Amount>,
+    pub z: Option<Amount>,
+    pub roll: Option<Amount>,
+    pub pitch: Option<Amount>,
+    pub heading: Option<Amount>,
+    pub rough: bool,
+    pub sigma: Option<Amount>,
+    pub sigma_angle: Option<Amount>,
+}
+
+/// `[objects]`: the coordinates of a target, known exactly, with a standard uncertainty, or roughly as a start.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ObjectTable {
+    pub x: Amount,
+    pub y: Amount,
+    pub z: Amount,
+    #[serde(default)]
+    pub rough: bool,
+    pub sigma: Option<Amount>,
 }
 
 /// Data that observe something else, or in another way, than the study's first.
@@ -117,6 +150,13 @@ pub(super) struct Observed {
     pub cross: Option<Column>,
     pub along: Option<Column>,
     pub range: Option<Column>,
+    /// The columns that name what was observed.
+    #[serde(default)]
+    pub object: OneOrMore,
+    /// The columns that name where from.
+    #[serde(default)]
+    pub station: OneOrMore,
+    pub length: Option<Column>,
 }
 
 /// What the numbers of an observation are.
@@ -128,6 +168,11 @@ pub(super) enum Kind {
     Offset,
     Point,
     Range,
+    Plane,
+    Target,
+    Fixed,
+    Wire,
+    Sight,
 }
 
 /// `[noise]`.
@@ -163,6 +208,8 @@ pub(super) struct FitTable {
     pub start: Table<Amount>,
     pub robust: bool,
     pub max_iterations: Spanned<u64>,
+    /// How large errors may be that the data do not show.
+    pub tolerance: Table<Amount>,
 }
 
 impl Default for FitTable {
@@ -174,6 +221,7 @@ impl Default for FitTable {
             start: Table::new(),
             robust: true,
             max_iterations: Spanned::new(0..0, 50),
+            tolerance: Table::new(),
         }
     }
 }

@@ -120,6 +120,7 @@ impl Simulation {
             in_sequence: false,
             row_numbers: (1..).take(rows).collect(),
             origins: Origins::default(),
+            unknowns: None,
         }
     }
 }

@@ -7,9 +7,11 @@ use model_core::identify::{self, Candidate, Identifiability, Mistaken, Ratio, Ve
 use model_core::{BodyId, Chain, Mistakes, ObservableId, Role, names, print};
 use serde_json::{Value, json};
 
+use super::calibrate::open_beside;
 use super::{Answer, TextOrJson};
 use crate::certificates::CertificateArguments;
 use crate::failure::Failure;
+use crate::set_up::SetUpSeen;
 use crate::source::{Source, listed, observables};
 use crate::terminal;
 
@@ -18,10 +20,12 @@ use crate::terminal;
 /// Follows from the declaration alone, exactly: which errors are one, which have no influence, and which combinations
 /// data can determine, for each observable by itself and for all together; with --observable, for those together.
 ///
+/// Of a study, what its rows, from their stations to their objects, can see of the errors, and what would show more.
+///
 /// Example: trueaxis identify examples/mobile-lidar/mobile-lidar.chain --observable pointing
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The declaration
+    /// The declaration, or a study (.toml)
     chain: PathBuf,
     /// This observable (may be given several times: seen together); default: each alone, then all together
     #[arg(long)]
@@ -41,6 +45,19 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let is_certified = arguments.certificate.is_wanted()?;
     let source = Source::read(&arguments.chain)?;
+    if arguments.chain.extension().is_some_and(|ending| ending == "toml") {
+        if is_certified || !arguments.observable.is_empty() || arguments.candidate.is_some() {
+            let why = "of a study, only --format can be asked for: name the declaration for --observable, --candidate and \
+                       certificates";
+            return Err(Failure::Input(why.to_owned()));
+        }
+        let seen = SetUpSeen::of_study(&source, &mut |path, from| open_beside(&source, path, from))?;
+        terminal::print(&match arguments.format {
+            TextOrJson::Text => seen.text(),
+            TextOrJson::Json => format!("{:#}\n", seen.json()),
+        })?;
+        return Ok(Answer::Done);
+    }
     let chain = source.chain()?;
     let Identified { texts, answers, found: certified } =
         identified(&chain, &arguments.observable, arguments.candidate.as_deref())?;

@@ -128,7 +128,9 @@ fn finish(mut noise: Noise, observations: &Observations, layout: &Layout, spread
 /// The smallest difference that means something: rounding of the largest measured number, through a few operations.
 #[must_use]
 pub fn resolution(observations: &Observations) -> f64 {
-    let largest =
-        observations.measured.iter().flatten().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    let objects = observations.unknowns.iter().flat_map(|unknowns| &unknowns.objects);
+    let places = objects.flat_map(|object| object.place.iter().copied());
+    let numbers = observations.measured.iter().flatten().copied().chain(places);
+    let largest = numbers.fold(0.0, |largest: f64, value| largest.max(value.abs()));
     8.0 * f64::EPSILON * largest.max(f64::MIN_POSITIVE / f64::EPSILON)
 }

@@ -13,6 +13,7 @@ use model_core::{Chain, SymbolId, SymbolKind};
 
 use crate::candidate::{Effect, Function, Place, add_error, insert};
 use crate::data::Observations;
+use crate::data::unknowns::{Unknowns, WIDTH};
 use crate::fit::{FitError, Model};
 use functions::Functions;
 use seen::Extent;
@@ -38,10 +39,12 @@ pub struct Probed {
 pub struct Columns {
     /// Measured minus predicted, rad or m.
     pub residual: Vec<f64>,
-    /// Derivative by each declared parameter.
+    /// Derivative by each declared parameter; behind them by the numbers of stations that are estimated.
     pub declared: Mat<f64>,
     /// Row of the observations that each component belongs to.
     pub row: Vec<u32>,
+    /// Per component the derivatives by what is unknown of object and station; empty where nothing is.
+    pub(crate) unknown: Vec<[f64; WIDTH]>,
     places: Vec<Place>,
     probes: Mat<f64>,
 }
@@ -66,8 +69,10 @@ impl Probed {
             insert(&mut probed, place, Poly::symbol(id), String::new());
             wrt.push(id);
         }
-        let mut values = values.to_vec();
+        let (symbols, state) = values.split_at(values.len().min(chain.symbols.len()));
+        let mut values = symbols.to_vec();
         values.resize(probed.symbols.len(), 0.0);
+        values.extend(state);
         let model = Model::new(&probed, observations, &wrt)?;
         let places = places.iter().take(wrt.len() - parameters.len()).copied().collect();
         Ok(Self { model, values, parameters: parameters.len(), places })
@@ -80,18 +85,22 @@ impl Probed {
     pub fn columns(&self, observations: &Observations) -> Result<Columns, FitError> {
         let blocks = self.model.map_blocks(observations, &self.values, |_, rows, block| {
             let by_row = |values| block.by_row(values).collect::<Vec<_>>();
-            (rows, by_row(&block.residual), block.columns().map(by_row).collect::<Vec<_>>())
+            let columns = block.columns().map(by_row).collect::<Vec<_>>();
+            (rows, by_row(&block.residual), columns, block.unknown.clone())
         })?;
-        let n: usize = blocks.iter().map(|(_, residual, _)| residual.len()).sum();
+        let n: usize = blocks.iter().map(|(_, residual, ..)| residual.len()).sum();
+        let of_stations = observations.unknowns.as_ref().map_or(0, Unknowns::of_stations);
         let mut columns = Columns {
             residual: Vec::with_capacity(n),
-            declared: Mat::zeros(n, self.parameters),
+            declared: Mat::zeros(n, self.parameters + of_stations),
             row: Vec::with_capacity(n),
+            unknown: Vec::new(),
             places: self.places.clone(),
             probes: Mat::zeros(n, self.places.len()),
         };
         let mut start = 0;
-        for (rows, residual, derivatives) in blocks {
+        for (rows, residual, derivatives, unknown) in blocks {
+            columns.unknown.extend(unknown);
             let count = residual.len();
             let components = count / rows.len().max(1);
             columns.residual.extend(residual);
@@ -107,6 +116,10 @@ impl Probed {
                 target.copy_from_slice(&derivatives[column]);
             }
             start += count;
+        }
+        if let Some(unknowns) = &observations.unknowns {
+            let stations = unknowns.station_columns(&columns.row, &columns.unknown);
+            columns.declared.subcols_mut(self.parameters, of_stations).copy_from(&stations);
         }
         Ok(columns)
     }

@@ -167,15 +167,15 @@ impl Library<'_, '_> {
         let rows = &self.last.posed.rows;
         let mut sheet = Mat::zeros(rows.columns.row.len(), values.ncols());
         let Some(probe) = self.columns.probe(place) else { return sheet };
-        let serial = self.last.fitted.fit.noise.serial.is_some();
-        // Without memory whitening is a factor to each component.
-        let probe = if serial { probe.to_vec() } else { rows.whiten(probe) };
+        let mixed = self.last.posed.rows.mixes_rows();
+        // Else whitening is a factor to each component.
+        let probe = if mixed { probe.to_vec() } else { rows.whiten(probe) };
         for j in 0..values.ncols() {
             let (column, values) = (sheet.col_as_slice_mut(j), values.col_as_slice(j));
             for ((target, p), &row) in column.iter_mut().zip(&probe).zip(&rows.columns.row) {
                 *target = p * values[row as usize];
             }
-            if serial {
+            if mixed {
                 let whitened = rows.whiten(column);
                 column.copy_from_slice(&whitened);
             }

@@ -30,7 +30,7 @@ pub(crate) fn further_out(
     for own in watched {
         let start = from.len();
         from.extend((0..each).map(|_| random.random_range(own.rows.clone())));
-        series.push(Series { rows: start..from.len(), ..own.clone() });
+        series.push(Series { rows: start..from.len(), measure: own.measure.bare(), ..own.clone() });
     }
     let columns = observations.columns.iter().map(|(id, readings)| {
         let symbol = chain.symbol(*id);

@@ -157,12 +157,16 @@ fn map(reported: &Reported<'_>, rows: &Rows) -> Markup {
     let observations = reported.observations;
     let [first, second, ..] = rows.components.as_slice() else { return html! {} };
     let Some(series) = observations.series.first() else { return html! {} };
+    if series.measure != series.measure.bare() {
+        // Nobody knows where these rows pointed to.
+        return html! {};
+    }
     let position = |at: usize| -> Option<(f64, f64)> {
         let row = reported.calibration.drawn[at];
         let [x, y, z] = observations.measured[row];
         series.rows.contains(&row).then_some(match series.measure {
             Measure::Direction => (x.atan2(y) * 180.0 / PI, z.clamp(-1.0, 1.0).asin() * 180.0 / PI),
-            Measure::Point | Measure::Range | Measure::Azimuth => (x, y),
+            _ => (x, y),
         })
     };
     let (title, labels) = match series.measure {

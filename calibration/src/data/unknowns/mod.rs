@@ -1,0 +1,262 @@
+//! What rows observe without anybody knowing where it is: planes, targets, sockets, wires, and the stations from which they
+//! were seen; and which row has to do with which.
+
+mod pose;
+
+use faer::Mat;
+use nalgebra::Vector3;
+
+use super::Measure;
+
+pub use pose::Pose;
+pub(crate) use pose::right_jacobian;
+
+/// The most numbers of one object.
+pub(crate) const OF_OBJECT: usize = 4;
+
+/// The numbers of an object and of a station that a residual component can hang on.
+pub(crate) const WIDTH: usize = OF_OBJECT + 6;
+
+/// What an object is, and with that which numbers it has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Shape {
+    /// A plane n·x = d: two numbers tilt n, one shifts d.
+    Plane,
+    /// A point: a target, the centre of a ball.
+    Point,
+    /// A wire from an anchor to the observed point, wound off a drum: the anchor, and the length that the reading lacks.
+    Wire,
+}
+
+impl Shape {
+    /// What an observed thing is by how it is measured; `None` if nothing unknown is.
+    #[must_use]
+    pub fn of(measure: Measure) -> Option<Self> {
+        match measure {
+            Measure::Plane => Some(Self::Plane),
+            Measure::Target | Measure::Fixed | Measure::Sight => Some(Self::Point),
+            Measure::Wire => Some(Self::Wire),
+            Measure::Direction | Measure::Point | Measure::Range | Measure::Azimuth => None,
+        }
+    }
+
+    /// How many numbers it has.
+    #[must_use]
+    pub fn numbers(self) -> usize {
+        match self {
+            Self::Plane | Self::Point => 3,
+            Self::Wire => 4,
+        }
+    }
+}
+
+/// What is known of where something is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Freedom {
+    /// Nothing: the data say where.
+    Free,
+    /// It is there.
+    Given,
+    /// It is there, but for these standard uncertainties: of each coordinate in m, of each turn in rad.
+    Within {
+        /// Of each coordinate, m.
+        shift_m: f64,
+        /// Of each turn, rad.
+        turn_rad: f64,
+    },
+}
+
+/// How the place came about that the numbers of an object or station count from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Known {
+    /// Nobody has said or found one yet.
+    No,
+    /// The study says it, or [`crate::objects::place`] found it.
+    Yes,
+}
+
+/// Something that rows observe.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Object {
+    /// What the data file calls it.
+    pub label: String,
+    /// What it is.
+    pub shape: Shape,
+    /// Whether the data are to say where it is.
+    pub freedom: Freedom,
+    /// Whether `place` and `normal` mean anything yet.
+    pub known: Known,
+    /// A point of the plane, the point, or the anchor, in the objects' frame, m; the numbers count from it.
+    pub place: Vector3<f64>,
+    /// The normal of a plane; else zero.
+    pub normal: Vector3<f64>,
+    /// What a wire's reading lacks, m; else zero.
+    pub offset: f64,
+}
+
+impl Object {
+    /// One of which nothing is known.
+    #[must_use]
+    pub fn unknown(label: String, shape: Shape) -> Self {
+        let (place, normal) = (Vector3::zeros(), Vector3::zeros());
+        Self { label, shape, freedom: Freedom::Free, known: Known::No, place, normal, offset: 0.0 }
+    }
+
+    /// How many numbers are estimated.
+    #[must_use]
+    pub fn numbers(&self) -> usize {
+        if self.freedom == Freedom::Given { 0 } else { self.shape.numbers() }
+    }
+}
+
+/// Where the instrument stood.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Station {
+    /// What the data file calls it; empty where no rows name one and the chain's ground is the frame.
+    pub label: String,
+    /// Whether the data are to say where it is.
+    pub freedom: Freedom,
+    /// Whether `pose` means anything yet.
+    pub known: Known,
+    /// The pose that its six numbers count from.
+    pub pose: Pose,
+}
+
+impl Station {
+    /// One of which nothing is known.
+    #[must_use]
+    pub fn unknown(label: String) -> Self {
+        Self { label, freedom: Freedom::Free, known: Known::No, pose: Pose::default() }
+    }
+
+    /// The chain's own ground, where rows name no station.
+    #[must_use]
+    pub fn ground() -> Self {
+        Self { label: String::new(), freedom: Freedom::Given, known: Known::Yes, pose: Pose::default() }
+    }
+
+    /// How many numbers are estimated.
+    #[must_use]
+    pub fn numbers(&self) -> usize {
+        if self.freedom == Freedom::Given { 0 } else { 6 }
+    }
+}
+
+/// Where things are as far as the study says.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Places {
+    /// Stations by their labels.
+    pub stations: Vec<Station>,
+    /// Objects by their labels.
+    pub objects: Vec<Object>,
+}
+
+impl Places {
+    /// The station of a label: as the study says, or unknown.
+    pub(crate) fn station(&self, label: &str) -> Station {
+        let known = self.stations.iter().find(|station| station.label == label);
+        known.cloned().unwrap_or_else(|| Station::unknown(label.to_owned()))
+    }
+
+    /// The object of a label: as the study says, or unknown.
+    pub(crate) fn object(&self, label: &str, shape: Shape) -> Object {
+        let known = self.objects.iter().find(|object| object.label == label && object.shape == shape);
+        known.cloned().unwrap_or_else(|| Object::unknown(label.to_owned(), shape))
+    }
+}
+
+/// What the rows of some observations have to do with.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Unknowns {
+    /// The objects.
+    pub objects: Vec<Object>,
+    /// The stations.
+    pub stations: Vec<Station>,
+    /// The object of each row; none where a row observes nothing unknown.
+    pub object: Vec<Option<u32>>,
+    /// The station of each row.
+    pub station: Vec<u32>,
+}
+
+impl Unknowns {
+    /// The numbers that are estimated: first six for each station that is not given, then those of each object.
+    #[must_use]
+    pub fn numbers(&self) -> usize {
+        self.of_stations() + self.objects.iter().map(Object::numbers).sum::<usize>()
+    }
+
+    /// How many of them are the stations'.
+    #[must_use]
+    pub fn of_stations(&self) -> usize {
+        self.stations.iter().map(Station::numbers).sum()
+    }
+
+    /// Where the numbers of each station begin.
+    #[must_use]
+    pub fn first_of_stations(&self) -> Vec<usize> {
+        first(self.stations.iter().map(Station::numbers), 0)
+    }
+
+    /// Where the numbers of each object begin.
+    #[must_use]
+    pub fn first_of_objects(&self) -> Vec<usize> {
+        first(self.objects.iter().map(Object::numbers), self.of_stations())
+    }
+
+    /// The same for some of the rows; objects and stations that no row of them has to do with stay.
+    #[must_use]
+    pub fn select(&self, rows: &[usize]) -> Self {
+        Self {
+            object: rows.iter().filter_map(|&row| self.object.get(row).copied()).collect(),
+            station: rows.iter().filter_map(|&row| self.station.get(row).copied()).collect(),
+            ..self.clone()
+        }
+    }
+
+    /// The derivatives of components, each of a row, by the stations' numbers that are estimated: one column a number.
+    pub(crate) fn station_columns(&self, row: &[u32], unknown: &[[f64; WIDTH]]) -> Mat<f64> {
+        let first = self.first_of_stations();
+        let mut columns = Mat::zeros(row.len(), self.of_stations());
+        for (component, &row) in row.iter().enumerate() {
+            let station = self.station[row as usize] as usize;
+            for number in 0..self.stations[station].numbers() {
+                columns[(component, first[station] + number)] = unknown[component][WIDTH - 6 + number];
+            }
+        }
+        columns
+    }
+
+    /// What is held out together, row by row: rows of one object, and rows of one group.
+    #[must_use]
+    pub fn together(&self, groups: &[u32]) -> Vec<usize> {
+        let objects = self.objects.len();
+        // Each object leads to the group of its first row, groups to the objects that they share.
+        let most = groups.iter().copied().max().map_or(0, |most| most as usize + 1);
+        let mut above: Vec<usize> = (0..objects + most).collect();
+        for (object, &group) in self.object.iter().zip(groups) {
+            if let Some(object) = *object {
+                let ends = [object as usize, objects + group as usize].map(|at| top(&above, at));
+                above[ends[0].max(ends[1])] = ends[0].min(ends[1]);
+            }
+        }
+        groups.iter().map(|&group| top(&above, objects + group as usize)).collect()
+    }
+}
+
+/// What stands at the end of a way up.
+fn top(above: &[usize], mut at: usize) -> usize {
+    while above[at] != at {
+        at = above[at];
+    }
+    at
+}
+
+fn first(numbers: impl Iterator<Item = usize>, start: usize) -> Vec<usize> {
+    let mut next = start;
+    numbers
+        .map(|own| {
+            next += own;
+            next - own
+        })
+        .collect()
+}

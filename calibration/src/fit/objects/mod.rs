@@ -1,0 +1,15 @@
+//! What rows observe without anybody knowing where it is, in a fit: estimated with the errors, and eliminated from all else.
+//!
+//! An object's few numbers are eliminated by a factor of their own, which leaves of every row what the object cannot
+//! explain; the stations' after that, as columns that all objects share. What is left is an ordinary problem of the
+//! declared errors, and steps, uncertainties and the search for missing effects see no other.
+//!
+//! What one row shows stands in `seen`, the elimination in `eliminate`, its rotation of whole columns in `reduce`.
+
+mod eliminate;
+mod reduce;
+mod seen;
+
+pub(crate) use eliminate::{Collected, Eliminated};
+pub(crate) use reduce::Reduction;
+pub(crate) use seen::seen;

@@ -1,0 +1,233 @@
+//! Whole columns without what the objects could explain of them.
+//!
+//! An object's rows are rotated so that its numbers move only the first of them; these are put to zero. What is left is
+//! as white as the rows were, and has no part of any object: a column of the search is then one that objects would not
+//! have followed, in rows that were held out as well, where each object is estimated anew from its own rows alone.
+
+use faer::Mat;
+
+use crate::data::unknowns::{Unknowns, WIDTH};
+
+/// A direction of an object of which less than this share is left by those before moves nothing of its own.
+const NOTHING: f64 = 1e-8;
+
+/// What one object's rows are rotated by.
+#[derive(Debug, Clone)]
+struct Turned {
+    /// The object's components.
+    at: Vec<usize>,
+    /// Unit vectors of reflections, one a column.
+    reflections: Mat<f64>,
+    /// The triangle of the object's numbers.
+    factor: Mat<f64>,
+    /// Derivatives by the object's numbers before whitening.
+    columns: Mat<f64>,
+    /// Which of the numbers the rows move.
+    moves: Vec<bool>,
+}
+
+/// The rotation of all objects' rows.
+#[derive(Debug, Clone)]
+pub(crate) struct Reduction {
+    turned: Vec<Turned>,
+    /// What whitening and the robust weight multiply each component by.
+    scale: Vec<f64>,
+}
+
+impl Reduction {
+    /// Of components that belong to `row`s of the observations, each with its derivatives by what is unknown before
+    /// whitening and what whitening multiplies it by.
+    pub fn new(unknowns: &Unknowns, row: &[u32], unknown: &[[f64; WIDTH]], scale: Vec<f64>) -> Self {
+        let mut components: Vec<Vec<usize>> = vec![Vec::new(); unknowns.objects.len()];
+        for (component, &row) in row.iter().enumerate() {
+            if let Some(object) = unknowns.object[row as usize] {
+                components[object as usize].push(component);
+            }
+        }
+        let turned = components.into_iter().zip(&unknowns.objects).filter_map(|(at, object)| {
+            let k = object.numbers().min(at.len());
+            if k == 0 {
+                return None;
+            }
+            let columns = Mat::from_fn(at.len(), k, |i, j| unknown[at[i]][j]);
+            let mut matrix = Mat::from_fn(at.len(), k, |i, j| columns[(i, j)] * scale[at[i]]);
+            let (reflections, moves) = reflected(&mut matrix);
+            let factor = Mat::from_fn(k, k, |i, j| if i <= j { matrix[(i, j)] } else { 0.0 });
+            Some(Turned { at, reflections, factor, columns, moves })
+        });
+        Self { turned: turned.collect(), scale }
+    }
+
+    /// Rotates a whitened and weighted column, and puts to zero what objects explain.
+    pub fn reduce(&self, column: &mut [f64]) {
+        for turned in &self.turned {
+            let mut own: Vec<f64> = turned.at.iter().map(|&at| column[at]).collect();
+            turned.turn(&mut own);
+            own.iter_mut()
+                .zip(&turned.moves)
+                .filter(|(_, moves)| **moves)
+                .for_each(|(value, _)| *value = 0.0);
+            turned.at.iter().zip(own).for_each(|(&at, value)| column[at] = value);
+        }
+    }
+
+    /// Takes out of a column before whitening what the objects, each estimated from its own rows, explain of it.
+    pub fn estimate_anew(&self, column: &mut [f64]) {
+        for turned in &self.turned {
+            let k = turned.moves.len();
+            let mut own: Vec<f64> = turned.at.iter().map(|&at| column[at] * self.scale[at]).collect();
+            turned.turn(&mut own);
+            let mut numbers = vec![0.0; k];
+            for row in (0..k).rev().filter(|&row| turned.moves[row]) {
+                let behind: f64 = (row + 1..k).map(|j| turned.factor[(row, j)] * numbers[j]).sum();
+                numbers[row] = (own[row] - behind) / turned.factor[(row, row)];
+            }
+            for (i, &at) in turned.at.iter().enumerate() {
+                column[at] -=
+                    numbers.iter().enumerate().map(|(j, b)| turned.columns[(i, j)] * b).sum::<f64>();
+            }
+        }
+    }
+}
+
+impl Reduction {
+    /// Takes out of whitened columns what objects and stations explain of them, in place.
+    pub fn project(
+        &self,
+        unknowns: &Unknowns,
+        row: &[u32],
+        unknown: &[[f64; WIDTH]],
+        columns: &mut Mat<f64>,
+    ) {
+        for j in 0..columns.ncols() {
+            self.take_out(columns.col_as_slice_mut(j));
+        }
+        let mut stations = unknowns.station_columns(row, unknown);
+        for j in 0..stations.ncols() {
+            let column = stations.col_as_slice_mut(j);
+            column.iter_mut().zip(&self.scale).for_each(|(value, scale)| *value *= scale);
+            self.take_out(column);
+        }
+        // Column by column, twice: one pass of Gram-Schmidt leaves rounding of the part taken out.
+        let mut basis: Vec<Vec<f64>> = Vec::new();
+        for column in stations.col_iter() {
+            let mut own: Vec<f64> = column.iter().copied().collect();
+            let before = length(&own);
+            for _ in 0..2 {
+                basis.iter().for_each(|known| without(&mut own, known));
+            }
+            let after = length(&own);
+            if after > 1e-6 * before && after > 0.0 {
+                own.iter_mut().for_each(|value| *value /= after);
+                basis.push(own);
+            }
+        }
+        for j in 0..columns.ncols() {
+            basis.iter().for_each(|known| without(columns.col_as_slice_mut(j), known));
+        }
+    }
+
+    /// Takes out of a whitened column what objects explain of it.
+    fn take_out(&self, column: &mut [f64]) {
+        for turned in &self.turned {
+            let mut own: Vec<f64> = turned.at.iter().map(|&at| column[at]).collect();
+            turned.turn(&mut own);
+            own.iter_mut()
+                .zip(&turned.moves)
+                .filter(|(_, moves)| **moves)
+                .for_each(|(value, _)| *value = 0.0);
+            turned.turn_back(&mut own);
+            turned.at.iter().zip(own).for_each(|(&at, value)| column[at] = value);
+        }
+    }
+}
+
+fn length(column: &[f64]) -> f64 {
+    column.iter().map(|value| value * value).sum::<f64>().sqrt()
+}
+
+/// Takes a unit column's part out of another.
+fn without(column: &mut [f64], unit: &[f64]) {
+    let share: f64 = column.iter().zip(unit).map(|(a, b)| a * b).sum();
+    column.iter_mut().zip(unit).for_each(|(a, b)| *a -= share * b);
+}
+
+impl Turned {
+    fn turn_back(&self, own: &mut [f64]) {
+        let all: Vec<_> = self.reflections.col_iter().zip(&self.moves).filter(|(_, moves)| **moves).collect();
+        for (v, _) in all.into_iter().rev() {
+            let share: f64 = 2.0 * v.iter().zip(own.iter()).map(|(v, x)| v * x).sum::<f64>();
+            own.iter_mut().zip(v.iter()).for_each(|(x, v)| *x -= share * v);
+        }
+    }
+
+    fn turn(&self, own: &mut [f64]) {
+        for (v, _) in self.reflections.col_iter().zip(&self.moves).filter(|(_, moves)| **moves) {
+            let share: f64 = 2.0 * v.iter().zip(own.iter()).map(|(v, x)| v * x).sum::<f64>();
+            own.iter_mut().zip(v.iter()).for_each(|(x, v)| *x -= share * v);
+        }
+    }
+}
+
+/// Turns a matrix into a triangle in place; the reflections, and which columns had anything of their own.
+fn reflected(matrix: &mut Mat<f64>) -> (Mat<f64>, Vec<bool>) {
+    let (rows, columns) = matrix.shape();
+    let mut reflections = Mat::zeros(rows, columns);
+    let mut moves = vec![false; columns];
+    let lengths: Vec<f64> = matrix.col_iter().map(|column| column.norm_l2()).collect();
+    for j in 0..columns {
+        let left = matrix.col(j).subrows(j, rows - j).norm_l2();
+        if left <= NOTHING * lengths[j] || left == 0.0 {
+            continue;
+        }
+        moves[j] = true;
+        let mut v = vec![0.0; rows];
+        (j..rows).for_each(|i| v[i] = matrix[(i, j)]);
+        v[j] += left.copysign(v[j]);
+        let length = v.iter().map(|value| value * value).sum::<f64>().sqrt();
+        v.iter_mut().for_each(|value| *value /= length);
+        for column in j..columns {
+            let share: f64 = 2.0 * (j..rows).map(|i| v[i] * matrix[(i, column)]).sum::<f64>();
+            (j..rows).for_each(|i| matrix[(i, column)] -= share * v[i]);
+        }
+        reflections.col_as_slice_mut(j).copy_from_slice(&v);
+    }
+    (reflections, moves)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::unknowns::{Object, Shape, Station};
+
+    /// What an object explains is gone, and a column that it does not follow keeps its length.
+    #[test]
+    fn an_objects_own_columns_vanish() {
+        let unknowns = Unknowns {
+            objects: vec![
+                Object::unknown("A".to_owned(), Shape::Plane),
+                Object::unknown("B".to_owned(), Shape::Plane),
+            ],
+            stations: vec![Station::ground()],
+            object: (0..12).map(|row| (row != 5).then_some(row % 2)).collect(),
+            station: vec![0; 12],
+        };
+        let row: Vec<u32> = (0..12).collect();
+        let derivative = |i: usize, j: usize| ((i * 7 + j * 5) as f64 * 0.9).sin();
+        let unknown: Vec<[f64; WIDTH]> =
+            (0..12).map(|i| std::array::from_fn(|j| if j < 3 { derivative(i, j) } else { 0.0 })).collect();
+        let scale: Vec<f64> = (0..12).map(|i| 1.0 + f64::from(i) * 0.1).collect();
+        let reduction = Reduction::new(&unknowns, &row, &unknown, scale.clone());
+        // Different amounts of the numbers of either object, and something in the row that has none.
+        let explained =
+            |i: usize| (0..3).map(|j| (1.0 + (i % 2) as f64) * (j as f64 + 1.0) * unknown[i][j]).sum::<f64>();
+        let physical: Vec<f64> = (0..12).map(|i| if i == 5 { 3.0 } else { explained(i) }).collect();
+        let mut white: Vec<f64> = physical.iter().zip(&scale).map(|(value, scale)| value * scale).collect();
+        reduction.reduce(&mut white);
+        let left: f64 = white.iter().enumerate().filter(|(i, _)| *i != 5).map(|(_, x)| x * x).sum();
+        assert!(left < 1e-24 && (white[5] - 3.0 * scale[5]).abs() < 1e-12, "{white:?}");
+        let mut anew = physical;
+        reduction.estimate_anew(&mut anew);
+        assert!(anew.iter().enumerate().all(|(i, x)| i == 5 || x.abs() < 1e-12) && anew[5] == 3.0);
+    }
+}

@@ -1,0 +1,226 @@
+//! What one row makes of what is unknown: its residual, and how that moves with the chain, the object and the station.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::data::unknowns::{OF_OBJECT, Object, Pose, Unknowns, WIDTH, right_jacobian};
+use crate::data::{Measure, tangent_frame};
+use crate::fit::residual;
+
+/// Per component the derivatives of what is predicted by the numbers of the object, then by those of the station.
+pub(crate) type Columns = [[f64; WIDTH]; 3];
+
+/// Residual components of a row, the gradient of each predicted component by the chain's x, y, z, and the derivatives by
+/// what is unknown.
+pub(crate) type Seen = ([(f64, Vector3<f64>); 3], Columns);
+
+/// The numbers of one thing, as far as they are estimated.
+fn numbers<const N: usize>(state: &[f64], first: usize, count: usize) -> [f64; N] {
+    let mut own = [0.0; N];
+    own.iter_mut().zip(state.iter().skip(first).take(count)).for_each(|(own, value)| *own = *value);
+    own
+}
+
+/// What a row shows of its object from its station, the chain saying `predicted`; `None` if it observes nothing unknown.
+///
+/// `state` holds all numbers that are estimated, `first` where those of each station and of each object begin.
+pub(crate) fn seen(
+    unknowns: &Unknowns,
+    first: &[Vec<usize>; 2],
+    state: &[f64],
+    row: usize,
+    measure: Measure,
+    measured: &Vector3<f64>,
+    predicted: &Vector3<f64>,
+) -> Option<Seen> {
+    let at = (*unknowns.object.get(row)?)? as usize;
+    let object = unknowns.objects.get(at)?;
+    let place = *unknowns.station.get(row)? as usize;
+    let station = unknowns.stations.get(place)?;
+    let by: [f64; 6] = numbers(state, first[0][place], station.numbers());
+    let frame = Frame {
+        pose: station.pose.moved(&by),
+        jacobian: right_jacobian(&Vector3::new(by[3], by[4], by[5])).transpose(),
+    };
+    let own: [f64; OF_OBJECT] = numbers(state, first[1][at], object.numbers());
+    Some(match measure {
+        Measure::Plane => frame.plane(object, own, predicted),
+        Measure::Target => frame.target(object, own, predicted),
+        Measure::Fixed => frame.fixed(object, own, predicted),
+        Measure::Wire => frame.wire(object, own, measured.x, predicted),
+        Measure::Sight => frame.sight(object, own, predicted),
+        Measure::Direction | Measure::Point | Measure::Range | Measure::Azimuth => return None,
+    })
+}
+
+/// The normal of a plane at its two numbers of tilt, and its derivative by each.
+fn tilted(normal: &Vector3<f64>, tilt: [f64; 2]) -> (Vector3<f64>, [Vector3<f64>; 2]) {
+    let [first, second] = tangent_frame(normal);
+    let long = normal + first * tilt[0] + second * tilt[1];
+    let length = long.norm();
+    let n = long / length;
+    (n, [first, second].map(|axis| (axis - n * n.dot(&axis)) / length))
+}
+
+/// Where the station stands, and what its turn does when its numbers change.
+struct Frame {
+    pose: Pose,
+    /// Transpose of the right Jacobian of the turn.
+    jacobian: Matrix3<f64>,
+}
+
+impl Frame {
+    /// The derivatives of one component by object and station: by the numbers of the object, by the station's shift, and
+    /// by a small turn about the axes of the chain's frame.
+    fn row(&self, object: [f64; OF_OBJECT], shift: Vector3<f64>, turn: Vector3<f64>) -> [f64; WIDTH] {
+        let turn = self.jacobian * turn;
+        let [a, b, c, d] = object;
+        [a, b, c, d, shift.x, shift.y, shift.z, turn.x, turn.y, turn.z]
+    }
+
+    /// n·(R p + t) − d against zero.
+    fn plane(&self, object: &Object, own: [f64; OF_OBJECT], p: &Vector3<f64>) -> Seen {
+        let (n, by_tilt) = tilted(&object.normal, [own[0], own[1]]);
+        let from = self.pose.apply(p) - object.place;
+        let gradient = self.pose.turn.inverse() * n;
+        let object = [by_tilt[0].dot(&from), by_tilt[1].dot(&from), -1.0, 0.0];
+        let row = self.row(object, n, p.cross(&gradient));
+        one((own[2] - n.dot(&from), gradient), row)
+    }
+
+    /// Rᵀ(X − t) − p across, up and along the beam.
+    fn target(&self, object: &Object, own: [f64; OF_OBJECT], p: &Vector3<f64>) -> Seen {
+        let there = self.pose.back(&(object.place + Vector3::new(own[0], own[1], own[2])));
+        let beam = p.normalize();
+        let [across, up] = tangent_frame(&beam);
+        let difference = there - p;
+        let component = |axis: Vector3<f64>| {
+            let outside = self.pose.turn * axis;
+            let row = self.row([-outside.x, -outside.y, -outside.z, 0.0], outside, there.cross(&axis));
+            ((difference.dot(&axis), axis), row)
+        };
+        let [a, b, c] = [across, up, beam].map(component);
+        ([a.0, b.0, c.0], [a.1, b.1, c.1])
+    }
+
+    /// c − (R p + t) along x, y, z of the objects' frame.
+    fn fixed(&self, object: &Object, own: [f64; OF_OBJECT], p: &Vector3<f64>) -> Seen {
+        let difference = object.place + Vector3::new(own[0], own[1], own[2]) - self.pose.apply(p);
+        let component = |axis: Vector3<f64>| {
+            let gradient = self.pose.turn.inverse() * axis;
+            let row = self.row([-axis.x, -axis.y, -axis.z, 0.0], axis, p.cross(&gradient));
+            ((difference.dot(&axis), gradient), row)
+        };
+        let [a, b, c] = [Vector3::x(), Vector3::y(), Vector3::z()].map(component);
+        ([a.0, b.0, c.0], [a.1, b.1, c.1])
+    }
+
+    /// The length read against |R p + t − a| − z.
+    fn wire(&self, object: &Object, own: [f64; OF_OBJECT], length_m: f64, p: &Vector3<f64>) -> Seen {
+        let from = self.pose.apply(p) - object.place - Vector3::new(own[0], own[1], own[2]);
+        let distance = from.norm();
+        let u = from / distance;
+        let gradient = self.pose.turn.inverse() * u;
+        let row = self.row([-u.x, -u.y, -u.z, -1.0], u, p.cross(&gradient));
+        one((length_m + object.offset + own[3] - distance, gradient), row)
+    }
+
+    /// The direction of the object from the station against the beam, on the tangent plane of the first.
+    fn sight(&self, object: &Object, own: [f64; OF_OBJECT], beam: &Vector3<f64>) -> Seen {
+        let there = self.pose.back(&(object.place + Vector3::new(own[0], own[1], own[2])));
+        let distance = there.norm();
+        let direction = there / distance;
+        let axes = tangent_frame(&direction);
+        let components = residual::components(Measure::Direction, &direction, beam);
+        let row = |axis: Vector3<f64>| {
+            let outside = self.pose.turn * axis / distance;
+            self.row([-outside.x, -outside.y, -outside.z, 0.0], outside, there.cross(&axis) / distance)
+        };
+        (components, [row(axes[0]), row(axes[1]), [0.0; WIDTH]])
+    }
+}
+
+/// A row of one component.
+fn one(component: (f64, Vector3<f64>), row: [f64; WIDTH]) -> Seen {
+    let none = (0.0, Vector3::zeros());
+    ([component, none, none], [row, [0.0; WIDTH], [0.0; WIDTH]])
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use crate::data::unknowns::{Freedom, Known, Shape, Station};
+
+    use super::*;
+
+    const KINDS: [Measure; 5] =
+        [Measure::Plane, Measure::Target, Measure::Fixed, Measure::Wire, Measure::Sight];
+
+    /// Every derivative against differences of the residual.
+    #[test]
+    fn derivatives_are_those_of_the_residual() {
+        for measure in KINDS {
+            let shape = Shape::of(measure).unwrap();
+            let object = Object {
+                place: Vector3::new(4.0, 7.0, 1.0),
+                normal: Vector3::new(0.6, 0.8, 0.0),
+                offset: 0.2,
+                known: Known::Yes,
+                ..Object::unknown("A".to_owned(), shape)
+            };
+            let station = Station {
+                pose: Pose::new(Vector3::new(0.4, -0.7, 0.2), 0.02, 0.3, -0.9),
+                known: Known::Yes,
+                freedom: Freedom::Free,
+                label: "S".to_owned(),
+            };
+            let unknowns = Unknowns {
+                objects: vec![object],
+                stations: vec![station],
+                object: vec![Some(0)],
+                station: vec![0],
+            };
+            let first = [unknowns.first_of_stations(), unknowns.first_of_objects()];
+            let mut state = vec![0.02, -0.01, 0.03, 0.2, -0.1, 0.3, 0.01, -0.02, 0.03, 0.01];
+            state.truncate(unknowns.numbers());
+            let there = unknowns.stations[0].pose.back(&unknowns.objects[0].place);
+            // Where the row hits what it observes, but for little: derivatives leave out what is as small as the residual.
+            let p = match measure {
+                Measure::Sight => there.normalize() + Vector3::new(1e-7, 2e-7, -1e-7),
+                _ => there,
+            };
+            let at = |state: &[f64], p: &Vector3<f64>| {
+                let length = Vector3::new(0.3, 0.0, 0.0);
+                seen(&unknowns, &first, state, 0, measure, &length, p).unwrap()
+            };
+            // The point that the row would have at no residual.
+            let p = (0..20).fold(p, |p, _| {
+                let (components, _) = at(&state, &p);
+                components.iter().fold(p, |p, (r, gradient)| p + gradient * *r)
+            });
+            let p = if measure == Measure::Sight { p.normalize() } else { p };
+            let (components, columns) = at(&state, &p);
+            let of_station = 6;
+            for component in 0..measure.components() {
+                for axis in 0..3 {
+                    let mut step = Vector3::zeros();
+                    step[axis] = 1e-6;
+                    let change =
+                        at(&state, &(p - step)).0[component].0 - at(&state, &(p + step)).0[component].0;
+                    let tangent = components[component].1[axis];
+                    assert!((change / 2e-6 - tangent).abs() < 1e-5, "{measure:?} {component} by {axis}");
+                }
+                for number in 0..state.len() {
+                    let moved = |by: f64| {
+                        let mut state = state.clone();
+                        state[number] += by;
+                        at(&state, &p).0[component].0
+                    };
+                    let change = (moved(-1e-6) - moved(1e-6)) / 2e-6;
+                    let column = if number < of_station { OF_OBJECT + number } else { number - of_station };
+                    let own = columns[component][column];
+                    assert!((change - own).abs() < 1e-5, "{measure:?} {component} {number}: {change} {own}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,10 @@
+//! Calibrating with objects and places that nobody knows: where a fit of them starts (`start`), and what a set-up can see of
+//! the errors before anybody measures better than roughly (`identify`).
+//!
+//! What is unknown stands in [`crate::data::unknowns`]; how it is estimated and eliminated in [`crate::fit`].
+
+mod identify;
+mod start;
+
+pub use identify::{Remedy, SetUp, Visible, identify};
+pub use start::{StartError, check_named, place};

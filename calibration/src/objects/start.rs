@@ -1,0 +1,281 @@
+//! Where a fit starts: stations laid over each other by the targets that they share, objects where their rows say they are.
+//!
+//! Everything is in closed form from the readings and the declaration without errors. Where no station and no object is
+//! known, the station that sees most is the frame of all others.
+
+use model_core::{Chain, exact};
+use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
+
+use crate::data::unknowns::{Known, Object, Pose, Shape, Unknowns};
+use crate::data::{Measure, Observations};
+use crate::fit::align_robustly;
+
+/// Singular values below this share of the largest are none: points in a line or a plane.
+const FLAT: f64 = 1e-6;
+
+/// Why there is nowhere to start from.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum StartError {
+    /// Nothing says where a station stood.
+    #[error(
+        "nothing says where station `{station}` stood: it shares {shared} targets with stations and objects that are known, and \
+         three that are not in a line are needed; observe more of the others' targets from it, or write where it stood, \
+         roughly: [stations] {station} = {{ x = \"1.2 m\", y = \"0 m\", z = \"0.3 m\", heading = \"30 deg\", rough = true }}"
+    )]
+    NotConnected {
+        /// Its label.
+        station: String,
+        /// Targets that it shares with those that are placed.
+        shared: usize,
+    },
+    /// An object's rows do not say where it is.
+    #[error("the {rows} rows of `{object}` do not say where it is: {help}")]
+    NotPlaced {
+        /// Its label.
+        object: String,
+        /// Its rows.
+        rows: usize,
+        /// What to do about it.
+        help: &'static str,
+    },
+    /// Something is said of a station or an object that no row names.
+    #[error(
+        "no row has to do with `{label}`, of which the study says where it is; check its name against the data file"
+    )]
+    NoRows {
+        /// The label.
+        label: String,
+    },
+}
+
+/// A row that observes an object: the point that the chain says, without errors.
+struct Row {
+    object: usize,
+    station: usize,
+    measure: Measure,
+    point: Vector3<f64>,
+    measured: f64,
+}
+
+/// Checks that rows have to do with everything of which the study says where it is: these labels of stations and of objects.
+///
+/// # Errors
+/// One that no row names.
+pub fn check_named<'a>(
+    unknowns: &Unknowns,
+    mut stations: impl Iterator<Item = &'a str>,
+    mut objects: impl Iterator<Item = &'a str>,
+) -> Result<(), StartError> {
+    let lost = stations
+        .find(|label| unknowns.stations.iter().all(|own| own.label != *label))
+        .or_else(|| objects.find(|label| unknowns.objects.iter().all(|own| own.label != *label)));
+    lost.map_or(Ok(()), |label| Err(StartError::NoRows { label: label.to_owned() }))
+}
+
+/// Says where the numbers of all objects and stations count from.
+///
+/// `values` are those of all symbols; joints and inputs come from the rows.
+///
+/// # Errors
+/// A station or an object that nothing places.
+pub fn place(chain: &Chain, observations: &mut Observations, values: &[f64]) -> Result<(), StartError> {
+    let Some(mut unknowns) = observations.unknowns.take() else { return Ok(()) };
+    let rows = rows(chain, observations, &unknowns, values);
+    let placed = place_all(&mut unknowns, &rows);
+    observations.unknowns = Some(unknowns);
+    placed
+}
+
+/// The rows that observe objects.
+fn rows(chain: &Chain, observations: &Observations, unknowns: &Unknowns, values: &[f64]) -> Vec<Row> {
+    let mut values = values.to_vec();
+    values.truncate(chain.symbols.len());
+    let mut rows = Vec::new();
+    for series in &observations.series {
+        let path = exact::Path::new(chain, series.observable);
+        for row in series.rows.clone() {
+            let Some(object) = unknowns.object[row] else { continue };
+            for (id, readings) in &observations.columns {
+                values[id.index()] = readings[row];
+            }
+            let point = path.value(&values);
+            if point.iter().all(|part| part.is_finite()) {
+                let (station, measured) = (unknowns.station[row] as usize, observations.measured[row][0]);
+                rows.push(Row { object: object as usize, station, measure: series.measure, point, measured });
+            }
+        }
+    }
+    rows
+}
+
+fn place_all(unknowns: &mut Unknowns, rows: &[Row]) -> Result<(), StartError> {
+    place_stations(unknowns, rows)?;
+    for number in 0..unknowns.objects.len() {
+        if unknowns.objects[number].known == Known::Yes {
+            continue;
+        }
+        let own: Vec<&Row> = rows.iter().filter(|row| row.object == number).collect();
+        let poses: Vec<Pose> = own.iter().map(|row| unknowns.stations[row.station].pose).collect();
+        if own.is_empty() {
+            // Rows without a value: the fit sets them aside, and says so.
+            continue;
+        }
+        place_object(&mut unknowns.objects[number], &own, &poses)?;
+    }
+    Ok(())
+}
+
+/// Whether a row tells the place of its object from that of its station, and the other way round.
+fn tells(row: &Row) -> bool {
+    matches!(row.measure, Measure::Target | Measure::Fixed)
+}
+
+/// The stations, one after the other: next that which shares most with what is placed.
+fn place_stations(unknowns: &mut Unknowns, rows: &[Row]) -> Result<(), StartError> {
+    let (stations, objects) = (unknowns.stations.len(), unknowns.objects.len());
+    // The mean of what each station sees of each target, in its own frame.
+    let mut sums = vec![vec![(Vector3::zeros(), 0.0); objects]; stations];
+    for row in rows.iter().filter(|row| tells(row)) {
+        let (sum, count) = &mut sums[row.station][row.object];
+        *sum += row.point;
+        *count += 1.0;
+    }
+    let seen = |station: usize, object: usize| {
+        let (sum, count): (Vector3<f64>, f64) = sums[station][object];
+        (count > 0.0).then(|| sum / count)
+    };
+    let mut there: Vec<Option<Vector3<f64>>> =
+        unknowns.objects.iter().map(|object| (object.known == Known::Yes).then_some(object.place)).collect();
+    let is_placed = |unknowns: &Unknowns, at: usize| unknowns.stations[at].known == Known::Yes;
+    let take_over = |unknowns: &Unknowns, there: &mut Vec<Option<Vector3<f64>>>, station: usize| {
+        for (object, place) in there.iter_mut().enumerate() {
+            if let (None, Some(point)) = (&place, seen(station, object)) {
+                *place = Some(unknowns.stations[station].pose.apply(&point));
+            }
+        }
+    };
+    for station in 0..stations {
+        if is_placed(unknowns, station) {
+            take_over(unknowns, &mut there, station);
+        }
+    }
+    let nothing_known = there.iter().all(Option::is_none)
+        && rows.iter().all(|row| unknowns.stations[row.station].known == Known::No);
+    if nothing_known && stations > 0 {
+        let watched = |station: &usize| {
+            let targets = sums[*station].iter().filter(|(_, count)| *count > 0.0).count();
+            let own = rows.iter().filter(|row| row.station == *station).count();
+            (targets, own, std::cmp::Reverse(*station))
+        };
+        let most = (0..stations).max_by_key(watched).unwrap_or(0);
+        unknowns.stations[most].known = Known::Yes;
+        take_over(unknowns, &mut there, most);
+    }
+    while let Some((shared, station)) = (0..stations)
+        .filter(|&station| !is_placed(unknowns, station))
+        .map(|station| {
+            let shared = (0..objects).filter(|&at| there[at].is_some() && seen(station, at).is_some());
+            (shared.count(), std::cmp::Reverse(station))
+        })
+        .max()
+        .map(|(shared, station)| (shared, station.0))
+    {
+        let pairs: Vec<(Vector3<f64>, Vector3<f64>)> =
+            (0..objects).filter_map(|at| Some((seen(station, at)?, there[at]?))).collect();
+        let (from, to): (Vec<_>, Vec<_>) = pairs.into_iter().unzip();
+        let laid = if is_in_a_line(&from) { None } else { align_robustly(&from, &to) };
+        let label = || unknowns.stations[station].label.clone();
+        let Some((turn, shift)) = laid else {
+            return Err(StartError::NotConnected { station: label(), shared });
+        };
+        let own = &mut unknowns.stations[station];
+        own.pose = Pose { turn: Rotation3::from_matrix_unchecked(turn), shift };
+        own.known = Known::Yes;
+        take_over(unknowns, &mut there, station);
+    }
+    Ok(())
+}
+
+/// Whether points leave a turn about their line open.
+fn is_in_a_line(points: &[Vector3<f64>]) -> bool {
+    let Some((_, spread)) = spread(points.iter().copied()) else { return true };
+    let values = spread.symmetric_eigenvalues();
+    let mut values = [values[0], values[1], values[2]];
+    values.sort_by(f64::total_cmp);
+    points.len() < 3 || values[1] <= FLAT * FLAT * values[2]
+}
+
+/// The centre of points and the sum of squares about it.
+fn spread(points: impl Iterator<Item = Vector3<f64>> + Clone) -> Option<(Vector3<f64>, Matrix3<f64>)> {
+    let count = points.clone().count();
+    let centre = points.clone().sum::<Vector3<f64>>() / count as f64;
+    let squares = points.map(|point| (point - centre) * (point - centre).transpose()).sum();
+    (count > 0).then_some((centre, squares))
+}
+
+/// An object from its rows, the stations being where they are.
+fn place_object(object: &mut Object, rows: &[&Row], poses: &[Pose]) -> Result<(), StartError> {
+    let not = |help| StartError::NotPlaced { object: object.label.clone(), rows: rows.len(), help };
+    let points = rows.iter().zip(poses).map(|(row, pose)| pose.apply(&row.point));
+    let Some((centre, squares)) = spread(points.clone()) else { return Ok(()) };
+    object.known = Known::Yes;
+    match object.shape {
+        Shape::Plane => {
+            let eigen = squares.symmetric_eigen();
+            let mut order = [0, 1, 2];
+            order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
+            if rows.len() < 3 || eigen.eigenvalues[order[1]] <= FLAT * FLAT * eigen.eigenvalues[order[2]] {
+                return Err(not("observe it at three places at least that are not in a line"));
+            }
+            let normal: Vector3<f64> = eigen.eigenvectors.column(order[0]).into();
+            // Of the two the one whose largest part is positive.
+            let largest = normal
+                .iter()
+                .copied()
+                .fold(0.0, |most: f64, part| if part.abs() > most.abs() { part } else { most });
+            object.normal = normal * largest.signum();
+            object.place = centre;
+        }
+        Shape::Point if rows.iter().any(|row| tells(row)) => {
+            let telling = rows.iter().zip(points).filter(|(row, _)| tells(row)).map(|(_, point)| point);
+            let count = telling.clone().count() as f64;
+            object.place = telling.sum::<Vector3<f64>>() / count;
+        }
+        Shape::Point => {
+            // Where the beams come nearest to each other.
+            let beams =
+                rows.iter().zip(poses).map(|(row, pose)| (pose.turn * row.point.normalize(), pose.shift));
+            let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
+            for (beam, from) in beams {
+                let across = Matrix3::identity() - beam * beam.transpose();
+                normal += across;
+                right += across * from;
+            }
+            let values = normal.symmetric_eigenvalues();
+            let flat = values.min() <= FLAT * values.max();
+            let solved = if flat { None } else { normal.cholesky().map(|factor| factor.solve(&right)) };
+            object.place = solved.ok_or_else(|| {
+                not("its beams do not cross: sight it from another station, or write where it is")
+            })?;
+        }
+        Shape::Wire => {
+            // |x|² − L² = 2 x·a + 2 L z − (|a|² − z²): linear in a, z and what is in the brackets.
+            let matrix = DMatrix::from_fn(rows.len(), 5, |i, j| match j {
+                0..3 => 2.0 * poses[i].apply(&rows[i].point)[j],
+                3 => 2.0 * rows[i].measured,
+                _ => -1.0,
+            });
+            let right = DVector::from_fn(rows.len(), |i, _| {
+                poses[i].apply(&rows[i].point).norm_squared() - rows[i].measured.powi(2)
+            });
+            let too_few = "a wire takes five rows at least, at points that are not in a plane";
+            if rows.len() < 5 {
+                return Err(not(too_few));
+            }
+            let solved = matrix.svd(true, true).solve(&right, FLAT).map_err(|_| not(too_few))?;
+            object.place = Vector3::new(solved[0], solved[1], solved[2]);
+            object.offset = solved[3];
+        }
+    }
+    Ok(())
+}

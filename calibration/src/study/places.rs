@@ -1,0 +1,177 @@
+//! What a study says of objects and stations: where they are, how surely, and how large errors may be beside them.
+
+use model_core::{Chain, ObservableId, Quantity, SymbolId, SymbolKind};
+use nalgebra::Vector3;
+use toml::Spanned;
+
+use super::estimated::matching;
+use super::mistakes::{Outcome, every, mistake};
+use super::plan::{SourcePlan, si};
+use super::written::{Kind, ObjectTable, Observed, StationTable, Study};
+use crate::data::units::Amount;
+use crate::data::unknowns::{Freedom, Known, Object, Places, Pose, Shape, Station};
+use crate::fit::FitOptions;
+
+/// The size of errors beside unknown objects and stations where the study states none: 5 mm, 5 mrad, 0.005.
+const TOLERANCE: f64 = 5e-3;
+
+/// Turns of a station whose shift alone has a stated uncertainty, rad: as good as not known.
+const ANY_TURN_RAD: f64 = 10.0;
+
+impl Study {
+    /// Holds what is observed to the observable, and its columns to its kind.
+    pub(super) fn check_observed(
+        &self,
+        chain: &Chain,
+        id: ObservableId,
+        written: &Spanned<Observed>,
+    ) -> Outcome<()> {
+        let (observed, place) = (written.get_ref(), written.span());
+        let observable = chain.observable(id);
+        let is_point = observable.kind == model_core::ObservableKind::Point;
+        let of_points = [Kind::Point, Kind::Range, Kind::Plane, Kind::Target, Kind::Fixed, Kind::Wire];
+        let wants_point = of_points.contains(&observed.kind);
+        if is_point != wants_point {
+            let (what, help) = if is_point {
+                (
+                    "a point",
+                    "write kind = \"point\", \"range\", \"plane\", \"target\", \"fixed\" or \"wire\", or name another observable",
+                )
+            } else {
+                (
+                    "a direction",
+                    "write kind = \"direction\", \"spherical\", \"offset\" or \"sight\", or name another observable",
+                )
+            };
+            let message = format!("`{}` is {what}, which this kind does not measure", observable.name);
+            return Err(mistake(place, message, help));
+        }
+        let kinds = [Kind::Plane, Kind::Target, Kind::Fixed, Kind::Wire, Kind::Sight];
+        let of_objects = kinds.contains(&observed.kind);
+        if of_objects && observed.object.0.is_empty() {
+            let help = "write `object = \"…\"`: the column that names the wall, the target or the socket of each row";
+            return Err(mistake(place, "which object does each row observe?", help));
+        }
+        if !of_objects && !(observed.object.0.is_empty() && observed.station.0.is_empty()) {
+            let help = "leave `object` and `station` out, or write kind = \"plane\", \"target\", \"fixed\", \"wire\" or \"sight\"";
+            return Err(mistake(place, "what this kind observes is known row by row", help));
+        }
+        Ok(())
+    }
+
+    /// What is different where objects are unknown.
+    pub(super) fn with_objects(&self, sources: &[SourcePlan], fit: &mut FitOptions) -> Outcome<()> {
+        if sources.iter().all(|source| Shape::of(source.measure).is_none()) {
+            return Ok(());
+        }
+        // Rows that follow each other belong to different objects: what they share is those.
+        fit.noise.serial = false;
+        fit.anchored = true;
+        let Some(file) = &self.hold_out.file else { return Ok(()) };
+        let place = self.text.find(file.as_str()).map_or(0..0, |start| start..start + file.len());
+        let help = "leave `file` out: objects are held out, each estimated anew from its own rows";
+        Err(mistake(place, "a second file has objects of its own, which nothing places", help))
+    }
+
+    /// Where the study says that stations and objects are.
+    pub(super) fn places(&self, sources: &[SourcePlan]) -> Outcome<Places> {
+        let said = self.stations.keys().chain(self.objects.keys()).next();
+        if let (Some(name), true) = (said, sources.iter().all(|source| Shape::of(source.measure).is_none())) {
+            let help = "write `[observed] kind = \"target\"`, \"plane\", \"fixed\", \"wire\" or \"sight\", or leave it out";
+            return Err(mistake(name.span(), "no data of this study observe objects from stations", help));
+        }
+        let stations = every(self.stations.iter().map(|(name, table)| station(name.get_ref(), table)));
+        let objects = every(self.objects.iter().map(|(name, table)| object(name.get_ref(), table)));
+        Ok(Places { stations: stations?, objects: objects? })
+    }
+
+    /// How large errors may be that the data do not show, where objects are unknown or the study says so.
+    pub(super) fn tolerances(&self, chain: &Chain, sources: &[SourcePlan]) -> Outcome<Vec<(SymbolId, f64)>> {
+        let of_objects = sources.iter().any(|source| Shape::of(source.measure).is_some());
+        let errors = chain.symbols_of(SymbolKind::Error);
+        let mut sizes: Vec<(SymbolId, f64)> =
+            if of_objects { errors.map(|id| (id, TOLERANCE)).collect() } else { Vec::new() };
+        // Patterns first, so that a plain name wins over them.
+        let is_pattern = |name: &str| model_core::names::is_pattern(name);
+        let (patterns, names): (Vec<_>, Vec<_>) =
+            self.fit.tolerance.iter().partition(|(name, _)| is_pattern(name.get_ref()));
+        for (name, amount) in patterns.into_iter().chain(names) {
+            for id in matching(chain, name)? {
+                let quantity = chain.symbol(id).quantity;
+                // A pattern means those that the unit can be of.
+                let value = match si(amount.get_ref(), quantity, &amount.span()) {
+                    Err(_) if is_pattern(name.get_ref()) => continue,
+                    value => value?,
+                };
+                if !(value > 0.0 && value.is_finite()) {
+                    return Err(mistake(
+                        amount.span(),
+                        "a tolerance is positive",
+                        "write \"5 mm\" or \"1 mrad\"",
+                    ));
+                }
+                sizes.retain(|(known, _)| *known != id);
+                sizes.push((id, value));
+            }
+        }
+        Ok(sizes)
+    }
+}
+
+type Placed<'a, T> = &'a Spanned<T>;
+
+fn station(label: &str, written: Placed<'_, StationTable>) -> Outcome<Station> {
+    let (table, place) = (written.get_ref(), written.span());
+    let of = |amount: &Option<Amount>, quantity| {
+        amount.as_ref().map_or(Ok(0.0), |amount| si(amount, quantity, &place))
+    };
+    let (length, angle) = (|amount| of(amount, Quantity::Length), |amount| of(amount, Quantity::Angle));
+    let shift = Vector3::new(length(&table.x)?, length(&table.y)?, length(&table.z)?);
+    let pose = Pose::new(shift, angle(&table.roll)?, angle(&table.pitch)?, angle(&table.heading)?);
+    let sigma = (length(&table.sigma)?, angle(&table.sigma_angle)?);
+    let freedom = match (table.rough, &table.sigma, &table.sigma_angle) {
+        (true, None, None) => Freedom::Free,
+        (true, ..) => {
+            let help = "leave out `rough`, or the uncertainties";
+            return Err(mistake(place, "a rough pose is a start alone and has no uncertainty", help));
+        }
+        (false, None, None) => Freedom::Given,
+        (false, Some(_), None) => {
+            Freedom::Within { shift_m: positive(sigma.0, &place)?, turn_rad: ANY_TURN_RAD }
+        }
+        (false, Some(_), Some(_)) => {
+            Freedom::Within { shift_m: positive(sigma.0, &place)?, turn_rad: positive(sigma.1, &place)? }
+        }
+        (false, None, Some(_)) => {
+            let help = "write `sigma = \"1 mm\"` for its coordinates beside `sigma_angle`";
+            return Err(mistake(place, "how surely are the coordinates of this station known?", help));
+        }
+    };
+    Ok(Station { label: label.to_owned(), freedom, known: Known::Yes, pose })
+}
+
+fn object(label: &str, written: Placed<'_, ObjectTable>) -> Outcome<Object> {
+    let (table, place) = (written.get_ref(), written.span());
+    let length = |amount: &Amount| si(amount, Quantity::Length, &place);
+    let at = Vector3::new(length(&table.x)?, length(&table.y)?, length(&table.z)?);
+    let freedom = match (table.rough, &table.sigma) {
+        (true, None) => Freedom::Free,
+        (true, Some(_)) => {
+            let help = "leave out `rough` or `sigma`";
+            return Err(mistake(place, "a rough place is a start alone and has no uncertainty", help));
+        }
+        (false, None) => Freedom::Given,
+        (false, Some(sigma)) => {
+            Freedom::Within { shift_m: positive(length(sigma)?, &place)?, turn_rad: ANY_TURN_RAD }
+        }
+    };
+    Ok(Object { freedom, known: Known::Yes, place: at, ..Object::unknown(label.to_owned(), Shape::Point) })
+}
+
+fn positive(sigma: f64, place: &std::ops::Range<usize>) -> Outcome<f64> {
+    if sigma > 0.0 && sigma.is_finite() {
+        return Ok(sigma);
+    }
+    let help = "leave it out where the place is exact, or write `rough = true` where it is not known";
+    Err(mistake(place.clone(), "a standard uncertainty is positive", help))
+}

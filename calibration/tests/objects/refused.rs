@@ -1,0 +1,84 @@
+//! What cannot be placed is named, with what to add.
+
+use calibration::study::Study;
+use model_core::Chain;
+
+use super::{read, text_of};
+
+fn targets(change: impl Fn(&str) -> Option<String>) -> String {
+    text_of("examples/objects/targets.csv").lines().filter_map(change).map(|line| line + "\n").collect()
+}
+
+fn refused(study: &str, data: &str) -> String {
+    let error = read(&text_of("examples/objects/scanner.chain"), study, data).unwrap_err();
+    error.to_string()
+}
+
+/// Station C shares two targets with the others.
+#[test]
+fn a_station_that_nothing_connects_is_named() {
+    let data = targets(|line| {
+        let shared = ["C,T1,", "C,T2,"].iter().any(|start| line.starts_with(start));
+        let own = line.strip_prefix("C,").filter(|_| !shared).map(|rest| format!("C,own {rest}"));
+        Some(own.unwrap_or_else(|| line.to_owned()))
+    });
+    let told = refused(&text_of("examples/objects/targets.toml"), &data);
+    assert!(
+        told.contains("station `C`") && told.contains("shares 2 targets") && told.contains("rough = true"),
+        "{told}"
+    );
+}
+
+#[test]
+fn a_plane_of_two_rows_is_named() {
+    let mut seen = 0;
+    let data: String = text_of("examples/objects/walls.csv")
+        .lines()
+        .filter(|line| {
+            let east = line.split(',').nth(1) == Some("east");
+            seen += usize::from(east);
+            !east || seen <= 2
+        })
+        .map(|line| format!("{line}\n"))
+        .collect();
+    let told = refused(&text_of("examples/objects/walls.toml"), &data);
+    assert!(told.contains("the 2 rows of `east`") && told.contains("three places"), "{told}");
+}
+
+#[test]
+fn a_place_that_no_row_names_is_told() {
+    let study = text_of("examples/objects/targets.toml") + "\n[stations]\nE = { x = \"1 m\" }\n";
+    let told = refused(&study, &text_of("examples/objects/targets.csv"));
+    assert!(told.contains("`E`") && told.contains("no row"), "{told}");
+}
+
+/// What a study cannot mean, each with the word that helps.
+#[test]
+fn studies_that_cannot_be_meant_are_refused() {
+    let good = text_of("examples/objects/targets.toml");
+    let chain = Chain::from_text(&text_of("examples/objects/scanner.chain")).unwrap();
+    let cases = [
+        (good.replace("object  = \"object\"\n", ""), "which object"),
+        (good.replace("kind    = \"target\"", "kind    = \"point\""), "known row by row"),
+        (good.replace("kind    = \"target\"", "kind    = \"sight\""), "is a point"),
+        (good.replace("kind    = \"target\"", "kind    = \"wire\""), "no column is named for `length`"),
+        (good.clone() + "[hold_out]\nfile = \"more.csv\"\n", "objects of its own"),
+        (
+            good.clone() + "[stations]\nA = { x = \"1 m\", rough = true, sigma = \"1 mm\" }\n",
+            "has no uncertainty",
+        ),
+        (
+            good.clone() + "[objects]\nT1 = { x = \"1 m\", y = \"0 m\", z = \"0 m\", sigma = \"0 mm\" }\n",
+            "is positive",
+        ),
+        (good.clone() + "[fit]\ntolerance = { trunnion = \"-1 mrad\" }\n", "tolerance is positive"),
+        (good + "[fit]\ntolerance = { trunion = \"1 mrad\" }\n", "no error or constant is called `trunion`"),
+    ];
+    for (study, expected) in cases {
+        let mistakes = match Study::from_text(&study).and_then(|study| study.plan(&chain)) {
+            Err(mistakes) => mistakes.render("study", &study),
+            Ok(_) => panic!("{study}"),
+        };
+        assert!(mistakes.contains(expected), "{expected}: {mistakes}");
+    }
+}

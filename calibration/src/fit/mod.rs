@@ -22,6 +22,7 @@ mod stream;
 mod subspace;
 pub(crate) mod sweep;
 mod uncertainty;
+mod wire;
 
 use faer::Mat;
 use model_core::{Chain, SymbolId, SymbolKind};
@@ -41,6 +42,7 @@ pub use stream::{Next, Pass, Streamed, StreamedResult};
 pub use subspace::Subspace;
 pub use sweep::Tally;
 pub use uncertainty::Estimable;
+pub use wire::PartialError;
 
 /// What to fit and how.
 #[derive(Debug, Clone, PartialEq)]

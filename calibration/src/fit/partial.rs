@@ -6,7 +6,8 @@
 
 use codegen::vector::{self, Arithmetic};
 use faer::{Mat, MatRef};
-use serde::{Deserialize, Serialize};
+
+use super::wire::PartialError;
 
 /// Numbers that are multiplied at once.
 const LANES: usize = 8;
@@ -14,7 +15,7 @@ const LANES: usize = 8;
 /// The triangular factor R of [J | r] for all rows so far, with counts: QᵀQ = 1, [J | r] = Q R.
 ///
 /// p parameters, so R is (p + 1) × (p + 1); the last column belongs to the residual.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Partial {
     /// p.
     pub parameters: usize,
@@ -77,14 +78,30 @@ impl Partial {
         self.with(rows)
     }
 
-    /// Both together. Partials of different numbers of parameters do not belong together; the first is returned.
-    #[must_use]
-    pub fn merge(self, other: &Self) -> Self {
-        if other.parameters != self.parameters || other.components == 0 {
-            return self;
+    /// Both together.
+    ///
+    /// # Errors
+    /// Partials of different numbers of parameters do not belong together.
+    pub fn merge(self, other: &Self) -> Result<Self, PartialError> {
+        if other.parameters != self.parameters {
+            return Err(PartialError::Columns { one: self.parameters, other: other.parameters });
+        }
+        if other.components == 0 {
+            return Ok(self);
         }
         let components = self.components + other.components;
-        Self { components, ..self.with_rows(other.factor().as_ref()) }
+        Ok(Self { components, ..self.with_rows(other.factor().as_ref()) })
+    }
+
+    /// R, column by column, each down to its diagonal.
+    pub(super) fn packed(&self) -> &[f64] {
+        &self.packed
+    }
+
+    /// The partial of so many numbers as its triangle has.
+    pub(super) fn of_packed(parameters: usize, components: u64, packed: Vec<f64>) -> Self {
+        debug_assert_eq!(packed.len(), (parameters + 1) * (parameters + 2) / 2);
+        Self { parameters, components, packed }
     }
 
     /// The partial of parameters each of which has one of these columns, or none: then its column is zero.
@@ -205,7 +222,7 @@ mod tests {
             let whole = Partial::new(2).with_rows(rows.as_ref());
             let first = Partial::new(2).with_rows(rows.subrows(0, cut));
             let second = Partial::new(2).with_rows(rows.subrows(cut, 20 - cut));
-            let merged = first.merge(&second);
+            let merged = first.merge(&second).unwrap();
             assert_eq!(merged.components, 20);
             let direct = rows.transpose() * &rows;
             for row in 0..3 {

@@ -13,6 +13,7 @@ use super::partial::Partial;
 use super::size::UNSHOWN;
 use super::subspace::Subspace;
 use super::sweep::{Tally, Weighting, tally};
+use super::wire::fingerprint;
 use super::{FitError, FitOptions, fit, robust};
 use crate::data::Observations;
 use crate::fit::noise::{self, Layout, NoiseOptions};
@@ -223,7 +224,7 @@ impl Pass {
     /// A tally without rows.
     #[must_use]
     pub fn empty(&self) -> Tally {
-        Tally::new(self.model.columns(), self.floor.len())
+        Tally { pass: self.fingerprint(), ..Tally::new(self.model.columns(), self.floor.len()) }
     }
 
     /// Takes in one chunk.
@@ -237,6 +238,13 @@ impl Pass {
             return Err(FitError::WrongShape { why });
         }
         let noise = noise::of_floors(self.floor.clone(), &self.noise, chunk, &layout);
-        tally(&self.model, chunk, &layout, &self.values, &noise.sigma, self.weighting)
+        let tally = tally(&self.model, chunk, &layout, &self.values, &noise.sigma, self.weighting)?;
+        Ok(Tally { pass: self.fingerprint(), ..tally })
+    }
+
+    /// What tells the tallies of this pass from those of others.
+    fn fingerprint(&self) -> u64 {
+        let numbers = self.values.iter().chain(&self.floor).map(|number| number.to_bits());
+        fingerprint(numbers.chain([self.weighting as u64]))
     }
 }

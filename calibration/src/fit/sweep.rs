@@ -2,11 +2,10 @@
 //!
 //! Nothing of a row is kept but its residual, and that only for those who ask: derivatives go straight into the factor.
 
-use serde::{Deserialize, Serialize};
-
 use super::model::{Block, Model};
 use super::objects::{Collected, Eliminated};
 use super::partial::{Partial, Rows};
+use super::wire::PartialError;
 use super::{FitError, robust};
 use crate::data::Observations;
 use crate::fit::noise::Layout;
@@ -48,8 +47,10 @@ impl Weighting {
 }
 
 /// What some rows say of the next step; that of parts merges.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Tally {
+    /// The pass that it belongs to; 0 where all rows are in memory.
+    pub(super) pass: u64,
     /// Rows that went in.
     pub(super) rows: u64,
     /// Rows with weight.
@@ -74,6 +75,7 @@ impl Tally {
     /// No rows yet.
     pub(super) fn new(columns: usize, kinds: usize) -> Self {
         Self {
+            pass: 0,
             rows: 0,
             kept: 0,
             partial: Partial::new(columns),
@@ -86,23 +88,33 @@ impl Tally {
         }
     }
 
-    /// The tally of both parts.
-    #[must_use]
-    pub fn merge(mut self, other: &Self) -> Self {
+    /// The tally of both parts. Parts may be merged in any order and any grouping: the results differ by rounding.
+    ///
+    /// # Errors
+    /// Tallies of different passes or models.
+    pub fn merge(mut self, other: &Self) -> Result<Self, PartialError> {
+        if self.kinds.len() != other.kinds.len() {
+            return Err(PartialError::Kinds { one: self.kinds.len(), other: other.kinds.len() });
+        }
+        let partial = self.partial.merge(&other.partial)?;
+        if self.pass != other.pass {
+            return Err(PartialError::Passes);
+        }
         for (kind, other) in self.kinds.iter_mut().flatten().zip(other.kinds.iter().flatten()) {
             *kind += other;
         }
-        Self {
+        Ok(Self {
+            pass: self.pass,
             rows: self.rows + other.rows,
             kept: self.kept + other.kept,
-            partial: self.partial.merge(&other.partial),
+            partial,
             kinds: self.kinds,
             objective: self.objective + other.objective,
             weighted_squares: self.weighted_squares + other.weighted_squares,
             weights: self.weights + other.weights,
             slopes: self.slopes + other.slopes,
             squares: self.squares + other.squares,
-        }
+        })
     }
 
     /// By how much a step with weights held fixed falls short of the minimum, because the weights move along.
@@ -292,7 +304,8 @@ fn sweep_with<T: Send>(
     let mut kept = Vec::with_capacity(parts.len());
     let mut rows = Vec::new();
     for (part, own, collected) in parts {
-        whole = whole.merge(&part);
+        let Ok(merged) = whole.merge(&part) else { unreachable!("the parts are of one model and no pass") };
+        whole = merged;
         kept.push(own);
         rows.extend(collected);
     }

@@ -1,7 +1,9 @@
 //! Rows in chunks give what all rows at once give.
 
 use calibration::data::{Observations, Series};
-use calibration::fit::{FitError, FitOptions, FitResult, Next, Streamed, StreamedResult, fit};
+use calibration::fit::{
+    FitError, FitOptions, FitResult, Next, PartialError, Streamed, StreamedResult, Tally, fit,
+};
 
 use crate::simulated::Simulation;
 
@@ -17,7 +19,7 @@ fn streamed(
     let mut state = Streamed::from_sample(&simulation.chain, sample, options).unwrap();
     loop {
         let tallies: Vec<_> = chunks.iter().map(|chunk| state.pass.accumulate(chunk).unwrap()).collect();
-        let whole = tallies.iter().fold(state.pass.empty(), |whole, part| whole.merge(part));
+        let whole = tallies.iter().fold(state.pass.empty(), |whole, part| whole.merge(part).unwrap());
         match state.next(&whole) {
             Next::Pass(next) => state = *next,
             Next::Done(result) => return *result,
@@ -59,6 +61,79 @@ fn chunks_give_what_all_rows_give() {
         let parts = streamed(&simulation, &chunks[0], &chunks, &options);
         assert_same(&parts, &all);
     }
+}
+
+/// All passes over these chunks, whose tallies travel as bytes and merge pairwise in an order drawn at random.
+fn merged_at_random(
+    simulation: &Simulation,
+    chunks: &[Observations],
+    options: &FitOptions,
+    mut draw: impl FnMut(usize) -> usize,
+) -> StreamedResult {
+    let mut state = Streamed::from_sample(&simulation.chain, &chunks[0], options).unwrap();
+    loop {
+        let mut tallies: Vec<Tally> = chunks
+            .iter()
+            .map(|chunk| Tally::from_bytes(&state.pass.accumulate(chunk).unwrap().to_bytes()).unwrap())
+            .collect();
+        while tallies.len() > 1 {
+            let one = tallies.swap_remove(draw(tallies.len()));
+            let other = tallies.swap_remove(draw(tallies.len()));
+            tallies.push(one.merge(&other).unwrap());
+        }
+        match state.next(&tallies[0]) {
+            Next::Pass(next) => state = *next,
+            Next::Done(result) => return *result,
+        }
+    }
+}
+
+proptest::proptest! {
+    #![proptest_config(proptest::test_runner::Config::with_cases(12))]
+
+    /// However the rows are split and the tallies merged, the answer is the same to rounding.
+    #[test]
+    fn any_split_and_any_order_give_one_answer(
+        cuts in proptest::collection::vec(400_usize..2000, 0..6),
+        order in proptest::collection::vec(0_usize..1000, 64),
+        robust in proptest::bool::ANY,
+    ) {
+        let mut simulation = Simulation::lidar(2000, 11);
+        simulation.draw_errors("d*", 100.0 * ARCSEC);
+        let observations = simulation.directions("pointing", 2.0 * ARCSEC);
+        let mut options = FitOptions::for_chain(&simulation.chain);
+        options.robust = robust;
+        options.noise.variance = false;
+        // The first chunk is the sample, and so the same in every split.
+        let mut ends = [cuts, vec![400, 2000]].concat();
+        ends.sort_unstable();
+        let starts = [0].into_iter().chain(ends.iter().copied());
+        let part = |(start, &end)| observations.select(&(start..end).collect::<Vec<_>>());
+        let chunks: Vec<Observations> = starts.zip(&ends).map(part).collect();
+        let whole: Vec<Observations> =
+            [0..400, 400..2000].map(|rows| observations.select(&rows.collect::<Vec<_>>())).to_vec();
+        let expected = streamed(&simulation, &whole[0], &whole, &options);
+        let mut order = order.into_iter().cycle();
+        let found = merged_at_random(&simulation, &chunks, &options, |most| order.next().unwrap_or(0) % most);
+        assert_eq!((found.rows, found.rank, found.passes), (expected.rows, expected.rank, expected.passes));
+        for (at, &parameter) in expected.parameters.iter().enumerate() {
+            let uncertainty = expected.covariance[(at, at)].sqrt();
+            let moved = found.values[parameter.index()] - expected.values[parameter.index()];
+            assert!(moved.abs() <= 1e-9 * uncertainty, "{at}: {}", moved / uncertainty);
+        }
+    }
+}
+
+#[test]
+fn tallies_of_different_passes_do_not_belong_together() {
+    let simulation = Simulation::lidar(500, 3);
+    let observations = simulation.directions("pointing", 2.0 * ARCSEC);
+    let options = FitOptions::for_chain(&simulation.chain);
+    let state = Streamed::from_sample(&simulation.chain, &observations, &options).unwrap();
+    let first = state.pass.accumulate(&observations).unwrap();
+    let Next::Pass(next) = state.next(&first) else { panic!("one pass never is enough") };
+    let second = next.pass.accumulate(&observations).unwrap();
+    assert_eq!(first.merge(&second), Err(PartialError::Passes));
 }
 
 /// Directions in the first 2,000 rows, positions in the next: most chunks hold one of the two alone.

@@ -1,0 +1,209 @@
+//! Tallies as bytes, for merging what several processes accumulated: the same bytes on every machine.
+//!
+//! Eight letters that say what they are and of which version, then whole numbers and f64, all with the lowest byte first.
+
+use super::partial::Partial;
+use super::sweep::Tally;
+
+/// What the bytes begin with; its end is the version of what follows.
+const MAGIC: &[u8; 8] = b"TXTALLY1";
+
+/// Letters of the magic that no version changes.
+const NAME: usize = 7;
+
+/// Parameters that bytes may speak of: beyond any chain, and a triangle of them is still counted without overflow.
+const MOST: u64 = 1 << 20;
+
+/// Why partial sums do not belong together, or bytes are none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum PartialError {
+    /// Sums over different parameters.
+    #[error(
+        "partial sums of {one} and of {other} columns do not belong together: accumulate both with one pass"
+    )]
+    Columns {
+        /// Columns of the one.
+        one: usize,
+        /// Columns of the other.
+        other: usize,
+    },
+    /// Sums over different kinds of components.
+    #[error(
+        "partial sums of {one} and of {other} kinds of components do not belong together: accumulate both with one pass"
+    )]
+    Kinds {
+        /// Kinds of the one.
+        one: usize,
+        /// Kinds of the other.
+        other: usize,
+    },
+    /// Sums at different values of the errors, or with different weights.
+    #[error(
+        "partial sums of different passes do not belong together: accumulate every chunk again with the pass at hand"
+    )]
+    Passes,
+    /// Bytes that are something else.
+    #[error("these bytes are no partial sums")]
+    NotPartial,
+    /// Bytes of another version.
+    #[error("these bytes are partial sums as another version writes them: run the same version everywhere")]
+    Version,
+    /// Too few bytes, or too many.
+    #[error(
+        "these partial sums have {found} bytes where {expected} were expected: they were cut off, or added to"
+    )]
+    Length {
+        /// Bytes that there should be.
+        expected: usize,
+        /// Bytes that there are.
+        found: usize,
+    },
+    /// A number among them is none.
+    #[error("these partial sums hold a number that is not finite")]
+    NotFinite,
+}
+
+impl Tally {
+    /// The tally as bytes.
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let counts = [
+            self.pass,
+            self.partial.parameters as u64,
+            self.kinds.len() as u64,
+            self.rows,
+            self.kept,
+            self.partial.components,
+        ];
+        let sums = [self.objective, self.weighted_squares, self.weights, self.slopes, self.squares];
+        let numbers = self.partial.packed().iter().chain(self.kinds.as_flattened()).chain(&sums);
+        let mut bytes = MAGIC.to_vec();
+        bytes.extend(counts.iter().flat_map(|count| count.to_le_bytes()));
+        bytes.extend(numbers.flat_map(|number| number.to_le_bytes()));
+        bytes
+    }
+
+    /// The tally that [`Tally::to_bytes`] wrote.
+    ///
+    /// # Errors
+    /// The bytes are something else, of another version, cut off, or hold what is no number.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, PartialError> {
+        let (magic, rest) = bytes.split_at_checked(MAGIC.len()).ok_or(PartialError::NotPartial)?;
+        if magic[..NAME] != MAGIC[..NAME] {
+            return Err(PartialError::NotPartial);
+        }
+        if magic != MAGIC {
+            return Err(PartialError::Version);
+        }
+        let (words, odd) = rest.as_chunks::<8>();
+        let Some((&[pass, parameters, kinds, rows, kept, components], words)) =
+            words.split_first_chunk::<6>()
+        else {
+            return Err(PartialError::Length { expected: MAGIC.len() + 6 * 8, found: bytes.len() });
+        };
+        let [parameters, kinds] = [parameters, kinds].map(u64::from_le_bytes);
+        if parameters > MOST || kinds > MOST {
+            return Err(PartialError::NotPartial);
+        }
+        let (side, kinds) = (parameters as usize + 1, kinds as usize);
+        let packed = side * (side + 1) / 2;
+        let expected = packed + 2 * kinds + 5;
+        if words.len() != expected || !odd.is_empty() {
+            let expected = MAGIC.len() + (6 + expected) * 8;
+            return Err(PartialError::Length { expected, found: bytes.len() });
+        }
+        let numbers: Vec<f64> = words.iter().map(|&word| f64::from_le_bytes(word)).collect();
+        if !numbers.iter().all(|number| number.is_finite()) {
+            return Err(PartialError::NotFinite);
+        }
+        let (packed, rest) = numbers.split_at(packed);
+        let (kinds, sums) = rest.split_at(2 * kinds);
+        let &[objective, weighted_squares, weights, slopes, squares] = sums else {
+            unreachable!("the length was checked: five sums are left")
+        };
+        Ok(Self {
+            pass: u64::from_le_bytes(pass),
+            rows: u64::from_le_bytes(rows),
+            kept: u64::from_le_bytes(kept),
+            partial: Partial::of_packed(side - 1, u64::from_le_bytes(components), packed.to_vec()),
+            kinds: kinds.as_chunks::<2>().0.to_vec(),
+            objective,
+            weighted_squares,
+            weights,
+            slopes,
+            squares,
+        })
+    }
+}
+
+/// A number that is the same for the same numbers, and hardly for others.
+///
+/// Source: G. Fowler, L. C. Noll, K.-P. Vo, FNV-1a with 64 bits, IETF draft-eastlake-fnv.
+pub(super) fn fingerprint(numbers: impl IntoIterator<Item = u64>) -> u64 {
+    numbers.into_iter().flat_map(u64::to_le_bytes).fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tally() -> Tally {
+        let partial = Partial::of_packed(1, 7, vec![1.0, -2.5, 1e-300]);
+        Tally {
+            pass: 9,
+            rows: 5,
+            kept: 4,
+            kinds: vec![[1.5, 2.0]],
+            objective: 0.25,
+            partial,
+            ..Tally::new(1, 1)
+        }
+    }
+
+    #[test]
+    fn bytes_are_what_they_were() {
+        let bytes = tally().to_bytes();
+        assert_eq!(Tally::from_bytes(&bytes), Ok(tally()));
+        // The promise: of this version, these bytes and no others.
+        assert_eq!(bytes.len(), 8 + 6 * 8 + (3 + 2 + 5) * 8);
+        assert_eq!(&bytes[..24], b"TXTALLY1\x09\0\0\0\0\0\0\0\x01\0\0\0\0\0\0\0");
+        assert_eq!(bytes[56..64], 1.0_f64.to_le_bytes());
+    }
+
+    #[test]
+    fn spoiled_bytes_are_refused() {
+        let bytes = tally().to_bytes();
+        for end in 0..bytes.len() {
+            assert!(Tally::from_bytes(&bytes[..end]).is_err(), "{end}");
+        }
+        let spoiled = |at: usize, with: u8| {
+            let mut bytes = bytes.clone();
+            bytes[at] = with;
+            Tally::from_bytes(&bytes)
+        };
+        assert_eq!(spoiled(0, b'U'), Err(PartialError::NotPartial));
+        assert_eq!(spoiled(7, b'2'), Err(PartialError::Version));
+        assert_eq!(spoiled(16, 2), Err(PartialError::Length { expected: 160, found: 136 }));
+        assert_eq!(spoiled(23, 255), Err(PartialError::NotPartial));
+        assert_eq!(spoiled(63, 0x7f), Err(PartialError::NotFinite));
+        let longer = [bytes.as_slice(), &[0]].concat();
+        assert_eq!(Tally::from_bytes(&longer), Err(PartialError::Length { expected: 136, found: 137 }));
+    }
+
+    #[test]
+    fn what_does_not_belong_together_is_not_merged() {
+        let merged = |other: Tally| tally().merge(&other).map(|_| ());
+        assert_eq!(merged(tally()), Ok(()));
+        assert_eq!(merged(Tally { pass: 8, ..tally() }), Err(PartialError::Passes));
+        assert_eq!(
+            merged(Tally { pass: 9, ..Tally::new(2, 1) }),
+            Err(PartialError::Columns { one: 1, other: 2 })
+        );
+        assert_eq!(
+            merged(Tally { pass: 9, ..Tally::new(1, 3) }),
+            Err(PartialError::Kinds { one: 1, other: 3 })
+        );
+    }
+}

@@ -103,9 +103,9 @@ fn processor_s() -> f64 {
 fn streamed(chain: &Chain, chunks: &[Observations], options: &FitOptions) -> StreamedResult {
     let mut state = Streamed::from_sample(chain, &chunks[0], options).unwrap();
     loop {
-        let whole = chunks
-            .iter()
-            .fold(state.pass.empty(), |whole, chunk| whole.merge(&state.pass.accumulate(chunk).unwrap()));
+        let whole = chunks.iter().fold(state.pass.empty(), |whole, chunk| {
+            whole.merge(&state.pass.accumulate(chunk).unwrap()).unwrap()
+        });
         match state.next(&whole) {
             Next::Pass(next) => state = *next,
             Next::Done(result) => return *result,

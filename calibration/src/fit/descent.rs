@@ -4,9 +4,9 @@
 //! anew at every step.
 
 use super::normal::Rest;
-use super::solve::{Solver, same};
+use super::solver::{Course, Solver, same};
 use super::subspace::Subspace;
-use super::sweep::{Sweep, Weighting};
+use super::sweep::Weighting;
 use super::{FitError, Reason};
 use crate::fit::noise::{self, Noise};
 
@@ -27,33 +27,6 @@ const SCALE_SETTLED: f64 = 0.02;
 
 /// From Huber's loss to Tukey's: how much larger than its own the noise is taken first.
 const GRADUAL: [f64; 2] = [3.0, 1.5];
-
-/// Where the solver is: values, and what all rows say there.
-#[derive(Debug, Clone)]
-pub(super) struct Point {
-    pub values: Vec<f64>,
-    pub sweep: Sweep,
-    /// What becomes of the combinations that the data do not determine.
-    pub rest: Rest,
-}
-
-impl Point {
-    /// What the steps make smaller.
-    pub fn objective(&self) -> f64 {
-        self.sweep.tally.objective + self.rest.objective()
-    }
-}
-
-/// A way downhill: where it is, and what it is downhill of.
-#[derive(Debug, Clone)]
-pub(super) struct Course {
-    pub point: Point,
-    pub noise: Noise,
-    pub subspace: Subspace,
-    pub weighting: Weighting,
-    /// Why it ended before steps were negligible, if it did.
-    pub stopped: Option<Reason>,
-}
 
 impl Solver<'_> {
     /// From some values to the bottom, undetermined combinations still; robustly by degrees, from Huber's loss at the scale of

@@ -7,8 +7,7 @@ use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 use statrs::function::factorial::ln_binomial;
 
 use super::FitError;
-use super::descent::Course;
-use super::solve::Solver;
+use super::solver::{Course, Solver};
 use super::sweep::Weighting;
 
 /// Degrees of freedom below which rows count in full or not at all.

@@ -13,10 +13,12 @@ mod normal;
 pub(crate) mod objects;
 mod outcome;
 mod partial;
+mod prior;
 pub(crate) mod residual;
 pub mod robust;
 mod size;
 mod solve;
+mod solver;
 mod stated;
 mod stream;
 mod subspace;
@@ -34,7 +36,7 @@ pub(crate) use align::align_robustly;
 pub use model::{Block, Model};
 pub use normal::{Rest, Step};
 pub use outcome::{Outcome, Reason, SetAside, Why};
-pub use partial::{Partial, Rows};
+pub use partial::{Partial, PartialError, Rows};
 pub use size::{Size, SizeOrigin};
 pub use solve::fit;
 pub use stated::{Agreement, Stated};
@@ -42,7 +44,6 @@ pub use stream::{Next, Pass, Streamed, StreamedResult};
 pub use subspace::Subspace;
 pub use sweep::Tally;
 pub use uncertainty::Estimable;
-pub use wire::PartialError;
 
 /// What to fit and how.
 #[derive(Debug, Clone, PartialEq)]

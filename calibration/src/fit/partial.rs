@@ -7,8 +7,6 @@
 use codegen::vector::{self, Arithmetic};
 use faer::{Mat, MatRef};
 
-use super::wire::PartialError;
-
 /// Numbers that are multiplied at once.
 const LANES: usize = 8;
 
@@ -23,6 +21,55 @@ pub struct Partial {
     pub components: u64,
     /// R, column by column, each down to its diagonal.
     packed: Vec<f64>,
+}
+
+/// Why partial sums do not belong together, or bytes are none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum PartialError {
+    /// Sums over different parameters.
+    #[error(
+        "partial sums of {one} and of {other} columns do not belong together: accumulate both with one pass"
+    )]
+    Columns {
+        /// Columns of the one.
+        one: usize,
+        /// Columns of the other.
+        other: usize,
+    },
+    /// Sums over different kinds of components.
+    #[error(
+        "partial sums of {one} and of {other} kinds of components do not belong together: accumulate both with one pass"
+    )]
+    Kinds {
+        /// Kinds of the one.
+        one: usize,
+        /// Kinds of the other.
+        other: usize,
+    },
+    /// Sums at different values of the errors, or with different weights.
+    #[error(
+        "partial sums of different passes do not belong together: accumulate every chunk again with the pass at hand"
+    )]
+    Passes,
+    /// Bytes that are something else.
+    #[error("these bytes are no partial sums")]
+    NotPartial,
+    /// Bytes of another version.
+    #[error("these bytes are partial sums as another version writes them: run the same version everywhere")]
+    Version,
+    /// Too few bytes, or too many.
+    #[error(
+        "these partial sums have {found} bytes where {expected} were expected: they were cut off, or added to"
+    )]
+    Length {
+        /// Bytes that there should be.
+        expected: usize,
+        /// Bytes that there are.
+        found: usize,
+    },
+    /// A number among them is none.
+    #[error("these partial sums hold a number that is not finite")]
+    NotFinite,
 }
 
 /// Rows of [J | r] column by column, whitened and weighted, on their way into a [`Partial`].

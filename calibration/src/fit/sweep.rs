@@ -4,8 +4,7 @@
 
 use super::model::{Block, Model};
 use super::objects::{Collected, Eliminated};
-use super::partial::{Partial, Rows};
-use super::wire::PartialError;
+use super::partial::{Partial, PartialError, Rows};
 use super::{FitError, robust};
 use crate::data::Observations;
 use crate::fit::noise::Layout;

@@ -9,9 +9,8 @@ use model_core::SymbolId;
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use super::cluster::{Clusters, Share};
-use super::descent::Course;
 use super::objects::Reduction;
-use super::solve::Solver;
+use super::solver::{Course, Solver};
 use super::stated::{Agreement, Stated};
 use super::subspace::Subspace;
 use super::sweep::Weighting;

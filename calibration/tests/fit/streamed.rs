@@ -126,7 +126,7 @@ proptest::proptest! {
 
 #[test]
 fn tallies_of_different_passes_do_not_belong_together() {
-    let simulation = Simulation::lidar(500, 3);
+    let mut simulation = Simulation::lidar(500, 3);
     let observations = simulation.directions("pointing", 2.0 * ARCSEC);
     let options = FitOptions::for_chain(&simulation.chain);
     let state = Streamed::from_sample(&simulation.chain, &observations, &options).unwrap();

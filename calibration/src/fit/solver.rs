@@ -1,0 +1,214 @@
+//! One fit in progress: what it is of, where it is, and what all rows say there.
+
+use std::cell::OnceCell;
+
+use model_core::{Chain, SymbolKind};
+
+use super::normal::Rest;
+use super::size::Size;
+use super::sweep::{Sweep, Weighting, residuals, sweep};
+use super::{FitError, FitOptions, Model, Partial, Reason, Subspace};
+use crate::data::Observations;
+use crate::data::unknowns::Unknowns;
+use crate::fit::noise::{self, Layout, Noise};
+
+/// The noise is known when no standard deviation changes by more than this share.
+const NOISE_KNOWN: f64 = 1e-3;
+
+/// One fit in progress.
+pub(super) struct Solver<'a> {
+    pub chain: &'a Chain,
+    pub observations: &'a Observations,
+    pub options: &'a FitOptions,
+    pub model: Model,
+    /// The same without derivatives, once it is needed.
+    pub plain: OnceCell<Model>,
+    pub layout: Layout,
+    /// Rows that count for nothing, where they are few and chosen one by one; empty where all may count.
+    pub aside: Vec<bool>,
+    /// How large a parameter may be that the data do not show.
+    pub prior_sizes: Vec<Size>,
+    pub iterations: usize,
+}
+
+/// Where the solver is: values, and what all rows say there.
+#[derive(Debug, Clone)]
+pub(super) struct Point {
+    pub values: Vec<f64>,
+    pub sweep: Sweep,
+    /// What becomes of the combinations that the data do not determine.
+    pub rest: Rest,
+}
+
+impl Point {
+    /// What the steps make smaller.
+    pub fn objective(&self) -> f64 {
+        self.sweep.tally.objective + self.rest.objective()
+    }
+}
+
+/// A way downhill: where it is, and what it is downhill of.
+#[derive(Debug, Clone)]
+pub(super) struct Course {
+    pub point: Point,
+    pub noise: Noise,
+    pub subspace: Subspace,
+    pub weighting: Weighting,
+    /// Why it ended before steps were negligible, if it did.
+    pub stopped: Option<Reason>,
+}
+
+impl Solver<'_> {
+    /// All rows at some values. Serial correlation has no part in it: estimates that do not lean on it stay right when
+    /// what looks like memory is an effect that the chain lacks. It enters the uncertainties.
+    pub(super) fn sweep(
+        &self,
+        values: &[f64],
+        noise: &Noise,
+        weighting: Weighting,
+    ) -> Result<Sweep, FitError> {
+        let sigma = noise.sigma_without_memory();
+        sweep(&self.model, self.observations, &self.layout, values, &sigma, weighting, &self.aside)
+    }
+
+    pub(super) fn point(
+        &self,
+        values: Vec<f64>,
+        noise: &Noise,
+        weighting: Weighting,
+        rest: Rest,
+    ) -> Result<Point, FitError> {
+        let sweep = self.sweep(&values, noise, weighting)?;
+        Ok(Point { values, sweep, rest })
+    }
+
+    /// Values with the numbers of objects and stations behind them: zero, as they count from where they are taken to be.
+    pub(super) fn with_state(&self, mut values: Vec<f64>) -> Vec<f64> {
+        let unknown = self.observations.unknowns.as_ref().map_or(0, Unknowns::numbers);
+        values.resize(self.chain.symbols.len() + unknown, 0.0);
+        values
+    }
+
+    pub(super) fn nominal(&self) -> Vec<f64> {
+        self.with_state(self.chain.nominal_values())
+    }
+
+    /// The values after a step that was made `stride` times as long; objects and stations follow the errors.
+    pub(super) fn moved(&self, from: &Point, change: &[f64], stride: f64) -> Vec<f64> {
+        let mut values = from.values.clone();
+        let mut by_column = vec![0.0; self.model.columns()];
+        for ((parameter, change), column) in
+            self.model.parameters().iter().zip(change).zip(self.model.column_of())
+        {
+            values[parameter.index()] += change;
+            if let Some(column) = *column {
+                by_column[column] += change;
+            }
+        }
+        if let Some(eliminated) = &from.sweep.eliminated {
+            let state = eliminated.moved(self.model.state(&from.values), &by_column, stride);
+            values.truncate(self.chain.symbols.len());
+            values.extend(state);
+        }
+        values
+    }
+
+    pub(super) fn partial(&self, sweep: &Sweep) -> Partial {
+        sweep.tally.partial.spread(self.model.column_of())
+    }
+
+    /// What the data determine: every error at zero, constants where they are. Of an anchored fit, what they tell more of
+    /// than the sizes do, where the errors are: only there are residuals no larger than the noise.
+    pub(super) fn determined(&self, values: &[f64], noise: &Noise) -> Result<Subspace, FitError> {
+        if self.options.anchored {
+            let partial = self.partial(&self.sweep(values, noise, Weighting::Full)?);
+            return Ok(Subspace::beyond(&partial, self.first_sizes()));
+        }
+        let mut values = values.to_vec();
+        for &parameter in self.model.parameters() {
+            if self.chain.symbol(parameter).kind == SymbolKind::Error {
+                values[parameter.index()] = 0.0;
+            }
+        }
+        let partial = self.partial(&self.sweep(&values, noise, Weighting::Full)?);
+        Ok(Subspace::determined(&partial, self.first_sizes()))
+    }
+
+    /// How far each parameter is from where it is expected: an error from zero, a constant from its nominal value; SI.
+    pub(super) fn deviation(&self, values: &[f64]) -> Vec<f64> {
+        let nominal = self.chain.nominal_values();
+        self.model.parameters().iter().map(|id| values[id.index()] - nominal[id.index()]).collect()
+    }
+
+    /// Values that the data cannot tell from these to first order, as near as can be to where they are expected.
+    pub(super) fn with_smallest(&self, values: &[f64], subspace: &Subspace) -> Vec<f64> {
+        let smallest = subspace.smallest(&self.deviation(values));
+        let nominal = self.chain.nominal_values();
+        let mut values = values.to_vec();
+        for (parameter, deviation) in self.model.parameters().iter().zip(smallest) {
+            values[parameter.index()] = nominal[parameter.index()] + deviation;
+        }
+        values
+    }
+
+    pub(super) fn first_noise(&self, values: &[f64]) -> Result<Noise, FitError> {
+        // A noise that is known has no use for residuals.
+        let plain = || self.plain.get_or_init(|| Model::without_columns(self.chain, self.observations));
+        let residual = match self.options.noise.known() {
+            Some(_) => Vec::new(),
+            None => residuals(plain(), self.observations, values)?,
+        };
+        Ok(self.noise_of(&residual))
+    }
+
+    /// Floors from the medians of residuals.
+    pub(super) fn noise_of(&self, residual: &[f64]) -> Noise {
+        noise::from_medians(&self.options.noise, self.observations, &self.layout, residual)
+    }
+
+    /// The logarithm of how large residuals are by their medians, the mean over all components.
+    pub(super) fn ln_scale(&self, residual: &[f64]) -> f64 {
+        noise::ln_scale(self.observations, &self.layout, residual)
+    }
+
+    pub(super) fn learn_noise(&self, course: &Course) -> Noise {
+        let (_, weight) = self.norms_and_weights(course);
+        let (residual, used) = (&course.point.sweep.residual, self.used(course));
+        let options = &self.options.noise;
+        noise::estimate(self.chain, options, self.observations, &self.layout, residual, &weight, used)
+    }
+
+    /// Per row the norm of its whitened components and its weight; rows without a value have none.
+    pub(super) fn norms_and_weights(&self, course: &Course) -> (Vec<f64>, Vec<f64>) {
+        let sigma = course.noise.sigma_without_memory();
+        let sweep = &course.point.sweep;
+        let white: Vec<f64> =
+            sweep.residual.iter().zip(sigma.iter()).map(|(residual, sigma)| residual / sigma).collect();
+        let rows =
+            self.layout.norms(&white).zip(self.layout.first.windows(2)).zip(&sweep.defined).enumerate();
+        rows.map(|(row, ((norm, ends), &defined))| {
+            let counts = defined && self.aside.get(row) != Some(&true);
+            (norm, if counts { course.weighting.weight(norm, ends[1] - ends[0]) } else { 0.0 })
+        })
+        .unzip()
+    }
+
+    /// The number of components with weight.
+    pub(super) fn kept_components(&self, course: &Course) -> usize {
+        let (_, weight) = self.norms_and_weights(course);
+        self.layout.row.iter().filter(|&&row| weight[row as usize] > 0.0).count()
+    }
+
+    /// How many independent numbers of the data the estimates use up.
+    pub(super) fn used(&self, course: &Course) -> f64 {
+        let sweep = &course.point.sweep;
+        let of_objects = sweep.eliminated.as_ref().map_or(0.0, |eliminated| eliminated.taken);
+        of_objects + course.subspace.used(&self.partial(sweep), &course.point.rest)
+    }
+}
+
+/// Whether two noise models weigh components alike.
+pub(super) fn same(a: &Noise, b: &Noise) -> bool {
+    let close = |x: f64, y: f64| (x - y).abs() <= NOISE_KNOWN * y.abs();
+    a.sigma.len() == b.sigma.len() && a.sigma.iter().zip(&b.sigma).all(|(&x, &y)| close(x, y))
+}

@@ -221,7 +221,7 @@ fn a_search_that_would_not_fit_into_the_memory_is_refused_before_it_begins() {
         let why = asked(text, search, folds).expect_err("too much");
         assert!(why.contains("MiB are allowed") && why.contains("write memory = "), "{why}");
     }
-    assert_eq!(asked("memory = \"64 GiB\"", "harmonics = 400", "folds = 1000"), Ok(()));
+    assert_eq!(asked("memory = \"128 GiB\"", "harmonics = 400", "folds = 1000"), Ok(()));
     let why = asked("", "harmonics = 1000", "folds = 10").expect_err("beyond all");
     assert!(why.contains("harmonics from 0 to 400"), "{why}");
 }

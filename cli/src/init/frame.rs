@@ -66,13 +66,30 @@ impl Frame {
 
     /// How the first joint moves, from where its scale begins.
     pub fn turns(&self, joint: &str) -> String {
-        format!("Rz({}{joint}{})", sign(self.first), beginning(self.left[0]))
+        format!("Rz({}{joint}{})", sign(self.first), beginning(joint, self.left[0]))
     }
 
     /// How the second joint moves, from where its scale begins.
     pub fn tilts(&self, joint: &str) -> String {
         let (axis, sense) = self.raising();
-        format!("R{axis}({}{joint}{})", sign(sense * self.second), beginning(sense * self.left[1]))
+        format!("R{axis}({}{joint}{})", sign(sense * self.second), beginning(joint, self.left[1]))
+    }
+
+    /// The constants of a declaration with these joints: where the scale of each begins, if that is no small error.
+    pub fn scales(&self, joints: &[&str]) -> String {
+        let (_, sense) = self.raising();
+        let lines =
+            joints.iter().zip([self.left[0], sense * self.left[1]]).filter(|(_, left)| begins(*left) != 0.0);
+        lines
+            .map(|(joint, left)| {
+                let degrees = f64::from(tenths(left)) / 10.0;
+                let begins = begins(left);
+                format!(
+                    "    /// Where the scale of {joint} begins: {degrees} deg, here in rad.\n    const {joint}_begins: angle = \
+                     {begins};\n"
+                )
+            })
+            .collect()
     }
 
     /// A turn about the first axis, by an amount in the sense of its joint.
@@ -141,13 +158,9 @@ fn tenths(angle: f64) -> i32 {
     (angle.to_degrees() * 10.0).round() as i32
 }
 
-/// The same as it stands behind a joint: ` - 401*pi/1800`.
-fn beginning(left: f64) -> String {
-    match (begins(left) == 0.0, tenths(left)) {
-        (true, _) => String::new(),
-        (false, tenths) if tenths < 0 => format!(" - {}*pi/1800", -tenths),
-        (false, tenths) => format!(" + {tenths}*pi/1800"),
-    }
+/// The same as it stands behind a joint: ` + azimuth_begins`.
+fn beginning(joint: &str, left: f64) -> String {
+    if begins(left) == 0.0 { String::new() } else { format!(" + {joint}_begins") }
 }
 
 /// An angle between −π and π.
@@ -185,7 +198,12 @@ mod tests {
         let reading: Vec<f64> = (0..30).map(f64::from).collect();
         let azimuth = reading.iter().map(|reading| -reading - 0.7).collect();
         let Some(frame) = Frame::following(&read(reading), &read(azimuth)) else { panic!("it follows") };
-        assert_eq!(frame.turns("a"), "Rz(a + 401*pi/1800)");
+        assert_eq!(frame.turns("a"), "Rz(a + a_begins)");
+        assert!(
+            frame.scales(&["a"]).ends_with("const a_begins: angle = 0.6998770300497261;\n"),
+            "{}",
+            frame.scales(&["a"])
+        );
         assert_eq!(frame.starts(["index", ""]), []);
     }
 

@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use calibration::diagnose::Diagnosis;
+use model_core::Chain;
 use serde::Serialize;
 
 use super::errors::{errors_toml, ranges_of};
@@ -47,10 +48,14 @@ pub fn write_all(reported: &Reported<'_>, folder: &Path) -> Result<(), Failure> 
 #[must_use]
 pub fn errors(reported: &Reported<'_>) -> Option<String> {
     let calibration = reported.calibration;
-    calibration.amended.as_ref()?;
+    let amended = Chain::from_text(calibration.amended.as_ref()?).unwrap_or_else(|mistakes| {
+        unreachable!("an amended text is read before it is given out: {mistakes}")
+    });
     let date = &reported.provenance.date;
     let after = &calibration.after;
-    let over = ranges_of(reported.observations, &after.residuals.weight);
+    let mut over = ranges_of(reported.observations, &after.residuals.weight);
+    // A side quantity that no effect needed is none of the amended chain's.
+    over.retain(|range| amended.find_symbol(&calibration.chain.symbol(range.symbol).name).is_some());
     Some(errors_toml(&calibration.diagnosis.errors, &calibration.chain, &after.values, date, &over))
 }
 

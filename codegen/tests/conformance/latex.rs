@@ -83,6 +83,10 @@ fn latex() {
             // It has an error called `sin`, which no reader of the page could tell from the function.
             continue;
         }
+        if case.name == "readings" {
+            // The reader of printed formulas knows no arc tangent of two arguments.
+            continue;
+        }
         let mut sections = text.split("\\paragraph{}").skip(1);
         for (form, form_name) in FORMS {
             let program = build(&case.chain, &case.observables, form, &case.errors());

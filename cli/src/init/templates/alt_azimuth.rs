@@ -39,6 +39,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
 }
 
 fn chain(frame: &Frame, statements: &str) -> String {
+    let scales = frame.scales(&["azimuth", "elevation"]);
     let (turn, tilt) = (frame.turns("azimuth"), frame.tilts("elevation"));
     let (turn_index, tilt_index) = (frame.turn("azimuth_index"), frame.tilt("elevation_index"));
     let (roll, droop) = (frame.roll("nonperpendicularity"), frame.raise("droop*cos(elevation)"));
@@ -46,7 +47,7 @@ fn chain(frame: &Frame, statements: &str) -> String {
     format!(
         "/// An alt-azimuth mount: it turns in azimuth, then in elevation. z points up.
 chain AltAzimuth {{
-{statements}    /// What turns in azimuth.
+{scales}{statements}    /// What turns in azimuth.
     body fork on ground {{
         position_error:
             /// Tilt of the azimuth axis about x.

@@ -49,11 +49,12 @@ fn draft(look: &Look) -> Result<Draft, String> {
 }
 
 fn chain(frame: &Frame, statements: &str) -> String {
+    let scales = frame.scales(&["reading"]);
     let (turn, index) = (frame.turns("reading"), frame.turn("index"));
     format!(
         "/// A rotary encoder: one joint, and what turns on it.
 chain Encoder {{
-{statements}    body shaft on ground {{
+{scales}{statements}    body shaft on ground {{
         motion: {turn};
         motion_error:
             /// Index error: true minus reading.

@@ -54,6 +54,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
 }
 
 fn chain(frame: &Frame, statements: &str, pier: &str) -> String {
+    let scales = frame.scales(&["ha", "dec"]);
     let (turn, tilt, turn_index) = (frame.turns("ha"), frame.tilts("dec"), frame.turn("ha_index"));
     let tilt_index = frame.tilt(&format!("{pier}dec_index"));
     let roll = frame.roll(&format!("{pier}nonperpendicularity"));
@@ -63,7 +64,7 @@ fn chain(frame: &Frame, statements: &str, pier: &str) -> String {
 chain Equatorial {{
     /// Latitude of the observer: a guess, on which only flexure under gravity depends.
     const latitude: angle = pi/4;
-{statements}    /// What turns in hour angle.
+{scales}{statements}    /// What turns in hour angle.
     body fork on ground {{
         position_error:
             /// Tilt of the polar axis about x.

@@ -41,6 +41,7 @@ fn draft(look: &Look) -> Result<Draft, String> {
 }
 
 fn chain(frame: &Frame, statements: &str, rolls: bool) -> String {
+    let scales = frame.scales(&["pan", "tilt"]);
     let (turn, turn_index) = (frame.turns("pan"), frame.turn("pan_index"));
     let (tilt, tilt_index) = (frame.tilts("tilt"), frame.tilt("tilt_index"));
     let (skew, roll, up) = (frame.roll("nonperpendicularity"), frame.roll("roll"), frame.raise("sight_up"));
@@ -77,7 +78,7 @@ fn chain(frame: &Frame, statements: &str, rolls: bool) -> String {
     format!(
         "/// A gimbal: pan about z, then tilt.
 chain Gimbal {{
-{statements}    /// What pans.
+{scales}{statements}    /// What pans.
     body outer on ground {{
         position_error:
             /// Tilt of the pan axis about x.

@@ -47,12 +47,13 @@ fn draft(look: &Look) -> Result<Draft, String> {
 }
 
 fn chain(frame: &Frame, statements: &str) -> String {
+    let scales = frame.scales(&["angle"]);
     let (turn, index, rise, sight) =
         (frame.turns("angle"), frame.turn("index"), frame.raise("rise"), frame.sight());
     format!(
         "/// A turntable with a pointer on it. z points along its axis.
 chain Turntable {{
-{statements}    /// What turns.
+{scales}{statements}    /// What turns.
     body table on ground {{
         position_error:
             /// Tilt of the axis about x.

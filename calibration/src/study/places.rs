@@ -52,7 +52,8 @@ impl Study {
             let help = "write `object = \"…\"`: the column that names the wall, the target or the socket of each row";
             return Err(mistake(place, "which object does each row observe?", help));
         }
-        if !of_objects && !(observed.object.0.is_empty() && observed.station.0.is_empty()) {
+        let names_places = !observed.object.0.is_empty() || !observed.station.0.is_empty();
+        if names_places && !of_objects {
             let help = "leave `object` and `station` out, or write kind = \"plane\", \"target\", \"fixed\", \"wire\" or \"sight\"";
             return Err(mistake(place, "what this kind observes is known row by row", help));
         }

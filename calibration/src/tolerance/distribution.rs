@@ -104,7 +104,7 @@ impl Distribution {
             "table" if rest.is_empty() => Err(DistributionError::NoTable),
             "table" => Ok(Written::InFile(rest.to_owned())),
             _ => {
-                let instead = match names::nearest(name, ["uniform", "normal", "table"].into_iter()) {
+                let instead = match names::nearest(name, ["uniform", "normal", "table"]) {
                     Some(near) => format!("did you mean `{near}`?"),
                     None => "write `uniform`, `normal 2` or `table FILE.csv`".to_owned(),
                 };

@@ -118,7 +118,8 @@ pub fn simulate(
     let reduced = Reduced::new(&(columns * makes));
     let blocks = draws.div_ceil(BLOCK);
     let none = || (Vec::new(), vec![0_u64; BINS]);
-    let parts: Vec<(Vec<(f64, f64)>, Vec<u64>)> = (0..blocks)
+    type Part = (Vec<(f64, f64)>, Vec<u64>);
+    let parts: Vec<Part> = (0..blocks)
         .into_par_iter()
         .fold(none, |(mut found, mut bins), block| {
             let count = BLOCK.min(draws - block * BLOCK);

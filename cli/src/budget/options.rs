@@ -207,9 +207,8 @@ fn table(path: &Path) -> Result<Distribution, String> {
 /// Whether a text is a unit of what an observable shows.
 pub fn is_meant_for(text: &str, kind: ObservableKind) -> bool {
     let unit: Option<Unit> = Amount::parse(text).ok().and_then(|amount| amount.unit);
-    match (unit.map(|unit| unit.quantity), kind) {
-        (Some(Quantity::Angle), ObservableKind::Point)
-        | (Some(Quantity::Length), ObservableKind::Direction) => false,
-        _ => true,
-    }
+    !matches!(
+        (unit.map(|unit| unit.quantity), kind),
+        (Some(Quantity::Angle), ObservableKind::Point) | (Some(Quantity::Length), ObservableKind::Direction)
+    )
 }

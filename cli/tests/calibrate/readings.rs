@@ -27,8 +27,8 @@ fn study(observable: &str) -> String {
 fn angles_by_the_convention_of_the_declaration_give_the_errors_back() {
     for observable in ["sky", "clock"] {
         let folder = Folder::new(&format!("readings-{observable}"));
-        folder.write("sky.chain", SKY.to_owned());
-        folder.write("errors.toml", ERRORS.to_owned());
+        folder.write("sky.chain", SKY);
+        folder.write("errors.toml", ERRORS);
         folder.write("study.toml", study(observable));
         let simulated = folder.trueaxis(&[
             "simulate",
@@ -67,8 +67,8 @@ fn angles_by_the_convention_of_the_declaration_give_the_errors_back() {
 #[test]
 fn what_no_kind_measures_is_refused_with_what_does() {
     let folder = Folder::new("readings-arcs");
-    folder.write("sky.chain", SKY.to_owned());
-    folder.write("sky.csv", "azimuth,elevation,arcs_cross_elevation,arcs_elevation\n0,1,0,0\n".to_owned());
+    folder.write("sky.chain", SKY);
+    folder.write("sky.csv", "azimuth,elevation,arcs_cross_elevation,arcs_elevation\n0,1,0,0\n");
     folder.write("study.toml", study("arcs"));
     let run = folder.trueaxis(&["calibrate", "study.toml", "--out", "result"]);
     assert_eq!(run.code, 2, "{run}");

@@ -1,4 +1,5 @@
 //! Measured data, the project's own and others' that lie outside of it: `init` begins, and `calibrate` ends with a verdict.
+#![allow(clippy::print_stderr, reason = "a test that is skipped says so")]
 
 use std::fs;
 

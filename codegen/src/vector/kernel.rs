@@ -262,8 +262,8 @@ pub fn arc_tangent(y: f64, x: f64) -> f64 {
     below = below * z + 4.853903996359136964868e2;
     below = below * z + 1.945506571482613964425e2;
     let near = r * (z * above / below) + r;
-    let octant = if is_diagonal { 0.7853981633974483 + (near + 3.061616997868383e-17) } else { near };
-    let quarter = if is_steep { (1.5707963267948966 - octant) + 6.123233995736766e-17 } else { octant };
-    let half = if x < 0.0 { (3.141592653589793 - quarter) + 1.2246467991473532e-16 } else { quarter };
+    let octant = if is_diagonal { core::f64::consts::FRAC_PI_4 + (near + 3.061616997868383e-17) } else { near };
+    let quarter = if is_steep { (core::f64::consts::FRAC_PI_2 - octant) + 6.123233995736766e-17 } else { octant };
+    let half = if x < 0.0 { (core::f64::consts::PI - quarter) + 1.2246467991473532e-16 } else { quarter };
     f64::from_bits(half.to_bits() | y.to_bits() & SIGN)
 }

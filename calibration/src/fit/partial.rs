@@ -252,6 +252,7 @@ fn add(a: &mut [f64], factor: f64, b: &[f64]) {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
     use approx::assert_relative_eq;

@@ -96,7 +96,7 @@ mod tests {
             walk.push(noise(row) + at);
         }
         let best = |values: &[f64]| {
-            let of = |(serial, _)| deviance(&runs, &[mean.clone()], values, Some(serial));
+            let of = |(serial, _)| deviance(&runs, std::slice::from_ref(&mean), values, Some(serial));
             models(400).map(of).fold(f64::INFINITY, f64::min)
         };
         let explained = |values: &[f64]| deviance(&runs, &[mean.clone(), wave.clone()], values, None);

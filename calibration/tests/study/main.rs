@@ -234,12 +234,12 @@ fn bare_numbers_that_are_hardly_in_si_are_doubted() {
         let plan = Study::from_text(&study).unwrap().plan(&chain).unwrap();
         plan.doubts.iter().map(ToString::to_string).collect()
     };
-    assert_eq!(doubts("", ""), [String::new(); 0]);
+    assert_eq!(doubts("", ""), Vec::<String>::new());
     let said = "sigma = 2 has no unit and is taken as 2 rad; did you mean sigma = \"2 arcsec\"?";
     for written in ["sigma = 2", "sigma = 2.0", "sigma = \"2\""] {
         assert_eq!(doubts("sigma = \"2 arcsec\"", written), [said]);
     }
-    assert_eq!(doubts("sigma = \"2 arcsec\"", "sigma = 1e-5"), [String::new(); 0]);
+    assert_eq!(doubts("sigma = \"2 arcsec\"", "sigma = 1e-5"), Vec::<String>::new());
     assert_eq!(
         doubts("elevation_index = \"1 arcmin\"", "elevation_index = 60"),
         [

@@ -67,7 +67,7 @@ pub fn readings<'a>(reported: &'a Reported<'_>) -> impl Iterator<Item = (&'a str
     })
 }
 
-/// The cells of one column of [`table`].
+/// The cells of one column of the table of residuals.
 pub enum Cells<'a> {
     /// Numbers of rows or lines, from 1.
     Rows(Vec<u64>),

@@ -51,8 +51,8 @@ impl Chain {
     /// let shown = print::form(&error, &chain, print::Style::Text);
     /// assert!(shown.contains("-index*sin(turn)") && shown.contains("index*cos(turn)"), "{shown}");
     ///
-    /// let mistakes = Chain::from_text(&text.replace("index", "turn")).unwrap_err();
-    /// assert!(mistakes.to_string().contains("turn"));
+    /// let mistakes = Chain::from_text(&text.replace("of top", "of tpo")).unwrap_err();
+    /// assert!(mistakes.to_string().contains("`tpo`"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn from_text(text: &str) -> Result<Self, Mistakes> {

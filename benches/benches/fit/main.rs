@@ -10,7 +10,7 @@ use std::io::Write as _;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use calibration::data::{Measure, Observations, Origins, Series, direction_from_offset};
+use calibration::data::{Measure, Measured, Observations, Origins, Poses, Series, direction_from_offset};
 use calibration::fit::{FitOptions, Next, Streamed, StreamedResult, fit};
 use model_core::{Chain, SymbolId, SymbolKind, exact};
 use rand::{RngExt, SeedableRng};
@@ -47,13 +47,15 @@ fn simulate(chain: &Chain, observable: &str, joints: &[(&str, f64, f64)], rows: 
             let [across, along]: [f64; 2] =
                 [StandardNormal.sample(&mut rng), StandardNormal.sample(&mut rng)];
             let truth = path.value(&values);
-            direction_from_offset(&truth, 2.0 * ARCSEC * across, 2.0 * ARCSEC * along).into()
+            Measured::Direction(direction_from_offset(&truth, 2.0 * ARCSEC * across, 2.0 * ARCSEC * along))
         })
         .collect();
     let source = "simulated".to_string();
     Observations {
-        series: vec![Series { observable, measure: Measure::Direction, rows: 0..rows, source }],
-        columns,
+        poses: Poses {
+            series: vec![Series { observable, measure: Measure::Direction, rows: 0..rows, source }],
+            columns,
+        },
         measured,
         sigma: Vec::new(),
         groups: (0..).take(rows).collect(),
@@ -124,8 +126,9 @@ fn peer(python: &str, name: &str, observations: &Observations) -> Option<(Cost, 
         .spawn()
         .unwrap();
     let mut text = String::new();
-    for (row, u) in observations.measured.iter().enumerate() {
-        let q: Vec<f64> = observations.columns.iter().map(|(_, column)| column[row]).collect();
+    for (row, measured) in observations.measured.iter().enumerate() {
+        let u = measured.vector().unwrap();
+        let q: Vec<f64> = observations.poses.columns.iter().map(|(_, column)| column[row]).collect();
         text += &format!("{:e},{:e},{:e},{:e},{:e}\n", q[0], q[1], u[0], u[1], u[2]);
     }
     child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();

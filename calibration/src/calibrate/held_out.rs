@@ -109,7 +109,11 @@ fn within_reach(whole: &Context<'_>, last: &Round<'_>, residual: &[f64]) -> Vec<
     let mut white = residual.to_vec();
     last.fitted.fit.noise.without_memory().whiten(&mut white);
     let norms: Vec<f64> = last.fitted.layout.norms(&white).collect();
-    norms.iter().zip(observations.measures()).map(|(&n, m)| n < robust::cutoff(m.components())).collect()
+    norms
+        .iter()
+        .zip(observations.poses.measures())
+        .map(|(&n, m)| n < robust::cutoff(m.components()))
+        .collect()
 }
 
 /// Per fold the coefficients of the columns of the problem that were used.

@@ -121,7 +121,8 @@ pub fn calibrate_telling(
     request: Request<'_>,
     tell: &(dyn Fn(Stage) + Sync),
 ) -> Result<Calibration, CalibrateError> {
-    let observables: Vec<_> = request.observations.series.iter().map(|series| series.observable).collect();
+    let observables: Vec<_> =
+        request.observations.poses.series.iter().map(|series| series.observable).collect();
     // Studies with functions that the library found live as long as the loops that read them.
     let plans: [OnceCell<Plan>; functions::MOST] = Default::default();
     let remembering = OnceCell::new();

@@ -68,7 +68,7 @@ fn criterion(whole: &Context<'_>, round: &Round<'_>) -> f64 {
         .fitted
         .layout
         .norms(&white)
-        .zip(observations.measures())
+        .zip(observations.poses.measures())
         .filter(|(norm, _)| norm.is_finite())
         .map(|(norm, measure)| robust::loss(norm, measure.components()))
         .sum();

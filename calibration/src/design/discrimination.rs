@@ -15,9 +15,9 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::candidate::Effect;
-use crate::data::Observations;
+use crate::data::Poses;
 use crate::design::{joints, spread};
-use crate::search::columns::{Columns, places};
+use crate::search::columns::{Probed, places};
 use crate::search::context::{Context, declared};
 use crate::search::round::Round;
 
@@ -129,7 +129,7 @@ pub(crate) fn separation(
     }
     let ranges = plan.next.as_ref().map_or(&[][..], |next| &next.ranges);
     let count = plan.next.as_ref().map_or(POSES, |next| next.count);
-    let poses = spread(&last.fitted.chain, whole.request.observations, ranges);
+    let poses = spread(&last.fitted.chain, &whole.request.observations.poses, ranges);
     let kept: Vec<usize> = (0..found.len()).filter(|&i| i != at).map(|i| found[i].effect).collect();
     let columns = columns_at(whole, last, &poses, &[&kept[..], &candidates].concat())?;
     let (known, open) = columns.effects.split_at(kept.len());
@@ -203,16 +203,14 @@ struct There {
     effects: Vec<Vec<Column>>,
 }
 
-fn columns_at(
-    whole: &Context<'_>,
-    last: &Round<'_>,
-    poses: &Observations,
-    effects: &[usize],
-) -> Option<There> {
+fn columns_at(whole: &Context<'_>, last: &Round<'_>, poses: &Poses, effects: &[usize]) -> Option<There> {
     let (fitted, problem) = (&last.fitted, &last.posed.problem);
     let values = &fitted.fit.values;
     let list: Vec<Effect> = effects.iter().map(|&effect| whole.catalogue[effect].clone()).collect();
-    let columns = Columns::at(&fitted.chain, poses, declared(whole), values, &places(&list)).ok()?;
+    let columns = Probed::new(&fitted.chain, poses, declared(whole), values, &places(&list))
+        .ok()?
+        .columns_at(poses)
+        .ok()?;
     let own = columns.of_effects(&fitted.chain, &list, poses, values);
     let components = poses.series.first()?.measure.components();
     let sigma = fitted.fit.noise.expected(whole.request.observations);

@@ -11,7 +11,7 @@ use model_core::{Chain, Quantity, SymbolId, SymbolKind};
 use nalgebra::{DMatrix, Matrix3};
 use serde::Serialize;
 
-use crate::data::Observations;
+use crate::data::{Observations, Poses};
 use crate::fit::{FitError, FitResult, Model};
 
 pub use discrimination::{Separation, Told};
@@ -63,7 +63,7 @@ pub fn propose(
     ranges: &[(SymbolId, Range<f64>)],
     criterion: Criterion,
 ) -> Result<Proposal, FitError> {
-    let candidates = spread(chain, observations, ranges);
+    let candidates = spread(chain, &observations.poses, ranges);
     let model = Model::new(chain, &candidates, &fit.parameters)?;
     let m = candidates.series.first().map_or(1, |series| series.measure.components());
     let sigma = fit.noise.expected(observations);
@@ -74,7 +74,7 @@ pub fn propose(
         .map(|length| if length > 0.0 { length } else { 1.0 })
         .collect();
     let rows: Vec<DMatrix<f64>> = model
-        .map_blocks(&candidates, &fit.values, |_, _, block| {
+        .map_poses(&candidates, &fit.values, |_, _, block| {
             let columns: Vec<&[f64]> = block.columns().collect();
             let derivative =
                 |column: Option<usize>, at: usize| column.map_or(0.0, |column| columns[column][at]);
@@ -181,24 +181,20 @@ fn with(covariance: &DMatrix<f64>, row: &DMatrix<f64>, sign: f64) -> DMatrix<f64
 }
 
 /// The joints that have readings.
-pub(crate) fn joints(chain: &Chain, observations: &Observations) -> Vec<SymbolId> {
-    let ids = observations.columns.iter().map(|(id, _)| *id);
+pub(crate) fn joints(chain: &Chain, poses: &Poses) -> Vec<SymbolId> {
+    let ids = poses.columns.iter().map(|(id, _)| *id);
     ids.filter(|id| chain.symbol(*id).kind == SymbolKind::Joint).collect()
 }
 
-/// Poses spread over the ranges, as observations of the first series without measured values.
-pub(crate) fn spread(
-    chain: &Chain,
-    observations: &Observations,
-    ranges: &[(SymbolId, Range<f64>)],
-) -> Observations {
-    let mut spread = observations.select(&[0]);
-    let generator = generator(joints(chain, observations).len());
+/// Poses spread over the ranges, at which the first series is observed.
+pub(crate) fn spread(chain: &Chain, poses: &Poses, ranges: &[(SymbolId, Range<f64>)]) -> Poses {
+    let mut spread = poses.select(&[0]);
+    let generator = generator(joints(chain, poses).len());
     let mut axis = 0;
     for (id, values) in &mut spread.columns {
-        let measured = observations.column(*id);
-        let mut sorted = measured
-            .map_or_else(|| unreachable!("the columns are those of the observations"), <[f64]>::to_vec);
+        let measured = poses.column(*id);
+        let mut sorted =
+            measured.map_or_else(|| unreachable!("the columns are those of the poses"), <[f64]>::to_vec);
         sorted.sort_by(f64::total_cmp);
         let stated = ranges.iter().find(|(known, _)| known == id).map(|(_, range)| range.clone());
         let symbol = chain.symbol(*id);
@@ -217,10 +213,6 @@ pub(crate) fn spread(
         *values =
             (0..CANDIDATES).map(|row| low + (high - low) * ((row as f64 + 0.5) * step).fract()).collect();
     }
-    spread.measured = vec![[0.0, 1.0, 0.0]; CANDIDATES];
-    spread.sigma.clear();
-    spread.groups = vec![0; CANDIDATES];
-    spread.row_numbers = (1..).take(CANDIDATES).collect();
     spread.series.retain(|series| !series.rows.is_empty());
     for series in &mut spread.series {
         series.rows = 0..CANDIDATES;

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use model_core::{Chain, Quantity, SymbolId, SymbolKind};
 
-use crate::data::Observations;
+use crate::data::Poses;
 
 /// The order of either series.
 const ORDER: u32 = 8;
@@ -34,8 +34,8 @@ pub(super) struct Basis {
 
 impl Basis {
     /// For a joint or input; `None` without readings, or where there are too few different ones to be a function of.
-    pub fn of(chain: &Chain, observations: &Observations, driver: SymbolId) -> Option<Self> {
-        let mut sorted = observations.column(driver)?.to_vec();
+    pub fn of(chain: &Chain, poses: &Poses, driver: SymbolId) -> Option<Self> {
+        let mut sorted = poses.column(driver)?.to_vec();
         sorted.sort_by(f64::total_cmp);
         sorted.dedup();
         let (&low, &high) = (sorted.first()?, sorted.last()?);

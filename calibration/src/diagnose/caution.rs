@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::noise::NoiseFound;
 use super::rms::BeforeAfter;
-use crate::data::{Measure, Observations, Series, SiUnit};
+use crate::data::{Measure, Measured, Observations, Series, SiUnit};
 use crate::fit::noise::Layout;
 use crate::fit::{FitResult, robust};
 
@@ -172,7 +172,7 @@ pub(super) fn of_rms(rms: &BeforeAfter) -> impl Iterator<Item = Caution> {
 #[must_use]
 pub fn of_data(chain: &Chain, observations: &Observations, fit: &FitResult) -> Vec<Caution> {
     let mut cautions = Vec::new();
-    for series in &observations.series {
+    for series in &observations.poses.series {
         cautions.extend(of_joints(chain, observations, series));
         cautions.extend(out_of_place(observations, series, fit));
     }
@@ -190,7 +190,7 @@ pub fn of_data(chain: &Chain, observations: &Observations, fit: &FitResult) -> V
 /// Joints whose readings look like another unit.
 fn of_joints(chain: &Chain, observations: &Observations, series: &Series) -> Vec<Caution> {
     let mut cautions = Vec::new();
-    for (id, values) in &observations.columns {
+    for (id, values) in &observations.poses.columns {
         let symbol = chain.symbol(*id);
         if symbol.kind != SymbolKind::Joint || symbol.quantity != Quantity::Angle {
             continue;
@@ -214,7 +214,7 @@ pub fn rounding(observations: &Observations, fit: &FitResult) -> Option<Caution>
         let measured = distance_m(observations, series).unwrap_or(1.0);
         (rms_of(series, observations, fit), measured, series.measure.unit())
     };
-    let all: Vec<(f64, f64, SiUnit)> = observations.series.iter().map(of_series).collect();
+    let all: Vec<(f64, f64, SiUnit)> = observations.poses.series.iter().map(of_series).collect();
     if all.is_empty() || all.iter().any(|(rms, measured, _)| rms.is_nan() || *rms > ROUNDING * measured) {
         return None;
     }
@@ -229,7 +229,11 @@ fn distance_m(observations: &Observations, series: &Series) -> Option<f64> {
         // Nobody knows where these are.
         Measure::Plane | Measure::Target | Measure::Fixed | Measure::Wire => None,
         Measure::Point | Measure::Range => {
-            let distance = |row: usize| nalgebra::Vector3::from(observations.measured[row]).norm();
+            let distance = |row: usize| match observations.measured[row] {
+                Measured::Point(point) => point.norm(),
+                Measured::Range { range_m } => range_m.abs(),
+                _ => unreachable!("the series measures points or ranges"),
+            };
             Some(robust::median(series.rows.clone().map(distance).collect()))
         }
     }

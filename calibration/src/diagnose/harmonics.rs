@@ -35,10 +35,10 @@ pub(super) fn harmonics(
     before: &FitResult,
     after: &FitResult,
 ) -> Vec<Harmonics> {
-    let Some(series) = observations.series.first() else { return Vec::new() };
+    let Some(series) = observations.poses.series.first() else { return Vec::new() };
     let names = series.measure.component_names();
     let mut all = Vec::new();
-    for (id, readings) in &observations.columns {
+    for (id, readings) in &observations.poses.columns {
         let symbol = chain.symbol(*id);
         if symbol.kind != SymbolKind::Joint || symbol.quantity != Quantity::Angle {
             continue;

@@ -153,6 +153,7 @@ pub(super) fn instrument(
         bodies: bodies.collect(),
         observed: observed(chain, observations),
         readings: observations
+            .poses
             .columns
             .iter()
             .map(|(id, values)| reading(setting, chain, *id, values))
@@ -178,7 +179,7 @@ fn state(name: &str, errors: &[ErrorFound]) -> ErrorState {
 
 fn observed(chain: &Chain, observations: &Observations) -> Vec<ObservedShown> {
     let mut observed: Vec<ObservedShown> = Vec::new();
-    for series in &observations.series {
+    for series in &observations.poses.series {
         let observable = chain.observable(series.observable);
         let shown = ObservedShown {
             name: observable.name.clone(),

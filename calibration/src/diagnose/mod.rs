@@ -197,7 +197,7 @@ pub(crate) fn diagnose(
     cautions.extend(caution::of_noise(&noise, fit.degrees_of_freedom));
     cautions.extend(of_data(&last.chain, observations, fit));
     let aside: Vec<usize> = fit.set_aside.iter().map(|aside| aside.row).collect();
-    let of_aside = shared(observations, &aside, whole.options.seed);
+    let of_aside = shared(&observations.poses, &aside, whole.options.seed);
     cautions.extend(of_aside.map(|Shared { reading, from, to, rows }| {
         let reading = last.chain.symbol(reading).name.clone();
         Caution::SetAsideShare { reading, from, to, rows }
@@ -237,7 +237,7 @@ pub(crate) fn diagnose(
         not_shown: found.not_shown,
         before: rms.before,
         after: rms.after,
-        unit: observations.series.first().map_or(SiUnit::RAD, |series| series.measure.unit()),
+        unit: observations.poses.series.first().map_or(SiUnit::RAD, |series| series.measure.unit()),
     })
 }
 

@@ -73,6 +73,7 @@ pub(super) fn noise(
 ) -> NoiseFound {
     let mut floors = fit.noise.floor.iter().copied();
     let series: Vec<SeriesNoise> = observations
+        .poses
         .series
         .iter()
         .map(|series| {

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::data::{Observations, Series};
 use crate::fit::noise::Layout;
-use crate::fit::sweep::{Weighting, tally};
+use crate::fit::sweep::design;
 use crate::fit::{FitError, FitResult, Model, Subspace};
 
 /// Correlations from here on are listed.
@@ -118,9 +118,10 @@ fn all_round(
         return Some(Vec::new());
     }
     let rows = 24 * fit.parameters.len() + 48;
-    let mut spread = observations.clone();
+    let mut spread = observations.poses.clone();
     let mut start = 0;
     spread.series = observations
+        .poses
         .series
         .iter()
         .map(|series| {
@@ -146,17 +147,12 @@ fn all_round(
         let step = f64::from([2u8, 3, 5, 7, 11, 13, 17, 19, 23, 29][index % 10]).sqrt().fract();
         *values = (0..start).map(|row| low + (high - low) * (row as f64 * step + 0.5).fract()).collect();
     }
-    spread.measured = vec![[0.0, 1.0, 0.0]; start];
-    spread.sigma.clear();
     let model = Model::new(chain, &spread, &fit.parameters).ok()?;
-    let layout = Layout::of(&spread);
-    let sigma = vec![1.0; layout.components()];
     let mut values = chain.nominal_values();
     for id in chain.symbols_of(SymbolKind::Constant) {
         values[id.index()] = fit.values[id.index()];
     }
-    let tally = tally(&model, &spread, &layout, &values, &sigma, Weighting::Full).ok()?;
-    let partial = tally.partial.spread(model.column_of());
+    let partial = design(&model, &spread, &values).ok()?.spread(model.column_of());
     Some(Subspace::determined(&partial, vec![1.0; fit.parameters.len()]).linked())
 }
 
@@ -183,7 +179,7 @@ fn leverage(chain: &Chain, observations: &Observations, fit: &FitResult) -> Vec<
 
 /// The leverage of every row.
 fn leverages(chain: &Chain, observations: &Observations, fit: &FitResult) -> Result<Vec<f64>, FitError> {
-    let model = Model::new(chain, observations, &fit.parameters)?;
+    let model = Model::new(chain, &observations.poses, &fit.parameters)?;
     let by_parameter = fit.design_root();
     let mut by_column = Mat::<f64>::zeros(model.columns(), by_parameter.ncols());
     for (from, column) in by_parameter.row_iter().zip(model.column_of()) {

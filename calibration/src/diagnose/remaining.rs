@@ -98,8 +98,8 @@ struct Driver {
 
 impl Driver {
     fn new(whole: &Context<'_>, observations: &Observations, symbol: SymbolId) -> Option<Self> {
-        let basis = Basis::of(whole.setting.chain, observations, symbol)?;
-        let readings = observations.column(symbol)?;
+        let basis = Basis::of(whole.setting.chain, &observations.poses, symbol)?;
+        let readings = observations.poses.column(symbol)?;
         let series = tabulated(readings, |q| basis.series(q));
         let bumps = basis.bumps();
         let bumps = tabulated(readings, |q| bumps.iter().map(|&bump| basis.bump(bump, q)).collect());
@@ -132,7 +132,7 @@ pub(crate) fn remaining(whole: &Context<'_>, last: &Round<'_>) -> Result<Remaini
     places.dedup();
     let values = &last.fitted.fit.values;
     let columns = Columns::at(&last.fitted.chain, observations, declared(whole), values, &places)?;
-    let of_tensors = columns.of_effects(&last.fitted.chain, &tensors, observations, values);
+    let of_tensors = columns.of_effects(&last.fitted.chain, &tensors, &observations.poses, values);
     let tensors = tensors.into_iter().zip(of_tensors).map(|(effect, own)| {
         let white: Vec<Vec<f64>> = own.iter().map(|column| last.posed.rows.whiten(column)).collect();
         (effect, Mat::from_fn(last.posed.rows.columns.residual.len(), white.len(), |i, j| white[j][i]))
@@ -303,7 +303,7 @@ impl Scanned<'_> {
     fn harmonics(&self, observations: &Observations, sheet: (Place, SymbolId, u32)) -> Sheet {
         let (place, joint, first) = sheet;
         let wave = |q: f64, order: u32| [(f64::from(order) * q).cos(), (f64::from(order) * q).sin()];
-        let values = tabulated(observations.column(joint).unwrap_or_default(), |q| {
+        let values = tabulated(observations.poses.column(joint).unwrap_or_default(), |q| {
             (first..first + A_SHEET).flat_map(|order| wave(q, order)).collect()
         });
         let columns = self.sheet(place, &values);
@@ -319,6 +319,7 @@ fn neighbours(whole: &Context<'_>, last: &Round<'_>, left: &Left<'_>, signs: &Si
     let chain = whole.setting.chain;
     let first = Layout::of(observations).first;
     let joints: Vec<(SymbolId, &[f64])> = observations
+        .poses
         .columns
         .iter()
         .filter(|(id, _)| chain.symbol(*id).kind == SymbolKind::Joint)

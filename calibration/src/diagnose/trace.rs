@@ -8,7 +8,7 @@ use rand_chacha::rand_core::SeedableRng;
 
 use super::units::of_reading;
 use crate::candidate::{Effect, Function};
-use crate::data::{Observations, SiUnit};
+use crate::data::{Observations, Poses, SiUnit};
 use crate::fit::FitResult;
 use crate::search::SearchError;
 use crate::search::columns::functions::Functions;
@@ -79,7 +79,7 @@ pub(crate) fn traces(
     let values = &fitted.fit.values;
     let effects: Vec<Effect> =
         fitted.found.iter().map(|found| whole.catalogue[found.effect].clone()).collect();
-    let (of_effects, _) = columns.of_part(&fitted.chain, &effects, &observations, values);
+    let (of_effects, _) = columns.of_part(&fitted.chain, &effects, &observations.poses, values);
     let mut traces = Vec::new();
     for ((effect, own), errors) in effects.iter().zip(&of_effects).zip(&fitted.errors) {
         let mut trace = Trace {
@@ -130,16 +130,12 @@ fn curve(whole: &Context<'_>, last: &Round<'_>, effect: &Effect, errors: &[Symbo
     if effect.functions.iter().any(|function| !function.elsewhere.is_empty()) {
         return;
     }
-    let Some(read) = whole.request.observations.column(driver) else { return };
+    let Some(read) = whole.request.observations.poses.column(driver) else { return };
     let (low, high) =
         read.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &q| (low.min(q), high.max(q)));
     let grid: Vec<f64> =
         (0..POINTS).map(|point| low + (high - low) * point as f64 / (POINTS - 1) as f64).collect();
-    let over = Observations {
-        columns: vec![(driver, grid.clone())],
-        measured: vec![[0.0; 3]; POINTS],
-        ..Observations::default()
-    };
+    let over = Poses { columns: vec![(driver, grid.clone())], ..Poses::default() };
     let mut functions = Functions::new(chain, &over, &fit.values);
     let columns: Option<Vec<Vec<f64>>> =
         effect.functions.iter().map(|function| functions.column(&function.amount)).collect();

@@ -11,7 +11,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::model::Model;
 use super::sweep::residuals;
 use super::{FitError, FitOptions, robust};
-use crate::data::{Measure, Observations, Series};
+use crate::data::{Measure, Measured, Observations, Series};
 use crate::fit::noise::Layout;
 
 const AXES: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
@@ -35,19 +35,21 @@ pub fn starting_values(
     options: &FitOptions,
 ) -> Result<Vec<f64>, FitError> {
     let is_point = |series: &&Series| series.measure == Measure::Point;
-    let mut points = observations.series.iter().filter(is_point);
+    let mut points = observations.poses.series.iter().filter(is_point);
     let pose = points.next().and_then(|series| BasePose::of(chain, series.observable, options));
     let Some(pose) = pose else { return Ok(options.start.clone()) };
-    let plain = Model::without_columns(chain, observations);
+    let plain = Model::without_columns(chain, &observations.poses);
     let residual = residuals(&plain, observations, &options.start)?;
     let layout = Layout::of(observations);
     let (mut predicted, mut measured) = (Vec::new(), Vec::new());
-    for series in observations.series.iter().filter(is_point) {
+    for series in observations.poses.series.iter().filter(is_point) {
         if BasePose::of(chain, series.observable, options).as_ref() != Some(&pose) {
             continue;
         }
         for row in series.rows.clone() {
-            let point = Vector3::from(observations.measured[row]);
+            let Measured::Point(point) = observations.measured[row] else {
+                unreachable!("the series measures points")
+            };
             let first = layout.first[row];
             let difference = Vector3::new(residual[first], residual[first + 1], residual[first + 2]);
             measured.push(point);

@@ -12,7 +12,7 @@ use super::FitError;
 use super::objects;
 use super::residual::components;
 use crate::data::unknowns::WIDTH;
-use crate::data::{Observations, Series};
+use crate::data::{Measured, Observations, Poses, Series};
 
 /// Rows evaluated at a time: what a block holds stays in the second-level cache.
 pub const BLOCK_ROWS: usize = 256;
@@ -30,6 +30,13 @@ pub struct Model {
     programs: Vec<Program>,
     /// Symbols of the chain; values behind them are those of objects and stations.
     symbols: usize,
+}
+
+/// Rows to evaluate: poses, and what was measured there if anything was.
+#[derive(Clone, Copy)]
+struct Rows<'a> {
+    poses: &'a Poses,
+    observed: Option<&'a Observations>,
 }
 
 /// Residuals of some rows of one series, before whitening. Arrays hold all rows of the first component, then all of the
@@ -73,11 +80,7 @@ impl Model {
     ///
     /// # Errors
     /// A parameter that cannot be estimated, or a joint or input without readings.
-    pub fn new(
-        chain: &Chain,
-        observations: &Observations,
-        parameters: &[SymbolId],
-    ) -> Result<Self, FitError> {
+    pub fn new(chain: &Chain, poses: &Poses, parameters: &[SymbolId]) -> Result<Self, FitError> {
         if parameters.is_empty() {
             return Err(FitError::NothingToEstimate);
         }
@@ -94,14 +97,14 @@ impl Model {
         }
         let build = |wrt: &[SymbolId]| -> Vec<Program> {
             let forms = [Form::ExactValue, Form::ExactJacobian];
-            let series = observations.series.iter();
+            let series = poses.series.iter();
             series.map(|series| build_all(chain, &[series.observable], &forms, wrt)).collect()
         };
         let mut programs = build(parameters);
-        for (program, series) in programs.iter().zip(&observations.series) {
+        for (program, series) in programs.iter().zip(&poses.series) {
             for (symbol, _) in program.inputs() {
-                let measured = matches!(chain.symbol(symbol).kind, SymbolKind::Joint | SymbolKind::Input);
-                if measured && observations.column(symbol).is_none() {
+                let is_read = matches!(chain.symbol(symbol).kind, SymbolKind::Joint | SymbolKind::Input);
+                if is_read && poses.column(symbol).is_none() {
                     return Err(FitError::NoReadings {
                         name: chain.symbol(symbol).name.clone(),
                         observable: chain.observable(series.observable).name.clone(),
@@ -125,8 +128,8 @@ impl Model {
 
     /// The programs of the observables' values alone.
     #[must_use]
-    pub fn without_columns(chain: &Chain, observations: &Observations) -> Self {
-        let series = observations.series.iter();
+    pub fn without_columns(chain: &Chain, poses: &Poses) -> Self {
+        let series = poses.series.iter();
         let programs =
             series.map(|series| build_all(chain, &[series.observable], &[Form::ExactValue], &[])).collect();
         let symbols = chain.symbols.len();
@@ -168,8 +171,30 @@ impl Model {
         values: &[f64],
         f: impl Fn(usize, Range<usize>, &Block) -> T + Sync,
     ) -> Result<Vec<T>, FitError> {
+        self.map_rows(Rows { poses: &observations.poses, observed: Some(observations) }, values, f)
+    }
+
+    /// The same where nothing was measured: what would be seen if the chain were right. Residuals are zero.
+    ///
+    /// # Errors
+    /// Values or poses that do not fit the chain the model was built for.
+    pub fn map_poses<T: Send>(
+        &self,
+        poses: &Poses,
+        values: &[f64],
+        f: impl Fn(usize, Range<usize>, &Block) -> T + Sync,
+    ) -> Result<Vec<T>, FitError> {
+        self.map_rows(Rows { poses, observed: None }, values, f)
+    }
+
+    fn map_rows<T: Send>(
+        &self,
+        of: Rows<'_>,
+        values: &[f64],
+        f: impl Fn(usize, Range<usize>, &Block) -> T + Sync,
+    ) -> Result<Vec<T>, FitError> {
         let mut tasks = Vec::new();
-        for (index, series) in observations.series.iter().enumerate() {
+        for (index, series) in of.poses.series.iter().enumerate() {
             let starts = series.rows.clone().step_by(BLOCK_ROWS);
             tasks.extend(starts.map(|start| (index, start..(start + BLOCK_ROWS).min(series.rows.end))));
         }
@@ -179,13 +204,13 @@ impl Model {
                 || (self.programs.iter().map(Interpreter::new).collect::<Vec<_>>(), Block::default()),
                 |(interpreters, block), (index, rows)| {
                     let (Some(interpreter), Some(series)) =
-                        (interpreters.get_mut(index), observations.series.get(index))
+                        (interpreters.get_mut(index), of.poses.series.get(index))
                     else {
                         return Err(FitError::WrongShape {
                             why: "more series than the model has".to_string(),
                         });
                     };
-                    self.evaluate(interpreter, observations, series, rows.clone(), values, block)?;
+                    self.evaluate(interpreter, of, series, rows.clone(), values, block)?;
                     Ok(f(index, rows, block))
                 },
             )
@@ -196,14 +221,15 @@ impl Model {
     fn evaluate(
         &self,
         interpreter: &mut Interpreter,
-        observations: &Observations,
+        of: Rows<'_>,
         series: &Series,
         rows: Range<usize>,
         values: &[f64],
         block: &mut Block,
     ) -> Result<(), FitError> {
         let (count, m) = (rows.len(), series.measure.components());
-        let columns: Vec<(SymbolId, &[f64])> = observations
+        let columns: Vec<(SymbolId, &[f64])> = of
+            .poses
             .columns
             .iter()
             .filter_map(|(id, column)| Some((*id, column.get(rows.clone())?)))
@@ -218,9 +244,8 @@ impl Model {
         let (values, state) = values.split_at_checked(self.symbols).ok_or_else(|| FitError::WrongShape {
             why: format!("{} values for {} symbols", values.len(), self.symbols),
         })?;
-        let unknowns = observations.unknowns.as_ref();
+        let unknowns = of.observed.and_then(|observed| observed.unknowns.as_ref());
         let first = unknowns.map(|unknowns| [unknowns.first_of_stations(), unknowns.first_of_objects()]);
-        let of_objects = series.measure != series.measure.bare();
         let mut outputs: Vec<&mut [f64]> = block.outputs.chunks_exact_mut(count.max(1)).collect();
         interpreter
             .eval_batch(&columns, values, &mut outputs)
@@ -228,19 +253,24 @@ impl Model {
         let predicted = |row: usize| Vector3::new(outputs[0][row], outputs[1][row], outputs[2][row]);
         for row in 0..count {
             let predicted = predicted(row);
-            let measured = Vector3::from(observations.measured[rows.start + row]);
+            let measured = match of.observed {
+                Some(observed) => observed.measured[rows.start + row],
+                None => Measured::exactly(series.measure, &predicted),
+            };
             let seen = unknowns.zip(first.as_ref()).and_then(|(unknowns, first)| {
                 let row = rows.start + row;
                 objects::seen(unknowns, first, state, row, series.measure, &measured, &predicted)
             });
             let (components, unknown) = match seen {
                 Some(seen) => seen,
-                None if of_objects => {
-                    return Err(FitError::WrongShape {
-                        why: "a row observes an object that is none".to_owned(),
-                    });
-                }
-                None => (components(series.measure, &measured, &predicted), Default::default()),
+                None => match components(&measured, &predicted) {
+                    Some(components) => (components, Default::default()),
+                    None => {
+                        return Err(FitError::WrongShape {
+                            why: "a row observes an object that is none".to_owned(),
+                        });
+                    }
+                },
             };
             if unknowns.is_some() {
                 block.unknown.extend(unknown.into_iter().take(m));

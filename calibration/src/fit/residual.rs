@@ -2,53 +2,49 @@
 
 use nalgebra::Vector3;
 
-use crate::data::{Measure, tangent_frame};
+use crate::data::{Measured, tangent_frame};
 
 /// The most components of any measure.
 pub const MOST: usize = 3;
 
 /// Measured minus predicted for each component, and the gradient of each predicted component by the observable's x, y,
-/// z; only the first [`Measure::components`] count.
-pub fn components(
-    measure: Measure,
-    measured: &Vector3<f64>,
-    predicted: &Vector3<f64>,
-) -> [(f64, Vector3<f64>); MOST] {
-    match measure {
-        Measure::Direction => {
-            // On the tangent plane of what was measured; rotations keep the length, which is divided out.
-            let length = predicted.norm();
-            let [across, along] = tangent_frame(measured);
-            let component = |axis: Vector3<f64>| (-axis.dot(predicted) / length, axis / length);
-            let [mut across, mut along] = [across, along].map(component);
-            if measured.dot(predicted) < 0.0 {
-                // More than 90° away the tangent plane would show it near again: continue growing instead.
-                let sine = across.0.hypot(along.0);
-                let stretch = if sine > 0.0 { 2.0 / sine - 1.0 } else { 1.0 };
-                across.0 *= stretch;
-                along.0 = if sine > 0.0 { along.0 * stretch } else { 2.0 };
-            }
-            [across, along, (0.0, Vector3::zeros())]
-        }
-        Measure::Point => {
-            let difference = measured - predicted;
+/// z; only the first [`crate::data::Measure::components`] count. `None` for a row that observes an object.
+pub fn components(measured: &Measured, predicted: &Vector3<f64>) -> Option<[(f64, Vector3<f64>); MOST]> {
+    let none = (0.0, Vector3::zeros());
+    Some(match measured {
+        Measured::Direction(direction) => on_tangent_plane(direction, predicted),
+        Measured::Point(point) => {
+            let difference = point - predicted;
             [(difference.x, Vector3::x()), (difference.y, Vector3::y()), (difference.z, Vector3::z())]
         }
-        Measure::Range => {
+        Measured::Range { range_m } => {
             let length = predicted.norm();
-            let none = (0.0, Vector3::zeros());
-            [(measured.x - length, predicted / length), none, none]
+            [(range_m - length, predicted / length), none, none]
         }
-        Measure::Azimuth => {
+        Measured::Azimuth { azimuth_rad } => {
             let azimuth = predicted.x.atan2(predicted.y);
-            let turns = ((measured.x - azimuth) / std::f64::consts::TAU).round();
+            let turns = ((azimuth_rad - azimuth) / std::f64::consts::TAU).round();
             let square = predicted.x * predicted.x + predicted.y * predicted.y;
             let gradient = Vector3::new(predicted.y / square, -predicted.x / square, 0.0);
-            let none = (0.0, Vector3::zeros());
-            [(measured.x - azimuth - turns * std::f64::consts::TAU, gradient), none, none]
+            [(azimuth_rad - azimuth - turns * std::f64::consts::TAU, gradient), none, none]
         }
-        Measure::Plane | Measure::Target | Measure::Fixed | Measure::Wire | Measure::Sight => {
-            unreachable!("the residual of a row that observes an object is that of `objects::seen`")
-        }
+        Measured::Length { .. } | Measured::Readings => return None,
+    })
+}
+
+/// A direction across and along, on the tangent plane of what was measured.
+pub fn on_tangent_plane(measured: &Vector3<f64>, predicted: &Vector3<f64>) -> [(f64, Vector3<f64>); MOST] {
+    // Rotations keep the length, which is divided out.
+    let length = predicted.norm();
+    let [across, along] = tangent_frame(measured);
+    let component = |axis: Vector3<f64>| (-axis.dot(predicted) / length, axis / length);
+    let [mut across, mut along] = [across, along].map(component);
+    if measured.dot(predicted) < 0.0 {
+        // More than 90° away the tangent plane would show it near again: continue growing instead.
+        let sine = across.0.hypot(along.0);
+        let stretch = if sine > 0.0 { 2.0 / sine - 1.0 } else { 1.0 };
+        across.0 *= stretch;
+        along.0 = if sine > 0.0 { along.0 * stretch } else { 2.0 };
     }
+    [across, along, (0.0, Vector3::zeros())]
 }

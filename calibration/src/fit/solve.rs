@@ -27,7 +27,7 @@ pub fn fit(chain: &Chain, observations: &Observations, options: &FitOptions) -> 
         let why = format!("{} starting values for {} symbols", options.start.len(), chain.symbols.len());
         return Err(FitError::WrongShape { why });
     }
-    let model = Model::new(chain, observations, &options.estimate)?;
+    let model = Model::new(chain, &observations.poses, &options.estimate)?;
     let solver = Solver {
         chain,
         observations,
@@ -62,7 +62,7 @@ impl Solver<'_> {
         let (_, weight) = self.norms_and_weights(course);
         let lost = weight.iter().filter(|weight| **weight == 0.0).count();
         let many = !self.are_few(course.subspace.rank()) && lost as f64 > DOUBTFUL * weight.len() as f64;
-        let plain = self.plain.get_or_init(|| Model::without_columns(self.chain, self.observations));
+        let plain = self.plain.get_or_init(|| Model::without_columns(self.chain, &self.observations.poses));
         let nominal = residuals(plain, self.observations, &self.nominal())?;
         let worse = self.ln_scale(&course.point.sweep.residual) > self.ln_scale(&nominal);
         Ok(course.stopped.is_some() || many || worse)

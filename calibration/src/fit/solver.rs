@@ -153,7 +153,8 @@ impl Solver<'_> {
 
     pub(super) fn first_noise(&self, values: &[f64]) -> Result<Noise, FitError> {
         // A noise that is known has no use for residuals.
-        let plain = || self.plain.get_or_init(|| Model::without_columns(self.chain, self.observations));
+        let plain =
+            || self.plain.get_or_init(|| Model::without_columns(self.chain, &self.observations.poses));
         let residual = match self.options.noise.known() {
             Some(_) => Vec::new(),
             None => residuals(plain(), self.observations, values)?,

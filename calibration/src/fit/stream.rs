@@ -98,8 +98,8 @@ impl Streamed {
     /// # Errors
     /// As [`fit`]; a sample without rows of some series.
     pub fn from_sample(chain: &Chain, sample: &Observations, options: &FitOptions) -> Result<Self, FitError> {
-        if let Some(at) = sample.series.iter().position(|series| series.rows.is_empty()) {
-            let source = &sample.series[at].source;
+        if let Some(at) = sample.poses.series.iter().position(|series| series.rows.is_empty()) {
+            let source = &sample.poses.series[at].source;
             let why = format!("the sample has no rows of series {} ({source})", at + 1);
             return Err(FitError::WrongShape { why });
         }
@@ -107,7 +107,7 @@ impl Streamed {
         options.noise.variance = false;
         options.noise.serial = false;
         let start = fit(chain, sample, &options)?;
-        let model = Model::new(chain, sample, &options.estimate)?;
+        let model = Model::new(chain, &sample.poses, &options.estimate)?;
         let nominal = chain.nominal_values();
         let size = |at: usize| start.sizes.get(at).map_or(UNSHOWN, |size| size.value);
         let expected = model.parameters().iter().enumerate();
@@ -124,7 +124,7 @@ impl Streamed {
             weighting: Weighting::Full,
             noise: options.noise.clone(),
         };
-        let measures = sample.series.iter().map(|series| series.measure.components());
+        let measures = sample.poses.series.iter().map(|series| series.measure.components());
         let components = measures.flat_map(|count| std::iter::repeat_n(count, count)).collect();
         let begin = (start.values, options.weighting());
         Ok(Self { pass, subspace: None, begin, expected, components, passes: 0 })

@@ -6,7 +6,7 @@ use super::model::{Block, Model};
 use super::objects::{Collected, Eliminated};
 use super::partial::{Partial, PartialError, Rows};
 use super::{FitError, robust};
-use crate::data::Observations;
+use crate::data::{Observations, Poses};
 use crate::fit::noise::Layout;
 
 /// How much a row counts, by the norm of its whitened components.
@@ -232,7 +232,7 @@ pub struct Sweep {
 /// The first kind of component of each series, and how many there are.
 fn first_kinds(observations: &Observations) -> (Vec<usize>, usize) {
     let mut kinds = 0;
-    let first = observations.series.iter().map(|series| {
+    let first = observations.poses.series.iter().map(|series| {
         kinds += series.measure.components();
         kinds - series.measure.components()
     });
@@ -267,6 +267,17 @@ pub fn sweep(
         sweep_with(model, observations, layout, values, sigma, weighting, aside, keep)?;
     let (residual, defined): (Vec<_>, Vec<_>) = kept.into_iter().unzip();
     Ok(Sweep { tally, residual: residual.concat(), defined: defined.concat(), eliminated })
+}
+
+/// What poses would show at which nothing was measured, each component with unit weight.
+pub fn design(model: &Model, poses: &Poses, values: &[f64]) -> Result<Partial, FitError> {
+    let parts = model.map_poses(poses, values, |_, _, block| {
+        Partial::new(model.columns()).with(scaled(block, &vec![1.0; block.residual.len()]))
+    })?;
+    Ok(parts.into_iter().fold(Partial::new(model.columns()), |whole, part| {
+        let Ok(merged) = whole.merge(&part) else { unreachable!("the parts are of one model") };
+        merged
+    }))
 }
 
 /// Residuals alone.

@@ -205,8 +205,8 @@ impl Solver<'_> {
     /// Whether all rows state their noise, or the caller states one for all.
     fn states_noise(&self) -> bool {
         let observations = self.observations;
-        let every = !observations.series.is_empty()
-            && observations.series.iter().all(|series| observations.states_sigma(series));
+        let every = !observations.poses.series.is_empty()
+            && observations.poses.series.iter().all(|series| observations.states_sigma(series));
         self.options.noise.stated.is_some() || every
     }
 

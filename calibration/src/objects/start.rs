@@ -7,7 +7,7 @@ use model_core::{Chain, exact};
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
 
 use crate::data::unknowns::{Known, Object, Pose, Shape, Unknowns};
-use crate::data::{Measure, Observations};
+use crate::data::{Measure, Measured, Observations};
 use crate::fit::align_robustly;
 
 /// Singular values below this share of the largest are none: points in a line or a plane.
@@ -54,7 +54,7 @@ struct Row {
     station: usize,
     measure: Measure,
     point: Vector3<f64>,
-    measured: f64,
+    measured: Measured,
 }
 
 /// Checks that rows have to do with everything of which the study says where it is: these labels of stations and of objects.
@@ -91,16 +91,16 @@ fn rows(chain: &Chain, observations: &Observations, unknowns: &Unknowns, values:
     let mut values = values.to_vec();
     values.truncate(chain.symbols.len());
     let mut rows = Vec::new();
-    for series in &observations.series {
+    for series in &observations.poses.series {
         let path = exact::Path::new(chain, series.observable);
         for row in series.rows.clone() {
             let Some(object) = unknowns.object[row] else { continue };
-            for (id, readings) in &observations.columns {
+            for (id, readings) in &observations.poses.columns {
                 values[id.index()] = readings[row];
             }
             let point = path.value(&values);
             if point.iter().all(|part| part.is_finite()) {
-                let (station, measured) = (unknowns.station[row] as usize, observations.measured[row][0]);
+                let (station, measured) = (unknowns.station[row] as usize, observations.measured[row]);
                 rows.push(Row { object: object as usize, station, measure: series.measure, point, measured });
             }
         }
@@ -260,13 +260,17 @@ fn place_object(object: &mut Object, rows: &[&Row], poses: &[Pose]) -> Result<()
         }
         Shape::Wire => {
             // |x|² − L² = 2 x·a + 2 L z − (|a|² − z²): linear in a, z and what is in the brackets.
+            let length_m = |i: usize| match rows[i].measured {
+                Measured::Length { length_m } => length_m,
+                _ => unreachable!("a wire's rows measure its length"),
+            };
             let matrix = DMatrix::from_fn(rows.len(), 5, |i, j| match j {
                 0..3 => 2.0 * poses[i].apply(&rows[i].point)[j],
-                3 => 2.0 * rows[i].measured,
+                3 => 2.0 * length_m(i),
                 _ => -1.0,
             });
             let right = DVector::from_fn(rows.len(), |i, _| {
-                poses[i].apply(&rows[i].point).norm_squared() - rows[i].measured.powi(2)
+                poses[i].apply(&rows[i].point).norm_squared() - length_m(i).powi(2)
             });
             let too_few = "a wire takes five rows at least, at points that are not in a plane";
             if rows.len() < 5 {

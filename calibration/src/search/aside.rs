@@ -8,7 +8,7 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-use crate::data::Observations;
+use crate::data::Poses;
 
 /// Rows set aside below which they cannot share anything.
 const FEWEST: usize = 4;
@@ -40,12 +40,12 @@ struct Sorted {
 }
 
 /// The stretch of a reading in which far more rows were set aside than elsewhere, if chance does not explain it.
-pub(crate) fn shared(observations: &Observations, aside: &[usize], seed: u64) -> Option<Shared> {
-    let rows = observations.rows();
+pub(crate) fn shared(poses: &Poses, aside: &[usize], seed: u64) -> Option<Shared> {
+    let rows = poses.rows();
     if aside.len() < FEWEST || 2 * aside.len() > rows {
         return None;
     }
-    let sorted: Vec<Sorted> = (observations.columns.iter())
+    let sorted: Vec<Sorted> = (poses.columns.iter())
         .map(|(reading, values)| {
             let mut order: Vec<usize> = (0..rows).collect();
             order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
@@ -85,7 +85,7 @@ pub(crate) fn shared(observations: &Observations, aside: &[usize], seed: u64) ->
         return None;
     }
     let Sorted { reading, order, .. } = &sorted[number];
-    let values = observations.column(*reading)?;
+    let values = poses.column(*reading)?;
     let own = &order[from..to];
     let there = own.iter().filter(|row| aside.contains(row)).count();
     Some(Shared {
@@ -128,28 +128,27 @@ fn most_crowded(sorted: &Sorted, is_aside: &[bool], aside: usize) -> Option<(f64
 mod tests {
     use super::*;
 
-    fn readings(columns: Vec<Vec<f64>>) -> Observations {
-        let rows = columns[0].len();
+    fn readings(columns: Vec<Vec<f64>>) -> Poses {
         let columns = (0..).map(SymbolId).zip(columns).collect();
-        Observations { columns, measured: vec![[0.0; 3]; rows], ..Observations::default() }
+        Poses { columns, ..Poses::default() }
     }
 
     #[test]
     fn rows_on_one_side_share_it_and_scattered_ones_share_nothing() {
         let joint: Vec<f64> = (0..600).map(|row| f64::from(row) * 0.618 % 1.0).collect();
         let side: Vec<f64> = (0..600).map(|row| if row % 5 == 0 { -1.0 } else { 1.0 }).collect();
-        let observations = readings(vec![joint.clone(), side.clone()]);
+        let poses = readings(vec![joint.clone(), side.clone()]);
         let on_one_side: Vec<usize> = (0..600).filter(|row| row % 25 == 0).collect();
-        let found = shared(&observations, &on_one_side, 1);
+        let found = shared(&poses, &on_one_side, 1);
         assert!(found.is_some_and(|found| found.reading == SymbolId(1) && found.to == -1.0), "{found:?}");
         let at_one_end: Vec<usize> = (0..600).filter(|&row| joint[row] > 0.93).step_by(2).collect();
-        let found = shared(&observations, &at_one_end, 1);
+        let found = shared(&poses, &at_one_end, 1);
         assert!(found.is_some_and(|found| found.reading == SymbolId(0) && found.from > 0.8), "{found:?}");
         let mut false_alarms = 0;
         for seed in 0..40 {
             let mut random = ChaCha8Rng::seed_from_u64(seed);
             let anywhere: Vec<usize> = (0..20).map(|i| 30 * i + random.random_range(0..30)).collect();
-            false_alarms += usize::from(shared(&observations, &anywhere, seed).is_some());
+            false_alarms += usize::from(shared(&poses, &anywhere, seed).is_some());
         }
         assert!(false_alarms <= 3, "{false_alarms}");
     }

@@ -62,7 +62,7 @@ pub(crate) fn elsewhere(whole: &Context<'_>, last: &Round<'_>) -> Vec<Elsewhere>
         return Vec::new();
     }
     let mut thirds = Vec::new();
-    for (id, readings) in &observations.columns {
+    for (id, readings) in &observations.poses.columns {
         if whole.setting.chain.symbol(*id).kind != SymbolKind::Joint {
             continue;
         }
@@ -84,7 +84,7 @@ pub(crate) fn elsewhere(whole: &Context<'_>, last: &Round<'_>) -> Vec<Elsewhere>
 fn judged(whole: &Context<'_>, last: &Round<'_>, joint: SymbolId, from: f64, to: f64) -> Option<Elsewhere> {
     let rows = &last.posed.rows;
     let problem = last.posed.of_rows();
-    let readings = rows.observations.column(joint)?;
+    let readings = rows.observations.poses.column(joint)?;
     let held: Vec<bool> =
         rows.columns.row.iter().map(|&row| (from..=to).contains(&readings[row as usize])).collect();
     let least = ROWS_FOR_AN_ERROR * problem.declared();

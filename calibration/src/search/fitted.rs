@@ -81,7 +81,7 @@ impl Fitted {
         (whole.tell)(Stage::Fit { effects: found.len() });
         let fit = fit(&chain, observations, &options)?;
         let places = places(&whole.catalogue);
-        let probed = Probed::new(&chain, observations, declared(whole), &fit.values, &places)?;
+        let probed = Probed::new(&chain, &observations.poses, declared(whole), &fit.values, &places)?;
         let of_stations = observations.unknowns.as_ref().map_or(0, Unknowns::of_stations);
         let combinations = determined(&fit, declared(whole).len(), of_stations)?;
         Ok(Self { chain, found, errors, fit, combinations, probed, layout: Layout::of(observations) })

@@ -7,7 +7,7 @@ use model_core::SymbolKind;
 use rayon::prelude::*;
 
 use super::row_set::{Portion, all_rows, chunks, dealt, sample};
-use crate::data::Observations;
+use crate::data::Poses;
 use crate::search::columns::{Columns, Seen, keep};
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
@@ -183,12 +183,13 @@ fn reach(
     let all = whole.request.observations;
     let plan = whole.request.plan;
     let limits = plan.next.as_ref().map_or(&[][..], |next| &next.ranges);
-    let poses = further_out(&fitted.chain, all, limits, FURTHER_OUT, plan.hold_out.seed);
-    let mut columns = fitted.probed.columns(&poses)?;
+    let poses = further_out(&fitted.chain, &all.poses, limits, FURTHER_OUT, plan.hold_out.seed);
+    let mut columns = fitted.probed.columns_at(&poses)?;
     columns.declared = &columns.declared * fitted.of_errors(&columns);
     let (mut effects, _) = columns.of_part(&fitted.chain, &whole.catalogue, &poses, &fitted.fit.values);
     keep(&mut effects, usable);
     let scales: Vec<f64> = all
+        .poses
         .series
         .iter()
         .filter(|series| !series.rows.is_empty())
@@ -198,7 +199,7 @@ fn reach(
             (own.iter().map(|sigma| sigma * sigma).sum::<f64>() / own.len() as f64).sqrt()
         })
         .collect();
-    let part = |columns: &Columns, effects: &[Vec<Vec<f64>>], of: &Observations| {
+    let part = |columns: &Columns, effects: &[Vec<Vec<f64>>], of: &Poses| {
         let declared = columns.declared.as_ref();
         let counted = of.series.iter().filter(|series| !series.rows.is_empty());
         let scale: Vec<f64> = counted
@@ -234,14 +235,14 @@ fn reach(
     };
     // How far effects reach is told by what they do to points, wherever the objects are that were observed.
     let inside = if all.unknowns.is_some() {
-        let bare = rows.observations.bare();
-        let mut columns = fitted.probed.columns(&bare)?;
+        let bare = rows.observations.poses.bare();
+        let mut columns = fitted.probed.columns_at(&bare)?;
         columns.declared = &columns.declared * fitted.of_errors(&columns);
         let (mut effects, _) = columns.of_part(&fitted.chain, &whole.catalogue, &bare, &fitted.fit.values);
         keep(&mut effects, usable);
         part(&columns, &effects, &bare)
     } else {
-        part(&rows.columns, &rows.effects, &rows.observations)
+        part(&rows.columns, &rows.effects, &rows.observations.poses)
     };
     Ok(Reach::new(inside, part(&columns, &effects, &poses)))
 }
@@ -320,7 +321,7 @@ mod tests {
             second: None,
             when: "2026-11-21",
         };
-        let observables = [observations.series[0].observable];
+        let observables = [observations.poses.series[0].observable];
         let [all, merged] = [1 << 24, 1 << 19].map(|held| Context::new(request, &observables, held).unwrap());
         let of_all = Round::at(&all, Fitted::first(&all).unwrap()).unwrap();
         let of_merged = Round::at(&merged, Fitted::first(&merged).unwrap()).unwrap();

@@ -56,7 +56,7 @@ impl<'a> Portion<'a> {
         let mut columns = fitted.probed.columns(&observations)?;
         columns.declared = &columns.declared * &fitted.combinations;
         let values = &fitted.fit.values;
-        let (effects, seen) = columns.of_part(&fitted.chain, &whole.catalogue, &observations, values);
+        let (effects, seen) = columns.of_part(&fitted.chain, &whole.catalogue, &observations.poses, values);
         let mut without = columns.residual.clone();
         for (found, new) in fitted.found.iter().zip(&fitted.errors) {
             for (column, error) in effects[found.effect].iter().zip(new) {
@@ -153,7 +153,7 @@ impl<'a> Portion<'a> {
 /// The components of some stretches of rows.
 fn runs(observations: &Observations, layout: &Layout, stretches: &[Range<usize>]) -> Vec<Run> {
     let run = |stretch: &Range<usize>| {
-        let series = observations.series.iter().find(|series| series.rows.contains(&stretch.start));
+        let series = observations.poses.series.iter().find(|series| series.rows.contains(&stretch.start));
         let stride = series.map_or(1, |series| series.measure.components());
         Run { start: layout.first[stretch.start], end: layout.first[stretch.end], stride }
     };
@@ -187,7 +187,7 @@ pub(crate) fn dealt(observations: &Observations, row: &[u32], folds: usize, seed
 
 /// All rows, one stretch a series.
 pub(crate) fn all_rows(observations: &Observations) -> Vec<Range<usize>> {
-    let rows = observations.series.iter().map(|series| series.rows.clone());
+    let rows = observations.poses.series.iter().map(|series| series.rows.clone());
     rows.filter(|rows| !rows.is_empty()).collect()
 }
 
@@ -212,7 +212,7 @@ pub(crate) fn sample(observations: &Observations, rows: usize, seed: u64) -> Vec
 
 /// Each series cut into pieces of so many rows.
 fn pieces(observations: &Observations, length: usize) -> Vec<Range<usize>> {
-    let series = observations.series.iter().map(|series| series.rows.clone());
+    let series = observations.poses.series.iter().map(|series| series.rows.clone());
     series
         .flat_map(|rows| {
             let end = rows.end;

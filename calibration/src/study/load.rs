@@ -11,7 +11,7 @@ use super::plan::{Plan, Reading, SourcePlan};
 use super::written::Kind;
 use crate::data::units::BareColumn;
 use crate::data::unknowns::{Shape, Station, Unknowns};
-use crate::data::{Observations, Series, UNSTATED, direction_from_offset, direction_from_spherical};
+use crate::data::{Measured, Observations, Series, direction_from_offset, direction_from_spherical};
 use crate::formats::{self, Cells, DataError, TableReader};
 use crate::objects::{StartError, check_named, place};
 
@@ -130,25 +130,25 @@ impl Plan {
         let readings = self.readings(source, &columns, &rows);
         let measured = self.measured(source, &columns, &rows, &readings, &file)?;
         for (id, values) in readings {
-            match all.columns.binary_search_by_key(&id, |(known, _)| *known) {
-                Ok(at) => all.columns[at].1.extend(values),
+            match all.poses.columns.binary_search_by_key(&id, |(known, _)| *known) {
+                Ok(at) => all.poses.columns[at].1.extend(values),
                 Err(at) => {
                     let mut padded = vec![0.0; start];
                     padded.extend(values);
-                    all.columns.insert(at, (id, padded));
+                    all.poses.columns.insert(at, (id, padded));
                 }
             }
         }
-        for (_, values) in &mut all.columns {
+        for (_, values) in &mut all.poses.columns {
             // A source that does not have the column has no use for it either.
             values.resize(start + count, 0.0);
         }
         all.measured.extend(measured);
         if !columns.sigma.is_empty() {
-            all.sigma.resize(start, UNSTATED);
-            all.sigma.extend(sigma(&columns, &rows, &file)?);
+            all.sigma.resize(start, None);
+            all.sigma.extend(sigma(&columns, &rows, &file)?.into_iter().map(Some));
         } else if !all.sigma.is_empty() {
-            all.sigma.resize(start + count, UNSTATED);
+            all.sigma.resize(start + count, None);
         }
         let grouping = self.group.len();
         self.append_objects(all, source, &rows, start);
@@ -167,7 +167,7 @@ impl Plan {
             &rows.places,
             self.id.as_ref().and_then(|_| rows.labels.get(grouping)).map(Vec::as_slice),
         );
-        all.series.push(Series {
+        all.poses.series.push(Series {
             observable: source.observable,
             measure: source.measure,
             rows: start..start + count,
@@ -252,7 +252,7 @@ impl Plan {
         rows: &Rows,
         readings: &[(SymbolId, Vec<f64>)],
         file: &str,
-    ) -> Result<Vec<[f64; 3]>, DataError> {
+    ) -> Result<Vec<Measured>, DataError> {
         let observed: Vec<&[f64]> =
             columns.observed.clone().filter_map(|at| rows.numbers.get(at).map(Vec::as_slice)).collect();
         let at = |component: usize, row: usize| observed.get(component).map_or(0.0, |values| values[row]);
@@ -273,9 +273,9 @@ impl Plan {
                         let why = format!("x, y, z is no unit vector: its length is {length:.6}");
                         return Err(impossible(row, why));
                     }
-                    Ok((vector / length).into())
+                    Ok(Measured::Direction(vector / length))
                 }
-                Kind::Spherical if observed.len() == 1 => Ok([at(0, row), 0.0, 0.0]),
+                Kind::Spherical if observed.len() == 1 => Ok(Measured::Azimuth { azimuth_rad: at(0, row) }),
                 Kind::Spherical => {
                     let (azimuth, second) = (at(0, row), at(1, row));
                     let (direction, elevation) = match &source.convention {
@@ -289,7 +289,7 @@ impl Plan {
                         );
                         return Err(impossible(row, why));
                     }
-                    Ok(direction.into())
+                    Ok(Measured::Direction(direction))
                 }
                 Kind::Offset => {
                     for (id, readings) in readings {
@@ -299,17 +299,18 @@ impl Plan {
                     if !nominal.iter().all(|component| component.is_finite()) {
                         return Err(impossible(row, "the chain has no direction at these readings".to_string()));
                     }
-                    Ok(direction_from_offset(&nominal, at(0, row), at(1, row)).into())
+                    Ok(Measured::Direction(direction_from_offset(&nominal, at(0, row), at(1, row))))
                 }
-                Kind::Point => Ok([at(0, row), at(1, row), at(2, row)]),
+                Kind::Point => Ok(Measured::Point(Vector3::new(at(0, row), at(1, row), at(2, row)))),
                 Kind::Range if at(0, row) < 0.0 => {
                     Err(impossible(row, format!("a range of {} m is negative", at(0, row))))
                 }
                 Kind::Wire if at(0, row) < 0.0 => {
                     Err(impossible(row, format!("a length of {} m is negative", at(0, row))))
                 }
-                Kind::Range | Kind::Wire => Ok([at(0, row), 0.0, 0.0]),
-                Kind::Plane | Kind::Target | Kind::Fixed | Kind::Sight => Ok([0.0; 3]),
+                Kind::Range => Ok(Measured::Range { range_m: at(0, row) }),
+                Kind::Wire => Ok(Measured::Length { length_m: at(0, row) }),
+                Kind::Plane | Kind::Target | Kind::Fixed | Kind::Sight => Ok(Measured::Readings),
             })
             .collect()
     }

@@ -6,6 +6,7 @@ use nalgebra::{Rotation3, Unit, Vector3};
 use rand::RngExt;
 
 use crate::simulated::Simulation;
+use calibration::data::Measured;
 
 /// The arm before a tracker, its base turned by an angle about an axis that is none of the frame's.
 fn arm(turned_rad: f64, seed: u64) -> Simulation {
@@ -43,7 +44,9 @@ fn a_base_turned_by_any_angle_is_found() {
         // A tenth of the readings belong to another reflector.
         for row in (0..150).step_by(10) {
             let off = simulation.rng().random_range(0.1..0.5);
-            observations.measured[row][row % 3] += off;
+            let mut point = *observations.measured[row].vector().unwrap();
+            point[row % 3] += off;
+            observations.measured[row] = Measured::Point(point);
         }
         let mut options = FitOptions::for_chain(&simulation.chain);
         options.estimate.extend(simulation.chain.symbols_of(SymbolKind::Constant));

@@ -79,7 +79,9 @@ fn files(seed: u64) -> (Simulation, BTreeMap<&'static str, String>) {
             "tip" => simulation.points(observable, sigma),
             _ => simulation.directions(observable, sigma),
         };
-        for (row, [x, y, z]) in observations.measured.iter().enumerate() {
+        for (row, measured) in observations.measured.iter().enumerate() {
+            let vector = measured.vector().unwrap();
+            let (x, y, z) = (vector.x, vector.y, vector.z);
             text += &format!("{},{x},{y},{z}\n", joints(&simulation, row));
         }
         texts.insert(file, text);

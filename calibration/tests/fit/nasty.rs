@@ -1,11 +1,11 @@
 //! Data as they should not be: an outcome that names the trouble, never a panic, never a silent wrong answer.
 
-use calibration::data::Observations;
+use calibration::data::{Measured, Observations};
 use calibration::diagnose::{Caution, of_data, precision};
 use calibration::fit::{FitOptions, FitResult, Outcome, Why, fit};
 use rand::RngExt;
 
-use crate::simulated::Simulation;
+use crate::simulated::{Simulation, swapped};
 
 const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;
 
@@ -37,9 +37,9 @@ fn forty_percent_outliers_are_set_aside() {
     let mut observations = simulation.directions("sight", 2.0 * ARCSEC);
     for row in 0..120 {
         let to: f64 = simulation.rng().random_range(0.002..0.5);
-        let [x, y, z] = observations.measured[row];
-        let moved = nalgebra::Vector3::new(x + to, y - to, z).normalize();
-        observations.measured[row] = moved.into();
+        let aim = observations.measured[row].vector().unwrap();
+        let moved = nalgebra::Vector3::new(aim.x + to, aim.y - to, aim.z).normalize();
+        observations.measured[row] = Measured::Direction(moved);
     }
     let result = fitted(&simulation, &observations);
     assert!(matches!(result.outcome, Outcome::Converged { .. }), "{:?}", result.outcome);
@@ -135,7 +135,7 @@ fn where_the_chain_has_no_value_the_row_is_set_aside() {
     simulation.column("q", 50, 0.2..1.3);
     simulation.draw_errors("*", 1e-3);
     let mut observations = simulation.directions("sight", 1e-5);
-    observations.columns[0].1[7] = 0.0;
+    observations.poses.columns[0].1[7] = 0.0;
     let result = fitted(&simulation, &observations);
     let aside = result.set_aside.iter().find(|aside| aside.row == 7).unwrap();
     assert_eq!(aside.why, Why::NoValue);
@@ -200,7 +200,7 @@ fn trouble_has_words() {
 
     let (_, outliers) = said(100, 15, &|simulation| {
         let mut observations = measured(simulation);
-        observations.measured[3].swap(0, 1);
+        observations.measured[3] = swapped(observations.measured[3], 0, 1);
         observations
     });
     let why = &outliers.set_aside.iter().find(|aside| aside.row == 3).unwrap().why;
@@ -218,7 +218,11 @@ fn millimetres_taken_for_metres_are_hinted_at() {
         simulation.column("q2", 80, -1.0..1.0);
         simulation.draw_errors("*", 1e-3);
         let mut observations = simulation.points("tip", 1e-4);
-        observations.measured.iter_mut().for_each(|point| point[2] *= factor);
+        for measured in &mut observations.measured {
+            let mut point = *measured.vector().unwrap();
+            point.z *= factor;
+            *measured = Measured::Point(point);
+        }
         let result = fitted(&simulation, &observations);
         let cautions = of_data(&simulation.chain, &observations, &result);
         let out_of_place =

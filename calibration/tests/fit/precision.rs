@@ -7,7 +7,7 @@ use calibration::fit::{FitOptions, fit};
 use model_core::identify::identify;
 use model_core::{Chain, ObservableId, ObservableKind, SymbolId, SymbolKind};
 
-use crate::simulated::Simulation;
+use crate::simulated::{Simulation, swapped};
 
 const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;
 const MOUNT: &str = include_str!("../../../examples/alt-azimuth/alt-azimuth.chain");
@@ -65,12 +65,12 @@ fn a_narrow_range_inflates_variances_and_new_poses_mend_it() {
         assert!(then < now / 5.0, "{criterion:?}: {then} against {now}");
         // Measured, they keep the promise.
         let mut more = observations.clone();
-        for (at, (_, values)) in more.columns.iter_mut().enumerate() {
+        for (at, (_, values)) in more.poses.columns.iter_mut().enumerate() {
             values.extend(proposal.poses.iter().map(|pose| pose[at]));
         }
         let mut together = Simulation::new(MOUNT, 3);
         together.values = simulation.values.clone();
-        together.columns = more.columns;
+        together.columns = more.poses.columns;
         let observations = together.directions("sight", 2.0 * ARCSEC);
         let kept = fit(&together.chain, &observations, &FitOptions::for_chain(&together.chain)).unwrap();
         let id = together.chain.find_symbol("collimation").unwrap();
@@ -93,7 +93,7 @@ fn wrong_units_and_signs_are_hinted_at() {
     assert_eq!(said(&|_| {}), []);
     let column = |at: usize, factor: f64| {
         move |observations: &mut calibration::data::Observations| {
-            observations.columns[at].1.iter_mut().for_each(|value| *value *= factor);
+            observations.poses.columns[at].1.iter_mut().for_each(|value| *value *= factor);
         }
     };
     any(&said(&column(0, 57.295_779_513)), |caution| matches!(caution, Caution::DegreesAsRadians { .. }));
@@ -101,9 +101,10 @@ fn wrong_units_and_signs_are_hinted_at() {
     any(&said(&column(0, -1.0)), |caution| {
         matches!(caution, Caution::OutOfPlace { .. } | Caution::ErrorNotSmall { .. })
     });
-    any(&said(&|observations| observations.measured.iter_mut().for_each(|u| u.swap(0, 2))), |caution| {
-        matches!(caution, Caution::OutOfPlace { .. } | Caution::ErrorNotSmall { .. })
-    });
+    any(
+        &said(&|observations| observations.measured.iter_mut().for_each(|u| *u = swapped(*u, 0, 2))),
+        |caution| matches!(caution, Caution::OutOfPlace { .. } | Caution::ErrorNotSmall { .. }),
+    );
 }
 
 /// What these data cannot tell apart is what no data could, set by set, when poses go all round.

@@ -1,6 +1,6 @@
 //! Instruments with known errors at random poses, observed with known noise.
 
-use calibration::data::{Measure, Observations, Origins, Series, direction_from_offset};
+use calibration::data::{Measure, Measured, Observations, Origins, Poses, Series, direction_from_offset};
 use model_core::{Chain, SymbolId, SymbolKind, exact, names};
 use nalgebra::Vector3;
 use rand::{Rng, RngExt, SeedableRng};
@@ -88,7 +88,7 @@ impl Simulation {
         let fresh = sigma_rad * (1.0 - memory * memory).sqrt();
         let mut measured = Vec::new();
         for direction in truth {
-            measured.push(direction_from_offset(&direction, noise[0], noise[1]).into());
+            measured.push(Measured::Direction(direction_from_offset(&direction, noise[0], noise[1])));
             noise = noise.map(|value| memory * value + fresh * self.normal());
         }
         self.observations(observable, Measure::Direction, measured)
@@ -99,21 +99,23 @@ impl Simulation {
         let truth = self.truth(observable);
         let measured = truth
             .iter()
-            .map(|p| (p + sigma_m * Vector3::new(self.normal(), self.normal(), self.normal())).into())
+            .map(|p| Measured::Point(p + sigma_m * Vector3::new(self.normal(), self.normal(), self.normal())))
             .collect();
         self.observations(observable, Measure::Point, measured)
     }
 
-    pub fn observations(&self, observable: &str, measure: Measure, measured: Vec<[f64; 3]>) -> Observations {
+    pub fn observations(&self, observable: &str, measure: Measure, measured: Vec<Measured>) -> Observations {
         let rows = measured.len();
         Observations {
-            series: vec![Series {
-                observable: self.chain.find_observable(observable).unwrap(),
-                measure,
-                rows: 0..rows,
-                source: "simulated".to_string(),
-            }],
-            columns: self.columns.clone(),
+            poses: Poses {
+                series: vec![Series {
+                    observable: self.chain.find_observable(observable).unwrap(),
+                    measure,
+                    rows: 0..rows,
+                    source: "simulated".to_string(),
+                }],
+                columns: self.columns.clone(),
+            },
             measured,
             sigma: Vec::new(),
             groups: (0..).take(rows).collect(),
@@ -123,4 +125,11 @@ impl Simulation {
             unknowns: None,
         }
     }
+}
+
+/// A direction with two of its components swapped.
+pub fn swapped(measured: Measured, one: usize, other: usize) -> Measured {
+    let mut vector = *measured.vector().unwrap();
+    vector.swap_rows(one, other);
+    Measured::Direction(vector)
 }

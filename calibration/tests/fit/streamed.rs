@@ -5,7 +5,7 @@ use calibration::fit::{
     FitError, FitOptions, FitResult, Next, PartialError, Streamed, StreamedResult, Tally, fit,
 };
 
-use crate::simulated::Simulation;
+use crate::simulated::{Simulation, swapped};
 
 const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;
 
@@ -50,7 +50,7 @@ fn chunks_give_what_all_rows_give() {
     for robust in [false, true] {
         // The second time with outliers.
         for row in (0..6000).step_by(17).filter(|_| robust) {
-            observations.measured[row].swap(0, 1);
+            observations.measured[row] = swapped(observations.measured[row], 0, 1);
         }
         let mut options = FitOptions::for_chain(&simulation.chain);
         options.robust = robust;
@@ -144,8 +144,8 @@ fn chunks_may_hold_a_part_of_the_series() {
     let mut observations = simulation.directions("pointing", 2.0 * ARCSEC);
     let points = simulation.points("position", 1e-5);
     observations.measured[2000..].copy_from_slice(&points.measured[2000..]);
-    observations.series[0].rows = 0..2000;
-    observations.series.push(Series { rows: 2000..4000, ..points.series[0].clone() });
+    observations.poses.series[0].rows = 0..2000;
+    observations.poses.series.push(Series { rows: 2000..4000, ..points.poses.series[0].clone() });
     let mut options = FitOptions::for_chain(&simulation.chain);
     options.noise.variance = false;
     let all = fit(&simulation.chain, &observations, &options).unwrap();

@@ -15,7 +15,7 @@ fn nothing_more(path: &str) {
     let chain = Chain::from_text(&amended)
         .unwrap_or_else(|mistakes| panic!("{}", mistakes.render("amended", &amended)));
     let plan = study(path).plan(&chain).unwrap();
-    for series in &loaded.observations.series {
+    for series in &loaded.observations.poses.series {
         let form = forms::derive(&chain, series.observable, 1).unwrap();
         for name in first.diagnosis.effects.iter().flat_map(|effect| effect.coefficients.keys()) {
             let id = chain.find_symbol(name).unwrap();

@@ -1,6 +1,6 @@
 //! An effect that hangs on a handful of observations is told as one.
 
-use calibration::data::Observations;
+use calibration::data::{Observations, Poses};
 use calibration::diagnose::{Diagnosis, Verdict};
 use calibration::study::Study;
 use model_core::Chain;
@@ -27,11 +27,12 @@ fn report(second: usize) -> Diagnosis {
     };
     let (first, other) = (moved(0.0), moved(60.0 * ARCSEC));
     let measured = (0..300).map(|row| if row < second { &other } else { &first }.measured[row]).collect();
-    let mut columns = first.columns.clone();
+    let mut columns = first.poses.columns.clone();
     let session = (0..300).map(|row| if row < second { 1.0 } else { 0.0 }).collect();
     columns.push((plan.chain.find_symbol("session_2").unwrap(), session));
     columns.sort_by_key(|(id, _)| *id);
-    search(&text, &plan, &Observations { measured, columns, ..first }).diagnosis
+    search(&text, &plan, &Observations { measured, poses: Poses { columns, ..first.poses.clone() }, ..first })
+        .diagnosis
 }
 
 #[test]

@@ -3,7 +3,7 @@
 
 use calibration::calibrate::{Request, calibrate};
 use calibration::candidate::Freedom;
-use calibration::data::{Measure, Observations, Series, tangent_frame};
+use calibration::data::{Measure, Measured, Observations, Poses, Series, tangent_frame};
 use calibration::diagnose::{Diagnosis, EffectFound};
 use calibration::effects::assembly_name;
 use calibration::study::{Plan, Study};
@@ -90,17 +90,20 @@ fn measured(
         let exact = exact::value(truth, observable, &values);
         let mut noise = |sigma: f64| sigma * random.sample::<f64, _>(StandardNormal);
         observed.push(match measure {
-            Measure::Point => (exact + Vector3::from_fn(|_, _| noise(2e-5))).into(),
+            Measure::Point => Measured::Point(exact + Vector3::from_fn(|_, _| noise(2e-5))),
             _ => {
                 let [across, along] = tangent_frame(&exact);
-                (exact + across * noise(2.0 * ARCSEC) + along * noise(2.0 * ARCSEC)).normalize().into()
+                let moved = exact + across * noise(2.0 * ARCSEC) + along * noise(2.0 * ARCSEC);
+                Measured::Direction(moved.normalize())
             }
         });
     }
     columns.sort_by_key(|(id, _)| *id);
     Observations {
-        series: vec![Series { observable, measure, rows: 0..rows, source: "simulated".to_owned() }],
-        columns,
+        poses: Poses {
+            series: vec![Series { observable, measure, rows: 0..rows, source: "simulated".to_owned() }],
+            columns,
+        },
         measured: observed,
         groups: (0..rows as u32).collect(),
         row_numbers: (1..=rows as u64).collect(),

@@ -2,7 +2,9 @@
 //! simulated data that have the effect.
 
 use calibration::calibrate::{Calibration, Request, calibrate};
-use calibration::data::{Measure, Observations, Series, direction_from_spherical, tangent_frame};
+use calibration::data::{
+    Measure, Measured, Observations, Poses, Series, direction_from_spherical, tangent_frame,
+};
 use calibration::study::Study;
 use model_core::{Chain, SymbolId};
 use rand::{RngExt, SeedableRng};
@@ -33,17 +35,19 @@ fn calibrated(droop: f64) -> Calibration {
         let aim = direction_from_spherical(azimuth, elevation + droop / elevation.tan());
         let [across, along] = tangent_frame(&aim);
         let mut noise = || 5.0 * ARCSEC * random.sample::<f64, _>(StandardNormal);
-        measured.push((aim + across * noise() + along * noise()).normalize().into());
+        measured.push(Measured::Direction((aim + across * noise() + along * noise()).normalize()));
     }
     columns.sort_by_key(|(id, _)| *id);
     let observations = Observations {
-        series: vec![Series {
-            observable: chain.find_observable("sight").unwrap(),
-            measure: Measure::Direction,
-            rows: 0..rows,
-            source: "simulated".to_owned(),
-        }],
-        columns,
+        poses: Poses {
+            series: vec![Series {
+                observable: chain.find_observable("sight").unwrap(),
+                measure: Measure::Direction,
+                rows: 0..rows,
+                source: "simulated".to_owned(),
+            }],
+            columns,
+        },
         measured,
         groups: (0..rows as u32).collect(),
         row_numbers: (1..=rows as u64).collect(),

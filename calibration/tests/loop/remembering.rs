@@ -1,7 +1,7 @@
 //! Noise that remembers, along a slow path through the joints, in an order that nobody declared: it looks like smooth functions
 //! of the joints, and is told as what it is.
 
-use calibration::data::{Measure, Observations, Series, tangent_frame};
+use calibration::data::{Measure, Measured, Observations, Poses, Series, tangent_frame};
 use calibration::diagnose::{Diagnosis, EffectFound};
 use calibration::report::noise;
 use calibration::study::Study;
@@ -40,17 +40,19 @@ fn report(seed: u64, kept: f64, step: f64, eccentric: f64) -> Diagnosis {
         walk = walk.map(|value| value + step * normal());
         let [across, along] = tangent_frame(&aim);
         let moved = [0, 1].map(|at| 2.0 * ARCSEC * (state[at] + walk[at]));
-        observed.push((aim + across * moved[0] + along * moved[1]).normalize().into());
+        observed.push(Measured::Direction((aim + across * moved[0] + along * moved[1]).normalize()));
     }
     columns.sort_by_key(|(id, _)| *id);
     let observations = Observations {
-        series: vec![Series {
-            observable: chain.find_observable("pointing").unwrap(),
-            measure: Measure::Direction,
-            rows: 0..ROWS,
-            source: "simulated".to_owned(),
-        }],
-        columns,
+        poses: Poses {
+            series: vec![Series {
+                observable: chain.find_observable("pointing").unwrap(),
+                measure: Measure::Direction,
+                rows: 0..ROWS,
+                source: "simulated".to_owned(),
+            }],
+            columns,
+        },
         measured: observed,
         groups: (0..ROWS as u32).collect(),
         row_numbers: (1..=ROWS as u64).collect(),

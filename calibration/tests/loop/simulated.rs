@@ -1,7 +1,7 @@
 //! Planted effects: eight kinds are named, two at once, none gives nothing, a bump in no catalogue is placed.
 
 use calibration::calibrate::{Calibration, Request, calibrate};
-use calibration::data::{Measure, Observations, Series, tangent_frame};
+use calibration::data::{Measure, Measured, Observations, Poses, Series, tangent_frame};
 use calibration::diagnose::{Diagnosis, EffectFound, Verdict};
 use calibration::study::{Plan, Study};
 use model_core::{Chain, SymbolId, exact};
@@ -51,18 +51,20 @@ pub(crate) fn measured(
         let aim = truth(readings).normalize();
         let [across, along] = tangent_frame(&aim);
         let noise = [(); 2].map(|()| NOISE * random.sample::<f64, _>(StandardNormal));
-        observed.push((aim + across * noise[0] + along * noise[1]).normalize().into());
+        observed.push(Measured::Direction((aim + across * noise[0] + along * noise[1]).normalize()));
     }
     columns.sort_by_key(|(id, _)| *id);
     let observable = plan.chain.find_observable("pointing").unwrap();
     Observations {
-        series: vec![Series {
-            observable,
-            measure: Measure::Direction,
-            rows: 0..rows,
-            source: "simulated".to_owned(),
-        }],
-        columns,
+        poses: Poses {
+            series: vec![Series {
+                observable,
+                measure: Measure::Direction,
+                rows: 0..rows,
+                source: "simulated".to_owned(),
+            }],
+            columns,
+        },
         measured: observed,
         groups: (0..rows as u32).collect(),
         row_numbers: (1..=rows as u64).collect(),

@@ -26,14 +26,20 @@ fn observations(chain: &Chain, measured: &Measured, declared: bool) -> Observati
     ];
     columns.sort_by_key(|(id, _)| *id);
     Observations {
-        series: vec![Series {
-            observable: chain.find_observable("sight").unwrap(),
-            measure: Measure::Direction,
-            rows: 0..rows,
-            source: "simulated".to_owned(),
-        }],
-        columns,
-        measured: measured.direction.clone(),
+        poses: calibration::data::Poses {
+            series: vec![Series {
+                observable: chain.find_observable("sight").unwrap(),
+                measure: Measure::Direction,
+                rows: 0..rows,
+                source: "simulated".to_owned(),
+            }],
+            columns,
+        },
+        measured: measured
+            .direction
+            .iter()
+            .map(|u| calibration::data::Measured::Direction((*u).into()))
+            .collect(),
         groups: if declared { measured.session.clone() } else { (0..rows as u32).collect() },
         in_sequence: declared && measured.session.last() == Some(&(rows as u32 - 1)),
         row_numbers: (1..=rows as u64).collect(),

@@ -67,11 +67,12 @@ fn points_near_the_truth_stay_near() {
         &measured(60, Poses::Random, Noise::White, 0.0, 1),
         false,
     );
-    data.series[0].observable = chain.find_observable("tip").unwrap();
-    data.series[0].measure = calibration::data::Measure::Point;
-    data.columns = vec![(chain.find_symbol("q").unwrap(), q), (chain.find_symbol("s").unwrap(), s)];
-    data.columns.sort_by_key(|(id, _)| *id);
-    data.measured = points;
+    data.poses.series[0].observable = chain.find_observable("tip").unwrap();
+    data.poses.series[0].measure = calibration::data::Measure::Point;
+    data.poses.columns = vec![(chain.find_symbol("q").unwrap(), q), (chain.find_symbol("s").unwrap(), s)];
+    data.poses.columns.sort_by_key(|(id, _)| *id);
+    data.measured =
+        points.into_iter().map(|point| calibration::data::Measured::Point(point.into())).collect();
     for off in [0.0, 2e-3, 0.5, -2.0] {
         let mut options = FitOptions::for_chain(&chain);
         options.estimate.iter().for_each(|id| options.start[id.index()] = off);

@@ -70,8 +70,8 @@ fn a_study_reads_its_data_in_order_and_in_si() {
     assert_eq!(read.row_numbers, [2, 4, 1, 3]);
     assert_eq!(read.groups, [0, 0, 1, 1]);
     assert!(read.in_sequence);
-    assert_eq!(read.series[0].measure, Measure::Direction);
-    let column = |name: &str| read.column(plan.chain.find_symbol(name).unwrap()).unwrap();
+    assert_eq!(read.poses.series[0].measure, Measure::Direction);
+    let column = |name: &str| read.poses.column(plan.chain.find_symbol(name).unwrap()).unwrap();
     assert!((column("azimuth")[0] - 10f64.to_radians()).abs() < 1e-15);
     assert_eq!(column("temperature"), [8.5, 8.0, 7.5, 7.0]);
     assert_eq!(column("sense"), [0.0, 1.0, 1.0, 1.0]);
@@ -80,7 +80,7 @@ fn a_study_reads_its_data_in_order_and_in_si() {
     let arcsec = std::f64::consts::PI / 648_000.0;
     let (a, e) = (10f64.to_radians() + arcsec / 30f64.to_radians().cos(), 30f64.to_radians() - 2.0 * arcsec);
     let expected = [a.sin() * e.cos(), a.cos() * e.cos(), e.sin()];
-    for (found, expected) in read.measured[0].iter().zip(expected) {
+    for (found, expected) in read.measured[0].vector().unwrap().iter().zip(expected) {
         assert!((found - expected).abs() < 1e-10, "{found} {expected}");
     }
 }

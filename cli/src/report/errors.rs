@@ -66,7 +66,7 @@ pub fn errors_toml(
 #[must_use]
 pub fn ranges_of(observations: &Observations, weight: &[f64]) -> Vec<FoundOver> {
     let mut ranges = Vec::new();
-    for (symbol, column) in &observations.columns {
+    for (symbol, column) in &observations.poses.columns {
         let counted = column.iter().zip(weight).filter(|(value, weight)| value.is_finite() && **weight > 0.0);
         let (low, high) = counted.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (value, _)| {
             (low.min(*value), high.max(*value))

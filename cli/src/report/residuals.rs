@@ -28,7 +28,7 @@ pub fn components(reported: &Reported<'_>) -> Vec<Component> {
     let before = by_row(&reported.calibration.before, rows);
     let after = by_row(&reported.calibration.after, rows);
     let mut components: Vec<Component> = Vec::new();
-    for (row, measure) in reported.observations.measures().enumerate() {
+    for (row, measure) in reported.observations.poses.measures().enumerate() {
         for (index, &name) in measure.component_names().iter().enumerate() {
             let at = components.iter().position(|component| component.name == name).unwrap_or_else(|| {
                 let absent = vec![None; rows];
@@ -61,7 +61,7 @@ fn by_row(fit: &FitResult, rows: usize) -> Vec<Vec<f64>> {
 /// The joints and inputs that were read, with their names and units.
 pub fn readings<'a>(reported: &'a Reported<'_>) -> impl Iterator<Item = (&'a str, SiUnit, &'a [f64])> {
     let chain = &reported.calibration.chain;
-    reported.observations.columns.iter().map(move |(id, values): &(SymbolId, Vec<f64>)| {
+    reported.observations.poses.columns.iter().map(move |(id, values): &(SymbolId, Vec<f64>)| {
         let symbol = chain.symbol(*id);
         (symbol.name.as_str(), symbol.quantity.into(), values.as_slice())
     })

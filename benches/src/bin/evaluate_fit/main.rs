@@ -141,14 +141,20 @@ fn observations(chain: &Chain, measured: &Measured, declared: bool) -> Result<Ob
     columns.sort_by_key(|(id, _)| *id);
     let sessions = measured.session.last().map_or(0, |last| *last as usize + 1);
     Ok(Observations {
-        series: vec![Series {
-            observable: chain.find_observable("sight").ok_or("no sight")?,
-            measure: Measure::Direction,
-            rows: 0..rows,
-            source: "simulated".to_owned(),
-        }],
-        columns,
-        measured: measured.direction.clone(),
+        poses: calibration::data::Poses {
+            series: vec![Series {
+                observable: chain.find_observable("sight").ok_or("no sight")?,
+                measure: Measure::Direction,
+                rows: 0..rows,
+                source: "simulated".to_owned(),
+            }],
+            columns,
+        },
+        measured: measured
+            .direction
+            .iter()
+            .map(|u| calibration::data::Measured::Direction((*u).into()))
+            .collect(),
         groups: if declared { measured.session.clone() } else { (0..rows as u32).collect() },
         in_sequence: declared && sessions == rows,
         row_numbers: (1..=rows as u64).collect(),

@@ -1,6 +1,6 @@
 //! The scanner of thirty errors, of which directions determine eight combinations: what is left open moves the rest by products.
 
-use calibration::data::{Measure, Observations, Series, direction_from_offset};
+use calibration::data::{Measure, Measured, Observations, Poses, Series, direction_from_offset};
 use calibration::fit::{FitOptions, fit};
 use model_core::{Chain, Quantity, SymbolKind, exact};
 use nalgebra::Vector3;
@@ -49,15 +49,19 @@ fn one(chain: &Chain, observable: &str, errors: f64, seed: u64) -> Result<Vec<bo
         let mut noise = || -> f64 { random.sample(StandardNormal) };
         let truth = path.value(&values);
         measured.push(match measure {
-            Measure::Direction => direction_from_offset(&truth, SIGMA * noise(), SIGMA * noise()).into(),
-            _ => (truth + POINTS * Vector3::new(noise(), noise(), noise())).into(),
+            Measure::Direction => {
+                Measured::Direction(direction_from_offset(&truth, SIGMA * noise(), SIGMA * noise()))
+            }
+            _ => Measured::Point(truth + POINTS * Vector3::new(noise(), noise(), noise())),
         });
     }
     columns.sort_by_key(|(id, _)| *id);
     let rows = measured.len();
     let observations = Observations {
-        series: vec![Series { observable: id, measure, rows: 0..rows, source: "simulated".to_owned() }],
-        columns,
+        poses: Poses {
+            series: vec![Series { observable: id, measure, rows: 0..rows, source: "simulated".to_owned() }],
+            columns,
+        },
         measured,
         groups: (0..rows as u32).collect(),
         row_numbers: (1..=rows as u64).collect(),

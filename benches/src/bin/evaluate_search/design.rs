@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use calibration::candidate::Effect;
 use calibration::catalogue::catalogue;
-use calibration::data::{Measure, Observations, Series, tangent_frame};
+use calibration::data::{Measure, Measured, Observations, Series, tangent_frame};
 use calibration::search::columns::{Columns, places};
 use calibration::search::{Class, Problem, classes};
 use calibration::study::{Plan, Study};
@@ -71,7 +71,7 @@ impl Design {
         let catalogue = catalogue(&setting);
         let values = plan.chain.nominal_values();
         let columns = Columns::at(&plan.chain, &readings, &plan.fit.estimate, &values, &places(&catalogue))?;
-        let effects = columns.of_effects(&plan.chain, &catalogue, &readings, &values);
+        let effects = columns.of_effects(&plan.chain, &catalogue, &readings.poses, &values);
         let all: Vec<&Vec<f64>> = effects.iter().flatten().collect();
         let n = columns.residual.len();
         let candidates = Mat::from_fn(n, all.len(), |i, j| all[j][i] / SIGMA_RAD);
@@ -99,7 +99,7 @@ impl Design {
 
     /// The readings of a joint or input.
     pub fn readings_of(&self, name: &str) -> &[f64] {
-        self.plan.chain.find_symbol(name).and_then(|id| self.readings.column(id)).unwrap_or_default()
+        self.plan.chain.find_symbol(name).and_then(|id| self.readings.poses.column(id)).unwrap_or_default()
     }
 
     /// A member of a class drawn evenly from all candidates that these poses show.
@@ -139,18 +139,18 @@ impl Design {
         noise: &[[f64; 2]],
         bent: impl Fn(SymbolId, f64) -> f64,
     ) -> Observations {
-        let path = exact::Path::new(chain, readings.series[0].observable);
+        let path = exact::Path::new(chain, readings.poses.series[0].observable);
         let measured = noise
             .iter()
             .enumerate()
             .map(|(row, noise)| {
-                for (id, column) in &readings.columns {
+                for (id, column) in &readings.poses.columns {
                     values[id.index()] = bent(*id, column[row]);
                 }
                 let aim = path.value(&values).normalize();
                 let [across, along] = tangent_frame(&aim);
                 let moved: Vector3<f64> = aim + SIGMA_RAD * (across * noise[0] + along * noise[1]);
-                moved.normalize().into()
+                Measured::Direction(moved.normalize())
             })
             .collect();
         Observations { measured, ..readings.clone() }
@@ -160,16 +160,16 @@ impl Design {
     pub fn and(&self, joints: &[String], poses: &[Vec<f64>]) -> Observations {
         let mut more = self.readings.clone();
         let rows = more.rows() + poses.len();
-        for (id, column) in &mut more.columns {
+        for (id, column) in &mut more.poses.columns {
             let name = &self.plan.chain.symbol(*id).name;
             let at = joints.iter().position(|joint| joint == name);
             let first = column.first().copied().unwrap_or_default();
             column.extend(poses.iter().map(|pose| at.and_then(|at| pose.get(at)).copied().unwrap_or(first)));
         }
-        more.measured.resize(rows, [0.0, 0.0, 1.0]);
+        more.measured.resize(rows, Measured::Direction(Vector3::z()));
         more.groups = (0..).take(rows).collect();
         more.row_numbers = (1..).take(rows).collect();
-        more.series[0].rows = 0..rows;
+        more.poses.series[0].rows = 0..rows;
         more
     }
 
@@ -181,8 +181,10 @@ impl Design {
         let pairs = self.readings.measured.iter().zip(&moved.measured);
         pairs
             .flat_map(|(from, to)| {
-                let frame = tangent_frame(&Vector3::from(*from));
-                frame.map(|axis| axis.dot(&Vector3::from(*to)) / SIGMA_RAD)
+                let (Some(from), Some(to)) = (from.vector(), to.vector()) else {
+                    unreachable!("both are directions")
+                };
+                tangent_frame(from).map(|axis| axis.dot(to) / SIGMA_RAD)
             })
             .collect()
     }
@@ -219,13 +221,15 @@ fn readings(plan: &Plan, rows: usize, poses: Poses, seed: u64) -> Result<Observa
     columns.sort_by_key(|(id, _)| *id);
     let observable = plan.chain.find_observable("pointing").ok_or("no pointing")?;
     let mut readings = Observations {
-        series: vec![Series {
-            observable,
-            measure: Measure::Direction,
-            rows: 0..rows,
-            source: "simulated".to_owned(),
-        }],
-        columns,
+        poses: calibration::data::Poses {
+            series: vec![Series {
+                observable,
+                measure: Measure::Direction,
+                rows: 0..rows,
+                source: "simulated".to_owned(),
+            }],
+            columns,
+        },
         groups: (0..).take(rows).collect(),
         row_numbers: (1..).take(rows).collect(),
         in_sequence: poses == Poses::Trajectory,
@@ -234,10 +238,10 @@ fn readings(plan: &Plan, rows: usize, poses: Poses, seed: u64) -> Result<Observa
     let mut values = plan.chain.nominal_values();
     let path = exact::Path::new(&plan.chain, observable);
     for row in 0..rows {
-        for (id, column) in &readings.columns {
+        for (id, column) in &readings.poses.columns {
             values[id.index()] = column[row];
         }
-        readings.measured.push(path.value(&values).normalize().into());
+        readings.measured.push(Measured::Direction(path.value(&values).normalize()));
     }
     Ok(readings)
 }

@@ -84,7 +84,7 @@ fn foretold(
     upper: bool,
 ) -> Result<Vec<Line>, Failure> {
     let start = Instant::now();
-    let readings = all.column(joint).ok_or("no readings")?;
+    let readings = all.poses.column(joint).ok_or("no readings")?;
     let mut order: Vec<usize> = (0..readings.len()).collect();
     order.sort_by(|&a, &b| readings[a].total_cmp(&readings[b]));
     let third = order.len() / 3;
@@ -114,7 +114,7 @@ fn foretold(
     let rms = |of: &[f64]| {
         (counted.iter().map(|&row| of[row] * of[row]).sum::<f64>() / counted.len().max(1) as f64).sqrt()
     };
-    let shown = |rms: f64| match held.series.first().map(|series| series.measure) {
+    let shown = |rms: f64| match held.poses.series.first().map(|series| series.measure) {
         Some(Measure::Point | Measure::Range) => format!("{:.3} mm", 1e3 * rms),
         _ => format!("{:.2}″", rms.to_degrees() * 3600.0),
     };

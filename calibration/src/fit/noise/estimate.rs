@@ -3,7 +3,7 @@
 use model_core::Chain;
 
 use super::{Layout, Noise, NoiseOptions, pools, variance};
-use crate::data::Observations;
+use crate::data::{Measured, Observations};
 use crate::fit::robust;
 
 /// Floors from medians alone: what a fit starts from, before it has weights.
@@ -110,7 +110,7 @@ pub fn stated(options: &NoiseOptions, observations: &Observations, layout: &Layo
     }
     let mut stated = Vec::with_capacity(layout.components());
     for (ends, sigma) in layout.first.windows(2).zip(&observations.sigma) {
-        stated.extend(sigma.iter().take(ends[1] - ends[0]));
+        stated.extend(sigma.unwrap_or([1.0; 3]).iter().take(ends[1] - ends[0]));
     }
     stated
 }
@@ -130,7 +130,7 @@ fn finish(mut noise: Noise, observations: &Observations, layout: &Layout, spread
 pub fn resolution(observations: &Observations) -> f64 {
     let objects = observations.unknowns.iter().flat_map(|unknowns| &unknowns.objects);
     let places = objects.flat_map(|object| object.place.iter().copied());
-    let numbers = observations.measured.iter().flatten().copied().chain(places);
+    let numbers = observations.measured.iter().map(Measured::largest).chain(places);
     let largest = numbers.fold(0.0, |largest: f64, value| largest.max(value.abs()));
     8.0 * f64::EPSILON * largest.max(f64::MIN_POSITIVE / f64::EPSILON)
 }

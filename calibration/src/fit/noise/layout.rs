@@ -34,7 +34,7 @@ impl Layout {
     pub fn of(observations: &Observations) -> Self {
         let mut layout =
             Self { row: Vec::new(), kind: Vec::new(), kinds: 0, first: vec![0], runs: Vec::new() };
-        for series in &observations.series {
+        for series in &observations.poses.series {
             let stride = series.measure.components();
             let start = layout.row.len();
             for row in series.rows.clone() {

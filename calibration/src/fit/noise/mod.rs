@@ -192,7 +192,7 @@ impl Noise {
     /// expected to have, rad or m.
     #[must_use]
     pub fn expected(&self, observations: &Observations) -> Vec<f64> {
-        let Some(first) = observations.series.first() else { return vec![1.0] };
+        let Some(first) = observations.poses.series.first() else { return vec![1.0] };
         let (components, sigma) = (first.measure.components(), self.sigma_without_memory());
         let own = sigma.get(..first.rows.len() * components).unwrap_or_default();
         (0..components)

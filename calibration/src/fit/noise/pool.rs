@@ -16,7 +16,7 @@ pub fn pools(observations: &Observations, layout: &Layout, used: f64) -> Vec<usi
     // Of each unit the pool that its scarce series share.
     let mut shared: Vec<(SiUnit, usize)> = Vec::new();
     let mut next = 0;
-    for series in &observations.series {
+    for series in &observations.poses.series {
         let (rows, kinds, unit) = (series.rows.len(), series.measure.components(), series.measure.unit());
         if scarce(rows * kinds) {
             let known = shared.iter().find(|(known, _)| *known == unit).map(|(_, pool)| *pool);

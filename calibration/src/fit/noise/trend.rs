@@ -55,6 +55,7 @@ pub fn beside(
         take(own);
     });
     let readings: Vec<(bool, &[f64])> = observations
+        .poses
         .columns
         .iter()
         .map(|(id, values)| {

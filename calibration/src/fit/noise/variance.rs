@@ -78,7 +78,7 @@ pub fn fit(
 
 fn terms(chain: &Chain, observations: &Observations) -> Vec<VarianceTerm> {
     let mut terms = Vec::new();
-    for (id, values) in &observations.columns {
+    for (id, values) in &observations.poses.columns {
         let symbol = chain.symbol(*id);
         match (symbol.kind, symbol.quantity) {
             (SymbolKind::Joint, Quantity::Angle) => {
@@ -103,6 +103,7 @@ fn column(term: VarianceTerm, observations: &Observations) -> Vec<f64> {
         VarianceTerm::LogRange(id) => (id, Box::new(f64::ln)),
     };
     let readings = observations
+        .poses
         .column(id)
         .unwrap_or_else(|| unreachable!("a variance goes with what the observations have readings of"));
     let values: Vec<f64> = readings.iter().map(|&value| function(value)).collect();

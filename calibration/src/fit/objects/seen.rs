@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::data::unknowns::{OF_OBJECT, Object, Pose, Unknowns, WIDTH, right_jacobian};
-use crate::data::{Measure, tangent_frame};
+use crate::data::{Measure, Measured, tangent_frame};
 use crate::fit::residual;
 
 /// Per component the derivatives of what is predicted by the numbers of the object, then by those of the station.
@@ -29,7 +29,7 @@ pub(crate) fn seen(
     state: &[f64],
     row: usize,
     measure: Measure,
-    measured: &Vector3<f64>,
+    measured: &Measured,
     predicted: &Vector3<f64>,
 ) -> Option<Seen> {
     let at = (*unknowns.object.get(row)?)? as usize;
@@ -42,13 +42,15 @@ pub(crate) fn seen(
         jacobian: right_jacobian(&Vector3::new(by[3], by[4], by[5])).transpose(),
     };
     let own: [f64; OF_OBJECT] = numbers(state, first[1][at], object.numbers());
-    Some(match measure {
-        Measure::Plane => frame.plane(object, own, predicted),
-        Measure::Target => frame.target(object, own, predicted),
-        Measure::Fixed => frame.fixed(object, own, predicted),
-        Measure::Wire => frame.wire(object, own, measured.x, predicted),
-        Measure::Sight => frame.sight(object, own, predicted),
-        Measure::Direction | Measure::Point | Measure::Range | Measure::Azimuth => return None,
+    Some(match (measure, measured) {
+        (Measure::Plane, _) => frame.plane(object, own, predicted),
+        (Measure::Target, _) => frame.target(object, own, predicted),
+        (Measure::Fixed, _) => frame.fixed(object, own, predicted),
+        (Measure::Wire, Measured::Length { length_m }) => frame.wire(object, own, *length_m, predicted),
+        (Measure::Sight, _) => frame.sight(object, own, predicted),
+        (Measure::Wire | Measure::Direction | Measure::Point | Measure::Range | Measure::Azimuth, _) => {
+            return None;
+        }
     })
 }
 
@@ -130,7 +132,7 @@ impl Frame {
         let distance = there.norm();
         let direction = there / distance;
         let axes = tangent_frame(&direction);
-        let components = residual::components(Measure::Direction, &direction, beam);
+        let components = residual::on_tangent_plane(&direction, beam);
         let row = |axis: Vector3<f64>| {
             let outside = self.pose.turn * axis / distance;
             self.row([-outside.x, -outside.y, -outside.z, 0.0], outside, there.cross(&axis) / distance)
@@ -189,7 +191,7 @@ mod tests {
                 _ => there,
             };
             let at = |state: &[f64], p: &Vector3<f64>| {
-                let length = Vector3::new(0.3, 0.0, 0.0);
+                let length = Measured::Length { length_m: 0.3 };
                 seen(&unknowns, &first, state, 0, measure, &length, p).unwrap()
             };
             // The point that the row would have at no residual.

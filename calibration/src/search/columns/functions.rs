@@ -5,25 +5,25 @@ use std::collections::BTreeMap;
 use model_core::algebra::{Poly, Wave};
 use model_core::{Chain, SymbolId};
 
-use crate::data::Observations;
+use crate::data::Poses;
 
-/// Evaluates functions of joints and inputs over the rows of some observations.
+/// Evaluates functions of joints and inputs over the rows of some poses.
 pub(crate) struct Functions<'a> {
     chain: &'a Chain,
-    observations: &'a Observations,
+    poses: &'a Poses,
     /// Of every symbol, for those without readings.
     values: &'a [f64],
     waves: BTreeMap<(SymbolId, u32, Wave), Vec<f64>>,
 }
 
 impl<'a> Functions<'a> {
-    pub(crate) fn new(chain: &'a Chain, observations: &'a Observations, values: &'a [f64]) -> Self {
-        Self { chain, observations, values, waves: BTreeMap::new() }
+    pub(crate) fn new(chain: &'a Chain, poses: &'a Poses, values: &'a [f64]) -> Self {
+        Self { chain, poses, values, waves: BTreeMap::new() }
     }
 
     /// The function's value at each row; `None` if a symbol has neither readings nor a value.
     pub(crate) fn column(&mut self, amount: &Poly) -> Option<Vec<f64>> {
-        let mut sum = vec![0.0; self.observations.rows()];
+        let mut sum = vec![0.0; self.poses.rows()];
         for term in amount.terms() {
             let mut product = vec![term.coefficient.to_f64(); sum.len()];
             for &(symbol, power) in &term.powers {
@@ -49,7 +49,7 @@ impl<'a> Functions<'a> {
 
     fn reading(&self, symbol: SymbolId) -> Option<Vec<f64>> {
         if let Some(ramp) = self.chain.ramp(symbol) {
-            let of = self.observations.column(ramp.of)?;
+            let of = self.poses.column(ramp.of)?;
             let mut values = self.values.to_vec();
             values.resize(values.len().max(self.chain.symbols.len()), 0.0);
             let value = |&reading: &f64| {
@@ -58,9 +58,9 @@ impl<'a> Functions<'a> {
             };
             return Some(of.iter().map(value).collect());
         }
-        match self.observations.column(symbol) {
+        match self.poses.column(symbol) {
             Some(readings) => Some(readings.to_vec()),
-            None => self.values.get(symbol.index()).map(|&value| vec![value; self.observations.rows()]),
+            None => self.values.get(symbol.index()).map(|&value| vec![value; self.poses.rows()]),
         }
     }
 

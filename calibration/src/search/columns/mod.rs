@@ -7,14 +7,16 @@
 pub(crate) mod functions;
 mod seen;
 
+use std::ops::Range;
+
 use faer::Mat;
 use model_core::algebra::Poly;
 use model_core::{Chain, SymbolId, SymbolKind};
 
 use crate::candidate::{Effect, Function, Place, add_error, insert};
-use crate::data::Observations;
 use crate::data::unknowns::{Unknowns, WIDTH};
-use crate::fit::{FitError, Model};
+use crate::data::{Observations, Poses};
+use crate::fit::{Block, FitError, Model};
 use functions::Functions;
 use seen::Extent;
 
@@ -49,14 +51,34 @@ pub struct Columns {
     probes: Mat<f64>,
 }
 
+/// What became of one block of rows.
+struct Evaluated {
+    rows: Range<usize>,
+    residual: Vec<f64>,
+    derivatives: Vec<Vec<f64>>,
+    unknown: Vec<[f64; WIDTH]>,
+}
+
+impl Evaluated {
+    fn of(_series: usize, rows: Range<usize>, block: &Block) -> Self {
+        let by_row = |values| block.by_row(values).collect::<Vec<_>>();
+        Self {
+            rows,
+            residual: by_row(&block.residual),
+            derivatives: block.columns().map(by_row).collect(),
+            unknown: block.unknown.clone(),
+        }
+    }
+}
+
 impl Probed {
-    /// At `values` (of the chain's symbols), for observations of these series.
+    /// At `values` (of the chain's symbols), for rows of these series.
     ///
     /// # Errors
     /// Missing readings, or parameters that cannot be estimated.
     pub fn new(
         chain: &Chain,
-        observations: &Observations,
+        poses: &Poses,
         parameters: &[SymbolId],
         values: &[f64],
         places: &[Place],
@@ -73,7 +95,7 @@ impl Probed {
         let mut values = symbols.to_vec();
         values.resize(probed.symbols.len(), 0.0);
         values.extend(state);
-        let model = Model::new(&probed, observations, &wrt)?;
+        let model = Model::new(&probed, poses, &wrt)?;
         let places = places.iter().take(wrt.len() - parameters.len()).copied().collect();
         Ok(Self { model, values, parameters: parameters.len(), places })
     }
@@ -83,13 +105,22 @@ impl Probed {
     /// # Errors
     /// Values or observations that do not fit the chain.
     pub fn columns(&self, observations: &Observations) -> Result<Columns, FitError> {
-        let blocks = self.model.map_blocks(observations, &self.values, |_, rows, block| {
-            let by_row = |values| block.by_row(values).collect::<Vec<_>>();
-            let columns = block.columns().map(by_row).collect::<Vec<_>>();
-            (rows, by_row(&block.residual), columns, block.unknown.clone())
-        })?;
-        let n: usize = blocks.iter().map(|(_, residual, ..)| residual.len()).sum();
-        let of_stations = observations.unknowns.as_ref().map_or(0, Unknowns::of_stations);
+        let blocks = self.model.map_blocks(observations, &self.values, Evaluated::of)?;
+        Ok(self.put_together(blocks, observations.unknowns.as_ref()))
+    }
+
+    /// Evaluates poses at which nothing was measured; residuals are zero.
+    ///
+    /// # Errors
+    /// Values or poses that do not fit the chain.
+    pub fn columns_at(&self, poses: &Poses) -> Result<Columns, FitError> {
+        let blocks = self.model.map_poses(poses, &self.values, Evaluated::of)?;
+        Ok(self.put_together(blocks, None))
+    }
+
+    fn put_together(&self, blocks: Vec<Evaluated>, unknowns: Option<&Unknowns>) -> Columns {
+        let n: usize = blocks.iter().map(|block| block.residual.len()).sum();
+        let of_stations = unknowns.map_or(0, Unknowns::of_stations);
         let mut columns = Columns {
             residual: Vec::with_capacity(n),
             declared: Mat::zeros(n, self.parameters + of_stations),
@@ -99,7 +130,7 @@ impl Probed {
             probes: Mat::zeros(n, self.places.len()),
         };
         let mut start = 0;
-        for (rows, residual, derivatives, unknown) in blocks {
+        for Evaluated { rows, residual, derivatives, unknown } in blocks {
             columns.unknown.extend(unknown);
             let count = residual.len();
             let components = count / rows.len().max(1);
@@ -117,11 +148,11 @@ impl Probed {
             }
             start += count;
         }
-        if let Some(unknowns) = &observations.unknowns {
+        if let Some(unknowns) = unknowns {
             let stations = unknowns.station_columns(&columns.row, &columns.unknown);
             columns.declared.subcols_mut(self.parameters, of_stations).copy_from(&stations);
         }
-        Ok(columns)
+        columns
     }
 }
 
@@ -137,7 +168,7 @@ impl Columns {
         values: &[f64],
         places: &[Place],
     ) -> Result<Self, FitError> {
-        Probed::new(chain, observations, parameters, values, places)?.columns(observations)
+        Probed::new(chain, &observations.poses, parameters, values, places)?.columns(observations)
     }
 
     /// The derivative by a unit at a place; `None` where these observations hardly see it.
@@ -157,10 +188,10 @@ impl Columns {
         &self,
         chain: &Chain,
         effects: &[Effect],
-        observations: &Observations,
+        poses: &Poses,
         values: &[f64],
     ) -> Vec<Vec<Vec<f64>>> {
-        let (mut columns, seen) = self.of_part(chain, effects, observations, values);
+        let (mut columns, seen) = self.of_part(chain, effects, poses, values);
         keep(&mut columns, &seen.usable(effects));
         columns
     }
@@ -172,10 +203,10 @@ impl Columns {
         &self,
         chain: &Chain,
         effects: &[Effect],
-        observations: &Observations,
+        poses: &Poses,
         values: &[f64],
     ) -> (Vec<Vec<Vec<f64>>>, Seen) {
-        let mut readings = Functions::new(chain, observations, values);
+        let mut readings = Functions::new(chain, poses, values);
         let mut seen = Seen::of_probes(&self.places, &self.probes);
         let mut columns = Vec::with_capacity(effects.len());
         for effect in effects {

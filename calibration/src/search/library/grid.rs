@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use model_core::{Chain, Quantity, SymbolId, SymbolKind};
 
 use super::shape::{Shape, Wave};
-use crate::data::Observations;
+use crate::data::Poses;
 
 /// Different readings that a function must be seen at.
 const DIFFERENT: usize = 8;
@@ -44,8 +44,8 @@ pub(crate) struct Driver {
 
 impl Driver {
     /// `None` without readings, or where there are too few different ones to be a function of.
-    pub fn of(chain: &Chain, observations: &Observations, symbol: SymbolId) -> Option<Self> {
-        let mut sorted = observations.column(symbol)?.to_vec();
+    pub fn of(chain: &Chain, poses: &Poses, symbol: SymbolId) -> Option<Self> {
+        let mut sorted = poses.column(symbol)?.to_vec();
         sorted.retain(|reading| reading.is_finite());
         sorted.sort_by(f64::total_cmp);
         sorted.dedup();

@@ -97,8 +97,10 @@ pub(crate) fn contest(whole: &Context<'_>, last: &Round<'_>) -> Result<Contest, 
     let mut symbols: Vec<SymbolId> = smooths.iter().map(|smooth| smooth.driver).collect();
     symbols.sort_unstable();
     symbols.dedup();
-    let drivers: Vec<Driver> =
-        symbols.into_iter().filter_map(|id| Driver::of(whole.setting.chain, observations, id)).collect();
+    let drivers: Vec<Driver> = symbols
+        .into_iter()
+        .filter_map(|id| Driver::of(whole.setting.chain, &observations.poses, id))
+        .collect();
     let mut places: Vec<Place> = smooths.iter().map(|smooth| smooth.place).collect();
     places.sort_unstable();
     places.dedup();
@@ -159,7 +161,7 @@ impl Library<'_, '_> {
 
     fn driver(&self, smooth: SmoothPlace) -> Option<(&Driver, &[f64])> {
         let driver = self.drivers.iter().find(|driver| driver.symbol == smooth.driver)?;
-        Some((driver, self.last.posed.rows.observations.column(smooth.driver)?))
+        Some((driver, self.last.posed.rows.observations.poses.column(smooth.driver)?))
     }
 
     /// A shape's columns at a place: the place's derivative times the function's values, whitened.

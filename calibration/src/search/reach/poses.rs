@@ -8,7 +8,7 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-use crate::data::{Observations, Series};
+use crate::data::{Poses, Series};
 
 /// How far each joint's range is widened on either side, as a share of it.
 const WIDENED: f64 = 0.5;
@@ -17,14 +17,14 @@ const WIDENED: f64 = 0.5;
 /// `limits` where those leave room around the data; inputs are those of some row of the data.
 pub(crate) fn further_out(
     chain: &Chain,
-    observations: &Observations,
+    poses: &Poses,
     limits: &[(SymbolId, Range<f64>)],
-    poses: usize,
+    count: usize,
     seed: u64,
-) -> Observations {
+) -> Poses {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let watched: Vec<&Series> = observations.series.iter().filter(|series| !series.rows.is_empty()).collect();
-    let each = poses.div_ceil(watched.len().max(1));
+    let watched: Vec<&Series> = poses.series.iter().filter(|series| !series.rows.is_empty()).collect();
+    let each = count.div_ceil(watched.len().max(1));
     let mut from = Vec::new();
     let mut series = Vec::new();
     for own in watched {
@@ -32,7 +32,7 @@ pub(crate) fn further_out(
         from.extend((0..each).map(|_| random.random_range(own.rows.clone())));
         series.push(Series { rows: start..from.len(), measure: own.measure.bare(), ..own.clone() });
     }
-    let columns = observations.columns.iter().map(|(id, readings)| {
+    let columns = poses.columns.iter().map(|(id, readings)| {
         let symbol = chain.symbol(*id);
         if symbol.kind != SymbolKind::Joint {
             return (*id, from.iter().map(|&row| readings[row]).collect());
@@ -43,15 +43,7 @@ pub(crate) fn further_out(
         (*id, from.iter().map(|_| drawn()).collect())
     });
     let columns = columns.collect();
-    let rows = from.len();
-    Observations {
-        series,
-        columns,
-        measured: from.iter().map(|&row| observations.measured[row]).collect(),
-        groups: (0..).take(rows).collect(),
-        row_numbers: (1..).take(rows).collect(),
-        ..Observations::default()
-    }
+    Poses { series, columns }
 }
 
 /// The range of some readings and half of it on either side.

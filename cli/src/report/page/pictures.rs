@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use calibration::data::Measure;
+use calibration::data::{Measure, Measured};
 use calibration::diagnose::Harmonics;
 use calibration::report::{self as words, numbers};
 use maud::{Markup, PreEscaped, html};
@@ -156,18 +156,21 @@ fn effect(reported: &Reported<'_>, rows: &Rows, at: usize) -> Markup {
 fn map(reported: &Reported<'_>, rows: &Rows) -> Markup {
     let observations = reported.observations;
     let [first, second, ..] = rows.components.as_slice() else { return html! {} };
-    let Some(series) = observations.series.first() else { return html! {} };
+    let Some(series) = observations.poses.series.first() else { return html! {} };
     if series.measure != series.measure.bare() {
         // Nobody knows where these rows pointed to.
         return html! {};
     }
     let position = |at: usize| -> Option<(f64, f64)> {
         let row = reported.calibration.drawn[at];
-        let [x, y, z] = observations.measured[row];
-        series.rows.contains(&row).then_some(match series.measure {
-            Measure::Direction => (x.atan2(y) * 180.0 / PI, z.clamp(-1.0, 1.0).asin() * 180.0 / PI),
-            _ => (x, y),
-        })
+        match observations.measured[row] {
+            _ if !series.rows.contains(&row) => None,
+            Measured::Direction(u) => {
+                Some((u.x.atan2(u.y) * 180.0 / PI, u.z.clamp(-1.0, 1.0).asin() * 180.0 / PI))
+            }
+            Measured::Point(point) => Some((point.x, point.y)),
+            _ => None,
+        }
     };
     let (title, labels) = match series.measure {
         Measure::Direction => ("Residuals over the sky", ["azimuth, °", "elevation, °"]),

@@ -88,7 +88,7 @@ impl Rows {
                 }
             })
             .collect();
-        let readings = calibration.diagnosis.instrument.readings.iter().zip(&observations.columns);
+        let readings = calibration.diagnosis.instrument.readings.iter().zip(&observations.poses.columns);
         let readings = readings.map(|(shown, (_, values))| {
             let reading = numbers::reading(shown.unit, axis_size(shown.unit, &shown.range));
             Column {

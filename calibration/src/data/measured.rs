@@ -1,0 +1,140 @@
+//! What one observation measured, and what the numbers of a series are.
+
+use nalgebra::Vector3;
+
+use super::SiUnit;
+
+/// What the numbers of one observation are, and with that how many residual components it has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Measure {
+    /// A unit vector; two residual components on the tangent plane, rad: across (towards growing azimuth) and
+    /// along (towards growing elevation).
+    Direction,
+    /// A point; three residual components x, y, z, in metres.
+    Point,
+    /// The distance of a point from the origin of the ground frame; one residual component, in metres.
+    Range,
+    /// An azimuth alone, from y through x; one residual component, rad.
+    Azimuth,
+    /// A point on an unknown plane; one residual component, in metres: how far off the plane.
+    Plane,
+    /// A point that is an unknown target's, seen from a station; three residual components across, up and along the beam,
+    /// in metres.
+    Target,
+    /// A point that stays where it is, however it is reached; three residual components x, y, z, in metres.
+    Fixed,
+    /// The length of a wire from an unknown anchor to the point; one residual component, in metres.
+    Wire,
+    /// A direction that is an unknown point's from a station; two residual components across and along, rad.
+    Sight,
+}
+
+impl Measure {
+    /// The number of residual components of one observation.
+    #[must_use]
+    pub fn components(self) -> usize {
+        match self {
+            Self::Direction | Self::Sight => 2,
+            Self::Point | Self::Target | Self::Fixed => 3,
+            Self::Range | Self::Azimuth | Self::Plane | Self::Wire => 1,
+        }
+    }
+
+    /// The SI unit of a residual.
+    #[must_use]
+    pub fn unit(self) -> SiUnit {
+        match self {
+            Self::Direction | Self::Azimuth | Self::Sight => SiUnit::RAD,
+            Self::Point | Self::Range | Self::Plane | Self::Target | Self::Fixed | Self::Wire => {
+                SiUnit::METRE
+            }
+        }
+    }
+
+    /// What the residual components are called.
+    #[must_use]
+    pub fn component_names(self) -> &'static [&'static str] {
+        match self {
+            Self::Direction | Self::Sight => &["across", "along"],
+            Self::Point | Self::Fixed => &["x", "y", "z"],
+            Self::Range => &["range"],
+            Self::Azimuth => &["azimuth"],
+            Self::Plane => &["off_plane"],
+            Self::Target => &["across", "up", "along"],
+            Self::Wire => &["length"],
+        }
+    }
+
+    /// What the same poses show where nothing stands that was observed: the point or the direction itself.
+    #[must_use]
+    pub fn bare(self) -> Self {
+        match self {
+            Self::Plane | Self::Target | Self::Fixed | Self::Wire => Self::Point,
+            Self::Sight => Self::Direction,
+            Self::Direction | Self::Point | Self::Range | Self::Azimuth => self,
+        }
+    }
+}
+
+/// What one observation measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Measured {
+    /// A unit vector.
+    Direction(Vector3<f64>),
+    /// A point, in metres.
+    Point(Vector3<f64>),
+    /// The distance of a point from the origin of the ground frame, in metres.
+    Range {
+        /// In metres.
+        range_m: f64,
+    },
+    /// An azimuth, from y through x.
+    Azimuth {
+        /// In radians.
+        azimuth_rad: f64,
+    },
+    /// The length of a wire.
+    Length {
+        /// In metres.
+        length_m: f64,
+    },
+    /// Nothing but the readings of joints and inputs: what stands there is an object's to say.
+    Readings,
+}
+
+impl Measured {
+    /// What would be measured where the chain is right: residuals are zero.
+    ///
+    /// `measure` is one that [`Measure::bare`] gives.
+    pub(crate) fn exactly(measure: Measure, predicted: &Vector3<f64>) -> Self {
+        match measure {
+            Measure::Direction => Self::Direction(predicted.normalize()),
+            Measure::Point => Self::Point(*predicted),
+            Measure::Range => Self::Range { range_m: predicted.norm() },
+            Measure::Azimuth => Self::Azimuth { azimuth_rad: predicted.x.atan2(predicted.y) },
+            Measure::Plane | Measure::Target | Measure::Fixed | Measure::Wire | Measure::Sight => {
+                unreachable!("poses without observations are bare")
+            }
+        }
+    }
+
+    /// The x, y, z of a direction or a point.
+    #[must_use]
+    pub fn vector(&self) -> Option<&Vector3<f64>> {
+        match self {
+            Self::Direction(vector) | Self::Point(vector) => Some(vector),
+            Self::Range { .. } | Self::Azimuth { .. } | Self::Length { .. } | Self::Readings => None,
+        }
+    }
+
+    /// The largest number in it, in rad or m, or of a unit vector.
+    pub(crate) fn largest(&self) -> f64 {
+        match *self {
+            Self::Direction(vector) | Self::Point(vector) => vector.amax(),
+            Self::Range { range_m: number }
+            | Self::Azimuth { azimuth_rad: number }
+            | Self::Length { length_m: number } => number.abs(),
+            Self::Readings => 0.0,
+        }
+    }
+}

@@ -85,6 +85,7 @@ impl Studied {
     pub fn load(self, open: &mut OpenTable<'_>) -> Result<Measured, Failure> {
         let loaded = self.plan.load_tables(open).map_err(tables::failure)?;
         self.plan.doubts.iter().for_each(terminal::warn);
+        self.plan.unstated.iter().for_each(terminal::warn);
         loaded.doubtful.iter().for_each(terminal::warn);
         Ok(Measured { studied: self, loaded })
     }

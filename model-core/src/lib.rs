@@ -30,4 +30,4 @@ pub use chain::{
     Axis, Body, BodyId, Chain, Factor, Motion, Observable, ObservableId, ObservableKind, Passed, Role,
 };
 pub use mistake::{Mistake, Mistakes};
-pub use symbol::{Meaning, Quantity, Symbol, SymbolId, SymbolKind};
+pub use symbol::{Meaning, Quantity, Subject, Symbol, SymbolId, SymbolKind};

@@ -70,10 +70,20 @@ pub enum Meaning {
     Temperature,
     /// `time`: seconds from any origin.
     Time,
-    /// `rate`: how fast a joint moves, in radians (or metres) per second.
+    /// `rate of beta`: how fast a joint moves, in radians (or metres) per second.
     Rate,
-    /// `direction`: which way a joint moves: 1 upwards, −1 downwards, 0 at rest.
+    /// `direction of beta`: which way a joint moves: 1 upwards, −1 downwards, 0 at rest.
     Direction,
+    /// `turns of beta`: how many times a joint has passed its index.
+    Turns,
+    /// `phase of range`: the phase of a modulation over a measured length, in radians.
+    Phase,
+    /// `inverse of range`: one over a measured length, in 1/m.
+    Inverse,
+    /// `rotator`: the angle of a rotator behind the instrument, in radians.
+    Rotator,
+    /// `session`: 1 in the rows of one session, 0 in the others.
+    Session,
     /// `side`: which of two sides or faces the instrument is on: 1 or −1.
     Side,
     /// `pressure`: pascal.
@@ -87,12 +97,15 @@ impl Meaning {
     #[must_use]
     pub fn quantity(self) -> Quantity {
         match self {
-            Self::Angle => Quantity::Angle,
+            Self::Angle | Self::Phase | Self::Rotator => Quantity::Angle,
             Self::Length | Self::Range => Quantity::Length,
             Self::Temperature
             | Self::Time
             | Self::Rate
             | Self::Direction
+            | Self::Turns
+            | Self::Inverse
+            | Self::Session
             | Self::Side
             | Self::Pressure
             | Self::Humidity => Quantity::Number,
@@ -103,15 +116,78 @@ impl Meaning {
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
-            Self::Angle => "rad",
+            Self::Angle | Self::Phase | Self::Rotator => "rad",
             Self::Length | Self::Range => "m",
             Self::Temperature => "K",
             Self::Time => "s",
             Self::Rate => "rad/s",
-            Self::Direction | Self::Side | Self::Humidity => "1",
+            Self::Direction | Self::Side | Self::Humidity | Self::Turns | Self::Session => "1",
+            Self::Inverse => "1/m",
             Self::Pressure => "Pa",
         }
     }
+}
+
+/// What the meaning of an input may be of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Subject {
+    /// A joint: `direction of beta`.
+    Joint,
+    /// A length that is measured, a joint or an input: `phase of range`.
+    Length,
+}
+
+impl Meaning {
+    /// What it is of; `None` for what stands by itself.
+    #[must_use]
+    pub fn subject(self) -> Option<Subject> {
+        match self {
+            Self::Direction | Self::Rate | Self::Turns => Some(Subject::Joint),
+            Self::Phase | Self::Inverse => Some(Subject::Length),
+            Self::Angle
+            | Self::Length
+            | Self::Range
+            | Self::Temperature
+            | Self::Time
+            | Self::Side
+            | Self::Pressure
+            | Self::Humidity
+            | Self::Rotator
+            | Self::Session => None,
+        }
+    }
+
+    /// The meaning that a word of declarations stands for.
+    #[must_use]
+    pub fn of_word(word: &str) -> Option<Self> {
+        Self::WORDS.iter().find(|(known, _)| *known == word).map(|(_, meaning)| *meaning)
+    }
+
+    /// As declarations write it.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        let own = Self::WORDS.iter().find(|(_, meaning)| *meaning == self);
+        own.map_or_else(|| unreachable!("every meaning has a word"), |(word, _)| word)
+    }
+
+    /// Every meaning, with its word.
+    pub const WORDS: [(&'static str, Self); 15] = [
+        ("angle", Self::Angle),
+        ("length", Self::Length),
+        ("range", Self::Range),
+        ("temperature", Self::Temperature),
+        ("time", Self::Time),
+        ("rate", Self::Rate),
+        ("direction", Self::Direction),
+        ("turns", Self::Turns),
+        ("phase", Self::Phase),
+        ("inverse", Self::Inverse),
+        ("side", Self::Side),
+        ("rotator", Self::Rotator),
+        ("session", Self::Session),
+        ("pressure", Self::Pressure),
+        ("humidity", Self::Humidity),
+    ];
 }
 
 impl Symbol {
@@ -133,6 +209,8 @@ pub struct Symbol {
     pub quantity: Quantity,
     /// What it is, for inputs whose statement says so.
     pub meaning: Option<Meaning>,
+    /// The joint or length that its meaning is of: `beta` of `direction of beta`.
+    pub of: Option<SymbolId>,
     /// Documentation from the declaration's `///` lines; empty if there is none.
     pub documentation: String,
     /// The printed form, declared by `symbol` or derived from the name: `\Delta\theta_{y1}^0`.

@@ -29,10 +29,20 @@ pub struct Addition {
 pub struct NewInput {
     /// Its name.
     pub name: String,
-    /// What it measures.
-    pub quantity: Quantity,
+    /// What it is, as a declaration writes it: `temperature`, `direction of beta`; `None` for a plain number.
+    pub meaning: Option<String>,
     /// Its `///` line.
     pub documentation: String,
+}
+
+impl NewInput {
+    /// As a declaration writes it: `input ambient: temperature;`
+    fn statement(&self) -> String {
+        match &self.meaning {
+            Some(meaning) => format!("input {}: {meaning};", self.name),
+            None => format!("input {};", self.name),
+        }
+    }
 }
 
 /// Why a text could not be amended.
@@ -86,15 +96,10 @@ pub fn amend(
         lines.push_str(&format!("{end}{indent}{word}: {};", addition.factor));
         insertions.push((at, addition.role, lines));
     }
-    for NewInput { name, quantity, documentation } in inputs {
+    for input in inputs {
         let (at, indent) = input_place(text, &declaration);
-        let measures = match quantity {
-            Quantity::Angle => ": angle",
-            Quantity::Length => ": length",
-            Quantity::Number => "",
-        };
-        let (end, documentation) = (line_end(text, at), on_one_line(documentation));
-        let lines = format!("{end}{indent}/// {documentation}{end}{indent}input {name}{measures};");
+        let (end, documentation) = (line_end(text, at), on_one_line(&input.documentation));
+        let lines = format!("{end}{indent}/// {documentation}{end}{indent}{}", input.statement());
         insertions.push((at, Role::Position, lines));
     }
     // In a body without a motion all roles go to one place: there as everywhere, what errs before the motion stands
@@ -176,7 +181,7 @@ fn place(text: &str, body: &BodyStatement, role: Role) -> (usize, String) {
 fn input_place(text: &str, declaration: &Declaration) -> (usize, String) {
     let inputs = declaration.statements.iter().filter_map(|statement| match statement {
         Statement::Input(input) => {
-            let last = input.meaning.as_ref().unwrap_or(&input.name);
+            let last = input.of.as_ref().or(input.meaning.as_ref()).unwrap_or(&input.name);
             Some((after_semicolon(text, last.span().byte_range().end), input.name.span().byte_range().start))
         }
         _ => None,

@@ -31,13 +31,8 @@ pub(super) fn says_what_was_meant(
         let role = if addition.role == Role::MotionError { "motion_error" } else { "position_error" };
         meant.push(texts(&words(&format!("{role}: {};", addition.factor))?));
     }
-    for NewInput { name, quantity, .. } in inputs {
-        let measures = match quantity {
-            Quantity::Angle => ": angle",
-            Quantity::Length => ": length",
-            Quantity::Number => "",
-        };
-        meant.push(texts(&words(&format!("input {name}{measures};"))?));
+    for input in inputs {
+        meant.push(texts(&words(&input.statement())?));
     }
     said.sort();
     meant.sort();

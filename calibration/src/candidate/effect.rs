@@ -279,7 +279,7 @@ pub(crate) fn add_error(chain: &mut Chain, name: String, quantity: Quantity) -> 
     let (kind, documentation) = (SymbolKind::Error, String::new());
     let id = SymbolId(u16::try_from(chain.symbols.len()).ok()?);
     let latex = name.replace('_', r"\_");
-    chain.symbols.push(Symbol { name, kind, quantity, meaning: None, documentation, latex, value: None });
+    chain.symbols.push(Symbol { name, kind, quantity, meaning: None, of: None, documentation, latex, value: None });
     Some(id)
 }
 

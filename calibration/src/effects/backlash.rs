@@ -14,7 +14,7 @@ pub(super) const FAMILY: Family = Family {
     effects,
 };
 
-/// Inputs named `beta_direction` belong to the joint `beta`.
+/// By inputs that are the direction of motion of a joint.
 fn effects(setting: &Setting<'_>) -> Vec<Effect> {
     let all = setting.joints().into_iter().filter_map(|joint| {
         let input = Kind::Direction(joint.symbol).input(setting)?;

@@ -16,7 +16,7 @@ pub(super) const FAMILY: Family = Family {
     effects,
 };
 
-/// Inputs named `range_inverse`, for observed directions; of points the shift itself is in the catalogue.
+/// By inputs that are one over a range, for observed directions; of points the shift itself is in the catalogue.
 fn effects(setting: &Setting<'_>) -> Vec<Effect> {
     let mut effects = Vec::new();
     let inputs: Vec<_> = setting

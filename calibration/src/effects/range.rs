@@ -39,10 +39,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
             let function = Function::new(amount, format!("{name}_{what}"));
             effects.push(along(format!("{name} {what}"), vec![function], name, form.to_owned()));
         }
-        // Inputs named `range_phase` are the phase of the range's modulation, an angle.
-        let phase = Kind::Phase(input)
-            .input(setting)
-            .filter(|&phase| setting.chain.symbol(phase).quantity == Quantity::Angle);
+        let phase = Kind::Phase(input).input(setting);
         for (phase, order) in phase.into_iter().flat_map(|phase| HARMONICS.map(move |order| (phase, order))) {
             let driver = setting.name(phase);
             let often =

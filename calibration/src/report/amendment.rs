@@ -1,6 +1,6 @@
 //! The lines of the amended declaration: what was found and when; the statistics stay in the report.
 
-use model_core::{Chain, SymbolId, SymbolKind};
+use model_core::{Chain, Quantity, Symbol, SymbolId, SymbolKind};
 
 use crate::amend::{Addition, NewInput};
 use crate::candidate::Function;
@@ -43,6 +43,8 @@ pub(crate) fn new_inputs(whole: &Context<'_>, chain: &Chain, found: &[Found]) ->
         .flat_map(Function::amounts)
         .flat_map(|amount| chain.symbols_in(amount))
         .filter(|&symbol| chain.symbol(symbol).kind == SymbolKind::Input)
+        .flat_map(|symbol| std::iter::once(symbol).chain(chain.symbol(symbol).of))
+        .filter(|&symbol| chain.symbol(symbol).kind == SymbolKind::Input)
         .collect();
     used.sort_unstable();
     used.dedup();
@@ -51,8 +53,19 @@ pub(crate) fn new_inputs(whole: &Context<'_>, chain: &Chain, found: &[Found]) ->
         .filter(|symbol| declared.as_ref().is_ok_and(|chain| chain.find_symbol(&symbol.name).is_none()))
         .map(|symbol| NewInput {
             name: symbol.name.clone(),
-            quantity: symbol.quantity,
+            meaning: meaning(chain, symbol),
             documentation: "Measured beside the joints, in the unit of the data.".to_owned(),
         })
         .collect()
+}
+
+/// What an input is, as a declaration writes it.
+fn meaning(chain: &Chain, symbol: &Symbol) -> Option<String> {
+    match (symbol.meaning, symbol.of, symbol.quantity) {
+        (Some(meaning), Some(of), _) => Some(format!("{} of {}", meaning.word(), chain.symbol(of).name)),
+        (Some(meaning), None, _) => Some(meaning.word().to_owned()),
+        (None, _, Quantity::Angle) => Some("angle".to_owned()),
+        (None, _, Quantity::Length) => Some("length".to_owned()),
+        (None, _, Quantity::Number) => None,
+    }
 }

@@ -1,10 +1,11 @@
 //! Inputs that a study brings with it: side quantities that the chain does not declare, and what follows from the
 //! sequence of the rows.
 
-use model_core::{Chain, Meaning, Quantity, Symbol, SymbolKind, check};
+use model_core::{Chain, Meaning, Quantity, Subject, Symbol, SymbolId, SymbolKind, check, names};
+use toml::Spanned;
 
 use super::mistakes::{Outcome, every, mistake};
-use super::written::Study;
+use super::written::{Column, Study};
 use crate::data::units::Unit;
 use crate::data::{Derived, parse_derived};
 
@@ -25,7 +26,7 @@ impl Study {
                     Err(mistake(name.span(), message, help))
                 }
                 None => {
-                    chain.symbols.push(input(text, self.quantity_of(text), None));
+                    chain.symbols.push(input(text, self.quantity_of(text)));
                     Ok(())
                 }
                 Some(SymbolKind::Input | SymbolKind::Joint) => Ok(()),
@@ -37,10 +38,45 @@ impl Study {
         }))?;
         for (name, derived) in self.implied(&chain) {
             if chain.find_symbol(&name).is_none() {
-                chain.symbols.push(input(&name, derived.quantity(), meaning(&derived)));
+                chain.symbols.push(input(&name, derived.quantity()));
+                let at = chain.symbols.len() - 1;
+                let (meaning, of) = derived_meaning(&derived, &chain);
+                (chain.symbols[at].meaning, chain.symbols[at].of) = (meaning, of);
             }
         }
+        every(self.columns.iter().map(|(name, column)| self.give_meaning(&mut chain, name, column)))?;
         Ok(chain)
+    }
+
+    /// What an input is that only the study names, or that the chain says nothing of: as its column states, or as it is derived.
+    fn give_meaning(
+        &self,
+        chain: &mut Chain,
+        name: &Spanned<String>,
+        column: &Spanned<Column>,
+    ) -> Outcome<()> {
+        let Some(id) = chain.find_symbol(name.get_ref()) else { return Ok(()) };
+        let symbol = chain.symbol(id);
+        let derived = column.get_ref().derive.as_ref().and_then(|text| parse_derived(text).ok());
+        let stated = column.get_ref().meaning.as_ref();
+        let (meaning, of) = match (stated, &derived) {
+            (Some(text), _) => stated_meaning(text, chain)?,
+            (None, Some(derived)) if symbol.meaning.is_none() => derived_meaning(derived, chain),
+            (None, _) => return Ok(()),
+        };
+        if let Some(text) = stated {
+            let declared = (symbol.meaning, symbol.of);
+            if symbol.kind != SymbolKind::Input || (declared.0.is_some() && declared != (meaning, of)) {
+                let message = format!("the chain says otherwise of `{}`", name.get_ref());
+                return Err(mistake(text.span(), message, "leave `meaning` out here, or mend the declaration"));
+            }
+        }
+        let symbol = &mut chain.symbols[id.index()];
+        (symbol.meaning, symbol.of) = (meaning, of);
+        if let (Some(meaning), SymbolKind::Input, Quantity::Number) = (meaning, symbol.kind, symbol.quantity) {
+            symbol.quantity = meaning.quantity();
+        }
+        Ok(())
     }
 
     /// What an input measures that only the study names: what its column's unit says, or what it is derived as.
@@ -80,25 +116,73 @@ impl Study {
     }
 }
 
-/// What an input is that follows from the rows.
-fn meaning(derived: &Derived) -> Option<Meaning> {
+/// `temperature`, `direction of beta`, as a column states it.
+fn stated_meaning(text: &Spanned<String>, chain: &Chain) -> Outcome<(Option<Meaning>, Option<SymbolId>)> {
+    let words: Vec<&str> = text.get_ref().split_whitespace().collect();
+    let refuse = |message: String, help: String| Err(mistake(text.span(), message, &help));
+    let meaning = |word: &str| Meaning::of_word(word);
+    match words[..] {
+        [word] => match meaning(word) {
+            Some(meaning) => Ok((Some(meaning), None)),
+            None => {
+                let known = Meaning::WORDS.map(|(word, _)| word);
+                let help = names::nearest(word, known).map_or_else(
+                    || format!("write one of {}", known.join(", ")),
+                    |near| format!("did you mean `{near}`?"),
+                );
+                refuse(format!("unknown meaning `{word}`"), help)
+            }
+        },
+        [word, "of", name] => {
+            let subject = meaning(word).and_then(Meaning::subject);
+            let id = chain.find_symbol(name);
+            let fits = id.zip(subject).is_some_and(|(id, subject)| {
+                let symbol = chain.symbol(id);
+                match subject {
+                    Subject::Joint => symbol.kind == SymbolKind::Joint,
+                    Subject::Length => {
+                        matches!(symbol.kind, SymbolKind::Joint | SymbolKind::Input)
+                            && symbol.quantity == Quantity::Length
+                    }
+                }
+            });
+            if fits {
+                return Ok((meaning(word), id));
+            }
+            let help = "write `direction of JOINT`, `rate of JOINT`, `turns of JOINT`, `phase of RANGE` or \
+                        `inverse of RANGE`, with a joint or a length of the chain";
+            refuse(format!("`{}` is no meaning of an input", text.get_ref()), help.to_owned())
+        }
+        _ => refuse(
+            format!("`{}` is no meaning of an input", text.get_ref()),
+            "write `temperature`, `direction of JOINT` and the like".to_owned(),
+        ),
+    }
+}
+
+/// What an input is that is derived from other columns.
+fn derived_meaning(derived: &Derived, chain: &Chain) -> (Option<Meaning>, Option<SymbolId>) {
+    let of = |name: &str| chain.find_symbol(name);
     match derived {
-        Derived::Direction { .. } => Some(Meaning::Direction),
-        Derived::Rate { .. } => Some(Meaning::Rate),
-        Derived::Elapsed { .. } => Some(Meaning::Time),
-        Derived::Face { .. } => Some(Meaning::Side),
-        Derived::Phase { .. } => Some(Meaning::Angle),
-        Derived::Turns { .. } | Derived::Is { .. } | Derived::Inverse { .. } => None,
+        Derived::Direction { joint } => (Some(Meaning::Direction), of(joint)),
+        Derived::Rate { joint, .. } => (Some(Meaning::Rate), of(joint)),
+        Derived::Turns { joint } => (Some(Meaning::Turns), of(joint)),
+        Derived::Elapsed { .. } => (Some(Meaning::Time), None),
+        Derived::Face { .. } => (Some(Meaning::Side), None),
+        Derived::Is { .. } => (Some(Meaning::Session), None),
+        Derived::Phase { range, .. } => (Some(Meaning::Phase), of(range)),
+        Derived::Inverse { range } => (Some(Meaning::Inverse), of(range)),
     }
 }
 
 /// An input that a study brings with it.
-fn input(name: &str, quantity: Quantity, meaning: Option<Meaning>) -> Symbol {
+fn input(name: &str, quantity: Quantity) -> Symbol {
     Symbol {
         name: name.to_owned(),
         kind: SymbolKind::Input,
         quantity,
-        meaning,
+        meaning: None,
+        of: None,
         documentation: String::new(),
         latex: format!("\\mathrm{{{}}}", name.replace('_', "\\_")),
         value: None,

@@ -19,8 +19,10 @@ mod plan;
 mod shown;
 mod sigma;
 mod syntax;
+mod unstated;
 mod written;
 
 pub use load::{Loaded, Open, OpenTable};
 pub use plan::{HoldOut, NextPoses, Plan, Search, SourcePlan};
+pub use unstated::Unstated;
 pub use written::Study;

@@ -8,6 +8,7 @@ use toml::Spanned;
 use super::estimated::{estimable, matching};
 use super::mistakes::{Gathered, Outcome, Several, every, mistake, plain, unknown, within};
 use super::shown::{self, Convention};
+use super::unstated::{Unstated, unstated};
 use super::written::{Column, Kind, Observed, Study, Table};
 use crate::candidate::Effect;
 use crate::data::units::{Amount, Doubt, Unit};
@@ -36,6 +37,8 @@ pub struct Plan {
     pub data_from: Option<String>,
     /// Bare numbers of the study that are hardly in SI.
     pub doubts: Vec<Doubt>,
+    /// Inputs whose names sound like what they do not state.
+    pub unstated: Vec<Unstated>,
     pub(super) id: Option<String>,
     /// Where objects and stations are as far as the study says.
     pub places: Places,
@@ -176,6 +179,7 @@ impl Study {
         let (id, group, order) = (self.id.clone(), self.noise.group.0.clone(), self.noise.order.clone());
         let (data_from, doubts) = (self.data_from.clone(), self.doubts(&chain, &sources));
         let chain = shown::vectors(chain);
+        let unstated = unstated(&chain, &search.inputs);
         Ok(Plan {
             sources,
             fit,
@@ -185,6 +189,7 @@ impl Study {
             places,
             data_from,
             doubts,
+            unstated,
             id,
             group,
             order,
@@ -305,7 +310,7 @@ impl Study {
                     .map(Reading::Derived)
                     .map_err(|error| plain(column.span(), error.to_string())),
                 None => {
-                    let mut plan = column_plan(column.get_ref(), symbol.quantity, &column.span())?;
+                    let mut plan = column_plan(column.get_ref(), symbol.quantity, &column.span(), true)?;
                     plan.declared = plan.name == symbol.name;
                     Ok(Reading::Column(plan))
                 }
@@ -366,9 +371,17 @@ fn needed(chain: &Chain, observable: ObservableId) -> Vec<SymbolId> {
     symbols
 }
 
-pub(super) fn column_plan(column: &Column, quantity: Quantity, place: &Range<usize>) -> Outcome<ColumnPlan> {
+pub(super) fn column_plan(
+    column: &Column,
+    quantity: Quantity,
+    place: &Range<usize>,
+    of_input: bool,
+) -> Outcome<ColumnPlan> {
     let unit = column.unit.as_deref().map(Unit::parse).transpose();
     let unit = unit.map_err(|error| plain(place.clone(), error.to_string()))?;
+    if let (Some(meaning), false) = (&column.meaning, of_input) {
+        return Err(mistake(meaning.span(), "what is measured has no meaning of its own", "leave `meaning` out"));
+    }
     match &column.column {
         Some(name) => Ok(ColumnPlan { name: name.clone(), unit, quantity, declared: false, named: true }),
         None => Err(mistake(place.clone(), "this column is measured, not derived", "write `column = \"…\"`")),
@@ -409,7 +422,7 @@ fn observed_columns(
         Kind::Sight => (Measure::Sight, Quantity::Angle, Vec::new()),
     };
     let plan = |(key, column): (&str, &Option<Column>)| match column {
-        Some(column) => column_plan(column, quantity, &place),
+        Some(column) => column_plan(column, quantity, &place, false),
         // What `simulate` and `eval` write needs no naming.
         None if xyz.iter().any(|(name, _)| *name == key) => Ok(ColumnPlan {
             name: format!("{}_{key}", observable.name),

@@ -87,5 +87,5 @@ fn planned(
         let message = format!("{} columns for {} residual components", columns.len(), measure.components());
         return Err(mistake(place.clone(), message, "name one column for all, or one for each"));
     }
-    every(columns.iter().map(|column| column_plan(column, quantity(measure), place)))
+    every(columns.iter().map(|column| column_plan(column, quantity(measure), place, false)))
 }

@@ -133,6 +133,8 @@ pub(super) struct Column {
     pub column: Option<String>,
     pub unit: Option<String>,
     pub derive: Option<String>,
+    /// What the input is: `temperature`, `direction of beta`.
+    pub meaning: Option<Spanned<String>>,
 }
 
 /// `[observed]`.

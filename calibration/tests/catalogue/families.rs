@@ -19,7 +19,8 @@ elevation_face = { derive = \"face(elevation)\" }
 range_phase = { derive = \"phase(range, 0.6 m)\" }
 session_2 = { derive = \"is(night, 2)\" }
 session_3 = { derive = \"is(night, 3)\" }
-rotator = { column = \"rotator\", unit = \"deg\" }
+rotator = { column = \"rotator\", unit = \"deg\", meaning = \"rotator\" }
+temperature = { column = \"air\", meaning = \"temperature\" }
 elapsed = { derive = \"elapsed(time)\" }
 [[effect]]
 name = \"cable\"
@@ -150,12 +151,15 @@ fn a_declared_meaning_counts_and_a_name_does_not() {
         let of = Asked::of(&text, "tip", "point", &study).catalogue().into_iter();
         of.filter(|effect| effect.driver == name).map(|effect| effect.family).collect::<Vec<_>>()
     };
-    for (named, otherwise) in
-        [("temperature", "zeit: temperature"), ("elapsed", "chaleur: time"), ("pier", "temp_side_time: side")]
+    let plain = families("zahl");
+    for (meaning, family) in
+        [("temperature", "thermal"), ("time", "drift"), ("side", "flop"), ("direction of q1", "backlash")]
     {
-        let (by_name, declared) = (families(named), families(otherwise));
-        assert!(!by_name.is_empty(), "{named}");
-        assert_eq!(by_name, declared, "{named}, {otherwise}");
+        for name in ["temperature", "elapsed", "pier", "q1_direction", "x"] {
+            assert_eq!(families(name), plain, "{name}");
+            let declared = families(&format!("{name}: {meaning}"));
+            assert!(declared.contains(&family) && !plain.contains(&family), "{name}: {meaning} {declared:?}");
+        }
     }
 }
 

@@ -13,8 +13,9 @@ const ARCSEC: f64 = std::f64::consts::PI / 180.0 / 3600.0;
 fn report(second: usize) -> Diagnosis {
     let text = lidar();
     let study = "chain = \"c\"\nobservable = \"pointing\"\ndata = \"d\"\n\
-                 [columns]\ntemperature = { column = \"t\" }\nbeta_direction = { column = \"b\" }\n\
-                 session_2 = { column = \"s\" }\n\
+                 [columns]\ntemperature = { column = \"t\", meaning = \"temperature\" }\n\
+                 beta_direction = { column = \"b\", meaning = \"direction of beta\" }\n\
+                 session_2 = { column = \"s\", meaning = \"session\" }\n\
                  [observed]\nkind = \"direction\"\n[search]\ninputs = [\"session_2\", \"temperature\", \"beta_direction\"]\n";
     let plan = Study::from_text(study).unwrap().plan(&Chain::from_text(&text).unwrap()).unwrap();
     let chain = Chain::from_text(&text).unwrap();

@@ -12,7 +12,8 @@ const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;
 fn plan(chain: &Chain, more: &str) -> Plan {
     let study = format!(
         "chain = \"c\"\nobservable = \"pointing\"\ndata = \"d\"\n\
-         [columns]\ntemperature = {{ column = \"t\" }}\nbeta_direction = {{ column = \"b\" }}\n\
+         [columns]\ntemperature = {{ column = \"t\", meaning = \"temperature\" }}\n\
+         beta_direction = {{ column = \"b\", meaning = \"direction of beta\" }}\n\
          [observed]\nkind = \"direction\"\n\
          [search]\ninputs = [\"temperature\", \"beta_direction\"]\n{more}"
     );

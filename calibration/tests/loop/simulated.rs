@@ -22,7 +22,8 @@ pub(crate) fn lidar() -> String {
 /// A study of the pointing, with a temperature measured beside it.
 fn plan(chain: &Chain) -> Plan {
     let study = "chain = \"c\"\nobservable = \"pointing\"\ndata = \"d\"\n\
-                 [columns]\ntemperature = { column = \"t\" }\nbeta_direction = { column = \"b\" }\n\
+                 [columns]\ntemperature = { column = \"t\", meaning = \"temperature\" }\n\
+                 beta_direction = { column = \"b\", meaning = \"direction of beta\" }\n\
                  [observed]\nkind = \"direction\"\n\
                  [search]\ninputs = [\"temperature\", \"beta_direction\"]\n";
     Study::from_text(study).unwrap().plan(chain).unwrap()

@@ -13,7 +13,8 @@ const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;
 /// The study of a pointing.
 fn plan(chain: &Chain) -> Plan {
     let study = "chain = \"c\"\nobservable = \"pointing\"\ndata = \"d\"\n\
-         [columns]\ntemperature = { column = \"t\" }\nbeta_direction = { column = \"b\" }\n\
+         [columns]\ntemperature = { column = \"t\", meaning = \"temperature\" }\n\
+                 beta_direction = { column = \"b\", meaning = \"direction of beta\" }\n\
          [observed]\nkind = \"direction\"\n\
          [search]\nfunctions = true\ninputs = [\"temperature\", \"beta_direction\"]\n";
     Study::from_text(study).unwrap().plan(chain).unwrap()

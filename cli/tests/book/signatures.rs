@@ -28,7 +28,7 @@ struct Signature {
 
 const NONE: Signature =
     Signature { name: "noise", declared: &[], real: &[], errors: "", input: None, search: "" };
-const TEMPERATURE: (&str, &str) = ("chain Mount {", "chain Mount {\n    input temperature;");
+const TEMPERATURE: (&str, &str) = ("chain Mount {", "chain Mount {\n    input temperature: temperature;");
 const AZIMUTH: &str = "Rz(azimuth_index)";
 const ELEVATION: &str = "Rx(elevation_index)";
 

@@ -38,6 +38,7 @@ impl Chain {
             kind: SymbolKind::Ramp,
             quantity: Quantity::Number,
             meaning: None,
+            of: None,
             documentation,
             latex: format!(
                 "\\operatorname{{ramp}}\\left({}, {}, {}\\right)",

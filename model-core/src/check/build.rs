@@ -126,6 +126,11 @@ fn symbols(subject: &Subject<'_>) -> Vec<Symbol> {
         .printed_symbols()
         .map(|symbol| (symbol.name.to_string(), symbol.latex.as_str()))
         .collect();
+    let of: BTreeMap<String, SymbolId> = subject
+        .declaration
+        .inputs()
+        .filter_map(|input| Some((input.name.to_string(), scope.find(&input.of.as_ref()?.to_string())?)))
+        .collect();
     let values: BTreeMap<String, f64> = subject
         .declaration
         .constants()
@@ -140,6 +145,7 @@ fn symbols(subject: &Subject<'_>) -> Vec<Symbol> {
             kind: entry.kind,
             quantity: entry.quantity.or_else(|| quantities.get(&id).copied()).unwrap_or(Quantity::Number),
             meaning: entry.meaning,
+            of: of.get(&entry.name).copied(),
             documentation: entry.documentation.clone(),
             latex: printed
                 .get(&entry.name)

@@ -65,7 +65,7 @@ impl Scope {
                 }),
                 Statement::Input(input) => {
                     let meaning =
-                        input.meaning.as_ref().and_then(|word| words::meaning(&words::MEANINGS, word));
+                        input.meaning.as_ref().and_then(|word| words::meaning(&Meaning::WORDS, word));
                     scope.declare(Entry {
                         name: input.name.to_string(),
                         kind: SymbolKind::Input,

@@ -5,7 +5,7 @@ use proc_macro2::Ident;
 use crate::chain::reading::{Reading, SignedAxis};
 use crate::chain::{Axis, Motion, ObservableKind, Role};
 use crate::names::nearest;
-use crate::symbol::{Meaning, Quantity};
+use crate::symbol::Quantity;
 use crate::syntax::declaration::{AxisTerm, ReadingTerm};
 
 /// The body that is not declared: what the instrument stands on.
@@ -48,20 +48,6 @@ pub fn reading(written: &ReadingTerm) -> Option<Reading> {
 
 /// The quantities that constants may state.
 pub const QUANTITIES: [(&str, Quantity); 2] = [("angle", Quantity::Angle), ("length", Quantity::Length)];
-
-/// What inputs may state that they are.
-pub const MEANINGS: [(&str, Meaning); 10] = [
-    ("angle", Meaning::Angle),
-    ("length", Meaning::Length),
-    ("range", Meaning::Range),
-    ("temperature", Meaning::Temperature),
-    ("time", Meaning::Time),
-    ("rate", Meaning::Rate),
-    ("direction", Meaning::Direction),
-    ("side", Meaning::Side),
-    ("pressure", Meaning::Pressure),
-    ("humidity", Meaning::Humidity),
-];
 
 /// What a word stands for.
 pub fn meaning<T: Copy>(words: &[(&str, T)], word: &Ident) -> Option<T> {

@@ -18,6 +18,7 @@ pub fn extended(chain: &Chain) -> Chain {
         kind: SymbolKind::Constant,
         quantity,
         meaning: None,
+        of: None,
         documentation: String::new(),
         latex,
         value,

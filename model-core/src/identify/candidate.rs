@@ -90,6 +90,7 @@ impl Candidate {
                 kind: SymbolKind::Error,
                 quantity: Quantity::Number,
                 meaning: None,
+                of: None,
                 documentation: String::new(),
                 value: None,
             });

@@ -107,6 +107,8 @@ pub struct InputStatement {
     pub name: Ident,
     /// `length`, `temperature` and so on, as written.
     pub meaning: Option<Ident>,
+    /// The joint or length that it is of, as written: `beta` of `direction of beta`.
+    pub of: Option<Ident>,
 }
 
 /// `symbol dg2 = r"\Delta\gamma_2";`

@@ -35,11 +35,14 @@ impl Display for Declaration {
                     }
                     writeln!(f, " = {};", Written(value.as_ref()))?;
                 }
-                Statement::Input(InputStatement { documentation: text, name, meaning }) => {
+                Statement::Input(InputStatement { documentation: text, name, meaning, of }) => {
                     documentation(f, "    ", text)?;
                     write!(f, "    input {name}")?;
                     if let Some(meaning) = meaning {
                         write!(f, ": {meaning}")?;
+                    }
+                    if let Some(of) = of {
+                        write!(f, " of {of}")?;
                     }
                     writeln!(f, ";")?;
                 }

@@ -20,7 +20,7 @@ const STATEMENT_WORDS: [&str; 6] = ["body", "const", "input", "symbol", "observe
 const CHAIN_HELP: &str = "write `chain Name { … }`";
 const BODY_HELP: &str = "write `body name on ground { … }`, or the lower body's name in place of `ground`";
 const CONSTANT_HELP: &str = "write `const name: length = 0.25;` or `const name: angle = pi/6;`";
-const INPUT_HELP: &str = "write `input name;`, or say what it is: `input name: temperature;`";
+const INPUT_HELP: &str = "write `input name;`, or say what it is: `input name: temperature;`, `input name: direction of joint;`";
 const SYMBOL_HELP: &str = r#"write `symbol name = r"\delta_1";`"#;
 const OBSERVE_HELP: &str =
     "write `observe name: direction(0, 0, 1) of body;` or `observe name: point(0, 0, 0) of body;`";
@@ -204,8 +204,15 @@ fn input(reader: &mut Reader<'_, '_>, documentation: String) -> Read<InputStatem
     reader.keyword("input", INPUT_HELP)?;
     let name = reader.name("the name of the input").map_err(|m| m.with_help(INPUT_HELP))?;
     let meaning = stated(reader, "`length`, `temperature` and so on", INPUT_HELP)?;
+    let of = match reader.peek_word() {
+        Some(word) if meaning.is_some() && word == "of" => {
+            reader.keyword("of", INPUT_HELP)?;
+            Some(reader.name("a joint or a length").map_err(|m| m.with_help(INPUT_HELP))?)
+        }
+        _ => None,
+    };
     reader.end_of_statement()?;
-    Ok(InputStatement { documentation, name, meaning })
+    Ok(InputStatement { documentation, name, meaning, of })
 }
 
 /// What stands behind a colon, if there is one.

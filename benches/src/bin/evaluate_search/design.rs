@@ -26,7 +26,11 @@ pub const SIGMA_RAD: f64 = 2.0 * TAU / 360.0 / 3600.0;
 pub type Failure = Box<dyn Error + Send + Sync>;
 
 /// The side quantities measured beside the joints.
-const INPUTS: [&str; 3] = ["temperature", "alpha_direction", "beta_direction"];
+const INPUTS: [(&str, &str); 3] = [
+    ("temperature", "temperature"),
+    ("alpha_direction", "direction of alpha"),
+    ("beta_direction", "direction of beta"),
+];
 
 /// How the poses follow each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,10 +55,11 @@ pub struct Design {
 /// The study of the evaluation.
 fn plan(sequence: bool) -> Result<Plan, Failure> {
     let columns: Vec<String> =
-        INPUTS.iter().map(|name| format!("{name} = {{ column = \"{name}\" }}")).collect();
+        INPUTS.iter().map(|(name, meaning)| format!("{name} = {{ column = \"{name}\", meaning = \"{meaning}\" }}")).collect();
+    let inputs = INPUTS.map(|(name, _)| name);
     let study = format!(
         "chain = \"c\"\nobservable = \"pointing\"\ndata = \"d\"\n[columns]\n{}\n[observed]\nkind = \"direction\"\n\
-         [search]\ninputs = {INPUTS:?}\nsequence = {sequence}\n",
+         [search]\ninputs = {inputs:?}\nsequence = {sequence}\n",
         columns.join("\n")
     );
     let chain = Chain::from_text(TEXT).map_err(|mistakes| mistakes.render("mobile-lidar.chain", TEXT))?;
@@ -211,7 +216,7 @@ fn readings(plan: &Plan, rows: usize, poses: Poses, seed: u64) -> Result<Observa
         });
         columns.push((symbol(name)?, column.collect()));
     }
-    for name in INPUTS {
+    for (name, _) in INPUTS {
         let column = (0..rows).map(|_| match name {
             "temperature" => random.random_range(10.0..30.0),
             _ => f64::from(random.random_range(0..2)) * 2.0 - 1.0,

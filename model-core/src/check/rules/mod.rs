@@ -34,6 +34,7 @@ pub const RULES: &[(&str, Rule)] = &[
     ("a motion is moved by joints, linearly", amounts::motion_is_linear),
     ("an error vanishes with its symbols", amounts::error_vanishes),
     ("a quantity is an angle or a length, a meaning one of a list", quantities::quantity_is_known),
+    ("a direction is of a joint, a phase of a length", quantities::meaning_is_of_what_it_can_be_of),
     ("a constant has a finite value", quantities::constant_has_a_value),
     ("a symbol measures one thing", quantities::one_quantity_each),
     ("an observable is a direction or a point", observables::kind_is_known),

@@ -7,10 +7,10 @@ use proc_macro2::{Ident, Span};
 use super::super::Subject;
 use super::super::amounts::Purpose;
 use super::super::quantity::inferred;
-use super::super::words::{MEANINGS, QUANTITIES, advice, meaning, quantity_moved};
+use super::super::words::{QUANTITIES, advice, meaning, quantity_moved};
 use crate::chain::Role;
 use crate::mistake::Mistake;
-use crate::symbol::{Quantity, SymbolId, SymbolKind};
+use crate::symbol::{self, Meaning, Quantity, SymbolId, SymbolKind};
 
 pub fn quantity_is_known(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
     let declaration = subject.declaration;
@@ -20,8 +20,41 @@ pub fn quantity_is_known(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>
         }
     }
     for word in declaration.inputs().filter_map(|input| input.meaning.as_ref()) {
-        if meaning(&MEANINGS, word).is_none() {
-            mistakes.push(unknown("meaning", &MEANINGS, word));
+        if meaning(&Meaning::WORDS, word).is_none() {
+            mistakes.push(unknown("meaning", &Meaning::WORDS, word));
+        }
+    }
+}
+
+/// `direction of beta` names a joint, `phase of range` a length, and a temperature is of nothing.
+pub fn meaning_is_of_what_it_can_be_of(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
+    let scope = &subject.scope;
+    for input in subject.declaration.inputs() {
+        let (Some(word), Some(of)) = (&input.meaning, &input.of) else { continue };
+        let Some(meaning) = meaning(&Meaning::WORDS, word) else { continue };
+        let entry = scope.find(&of.to_string()).and_then(|id| scope.entries().get(id.index()));
+        let Some(wanted) = meaning.subject() else {
+            mistakes.push(
+                Mistake::new(of.span(), format!("the meaning `{word}` is of nothing"))
+                    .with_help(format!("write `input {}: {word};`", input.name)),
+            );
+            continue;
+        };
+        let (is_such, such) = match wanted {
+            symbol::Subject::Joint => {
+                (entry.is_some_and(|entry| entry.kind == SymbolKind::Joint), "a joint")
+            }
+            symbol::Subject::Length => {
+                let is_read = |kind| matches!(kind, SymbolKind::Joint | SymbolKind::Input);
+                let is_length = entry.is_some_and(|entry| is_read(entry.kind) && entry.quantity == Some(Quantity::Length));
+                (is_length, "a joint or input that is a length")
+            }
+        };
+        if !is_such {
+            mistakes.push(
+                Mistake::new(of.span(), format!("`{word}` is of {such}, which `{of}` is not"))
+                    .with_help(format!("name {such}: `input {}: {word} of NAME;`", input.name)),
+            );
         }
     }
 }

@@ -65,8 +65,12 @@ impl Study {
             (None, _) => return Ok(()),
         };
         if let Some(text) = stated {
+            if symbol.kind != SymbolKind::Input {
+                let message = format!("`{}` is no input: it has no meaning to state", name.get_ref());
+                return Err(mistake(text.span(), message, "leave `meaning` out"));
+            }
             let declared = (symbol.meaning, symbol.of);
-            if symbol.kind != SymbolKind::Input || (declared.0.is_some() && declared != (meaning, of)) {
+            if declared.0.is_some() && declared != (meaning, of) {
                 let message = format!("the chain says otherwise of `{}`", name.get_ref());
                 return Err(mistake(text.span(), message, "leave `meaning` out here, or mend the declaration"));
             }

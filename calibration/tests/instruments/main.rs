@@ -93,7 +93,7 @@ fn equatorial_mounts_follow_their_pier_side() {
         // Without the side of the pier the declination's index could not be one number.
         let mut blind = observations.clone();
         let pier = plan.chain.find_symbol("pier").unwrap();
-        for (id, values) in &mut blind.columns {
+        for (id, values) in &mut blind.poses.columns {
             if *id == pier {
                 values.fill(1.0);
             }

@@ -94,7 +94,7 @@ fn with_function(plan: &Plan, taken: &Taken) -> Option<(Plan, String)> {
         place: taken.place,
         functions: functions.collect(),
         driver: driver.name.clone(),
-        form: kind.words(),
+        form: kind.words().into(),
     };
     plan.search.own.push(effect);
     Some((plan, name))

@@ -7,6 +7,8 @@ use model_core::{
     Axis, BodyId, Chain, Factor, Motion, Quantity, Role, Symbol, SymbolId, SymbolKind, check, print,
 };
 
+use super::Dependence;
+
 /// A rotation about an axis, or a shift along one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Freedom {
@@ -161,8 +163,8 @@ pub struct Effect {
     pub functions: Vec<Function>,
     /// The joint or input behind it: `beta`.
     pub driver: String,
-    /// The kind of function: `harmonic 1`.
-    pub form: String,
+    /// How it follows that.
+    pub form: Dependence,
 }
 
 impl Effect {
@@ -279,7 +281,16 @@ pub(crate) fn add_error(chain: &mut Chain, name: String, quantity: Quantity) -> 
     let (kind, documentation) = (SymbolKind::Error, String::new());
     let id = SymbolId(u16::try_from(chain.symbols.len()).ok()?);
     let latex = name.replace('_', r"\_");
-    chain.symbols.push(Symbol { name, kind, quantity, meaning: None, of: None, documentation, latex, value: None });
+    chain.symbols.push(Symbol {
+        name,
+        kind,
+        quantity,
+        meaning: None,
+        of: None,
+        documentation,
+        latex,
+        value: None,
+    });
     Some(id)
 }
 

@@ -48,18 +48,12 @@ impl Kind {
             (Some(Meaning::Rotator), _) => Self::Rotator,
             (Some(Meaning::Session), _) => Self::Session,
             (
-                Some(
-                    Meaning::Direction | Meaning::Rate | Meaning::Turns | Meaning::Phase | Meaning::Inverse,
-                ),
+                Some(Meaning::Direction | Meaning::Rate | Meaning::Turns | Meaning::Phase | Meaning::Inverse),
                 None,
             )
             | (
                 Some(
-                    Meaning::Angle
-                    | Meaning::Length
-                    | Meaning::Range
-                    | Meaning::Pressure
-                    | Meaning::Humidity,
+                    Meaning::Angle | Meaning::Length | Meaning::Range | Meaning::Pressure | Meaning::Humidity,
                 )
                 | None,
                 _,

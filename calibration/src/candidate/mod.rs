@@ -1,6 +1,7 @@
 //! What an effect is: a place in the chain, a degree of freedom there, and functions of joints and inputs, one new error
 //! to each. The families themselves are in [`crate::effects`].
 
+mod dependence;
 mod effect;
 mod family;
 mod functions;
@@ -8,6 +9,7 @@ mod kind;
 pub(crate) mod seen;
 mod setting;
 
+pub use dependence::Dependence;
 pub use effect::{Effect, Freedom, Function, Place};
 pub(crate) use effect::{add_error, insert};
 pub use family::Family;

@@ -3,7 +3,7 @@
 use model_core::SymbolId;
 use model_core::algebra::Poly;
 
-use crate::candidate::{Effect, Function, Kind, Place, Setting};
+use crate::candidate::{Dependence, Effect, Function, Kind, Place, Setting};
 use crate::effects::{FAMILIES, encoder, gravity, joint_motion};
 
 /// The whole catalogue for one chain, family after family, without repetitions and without what can move nothing that
@@ -49,7 +49,7 @@ pub fn catalogue(setting: &Setting<'_>) -> Vec<Effect> {
 /// alone: backlash that changes as the joint turns.
 fn reversed(effect: &Effect, input: SymbolId, setting: &Setting<'_>) -> Option<Effect> {
     let geometric = [gravity::FAMILY.name, encoder::FAMILY.name, joint_motion::FAMILY.name];
-    let low = ["harmonic 1", "harmonic 2"].contains(&effect.form.as_str());
+    let low = matches!(effect.form, Dependence::Harmonic { order: 1 | 2 });
     if !geometric.contains(&effect.family) || !(low || effect.family == gravity::FAMILY.name) {
         return None;
     }

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::detectability;
 use super::units::unit_of;
-use crate::candidate::Effect;
+use crate::candidate::{Dependence, Effect};
 use crate::data::SiUnit;
 use crate::effects::FAMILIES;
 use crate::search::context::Context;
@@ -31,8 +31,8 @@ pub struct EffectFound {
     pub side: Side,
     /// The joint or input behind it.
     pub driver: String,
-    /// The kind of function.
-    pub form: String,
+    /// How it follows that.
+    pub form: Dependence,
     /// What it may be called.
     pub names: Vec<String>,
     /// Effects that no data at these poses could tell from it.

@@ -6,7 +6,7 @@ use model_core::{Chain, Quantity};
 use serde::Serialize;
 
 use super::basis::Basis;
-use crate::candidate::Place;
+use crate::candidate::{Dependence, Place};
 use crate::data::SiUnit;
 use crate::search::contest::Contender;
 
@@ -26,7 +26,7 @@ pub(super) enum Kind {
     /// A bump, by its centre and width.
     Bump(Basis, (f64, f64)),
     /// Of two joints: its form in the catalogue, and its functions in the plain syntax of amounts.
-    OfTwo(String, Vec<String>),
+    OfTwo(Dependence, Vec<String>),
 }
 
 /// The kind of a function, as the report has it.
@@ -55,7 +55,7 @@ pub enum Form {
     /// Products of harmonics or powers of two joints.
     Product {
         /// As the catalogue has it.
-        form: String,
+        form: Dependence,
     },
 }
 

@@ -3,7 +3,7 @@
 use model_core::algebra::Poly;
 use model_core::{Motion, Role};
 
-use crate::candidate::{Effect, Family, Freedom, Function, Place, Setting};
+use crate::candidate::{Dependence, Effect, Family, Freedom, Function, Place, Setting};
 
 pub(super) const FAMILY: Family = Family {
     name: "assembly",
@@ -39,7 +39,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
                     place: Place { body, role, freedom },
                     functions: vec![Function::new(Poly::one(), stem)],
                     driver: "none".to_owned(),
-                    form: "constant".to_owned(),
+                    form: Dependence::Constant,
                 });
             }
         }

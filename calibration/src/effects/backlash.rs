@@ -25,7 +25,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
             place: joint.place(),
             functions: vec![Function::new(Poly::symbol(input), format!("backlash_{name}"))],
             driver: setting.name(input).to_owned(),
-            form: "sign".to_owned(),
+            form: "sign".into(),
         })
     });
     all.collect()

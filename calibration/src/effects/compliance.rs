@@ -74,7 +74,7 @@ fn torques(setting: &Setting<'_>, joint: &JointAxis) -> Vec<Effect> {
                 place,
                 functions: vec![Function::new(torque, format!("compliance_{name}_{of}"))],
                 driver: "gravity".to_owned(),
-                form: "torque of a weight".to_owned(),
+                form: "torque of a weight".into(),
             })
         })
         .collect()

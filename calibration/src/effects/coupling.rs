@@ -1,6 +1,6 @@
 //! Coupling: a degree of freedom of one body driven by another joint.
 
-use crate::candidate::{Effect, Family, Freedom, Setting, harmonic};
+use crate::candidate::{Dependence, Effect, Family, Freedom, Setting, harmonic};
 
 /// Harmonics of the other joint.
 const HARMONICS: std::ops::RangeInclusive<u32> = 1..=2;
@@ -33,7 +33,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
                         place: own.place().with(freedom),
                         functions: harmonic(other.symbol, driver, order, &stem),
                         driver: driver.to_owned(),
-                        form: format!("harmonic {order}"),
+                        form: Dependence::Harmonic { order },
                     });
                 }
             }

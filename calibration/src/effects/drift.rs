@@ -1,7 +1,7 @@
 //! Drift: a degree of freedom that moves in proportion to time.
 
 use super::driven;
-use crate::candidate::Kind;
+use crate::candidate::{Dependence, Kind};
 use crate::candidate::{Effect, Family, Setting};
 
 pub(super) const FAMILY: Family = Family {
@@ -14,5 +14,5 @@ pub(super) const FAMILY: Family = Family {
 };
 
 fn effects(setting: &Setting<'_>) -> Vec<Effect> {
-    driven::each(setting, FAMILY.name, &Kind::Time.inputs(setting), "linear")
+    driven::each(setting, FAMILY.name, &Kind::Time.inputs(setting), &Dependence::Linear)
 }

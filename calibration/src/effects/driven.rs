@@ -3,7 +3,7 @@
 use model_core::algebra::Poly;
 use model_core::{Role, SymbolId};
 
-use crate::candidate::{Effect, Freedom, Function, Place, Setting};
+use crate::candidate::{Dependence, Effect, Freedom, Function, Place, Setting};
 
 /// Every degree of freedom of every body, and of the axis that it turns about, in proportion to an input. `stem` and
 /// `name` start the names of the errors and of the effects.
@@ -12,7 +12,7 @@ pub(super) fn driven(
     family: &'static str,
     (stem, name): (&str, &str),
     inputs: &[SymbolId],
-    form: &str,
+    form: &Dependence,
 ) -> Vec<Effect> {
     let mut effects = Vec::new();
     for body in setting.bodies() {
@@ -34,7 +34,7 @@ pub(super) fn driven(
                     place: Place { body, role, freedom },
                     functions: inputs.iter().map(function).collect(),
                     driver: inputs.iter().map(|&i| setting.name(i)).collect::<Vec<_>>().join(", "),
-                    form: form.to_owned(),
+                    form: form.clone(),
                 });
             }
         }
@@ -47,7 +47,7 @@ pub(super) fn each(
     setting: &Setting<'_>,
     family: &'static str,
     inputs: &[SymbolId],
-    form: &str,
+    form: &Dependence,
 ) -> Vec<Effect> {
     let by = |&input: &SymbolId| {
         let name = setting.name(input);

@@ -2,7 +2,7 @@
 
 use model_core::algebra::Poly;
 
-use crate::candidate::{Effect, Family, Function, JointAxis, Setting, harmonic};
+use crate::candidate::{Dependence, Effect, Family, Function, JointAxis, Setting, harmonic};
 
 pub(crate) const FAMILY: Family = Family {
     name: "encoder",
@@ -39,7 +39,7 @@ pub(crate) fn encoder_harmonic(setting: &Setting<'_>, joint: &JointAxis, order: 
         place: joint.place(),
         functions: harmonic(joint.symbol, name, order, stem),
         driver: name.to_owned(),
-        form: format!("harmonic {order}"),
+        form: Dependence::Harmonic { order },
     }
 }
 
@@ -56,7 +56,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
             place: joint.place(),
             functions: vec![Function::new(Poly::symbol(joint.symbol), format!("scale_{name}"))],
             driver: name.to_owned(),
-            form: "linear".to_owned(),
+            form: Dependence::Linear,
         });
     }
     effects

@@ -16,5 +16,5 @@ pub(super) const FAMILY: Family = Family {
 };
 
 fn effects(setting: &Setting<'_>) -> Vec<Effect> {
-    driven::each(setting, FAMILY.name, &Kind::Side.inputs(setting), "two levels")
+    driven::each(setting, FAMILY.name, &Kind::Side.inputs(setting), &"two levels".into())
 }

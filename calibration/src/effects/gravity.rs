@@ -3,7 +3,7 @@
 use model_core::algebra::Poly;
 use model_core::{ObservableId, Role};
 
-use crate::candidate::{Effect, Family, Freedom, Function, Place, Setting, seen};
+use crate::candidate::{Dependence, Effect, Family, Freedom, Function, Place, Setting, seen};
 
 pub(crate) const FAMILY: Family = Family {
     name: "gravity",
@@ -27,7 +27,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
             let place = Place { body, role: Role::MotionError, freedom };
             let changing = changing(setting, place);
             let about = freedom.axis_name();
-            let sag = |parts: &[(usize, Poly)], form: &str| Effect {
+            let sag = |parts: &[(usize, Poly)], form: Dependence| Effect {
                 family: FAMILY.name,
                 name: format!("gravity flexure of {name} {}", freedom.words()),
                 place,
@@ -38,11 +38,11 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
                     })
                     .collect(),
                 driver: "gravity".to_owned(),
-                form: form.to_owned(),
+                form,
             };
             for part in &changing {
                 let form = format!("gravity along {} of {name}", ["x", "y", "z"][part.0]);
-                effects.push(sag(std::slice::from_ref(part), &form));
+                effects.push(sag(std::slice::from_ref(part), form.into()));
             }
             // What bends a body about an axis is the gravity across that axis.
             let across: Vec<(usize, Poly)> =
@@ -81,7 +81,7 @@ fn droop(setting: &Setting<'_>, id: ObservableId) -> Option<Effect> {
             stem: format!("droop_{name}"),
         }],
         driver: "gravity".to_owned(),
-        form: "gravity across the line of sight".to_owned(),
+        form: "gravity across the line of sight".into(),
     })
 }
 

@@ -27,7 +27,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
             place: joint.place(),
             functions: vec![Function::new(Poly::symbol(input), format!("step_{name}"))],
             driver: setting.name(input).to_owned(),
-            form: "steps".to_owned(),
+            form: "steps".into(),
         })
     });
     steps.collect()

@@ -4,7 +4,7 @@ use model_core::SymbolId;
 use model_core::algebra::{AngleSum, Poly};
 
 use crate::candidate::{
-    Effect, Family, Freedom, Function, JointAxis, Place, Setting, harmonic, per_turn, seen, whole,
+    Dependence, Effect, Family, Freedom, Function, JointAxis, Place, Setting, harmonic, per_turn, seen, whole,
 };
 
 /// The highest harmonic of the turn in the catalogue.
@@ -96,7 +96,7 @@ fn circles(
             place,
             functions: whirl(place, &turn, &format!("{stem}_{short}")),
             driver: name.to_owned(),
-            form: format!("harmonic {order}"),
+            form: Dependence::Harmonic { order },
         }
     };
     (1..=HARMONICS).flat_map(|order| [circle(order, true), circle(order, false)]).collect()
@@ -111,7 +111,7 @@ fn tilt(setting: &Setting<'_>, joint: &JointAxis, freedom: Freedom, order: u32) 
         place: joint.place().with(freedom),
         functions: harmonic(joint.symbol, name, order, &format!("tilt_{about}")),
         driver: name.to_owned(),
-        form: format!("harmonic {order}"),
+        form: Dependence::Harmonic { order },
     }
 }
 
@@ -124,6 +124,6 @@ fn axial(setting: &Setting<'_>, joint: &JointAxis, order: u32) -> Effect {
         place: joint.place().with(Freedom::along(joint.freedom.axis)),
         functions: harmonic(joint.symbol, name, order, "axial"),
         driver: name.to_owned(),
-        form: format!("harmonic {order}"),
+        form: Dependence::Harmonic { order },
     }
 }

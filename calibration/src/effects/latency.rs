@@ -3,7 +3,7 @@
 use model_core::Motion;
 use model_core::algebra::Poly;
 
-use crate::candidate::Kind;
+use crate::candidate::{Dependence, Kind};
 use crate::candidate::{Effect, Family, Function, Setting};
 
 pub(super) const FAMILY: Family = Family {
@@ -31,7 +31,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
         place,
         functions,
         driver,
-        form: "linear".to_owned(),
+        form: Dependence::Linear,
     };
     let mut effects: Vec<Effect> = late
         .iter()

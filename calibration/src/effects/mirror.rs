@@ -3,7 +3,7 @@
 use model_core::algebra::{AngleSum, Poly};
 use model_core::{Axis, Motion};
 
-use crate::candidate::{Effect, Family, Freedom, Function, JointAxis, Setting, seen, whole};
+use crate::candidate::{Dependence, Effect, Family, Freedom, Function, JointAxis, Setting, seen, whole};
 
 pub(super) const FAMILY: Family = Family {
     name: "mirror tilt",
@@ -53,7 +53,7 @@ fn tilted(setting: &Setting<'_>, joint: &JointAxis) -> Option<Effect> {
         place: joint.place(),
         functions,
         driver: name.to_owned(),
-        form: "harmonic 1".to_owned(),
+        form: Dependence::Harmonic { order: 1 },
     })
 }
 

@@ -39,7 +39,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
                     place: Place { body: observable.body, role: Role::MotionError, freedom },
                     functions: vec![Function::new(Poly::symbol(input), stem)],
                     driver: setting.name(input).to_owned(),
-                    form: "one over the range".to_owned(),
+                    form: "one over the range".into(),
                 });
             }
         }

@@ -28,7 +28,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
                 place: joint.place().with(freedom),
                 functions: vec![Function::new(Poly::symbol(input), stem)],
                 driver: setting.name(input).to_owned(),
-                form: "sign".to_owned(),
+                form: "sign".into(),
             });
         }
     }

@@ -46,6 +46,6 @@ fn product(setting: &Setting<'_>, first: &JointAxis, second: &JointAxis, own: &J
         place: own.place(),
         functions,
         driver: format!("{a}, {b}"),
-        form: "product of first harmonics".to_owned(),
+        form: "product of first harmonics".into(),
     }
 }

@@ -3,7 +3,7 @@
 use model_core::algebra::Poly;
 use model_core::{ObservableKind, Quantity, Role};
 
-use crate::candidate::Kind;
+use crate::candidate::{Dependence, Kind};
 use crate::candidate::{Effect, Family, Freedom, Function, Place, Setting, harmonic};
 
 /// Harmonics of the phase of the modulation.
@@ -25,7 +25,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
     let mut effects = Vec::new();
     for (body, axis, input) in setting.ranges().into_iter().filter(|_| points) {
         let name = setting.name(input);
-        let along = |what: String, functions, driver: &str, form: String| Effect {
+        let along = |what: String, functions, driver: &str, form: Dependence| Effect {
             family: FAMILY.name,
             name: what,
             place: Place { body, role: Role::MotionError, freedom: Freedom::along(axis) },
@@ -34,10 +34,10 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
             form,
         };
         for (what, amount, form) in
-            [("zero", Poly::one(), "constant"), ("scale", Poly::symbol(input), "linear")]
+            [("zero", Poly::one(), Dependence::Constant), ("scale", Poly::symbol(input), Dependence::Linear)]
         {
             let function = Function::new(amount, format!("{name}_{what}"));
-            effects.push(along(format!("{name} {what}"), vec![function], name, form.to_owned()));
+            effects.push(along(format!("{name} {what}"), vec![function], name, form));
         }
         let phase = Kind::Phase(input).input(setting);
         for (phase, order) in phase.into_iter().flat_map(|phase| HARMONICS.map(move |order| (phase, order))) {
@@ -48,7 +48,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
                 format!("cyclic error of {name}, {often}"),
                 harmonic(phase, driver, order, "cyclic"),
                 driver,
-                format!("harmonic {order}"),
+                Dependence::Harmonic { order },
             ));
         }
     }

@@ -32,7 +32,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
                 place: joint.place(),
                 functions: vec![Function::new(above * &reciprocal, format!("refraction_{word}_{name}"))],
                 driver: name.to_owned(),
-                form: word.to_owned(),
+                form: word.into(),
             });
         }
     }

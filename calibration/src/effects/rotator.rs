@@ -3,7 +3,7 @@
 use model_core::{Quantity, Role, SymbolId};
 
 use super::joint_motion::{Turn, whirl};
-use crate::candidate::Kind;
+use crate::candidate::{Dependence, Kind};
 use crate::candidate::{Effect, Family, Freedom, Place, Setting, per_turn, seen};
 
 pub(super) const FAMILY: Family = Family {
@@ -44,7 +44,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
                         place,
                         functions: whirl(place, &turn, &format!("circle_{short}")),
                         driver: name.to_owned(),
-                        form: format!("harmonic {order}"),
+                        form: Dependence::Harmonic { order },
                     });
                 }
             }

@@ -19,5 +19,5 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
     if inputs.is_empty() {
         return Vec::new();
     }
-    driven::driven(setting, FAMILY.name, ("session", "offset of a session"), &inputs, "levels")
+    driven::driven(setting, FAMILY.name, ("session", "offset of a session"), &inputs, &"levels".into())
 }

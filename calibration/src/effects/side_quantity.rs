@@ -1,7 +1,7 @@
 //! Side quantities: a degree of freedom that follows anything else measured beside the joints.
 
 use super::driven;
-use crate::candidate::Kind;
+use crate::candidate::{Dependence, Kind};
 use crate::candidate::{Effect, Family, Setting};
 
 pub(super) const FAMILY: Family = Family {
@@ -15,5 +15,5 @@ pub(super) const FAMILY: Family = Family {
 };
 
 fn effects(setting: &Setting<'_>) -> Vec<Effect> {
-    driven::each(setting, FAMILY.name, &Kind::Other.inputs(setting), "linear")
+    driven::each(setting, FAMILY.name, &Kind::Other.inputs(setting), &Dependence::Linear)
 }

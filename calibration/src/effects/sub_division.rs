@@ -1,6 +1,6 @@
 //! Sub-divisional errors: an encoder's interpolation within one line of its graduation.
 
-use crate::candidate::{Effect, Family, Setting, harmonic};
+use crate::candidate::{Dependence, Effect, Family, Setting, harmonic};
 
 /// Periods a line: offset and crosstalk of the two signals (once), their gains and phase (twice), distortion (4).
 const PER_LINE: [u32; 3] = [1, 2, 4];
@@ -33,7 +33,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
                 place: joint.place(),
                 functions: harmonic(symbol, name, order, "line"),
                 driver: name.to_owned(),
-                form: format!("harmonic {order}"),
+                form: Dependence::Harmonic { order },
             });
         }
     }

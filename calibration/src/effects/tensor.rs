@@ -24,7 +24,7 @@ pub fn tensor(setting: &Setting<'_>) -> Vec<Effect> {
                     place: upper.place().with(freedom),
                     functions: functions.clone(),
                     driver: format!("{a}, {b}"),
-                    form: format!("Fourier series of order {ORDER} by {ORDER}"),
+                    form: format!("Fourier series of order {ORDER} by {ORDER}").into(),
                 });
             }
         }

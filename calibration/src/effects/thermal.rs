@@ -1,7 +1,7 @@
 //! Thermal: a degree of freedom that follows a temperature.
 
 use super::driven;
-use crate::candidate::Kind;
+use crate::candidate::{Dependence, Kind};
 use crate::candidate::{Effect, Family, Setting};
 
 pub(super) const FAMILY: Family = Family {
@@ -15,5 +15,5 @@ pub(super) const FAMILY: Family = Family {
 };
 
 fn effects(setting: &Setting<'_>) -> Vec<Effect> {
-    driven::each(setting, FAMILY.name, &Kind::Temperature.inputs(setting), "linear")
+    driven::each(setting, FAMILY.name, &Kind::Temperature.inputs(setting), &Dependence::Linear)
 }

@@ -33,7 +33,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
                 place: joint.place(),
                 functions,
                 driver: "gravity".to_owned(),
-                form: "torque of gravity".to_owned(),
+                form: "torque of gravity".into(),
             });
         }
     }

@@ -1,5 +1,6 @@
 //! Physical causes, plainly: the words that a person at the instrument would use for what the catalogue names.
 
+use crate::candidate::Dependence;
 use crate::diagnose::Cause;
 
 /// A cause as one would say it: `the encoder of beta sits off centre`.
@@ -35,16 +36,15 @@ pub fn cause(cause: &Cause) -> String {
 
 /// How an effect follows what drives it: `once per turn of beta`, `in proportion to temperature`.
 #[must_use]
-pub fn form(form: &str, driver: &str) -> String {
-    let order = form.strip_prefix("harmonic ").and_then(|order| order.parse::<u32>().ok());
-    match (order, form) {
-        (Some(1), _) => format!("once per turn of {driver}"),
-        (Some(2), _) => format!("twice per turn of {driver}"),
-        (Some(order), _) => format!("{order} times per turn of {driver}"),
-        (None, "linear") => format!("in proportion to {driver}"),
-        (None, "constant") => "always the same".to_owned(),
-        (None, other) if driver.is_empty() || other.contains(driver) => format!("as {other}"),
-        (None, other) => format!("with {driver} ({other})"),
+pub fn form(form: &Dependence, driver: &str) -> String {
+    match form {
+        Dependence::Harmonic { order: 1 } => format!("once per turn of {driver}"),
+        Dependence::Harmonic { order: 2 } => format!("twice per turn of {driver}"),
+        Dependence::Harmonic { order } => format!("{order} times per turn of {driver}"),
+        Dependence::Linear => format!("in proportion to {driver}"),
+        Dependence::Constant => "always the same".to_owned(),
+        Dependence::Described(other) if driver.is_empty() || other.contains(driver) => format!("as {other}"),
+        Dependence::Described(other) => format!("with {driver} ({other})"),
     }
 }
 

@@ -54,6 +54,6 @@ pub fn function_form(form: &Form) -> String {
                 numbers::told_in(*width, &reading)
             )
         }
-        Form::Product { form } => form.clone(),
+        Form::Product { form } => form.to_string(),
     }
 }

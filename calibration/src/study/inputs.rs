@@ -72,12 +72,17 @@ impl Study {
             let declared = (symbol.meaning, symbol.of);
             if declared.0.is_some() && declared != (meaning, of) {
                 let message = format!("the chain says otherwise of `{}`", name.get_ref());
-                return Err(mistake(text.span(), message, "leave `meaning` out here, or mend the declaration"));
+                return Err(mistake(
+                    text.span(),
+                    message,
+                    "leave `meaning` out here, or mend the declaration",
+                ));
             }
         }
         let symbol = &mut chain.symbols[id.index()];
         (symbol.meaning, symbol.of) = (meaning, of);
-        if let (Some(meaning), SymbolKind::Input, Quantity::Number) = (meaning, symbol.kind, symbol.quantity) {
+        if let (Some(meaning), SymbolKind::Input, Quantity::Number) = (meaning, symbol.kind, symbol.quantity)
+        {
             symbol.quantity = meaning.quantity();
         }
         Ok(())

@@ -380,7 +380,11 @@ pub(super) fn column_plan(
     let unit = column.unit.as_deref().map(Unit::parse).transpose();
     let unit = unit.map_err(|error| plain(place.clone(), error.to_string()))?;
     if let (Some(meaning), false) = (&column.meaning, of_input) {
-        return Err(mistake(meaning.span(), "what is measured has no meaning of its own", "leave `meaning` out"));
+        return Err(mistake(
+            meaning.span(),
+            "what is measured has no meaning of its own",
+            "leave `meaning` out",
+        ));
     }
     match &column.column {
         Some(name) => Ok(ColumnPlan { name: name.clone(), unit, quantity, declared: false, named: true }),

@@ -31,7 +31,12 @@ fn folder() -> PathBuf {
 
 fn alt_azimuth() -> Asked {
     let chain = example("alt-azimuth/alt-azimuth.chain");
-    Asked::of(&chain, "sight", "direction", "[columns]\ntemperature = { column = \"t\", meaning = \"temperature\" }\n[search]\ninputs = [\"temperature\"]\n")
+    Asked::of(
+        &chain,
+        "sight",
+        "direction",
+        "[columns]\ntemperature = { column = \"t\", meaning = \"temperature\" }\n[search]\ninputs = [\"temperature\"]\n",
+    )
 }
 
 /// The text on one line.

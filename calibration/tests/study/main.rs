@@ -107,8 +107,14 @@ fn mistakes_are_named_with_their_place_and_what_to_write() {
         with("cross = {", "# cross = {"),
         with("data  = \"night.csv\"", "data = []"),
         with("column = \"dx_arcsec\"", "column = \"dx_arcsec\", meaning = \"side\""),
-        with("[observed]", "temperature = { column = \"temperature\", meaning = \"temprature\" }\n[observed]"),
-        with("[observed]", "temperature = { column = \"temperature\", meaning = \"rate of nothing\" }\n[observed]"),
+        with(
+            "[observed]",
+            "temperature = { column = \"temperature\", meaning = \"temprature\" }\n[observed]"
+        ),
+        with(
+            "[observed]",
+            "temperature = { column = \"temperature\", meaning = \"rate of nothing\" }\n[observed]"
+        ),
         with("column = \"az\", unit = \"deg\"", "column = \"az\", unit = \"deg\", meaning = \"side\""),
     ]);
 }

@@ -20,7 +20,8 @@ const STATEMENT_WORDS: [&str; 6] = ["body", "const", "input", "symbol", "observe
 const CHAIN_HELP: &str = "write `chain Name { … }`";
 const BODY_HELP: &str = "write `body name on ground { … }`, or the lower body's name in place of `ground`";
 const CONSTANT_HELP: &str = "write `const name: length = 0.25;` or `const name: angle = pi/6;`";
-const INPUT_HELP: &str = "write `input name;`, or say what it is: `input name: temperature;`, `input name: direction of joint;`";
+const INPUT_HELP: &str =
+    "write `input name;`, or say what it is: `input name: temperature;`, `input name: direction of joint;`";
 const SYMBOL_HELP: &str = r#"write `symbol name = r"\delta_1";`"#;
 const OBSERVE_HELP: &str =
     "write `observe name: direction(0, 0, 1) of body;` or `observe name: point(0, 0, 0) of body;`";

@@ -44,13 +44,19 @@ fn an_input_is_what_its_statement_says_and_not_what_its_name_sounds_like() {
 #[test]
 fn a_direction_is_of_a_joint_and_a_phase_of_a_length() {
     let chain = Chain::from_text(MOUNT).unwrap();
-    let of = |name: &str| chain.symbol(chain.find_symbol(name).unwrap()).of.map(|id| chain.symbol(id).name.clone());
+    let of = |name: &str| {
+        chain.symbol(chain.find_symbol(name).unwrap()).of.map(|id| chain.symbol(id).name.clone())
+    };
     assert_eq!(of("swing").as_deref(), Some("azimuth"));
     assert_eq!(of("wave").as_deref(), Some("distance"));
     assert_eq!(of("way"), None);
     let mistaken = |from: &str, to: &str| Chain::from_text(&MOUNT.replace(from, to)).unwrap_err().to_string();
     for (from, to, said) in [
-        ("direction of azimuth", "direction of distance", "`direction` is of a joint, which `distance` is not"),
+        (
+            "direction of azimuth",
+            "direction of distance",
+            "`direction` is of a joint, which `distance` is not",
+        ),
         ("direction of azimuth", "direction of azimut", "`direction` is of a joint, which `azimut` is not"),
         ("phase of distance", "phase of azimuth", "`phase` is of a joint or input that is a length"),
         ("side;", "side of azimuth;", "the meaning `side` is of nothing"),

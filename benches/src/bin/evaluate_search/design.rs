@@ -54,8 +54,10 @@ pub struct Design {
 
 /// The study of the evaluation.
 fn plan(sequence: bool) -> Result<Plan, Failure> {
-    let columns: Vec<String> =
-        INPUTS.iter().map(|(name, meaning)| format!("{name} = {{ column = \"{name}\", meaning = \"{meaning}\" }}")).collect();
+    let columns: Vec<String> = INPUTS
+        .iter()
+        .map(|(name, meaning)| format!("{name} = {{ column = \"{name}\", meaning = \"{meaning}\" }}"))
+        .collect();
     let inputs = INPUTS.map(|(name, _)| name);
     let study = format!(
         "chain = \"c\"\nobservable = \"pointing\"\ndata = \"d\"\n[columns]\n{}\n[observed]\nkind = \"direction\"\n\

@@ -41,12 +41,11 @@ pub fn meaning_is_of_what_it_can_be_of(subject: &Subject<'_>, mistakes: &mut Vec
             continue;
         };
         let (is_such, such) = match wanted {
-            symbol::Subject::Joint => {
-                (entry.is_some_and(|entry| entry.kind == SymbolKind::Joint), "a joint")
-            }
+            symbol::Subject::Joint => (entry.is_some_and(|entry| entry.kind == SymbolKind::Joint), "a joint"),
             symbol::Subject::Length => {
                 let is_read = |kind| matches!(kind, SymbolKind::Joint | SymbolKind::Input);
-                let is_length = entry.is_some_and(|entry| is_read(entry.kind) && entry.quantity == Some(Quantity::Length));
+                let is_length = entry
+                    .is_some_and(|entry| is_read(entry.kind) && entry.quantity == Some(Quantity::Length));
                 (is_length, "a joint or input that is a length")
             }
         };

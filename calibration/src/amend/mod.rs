@@ -9,7 +9,7 @@ mod verify;
 use std::ops::Range;
 
 use model_core::syntax::declaration::{BodyStatement, Declaration, FactorGroup, Statement};
-use model_core::{BodyId, Chain, Mistakes, Quantity, Role, Symbol, SymbolKind, check};
+use model_core::{BodyId, Chain, Mistakes, Role, Symbol, SymbolKind, check};
 
 /// A factor to add, as a declaration writes it.
 #[derive(Debug, Clone, PartialEq, Eq)]

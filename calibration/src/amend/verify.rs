@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use model_core::{Chain, Quantity, Role};
+use model_core::{Chain, Role};
 use proc_macro2::{TokenStream, TokenTree};
 
 use super::{Addition, AmendError, NewInput};

@@ -48,7 +48,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
             let across: Vec<(usize, Poly)> =
                 changing.into_iter().filter(|&(i, _)| i != freedom.axis.index()).collect();
             if across.len() > 1 {
-                effects.push(sag(&across, "gravity across the axis"));
+                effects.push(sag(&across, "gravity across the axis".into()));
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Errors of a measured range: zero, scale, and what repeats with the wavelength of the modulation.
 
 use model_core::algebra::Poly;
-use model_core::{ObservableKind, Quantity, Role};
+use model_core::{ObservableKind, Role};
 
 use crate::candidate::{Dependence, Kind};
 use crate::candidate::{Effect, Family, Freedom, Function, Place, Setting, harmonic};

@@ -3,7 +3,7 @@
 
 use calibration::amend::{Addition, NewInput, amend};
 use calibration::candidate::Effect;
-use model_core::{Chain, Quantity, Role, print};
+use model_core::{Chain, Role, print};
 use proptest::prelude::*;
 
 use crate::support::{Asked, example};
@@ -70,7 +70,7 @@ proptest! {
         let inputs: Vec<NewInput> = input
             .then(|| NewInput {
                 name: "humidity".to_owned(),
-                quantity: Quantity::Number,
+                meaning: None,
                 documentation: "Found in the property test, input.".to_owned(),
             })
             .into_iter()

@@ -1,7 +1,7 @@
 //! Texts that are amended: however they are written, they say afterwards what they said before, and what was found.
 
 use calibration::amend::{Addition, AmendError, NewInput, amend};
-use model_core::{BodyId, Chain, Quantity, Role};
+use model_core::{BodyId, Chain, Role};
 use proptest::prelude::*;
 
 const PLAIN: &str = "chain Shaft {
@@ -29,7 +29,7 @@ fn amended(text: &str, factor: &str, documentation: &str, inputs: &[NewInput]) -
 }
 
 fn input(name: &str, documentation: &str) -> NewInput {
-    NewInput { name: name.to_owned(), quantity: Quantity::Number, documentation: documentation.to_owned() }
+    NewInput { name: name.to_owned(), meaning: None, documentation: documentation.to_owned() }
 }
 
 /// The factors of the only body, and its inputs.

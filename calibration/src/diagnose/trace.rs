@@ -21,8 +21,10 @@ const DRAWN: usize = 2000;
 /// Of so many rows that are shown, those set aside and those with the largest residuals come first.
 const FIRST: usize = 500;
 
-/// Points of a curve.
+/// Points of a curve, and of each period of one that comes many times a turn.
 const POINTS: usize = 73;
+const A_PERIOD: f64 = 10.0;
+const MOST_POINTS: f64 = 1500.0;
 
 /// Rows at which a place moves the observation less than this share of the most are left out: they say nothing of it.
 const SEEN: f64 = 0.3;
@@ -133,11 +135,17 @@ fn curve(whole: &Context<'_>, last: &Round<'_>, effect: &Effect, errors: &[Symbo
     let Some(read) = whole.request.observations.column(driver) else { return };
     let (low, high) =
         read.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &q| (low.min(q), high.max(q)));
+    let order =
+        effect.form.strip_prefix("harmonic ").and_then(|order| order.parse::<u32>().ok()).unwrap_or(1);
+    let wanted = A_PERIOD * f64::from(order) * (high - low) / std::f64::consts::TAU;
+    // Between none and MOST_POINTS.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let points = POINTS.max(wanted.clamp(0.0, MOST_POINTS) as usize + 1);
     let grid: Vec<f64> =
-        (0..POINTS).map(|point| low + (high - low) * point as f64 / (POINTS - 1) as f64).collect();
+        (0..points).map(|point| low + (high - low) * point as f64 / (points - 1) as f64).collect();
     let over = Observations {
         columns: vec![(driver, grid.clone())],
-        measured: vec![[0.0; 3]; POINTS],
+        measured: vec![[0.0; 3]; points],
         ..Observations::default()
     };
     let mut functions = Functions::new(chain, &over, &fit.values);

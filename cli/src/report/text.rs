@@ -102,8 +102,10 @@ impl Page {
             self.say("", &format!("{}.", sentence_case(chance)));
         }
         for caution in &diagnosis.cautions {
-            let _ = write!(self.text, "{CAREFUL}Caution{CAREFUL:#}");
-            self.say(": ", &words::caution(caution, diagnosis));
+            let mut told = String::new();
+            paragraph(&mut told, "Caution: ", &words::caution(caution, diagnosis), self.layout.width);
+            let styled = format!("{CAREFUL}Caution{CAREFUL:#}");
+            self.text.push_str(&told.replacen("Caution", &styled, 1));
         }
         if !answers.what.is_empty() {
             self.heading("What it is");
@@ -200,13 +202,16 @@ impl Page {
 
     fn poses(&mut self, diagnosis: &Diagnosis) {
         for table in words::pose_tables(diagnosis) {
-            self.heading(&format!("measure next, {}", table.title));
+            self.heading("measure next");
+            self.say("  ", &table.title);
             if !table.poses.is_empty() {
-                let line =
-                    |cells: &[String]| cells.iter().map(|cell| format!("{cell:>16}")).collect::<String>();
-                let _ = writeln!(self.text, "{}", line(&table.joints));
-                for pose in &table.poses {
-                    let _ = writeln!(self.text, "{}", line(pose));
+                let rows = || std::iter::once(&table.joints).chain(&table.poses);
+                let widths: Vec<usize> = (0..table.joints.len())
+                    .map(|at| 2 + rows().map(|row| row[at].chars().count()).max().unwrap_or(0))
+                    .collect();
+                for row in rows() {
+                    let cells = row.iter().zip(&widths).map(|(cell, width)| format!("{cell:>width$}"));
+                    let _ = writeln!(self.text, "{}", cells.collect::<String>());
                 }
             }
             table.notes.iter().for_each(|note| self.say("  ", note));

@@ -3,6 +3,8 @@
 
 mod answer;
 mod chain;
+mod distribution;
+mod map;
 mod pictures;
 mod rows;
 pub mod svg;

@@ -21,10 +21,11 @@ const DRAWN: usize = 2000;
 /// Of so many rows that are shown, those set aside and those with the largest residuals come first.
 const FIRST: usize = 500;
 
-/// Points of a curve, and of each period of one that comes many times a turn.
+/// Points of a curve.
 const POINTS: usize = 73;
-const A_PERIOD: f64 = 10.0;
-const MOST_POINTS: f64 = 1500.0;
+
+/// Periods that a curve shows at most; of more it shows one.
+const PERIODS: f64 = 20.0;
 
 /// Rows at which a place moves the observation less than this share of the most are left out: they say nothing of it.
 const SEEN: f64 = 0.3;
@@ -44,6 +45,9 @@ pub struct Trace {
     pub left: Vec<Option<f64>>,
     /// The fitted function: driver, value, two standard uncertainties, SI; empty where it follows more than one reading.
     pub curve: Vec<[f64; 3]>,
+    /// Where the function repeats too often to be drawn over the whole reading: its period, in the unit of the driver; the curve
+    /// is one of it.
+    pub period: Option<f64>,
 }
 
 /// The rows that pictures draw, in order: every row, or of many those set aside, those with the largest residuals, and a
@@ -91,6 +95,7 @@ pub(crate) fn traces(
             without: vec![None; rows.len()],
             left: vec![None; rows.len()],
             curve: Vec::new(),
+            period: None,
         };
         if let Some(probe) = columns.probe(effect.place) {
             let mut sums = vec![[0.0; 3]; rows.len()];
@@ -135,17 +140,14 @@ fn curve(whole: &Context<'_>, last: &Round<'_>, effect: &Effect, errors: &[Symbo
     let Some(read) = whole.request.observations.column(driver) else { return };
     let (low, high) =
         read.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &q| (low.min(q), high.max(q)));
-    let order =
-        effect.form.strip_prefix("harmonic ").and_then(|order| order.parse::<u32>().ok()).unwrap_or(1);
-    let wanted = A_PERIOD * f64::from(order) * (high - low) / std::f64::consts::TAU;
-    // Between none and MOST_POINTS.
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-    let points = POINTS.max(wanted.clamp(0.0, MOST_POINTS) as usize + 1);
-    let grid: Vec<f64> =
-        (0..points).map(|point| low + (high - low) * point as f64 / (points - 1) as f64).collect();
+    let order = effect.form.strip_prefix("harmonic ").and_then(|order| order.parse::<u32>().ok());
+    let period = order.map(|order| std::f64::consts::TAU / f64::from(order));
+    let period = period.filter(|period| (high - low) / period > PERIODS);
+    let reach = period.unwrap_or(high - low);
+    let grid: Vec<f64> = (0..POINTS).map(|point| low + reach * point as f64 / (POINTS - 1) as f64).collect();
     let over = Observations {
         columns: vec![(driver, grid.clone())],
-        measured: vec![[0.0; 3]; points],
+        measured: vec![[0.0; 3]; POINTS],
         ..Observations::default()
     };
     let mut functions = Functions::new(chain, &over, &fit.values);
@@ -155,6 +157,7 @@ fn curve(whole: &Context<'_>, last: &Round<'_>, effect: &Effect, errors: &[Symbo
         errors.iter().map(|error| fit.parameters.iter().position(|id| id == error)).collect();
     let (Some(columns), Some(at)) = (columns, at) else { return };
     trace.driver = Some(driver);
+    trace.period = period;
     trace.driver_unit = of_reading(&whole.setting, chain, driver);
     trace.curve = grid
         .into_iter()

@@ -13,6 +13,9 @@ use crate::wrap::paragraph;
 /// Lines of a list that the terminal shows.
 const LINES: usize = 5;
 
+/// Rows that the terminal names of those that the estimates lean on.
+const LEANED_ON: usize = 12;
+
 /// How much to tell, and how wide.
 #[derive(Debug, Clone, Copy)]
 pub struct Layout {
@@ -36,6 +39,7 @@ pub fn as_text(reported: &Reported<'_>, layout: Layout) -> String {
         page.list("noise", &words::noise(diagnosis));
         page.list("what is left", &words::remaining(diagnosis));
         page.poses(diagnosis);
+        page.leverage(diagnosis);
         page.set_aside(diagnosis, usize::MAX);
         page.not_shown(diagnosis);
         page.amended(reported);
@@ -198,6 +202,19 @@ impl Page {
                 self.say("  - ", &format!("{}: {}", words::cause(cause), cause.check));
             }
         }
+    }
+
+    /// Rows that carry more than their share, those that carry most first.
+    fn leverage(&mut self, diagnosis: &Diagnosis) {
+        let rows = &diagnosis.precision.leverage;
+        if rows.is_empty() {
+            return;
+        }
+        self.heading("rows that the estimates lean on");
+        let told = rows.iter().take(LEANED_ON).map(|(row, leverage)| format!("row {row} ({leverage:.2})"));
+        let more = rows.len().saturating_sub(LEANED_ON);
+        let more = if more > 0 { format!(", and {more} more in report.json") } else { String::new() };
+        self.say("  ", &format!("by leverage, one being all: {}{more}", told.collect::<Vec<_>>().join(", ")));
     }
 
     fn poses(&mut self, diagnosis: &Diagnosis) {

@@ -136,14 +136,25 @@ fn effect(reported: &Reported<'_>, rows: &Rows, at: usize) -> Markup {
     let (drawn, in_si) =
         (trace_reading(trace), numbers::reading(shown.unit, axis_size(shown.unit, &shown.range)).in_si);
     let label = format!("{} of {}, {}", told.dof, told.body, drawn.name);
-    let mut picture = Picture::new(
-        CARD.0,
-        CARD.1,
-        axis_of(reading, false),
-        residual_axis(&label, rows, [&without.values, &left.values]),
-    )
-    .of_rows(&reading.key, &without.key, &left.key);
-    marks(&mut picture, rows, &reading.values, &without.values, &left.values);
+    let y = residual_axis(&label, rows, [&without.values, &left.values]);
+    // Of a function that repeats too often, every period lies on the first.
+    let first = trace.curve.first().map_or(0.0, |point| point[0] / in_si);
+    let folded: Option<Vec<Option<f64>>> = trace.period.map(|period| {
+        let within = |q: f64| first + (q - first).rem_euclid(period / in_si);
+        reading.values.iter().map(|value| value.map(within)).collect()
+    });
+    let mut picture = match &folded {
+        Some(folded) => {
+            let label = format!("{}, every period on the first", reading.label);
+            Picture::new(CARD.0, CARD.1, Axis::around(label, folded.iter().flatten().copied(), false), y)
+        }
+        None => Picture::new(CARD.0, CARD.1, axis_of(reading, false), y).of_rows(
+            &reading.key,
+            &without.key,
+            &left.key,
+        ),
+    };
+    marks(&mut picture, rows, folded.as_ref().unwrap_or(&reading.values), &without.values, &left.values);
     let curve = trace.curve.iter().map(|[q, f, two]| [q / in_si, f / drawn.in_si, two / drawn.in_si]);
     let curve: Vec<[f64; 3]> = curve.collect();
     let band: Vec<[f64; 3]> = curve.iter().map(|[q, f, two]| [*q, f - two, f + two]).collect();

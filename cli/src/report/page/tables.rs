@@ -141,6 +141,7 @@ pub fn details(reported: &Reported<'_>) -> Markup {
             details { summary { "Noise" } ul { @for line in words::noise(diagnosis) { li { (line) } } } }
             (poses(diagnosis))
             (correlations(diagnosis))
+            (leverage(diagnosis))
             (set_aside(diagnosis))
             (not_shown(diagnosis))
             @if let Some(search) = &diagnosis.search {
@@ -227,6 +228,26 @@ fn correlations(diagnosis: &Diagnosis) -> Markup {
                         li { (a) " and " (b) ": " (format!("{value:.3}").replace('-', "−")) }
                     }
                 }
+            }
+        }
+    }
+}
+
+/// Rows that carry more than their share.
+fn leverage(diagnosis: &Diagnosis) -> Markup {
+    let rows = &diagnosis.precision.leverage;
+    html! {
+        @if !rows.is_empty() {
+            details {
+                summary { "Rows that the estimates lean on" }
+                p.quiet { "A leverage of one: the estimates follow this row wherever it goes. A mistake in such a row does not show in its residual." }
+                (scrolled("Rows that the estimates lean on", &html! {
+                    table {
+                        thead { tr { th.number scope="col" { "row" } th.number scope="col" { "leverage" } } }
+                        tbody { @for (row, leverage) in rows.iter().take(LISTED) { tr { td.number { (row) } td.number { (format!("{leverage:.2}")) } } } }
+                    }
+                }))
+                @if rows.len() > LISTED { p { "The first " (LISTED) " of " (rows.len()) "; report.json lists all." } }
             }
         }
     }

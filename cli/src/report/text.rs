@@ -6,7 +6,7 @@ use calibration::diagnose::{Diagnosis, EffectFound};
 use calibration::report::{self as words, Answers, Tone, numbers, sentence_case};
 use similar::TextDiff;
 
-use super::Reported;
+use super::{Reported, counted};
 use crate::terminal::{BAD, CAREFUL, GOOD, HEADING};
 use crate::wrap::paragraph;
 
@@ -159,13 +159,13 @@ impl Page {
         let aside = diagnosis.observations.set_aside.len();
         row("on the data that were fitted", Some(before.rms), Some(after.rms));
         if aside > 0 {
-            let name = format!("  without the {aside} rows set aside");
+            let name = format!("  without the {} set aside", counted(aside));
             row(&name, Some(before.rms_kept), Some(after.rms_kept));
         }
         row("on data that nobody fitted", before.held_out_rms, after.held_out_rms);
         let out = after.held_out_rows - after.held_out_rows_kept;
         if out > 0 {
-            let name = format!("  without {out} rows out of reach");
+            let name = format!("  without {} out of reach", counted(out));
             row(&name, before.held_out_rms_kept, after.held_out_rms_kept);
         }
         if after.elsewhere_rms.is_some() {
@@ -214,7 +214,13 @@ impl Page {
         let told = rows.iter().take(LEANED_ON).map(|(row, leverage)| format!("row {row} ({leverage:.2})"));
         let more = rows.len().saturating_sub(LEANED_ON);
         let more = if more > 0 { format!(", and {more} more in report.json") } else { String::new() };
-        self.say("  ", &format!("by leverage, one being all: {}{more}", told.collect::<Vec<_>>().join(", ")));
+        self.say(
+            "  ",
+            &format!(
+                "by leverage, of as many as a row has components: {}{more}",
+                told.collect::<Vec<_>>().join(", ")
+            ),
+        );
     }
 
     fn poses(&mut self, diagnosis: &Diagnosis) {

@@ -111,7 +111,7 @@ fn better(diagnosis: &Diagnosis, answers: &Answers) -> Markup {
             @if changed { "Hatched: before. Filled: after. " }
             "Dotted line: the noise, " (told(noise)) " (measured). RMS of the residual's length over every row"
             @if !diagnosis.observations.set_aside.is_empty() {
-                "; without the " (diagnosis.observations.set_aside.len()) " rows set aside "
+                "; without the " (crate::report::counted(diagnosis.observations.set_aside.len())) " set aside "
                 (told(before.rms_kept)) " → " (told(after.rms_kept)) " on the data that were fitted"
             }
             "."

@@ -31,7 +31,11 @@ pub fn residuals(reported: &Reported<'_>, rows: &Rows) -> Markup {
             p.quiet {
                 "Measured minus what the fitted declaration says. What is left should scatter evenly around zero. Crosses: \
                  rows set aside. Diamonds: means of what is left, with two standard errors."
-                @if drawn < rows.of { " " (drawn) " of " (rows.of) " rows drawn, all counted in figures, tables and histograms." }
+                @if drawn < rows.of {
+                    " " (drawn) " of " (rows.of) " rows are drawn"
+                    @if rows.of > reported.calibration.drawn.len() { ": those set aside, those with the largest residuals, and others by lot" }
+                    ". Figures, tables, histograms, quantiles, means and maps count all."
+                }
             }
             fieldset.toggle {
                 legend.quiet { @if rows.changed { "Show" } @else { "Rows" } }

@@ -29,7 +29,7 @@
     const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= rough), from = Math.ceil(low / step);
     return Array.from({ length: Math.max(0, Math.floor(high / step) - from + 1) }, (_, i) => (from + i) * step);
   };
-  const told = (tick) => String(+tick.toPrecision(6)).replace("-", "−");
+  const told = (tick) => (Math.abs(tick) >= 1e4 && tick % 1000 === 0 ? tick / 1000 + "k" : String(+tick.toPrecision(6))).replace("-", "−");
   // The picture drawn again for the range that it shows.
   const redraw = (picture) => {
     const { svg, box: [left, top, width, height], range: [x0, x1, y0, y1] } = picture, at = (path) => svg.querySelector(path);

@@ -252,8 +252,11 @@ impl Picture {
     }
 }
 
-/// A tick's number, with a real minus.
+/// A tick's number, with a real minus; many thousands as `200k`.
 fn number(tick: f64) -> String {
+    if tick.abs() >= 1e4 && tick % 1000.0 == 0.0 {
+        return format!("{}k", number(tick / 1000.0));
+    }
     let rounded = format!("{tick:.6}");
     let short = rounded.trim_end_matches('0').trim_end_matches('.');
     if short == "-0" || short.is_empty() { "0".to_owned() } else { short.replace('-', "−") }
@@ -274,6 +277,7 @@ mod tests {
         assert_eq!(axis.ticks(5.0), [-5.0, 0.0, 5.0, 10.0]);
         assert_eq!(number(-5.0), "−5");
         assert_eq!(number(0.25), "0.25");
+        assert_eq!(number(-200_000.0), "−200k");
         let flat = Axis::around("x", [3.0, 3.0].into_iter(), false);
         assert!(flat.low < 3.0 && flat.high > 3.0);
     }

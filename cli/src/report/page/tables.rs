@@ -240,7 +240,10 @@ fn leverage(diagnosis: &Diagnosis) -> Markup {
         @if !rows.is_empty() {
             details {
                 summary { "Rows that the estimates lean on" }
-                p.quiet { "A leverage of one: the estimates follow this row wherever it goes. A mistake in such a row does not show in its residual." }
+                p.quiet {
+                    "Leverage goes from 0 to the number of components of a row; there, the estimates follow the row wherever it goes, and a \
+                     mistake in it does not show in its residual."
+                }
                 (scrolled("Rows that the estimates lean on", &html! {
                     table {
                         thead { tr { th.number scope="col" { "row" } th.number scope="col" { "leverage" } } }
@@ -258,7 +261,7 @@ fn set_aside(diagnosis: &Diagnosis) -> Markup {
     html! {
         @if !aside.is_empty() {
             details {
-                summary { (aside.len()) " rows set aside" }
+                summary { (crate::report::counted(aside.len())) " set aside" }
                 (scrolled("Rows set aside", &html! {
                     table {
                         thead { tr { th scope="col" { "row" } th scope="col" { "why" } } }

@@ -90,6 +90,7 @@ const SIGNATURES: [Signature; 13] = [
         real: &[TEMPERATURE, (ELEVATION, "Rx(elevation_index), Rx(growth*temperature)")],
         errors: "growth = \"2 arcsec\"\n",
         input: Some("temperature=-5..20"),
+        order: None,
         search: "[search]\ninputs = [\"temperature\"]\n",
     },
     Signature {
@@ -118,7 +119,7 @@ const SIGNATURES: [Signature; 13] = [
         ],
         errors: "creep = \"0.1 arcsec\"\n",
         order: Some("time"),
-        search: "[search]\nsequence = true\n",
+        search: "[search]\nsequence = true\n[noise]\norder = \"time\"\n",
         ..NONE
     },
 ];
@@ -218,11 +219,11 @@ fn in_order(folder: &Folder, order: &str, done: &impl Fn(&[&str])) {
         let pairs = column(&noisy, name).into_iter().zip(column(&declared, name)).zip(column(&real, name));
         pairs.map(|((noisy, declared), real)| noisy + (real - declared)).collect()
     });
-    let mut rows = format!("azimuth,elevation,{}\n", names.join(","));
+    let mut rows = format!("time,azimuth,elevation,{}\n", names.join(","));
     for (row, (azimuth, elevation)) in azimuth.iter().zip(&elevation).enumerate() {
         let _ = writeln!(
             rows,
-            "{azimuth:?},{elevation:?},{:?},{:?},{:?}",
+            "{row},{azimuth:?},{elevation:?},{:?},{:?},{:?}",
             moved[0][row], moved[1][row], moved[2][row]
         );
     }

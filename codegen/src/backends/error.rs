@@ -42,9 +42,10 @@ pub enum GenerateError {
         /// The observable.
         name: String,
     },
-    /// Derivatives are asked for of an angle that has none where there are no errors.
+    /// Derivatives are asked for of an angle that has none where there are no errors, or of an orientation.
     #[error(
-        "the angle off the axis of `{name}` has no derivative where errors are zero: leave out {}",
+        "`{name}` has no derivatives: the angle off the axis has none where errors are zero, and those of an orientation are \
+         not generated: leave out {}",
         super::form_name(*form)
     )]
     NoDerivative {
@@ -52,6 +53,12 @@ pub enum GenerateError {
         name: String,
         /// The form.
         form: Form,
+    },
+    /// A constant of the declaration has no value.
+    #[error("the constant `{name}` has no value: write it into the declaration, `const {name} = 0.25;`")]
+    NoValue {
+        /// The constant's name.
+        name: String,
     },
     /// A value is neither one of an error nor of a constant, or not a number.
     #[error(

@@ -137,8 +137,9 @@ fn check(unit: &Unit<'_>, language: Language, file_name: &str) -> Result<(), Gen
         if unit.precision == Precision::Single && !observable.has_components_only() {
             return Err(GenerateError::SingleReading { name: name() });
         }
-        let is_off_axis = observable.shown.iter().any(|reading| reading.measures == Measures::OffAxis);
-        if let Some(&form) = unit.forms.iter().find(|form| is_off_axis && form.is_jacobian()) {
+        let has_none = |measures| matches!(measures, Measures::OffAxis | Measures::Rotation(_));
+        let has_no_rates = observable.shown.iter().any(|reading| has_none(reading.measures));
+        if let Some(&form) = unit.forms.iter().find(|form| has_no_rates && form.is_jacobian()) {
             return Err(GenerateError::NoDerivative { name: name(), form });
         }
     }
@@ -151,6 +152,9 @@ fn check(unit: &Unit<'_>, language: Language, file_name: &str) -> Result<(), Gen
         }
     }
     let declared = unit.chain.symbols.iter().filter(|symbol| symbol.kind == SymbolKind::Constant);
+    if let Some(symbol) = declared.clone().find(|symbol| symbol.value.is_none()) {
+        return Err(GenerateError::NoValue { name: symbol.name.clone() });
+    }
     let is_beyond = |value: Option<f64>| value.is_some_and(|value| !is_within(value, unit.precision));
     if let (Some(&form), true) =
         (unit.forms.first(), declared.into_iter().any(|symbol| is_beyond(symbol.value)))

@@ -5,7 +5,7 @@
 
 use model_core::readings::{Measures, Reading, SignedAxis};
 
-use super::vectors::{Vector, add, cross};
+use super::vectors::{NOTHING, Vector, add, cross};
 use crate::builder::{Builder, Value};
 
 /// What is shown with errors.
@@ -34,7 +34,9 @@ pub(super) fn value(b: &mut Builder, reading: &Reading, nominal: &Vector, error:
             let real = real(b);
             length(b, &real)
         }
-        Measures::CrossElevation { .. } | Measures::OffAxis => self::error(b, reading, nominal, error),
+        Measures::CrossElevation { .. } | Measures::OffAxis | Measures::Rotation(_) => {
+            self::error(b, reading, nominal, error)
+        }
     }
 }
 
@@ -57,6 +59,7 @@ pub(super) fn error(b: &mut Builder, reading: &Reading, nominal: &Vector, error:
             let cosine = dot(b, nominal, &real);
             b.arc_tangent(sine, cosine)
         }
+        Measures::Rotation(_) => unreachable!("{ORIENTATION}"),
     }
 }
 
@@ -82,7 +85,45 @@ pub(super) fn rate(b: &mut Builder, reading: &Reading, vector: &Vector, change: 
             let (above, below) = (length(b, &sideways), dot(b, vector, vector));
             b.div(above, below)
         }
+        Measures::Rotation(_) => unreachable!("{ORIENTATION}"),
     }
+}
+
+/// Why no single vector is asked how a body is turned.
+const ORIENTATION: &str = "orientations go by the three axes of their body, and have no Jacobian";
+
+/// The small rotation vector from the axes of a body without errors and what the errors add to each.
+///
+/// Source: as [`model_core`] has it, from the sine and the cosine of the turn.
+pub(super) fn rotation(b: &mut Builder, axes: &[(Vector, Vector); 3]) -> Vector {
+    /// Far below the square of any turn, it keeps θ/sin θ a number where there is none; single precision has it too.
+    const LEAST: f64 = 1e-36;
+    let sine = sine(b, axes);
+    let half = b.constant(0.5);
+    let mut cosine = Builder::ONE;
+    for (nominal, error) in axes {
+        let along = dot(b, nominal, error);
+        let part = b.mul(along, half);
+        cosine = b.add(cosine, part);
+    }
+    let square = dot(b, &sine, &sine);
+    let nothing = b.constant(LEAST);
+    let square = b.add(square, nothing);
+    let length = b.root(square);
+    let angle = b.arc_tangent(length, cosine);
+    let stretch = b.div(angle, length);
+    sine.map(|component| b.mul(component, stretch))
+}
+
+/// The axis of the turn times its sine: to first order the small rotation vector.
+pub(super) fn sine(b: &mut Builder, axes: &[(Vector, Vector); 3]) -> Vector {
+    let half = b.constant(0.5);
+    let mut sum = NOTHING;
+    for (nominal, error) in axes {
+        let crossed = cross(b, nominal, error);
+        sum = add(b, &sum, &crossed);
+    }
+    sum.map(|component| b.mul(component, half))
 }
 
 /// The derivative of the value of a reading with respect to a symbol. `nominal` is the vector without errors and how it

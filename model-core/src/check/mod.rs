@@ -65,6 +65,21 @@ impl Chain {
             Err(mistakes) => Err(syntax::located(text, mistakes)),
         }
     }
+
+    /// The same for those who want formulas and no numbers: constants need no value.
+    ///
+    /// Everything that calculates with numbers needs a chain from [`Self::from_text`].
+    ///
+    /// # Errors
+    ///
+    /// Every other mistake in it, sorted by place.
+    pub fn symbolic_from_text(text: &str) -> Result<Self, Mistakes> {
+        let tokens = syntax::tokens_of(text).map_err(|mistake| syntax::located(text, vec![mistake]))?;
+        match read_symbolic(tokens) {
+            Ok((_, chain)) => Ok(chain),
+            Err(mistakes) => Err(syntax::located(text, mistakes)),
+        }
+    }
 }
 
 /// Reads and checks a declaration: all mistakes of form and of meaning, sorted by place.
@@ -73,6 +88,28 @@ impl Chain {
 ///
 /// Every mistake, at the token at fault.
 pub fn read(tokens: TokenStream) -> Result<(Declaration, Chain), Vec<Mistake<Span>>> {
+    let (declaration, chain) = read_symbolic(tokens)?;
+    let unknown: Vec<Mistake<Span>> = declaration
+        .constants()
+        .filter(|constant| constant.value.is_none())
+        .map(|constant| {
+            let (name, quantity) = (&constant.name, &constant.quantity);
+            let stated = quantity.as_ref().map_or(String::new(), |quantity| format!(": {quantity}"));
+            Mistake::new(name.span(), format!("the constant `{name}` has no value, and numbers are asked for"))
+                .with_help(format!(
+                    "write its value: `const {name}{stated} = 0.25;`; the formulas of `derive`, `check` and `identify` do without"
+                ))
+        })
+        .collect();
+    if unknown.is_empty() { Ok((declaration, chain)) } else { Err(unknown) }
+}
+
+/// The same, where constants need no value.
+///
+/// # Errors
+///
+/// Every mistake, at the token at fault.
+pub fn read_symbolic(tokens: TokenStream) -> Result<(Declaration, Chain), Vec<Mistake<Span>>> {
     let mut mistakes = Vec::new();
     let declaration = syntax::read(tokens, &mut mistakes);
     let chain = declaration.as_ref().map(check);

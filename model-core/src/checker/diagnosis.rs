@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use super::angles;
 use super::claim::Order;
 use super::compare::{Columns, Pair};
 use super::lowering::{self, Sines};
@@ -41,6 +42,19 @@ enum ChangeKind {
     Function,
     Angle,
     Removed,
+}
+
+impl Change {
+    /// The slip that it takes back, perhaps with the other sign; a factor too much with another sign is none.
+    fn slip(self, sign: bool) -> Option<TermSlip> {
+        let (printed, derived) = (self.from, self.to);
+        match self.kind {
+            ChangeKind::Function => Some(TermSlip::SineForCosine { printed, derived, sign }),
+            ChangeKind::Angle => Some(TermSlip::OtherAngle { printed, derived, sign }),
+            ChangeKind::Removed if sign => None,
+            ChangeKind::Removed => Some(TermSlip::ExtraFactor(printed)),
+        }
+    }
 }
 
 /// The claim, and both forms by products of errors.
@@ -95,6 +109,9 @@ impl Case<'_> {
             if let Some((slip, place)) = self.change(candidate, &needed, pair.component) {
                 return found(slip, place.or_else(|| candidate.term.place.clone()));
             }
+        }
+        if let Some((slip, place)) = self.shared_change(&candidates, &lacking, pair.component) {
+            return found(slip, Some(place));
         }
         if derived.is_zero() {
             return found(TermSlip::Superfluous, place);
@@ -174,20 +191,53 @@ impl Case<'_> {
                 if changed != *needed && !sign {
                     continue;
                 }
-                let (printed, derived) = (change.from, change.to);
-                let slip = match change.kind {
-                    ChangeKind::Function => TermSlip::SineForCosine { printed, derived, sign },
-                    ChangeKind::Angle => TermSlip::OtherAngle { printed, derived, sign },
-                    ChangeKind::Removed if sign => continue,
-                    ChangeKind::Removed => TermSlip::ExtraFactor(printed),
-                };
-                return Some((slip, Some(factor.expression.place.clone())));
+                if let Some(slip) = change.slip(sign) {
+                    return Some((slip, Some(factor.expression.place.clone())));
+                }
             }
         }
         self.waves()
             .into_iter()
             .find(|wave| &candidate.factor * wave == *needed)
             .map(|wave| (TermSlip::MissingFactor(wave), None))
+    }
+
+    /// The change of one printed factor of a sum, and with it of all the terms that multiplying out makes of it.
+    fn shared_change(
+        &self,
+        candidates: &[Candidate<'_>],
+        lacking: &Poly,
+        component: Axis,
+    ) -> Option<(TermSlip, Range<usize>)> {
+        let mut seen: Vec<&Range<usize>> = Vec::new();
+        for factor in candidates.iter().flat_map(|candidate| &candidate.term.factors) {
+            let place = &factor.expression.place;
+            let is_same = |other: &TermFactor<'_>| other.expression.place == *place;
+            let sharing = || {
+                candidates.iter().filter_map(|candidate| {
+                    Some((candidate, candidate.term.factors.iter().position(is_same)?))
+                })
+            };
+            if seen.contains(&place) || sharing().count() < 2 {
+                continue;
+            }
+            seen.push(place);
+            let rests: Option<Vec<Poly>> =
+                sharing().map(|(candidate, index)| self.without(candidate, index, component)).collect();
+            let Some(rests) = rests else { continue };
+            let rest = rests.iter().fold(Poly::zero(), |sum, rest| &sum + rest);
+            let needed = sharing().fold(lacking.clone(), |sum, (candidate, _)| &sum + &candidate.factor);
+            for change in self.changes(factor) {
+                let changed = &rest * &change.to;
+                let sign = changed == -&needed;
+                if changed == needed || sign {
+                    if let Some(slip) = change.slip(sign) {
+                        return Some((slip, place.clone()));
+                    }
+                }
+            }
+        }
+        None
     }
 
     /// What multiplies the errors in a term, without one of its factors.
@@ -224,7 +274,7 @@ impl Case<'_> {
         if let Some(other) = exchanged(*function) {
             add(raised(other, angle.as_ref().clone()), ChangeKind::Function);
         }
-        for other in other_angles(self.chain, angle) {
+        for other in angles::taken_for(self.chain, angle) {
             add(raised(*function, other), ChangeKind::Angle);
         }
         changes.push(Change { from, to: Poly::one(), kind: ChangeKind::Removed });
@@ -241,63 +291,6 @@ impl Case<'_> {
                 [Poly::cos(&angle), Poly::sin(&angle)]
             })
             .collect()
-    }
-}
-
-/// The angles that are easily taken for this one: of another joint, with a joint more, and of a sum with another sign, with
-/// an angle less or with another in its place.
-fn other_angles(chain: &Chain, angle: &Expr<Range<usize>>) -> Vec<Expr<Range<usize>>> {
-    let make = |node| Expr { node, place: angle.place.clone() };
-    let joints: Vec<Expr<Range<usize>>> = chain
-        .symbols_of(SymbolKind::Joint)
-        .map(|joint| make(Node::Symbol(chain.symbol(joint).name.clone())))
-        .collect();
-    let mut addends = Vec::new();
-    flatten(angle, false, &mut addends);
-    let sum = |addends: &[(bool, Expr<Range<usize>>)]| {
-        let signed = addends.iter().map(|(negative, addend)| match negative {
-            true => make(Node::Neg(Box::new(addend.clone()))),
-            false => addend.clone(),
-        });
-        signed.reduce(|sum, addend| make(Node::Add(Box::new(sum), Box::new(addend))))
-    };
-    let mut others: Vec<Expr<Range<usize>>> = joints.clone();
-    if addends.len() > 1 {
-        for at in 0..addends.len() {
-            let mut changed = addends.clone();
-            changed[at].0 = !changed[at].0;
-            others.extend(sum(&changed));
-        }
-        for at in 0..addends.len() {
-            let mut changed = addends.clone();
-            changed.remove(at);
-            others.extend(sum(&changed));
-        }
-        for at in 0..addends.len() {
-            for joint in &joints {
-                let mut changed = addends.clone();
-                changed[at].1 = joint.clone();
-                others.extend(sum(&changed));
-            }
-        }
-    }
-    for joint in &joints {
-        for negative in [false, true] {
-            others.extend(sum(&[addends.as_slice(), &[(negative, joint.clone())]].concat()));
-        }
-    }
-    others
-}
-
-/// The addends of a sum of angles, each with whether it is subtracted.
-fn flatten(angle: &Expr<Range<usize>>, negative: bool, addends: &mut Vec<(bool, Expr<Range<usize>>)>) {
-    match &angle.node {
-        Node::Add(a, b) => {
-            flatten(a, negative, addends);
-            flatten(b, negative, addends);
-        }
-        Node::Neg(inner) => flatten(inner, !negative, addends),
-        _ => addends.push((negative, angle.clone())),
     }
 }
 

@@ -94,8 +94,10 @@ pub struct ConstantStatement {
     pub name: Ident,
     /// `angle` or `length`, as written.
     pub quantity: Option<Ident>,
-    /// The value in SI; `None` if none is stated.
+    /// The value in SI; `None` if none is stated, or one that cannot be read.
     pub value: Option<Expr<Span>>,
+    /// Whether none is stated.
+    pub is_open: bool,
 }
 
 /// `input ambient: temperature;`

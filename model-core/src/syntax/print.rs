@@ -28,7 +28,9 @@ impl Display for Declaration {
         for statement in &self.statements {
             match statement {
                 Statement::Body(body) => write_body(f, body)?,
-                Statement::Constant(ConstantStatement { documentation: text, name, quantity, value }) => {
+                Statement::Constant(ConstantStatement {
+                    documentation: text, name, quantity, value, ..
+                }) => {
                     documentation(f, "    ", text)?;
                     write!(f, "    const {name}")?;
                     if let Some(quantity) = quantity {

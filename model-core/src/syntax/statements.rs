@@ -183,32 +183,30 @@ fn factor(reader: &mut Reader<'_, '_>) -> Read<FactorTerm> {
 fn constant(reader: &mut Reader<'_, '_>, documentation: String) -> Read<ConstantStatement> {
     reader.keyword("const", CONSTANT_HELP)?;
     let name = reader.name("the name of the constant").map_err(|m| m.with_help(CONSTANT_HELP))?;
-    let mut constant = ConstantStatement { documentation, name, quantity: None, value: None };
+    let mut constant = ConstantStatement { documentation, name, quantity: None, value: None, is_open: false };
     // The name is declared, whatever is wrong with the rest.
     match constant_value(reader, &mut constant) {
         Err(mistake) => {
             reader.mistakes.push(mistake);
             reader.skip_statement();
         }
-        Ok(IsStated(true)) if constant.value.is_none() => reader.skip_statement(),
-        Ok(_) => {
+        Ok(()) if constant.value.is_none() && !constant.is_open => reader.skip_statement(),
+        Ok(()) => {
             reader.end_of_statement()?;
         }
     }
     Ok(constant)
 }
 
-/// Whether a value is written, be it one that can be read or not.
-struct IsStated(bool);
-
-fn constant_value(reader: &mut Reader<'_, '_>, constant: &mut ConstantStatement) -> Read<IsStated> {
+fn constant_value(reader: &mut Reader<'_, '_>, constant: &mut ConstantStatement) -> Read<()> {
     constant.quantity = stated(reader, "`angle` or `length`", CONSTANT_HELP)?;
     if reader.is_mark(';') {
-        return Ok(IsStated(false));
+        constant.is_open = true;
+        return Ok(());
     }
     reader.expect_mark('=', CONSTANT_HELP)?;
     constant.value = amount::part(reader);
-    Ok(IsStated(true))
+    Ok(())
 }
 
 fn input(reader: &mut Reader<'_, '_>, documentation: String) -> Read<InputStatement> {
@@ -286,8 +284,9 @@ fn is_reading(reader: &Reader<'_, '_>) -> bool {
         return false;
     }
     let Some((_, behind_of)) = rest.ident().filter(|(word, _)| word == "of") else { return false };
-    let is_vector =
-        behind_of.ident().is_some_and(|(_, behind)| behind.group(Delimiter::Parenthesis).is_some());
+    let is_vector = behind_of
+        .ident()
+        .is_some_and(|(kind, behind)| kind == ORIENTATION || behind.group(Delimiter::Parenthesis).is_some());
     group.is_none() || is_vector
 }
 

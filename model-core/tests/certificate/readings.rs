@@ -178,3 +178,29 @@ fn what_is_no_smooth_angle_to_first_order_is_refused() {
         Refusal::Orientation { reading: "rotation x".to_owned() }
     );
 }
+
+/// Names that a statement about readings gives a meaning to itself, and a constant in the geometry.
+#[test]
+fn names_of_the_statement_are_names() {
+    let text = "chain Reading {
+        const Minus: angle = 0.3;
+        const sqrt: length = 2;
+        input atan: range;
+        body seen on ground { position: Rx(Minus); position_error: Rx(Plus), Ty(component); motion: Rz(seen); }
+        body back on seen { position: Tx(sqrt); motion: Ry(-opposite); motion_error: Rz(printed_azimuth), Ry(derived_azimuth), Rx(C0); }
+        observe is_seen: azimuth, elevation of direction(1, 0, 0) of back in seen;
+        observe seen_0: azimuth of direction(1, 0, 0) of seen;
+    }";
+    let certificate = of_chain(text, 1).expect("a certificate");
+    accepted_reading("reading_names", &certificate, 2);
+}
+
+/// At the pole an azimuth is no angle, and where everything is at rest it is one without errors.
+#[test]
+fn poles_are_refused_and_rest_is_proved() {
+    let pole = station("observe up: azimuth of direction(0, 0, 1) of base;");
+    assert!(matches!(of_chain(&pole, 1), Err(Refusal::Form(FormError::NotSmooth { .. }))));
+    let rest = "chain Rest { body a on ground { motion: Rz(q); motion_error: Rz(e); } body b on ground { }
+        observe still: azimuth, elevation of direction(3, 4, 0) of b; }";
+    accepted_reading("rest", &of_chain(rest, 1).expect("a certificate"), 1);
+}

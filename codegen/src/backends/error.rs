@@ -42,10 +42,9 @@ pub enum GenerateError {
         /// The observable.
         name: String,
     },
-    /// Derivatives are asked for of an angle that has none where there are no errors, or of an orientation.
+    /// Derivatives are asked for of an angle that has none where there are no errors.
     #[error(
-        "`{name}` has no derivatives: the angle off the axis has none where errors are zero, and those of an orientation are \
-         not generated: leave out {}",
+        "the angle off the axis of `{name}` has no derivative where errors are zero: leave out {}",
         super::form_name(*form)
     )]
     NoDerivative {

@@ -137,9 +137,8 @@ fn check(unit: &Unit<'_>, language: Language, file_name: &str) -> Result<(), Gen
         if unit.precision == Precision::Single && !observable.has_components_only() {
             return Err(GenerateError::SingleReading { name: name() });
         }
-        let has_none = |measures| matches!(measures, Measures::OffAxis | Measures::Rotation(_));
-        let has_no_rates = observable.shown.iter().any(|reading| has_none(reading.measures));
-        if let Some(&form) = unit.forms.iter().find(|form| has_no_rates && form.is_jacobian()) {
+        let is_off_axis = observable.shown.iter().any(|reading| reading.measures == Measures::OffAxis);
+        if let Some(&form) = unit.forms.iter().find(|form| is_off_axis && form.is_jacobian()) {
             return Err(GenerateError::NoDerivative { name: name(), form });
         }
     }

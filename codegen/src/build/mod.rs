@@ -157,6 +157,9 @@ fn jacobian_rows(
     at: jacobian::At,
     wrt: &[SymbolId],
 ) -> Vec<Value> {
+    if path.is_orientation() {
+        return orientation_rows(b, chain, path, at, wrt);
+    }
     let columns = jacobian::columns(b, chain, path, at, wrt);
     if path.has_components_only() {
         let component = |i: usize| columns.iter().map(move |column| column[i]);
@@ -180,6 +183,36 @@ fn jacobian_rows(
         }
     }
     rows
+}
+
+/// The rows of the Jacobian of a small rotation vector.
+fn orientation_rows(
+    b: &mut Builder,
+    chain: &Chain,
+    path: &Path,
+    at: jacobian::At,
+    wrt: &[SymbolId],
+) -> Vec<Value> {
+    let ways = path.to_axes();
+    let axes = ways.each_ref().map(|way| match at {
+        jacobian::At::Errors => exact::both(b, way),
+        jacobian::At::Nominal => (exact::both(b, way).0, NOTHING),
+    });
+    let real = ways.each_ref().map(|way| jacobian::columns(b, chain, way, at, wrt));
+    let designed = ways.each_ref().map(|way| jacobian::columns(b, chain, way, jacobian::At::Nominal, wrt));
+    let rates: Vec<Vector> = wrt
+        .iter()
+        .enumerate()
+        .map(|(index, &symbol)| {
+            let is_error = chain.symbol(symbol).kind == SymbolKind::Error;
+            let changes = std::array::from_fn(|axis: usize| {
+                (if is_error { NOTHING } else { designed[axis][index] }, real[axis][index])
+            });
+            readings::rotation_rate(b, &axes, &changes)
+        })
+        .collect();
+    let axes = path.shown.iter().filter_map(|reading| reading.rotation());
+    axes.flat_map(|axis| rates.iter().map(move |rate| rate[axis.index()])).collect()
 }
 
 /// All operations, then those of every pose.

@@ -2,7 +2,7 @@
 //! has checked.
 
 use codegen::{Form, Interpreter, build};
-use model_core::{Chain, ObservableId, SymbolKind, exact, forms};
+use model_core::{Chain, ObservableId, SymbolId, SymbolKind, exact, forms};
 
 const CHAIN: &str = "chain Gimbal {
     const lean: angle = 0.4;
@@ -45,6 +45,45 @@ fn programs_of_orientations_have_the_values_of_the_core() {
                     (found - expected).abs() <= 1e-14 * size,
                     "{form:?} {size}: {found} is not {expected}"
                 );
+            }
+        }
+    }
+}
+
+/// With respect to errors, joints and constants, against differences of the core's exact form.
+#[test]
+fn jacobians_of_orientations_are_those_of_differences() {
+    let chain = Chain::from_text(CHAIN).unwrap();
+    let both = [ObservableId(0), ObservableId(1)];
+    let wrt: Vec<SymbolId> = [SymbolKind::Error, SymbolKind::Joint, SymbolKind::Constant]
+        .into_iter()
+        .flat_map(|kind| chain.symbols_of(kind))
+        .collect();
+    for size in [0.0, 1e-9, 1e-3, 0.4] {
+        let mut values = chain.nominal_values();
+        for (index, id) in (0u16..).zip(chain.symbols_of(SymbolKind::Error)) {
+            values[id.index()] = size * (1.0 - 0.3 * f64::from(index));
+        }
+        for (index, id) in (0u16..).zip(chain.symbols_of(SymbolKind::Joint)) {
+            values[id.index()] = 0.3 + 0.8 * f64::from(index);
+        }
+        let shown = |values: &[f64]| -> Vec<f64> {
+            both.iter().flat_map(|&id| exact::Path::new(&chain, id).shown(values)).collect()
+        };
+        let mut out = vec![f64::NAN; 5 * wrt.len()];
+        let program = build(&chain, &both, Form::ExactJacobian, &wrt);
+        Interpreter::new(&program).eval(&values, &mut out).unwrap();
+        for (column, id) in wrt.iter().enumerate() {
+            const STEP: f64 = 1e-5;
+            let moved = |by: f64| {
+                let mut moved = values.clone();
+                moved[id.index()] += by;
+                shown(&moved)
+            };
+            for (row, (up, down)) in moved(STEP).iter().zip(moved(-STEP)).enumerate() {
+                let (found, expected) = (out[row * wrt.len() + column], (up - down) / (2.0 * STEP));
+                let what = (&chain.symbol(*id).name, row, size);
+                assert!((found - expected).abs() <= 1e-9, "{what:?}: {found} is not {expected}");
             }
         }
     }

@@ -21,8 +21,8 @@ pub fn items(context: &Context<'_>, id: ObservableId) -> TokenStream {
         readings::exact_methods(context, id, &arguments)
     };
     let first_order = first_order_methods(context, id, &arguments);
-    let has_none = |measures| matches!(measures, Measures::OffAxis | Measures::Rotation(_));
-    let has_derivatives = !context.chain.observable(id).shown.iter().any(|one| has_none(one.measures));
+    let has_derivatives =
+        context.chain.observable(id).shown.iter().all(|one| one.measures != Measures::OffAxis);
     let jacobian = (has_derivatives && context.has(SymbolKind::Error))
         .then(|| jacobian_methods(context, id, &arguments));
     quote! { #closed_form #exact #first_order #jacobian }

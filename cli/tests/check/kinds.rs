@@ -27,7 +27,7 @@ struct Kind {
 const KINDS: [Kind; 9] = [
     Kind {
         name: "total",
-        holds: &[r"total = '\sqrt{(e + f)^2 + g^2}'", "keep = [\"g\"]\ntotal = '|g|'"],
+        holds: &[r"total = '\sqrt{(e + f)^2 + g^2}'", "keep = [\"g\"]\ntotal = '\\sqrt{g^2}'"],
         fails: &[r"total = '\sqrt{e^2 + f^2 + g^2}'"],
         mistyped: &[(r"total = '\sqrt{e^2 + h^2}'", "h"), (r"total = '\sqrt{e^2'", "{")],
     },
@@ -172,7 +172,7 @@ fn constants_without_a_value_stand_in_formulas_and_in_no_number() {
         ("unvalued_holds", right, 0),
         ("unvalued_differs", &right.replace("'-reach*g'", "'-g'"), 1),
         ("unvalued_rank", r#"rank = { errors = "*", equals = 2 }"#, 0),
-        ("unvalued_total", r"total = 'reach*\sqrt{(e + f)^2 + g^2}'", 0),
+        ("unvalued_total", r"total = '\sqrt{reach^2 ((e + f)^2 + g^2)}'", 0),
     ] {
         let run = check(name, &chain, &on_end(claim));
         assert_eq!((run.code, run.stderr.as_str()), (code, ""), "{claim}: {}", run.stdout);

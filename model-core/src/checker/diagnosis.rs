@@ -183,16 +183,16 @@ impl Case<'_> {
             let slip = if factor == -&Rational::ONE { TermSlip::Sign } else { TermSlip::Factor(factor) };
             return Some((slip, None));
         }
-        for (index, factor) in candidate.term.factors.iter().enumerate() {
-            for change in self.changes(factor) {
-                let Some(rest) = self.without(candidate, index, component) else { continue };
-                let changed = &rest * &change.to;
-                let sign = changed == -needed;
-                if changed != *needed && !sign {
-                    continue;
-                }
-                if let Some(slip) = change.slip(sign) {
-                    return Some((slip, Some(factor.expression.place.clone())));
+        // The right sign first: what another sign explains, two slips have made.
+        for with_sign in [false, true] {
+            for (index, factor) in candidate.term.factors.iter().enumerate() {
+                for change in self.changes(factor) {
+                    let Some(rest) = self.without(candidate, index, component) else { continue };
+                    let changed = &rest * &change.to;
+                    let is_needed = if with_sign { changed == -needed } else { changed == *needed };
+                    if let Some(slip) = is_needed.then(|| change.slip(with_sign)).flatten() {
+                        return Some((slip, Some(factor.expression.place.clone())));
+                    }
                 }
             }
         }
@@ -227,11 +227,11 @@ impl Case<'_> {
             let Some(rests) = rests else { continue };
             let rest = rests.iter().fold(Poly::zero(), |sum, rest| &sum + rest);
             let needed = sharing().fold(lacking.clone(), |sum, (candidate, _)| &sum + &candidate.factor);
-            for change in self.changes(factor) {
-                let changed = &rest * &change.to;
-                let sign = changed == -&needed;
-                if changed == needed || sign {
-                    if let Some(slip) = change.slip(sign) {
+            for with_sign in [false, true] {
+                for change in self.changes(factor) {
+                    let changed = &rest * &change.to;
+                    let is_needed = if with_sign { changed == -&needed } else { changed == needed };
+                    if let Some(slip) = is_needed.then(|| change.slip(with_sign)).flatten() {
                         return Some((slip, place.clone()));
                     }
                 }

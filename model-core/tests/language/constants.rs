@@ -45,7 +45,7 @@ fn the_declaration_reads_back_and_a_broken_value_is_still_a_mistake() {
     for (broken, said) in [
         ("const reach: length =;", "expected"),
         ("const reach: lenght;", "did you mean `length`"),
-        ("const reach: length = sin(;", "expected"),
+        ("const reach: length = 2*;", "expected"),
         ("const reach: length 0.25;", "expected `=`"),
     ] {
         let text = TEXT.replace("const reach: length;", broken);

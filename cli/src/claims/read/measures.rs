@@ -6,7 +6,7 @@ use calibration::data::units;
 use model_core::budget::{self, Measure, Poses};
 use model_core::checker::{Bound, Claim, Combined, Comparison, Limits, Size, SizeMeasure};
 use model_core::remainder::Domain;
-use model_core::{ObservableId, Quantity, SymbolId, SymbolKind, names};
+use model_core::{ObservableId, Quantity, Symbol, SymbolId, SymbolKind, check, names};
 use toml::{Spanned, Value};
 
 use super::super::table::{ClaimTable, CompareTable, Sizes};
@@ -57,7 +57,9 @@ impl Reader<'_> {
     fn numbers(&mut self, place: Range<usize>) -> Option<()> {
         let chain = self.chain;
         let mut constants = chain.symbols_of(SymbolKind::Constant).map(|constant| chain.symbol(constant));
-        let Some(unknown) = constants.find(|constant| constant.value.is_none()) else { return Some(()) };
+        // Halves of angles, which print has, are no constants of the declaration: no name is written like theirs.
+        let is_open = |constant: &&Symbol| constant.value.is_none() && check::is_name(&constant.name);
+        let Some(unknown) = constants.find(is_open) else { return Some(()) };
         let name = &unknown.name;
         self.mistake(place, format!("the constant `{name}` has no value, and this claim is about numbers"))
             .help = Some(format!("write its value into the declaration: `const {name} = 0.25;`"));

@@ -16,6 +16,7 @@ use super::subspace::Subspace;
 use super::sweep::Weighting;
 use super::{FitError, Partial, robust};
 use crate::fit::noise::serial::{self, Memory};
+use crate::fit::noise::space;
 use crate::fit::noise::{self, Noise, Offsets, pools, session, trend};
 
 /// Degrees of freedom from which on it makes no difference which kind of component they come from.
@@ -171,8 +172,11 @@ impl Solver<'_> {
         let (few, complete) = beside(trend::MOST[0]);
         if options.serial && (declared || self.groups().is_none()) {
             let earns = serial::EARNS[usize::from(!declared)];
-            let fitted = |beside: &Mat<f64>| serial::fit(&self.layout, &e, &q, beside, earns);
-            if let Some(memory) = fitted(if options.beside_effects { &few } else { &q }) {
+            let axes = space::axes(self.observations);
+            let fitted =
+                |beside: &Mat<f64>| serial::fit(&self.layout, &e, &q, beside, earns, axes.as_deref());
+            let alone = trend::determined(&q);
+            if let Some(memory) = fitted(if options.beside_effects { &few } else { &alone }) {
                 let certain = complete || declared || !options.beside_effects;
                 let thorough =
                     if certain { None } else { Some(beside(trend::MOST[1])).filter(|found| found.1) };
@@ -327,7 +331,8 @@ impl Shared {
             Self::Nothing => {}
             Self::Memory(memory, order) => {
                 noise.floor.iter_mut().for_each(|floor| *floor *= own * memory.serial.gain());
-                (noise.serial, noise.undeclared_order) = (Some(memory.serial), order == Order::OfFile);
+                (noise.serial, noise.in_space) = (Some(memory.serial), memory.in_space);
+                noise.undeclared_order = order == Order::OfFile;
             }
             Self::Offsets(offsets, _) => {
                 noise.floor.iter_mut().for_each(|floor| *floor *= own);

@@ -16,7 +16,6 @@ use super::subspace::Subspace;
 use super::sweep::Weighting;
 use super::{FitError, Partial, robust};
 use crate::fit::noise::serial::{self, Memory};
-use crate::fit::noise::space;
 use crate::fit::noise::{self, Noise, Offsets, pools, session, trend};
 
 /// Degrees of freedom from which on it makes no difference which kind of component they come from.
@@ -172,7 +171,7 @@ impl Solver<'_> {
         let (few, complete) = beside(trend::MOST[0]);
         if options.serial && (declared || self.groups().is_none()) {
             let earns = serial::EARNS[usize::from(!declared)];
-            let axes = space::axes(self.observations);
+            let axes = noise::space::axes(self.observations);
             let fitted =
                 |beside: &Mat<f64>| serial::fit(&self.layout, &e, &q, beside, earns, axes.as_deref());
             let alone = trend::determined(&q);

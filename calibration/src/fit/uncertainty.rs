@@ -171,8 +171,11 @@ impl Solver<'_> {
         let (few, complete) = beside(trend::MOST[0]);
         if options.serial && (declared || self.groups().is_none()) {
             let earns = serial::EARNS[usize::from(!declared)];
-            let fitted = |beside: &Mat<f64>| serial::fit(&self.layout, &e, &q, beside, earns);
-            if let Some(memory) = fitted(if options.beside_effects { &few } else { &q }) {
+            let axes = noise::space::axes(self.observations);
+            let fitted =
+                |beside: &Mat<f64>| serial::fit(&self.layout, &e, &q, beside, earns, axes.as_deref());
+            let alone = trend::determined(&q);
+            if let Some(memory) = fitted(if options.beside_effects { &few } else { &alone }) {
                 let certain = complete || declared || !options.beside_effects;
                 let thorough =
                     if certain { None } else { Some(beside(trend::MOST[1])).filter(|found| found.1) };
@@ -327,7 +330,8 @@ impl Shared {
             Self::Nothing => {}
             Self::Memory(memory, order) => {
                 noise.floor.iter_mut().for_each(|floor| *floor *= own * memory.serial.gain());
-                (noise.serial, noise.undeclared_order) = (Some(memory.serial), order == Order::OfFile);
+                (noise.serial, noise.in_space) = (Some(memory.serial), memory.in_space);
+                noise.undeclared_order = order == Order::OfFile;
             }
             Self::Offsets(offsets, _) => {
                 noise.floor.iter_mut().for_each(|floor| *floor *= own);

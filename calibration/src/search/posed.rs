@@ -95,7 +95,8 @@ impl<'a> Posed<'a> {
         let mut rows =
             Portion::of(whole, fitted, &sample(observations, few, whole.request.plan.hold_out.seed))?;
         rows.keep(&usable);
-        let of_rows = dealt(&rows.observations, &rows.columns.row, 1, 0);
+        let hold_out = &whole.request.plan.hold_out;
+        let of_rows = dealt(&rows.observations, &rows.columns.row, hold_out.folds, hold_out.seed);
         let sampled = problem(whole, fitted, &usable, &rows.whitened(), of_rows)?;
         let of_sample = reach(whole, fitted, &sampled, &rows, &usable)?;
         let sampled = sampled.with_reach(of_sample);

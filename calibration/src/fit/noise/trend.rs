@@ -50,9 +50,9 @@ pub fn beside(
         }
         basis.len()
     };
-    let fitted = (0..q.ncols()).map(|j| q.col_as_slice(j).to_vec()).filter(|own| norm(own) > UNDETERMINED);
-    fitted.for_each(|own| {
-        take(own);
+    let fitted = determined(q);
+    (0..fitted.ncols()).for_each(|j| {
+        take(fitted.col_as_slice(j).to_vec());
     });
     let readings: Vec<(bool, &[f64])> = observations
         .columns
@@ -90,6 +90,13 @@ pub fn beside(
         }
     }
     (Mat::from_fn(n, basis.len(), |row, column| basis[column][row]), complete)
+}
+
+/// The columns of what the data determine: the others are as good as zero, and no likelihood can do with them.
+#[must_use]
+pub fn determined(q: &Mat<f64>) -> Mat<f64> {
+    let kept: Vec<usize> = (0..q.ncols()).filter(|&j| norm(q.col_as_slice(j)) > UNDETERMINED).collect();
+    Mat::from_fn(q.nrows(), kept.len(), |row, column| q[(row, kept[column])])
 }
 
 fn norm(column: &[f64]) -> f64 {

@@ -164,8 +164,12 @@ impl Solver<'_> {
             return Ok(Shared::Nothing);
         }
         let counted: Vec<f64> = weight.iter().map(|weight| f64::from(u8::from(*weight > 0.0))).collect();
-        let (q, e) = self.coordinates(course, &counted, root)?;
         let sigma = course.noise.sigma_without_memory();
+        // The columns of all rows take more memory than all else; most data need none.
+        if self.groups().is_none() && serial::looks_white(&self.layout, &self.whitened(course, &counted)) {
+            return Ok(Shared::Nothing);
+        }
+        let (q, e) = self.coordinates(course, &counted, root)?;
         let beside =
             |most| trend::beside(self.chain, self.observations, &self.layout, &sigma, weight, &q, most);
         let (few, complete) = beside(trend::MOST[0]);

@@ -13,7 +13,7 @@ use super::{Layout, Run, Serial};
 pub(crate) const FEWEST: usize = 60;
 
 /// Components from which on what the fit took out of the residuals makes no difference.
-const MANY: usize = 50_000;
+pub(super) const MANY: usize = 50_000;
 
 /// Values further out than this count as this far, so that outliers do not decide.
 const CLIP: f64 = 3.0;
@@ -63,10 +63,7 @@ struct Tried {
 #[must_use]
 pub fn fit(layout: &Layout, values: &[f64], q: &Mat<f64>, beside: &Mat<f64>, earns: f64) -> Option<Memory> {
     let length = longest(&layout.runs)?;
-    if values.len() < FEWEST + beside.ncols() || length < 4 {
-        return None;
-    }
-    if neighbours(layout, values) < LOOKED_AT {
+    if values.len() < FEWEST + beside.ncols() || length < 4 || looks_white(layout, values) {
         return None;
     }
     let problem = Problem::new(layout, values, beside);
@@ -93,6 +90,12 @@ pub fn fit(layout: &Layout, values: &[f64], q: &Mat<f64>, beside: &Mat<f64>, ear
     let first = (1.0 + phi * theta) * (phi + theta) / (1.0 + 2.0 * phi * theta + theta * theta);
     let squares = first * first / (1.0 - phi * phi) * (1.0 - phi.powi(2 * length as i32));
     Some(Memory { serial, innovation, product, independent: values.len() as f64 / (1.0 + 2.0 * squares) })
+}
+
+/// Whether neighbours among the values hang together so little that no memory is looked for.
+#[must_use]
+pub fn looks_white(layout: &Layout, values: &[f64]) -> bool {
+    neighbours(layout, values) < LOOKED_AT
 }
 
 /// The models that are tried on runs of at most so many rows, each with its number of coefficients.

@@ -15,7 +15,7 @@ use super::{Layout, Run, Serial};
 pub(crate) const FEWEST: usize = 60;
 
 /// Components from which on what the fit took out of the residuals makes no difference.
-const MANY: usize = 50_000;
+pub(super) const MANY: usize = 50_000;
 
 /// Values further out than this count as this far, so that outliers do not decide.
 const CLIP: f64 = 3.0;
@@ -108,10 +108,7 @@ pub fn fit(
     axes: Option<&[[f64; 3]]>,
 ) -> Option<Memory> {
     let length = longest(&layout.runs)?;
-    if values.len() < FEWEST + beside.ncols() || length < 4 {
-        return None;
-    }
-    if neighbours(layout, values, axes) < LOOKED_AT {
+    if values.len() < FEWEST + beside.ncols() || length < 4 || looks_white(layout, values, axes) {
         return None;
     }
     let problem = Problem::new(layout, values, beside);
@@ -148,6 +145,12 @@ pub fn fit(
         product,
         independent: values.len() as f64 / (1.0 + 2.0 * squares),
     })
+}
+
+/// Whether neighbours among the values hang together so little that no memory is looked for.
+#[must_use]
+pub fn looks_white(layout: &Layout, values: &[f64], axes: Option<&[[f64; 3]]>) -> bool {
+    neighbours(layout, values, axes) < LOOKED_AT
 }
 
 /// The models that are tried on runs of at most so many rows, each with its number of coefficients: in the residuals' own axes,

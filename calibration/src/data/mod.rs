@@ -41,6 +41,9 @@ pub enum Measure {
     Fixed,
     /// The length of a wire from an unknown anchor to the point; one residual component, in metres.
     Wire,
+    /// The distance of the point from another, which other rows observe, or which is known or not; one residual component, in
+    /// metres.
+    Distance,
     /// A direction that is an unknown point's from a station; two residual components across and along, rad.
     Sight,
 }
@@ -52,7 +55,7 @@ impl Measure {
         match self {
             Self::Direction | Self::Sight => 2,
             Self::Point | Self::Target | Self::Fixed => 3,
-            Self::Range | Self::Azimuth | Self::Plane | Self::Wire => 1,
+            Self::Range | Self::Azimuth | Self::Plane | Self::Wire | Self::Distance => 1,
         }
     }
 
@@ -61,9 +64,13 @@ impl Measure {
     pub fn unit(self) -> SiUnit {
         match self {
             Self::Direction | Self::Azimuth | Self::Sight => SiUnit::RAD,
-            Self::Point | Self::Range | Self::Plane | Self::Target | Self::Fixed | Self::Wire => {
-                SiUnit::METRE
-            }
+            Self::Point
+            | Self::Range
+            | Self::Plane
+            | Self::Target
+            | Self::Fixed
+            | Self::Wire
+            | Self::Distance => SiUnit::METRE,
         }
     }
 
@@ -77,7 +84,7 @@ impl Measure {
             Self::Azimuth => &["azimuth"],
             Self::Plane => &["off_plane"],
             Self::Target => &["across", "up", "along"],
-            Self::Wire => &["length"],
+            Self::Wire | Self::Distance => &["length"],
         }
     }
 
@@ -85,7 +92,7 @@ impl Measure {
     #[must_use]
     pub fn bare(self) -> Self {
         match self {
-            Self::Plane | Self::Target | Self::Fixed | Self::Wire => Self::Point,
+            Self::Plane | Self::Target | Self::Fixed | Self::Wire | Self::Distance => Self::Point,
             Self::Sight => Self::Direction,
             Self::Direction | Self::Point | Self::Range | Self::Azimuth => self,
         }

@@ -47,7 +47,12 @@ pub fn components(
             let none = (0.0, Vector3::zeros());
             [(measured.x - azimuth - turns * std::f64::consts::TAU, gradient), none, none]
         }
-        Measure::Plane | Measure::Target | Measure::Fixed | Measure::Wire | Measure::Sight => {
+        Measure::Plane
+        | Measure::Target
+        | Measure::Fixed
+        | Measure::Wire
+        | Measure::Distance
+        | Measure::Sight => {
             unreachable!("the residual of a row that observes an object is that of `objects::seen`")
         }
     }

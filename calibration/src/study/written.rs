@@ -172,6 +172,7 @@ pub(super) enum Kind {
     Target,
     Fixed,
     Wire,
+    Distance,
     Sight,
 }
 

@@ -7,6 +7,8 @@
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use model_core::algebra::Poly;
+use model_core::checker::{Checker, ClosedForm, Order, PrintedVector};
+use model_core::latex::PrintedSymbols;
 use model_core::remainder::{Domain, bound};
 use model_core::{Chain, ObservableId, Quantity, SymbolKind, forms, identify, print, syntax};
 use std::fmt::Write;
@@ -94,5 +96,55 @@ fn remainder(criterion: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, derive, decide, remainder);
+/// An arm of twelve joints with ten errors each, and ten constants that are not zero in its geometry.
+fn arm_with_constants() -> Option<Chain> {
+    let mut text = "chain Arm {\n".to_owned();
+    for constant in 0..10 {
+        let _ = writeln!(text, "const l{constant}: length = 0.{}1;", constant + 1);
+    }
+    for joint in 0..12 {
+        let lower = if joint == 0 { "ground".to_owned() } else { format!("b{}", joint - 1) };
+        let axis = ["Rz", "Rx", "Ry"][joint % 3];
+        let (one, other) = (joint % 10, (joint + 3) % 10);
+        let _ = writeln!(
+            text,
+            "body b{joint} on {lower} {{
+                position: Tx(l{one}), Tz(l{other});
+                position_error: Tx(dx{joint}), Ty(dy{joint}), Tz(dz{joint}), Rx(rx{joint}), Ry(ry{joint}), Rz(rz{joint});
+                motion: {axis}(q{joint});
+                motion_error: Rx(a{joint}), Ry(b{joint}), Tx(c{joint}), Ty(d{joint});
+            }}"
+        );
+    }
+    let _ = writeln!(text, "observe tip: point(l9, 0, l2) of b11; }}");
+    parsed(&text)
+}
+
+/// At most a second: what an arm with constants can tell of its errors. At most five milliseconds: a claim, the right one and
+/// one with a slip.
+fn limits(criterion: &mut Criterion) {
+    let Some(arm) = arm_with_constants() else { return };
+    criterion.bench_function("tell apart 120 errors of twelve joints with ten constants", |bencher| {
+        bencher.iter(|| identify::identify(black_box(&arm), &[ObservableId(0)]));
+    });
+    let Some(chain) = parsed(MOBILE_LIDAR) else { return };
+    let Ok(form) = forms::derive(&chain, BOTH[0], 1) else { return };
+    let right: Vec<String> = form.components.iter().map(|part| print::text(&part.above, &chain)).collect();
+    let slip: Vec<String> = right.iter().map(|text| text.replacen("cos(beta)", "sin(beta)", 1)).collect();
+    for (name, texts) in [("that holds", right), ("with a slip in each component", slip)] {
+        let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+        criterion.bench_function(&format!("check a claim of 30 errors {name}"), |bencher| {
+            bencher.iter(|| {
+                let symbols = PrintedSymbols::of_chain(&chain);
+                let printed = PrintedVector::read(&chain, &symbols, black_box(&texts)).ok()?;
+                let kept = chain.symbols_of(SymbolKind::Error).collect();
+                let (observable, order) = (BOTH[0], Order::UpTo(1));
+                let claim = ClosedForm { observable, order, only: None, faces: None, kept, printed };
+                Checker::new(&chain).closed_form(&claim).ok()
+            });
+        });
+    }
+}
+
+criterion_group!(benches, derive, decide, remainder, limits);
 criterion_main!(benches);

@@ -54,6 +54,37 @@ def student(p, dof):
     return low
 
 
+def calibrated(cell, where, data, session, noise=()):
+    """What the command reports of these data."""
+    instrument = cell["instrument"]
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        (folder / "i.chain").write_text(instrument.chain)
+        names = [f"{j}" for j in instrument.joints]
+        with open(folder / "d.csv", "w") as file:
+            file.write(",".join(names + ["x", "y", "z", "night"]) + "\n")
+            for q, v, s in zip(where, data, session):
+                file.write(",".join([repr(q[j]) for j in names] + [repr(c) for c in v] + [f"n{s}"]) + "\n")
+        kind = "point" if instrument.point else "direction"
+        unit_of = lambda j: "m" if j == "range" else "rad"
+        study = ['chain = "i.chain"', 'observable = "observed"', 'data = "d.csv"', "[columns]"]
+        study += [f'{j} = {{ column = "{j}", unit = "{unit_of(j)}" }}' for j in names]
+        told = (lambda c: f'{c} = {{ column = "{c}", unit = "m" }}') if instrument.point else (lambda c: f'{c} = "{c}"')
+        study += ["[observed]", f'kind = "{kind}"'] + [told(c) for c in "xyz"]
+        if noise:
+            study += ["[noise]", *noise]
+        if cell.get("functions") is not None:
+            study += ["[search]", f"functions = {str(cell['functions']).lower()}"]
+        (folder / "s.toml").write_text("\n".join(study) + "\n")
+        run = subprocess.run([cell["command"], "calibrate", "s.toml", "--format", "json"], cwd=folder, capture_output=True, text=True)
+        if run.returncode not in (0, 1):
+            return {"failed": run.stderr.strip()[-300:]}
+        try:
+            return json.loads(run.stdout)
+        except json.JSONDecodeError:
+            return {"failed": run.stdout[:200] + run.stderr[-200:]}
+
+
 def trial(cell, seed):
     rng = random.Random(f"{cell['name']} {seed}")
     instrument, rows = cell["instrument"], cell["rows"]
@@ -71,36 +102,17 @@ def trial(cell, seed):
             q[instrument.joints[0]] = low + (high - low) * (session[row] + rng.random()) / sessions
     unit = [[instrument.noise * (columns[k][row] + (shift[session[row]][k] if sessions else 0)) for k in range(3)] for row in range(rows)]
     data = [measured(instrument, e, q, n, cell.get("in_space", False)) for q, n in zip(where, unit)]
-    with tempfile.TemporaryDirectory() as folder:
-        folder = pathlib.Path(folder)
-        (folder / "i.chain").write_text(instrument.chain)
-        names = [f"{j}" for j in instrument.joints]
-        with open(folder / "d.csv", "w") as file:
-            file.write(",".join(names + ["x", "y", "z", "night"]) + "\n")
-            for q, v, s in zip(where, data, session):
-                file.write(",".join([repr(q[j]) for j in names] + [repr(c) for c in v] + [f"n{s}"]) + "\n")
-        kind = "point" if instrument.point else "direction"
-        unit_of = lambda j: "m" if j == "range" else "rad"
-        study = ['chain = "i.chain"', 'observable = "observed"', 'data = "d.csv"', "[columns]"]
-        study += [f'{j} = {{ column = "{j}", unit = "{unit_of(j)}" }}' for j in names]
-        told = (lambda c: f'{c} = {{ column = "{c}", unit = "m" }}') if instrument.point else (lambda c: f'{c} = "{c}"')
-        study += ["[observed]", f'kind = "{kind}"'] + [told(c) for c in "xyz"]
-        noise = []
-        if sessions and cell.get("declared", True):
-            noise.append('group = ["night"]')
-        if cell.get("stated"):
-            noise.append(f'sigma = "{instrument.noise!r} {"m" if instrument.point else "rad"}"')
-        if noise:
-            study += ["[noise]"] + noise
-        (folder / "s.toml").write_text("\n".join(study) + "\n")
-        run = subprocess.run([cell["command"], "calibrate", "s.toml", "--format", "json"], cwd=folder, capture_output=True, text=True)
-        if run.returncode not in (0, 1):
-            return {"failed": run.stderr.strip()[-300:]}
-        try:
-            report = json.loads(run.stdout)
-        except json.JSONDecodeError:
-            return {"failed": run.stdout[:200] + run.stderr[-200:]}
-    result = {"verdict": report["verdict"], "found": len(report["effects"]), "inside": 0, "of": 0}
+    noise = []
+    if sessions and cell.get("declared", True):
+        noise.append('group = ["night"]')
+    if cell.get("stated"):
+        noise.append(f'sigma = "{instrument.noise!r} {"m" if instrument.point else "rad"}"')
+    report = calibrated(cell, where, data, session, noise)
+    if "failed" in report:
+        return report
+    noise = report["noise"]
+    result = {"verdict": report["verdict"], "found": len(report["effects"]), "inside": 0, "of": 0,
+              "remembers": noise["serial"] is not None or noise["undeclared_order"]}
     for entry in report["errors"]:
         sigma = entry.get("standard_uncertainty")
         if not entry.get("separable") or entry.get("shown") is False or entry["name"] not in e or not sigma:
@@ -135,6 +147,8 @@ def cells(command):
     for instrument in (mount, directions, targets, arm):
         add("independent", instrument, 200, "independent")
     add("large errors", targets, 200, "independent", size=20.0)
+    for instrument in (mount, directions):
+        add("no memory", instrument, 300, "independent", trajectory=True)
     for noise in ("AR(0.5)", "AR(0.9)", "walk"):
         add("undeclared memory", mount, 300, noise, trajectory=True)
         add("undeclared memory", directions, 300, noise, trajectory=True)
@@ -151,6 +165,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--runs", type=int, default=50)
     parser.add_argument("--only", default="")
+    parser.add_argument("--functions", choices=["true", "false"])
     parser.add_argument("--command", default=str(ROOT / "target/release/trueaxis"))
     arguments = parser.parse_args()
     print("| design | 95 % intervals that hold the truth | an effect accepted, none there | verdicts |\n|---|---|---|---|")
@@ -158,12 +173,17 @@ def main():
         for cell in cells(arguments.command):
             if arguments.only not in cell["name"]:
                 continue
+            if arguments.functions:
+                cell["functions"] = arguments.functions == "true"
             results = list(pool.map(lambda seed: trial(cell, seed), range(arguments.runs)))
             good = [r for r in results if "failed" not in r]
             verdicts = {}
             for r in results:
                 key = r.get("verdict") or f"error: {r['failed'].splitlines()[0][:60] if r['failed'] else '?'}"
                 verdicts[key] = verdicts.get(key, 0) + 1
+            remembers = sum(r["remembers"] for r in good)
+            if remembers:
+                verdicts["(memory told)"] = remembers
             print(f"| {cell['name']} | {wilson(sum(r['inside'] for r in good), sum(r['of'] for r in good))} | "
                   f"{wilson(sum(r['found'] > 0 for r in good), len(good))} | "
                   f"{', '.join(f'{k} {v}' for k, v in sorted(verdicts.items(), key=lambda p: -p[1]))} |", flush=True)

@@ -56,11 +56,15 @@ class AltAzimuth:
     noise = 2 * ARCSEC
     components = 2
 
-    def value(self, e, q):
+    def value(self, e, q, planted=None):
         factors = [("Rx", lambda e, q: e["tilt_x"]), ("Ry", lambda e, q: e["tilt_y"]), ("Rz", lambda e, q: -q["azimuth"]),
                    ("Rz", lambda e, q: e["azimuth_index"]), ("Ry", lambda e, q: e["nonperpendicularity"]),
                    ("Rx", lambda e, q: q["elevation"]), ("Rx", lambda e, q: e["elevation_index"]),
                    ("Rz", lambda e, q: e["collimation"])]
+        if planted:
+            # Behind the motion and the errors of its axis.
+            at, kind, amount = planted
+            factors.insert({"azimuth_axis": 4, "elevation_axis": 7}[at], (kind, amount))
         return observe(factors, e, q, (0.0, 1.0, 0.0), False)
 
 
@@ -101,8 +105,12 @@ class Scanner:
             "    observe observed: direction(0, 0, 1) of device;\n"
         self.chain = "chain Scanner {\n" + "".join(bodies) + tail + "}\n"
 
-    def value(self, e, q):
+    def value(self, e, q, planted=None):
         factors = [(kind, (lambda e, q, n=name: q[n] if n in q else e[n])) for name, kind in self.order]
+        if planted:
+            at, kind, amount = planted
+            behind = {"outer": "alpha", "middle": "beta"}[at]
+            factors.insert([name for name, _ in self.order].index(behind) + 1, (kind, amount))
         v = (0.0, 0.0, q["range"] if self.point else 1.0)
         return observe(factors, e, q, v, self.point)
 
@@ -178,11 +186,11 @@ def poses(instrument, rows, trajectory, random):
     return out
 
 
-def measured(instrument, e, q, noise, in_space=False):
+def measured(instrument, e, q, noise, in_space=False, planted=None):
     """The observable with noise: of a point's three components; of a direction across and along the vertical, as an
     instrument reads it, or of the three components of space, by which a drift of the ground moves it. A direction stays of
     length one."""
-    value = instrument.value(e, q)
+    value = instrument.value(e, q, planted) if planted else instrument.value(e, q)
     if instrument.point or in_space:
         v = [a + b for a, b in zip(value, noise)]
     else:

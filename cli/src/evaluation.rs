@@ -1,9 +1,15 @@
 //! Observables over columns of readings: what `eval`, `apply` and `simulate` compute.
 
-use codegen::{Form, Interpreter, build};
+use std::sync::{Mutex, PoisonError};
+
+use codegen::{Form, Interpreter, Program, ShapeError, build};
 use model_core::{Chain, ObservableId, SymbolId, SymbolKind};
+use rayon::prelude::*;
 
 use crate::failure::Failure;
+
+/// Rows that one processor computes at a time.
+const PIECE: usize = 1 << 13;
 
 /// The exact form, or the first-order one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -32,7 +38,9 @@ pub struct Evaluator {
     /// How many numbers the observables show together.
     shown: usize,
     /// Programs whose outputs add up, each with the values of errors and constants.
-    parts: Vec<(Interpreter, Vec<f64>)>,
+    parts: Vec<(Program, Vec<f64>)>,
+    /// Interpreters of the programs that nobody uses at the moment.
+    idle: Mutex<Vec<Vec<Interpreter>>>,
 }
 
 impl Evaluator {
@@ -57,39 +65,56 @@ impl Evaluator {
                 vec![(Form::ExactValue, without_errors), (Form::FirstOrderError, values.to_vec())]
             }
         };
-        let parts = forms
-            .into_iter()
-            .map(|(form, values)| (Interpreter::new(&build(chain, &observables, form, &[])), values))
-            .collect();
+        let parts =
+            forms.into_iter().map(|(form, values)| (build(chain, &observables, form, &[]), values)).collect();
         let mut readings: Vec<SymbolId> =
             observables.iter().flat_map(|&observable| readings_of(chain, observable)).collect();
         readings.sort_unstable();
         readings.dedup();
         let shown = observables.iter().map(|&id| chain.observable(id).shown.len()).sum();
-        Self { observables, readings, shown, parts }
+        Self { observables, readings, shown, parts, idle: Mutex::default() }
     }
 
-    /// What all observables show over columns of readings, a column each, those of the first observable first.
+    /// What all observables show over columns of readings, a column each, those of the first observable first: computed on
+    /// all processors, each row by itself, so that their number changes no bit.
     ///
     /// # Errors
     /// Columns of different lengths, or one missing.
-    pub fn columns(
-        &mut self,
-        readings: &[(SymbolId, &[f64])],
-        rows: usize,
-    ) -> Result<Vec<Vec<f64>>, Failure> {
-        let mut sum = vec![vec![0.0; rows]; self.shown];
-        let mut part = sum.clone();
-        for (interpreter, values) in &mut self.parts {
-            let mut out: Vec<&mut [f64]> = part.iter_mut().map(Vec::as_mut_slice).collect();
-            interpreter
-                .eval_batch(readings, values, &mut out)
-                .map_err(|error| Failure::Input(error.to_string()))?;
-            for (sum, part) in sum.iter_mut().flatten().zip(part.iter().flatten()) {
-                *sum += part;
+    pub fn columns(&self, readings: &[(SymbolId, &[f64])], rows: usize) -> Result<Vec<Vec<f64>>, Failure> {
+        let mut all = vec![vec![0.0; rows]; self.shown];
+        let mut pieces: Vec<Vec<&mut [f64]>> = (0..rows.div_ceil(PIECE)).map(|_| Vec::new()).collect();
+        for column in &mut all {
+            pieces.iter_mut().zip(column.chunks_mut(PIECE)).for_each(|(piece, own)| piece.push(own));
+        }
+        let evaluated = pieces.into_par_iter().enumerate().map(|(at, mut out)| {
+            let own = at * PIECE..rows.min((at + 1) * PIECE);
+            let piece =
+                readings.iter().map(|&(id, column)| (id, column.get(own.clone()).unwrap_or_default()));
+            self.piece(&piece.collect::<Vec<_>>(), &mut out)
+        });
+        evaluated.collect::<Result<(), ShapeError>>().map_err(|error| Failure::Input(error.to_string()))?;
+        Ok(all)
+    }
+
+    fn piece(&self, readings: &[(SymbolId, &[f64])], out: &mut [&mut [f64]]) -> Result<(), ShapeError> {
+        let idle = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        let taken = idle().pop();
+        let new = || self.parts.iter().map(|(program, _)| Interpreter::new(program)).collect();
+        let mut interpreters: Vec<Interpreter> = taken.unwrap_or_else(new);
+        for (number, (interpreter, (_, values))) in interpreters.iter_mut().zip(&self.parts).enumerate() {
+            if number == 0 {
+                interpreter.eval_batch(readings, values, out)?;
+                continue;
+            }
+            let mut more: Vec<Vec<f64>> = out.iter().map(|column| vec![0.0; column.len()]).collect();
+            let mut slices: Vec<&mut [f64]> = more.iter_mut().map(Vec::as_mut_slice).collect();
+            interpreter.eval_batch(readings, values, &mut slices)?;
+            for (column, more) in out.iter_mut().zip(&more) {
+                column.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
             }
         }
-        Ok(sum)
+        idle().push(interpreters);
+        Ok(())
     }
 }
 

@@ -23,6 +23,7 @@ mod set_up;
 mod sha256;
 mod sizes;
 mod source;
+mod streaming;
 mod tables;
 mod terminal;
 mod wrap;

@@ -26,6 +26,7 @@ pub use crate::evaluation::{Exactness, Quantity};
 pub use crate::failure::Failure;
 pub use crate::report::Cells;
 pub use crate::source::Source;
+pub use crate::streaming::{Rows, Streaming, accumulated};
 pub use crate::terminal::collecting;
 pub use calibration::calibrate::Stage;
 pub use calibration::formats::memory::Column;
@@ -230,7 +231,7 @@ pub fn evaluated(
     let values = errors_file::values(errors, chain)?;
     let mut table = ReadingsTable::of(reader, chain);
     let chosen = table.with_readings(chain, names)?;
-    let mut evaluator = Evaluator::new(chain, chosen, form, quantity, &values);
+    let evaluator = Evaluator::new(chain, chosen, form, quantity, &values);
     table.want(chain, &evaluator.readings)?;
     let header = evaluation::column_names(chain, &evaluator.observables)?;
     let mut columns = vec![Vec::new(); header.len()];

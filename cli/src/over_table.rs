@@ -74,7 +74,7 @@ impl OverTable {
     pub fn evaluate(&self, form: Exactness, quantity: Quantity) -> Result<Vec<String>, Failure> {
         let Opened { chain, values, mut table, .. } = self.open()?;
         let chosen = table.with_readings(&chain, &self.observable)?;
-        let mut evaluator = Evaluator::new(&chain, chosen, form, quantity, &values);
+        let evaluator = Evaluator::new(&chain, chosen, form, quantity, &values);
         table.want(&chain, &evaluator.readings)?;
         let added = column_names(&chain, &evaluator.observables)?;
         self.write(table, &added, |rows| {

@@ -34,6 +34,7 @@ impl SetUpSeen {
         let plan = study.plan(&chain).map_err(|mistakes| source.mistakes(&mistakes))?;
         let loaded = plan.load(&mut |path| open(path, plan.data_from.as_deref())).map_err(tables::failure)?;
         loaded.doubtful.iter().for_each(terminal::warn);
+        loaded.remarks.iter().for_each(terminal::warn);
         let set_up = identify(&plan.chain, &loaded.observations, &plan.fit)
             .map_err(|error| Failure::Input(error.to_string()))?;
         Ok(Self { chain: plan.chain, set_up })

@@ -64,7 +64,19 @@ impl Source {
     /// # Errors
     /// Every mistake of the declaration, each with its place.
     pub fn chain(&self) -> Result<Chain, Failure> {
-        let chain = Chain::from_text(&self.text).map_err(|mistakes| self.mistakes(&mistakes))?;
+        self.cautioned(Chain::from_text(&self.text))
+    }
+
+    /// The same for formulas alone: constants need no value.
+    ///
+    /// # Errors
+    /// Every other mistake of the declaration, each with its place.
+    pub fn symbolic_chain(&self) -> Result<Chain, Failure> {
+        self.cautioned(Chain::symbolic_from_text(&self.text))
+    }
+
+    fn cautioned(&self, chain: Result<Chain, Mistakes>) -> Result<Chain, Failure> {
+        let chain = chain.map_err(|mistakes| self.mistakes(&mistakes))?;
         for caution in model_core::caution::cautions(&chain) {
             terminal::warn(format_args!("{}: {caution}", self.path.display()));
         }

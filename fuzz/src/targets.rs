@@ -76,7 +76,7 @@ fn table(input: &[u8]) {
 fn texts(cells: &formats::Cells) -> Vec<String> {
     let formats::Cells::Kept(kept) = cells else { unreachable!("what was wanted") };
     let Ok(texts) = Kept::texts(kept) else { unreachable!("texts are texts") };
-    texts.into_owned()
+    texts.iter().map(str::to_owned).collect()
 }
 
 /// A file of telescope observations, with numbers wanted of every column.

@@ -40,6 +40,10 @@ Definition move (k : kind) (m : motion) (p : vec) : vec :=
    frame. *)
 Definition shown (k : kind) (c : list motion) (p : vec) : vec := fold_right (move k) p c.
 
+(* The way back, out of the frame of a body. *)
+Definition opposite (m : motion) : motion := match m with Rot a angle => Rot a (- angle) | Tr a d => Tr a (- d) end.
+Definition back (c : list motion) : list motion := rev (map opposite c).
+
 (* Functions of angles that Coq's library does not have. *)
 Definition cot (a : R) : R := cos a / sin a.
 Definition sec (a : R) : R := / cos a.
@@ -72,6 +76,39 @@ Definition taylor (l : list R) : R := horner 1 (tl l).
 Definition error_to_order (n : nat) (f : R -> vec) (v : vec) : Prop :=
   exists lx ly lz, length lx = S n /\ length ly = S n /\ length lz = S n /\ along f lx ly lz
     /\ v = V (taylor lx) (taylor ly) (taylor lz).
+
+(* Readings: components, angles and the length of a vector, to first order. The angles rest on Coq's arc tangent, and with
+   it on the law of excluded middle besides the axioms of the real numbers. An axis, forwards or backwards: *)
+Inductive signed := Plus (a : axis) | Minus (a : axis).
+Definition component (a : axis) (p : vec) : R := match a with X => x p | Y => y p | Z => z p end.
+Definition on (s : signed) (p : vec) : R := match s with Plus a => component a p | Minus a => - component a p end.
+
+(* The square of the length of a vector, and of its part across an axis. *)
+Definition square (p : vec) : R := x p * x p + y p * y p + z p * z p.
+Definition across (s : signed) (p : vec) : R := square p - on s p * on s p.
+
+(* The angle by which the part of q in the plane of two axes is turned from that of p, from the first towards the second
+   axis, if it is less than a quarter turn. *)
+Definition turned_by (s r : signed) (p q : vec) : R :=
+  atan ((on s p * on r q - on r p * on s q) / (on s p * on s q + on r p * on r q)).
+(* The angle above the plane across an axis. *)
+Definition elevation (s : signed) (p : vec) : R := atan (on s p / sqrt (across s p)).
+
+(* v is the error of a component up to order n; of an angle or a length, to first order: the derivative at t = 0. *)
+Definition component_error (n : nat) (a : axis) (f : R -> vec) (v : R) : Prop :=
+  exists l, length l = S n /\ derivatives (fun t => component a (f t)) l /\ v = taylor l.
+Definition azimuth_error (s r : signed) (f : R -> vec) (v : R) : Prop :=
+  derivable_pt_lim (fun t => turned_by s r (f 0) (f t)) 0 v.
+(* Times the cosine of the elevation as designed. *)
+Definition cross_elevation_error (s r : signed) (f : R -> vec) (v : R) : Prop :=
+  derivable_pt_lim (fun t => turned_by s r (f 0) (f t) *
+    (sqrt (on s (f 0) * on s (f 0) + on r (f 0) * on r (f 0)) / sqrt (square (f 0)))) 0 v.
+Definition elevation_error (s : signed) (f : R -> vec) (v : R) : Prop :=
+  derivable_pt_lim (fun t => elevation s (f t)) 0 v.
+Definition zenith_distance_error (s : signed) (f : R -> vec) (v : R) : Prop :=
+  derivable_pt_lim (fun t => PI / 2 - elevation s (f t)) 0 v.
+Definition range_error (f : R -> vec) (v : R) : Prop :=
+  derivable_pt_lim (fun t => sqrt (square (f t))) 0 v.
 
 (* ---------------------------------------------------------------------------------------------------------------- *)
 (* 3. Rules of derivatives *)
@@ -330,6 +367,162 @@ Proof.
   intros (lx & ly & lz & Lx & Ly & Lz & (Fx & Fy & Fz) & ->). cbn. auto.
 Qed.
 
+(* What follows for readings. *)
+
+Lemma first_derivative g a b : derivatives g [a; b] -> g 0 = a /\ derivable_pt_lim g 0 b.
+Proof. intros [A (h & D & B & _)]. split; [exact A|]. rewrite <- B. apply D. Qed.
+
+Definition component_list (a : axis) (lx ly lz : list R) := match a with X => lx | Y => ly | Z => lz end.
+Definition on_list (s : signed) (lx ly lz : list R) :=
+  match s with Plus a => component_list a lx ly lz | Minus a => opp (component_list a lx ly lz) end.
+
+Lemma derivatives_component a f lx ly lz : along f lx ly lz -> derivatives (fun t => component a (f t)) (component_list a lx ly lz).
+Proof. intros (A & B & C). now destruct a. Qed.
+Lemma derivatives_on s f lx ly lz : along f lx ly lz -> derivatives (fun t => on s (f t)) (on_list s lx ly lz).
+Proof.
+  intro A. destruct s; [now apply derivatives_component|]. 
+  exact (derivatives_opp _ _ (derivatives_component _ _ _ _ _ A)).
+Qed.
+
+Lemma same_slope f g d e : (forall t, f t = g t) -> d = e -> derivable_pt_lim f 0 d -> derivable_pt_lim g 0 e.
+Proof. intros E <-. now apply same_limit. Qed.
+
+Section Slopes.
+Variables (f : R -> vec) (x0 x1 y0 y1 z0 z1 : R).
+Hypothesis A : along f [x0; x1] [y0; y1] [z0; z1].
+
+Lemma slope_square : square (f 0) = x0 * x0 + y0 * y0 + z0 * z0 /\
+  derivable_pt_lim (fun t => square (f t)) 0 (2 * (x0 * x1 + y0 * y1 + z0 * z1)).
+Proof.
+  destruct A as (Ax & Ay & Az).
+  apply first_derivative in Ax, Ay, Az. destruct Ax as [X0 DX], Ay as [Y0 DY], Az as [Z0 DZ]. cbv beta in X0, Y0, Z0.
+  split; [unfold square; now rewrite X0, Y0, Z0|].
+  eapply same_slope; [intro; reflexivity| |
+    exact (derivable_pt_lim_plus _ _ _ _ _ (derivable_pt_lim_plus _ _ _ _ _ (derivable_pt_lim_mult _ _ _ _ _ DX DX)
+      (derivable_pt_lim_mult _ _ _ _ _ DY DY)) (derivable_pt_lim_mult _ _ _ _ _ DZ DZ))].
+  cbv beta. rewrite X0, Y0, Z0. ring.
+Qed.
+
+Lemma slope_on s a b : on_list s [x0; x1] [y0; y1] [z0; z1] = [a; b] -> on s (f 0) = a /\ derivable_pt_lim (fun t => on s (f t)) 0 b.
+Proof. intro L. apply (first_derivative (fun t => on s (f t))). rewrite <- L. now apply derivatives_on. Qed.
+
+Lemma slope_turned s r a0 a1 b0 b1 :
+  on_list s [x0; x1] [y0; y1] [z0; z1] = [a0; a1] -> on_list r [x0; x1] [y0; y1] [z0; z1] = [b0; b1] ->
+  a0 * a0 + b0 * b0 <> 0 ->
+  derivable_pt_lim (fun t => turned_by s r (f 0) (f t)) 0 ((a0 * b1 - b0 * a1) / (a0 * a0 + b0 * b0)).
+Proof.
+  intros L M N. apply slope_on in L, M. destruct L as [L D], M as [M E].
+  set (above := fun t => on s (f 0) * on r (f t) - on r (f 0) * on s (f t)).
+  set (below := fun t => on s (f 0) * on s (f t) + on r (f 0) * on r (f t)).
+  assert (DA : derivable_pt_lim above 0 (a0 * b1 - b0 * a1)).
+  { rewrite <- L, <- M. exact (derivable_pt_lim_minus _ _ _ _ _ (derivable_pt_lim_scal _ _ _ _ E) (derivable_pt_lim_scal _ _ _ _ D)). }
+  assert (DB : derivable_pt_lim below 0 (a0 * a1 + b0 * b1)).
+  { rewrite <- L, <- M. exact (derivable_pt_lim_plus _ _ _ _ _ (derivable_pt_lim_scal _ _ _ _ D) (derivable_pt_lim_scal _ _ _ _ E)). }
+  assert (A0 : above 0 = 0) by (unfold above; ring).
+  assert (B0 : below 0 = a0 * a0 + b0 * b0) by (unfold below; now rewrite L, M).
+  assert (NB : below 0 <> 0) by now rewrite B0.
+  eapply same_slope; [intro; reflexivity| |
+    exact (derivable_pt_lim_comp _ atan _ _ _ (derivable_pt_lim_div _ _ _ _ _ DA DB NB) (derivable_pt_lim_atan _))].
+  unfold div_fct, Rsqr. cbv beta. rewrite A0, B0. field. exact N.
+Qed.
+
+Lemma slope_root g q q' h : derivable_pt_lim g 0 q' -> g 0 = q -> 0 < h -> h * h = q ->
+  derivable_pt_lim (fun t => sqrt (g t)) 0 (q' / (2 * h)).
+Proof.
+  intros D E P S. assert (Q : sqrt (g 0) = h) by (rewrite E, <- S; apply sqrt_square; lra).
+  assert (G : 0 < g 0) by (rewrite E, <- S; now apply Rmult_lt_0_compat).
+  eapply same_slope; [intro; reflexivity| |exact (derivable_pt_lim_comp _ sqrt _ _ _ D (derivable_pt_lim_sqrt _ G))].
+  cbv beta. rewrite Q. field. lra.
+Qed.
+
+Lemma slope_elevation s c0 c1 h : on_list s [x0; x1] [y0; y1] [z0; z1] = [c0; c1] ->
+  0 < h -> h * h = x0 * x0 + y0 * y0 + z0 * z0 - c0 * c0 ->
+  derivable_pt_lim (fun t => elevation s (f t)) 0
+    ((c1 * (h * h) - c0 * (x0 * x1 + y0 * y1 + z0 * z1 - c0 * c1)) / (h * (h * h + c0 * c0))).
+Proof.
+  intros L P S. apply slope_on in L. destruct L as [L D], slope_square as [Q E].
+  assert (C : derivable_pt_lim (fun t => across s (f t)) 0 (2 * (x0 * x1 + y0 * y1 + z0 * z1) - 2 * (c0 * c1))).
+  { eapply same_slope; [intro; reflexivity| |exact (derivable_pt_lim_minus _ _ _ _ _ E (derivable_pt_lim_mult _ _ _ _ _ D D))].
+    cbv beta. rewrite L. ring. }
+  assert (C0 : across s (f 0) = x0 * x0 + y0 * y0 + z0 * z0 - c0 * c0) by (unfold across; now rewrite L, Q).
+  assert (H := slope_root _ _ _ _ C C0 P S).
+  assert (R0 : sqrt (across s (f 0)) = h) by (rewrite C0, <- S; apply sqrt_square; lra).
+  assert (N : sqrt (across s (f 0)) <> 0) by (rewrite R0; lra).
+  eapply same_slope; [intro; reflexivity| |
+    exact (derivable_pt_lim_comp _ atan _ _ _ (derivable_pt_lim_div _ _ _ _ _ D H N) (derivable_pt_lim_atan _))].
+  unfold div_fct, Rsqr. cbv beta. rewrite R0, L. field.
+  assert (0 < h * h) by now apply Rmult_lt_0_compat.
+  assert (0 <= c0 * c0) by (destruct (Rle_dec 0 c0); [apply Rmult_le_pos; lra|replace (c0 * c0) with ((-c0) * (-c0)) by ring; apply Rmult_le_pos; lra]).
+  repeat split; lra.
+Qed.
+
+Lemma quotient v above below : below <> 0 -> v * below = above -> above / below = v.
+Proof. intros N <-. now field. Qed.
+
+Theorem azimuth_reached s r a0 a1 b0 b1 v :
+  on_list s [x0; x1] [y0; y1] [z0; z1] = [a0; a1] -> on_list r [x0; x1] [y0; y1] [z0; z1] = [b0; b1] ->
+  a0 * a0 + b0 * b0 <> 0 -> v * (a0 * a0 + b0 * b0) = a0 * b1 - b0 * a1 -> azimuth_error s r f v.
+Proof.
+  intros L M N E. eapply same_slope; [intro; reflexivity| |exact (slope_turned _ _ _ _ _ _ L M N)]. now apply quotient.
+Qed.
+Theorem cross_elevation_reached s r a0 a1 b0 b1 h d v :
+  on_list s [x0; x1] [y0; y1] [z0; z1] = [a0; a1] -> on_list r [x0; x1] [y0; y1] [z0; z1] = [b0; b1] ->
+  0 < h -> h * h = a0 * a0 + b0 * b0 -> 0 < d -> d * d = x0 * x0 + y0 * y0 + z0 * z0 ->
+  v * (h * d) = a0 * b1 - b0 * a1 -> cross_elevation_error s r f v.
+Proof.
+  intros L M P S Q T E.
+  assert (N : a0 * a0 + b0 * b0 <> 0) by (rewrite <- S; assert (0 < h * h) by (now apply Rmult_lt_0_compat); lra).
+  assert (K := slope_turned _ _ _ _ _ _ L M N). apply slope_on in L, M.
+  destruct L as [L _], M as [M _], slope_square as [U _].
+  eapply same_slope; [intro t; apply Rmult_comm| |exact (derivable_pt_lim_scal _ _ _ _ K)].
+  cbv beta. rewrite L, M, U, <- S, <- T, !sqrt_square, <- E by lra. field. lra.
+Qed.
+Theorem elevation_reached s c0 c1 h v :
+  on_list s [x0; x1] [y0; y1] [z0; z1] = [c0; c1] -> 0 < h -> h * h = x0 * x0 + y0 * y0 + z0 * z0 - c0 * c0 ->
+  v * (h * (h * h + c0 * c0)) = c1 * (h * h) - c0 * (x0 * x1 + y0 * y1 + z0 * z1 - c0 * c1) -> elevation_error s f v.
+Proof.
+  intros L P S E. eapply same_slope; [intro; reflexivity| |exact (slope_elevation _ _ _ _ L P S)].
+  apply quotient; [|exact E].
+  assert (0 < h * h) by now apply Rmult_lt_0_compat.
+  assert (0 <= c0 * c0) by apply Rle_0_sqr.
+  apply Rmult_integral_contrapositive_currified; lra.
+Qed.
+Theorem zenith_distance_reached s c0 c1 h v :
+  on_list s [x0; x1] [y0; y1] [z0; z1] = [c0; c1] -> 0 < h -> h * h = x0 * x0 + y0 * y0 + z0 * z0 - c0 * c0 ->
+  - v * (h * (h * h + c0 * c0)) = c1 * (h * h) - c0 * (x0 * x1 + y0 * y1 + z0 * z1 - c0 * c1) -> zenith_distance_error s f v.
+Proof.
+  intros L P S E. assert (D := elevation_reached _ _ _ _ _ L P S E).
+  eapply same_slope; [intro; reflexivity| |exact (derivable_pt_lim_minus _ _ _ _ _ (derivable_pt_lim_const (PI / 2) 0) D)].
+  ring.
+Qed.
+Theorem range_reached d v : 0 < d -> d * d = x0 * x0 + y0 * y0 + z0 * z0 -> v * d = x0 * x1 + y0 * y1 + z0 * z1 ->
+  range_error f v.
+Proof.
+  intros P S E. destruct slope_square as [Q D].
+  eapply same_slope; [intro; reflexivity| |exact (slope_root _ _ _ _ D Q P S)].
+  rewrite <- E. field. lra.
+Qed.
+End Slopes.
+
+Theorem component_reached n a f lx ly lz v : along f lx ly lz -> length (component_list a lx ly lz) = S n ->
+  taylor (component_list a lx ly lz) = v -> component_error n a f v.
+Proof. intros A L <-. exists (component_list a lx ly lz). split; [exact L|]. split; [now apply derivatives_component|reflexivity]. Qed.
+
+Theorem one_component n a f v w : component_error n a f v -> component_error n a f w -> v = w.
+Proof.
+  intros (l & L & D & ->) (m & M & E & ->). now rewrite (unique_derivatives l _ m (eq_trans L (eq_sym M)) D E).
+Qed.
+Theorem one_azimuth s r f v w : azimuth_error s r f v -> azimuth_error s r f w -> v = w.
+Proof. apply uniqueness_limite. Qed.
+Theorem one_cross_elevation s r f v w : cross_elevation_error s r f v -> cross_elevation_error s r f w -> v = w.
+Proof. apply uniqueness_limite. Qed.
+Theorem one_elevation s f v w : elevation_error s f v -> elevation_error s f w -> v = w.
+Proof. apply uniqueness_limite. Qed.
+Theorem one_zenith_distance s f v w : zenith_distance_error s f v -> zenith_distance_error s f w -> v = w.
+Proof. apply uniqueness_limite. Qed.
+Theorem one_range f v w : range_error f v -> range_error f w -> v = w.
+Proof. apply uniqueness_limite. Qed.
+
 (* ---------------------------------------------------------------------------------------------------------------- *)
 (* 6. Calculating with sines and cosines *)
 
@@ -406,6 +599,9 @@ Lemma taylor_3 a b c d : taylor [a; b; c; d] = b + c / 2 + d / 6.
 Proof. unfold taylor; cbn; field. Qed.
 Ltac total :=
   rewrite ?taylor_1, ?taylor_2, ?taylor_3; match goal with |- ?a = ?a => reflexivity | _ => settle end.
+(* A square other than zero, as a product. *)
+Ltac not_zero product := match goal with |- ?e <> 0 => replace e with product by settle; nonzero end.
+Ltac positive := first [assumption | lra | repeat apply Rmult_lt_0_compat; assumption || lra].
 (* Numbers, at quarter turns. *)
 Ltac values :=
   rewrite ?cos_neg, ?sin_neg, ?cos_0, ?sin_0, ?cos_PI2, ?sin_PI2, ?cos_PI, ?sin_PI;

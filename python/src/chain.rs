@@ -161,6 +161,7 @@ impl Chain {
             .zip(&self.chain.observables)
             .map(|(id, observable)| {
                 let kind = match observable.kind {
+                    ObservableKind::Direction if observable.is_orientation() => "orientation",
                     ObservableKind::Direction => "direction",
                     ObservableKind::Point => "point",
                 };

@@ -6,6 +6,7 @@ mod chain;
 mod errors;
 mod formula;
 mod rows;
+mod streaming;
 mod tables;
 
 use pyo3::prelude::*;
@@ -19,6 +20,8 @@ mod _native {
     use super::chain::{Chain, check};
     #[pymodule_export]
     use super::formula::ClosedForm;
+    #[pymodule_export]
+    use super::streaming::{Fitting, accumulate};
 
     use super::*;
 

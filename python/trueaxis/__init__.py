@@ -17,6 +17,7 @@ from ._calibration import Calibration, calibrate
 from ._chain import Chain, ClosedForm, Observable, Symbol, check
 from ._cluster import apply
 from ._errors import Mistake, MistakeError, TrueaxisError, TrueaxisWarning
+from ._fit import Fit, fit
 from ._native import __version__
 from ._tables import Table
 
@@ -25,6 +26,7 @@ __all__ = [
     "Calibration",
     "Chain",
     "ClosedForm",
+    "Fit",
     "Mistake",
     "MistakeError",
     "Observable",
@@ -36,4 +38,5 @@ __all__ = [
     "apply",
     "calibrate",
     "check",
+    "fit",
 ]

@@ -116,6 +116,7 @@ def calibrate(
     *,
     text: str | None = None,
     chain: Chain | None = None,
+    client: Any = None,
     progress: Callable[[str], object] | None = None,
 ) -> Calibration:
     """Fits the errors to measured data, finds what the declaration lacks, and judges both on data that nobody fitted.
@@ -125,10 +126,19 @@ def calibrate(
         where it names one, else a dictionary from each name to its table. What is not given is read from its file.
     :param text: the text of the study, where it is no file; ``study`` then only says where it would be.
     :param chain: a declaration that stands for the one that the study names.
+    :param client: refused: the search for what a declaration lacks runs on one machine. :func:`fit` estimates the declared
+        errors on a cluster.
     :param progress: called with a text when the next stage begins.
     :raises MistakeError: mistakes in the study or the declaration.
     :raises TrueaxisError: a file or a table that cannot be read, with the row and the column.
     """
+    if client is not None:
+        from ._errors import TrueaxisError
+
+        raise TrueaxisError(
+            "the search for what a declaration lacks runs on one machine: leave `client` out, or estimate the declared errors "
+            "alone on the cluster: trueaxis.fit(study, folder, client=client)"
+        )
     resolved = _native.Study(os.fspath(study), text, None if chain is None else chain._native)
     tables = [] if data is None else _named(data, resolved.tables)
     command = f"trueaxis.calibrate({os.fspath(study)!r})"

@@ -1,4 +1,4 @@
-"""Folders of Parquet files: corrected file by file, in this process or on a Dask cluster."""
+"""Files that are worked on one by one, in this process or on a Dask cluster; and folders of Parquet files, corrected so."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import secrets
 import shutil
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor, as_completed
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,7 +20,7 @@ from ._tables import Table, columns_of, with_columns
 if TYPE_CHECKING:
     import distributed
 
-_ROWS = 1 << 18
+ROWS = 1 << 18
 """Rows that are in memory at a time, a file that is being corrected."""
 _SECONDS = 10
 """How long a scheduler may take to answer."""
@@ -48,7 +49,7 @@ def apply(
     :raises TrueaxisError: a file that cannot be read, a worker of another version, a scheduler that does not answer; each by
         name. Nothing is left at ``out`` then.
     """
-    files = _files(source)
+    files = files_of(source, [".parquet"])
     target = Path(out).absolute()
     if target.exists():
         raise TrueaxisError(f"`{out}` is there already: name a folder that is not")
@@ -63,10 +64,11 @@ def apply(
     tasks = [(str(file), str(staged / file.name), chain, name, text, chosen, __version__) for file in files]
     rows: dict[str, int] = {}
     try:
-        for done, (file, count) in enumerate(_run(tasks, client), 1):
-            rows[file] = count
-            if progress is not None:
-                progress(done, len(tasks))
+        with workers(client) as each:
+            for done, (file, count) in enumerate(each(_apply_file, tasks), 1):
+                rows[file] = count
+                if progress is not None:
+                    progress(done, len(tasks))
         staged.rename(target)
     finally:
         shutil.rmtree(staged, ignore_errors=True)
@@ -74,13 +76,18 @@ def apply(
     return Table({"file": listed, "rows": [rows[file] for file in listed]})
 
 
-def _files(source: Any) -> list[Path]:
+def files_of(source: Any, endings: list[str]) -> list[Path]:
+    """The files of one kind of a folder, one file, or the files of a list: as absolute paths, no two of one name."""
     if isinstance(source, (str, os.PathLike)):
         path = Path(source)
         if path.is_dir():
-            files = sorted(path.glob("*.parquet"))
-            if not files:
-                raise TrueaxisError(f"`{source}`: there is no .parquet file in this folder")
+            by_ending = {ending: sorted(path.glob(f"*{ending}")) for ending in endings}
+            there = [ending for ending, files in by_ending.items() if files]
+            if not there:
+                raise TrueaxisError(f"`{source}`: there is no {' or '.join(endings)} file in this folder")
+            if len(there) > 1:
+                raise TrueaxisError(f"`{source}` holds {' and '.join(there)} files: give a list of those that are meant")
+            files = by_ending[there[0]]
         else:
             files = [path]
     else:
@@ -92,22 +99,31 @@ def _files(source: Any) -> list[Path]:
         if not file.is_file():
             raise TrueaxisError(f"cannot read `{file}`: there is no such file")
         if file.name in seen:
-            raise TrueaxisError(f"two files are named `{file.name}`: their results would be one file")
+            raise TrueaxisError(f"two files are named `{file.name}`: what came of them could not be told apart")
         seen.add(file.name)
     return [file.absolute() for file in files]
 
 
-def _run(tasks: list[tuple], client: distributed.Client | str | None) -> Iterator[tuple[str, int]]:
-    """What each task returns, as it is done."""
+Each = Callable[[Callable[[tuple], Any], list[tuple]], Iterator[Any]]
+"""Does a piece of work for each task, and gives what it returns as it is done."""
+
+
+@contextmanager
+def workers(client: distributed.Client | str | None) -> Iterator[Each]:
+    """Those who do the work: the processors of this machine, or the workers of a scheduler."""
     if client is None:
         with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
-            futures = [pool.submit(_apply_file, task) for task in tasks]
-            try:
-                for future in as_completed(futures):
-                    yield future.result()
-            finally:
-                for future in futures:
-                    future.cancel()
+
+            def here(work, tasks):
+                futures = [pool.submit(work, task) for task in tasks]
+                try:
+                    for future in as_completed(futures):
+                        yield future.result()
+                finally:
+                    for future in futures:
+                        future.cancel()
+
+            yield here
         return
     import distributed
 
@@ -120,12 +136,16 @@ def _run(tasks: list[tuple], client: distributed.Client | str | None) -> Iterato
         except TimeoutError:
             address = client.scheduler.address
             raise TrueaxisError(f"the scheduler at `{address}` has no worker: start one with `dask worker {address}`") from None
-        futures = client.map(_apply_file, tasks, pure=False, key=f"trueaxis-{secrets.token_hex(4)}")
-        try:
-            for future in distributed.as_completed(futures):
-                yield future.result()
-        finally:
-            client.cancel(futures)
+
+        def there(work, tasks):
+            futures = client.map(work, tasks, pure=False, key=f"trueaxis-{secrets.token_hex(4)}")
+            try:
+                for future in distributed.as_completed(futures):
+                    yield future.result()
+            finally:
+                client.cancel(futures)
+
+        yield there
     finally:
         if own is not None:
             own.close()
@@ -143,10 +163,7 @@ def _connected(address: str) -> distributed.Client:
 def _apply_file(task: tuple) -> tuple[str, int]:
     """Corrects one file, chunk by chunk; the result takes its name when it is whole."""
     source, out, chain, name, text, observables, version = task
-    if version != __version__:
-        raise TrueaxisError(
-            f"{_worker()} runs trueaxis {__version__}, the program that asks {version}: install the same version everywhere"
-        )
+    require_version(version)
     import pyarrow
     import pyarrow.parquet as parquet
 
@@ -155,10 +172,9 @@ def _apply_file(task: tuple) -> tuple[str, int]:
     rows, writer = 0, None
     try:
         with parquet.ParquetFile(source) as file:
-            for batch in file.iter_batches(batch_size=_ROWS):
+            for batch in file.iter_batches(batch_size=ROWS):
                 table = pyarrow.Table.from_batches([batch])
-                # Rows in messages are counted from the start of the chunk.
-                place = f"{source}, behind row {rows}" if rows else source
+                place = place_of(source, rows)
                 added = chain._native.over_table((place, columns_of(table)), (name, text), observables, True, True)
                 corrected = with_columns(table, dict(added))
                 if writer is None:
@@ -175,6 +191,19 @@ def _apply_file(task: tuple) -> tuple[str, int]:
         if os.path.exists(partial):
             os.remove(partial)
     return source, rows
+
+
+def place_of(file: str, row: int) -> str:
+    """A file and where in it a chunk begins: rows in messages are counted from there."""
+    return f"{file}, behind row {row}" if row else file
+
+
+def require_version(version: str) -> None:
+    """Refuses to work for a program of another version."""
+    if version != __version__:
+        raise TrueaxisError(
+            f"{_worker()} runs trueaxis {__version__}, the program that asks {version}: install the same version everywhere"
+        )
 
 
 def _worker() -> str:

@@ -5,13 +5,13 @@ use std::cell::OnceCell;
 
 use super::rounds::rounds;
 use crate::candidate::{Effect, Function};
-use crate::effects::SHAPE;
+use crate::effects::{HIGH_HARMONIC, SHAPE};
 use crate::fit::Outcome;
 use crate::search::Request;
 use crate::search::SearchError;
 use crate::search::context::{Context, Found};
 use crate::search::fitted::Fitted;
-use crate::search::library::{AsGood, Taken, contest};
+use crate::search::library::{AsGood, ShapeKind, Taken, contest};
 use crate::search::round::Round;
 use crate::study::Plan;
 
@@ -80,16 +80,20 @@ fn with_function(plan: &Plan, taken: &Taken) -> Option<(Plan, String)> {
     let driver = plan.chain.symbol(taken.driver);
     let body = &plan.chain.body(taken.place.body).name;
     let (kind, freedom) = (taken.shape.kind(), taken.place.freedom);
-    let name =
-        format!("{} of {} in {body} {}", taken.shape.words(driver.quantity), driver.name, freedom.words());
+    let words = taken.shape.words(driver.quantity);
+    let name = format!("{words} of {} in {body} {}", driver.name, freedom.words());
     let stem = format!("{}_{}_{body}", kind.stem(), driver.name);
     let several = amounts.len() > 1;
     let functions = amounts.into_iter().enumerate().map(|(number, amount)| {
-        let number = if several { format!("_{}", number + 1) } else { String::new() };
+        let number = match kind {
+            ShapeKind::Harmonic(order) => format!("_{}{order}", if number == 0 { "cos" } else { "sin" }),
+            _ if several => format!("_{}", number + 1),
+            _ => String::new(),
+        };
         Function::new(amount, format!("{stem}{number}"))
     });
     let effect = Effect {
-        family: SHAPE,
+        family: if matches!(kind, ShapeKind::Harmonic(_)) { HIGH_HARMONIC } else { SHAPE },
         name: name.clone(),
         place: taken.place,
         functions: functions.collect(),

@@ -125,12 +125,13 @@ pub(crate) fn predicted<const N: usize>(
     last: &Round<'_>,
     coefficients: [&Coefficients; N],
 ) -> Result<[Vec<f64>; N], SearchError> {
-    let mut left = [const { Vec::new() }; N];
-    last.posed.each_portion(whole, &last.fitted, |components, portion| {
-        for (left, coefficients) in left.iter_mut().zip(coefficients) {
-            left.extend(predicted_of(last, coefficients, components.start, portion));
-        }
+    let portions = last.posed.each_portion(whole, &last.fitted, |components, portion| {
+        coefficients.map(|coefficients| predicted_of(last, coefficients, components.start, portion))
     })?;
+    let mut left = [const { Vec::new() }; N];
+    for portion in portions {
+        left.iter_mut().zip(portion).for_each(|(left, part)| left.extend(part));
+    }
     Ok(left)
 }
 

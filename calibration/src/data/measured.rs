@@ -25,6 +25,9 @@ pub enum Measure {
     Fixed,
     /// The length of a wire from an unknown anchor to the point; one residual component, in metres.
     Wire,
+    /// The distance of the point from another, which other rows observe, or which is known or not; one residual component, in
+    /// metres.
+    Distance,
     /// A direction that is an unknown point's from a station; two residual components across and along, rad.
     Sight,
 }
@@ -36,7 +39,7 @@ impl Measure {
         match self {
             Self::Direction | Self::Sight => 2,
             Self::Point | Self::Target | Self::Fixed => 3,
-            Self::Range | Self::Azimuth | Self::Plane | Self::Wire => 1,
+            Self::Range | Self::Azimuth | Self::Plane | Self::Wire | Self::Distance => 1,
         }
     }
 
@@ -45,9 +48,13 @@ impl Measure {
     pub fn unit(self) -> SiUnit {
         match self {
             Self::Direction | Self::Azimuth | Self::Sight => SiUnit::RAD,
-            Self::Point | Self::Range | Self::Plane | Self::Target | Self::Fixed | Self::Wire => {
-                SiUnit::METRE
-            }
+            Self::Point
+            | Self::Range
+            | Self::Plane
+            | Self::Target
+            | Self::Fixed
+            | Self::Wire
+            | Self::Distance => SiUnit::METRE,
         }
     }
 
@@ -61,7 +68,7 @@ impl Measure {
             Self::Azimuth => &["azimuth"],
             Self::Plane => &["off_plane"],
             Self::Target => &["across", "up", "along"],
-            Self::Wire => &["length"],
+            Self::Wire | Self::Distance => &["length"],
         }
     }
 
@@ -69,7 +76,7 @@ impl Measure {
     #[must_use]
     pub fn bare(self) -> Self {
         match self {
-            Self::Plane | Self::Target | Self::Fixed | Self::Wire => Self::Point,
+            Self::Plane | Self::Target | Self::Fixed | Self::Wire | Self::Distance => Self::Point,
             Self::Sight => Self::Direction,
             Self::Direction | Self::Point | Self::Range | Self::Azimuth => self,
         }
@@ -93,7 +100,7 @@ pub enum Measured {
         /// In radians.
         azimuth_rad: f64,
     },
-    /// The length of a wire.
+    /// The length of a wire, or the distance of two points.
     Length {
         /// In metres.
         length_m: f64,
@@ -112,7 +119,12 @@ impl Measured {
             Measure::Point => Self::Point(*predicted),
             Measure::Range => Self::Range { range_m: predicted.norm() },
             Measure::Azimuth => Self::Azimuth { azimuth_rad: predicted.x.atan2(predicted.y) },
-            Measure::Plane | Measure::Target | Measure::Fixed | Measure::Wire | Measure::Sight => {
+            Measure::Plane
+            | Measure::Target
+            | Measure::Fixed
+            | Measure::Wire
+            | Measure::Distance
+            | Measure::Sight => {
                 unreachable!("poses without observations are bare")
             }
         }

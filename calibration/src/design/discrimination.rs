@@ -16,7 +16,7 @@ use serde::Serialize;
 
 use crate::candidate::Effect;
 use crate::data::Poses;
-use crate::design::{joints, spread};
+use crate::design::{OFTEN, joints, spread};
 use crate::search::columns::{Probed, places};
 use crate::search::context::{Context, declared};
 use crate::search::round::Round;
@@ -300,7 +300,7 @@ impl Design {
 fn choose(models: &mut [Model], pairs: &[Pair], count: usize) -> Vec<usize> {
     let mut chosen = Vec::new();
     while chosen.len() < count && !pairs.is_empty() {
-        let Some(best) = best(models, pairs) else { break };
+        let Some(best) = best(models, pairs, &chosen) else { break };
         models.par_iter_mut().enumerate().for_each(|(at, model)| {
             if pairs.iter().any(|pair| pair.model == at) {
                 model.measure(best);
@@ -312,8 +312,8 @@ fn choose(models: &mut [Model], pairs: &[Pair], count: usize) -> Vec<usize> {
 }
 
 /// The pose by which the differences grow most, the smallest counting most: −ln Σ exp(−difference/2), which is the log
-/// of the odds against all confusions together.
-fn best(models: &[Model], pairs: &[Pair]) -> Option<usize> {
+/// of the odds against all confusions together; none that is [`OFTEN`] among the chosen ones.
+fn best(models: &[Model], pairs: &[Pair], chosen: &[usize]) -> Option<usize> {
     let poses = models.first().map_or(0, |model| model.rows.len());
     let odds = |row: usize| {
         let gains: Vec<Option<Vec<f64>>> = models
@@ -330,7 +330,7 @@ fn best(models: &[Model], pairs: &[Pair]) -> Option<usize> {
     let all: Vec<f64> = (0..poses).into_par_iter().map(odds).collect();
     all.iter()
         .enumerate()
-        .filter(|(_, odds)| odds.is_finite())
+        .filter(|(row, odds)| odds.is_finite() && chosen.iter().filter(|one| *one == row).count() < OFTEN)
         .max_by(|a, b| a.1.total_cmp(b.1))
         .map(|(row, _)| row)
 }

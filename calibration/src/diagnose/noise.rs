@@ -62,6 +62,8 @@ pub struct SerialFound {
     pub autoregressive: f64,
     /// Coefficient of the innovation before.
     pub moving_average: f64,
+    /// Whether rows remember in axes that stand still in space, and not across and along a beam that turns.
+    pub in_space: bool,
 }
 
 /// The noise of a fit; `stated` is the study's own figure for every component, SI.
@@ -106,6 +108,7 @@ pub(super) fn noise(
         serial: fit.noise.serial.map(|serial| SerialFound {
             autoregressive: serial.autoregressive,
             moving_average: serial.moving_average,
+            in_space: fit.noise.in_space.is_some(),
         }),
         undeclared_order: fit.noise.undeclared_order,
         series,

@@ -24,6 +24,9 @@ const FIRST: usize = 500;
 /// Points of a curve.
 const POINTS: usize = 73;
 
+/// Periods that a curve shows at most; of more it shows one.
+const PERIODS: f64 = 20.0;
+
 /// Rows at which a place moves the observation less than this share of the most are left out: they say nothing of it.
 const SEEN: f64 = 0.3;
 
@@ -42,6 +45,9 @@ pub struct Trace {
     pub left: Vec<Option<f64>>,
     /// The fitted function: driver, value, two standard uncertainties, SI; empty where it follows more than one reading.
     pub curve: Vec<[f64; 3]>,
+    /// Where the function repeats too often to be drawn over the whole reading: its period, in the unit of the driver; the curve
+    /// is one of it.
+    pub period: Option<f64>,
 }
 
 /// The rows that pictures draw, in order: every row, or of many those set aside, those with the largest residuals, and a
@@ -89,6 +95,7 @@ pub(crate) fn traces(
             without: vec![None; rows.len()],
             left: vec![None; rows.len()],
             curve: Vec::new(),
+            period: None,
         };
         if let Some(probe) = columns.probe(effect.place) {
             let mut sums = vec![[0.0; 3]; rows.len()];
@@ -133,8 +140,13 @@ fn curve(whole: &Context<'_>, last: &Round<'_>, effect: &Effect, errors: &[Symbo
     let Some(read) = whole.request.observations.poses.column(driver) else { return };
     let (low, high) =
         read.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &q| (low.min(q), high.max(q)));
-    let grid: Vec<f64> =
-        (0..POINTS).map(|point| low + (high - low) * point as f64 / (POINTS - 1) as f64).collect();
+    let period = match effect.form {
+        Dependence::Harmonic { order } => Some(std::f64::consts::TAU / f64::from(order)),
+        _ => None,
+    };
+    let period = period.filter(|period| (high - low) / period > PERIODS);
+    let reach = period.unwrap_or(high - low);
+    let grid: Vec<f64> = (0..POINTS).map(|point| low + reach * point as f64 / (POINTS - 1) as f64).collect();
     let over = Poses { columns: vec![(driver, grid.clone())], ..Poses::default() };
     let mut functions = Functions::new(chain, &over, &fit.values);
     let columns: Option<Vec<Vec<f64>>> =
@@ -143,6 +155,7 @@ fn curve(whole: &Context<'_>, last: &Round<'_>, effect: &Effect, errors: &[Symbo
         errors.iter().map(|error| fit.parameters.iter().position(|id| id == error)).collect();
     let (Some(columns), Some(at)) = (columns, at) else { return };
     trace.driver = Some(driver);
+    trace.period = period;
     trace.driver_unit = of_reading(&whole.setting, chain, driver);
     trace.curve = grid
         .into_iter()

@@ -10,9 +10,10 @@ pub(crate) const FAMILY: Family = Family {
     causes: "The graduated disc sits off centre (once a turn) or is oval or tilted (twice); four readout \
              cells differ (four times); teeth of a gear or poles of a motor (many times); a wrong number of counts a \
              turn (scale).",
-    looks: "A sine of the reading, about the joint's own axis and no other, the same whatever the other \
-            joints and the plumb line do.",
-    check: "Read a second head on the other side of the disc: eccentricity changes sign, ellipticity does not.",
+    looks: "A sine of the reading, once a turn or several times, or a straight line (scale), about the joint's own axis and \
+            no other, the same whatever the other joints and the plumb line do.",
+    check: "Read a second head on the other side of the disc: what comes once a turn, or any odd number of times, changes \
+            sign there; what comes an even number of times does not.",
     effects,
 };
 

@@ -12,6 +12,7 @@ mod driven;
 pub(crate) mod encoder;
 mod flop;
 pub(crate) mod gravity;
+mod high_harmonic;
 mod index_step;
 pub(crate) mod joint_motion;
 mod latency;
@@ -42,10 +43,14 @@ pub use tensor::tensor;
 /// The family of functions that a calibration took up.
 pub(crate) const SHAPE: &str = shape::FAMILY.name;
 
+/// The family of harmonics that a calibration took up.
+pub(crate) const HIGH_HARMONIC: &str = high_harmonic::FAMILY.name;
+
 /// Every family, in the order in which members of one class lend it their name.
 pub const FAMILIES: &[Family] = &[
     own::FAMILY,
     shape::FAMILY,
+    high_harmonic::FAMILY,
     assembly::FAMILY,
     encoder::FAMILY,
     sub_division::FAMILY,

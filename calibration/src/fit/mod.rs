@@ -44,6 +44,7 @@ pub use stream::{Next, Pass, Streamed, StreamedResult};
 pub use subspace::Subspace;
 pub use sweep::Tally;
 pub use uncertainty::Estimable;
+pub use wire::PassError;
 
 /// What to fit and how.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use codegen::vector::{self, Arithmetic};
 use codegen::{Form, Interpreter, NodeId, Op, Program, build_all};
-use model_core::{Chain, SymbolId, SymbolKind};
+use model_core::{Chain, Quantity, SymbolId, SymbolKind};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
@@ -12,7 +12,7 @@ use super::FitError;
 use super::objects;
 use super::residual::components;
 use crate::data::unknowns::WIDTH;
-use crate::data::{Measured, Observations, Poses, Series};
+use crate::data::{Measure, Measured, Observations, Poses, Series};
 
 /// Rows evaluated at a time: what a block holds stays in the second-level cache.
 pub const BLOCK_ROWS: usize = 256;
@@ -28,6 +28,8 @@ pub struct Model {
     columns: usize,
     /// One per series of the observations: exact value, then the columns of the exact Jacobian.
     programs: Vec<Program>,
+    /// One per series: which way its observed point moves as the range grows; none where it is no target's.
+    beams: Vec<Option<Program>>,
     /// Symbols of the chain; values behind them are those of objects and stations.
     symbols: usize,
 }
@@ -117,11 +119,13 @@ impl Model {
             let wrt: Vec<SymbolId> = kept.iter().map(|&parameter| parameters[parameter]).collect();
             programs = build(&wrt);
         }
+        let beams = beams(chain, poses, &programs);
         Ok(Self {
             parameters: parameters.to_vec(),
             column_of,
             columns: kept.len(),
             programs,
+            beams,
             symbols: chain.symbols.len(),
         })
     }
@@ -130,10 +134,11 @@ impl Model {
     #[must_use]
     pub fn without_columns(chain: &Chain, poses: &Poses) -> Self {
         let series = poses.series.iter();
-        let programs =
+        let programs: Vec<Program> =
             series.map(|series| build_all(chain, &[series.observable], &[Form::ExactValue], &[])).collect();
+        let beams = beams(chain, poses, &programs);
         let symbols = chain.symbols.len();
-        Self { parameters: Vec::new(), column_of: Vec::new(), columns: 0, programs, symbols }
+        Self { parameters: Vec::new(), column_of: Vec::new(), columns: 0, programs, beams, symbols }
     }
 
     /// What is estimated, in the order of the columns.
@@ -201,16 +206,22 @@ impl Model {
         tasks
             .into_par_iter()
             .map_init(
-                || (self.programs.iter().map(Interpreter::new).collect::<Vec<_>>(), Block::default()),
+                || {
+                    let own = self.programs.iter().zip(&self.beams);
+                    let own = own
+                        .map(|(value, beam)| (Interpreter::new(value), beam.as_ref().map(Interpreter::new)));
+                    (own.collect::<Vec<_>>(), Block::default())
+                },
                 |(interpreters, block), (index, rows)| {
-                    let (Some(interpreter), Some(series)) =
+                    let (Some((interpreter, beam)), Some(series)) =
                         (interpreters.get_mut(index), of.poses.series.get(index))
                     else {
                         return Err(FitError::WrongShape {
                             why: "more series than the model has".to_string(),
                         });
                     };
-                    self.evaluate(interpreter, of, series, rows.clone(), values, block)?;
+                    let beam = beam.as_mut();
+                    self.evaluate(interpreter, beam, of, series, rows.clone(), values, block)?;
                     Ok(f(index, rows, block))
                 },
             )
@@ -218,9 +229,11 @@ impl Model {
     }
 
     /// Evaluates consecutive rows of one series into a block.
+    #[allow(clippy::too_many_arguments)]
     fn evaluate(
         &self,
         interpreter: &mut Interpreter,
+        beam: Option<&mut Interpreter>,
         of: Rows<'_>,
         series: &Series,
         rows: Range<usize>,
@@ -251,6 +264,13 @@ impl Model {
             .eval_batch(&columns, values, &mut outputs)
             .map_err(|error| FitError::WrongShape { why: error.to_string() })?;
         let predicted = |row: usize| Vector3::new(outputs[0][row], outputs[1][row], outputs[2][row]);
+        let mut along = vec![0.0; 3 * count];
+        let has_beam = beam.is_some();
+        if let Some(beam) = beam {
+            let mut axes: Vec<&mut [f64]> = along.chunks_exact_mut(count.max(1)).collect();
+            beam.eval_batch(&columns, values, &mut axes)
+                .map_err(|error| FitError::WrongShape { why: error.to_string() })?;
+        }
         for row in 0..count {
             let predicted = predicted(row);
             let measured = match of.observed {
@@ -258,8 +278,10 @@ impl Model {
                 None => Measured::exactly(series.measure, &predicted),
             };
             let seen = unknowns.zip(first.as_ref()).and_then(|(unknowns, first)| {
+                let beam =
+                    if has_beam { [0, 1, 2].map(|axis| along[axis * count + row]).into() } else { predicted };
                 let row = rows.start + row;
-                objects::seen(unknowns, first, state, row, series.measure, &measured, &predicted)
+                objects::seen(unknowns, first, state, row, series.measure, &measured, &predicted, &beam)
             });
             let (components, unknown) = match seen {
                 Some(seen) => seen,
@@ -287,6 +309,25 @@ impl Model {
         vector::run(vector::path(), Projection { block });
         Ok(())
     }
+}
+
+/// Per series the derivative of a target's point by the one input of length that moves it: the way of the beam, wherever the
+/// frame's origin lies.
+fn beams(chain: &Chain, poses: &Poses, programs: &[Program]) -> Vec<Option<Program>> {
+    let of = |(series, program): (&Series, &Program)| {
+        let is_range = |id: &SymbolId| {
+            let symbol = chain.symbol(*id);
+            symbol.kind == SymbolKind::Input && symbol.quantity == Quantity::Length
+        };
+        let ranges: Vec<SymbolId> = program.inputs().into_iter().map(|(id, _)| id).filter(is_range).collect();
+        match ranges[..] {
+            [range] if series.measure == Measure::Target => {
+                Some(build_all(chain, &[series.observable], &[Form::ExactJacobian], &[range]))
+            }
+            _ => None,
+        }
+    };
+    poses.series.iter().zip(programs).map(of).collect()
 }
 
 /// Turns derivatives of x, y, z into those of the components.

@@ -194,6 +194,13 @@ impl Solver<'_> {
         .unzip()
     }
 
+    /// The residual at the end of a course, whitened but for memory, each row times its weight.
+    pub(super) fn whitened(&self, course: &Course, weight: &[f64]) -> Vec<f64> {
+        let sigma = course.noise.sigma_without_memory();
+        let residual = course.point.sweep.residual.iter().zip(&self.layout.row).zip(sigma.iter());
+        residual.map(|((residual, &row), sigma)| residual * weight[row as usize] / sigma).collect()
+    }
+
     /// The number of components with weight.
     pub(super) fn kept_components(&self, course: &Course) -> usize {
         let (_, weight) = self.norms_and_weights(course);

@@ -30,13 +30,13 @@ const PASSES: usize = 30;
 /// One pass over the rows: everything that a chunk's tally depends on.
 #[derive(Debug, Clone)]
 pub struct Pass {
-    model: Model,
+    pub(super) model: Model,
     /// The value of every symbol, SI, by symbol.
-    values: Vec<f64>,
+    pub(super) values: Vec<f64>,
     /// Standard deviation of each kind of component, rad or m, or a factor on what the data state.
-    floor: Vec<f64>,
-    noise: NoiseOptions,
-    weighting: Weighting,
+    pub(super) floor: Vec<f64>,
+    pub(super) noise: NoiseOptions,
+    pub(super) weighting: Weighting,
 }
 
 /// A streamed fit between passes.
@@ -103,9 +103,7 @@ impl Streamed {
             let why = format!("the sample has no rows of series {} ({source})", at + 1);
             return Err(FitError::WrongShape { why });
         }
-        let mut options = options.clone();
-        options.noise.variance = false;
-        options.noise.serial = false;
+        let options = FitOptions { noise: streamed(&options.noise), ..options.clone() };
         let start = fit(chain, sample, &options)?;
         let model = Model::new(chain, &sample.poses, &options.estimate)?;
         let nominal = chain.nominal_values();
@@ -218,6 +216,11 @@ impl Streamed {
             })
             .collect()
     }
+}
+
+/// Of the noise, what a stream can find out about it.
+pub(super) fn streamed(noise: &NoiseOptions) -> NoiseOptions {
+    NoiseOptions { variance: false, serial: false, ..noise.clone() }
 }
 
 impl Pass {

@@ -164,15 +164,23 @@ impl Solver<'_> {
             return Ok(Shared::Nothing);
         }
         let counted: Vec<f64> = weight.iter().map(|weight| f64::from(u8::from(*weight > 0.0))).collect();
-        let (q, e) = self.coordinates(course, &counted, root)?;
         let sigma = course.noise.sigma_without_memory();
+        // The columns of all rows take more memory than all else; most data need none.
+        let axes = noise::space::axes(self.observations);
+        let white = |values: &[f64]| serial::looks_white(&self.layout, values, axes.as_deref());
+        if self.groups().is_none() && white(&self.whitened(course, &counted)) {
+            return Ok(Shared::Nothing);
+        }
+        let (q, e) = self.coordinates(course, &counted, root)?;
         let beside =
             |most| trend::beside(self.chain, self.observations, &self.layout, &sigma, weight, &q, most);
         let (few, complete) = beside(trend::MOST[0]);
         if options.serial && (declared || self.groups().is_none()) {
             let earns = serial::EARNS[usize::from(!declared)];
-            let fitted = |beside: &Mat<f64>| serial::fit(&self.layout, &e, &q, beside, earns);
-            if let Some(memory) = fitted(if options.beside_effects { &few } else { &q }) {
+            let fitted =
+                |beside: &Mat<f64>| serial::fit(&self.layout, &e, &q, beside, earns, axes.as_deref());
+            let alone = trend::determined(&q);
+            if let Some(memory) = fitted(if options.beside_effects { &few } else { &alone }) {
                 let certain = complete || declared || !options.beside_effects;
                 let thorough =
                     if certain { None } else { Some(beside(trend::MOST[1])).filter(|found| found.1) };
@@ -327,7 +335,8 @@ impl Shared {
             Self::Nothing => {}
             Self::Memory(memory, order) => {
                 noise.floor.iter_mut().for_each(|floor| *floor *= own * memory.serial.gain());
-                (noise.serial, noise.undeclared_order) = (Some(memory.serial), order == Order::OfFile);
+                (noise.serial, noise.in_space) = (Some(memory.serial), memory.in_space);
+                noise.undeclared_order = order == Order::OfFile;
             }
             Self::Offsets(offsets, _) => {
                 noise.floor.iter_mut().for_each(|floor| *floor *= own);

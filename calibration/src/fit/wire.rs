@@ -1,9 +1,14 @@
-//! Tallies as bytes, for merging what several processes accumulated: the same bytes on every machine.
+//! Passes and tallies as bytes, for several processes that accumulate one fit: the same bytes on every machine.
 //!
 //! Eight letters that say what they are and of which version, then whole numbers and f64, all with the lowest byte first.
 
+use model_core::Chain;
+
 use super::partial::{Partial, PartialError};
-use super::sweep::Tally;
+use super::stream::{Pass, streamed};
+use super::sweep::{Tally, Weighting};
+use super::{FitError, FitOptions, Model};
+use crate::data::Observations;
 
 /// What the bytes begin with; its end is the version of what follows.
 const MAGIC: &[u8; 8] = b"TXTALLY1";
@@ -84,6 +89,76 @@ impl Tally {
             slopes,
             squares,
         })
+    }
+}
+
+/// What the bytes of a pass begin with; its end is the version of what follows.
+const PASS: &[u8; 8] = b"TXPASS01";
+
+/// Why bytes are no pass over some rows.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum PassError {
+    /// Bytes that are something else, or of another version.
+    #[error("these bytes are no pass of a fit as this version writes them: run the same version everywhere")]
+    NotPass,
+    /// A pass over other symbols.
+    #[error(
+        "the pass is of a chain of {found} symbols, this one has {expected}: give every process the same declaration"
+    )]
+    OtherChain {
+        /// Symbols of the chain.
+        expected: usize,
+        /// Values in the pass.
+        found: usize,
+    },
+    /// The rows do not fit the chain.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+}
+
+impl Pass {
+    /// What a process that has the declaration and the study needs to make this pass.
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let counts = [self.weighting as u64, self.values.len() as u64];
+        let mut bytes = PASS.to_vec();
+        bytes.extend(counts.iter().flat_map(|count| count.to_le_bytes()));
+        bytes.extend(self.values.iter().chain(&self.floor).flat_map(|number| number.to_le_bytes()));
+        bytes
+    }
+
+    /// The pass that [`Pass::to_bytes`] wrote, over rows with the series of these.
+    ///
+    /// # Errors
+    /// The bytes are something else, or of another chain; or the rows do not fit the chain.
+    pub fn from_bytes(
+        bytes: &[u8],
+        chain: &Chain,
+        rows: &Observations,
+        options: &FitOptions,
+    ) -> Result<Self, PassError> {
+        let numbers = bytes.strip_prefix(PASS).ok_or(PassError::NotPass)?;
+        let (words, []) = numbers.as_chunks::<8>() else { return Err(PassError::NotPass) };
+        let Some((&[weighting, values], words)) = words.split_first_chunk::<2>() else {
+            return Err(PassError::NotPass);
+        };
+        let weighting = [Weighting::Full, Weighting::Huber, Weighting::Biweight]
+            .into_iter()
+            .find(|known| *known as u64 == u64::from_le_bytes(weighting))
+            .ok_or(PassError::NotPass)?;
+        let numbers: Vec<f64> = words.iter().map(|&word| f64::from_le_bytes(word)).collect();
+        let count = usize::try_from(u64::from_le_bytes(values)).map_err(|_| PassError::NotPass)?;
+        let (values, floor) = numbers.split_at_checked(count).ok_or(PassError::NotPass)?;
+        if !numbers.iter().all(|number| number.is_finite()) || !floor.iter().all(|floor| *floor > 0.0) {
+            return Err(PassError::NotPass);
+        }
+        let expected = chain.symbols.len();
+        if values.len() != expected {
+            return Err(PassError::OtherChain { expected, found: values.len() });
+        }
+        let model = Model::new(chain, rows, &options.estimate)?;
+        let noise = streamed(&options.noise);
+        Ok(Self { model, values: values.to_vec(), floor: floor.to_vec(), noise, weighting })
     }
 }
 

@@ -3,9 +3,12 @@
 
 use std::io::{self, Read};
 
+use memchr::memchr;
+use rayon::prelude::*;
+
 use super::error::clipped;
 use super::header::{ColumnName, unique};
-use super::records::{Line, Record, RecordError, Records};
+use super::records::{Dialect, Line, Record, RecordError, Records};
 use super::{Cell, Cells, Chunk, DataError, Form, Kept, Options, TableReader, Wanted};
 
 /// How much of a file is looked at to see its separator.
@@ -14,14 +17,28 @@ const PEEK: u64 = 64 * 1024;
 /// Bytes of text after which a chunk is not made longer, however few rows it has.
 const CHUNK_BYTES: usize = 64 << 20;
 
-/// A file of separated values with a header.
+/// Bytes of lines that are taken from a file at a time, and of those that one processor reads at a time.
+const BLOCK: usize = 8 << 20;
+const PART: usize = 256 << 10;
+
+/// A file of separated values with a header. Lines without quotes are read on all processors.
 pub struct Reader<R: Read> {
+    table: Table,
+    rows: Rows<io::Chain<io::Cursor<Vec<u8>>, R>>,
+}
+
+/// What all rows have in common.
+struct Table {
     source: String,
     header: Vec<ColumnName>,
-    records: Records<io::Chain<io::Cursor<Vec<u8>>, R>>,
+    separator: u8,
+}
+
+/// Rows that follow each other, and how many were read of them.
+struct Rows<R> {
+    records: Records<R>,
     record: Record,
     row: u64,
-    separator: u8,
 }
 
 impl<R: Read> Reader<R> {
@@ -43,7 +60,8 @@ impl<R: Read> Reader<R> {
         head.drain(..byte_order_mark);
         let line_end = if head.contains(&b'\r') && !head.contains(&b'\n') { b'\r' } else { b'\n' };
         let separator = options.separator.unwrap_or_else(|| guess_separator(&head, line_end));
-        let mut records = Records::new(io::Cursor::new(head).chain(reader), separator, line_end);
+        let dialect = Dialect { separator, comment: Some(b'#'), line_end };
+        let mut records = Records::new(io::Cursor::new(head).chain(reader), dialect, 0);
         let mut record = Record::default();
         let any = records.read(&mut record).map_err(|error| unreadable(source, error))?;
         if !any {
@@ -60,45 +78,131 @@ impl<R: Read> Reader<R> {
             .map_err(|_| DataError::NotUtf8 { file: source.to_string(), line: record.line })?;
         unique(&header, source)?;
         records.leave_out(options.comment);
-        Ok(Self { source: source.to_string(), header, records, record, row: 0, separator })
+        let table = Table { source: source.to_string(), header, separator };
+        Ok(Self { table, rows: Rows { records, record, row: 0 } })
     }
 
-    /// The place of a cell of the row that was read last.
-    fn cell(&self, column: usize) -> Cell {
+    /// Reads lines without quotes, each part of them on any processor.
+    fn read_plain(
+        &mut self,
+        lines: &[u8],
+        line: u64,
+        wanted: &[Wanted],
+        to: &mut Chunk,
+    ) -> Result<(), DataError> {
+        let (table, dialect) = (&self.table, self.rows.records.dialect());
+        let parts = parts(lines, dialect.line_end);
+        let read = |&part: &&[u8], line: u64, row: u64| {
+            let records = Records::new(part, dialect, line);
+            let mut rows = Rows { records, record: Record::default(), row };
+            let mut chunk = Chunk { columns: super::no_cells(wanted), ..Chunk::default() };
+            table.read(&mut rows, wanted, usize::MAX, &mut chunk).map(|_| (chunk, rows.records.line()))
+        };
+        let each: Vec<_> = parts.par_iter().map(|part| read(part, 0, 0)).collect();
+        let (mut line, mut row) = (line, self.rows.row);
+        for (part, outcome) in parts.iter().zip(each) {
+            // Read again, a part with a mistake says where in the file it is.
+            let (chunk, lines) = outcome.or_else(|_| read(part, line, row))?;
+            to.append_part(chunk, row, line);
+            row = to.rows.last().copied().unwrap_or(row);
+            line += lines;
+        }
+        self.rows.row = row;
+        Ok(())
+    }
+}
+
+/// Lines cut into parts of about the same size, each of whole lines.
+fn parts(mut lines: &[u8], line_end: u8) -> Vec<&[u8]> {
+    let mut parts = Vec::new();
+    while !lines.is_empty() {
+        let end = lines
+            .get(PART..)
+            .and_then(|rest| memchr(line_end, rest))
+            .map_or(lines.len(), |end| PART + end + 1);
+        let (part, rest) = lines.split_at(end);
+        parts.push(part);
+        lines = rest;
+    }
+    parts
+}
+
+impl Table {
+    /// Reads rows, at most so many, and fewer where they are long, behind those of a chunk; returns their length in bytes.
+    fn read<R: Read>(
+        &self,
+        rows: &mut Rows<R>,
+        wanted: &[Wanted],
+        at_most: usize,
+        to: &mut Chunk,
+    ) -> Result<usize, DataError> {
+        let mut bytes = 0;
+        for _ in 0..at_most {
+            let Rows { records, record, row } = rows;
+            if bytes >= CHUNK_BYTES
+                || !records.read(record).map_err(|error| unreadable(&self.source, error))?
+            {
+                break;
+            }
+            *row += 1;
+            self.check_swallowed(record, wanted)?;
+            bytes += self.take(record, *row, wanted, &mut to.columns).map_err(|error| {
+                if !record.is_like_a_comment {
+                    return error;
+                }
+                let why = "a line below the header that begins with `#` is a row; if it is a comment, say so: \
+                           comment = \"#\" in a study, --comment \"#\" on the command line";
+                DataError::BadLine { file: self.source.clone(), line: record.line, why: why.to_string() }
+            })?;
+            to.rows.push(*row);
+            to.lines.push(record.line);
+        }
+        Ok(bytes)
+    }
+
+    /// The place of a cell.
+    fn cell(&self, record: &Record, row: u64, column: usize) -> Cell {
         Cell {
             file: self.source.clone(),
-            line: Some(self.record.line),
-            row: self.row,
+            line: Some(record.line),
+            row,
             column: self.header.get(column).map_or_else(String::new, |name| name.full.clone()),
         }
     }
 
-    /// The text of a cell of the row that was read last.
-    fn text(&self, column: usize) -> Result<&str, DataError> {
-        std::str::from_utf8(self.record.get(column))
-            .map_err(|_| DataError::NotUtf8 { file: self.source.clone(), line: self.record.line })
+    /// The text of a cell.
+    fn text<'r>(&self, record: &'r Record, column: usize) -> Result<&'r str, DataError> {
+        std::str::from_utf8(record.get(column))
+            .map_err(|_| DataError::NotUtf8 { file: self.source.clone(), line: record.line })
     }
 
-    /// The number in a cell of the row that was read last.
-    fn number(&self, column: usize) -> Result<f64, DataError> {
-        let text = self.text(column)?.trim();
+    /// The number in a cell.
+    fn number(&self, record: &Record, row: u64, column: usize) -> Result<f64, DataError> {
+        let text = self.text(record, column)?.trim();
+        let cell = || self.cell(record, row, column);
         match parse(text, self.separator) {
             Some(number) if number.is_finite() => Ok(number),
-            Some(_) => Err(DataError::NotFinite { cell: self.cell(column), text: clipped(text) }),
-            None if text.is_empty() => Err(DataError::EmptyCell { cell: self.cell(column) }),
-            None => Err(DataError::NotANumber { cell: self.cell(column), text: clipped(text) }),
+            Some(_) => Err(DataError::NotFinite { cell: cell(), text: clipped(text) }),
+            None if text.is_empty() => Err(DataError::EmptyCell { cell: cell() }),
+            None => Err(DataError::NotANumber { cell: cell(), text: clipped(text) }),
         }
     }
 
-    /// Takes over the row that was read last; returns its length in bytes.
-    fn take(&self, wanted: &[Wanted], columns: &mut [Cells]) -> Result<usize, DataError> {
-        if self.record.len() != self.header.len() {
+    /// Takes a row over; returns its length in bytes.
+    fn take(
+        &self,
+        record: &Record,
+        row: u64,
+        wanted: &[Wanted],
+        columns: &mut [Cells],
+    ) -> Result<usize, DataError> {
+        if record.len() != self.header.len() {
             return Err(DataError::RaggedRow {
                 file: self.source.clone(),
-                line: self.record.line,
-                row: self.row,
+                line: record.line,
+                row,
                 expected: self.header.len(),
-                found: self.record.len(),
+                found: record.len(),
             });
         }
         let mut bytes = 0;
@@ -106,12 +210,17 @@ impl<R: Read> Reader<R> {
             match (want.form, cells) {
                 (Form::Number(factor), Cells::Numbers(numbers)) => {
                     bytes += size_of::<f64>();
-                    numbers.push(self.number(want.column)? * factor);
+                    numbers.push(self.number(record, row, want.column)? * factor);
                 }
-                (Form::Label | Form::Kept, Cells::Labels(texts) | Cells::Kept(Kept::Texts(texts))) => {
-                    let text = self.text(want.column)?;
+                (Form::Label, Cells::Labels(texts)) => {
+                    let text = self.text(record, want.column)?;
                     bytes += text.len() + size_of::<String>();
                     texts.push(text.to_string());
+                }
+                (Form::Kept, Cells::Kept(Kept::Texts(texts))) => {
+                    let text = self.text(record, want.column)?;
+                    bytes += text.len() + size_of::<usize>();
+                    texts.push(text);
                 }
                 _ => unreachable!("`no_cells` made a column of each form that is wanted"),
             }
@@ -120,7 +229,7 @@ impl<R: Read> Reader<R> {
     }
 
     /// Refuses a quoted cell that runs over a line which is a row of its own: its quote was opened by mistake.
-    fn check_swallowed(&self, wanted: &[Wanted]) -> Result<(), DataError> {
+    fn check_swallowed(&self, record: &Record, wanted: &[Wanted]) -> Result<(), DataError> {
         let is_row = |line: &[u8]| {
             let cells: Vec<&[u8]> = line.split(|byte| *byte == self.separator).collect();
             let is_number = |want: &Wanted| {
@@ -130,19 +239,19 @@ impl<R: Read> Reader<R> {
             let mut numbers = wanted.iter().filter(|want| matches!(want.form, Form::Number(_))).peekable();
             cells.len() == self.header.len() && numbers.peek().is_some() && numbers.all(is_number)
         };
-        let Some((first, others)) = self.record.lines().split_first() else { return Ok(()) };
+        let Some((first, others)) = record.lines().split_first() else { return Ok(()) };
         // A line wholly inside quotes, what is inside them of the last, or the last if the first is a row by itself too.
         let mistaken = |line: &Line| {
             let inside = line.text.get(..line.inside).unwrap_or_default();
             is_row(inside) || is_row(&first.text) && is_row(&line.text)
         };
         let Some(further) = others.iter().position(mistaken) else { return Ok(()) };
-        let line = self.record.line + 1 + further as u64;
+        let line = record.line + 1 + further as u64;
         let why = format!(
             "a quoted cell of this row runs over line {line}, which looks like a row of its own: close the quote \
              on its line, or take it away"
         );
-        Err(DataError::BadLine { file: self.source.clone(), line: self.record.line, why })
+        Err(DataError::BadLine { file: self.source.clone(), line: record.line, why })
     }
 }
 
@@ -156,38 +265,34 @@ fn parse(text: &str, separator: u8) -> Option<f64> {
 
 impl<R: Read> TableReader for Reader<R> {
     fn source(&self) -> &str {
-        &self.source
+        &self.table.source
     }
 
     fn header(&self) -> &[ColumnName] {
-        &self.header
+        &self.table.header
     }
 
     fn read(&mut self, wanted: &[Wanted], at_most: usize) -> Result<Chunk, DataError> {
-        let mut columns = super::no_cells(wanted);
-        let (mut rows, mut lines) = (Vec::new(), Vec::new());
+        let mut chunk = Chunk { columns: super::no_cells(wanted), ..Chunk::default() };
         let mut bytes = 0;
-        while rows.len() < at_most && bytes < CHUNK_BYTES {
-            let more =
-                self.records.read(&mut self.record).map_err(|error| unreadable(&self.source, error))?;
-            if !more {
-                break;
-            }
-            self.row += 1;
-            self.check_swallowed(wanted)?;
-            bytes += self.take(wanted, &mut columns).map_err(|error| {
-                if !self.record.is_like_a_comment {
-                    return error;
+        while bytes < CHUNK_BYTES {
+            let left = at_most - chunk.rows.len();
+            let line = self.rows.records.line();
+            let plain = self.rows.records.plain_lines(left, BLOCK);
+            let plain = plain.map_err(|error| unreadable(&self.table.source, error))?;
+            bytes += plain.len();
+            if plain.is_empty() {
+                // A row with a quote, a long one, the last, or the end.
+                let rows = chunk.rows.len();
+                bytes += self.table.read(&mut self.rows, wanted, left.min(1), &mut chunk)?;
+                if chunk.rows.len() == rows {
+                    break;
                 }
-                let why = "a line below the header that begins with `#` is a row; if it is a comment, say so: \
-                           comment = \"#\" in a study, --comment \"#\" on the command line";
-                let (file, line) = (self.source.clone(), self.record.line);
-                DataError::BadLine { file, line, why: why.to_string() }
-            })?;
-            rows.push(self.row);
-            lines.push(self.record.line);
+            } else {
+                self.read_plain(&plain, line, wanted, &mut chunk)?;
+            }
         }
-        Ok(Chunk { columns, rows, lines })
+        Ok(chunk)
     }
 }
 

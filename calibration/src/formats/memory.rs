@@ -112,7 +112,7 @@ impl TableReader for Reader<'_> {
                     Ok(Cells::Numbers(numbers.collect::<Result<_, DataError>>()?))
                 }
                 Form::Label => Ok(Cells::Labels(texts(want.column))),
-                Form::Kept => Ok(Cells::Kept(Kept::Texts(texts(want.column)))),
+                Form::Kept => Ok(Cells::Kept(Kept::Texts(texts(want.column).iter().collect()))),
             })
             .collect::<Result<_, DataError>>()?;
         self.row = rows.end;

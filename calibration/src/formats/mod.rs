@@ -13,12 +13,15 @@ pub mod csv;
 mod error;
 mod header;
 pub mod memory;
+mod number;
 mod options;
 #[cfg(feature = "parquet")]
 pub mod parquet;
 mod quote;
 mod records;
+mod texts;
 pub mod tpoint;
+mod write;
 
 use std::borrow::Cow;
 use std::io::Read;
@@ -26,8 +29,11 @@ use std::io::Read;
 use error::clipped;
 pub use error::{Cell, DataError};
 pub use header::{ColumnName, ReadAs, declared_columns, find_column, find_reading};
+pub use number::push_number;
 pub use options::Options;
 pub use quote::write_row;
+pub use texts::Texts;
+pub use write::{Written, write_rows};
 
 /// One column of a chunk.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,7 +50,7 @@ pub enum Cells {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Kept {
     /// Texts.
-    Texts(Vec<String>),
+    Texts(Texts),
     /// Values with their types.
     #[cfg(feature = "parquet")]
     Typed(parquet::TypedCells),
@@ -55,7 +61,7 @@ impl Kept {
     ///
     /// # Errors
     /// A cell that no text can say, such as a time that no calendar has.
-    pub fn texts(&self) -> Result<Cow<'_, [String]>, DataError> {
+    pub fn texts(&self) -> Result<Cow<'_, Texts>, DataError> {
         match self {
             Self::Texts(texts) => Ok(Cow::Borrowed(texts)),
             #[cfg(feature = "parquet")]
@@ -66,7 +72,7 @@ impl Kept {
     /// Appends cells of the same column of the same file.
     pub fn append(&mut self, more: Self) {
         match (self, more) {
-            (Self::Texts(texts), Self::Texts(more)) => texts.extend(more),
+            (Self::Texts(texts), Self::Texts(more)) => texts.append(&more),
             #[cfg(feature = "parquet")]
             (Self::Typed(cells), Self::Typed(more)) => cells.append(more),
             #[cfg(feature = "parquet")]
@@ -106,6 +112,22 @@ pub struct Chunk {
     pub lines: Vec<u64>,
 }
 
+impl Chunk {
+    /// Appends rows that were counted as if they began their file, in which so many rows and lines come before them.
+    fn append_part(&mut self, part: Self, rows: u64, lines: u64) {
+        for (own, more) in self.columns.iter_mut().zip(part.columns) {
+            match (own, more) {
+                (Cells::Numbers(own), Cells::Numbers(more)) => own.extend(more),
+                (Cells::Labels(own), Cells::Labels(more)) => own.extend(more),
+                (Cells::Kept(own), Cells::Kept(more)) => own.append(more),
+                _ => unreachable!("the parts of one file hold a column in one way"),
+            }
+        }
+        self.rows.extend(part.rows.iter().map(|row| rows + row));
+        self.lines.extend(part.lines.iter().map(|line| lines + line));
+    }
+}
+
 /// A table that is read front to back.
 pub trait TableReader {
     /// Name of the file or stream, for messages.
@@ -126,7 +148,7 @@ fn no_cells(wanted: &[Wanted]) -> Vec<Cells> {
     let empty = |want: &Wanted| match want.form {
         Form::Number(_) => Cells::Numbers(Vec::new()),
         Form::Label => Cells::Labels(Vec::new()),
-        Form::Kept => Cells::Kept(Kept::Texts(Vec::new())),
+        Form::Kept => Cells::Kept(Kept::Texts(Texts::default())),
     };
     wanted.iter().map(empty).collect()
 }
@@ -161,6 +183,15 @@ pub fn open<'r>(
         Some("parquet") => Ok(Box::new(parquet::Reader::new(reader, source, options)?)),
         #[cfg(not(feature = "parquet"))]
         Some("parquet") => Err(DataError::NoParquet { file: source.to_string() }),
-        _ => Ok(Box::new(csv::Reader::new(reader, source, options)?)),
+        _ => separated(Box::new(reader), source, options),
     }
+}
+
+/// Opens separated values. Not generic, so that what reads them is compiled with this crate and optimised as it is.
+fn separated<'r>(
+    reader: Box<dyn Read + 'r>,
+    source: &str,
+    options: &Options,
+) -> Result<Box<dyn TableReader + 'r>, DataError> {
+    Ok(Box::new(csv::Reader::new(reader, source, options)?))
 }

@@ -1,9 +1,10 @@
 //! Parquet: flat tables of numbers and texts, plain, Snappy or Zstandard. Built with the feature `parquet` alone.
 //!
 //! Names of columns carry units as the headers of separated values do. The format keeps its table of contents at the end, so
-//! a file is held in memory whole.
+//! a file is held in memory as it is; its cells are unpacked chunk by chunk, the columns of a chunk on all processors.
 
 mod bounded;
+mod cells;
 mod write;
 
 use std::cell;
@@ -11,17 +12,19 @@ use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use ::parquet::basic::{Repetition, Type as Physical};
+use ::parquet::column::reader::ColumnReader;
 use ::parquet::errors::ParquetError;
 use ::parquet::file::reader::{FileReader as _, SerializedFileReader};
 use ::parquet::record::Field;
-use ::parquet::record::reader::RowIter;
 use ::parquet::schema::types::{Type, TypePtr};
 use bytes::Bytes;
+use rayon::prelude::*;
 
-pub use write::{Column, file_of};
+pub use cells::TypedCells;
+pub use write::{Column, Writer};
 
 use super::header::{ColumnName, unique};
-use super::{Cell, Cells, Chunk, DataError, Form, Kept, Options, TableReader, Wanted};
+use super::{Cell, Cells, Chunk, DataError, Form, Kept, Options, TableReader, Texts, Wanted};
 use bounded::BoundedFile;
 
 /// A Parquet file.
@@ -29,19 +32,19 @@ pub struct Reader {
     source: String,
     header: Vec<ColumnName>,
     types: Vec<TypePtr>,
-    rows: RowIter<'static>,
+    file: BoundedFile,
+    /// Groups of rows that were begun.
+    groups: usize,
+    /// Rows of the last of them, and those of them that were read.
+    in_group: usize,
+    taken: usize,
+    /// Per column of the file what reads it, and how many rows of the group it has read; none where nobody has asked for it.
+    open: Vec<Option<(ColumnReader, usize)>>,
     row: u64,
 }
 
-/// Cells as a file holds them, with their type.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TypedCells {
-    of_type: TypePtr,
-    fields: Vec<Field>,
-}
-
 impl Reader {
-    /// Reads the file whole, and its schema.
+    /// Reads the file as it is, and its schema.
     ///
     /// # Errors
     /// No Parquet file, larger than the memory budget, no columns, a name twice, or a column of lists or groups.
@@ -63,37 +66,26 @@ impl Reader {
         }
         unique(&header, source)?;
         let file = BoundedFile { inner: file, memory_bytes: options.memory_bytes };
-        let rows = guarded(source, || Ok(RowIter::from_file_into(Box::new(file))))?;
-        Ok(Self { source: source.to_string(), header, types, rows, row: 0 })
+        let source = source.to_string();
+        Ok(Self { source, header, types, file, groups: 0, in_group: 0, taken: 0, open: Vec::new(), row: 0 })
     }
 
-    /// The place of a cell of the row that was read last.
-    fn cell(&self, column: usize) -> Cell {
-        let column = self.header.get(column).map_or_else(String::new, |name| name.full.clone());
-        Cell { file: self.source.clone(), line: None, row: self.row, column }
+    /// Begins the next group of rows; `false` behind the last.
+    fn next_group(&mut self) -> Result<bool, DataError> {
+        let Some(group) = self.file.metadata().row_groups().get(self.groups) else { return Ok(false) };
+        let rows = usize::try_from(group.num_rows());
+        let why = || "a group of rows has fewer than none: write it again".to_owned();
+        self.in_group = rows.map_err(|_| DataError::Unreadable { file: self.source.clone(), why: why() })?;
+        self.taken = 0;
+        self.groups += 1;
+        self.open = self.types.iter().map(|_| None).collect();
+        Ok(true)
     }
 
-    /// The number in a cell of the row that was read last.
-    fn number(&self, column: usize, field: &Field) -> Result<f64, DataError> {
-        let text = guarded(&self.source, || Ok(text(field)))?;
-        let number = match field {
-            Field::Double(number) => Some(*number),
-            Field::Float(number) => Some(f64::from(*number)),
-            Field::Null => return Err(DataError::EmptyCell { cell: self.cell(column) }),
-            _ => text.trim().parse().ok(),
-        };
-        match number {
-            Some(number) if number.is_finite() => Ok(number),
-            Some(_) => Err(DataError::NotFinite { cell: self.cell(column), text }),
-            None => Err(DataError::NotANumber { cell: self.cell(column), text }),
-        }
-    }
-
-    /// A column without cells for each that is wanted, of its type where it is to be kept.
-    fn no_cells(&self, wanted: &[Wanted]) -> Result<Vec<Cells>, DataError> {
-        let mut columns = super::no_cells(wanted);
-        for (want, cells) in wanted.iter().zip(&mut columns) {
-            let (Cells::Kept(kept), Some(of_type)) = (cells, self.types.get(want.column)) else { continue };
+    /// The next rows of this group in some columns, each once and in order.
+    fn cells(&mut self, columns: &[usize], count: usize) -> Result<Vec<TypedCells>, DataError> {
+        for &column in columns {
+            let of_type = &self.types[column];
             if of_type.get_physical_type() == Physical::INT96 {
                 let why = format!(
                     "column `{}` holds times as INT96, which newer programs no longer write: write it as timestamps",
@@ -101,9 +93,69 @@ impl Reader {
                 );
                 return Err(DataError::Unreadable { file: self.source.clone(), why });
             }
-            *kept = Kept::Typed(TypedCells { of_type: of_type.clone(), fields: Vec::new() });
+            if self.open[column].is_none() {
+                let group = self.groups - 1;
+                let open = || self.file.get_row_group(group)?.get_column_reader(column);
+                self.open[column] = Some((guarded(&self.source, open)?, 0));
+            }
         }
-        Ok(columns)
+        let (source, types, taken) = (&self.source, &self.types, self.taken);
+        let wanted = self.open.iter_mut().enumerate().filter(|(column, _)| columns.contains(column));
+        let readers: Vec<_> = wanted.filter_map(|(column, open)| Some((column, open.as_mut()?))).collect();
+        readers
+            .into_par_iter()
+            .map(|(column, (reader, read))| {
+                guarded(source, || {
+                    // A column that nobody asked for before lags behind.
+                    if *read < taken {
+                        TypedCells::read(reader, &types[column], taken - *read)?;
+                    }
+                    *read = taken + count;
+                    TypedCells::read(reader, &types[column], count)
+                })
+            })
+            .collect()
+    }
+
+    /// The place of a cell of this row, counted from 0.
+    fn cell(&self, column: usize, row: usize) -> Cell {
+        let name = self.header.get(column).map_or_else(String::new, |name| name.full.clone());
+        Cell { file: self.source.clone(), line: None, row: self.row + row as u64 + 1, column: name }
+    }
+
+    /// The numbers in the cells of a column.
+    fn numbers(&self, column: usize, cells: &TypedCells, factor: f64) -> Result<Vec<f64>, DataError> {
+        if let Some(mut numbers) = cells.doubles() {
+            if let Some(row) = numbers.iter().position(|number| !number.is_finite()) {
+                let text = format!("{:?}", numbers[row]);
+                return Err(DataError::NotFinite { cell: self.cell(column, row), text });
+            }
+            numbers.iter_mut().for_each(|number| *number *= factor);
+            return Ok(numbers);
+        }
+        let fields = cells.fields().enumerate();
+        fields.map(|(row, field)| Ok(self.number(column, row, field)? * factor)).collect()
+    }
+
+    fn number(
+        &self,
+        column: usize,
+        row: usize,
+        field: Result<Field, ParquetError>,
+    ) -> Result<f64, DataError> {
+        let field = guarded(&self.source, || field)?;
+        let text = guarded(&self.source, || Ok(text(&field)))?;
+        let number = match field {
+            Field::Double(number) => Some(number),
+            Field::Float(number) => Some(f64::from(number)),
+            Field::Null => return Err(DataError::EmptyCell { cell: self.cell(column, row) }),
+            _ => text.trim().parse().ok(),
+        };
+        match number {
+            Some(number) if number.is_finite() => Ok(number),
+            Some(_) => Err(DataError::NotFinite { cell: self.cell(column, row), text }),
+            None => Err(DataError::NotANumber { cell: self.cell(column, row), text }),
+        }
     }
 }
 
@@ -123,13 +175,8 @@ impl TypedCells {
     ///
     /// # Errors
     /// A time that no calendar has.
-    pub(super) fn texts(&self) -> Result<Vec<String>, DataError> {
-        guarded(self.of_type.name(), || Ok(self.fields.iter().map(text).collect()))
-    }
-
-    /// Appends cells of the same column.
-    pub(super) fn append(&mut self, more: Self) {
-        self.fields.extend(more.fields);
+    pub(super) fn texts(&self) -> Result<Texts, DataError> {
+        guarded(self.of_type.name(), || self.fields().map(|field| Ok(text(&field?))).collect())
     }
 }
 
@@ -143,28 +190,45 @@ impl TableReader for Reader {
     }
 
     fn read(&mut self, wanted: &[Wanted], at_most: usize) -> Result<Chunk, DataError> {
-        let mut columns = self.no_cells(wanted)?;
-        let mut rows = Vec::new();
-        while rows.len() < at_most {
-            let Some(row) = guarded(&self.source, || self.rows.next().transpose())? else { break };
-            let fields = row.into_columns();
-            self.row += 1;
-            for (want, cells) in wanted.iter().zip(&mut columns) {
-                let field = fields.get(want.column).map_or(&Field::Null, |(_, field)| field);
-                match (want.form, cells) {
-                    (Form::Number(factor), Cells::Numbers(numbers)) => {
-                        numbers.push(self.number(want.column, field)? * factor);
-                    }
-                    (Form::Label, Cells::Labels(labels)) => {
-                        labels.push(guarded(&self.source, || Ok(text(field)))?);
-                    }
-                    (Form::Kept, Cells::Kept(Kept::Typed(kept))) => kept.fields.push(field.clone()),
-                    _ => unreachable!("`no_cells` made a column of each form that is wanted"),
-                }
+        let mut chunk = Chunk::default();
+        let mut columns: Vec<usize> = wanted.iter().map(|want| want.column).collect();
+        columns.sort_unstable();
+        columns.dedup();
+        loop {
+            let count = (self.in_group - self.taken).min(at_most - chunk.rows.len());
+            if count == 0 && (chunk.rows.len() == at_most || !self.next_group()?) {
+                break;
             }
-            rows.push(self.row);
+            if count == 0 {
+                continue;
+            }
+            let cells = self.cells(&columns, count)?;
+            let of = |column: usize| match columns.binary_search(&column) {
+                Ok(at) => &cells[at],
+                Err(_) => unreachable!("every wanted column was read"),
+            };
+            let part = wanted.iter().map(|want| {
+                let cells = of(want.column);
+                Ok(match want.form {
+                    Form::Number(factor) => Cells::Numbers(self.numbers(want.column, cells, factor)?),
+                    Form::Label => Cells::Labels(cells.texts()?.iter().map(str::to_owned).collect()),
+                    Form::Kept => Cells::Kept(Kept::Typed(cells.clone())),
+                })
+            });
+            let columns = part.collect::<Result<Vec<_>, DataError>>()?;
+            if chunk.columns.is_empty() {
+                chunk.columns = columns;
+            } else {
+                chunk.append_part(Chunk { columns, ..Chunk::default() }, 0, 0);
+            }
+            chunk.rows.extend((1..=count as u64).map(|row| self.row + row));
+            self.row += count as u64;
+            self.taken += count;
         }
-        Ok(Chunk { columns, rows, lines: Vec::new() })
+        if chunk.columns.is_empty() {
+            chunk.columns = super::no_cells(wanted);
+        }
+        Ok(chunk)
     }
 }
 

@@ -10,26 +10,40 @@ pub fn write_row<'c, W: Write + ?Sized>(
     out: &mut W,
     cells: impl IntoIterator<Item = &'c str>,
 ) -> io::Result<()> {
+    let mut row = Vec::new();
     let mut cells = cells.into_iter().peekable();
     let mut is_first = true;
     while let Some(cell) = cells.next() {
         let alone = is_first && cells.peek().is_none();
         if !is_first {
-            out.write_all(b",")?;
+            row.push(b',');
         }
         is_first = false;
-        if needs_quotes(cell, alone) {
-            write!(out, "\"{}\"", cell.replace('"', "\"\""))?;
-        } else {
-            out.write_all(cell.as_bytes())?;
-        }
+        push_cell(&mut row, cell, alone);
     }
-    out.write_all(b"\n")
+    row.push(b'\n');
+    out.write_all(&row)
+}
+
+/// Appends one cell; `alone` says that its row has no other.
+pub(super) fn push_cell(out: &mut Vec<u8>, cell: &str, alone: bool) {
+    if !needs_quotes(cell, alone) {
+        return out.extend_from_slice(cell.as_bytes());
+    }
+    out.push(b'"');
+    for byte in cell.bytes() {
+        out.extend(std::iter::repeat_n(byte, if byte == b'"' { 2 } else { 1 }));
+    }
+    out.push(b'"');
 }
 
 /// Whether a cell would be read as something else: as several, as a comment, without the space around it, or, where it is
 /// the only one of its row, as a blank line or a row that blanks separate.
 fn needs_quotes(cell: &str, alone: bool) -> bool {
+    let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'.' | b'-' | b'+' | b'_');
+    if !cell.is_empty() && cell.bytes().all(is_plain) {
+        return false;
+    }
     let of_a_separator = |letter: char| matches!(letter, ',' | ';' | '\t' | '|' | '"' | '\n' | '\r');
     let at_edge = |letter: char| letter.is_whitespace() || matches!(letter, '#' | '\u{feff}');
     cell.contains(of_a_separator)

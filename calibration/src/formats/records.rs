@@ -4,19 +4,30 @@
 //! nothing closes, text behind a closing quote, and a row that is too long are errors; [`Record::lines`] gives the
 //! lines that quotes run over, for whoever knows what a row looks like.
 
-use std::io::{self, BufRead, BufReader, Read};
+use std::io::{self, Read};
+
+use memchr::{memchr, memchr_iter, memrchr};
 
 /// The longest row that is read, in bytes.
 const LONGEST_ROW: usize = 16 << 20;
 
+/// Bytes that are asked of the input at a time.
+const PIECE: u64 = 256 << 10;
+
+/// How rows are written.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Dialect {
+    pub separator: u8,
+    /// Lines that begin with this are left out.
+    pub comment: Option<u8>,
+    /// What ends a line: a line feed, or a carriage return in files that know no other.
+    pub line_end: u8,
+}
+
 /// Rows, front to back.
 pub(super) struct Records<R> {
-    input: BufReader<R>,
-    separator: u8,
-    /// Lines that begin with this are left out.
-    comment: Option<u8>,
-    /// What ends a line: a line feed, or a carriage return in files that know no other.
-    line_end: u8,
+    input: Ahead<R>,
+    dialect: Dialect,
     /// The line that was read last, without its end.
     text: Vec<u8>,
     /// What that line ended with.
@@ -64,14 +75,20 @@ pub(super) enum RecordError {
 }
 
 impl<R: Read> Records<R> {
-    pub fn new(input: R, separator: u8, line_end: u8) -> Self {
-        let input = BufReader::new(input);
-        Self { input, separator, comment: Some(b'#'), line_end, text: Vec::new(), ended: b"", line: 0 }
+    /// Rows of an input that begins behind so many lines.
+    pub fn new(input: R, dialect: Dialect, line: u64) -> Self {
+        let input = Ahead { input, bytes: Vec::new(), at: 0 };
+        Self { input, dialect, text: Vec::new(), ended: b"", line }
     }
 
     /// From here on, lines that begin with `comment` are left out.
     pub fn leave_out(&mut self, comment: Option<u8>) {
-        self.comment = comment;
+        self.dialect.comment = comment;
+    }
+
+    /// How the rows are written.
+    pub fn dialect(&self) -> Dialect {
+        self.dialect
     }
 
     /// Reads the next row into `record`; `false` at the end. Blank lines are no rows.
@@ -80,12 +97,50 @@ impl<R: Read> Records<R> {
             if !self.next_line()? {
                 return Ok(false);
             }
-            let blank = |byte: &u8| byte.is_ascii_whitespace() && *byte != self.separator;
-            let comment = self.text.first().is_some_and(|first| Some(*first) == self.comment);
+            let blank = |byte: &u8| byte.is_ascii_whitespace() && *byte != self.dialect.separator;
+            let comment = self.text.first().is_some_and(|first| Some(*first) == self.dialect.comment);
             if !comment && !self.text.iter().all(blank) {
                 return self.split(record).map(|()| true);
             }
         }
+    }
+
+    /// Takes the lines that come next and hold no quote: at most so many, and no more than fill `bytes`. What ends without a
+    /// line end is not among them.
+    ///
+    /// # Errors
+    /// The system's.
+    pub fn plain_lines(&mut self, at_most: usize, bytes: usize) -> Result<Vec<u8>, RecordError> {
+        let mut looked_at = 0;
+        let quote = loop {
+            let unseen = self.input.unread().get(looked_at..).unwrap_or_default();
+            match memchr(b'"', unseen) {
+                Some(quote) => break Some(looked_at + quote),
+                None if looked_at + unseen.len() >= bytes => break None,
+                None => looked_at += unseen.len(),
+            }
+            if !self.input.more().map_err(RecordError::Io)? {
+                break None;
+            }
+        };
+        let unread = self.input.unread();
+        let plain = unread.get(..quote.unwrap_or(unread.len()).min(bytes)).unwrap_or_default();
+        let end = match at_most.checked_sub(1) {
+            None => 0,
+            Some(last) => memchr_iter(self.dialect.line_end, plain)
+                .nth(last)
+                .or_else(|| memrchr(self.dialect.line_end, plain))
+                .map_or(0, |end| end + 1),
+        };
+        let lines = plain.get(..end).unwrap_or_default().to_vec();
+        self.input.at += end;
+        self.line += memchr_iter(self.dialect.line_end, &lines).count() as u64;
+        Ok(lines)
+    }
+
+    /// The lines read so far.
+    pub fn line(&self) -> u64 {
+        self.line
     }
 
     /// Reads a line into `self.text`; `false` at the end.
@@ -93,28 +148,24 @@ impl<R: Read> Records<R> {
         self.text.clear();
         let mut any = false;
         loop {
-            let buffer = match self.input.fill_buf() {
-                Ok(buffer) => buffer,
-                Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
-                Err(error) => return Err(RecordError::Io(error)),
-            };
-            if buffer.is_empty() {
+            if self.input.unread().is_empty() && !self.input.more().map_err(RecordError::Io)? {
                 break;
             }
             any = true;
-            let end = buffer.iter().position(|byte| *byte == self.line_end);
-            let taken = end.unwrap_or(buffer.len());
+            let unread = self.input.unread();
+            let end = memchr(self.dialect.line_end, unread);
+            let taken = end.unwrap_or(unread.len());
             if self.text.len() + taken > LONGEST_ROW {
                 return Err(too_long(self.line + 1));
             }
-            self.text.extend(buffer.iter().take(taken));
-            self.input.consume(taken + usize::from(end.is_some()));
+            self.text.extend_from_slice(&unread[..taken]);
+            self.input.at += taken + usize::from(end.is_some());
             if end.is_some() {
                 break;
             }
         }
         self.line += u64::from(any);
-        self.ended = if self.line_end == b'\r' {
+        self.ended = if self.dialect.line_end == b'\r' {
             b"\r"
         } else if self.text.pop_if(|last| *last == b'\r').is_some() {
             b"\r\n"
@@ -131,7 +182,7 @@ impl<R: Read> Records<R> {
         record.lines.clear();
         record.line = self.line;
         record.is_like_a_comment = self.text.first() == Some(&b'#');
-        let separator = self.separator;
+        let separator = self.dialect.separator;
         let blank = |byte: &u8| matches!(byte, b' ' | b'\t') && *byte != separator;
         let mut at = 0;
         loop {
@@ -146,8 +197,8 @@ impl<R: Read> Records<R> {
                 }
             } else {
                 let rest = self.text.get(at..).unwrap_or_default();
-                let length = rest.iter().position(|byte| *byte == separator).unwrap_or(rest.len());
-                record.bytes.extend(rest.get(..length).unwrap_or_default().trim_ascii());
+                let length = memchr(separator, rest).unwrap_or(rest.len());
+                record.bytes.extend_from_slice(rest.get(..length).unwrap_or_default().trim_ascii());
                 at += length;
             }
             record.ends.push(record.bytes.len());
@@ -196,6 +247,28 @@ impl<R: Read> Records<R> {
                 }
             }
         }
+    }
+}
+
+/// What was read of an input and not yet taken.
+struct Ahead<R> {
+    input: R,
+    bytes: Vec<u8>,
+    /// How many of the bytes were taken.
+    at: usize,
+}
+
+impl<R: Read> Ahead<R> {
+    fn unread(&self) -> &[u8] {
+        self.bytes.get(self.at..).unwrap_or_default()
+    }
+
+    /// Reads more; `false` at the end.
+    fn more(&mut self) -> io::Result<bool> {
+        self.bytes.drain(..self.at);
+        self.at = 0;
+        let read = self.input.by_ref().take(PIECE).read_to_end(&mut self.bytes)?;
+        Ok(read > 0)
     }
 }
 

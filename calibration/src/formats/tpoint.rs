@@ -115,7 +115,8 @@ impl TableReader for Reader {
                     .map(Cells::Numbers),
                 Form::Label => values.map(texts).collect::<Result<_, _>>().map(Cells::Labels),
                 Form::Kept => {
-                    values.map(texts).collect::<Result<_, _>>().map(|texts| Cells::Kept(Kept::Texts(texts)))
+                    let texts = values.map(texts).collect::<Result<_, _>>();
+                    texts.map(|texts| Cells::Kept(Kept::Texts(texts)))
                 }
             }
         };

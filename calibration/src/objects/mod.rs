@@ -1,10 +1,16 @@
-//! Calibrating with objects and places that nobody knows: where a fit of them starts (`start`), and what a set-up can see of
-//! the errors before anybody measures better than roughly (`identify`).
+//! Calibrating with objects and places that nobody knows: where a fit of them starts (`start`), whether anything holds its scale
+//! (`scale`), what is doubtful of its rows (`rows`, `remark`), and what a set-up can see of the errors before anybody measures better
+//! than roughly (`identify`).
 //!
 //! What is unknown stands in [`crate::data::unknowns`]; how it is estimated and eliminated in [`crate::fit`].
 
 mod identify;
+mod remark;
+mod rows;
+mod scale;
 mod start;
 
 pub use identify::{Remedy, SetUp, Visible, identify};
+pub use remark::Remark;
+pub use scale::check_scale;
 pub use start::{StartError, check_named, place};

@@ -3,9 +3,11 @@
 //! Everything is in closed form from the readings and the declaration without errors. Where no station and no object is
 //! known, the station that sees most is the frame of all others.
 
-use model_core::{Chain, exact};
+use model_core::Chain;
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
 
+use super::remark::{Remark, remarks};
+use super::rows::{Row, rows, tells};
 use crate::data::unknowns::{Known, Object, Pose, Shape, Unknowns};
 use crate::data::{Measure, Measured, Observations};
 use crate::fit::align_robustly;
@@ -38,6 +40,18 @@ pub enum StartError {
         /// What to do about it.
         help: &'static str,
     },
+    /// Every length that is estimated can shrink to nothing, and all residuals with it.
+    #[error(
+        "nothing holds the scale: `{lengths}` could shrink the whole chain to a point, and every residual with it; leave one of \
+         them out ([fit] fix = {{ {first} = 0 }}), or add lengths that are known: rows of kind \"distance\", or [objects] with \
+         the places of two"
+    )]
+    NoScale {
+        /// The lengths that are estimated.
+        lengths: String,
+        /// The first of them.
+        first: String,
+    },
     /// Something is said of a station or an object that no row names.
     #[error(
         "no row has to do with `{label}`, of which the study says where it is; check its name against the data file"
@@ -46,15 +60,6 @@ pub enum StartError {
         /// The label.
         label: String,
     },
-}
-
-/// A row that observes an object: the point that the chain says, without errors.
-struct Row {
-    object: usize,
-    station: usize,
-    measure: Measure,
-    point: Vector3<f64>,
-    measured: Measured,
 }
 
 /// Checks that rows have to do with everything of which the study says where it is: these labels of stations and of objects.
@@ -74,38 +79,20 @@ pub fn check_named<'a>(
 
 /// Says where the numbers of all objects and stations count from.
 ///
-/// `values` are those of all symbols; joints and inputs come from the rows.
+/// `values` are those of all symbols; joints and inputs come from the rows. What is doubtful of the rows is returned.
 ///
 /// # Errors
 /// A station or an object that nothing places.
-pub fn place(chain: &Chain, observations: &mut Observations, values: &[f64]) -> Result<(), StartError> {
-    let Some(mut unknowns) = observations.unknowns.take() else { return Ok(()) };
+pub fn place(
+    chain: &Chain,
+    observations: &mut Observations,
+    values: &[f64],
+) -> Result<Vec<Remark>, StartError> {
+    let Some(mut unknowns) = observations.unknowns.take() else { return Ok(Vec::new()) };
     let rows = rows(chain, observations, &unknowns, values);
-    let placed = place_all(&mut unknowns, &rows);
+    let placed = place_all(&mut unknowns, &rows).map(|()| remarks(observations, &unknowns, &rows));
     observations.unknowns = Some(unknowns);
     placed
-}
-
-/// The rows that observe objects.
-fn rows(chain: &Chain, observations: &Observations, unknowns: &Unknowns, values: &[f64]) -> Vec<Row> {
-    let mut values = values.to_vec();
-    values.truncate(chain.symbols.len());
-    let mut rows = Vec::new();
-    for series in &observations.poses.series {
-        let path = exact::Path::new(chain, series.observable);
-        for row in series.rows.clone() {
-            let Some(object) = unknowns.object[row] else { continue };
-            for (id, readings) in &observations.poses.columns {
-                values[id.index()] = readings[row];
-            }
-            let point = path.value(&values);
-            if point.iter().all(|part| part.is_finite()) {
-                let (station, measured) = (unknowns.station[row] as usize, observations.measured[row]);
-                rows.push(Row { object: object as usize, station, measure: series.measure, point, measured });
-            }
-        }
-    }
-    rows
 }
 
 fn place_all(unknowns: &mut Unknowns, rows: &[Row]) -> Result<(), StartError> {
@@ -123,11 +110,6 @@ fn place_all(unknowns: &mut Unknowns, rows: &[Row]) -> Result<(), StartError> {
         place_object(&mut unknowns.objects[number], &own, &poses)?;
     }
     Ok(())
-}
-
-/// Whether a row tells the place of its object from that of its station, and the other way round.
-fn tells(row: &Row) -> bool {
-    matches!(row.measure, Measure::Target | Measure::Fixed)
 }
 
 /// The stations, one after the other: next that which shares most with what is placed.
@@ -241,10 +223,15 @@ fn place_object(object: &mut Object, rows: &[&Row], poses: &[Pose]) -> Result<()
             let count = telling.clone().count() as f64;
             object.place = telling.sum::<Vector3<f64>>() / count;
         }
+        Shape::Point if rows.iter().all(|row| row.measure == Measure::Distance) => {
+            object.place = Vector3::from(trilaterated::<3>(rows, poses).ok_or_else(|| {
+                not("observe its distance from four places at least that are not in a plane, or write where it is")
+            })?);
+        }
         Shape::Point => {
             // Where the beams come nearest to each other.
-            let beams =
-                rows.iter().zip(poses).map(|(row, pose)| (pose.turn * row.point.normalize(), pose.shift));
+            let sights = rows.iter().zip(poses).filter(|(row, _)| row.measure == Measure::Sight);
+            let beams = sights.map(|(row, pose)| (pose.turn * row.point.normalize(), pose.shift));
             let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
             for (beam, from) in beams {
                 let across = Matrix3::identity() - beam * beam.transpose();
@@ -259,27 +246,38 @@ fn place_object(object: &mut Object, rows: &[&Row], poses: &[Pose]) -> Result<()
             })?;
         }
         Shape::Wire => {
-            // |x|² − L² = 2 x·a + 2 L z − (|a|² − z²): linear in a, z and what is in the brackets.
-            let length_m = |i: usize| match rows[i].measured {
-                Measured::Length { length_m } => length_m,
-                _ => unreachable!("a wire's rows measure its length"),
-            };
-            let matrix = DMatrix::from_fn(rows.len(), 5, |i, j| match j {
-                0..3 => 2.0 * poses[i].apply(&rows[i].point)[j],
-                3 => 2.0 * length_m(i),
-                _ => -1.0,
-            });
-            let right = DVector::from_fn(rows.len(), |i, _| {
-                poses[i].apply(&rows[i].point).norm_squared() - length_m(i).powi(2)
-            });
-            let too_few = "a wire takes five rows at least, at points that are not in a plane";
-            if rows.len() < 5 {
-                return Err(not(too_few));
-            }
-            let solved = matrix.svd(true, true).solve(&right, FLAT).map_err(|_| not(too_few))?;
-            object.place = Vector3::new(solved[0], solved[1], solved[2]);
-            object.offset = solved[3];
+            let [x, y, z, offset] = trilaterated::<4>(rows, poses)
+                .ok_or_else(|| not("a wire takes five rows at least, at points that are not in a plane"))?;
+            object.place = Vector3::new(x, y, z);
+            object.offset = offset;
         }
     }
     Ok(())
+}
+
+/// The anchor of lengths to known points, and with a fourth number what each length lacks; `None` where these points do not
+/// say.
+fn trilaterated<const N: usize>(rows: &[&Row], poses: &[Pose]) -> Option<[f64; N]> {
+    let length_m = |i: usize| match rows[i].measured {
+        Measured::Length { length_m } => length_m,
+        _ => unreachable!("the rows measure lengths"),
+    };
+    // |x|² − L² = 2 x·a + 2 L z − (|a|² − z²): linear in a, z and what is in the brackets.
+    let points: Vec<Vector3<f64>> =
+        rows.iter().zip(poses).map(|(row, pose)| pose.apply(&row.point)).collect();
+    let matrix = DMatrix::from_fn(rows.len(), N + 1, |i, j| match j {
+        0..3 => 2.0 * points[i][j],
+        _ if j < N => 2.0 * length_m(i),
+        _ => -1.0,
+    });
+    let right = DVector::from_fn(rows.len(), |i, _| points[i].norm_squared() - length_m(i).powi(2));
+    if rows.len() <= N {
+        return None;
+    }
+    let svd = matrix.svd(true, true);
+    if svd.singular_values.min() <= FLAT * svd.singular_values.max() {
+        return None;
+    }
+    let solved = svd.solve(&right, 0.0).ok()?;
+    Some(std::array::from_fn(|at| solved[at]))
 }

@@ -1,6 +1,6 @@
 //! The five answers that stand first: what happened, what it is, where, how much better, what to do next.
 
-use super::causes::{cause, sentence_case};
+use super::causes::{cause, each_once, sentence_case};
 use super::effects::{chance_of, headline, place};
 use super::left::{function_form, remaining};
 use super::numbers::{short, times};
@@ -58,12 +58,7 @@ pub struct Step {
 pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>) -> Answers {
     let mut effects: Vec<_> = diagnosis.effects.iter().collect();
     effects.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
-    let mut causes: Vec<String> = Vec::new();
-    for named in effects.iter().flat_map(|effect| &effect.causes).map(cause) {
-        if !causes.contains(&named) {
-            causes.push(named);
-        }
-    }
+    let causes = each_once(effects.iter().flat_map(|effect| &effect.causes));
     let usable = diagnosis.verdict.is_usable();
     let what = match (usable, &diagnosis.remaining) {
         (false, _) => Vec::new(),
@@ -125,7 +120,8 @@ fn badge(diagnosis: &Diagnosis) -> String {
     let count = diagnosis.effects.len();
     match diagnosis.verdict {
         _ if is_worse(diagnosis) => "Worse on data that nobody fitted".to_owned(),
-        Verdict::Explained | Verdict::Confounded if count > 1 => format!("{count} causes found"),
+        Verdict::Explained if count > 1 => format!("{count} causes found"),
+        Verdict::Confounded if count > 1 => format!("{count} effects found"),
         Verdict::Explained | Verdict::Confounded => "Cause found".to_owned(),
         Verdict::UnnamedFunction => "Place found, cause unknown".to_owned(),
         Verdict::StructureRemains => "Something is left".to_owned(),
@@ -287,6 +283,7 @@ fn next(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
     if let Some(effect) = diagnosis.effects.iter().max_by(|a, b| a.amplitude.total_cmp(&b.amplitude)) {
         let more = match effect.causes.len() {
             0 | 1 => String::new(),
+            2 => " The other cause that fits has a check of its own.".to_owned(),
             count => format!(" The other {} causes that fit have checks of their own.", count - 1),
         };
         steps.push(step(

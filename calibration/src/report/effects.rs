@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::causes::{form, sentence_case};
 use super::numbers;
+use crate::data::SiUnit;
 use crate::diagnose::{Diagnosis, EffectFound, Side};
 
 /// Errors that are named for one effect.
@@ -14,7 +15,14 @@ const NAMED: usize = 3;
 pub fn headline(effect: &EffectFound, diagnosis: &Diagnosis) -> String {
     let amplitude = numbers::short(effect.amplitude, diagnosis.unit);
     let what = sentence_case(&body_in_words(&effect.body));
-    format!("{what} is up to {amplitude} off {}, {}.", axis(&effect.dof), form(&effect.form, &effect.driver))
+    let form = form(&effect.form, &effect.driver);
+    let turns = effect.dof.starts_with('R');
+    if turns == (diagnosis.unit == SiUnit::RAD) {
+        return format!("{what} is up to {amplitude} off {}, {form}.", axis(&effect.dof));
+    }
+    // A turn that is told by what it moves, or a shift by what it turns.
+    let observed = diagnosis.instrument.observed.first().map_or("the observation", |seen| &seen.name);
+    format!("{what} is off {}, {form}: up to {amplitude} of {observed}.", axis(&effect.dof))
 }
 
 /// `the body middle`; a name of the instrument's own stands as it is.
@@ -65,7 +73,8 @@ pub fn chance_of(effect: &EffectFound, diagnosis: &Diagnosis) -> String {
         Some(folds) if folds > 1 => {
             // A share of a few folds, rounded to the number it came from.
             let times = (effect.selected_in_folds * folds as f64).round();
-            format!("{sure}; found again in {times} of {folds} repeats")
+            let only = if 2.0 * times < folds as f64 { "only " } else { "" };
+            format!("{sure}; found again in {only}{times} of {folds} repeats")
         }
         _ => sure,
     }

@@ -35,8 +35,9 @@ pub fn noise(diagnosis: &Diagnosis) -> Vec<String> {
     match noise.serial {
         Some(serial) => {
             let order = if noise.undeclared_order { ", in the order of the file, which nobody declared" } else { "" };
+            let axes = if serial.in_space { ", along axes that stand still in space" } else { "" };
             said.push(format!(
-                "rows remember the row before{order}: ARMA(1,1) with {:.3} and {:.3}",
+                "rows remember the row before{order}{axes}: ARMA(1,1) with {:.3} and {:.3}",
                 serial.autoregressive, serial.moving_average
             ));
         }

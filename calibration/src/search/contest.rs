@@ -9,8 +9,9 @@
 use faer::{Mat, MatRef};
 use statrs::function::factorial::ln_binomial;
 
-use super::problem::VISIBLE;
+use super::problem::{Problem, VISIBLE};
 use super::scan::Left;
+use super::select::held_out_rss;
 use super::sweep::Sweep;
 
 /// What a model pays, beside its columns.
@@ -94,6 +95,41 @@ pub fn contender(left: &Left<'_>, columns: MatRef<'_, f64>, price: Price) -> Con
     let covariance = pairs.map(|(i, j)| if seen(i) && seen(j) { -variance * sweep.entry(i, j) } else { 0.0 });
     let kept = kept.into_iter().map(|(number, _)| number).collect();
     Contender { criterion, kept, coefficients, covariance: covariance.collect() }
+}
+
+/// Whether a model with a function's columns, beside the accepted effects that it keeps, predicts held-out folds better than
+/// the accepted model does. A likelihood takes every row for one of its own; where rows come in groups, only folds of whole groups
+/// tell a function from what the groups happen to share.
+#[must_use]
+pub fn predicts(left: &Left<'_>, columns: MatRef<'_, f64>, kept: &[usize], problem: &Problem) -> bool {
+    if problem.folds() < 2 {
+        return true;
+    }
+    let (known, own) = (left.known.ncols() - 1, columns.ncols());
+    let grams: Vec<Mat<f64>> = (0..problem.folds())
+        .map(|fold| {
+            let rows = problem.rows_of_folds(|other| other == fold);
+            let all = Mat::from_fn(rows.len(), known + own + 1, |i, j| match j.checked_sub(known) {
+                None => left.known[(rows[i], j)],
+                Some(at) if at < own => columns[(rows[i], at)],
+                Some(_) => left.known[(rows[i], known)],
+            });
+            all.transpose() * &all
+        })
+        .collect();
+    let held_out = |picked: &[usize]| -> f64 {
+        let of =
+            |gram: &Mat<f64>| Mat::from_fn(picked.len(), picked.len(), |i, j| gram[(picked[i], picked[j])]);
+        let parts: Vec<Mat<f64>> = grams.iter().map(of).collect();
+        let mut total = Mat::<f64>::zeros(picked.len(), picked.len());
+        parts.iter().for_each(|part| total += part);
+        parts.iter().map(|part| held_out_rss(&total, part)).sum()
+    };
+    let residual = known + own;
+    let before: Vec<usize> = (0..known).chain([residual]).collect();
+    let effects = kept.iter().flat_map(|&at| left.accepted[at].iter().copied());
+    let after: Vec<usize> = (0..left.declared).chain(effects).chain(known..=residual).collect();
+    held_out(&after) < held_out(&before)
 }
 
 /// Of many single columns those that explain most: of what the declared columns leave, and of what the accepted

@@ -11,8 +11,9 @@ use rayon::prelude::*;
 use super::contest::ln_choices;
 use super::round::Round;
 use super::sweep::Sweep;
-use crate::fit::noise::serial::{EARNS, FEWEST, longest, models};
-use crate::fit::noise::{Run, Serial};
+use crate::fit::noise::Run;
+use crate::fit::noise::serial::{EARNS, FEWEST, Model, longest, models};
+use crate::fit::noise::space;
 
 /// Whether a memory of the row before, beside the declared errors alone, explains the data of a round as well as the effects
 /// that it accepted, whatever memory there is beside them.
@@ -43,13 +44,12 @@ pub(crate) fn explains(last: &Round<'_>) -> bool {
     let each = (values.len() as f64).ln();
     let effects = (with_effects.len() - declared.len()) as f64 * each
         + 2.0 * ln_choices(last.classes.len(), last.fitted.found.len());
-    let deviance = |columns: &[Vec<f64>], serial| deviance(rows.runs(), columns, &values, serial);
+    let deviance =
+        |columns: &[Vec<f64>], model: Option<&Model>| deviance(rows.runs(), columns, &values, model);
+    let axes = space::axes(&rows.observations);
+    let models: Vec<_> = models(length, rows.runs(), axes.as_deref()).collect();
     let remembering = |columns: &[Vec<f64>]| {
-        let tried: Vec<f64> = models(length)
-            .collect::<Vec<_>>()
-            .into_par_iter()
-            .map(|(serial, _)| deviance(columns, Some(serial)))
-            .collect();
+        let tried: Vec<f64> = models.par_iter().map(|(model, _)| deviance(columns, Some(model))).collect();
         tried.into_iter().fold(f64::INFINITY, f64::min) + 2.0 * each
     };
     let (white, memory) = (deviance(&declared, None), remembering(&declared));
@@ -58,23 +58,20 @@ pub(crate) fn explains(last: &Round<'_>) -> bool {
 }
 
 /// −2 ln of the likelihood of values that some columns were fitted to.
-fn deviance(runs: &[Run], columns: &[Vec<f64>], values: &[f64], serial: Option<Serial>) -> f64 {
+fn deviance(runs: &[Run], columns: &[Vec<f64>], values: &[f64], model: Option<&Model>) -> f64 {
     let count = columns.len();
     let mut white = Mat::from_fn(values.len(), count + 1, |row, column| {
         if column == count { values[row] } else { columns[column][row] }
     });
-    let mut ln_first = 0.0;
-    if let Some(serial) = serial {
-        (0..=count).for_each(|column| {
-            runs.iter().for_each(|&run| serial.whiten(white.col_as_slice_mut(column), run))
-        });
-        ln_first = runs.iter().map(|run| 2.0 * run.stride as f64 * serial.gain().ln()).sum();
-    }
+    let ln_determinant = model.map_or(0.0, |model| {
+        (0..=count).for_each(|column| model.whiten(white.col_as_slice_mut(column), runs));
+        model.ln_determinant(runs)
+    });
     let mut sweep = Sweep::new(white.transpose() * &white);
     (0..count).for_each(|column| {
         sweep.add(column);
     });
-    values.len() as f64 * sweep.entry(count, count).max(f64::MIN_POSITIVE).ln() + ln_first
+    values.len() as f64 * sweep.entry(count, count).max(f64::MIN_POSITIVE).ln() + ln_determinant
 }
 
 #[cfg(test)]
@@ -96,8 +93,8 @@ mod tests {
             walk.push(noise(row) + at);
         }
         let best = |values: &[f64]| {
-            let of = |(serial, _)| deviance(&runs, std::slice::from_ref(&mean), values, Some(serial));
-            models(400).map(of).fold(f64::INFINITY, f64::min)
+            let of = |(model, _)| deviance(&runs, std::slice::from_ref(&mean), values, Some(&model));
+            models(400, &runs, None).map(of).fold(f64::INFINITY, f64::min)
         };
         let explained = |values: &[f64]| deviance(&runs, &[mean.clone(), wave.clone()], values, None);
         assert!(explained(&waving) < best(&waving) - 20.0);

@@ -18,6 +18,9 @@ use crate::search::{SearchError, Stage};
 /// Cells of merged rows at most: as many as sign flips tell apart.
 const CELLS: usize = 400;
 
+/// Chunks of rows that are made at once.
+const AT_ONCE: usize = 4;
+
 /// Poses further out at which effects are judged.
 const FURTHER_OUT: usize = 1200;
 
@@ -67,13 +70,14 @@ impl<'a> Posed<'a> {
         let observations = whole.request.observations;
         let mut cells = Cells::new(&folds, CELLS.min(whole.held / (2 * width * width)), width);
         let mut seen: Option<Seen> = None;
-        each_chunk(whole, fitted, |components, portion| {
+        let columns = |_: &Range<usize>, portion: Portion<'a>| (portion.whitened(), portion.seen);
+        each_chunk(whole, fitted, columns, |components, (whitened, of_chunk)| {
             let rows = fitted.layout.row[components.start] as usize;
             (whole.tell)(Stage::Columns { rows, of: observations.rows() });
-            cells.add(portion.whitened().as_ref(), folds.groups_of(components));
+            cells.add(whitened.as_ref(), folds.groups_of(components));
             match &mut seen {
-                None => seen = Some(portion.seen),
-                Some(seen) => seen.merge(&portion.seen),
+                None => seen = Some(of_chunk),
+                Some(seen) => seen.merge(&of_chunk),
             }
         })?;
         let usable = seen.map_or_else(Vec::new, |seen| seen.usable(&whole.catalogue));
@@ -95,7 +99,8 @@ impl<'a> Posed<'a> {
         let mut rows =
             Portion::of(whole, fitted, &sample(observations, few, whole.request.plan.hold_out.seed))?;
         rows.keep(&usable);
-        let of_rows = dealt(&rows.observations, &rows.columns.row, 1, 0);
+        let hold_out = &whole.request.plan.hold_out;
+        let of_rows = dealt(&rows.observations, &rows.columns.row, hold_out.folds, hold_out.seed);
         let sampled = problem(whole, fitted, &usable, &rows.whitened(), of_rows)?;
         let of_sample = reach(whole, fitted, &sampled, &rows, &usable)?;
         let sampled = sampled.with_reach(of_sample);
@@ -118,36 +123,49 @@ impl<'a> Posed<'a> {
         self.folds.of_row(component)
     }
 
-    /// Lets `f` see all rows, one portion after another, each with its components.
-    pub fn each_portion(
+    /// What `f` makes of all rows, one portion after another, each with its components.
+    pub fn each_portion<T: Send>(
         &self,
         whole: &Context<'a>,
         fitted: &Fitted,
-        mut f: impl FnMut(Range<usize>, &Portion<'_>),
-    ) -> Result<(), SearchError> {
+        f: impl Fn(&Range<usize>, &Portion<'_>) -> T + Sync,
+    ) -> Result<Vec<T>, SearchError> {
         if self.sampled.is_none() {
-            f(0..self.folds.rows(), &self.rows);
-            return Ok(());
+            return Ok(vec![f(&(0..self.folds.rows()), &self.rows)]);
         }
-        each_chunk(whole, fitted, |components, mut portion| {
+        let mut all = Vec::new();
+        let made = |components: &Range<usize>, mut portion: Portion<'a>| {
             portion.keep(&self.usable);
-            f(components, &portion);
-        })
+            f(components, &portion)
+        };
+        each_chunk(whole, fitted, made, |_, made| all.push(made))?;
+        Ok(all)
     }
 }
 
-/// Lets `f` have all rows, one chunk after another, each with its components.
-fn each_chunk<'a>(
+/// Lets `take` have what `make` makes of all rows, one chunk after another, each with its components. Some chunks are made at
+/// once, and taken in their order: the number of processors changes no bit.
+fn each_chunk<'a, T: Send>(
     whole: &Context<'a>,
     fitted: &Fitted,
-    mut f: impl FnMut(Range<usize>, Portion<'a>),
+    make: impl Fn(&Range<usize>, Portion<'a>) -> T + Sync,
+    mut take: impl FnMut(Range<usize>, T),
 ) -> Result<(), SearchError> {
-    let mut start = 0;
-    for chunk in chunks(whole.request.observations) {
-        let portion = Portion::of(whole, fitted, &[chunk])?;
-        let end = start + portion.without.len();
-        f(start..end, portion);
-        start = end;
+    let first = &fitted.layout.first;
+    for some in chunks(whole.request.observations).chunks(AT_ONCE) {
+        let made: Vec<Result<(Range<usize>, T), SearchError>> = some
+            .par_iter()
+            .map(|chunk| {
+                let components = first[chunk.start]..first[chunk.end];
+                let portion = Portion::of(whole, fitted, std::slice::from_ref(chunk))?;
+                let made = make(&components, portion);
+                Ok((components, made))
+            })
+            .collect();
+        for made in made {
+            let (components, made) = made?;
+            take(components, made);
+        }
     }
     Ok(())
 }

@@ -18,7 +18,7 @@ use crate::search::fitted::Fitted;
 use crate::search::{Folds, SearchError};
 
 /// Rows of a chunk.
-const CHUNK: usize = 8192;
+const CHUNK: usize = 4096;
 
 /// Consecutive rows of a sample that stay together, so that what follows each other can still be compared.
 const STRETCH: usize = 64;

@@ -414,7 +414,7 @@ impl Search<'_> {
 }
 
 /// Sum of squares that a regression fitted to `total − part` leaves in `part`; the last column is the residual.
-fn held_out_rss(total: &Mat<f64>, part: &Mat<f64>) -> f64 {
+pub(super) fn held_out_rss(total: &Mat<f64>, part: &Mat<f64>) -> f64 {
     let last = total.ncols() - 1;
     let mut sweep = Sweep::new(total - part);
     let used: Vec<usize> = (0..last).filter(|&j| sweep.add(j)).collect();

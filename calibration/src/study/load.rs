@@ -13,7 +13,7 @@ use crate::data::units::BareColumn;
 use crate::data::unknowns::{Shape, Station, Unknowns};
 use crate::data::{Measured, Observations, Series, direction_from_offset, direction_from_spherical};
 use crate::formats::{self, Cells, DataError, TableReader};
-use crate::objects::{StartError, check_named, place};
+use crate::objects::{Remark, StartError, check_named, check_scale, place};
 
 /// Opens a data file of a study by its path as the study writes it.
 pub type Open<'a> = dyn FnMut(&str) -> Result<Box<dyn Read>, DataError> + 'a;
@@ -40,6 +40,8 @@ pub struct Loaded {
     pub held_out: Option<Observations>,
     /// Columns that were taken as SI, since nothing says their unit, and whose numbers are hardly in SI.
     pub doubtful: Vec<BareColumn>,
+    /// What is doubtful of rows that observe objects.
+    pub remarks: Vec<Remark>,
 }
 
 /// The columns of one source as numbers and labels, in the order of [`Columns`].
@@ -86,9 +88,10 @@ impl Plan {
             }
             _ => None,
         };
-        self.place_objects(&mut observations)
+        let remarks = self
+            .place_objects(&mut observations)
             .map_err(|error| DataError::NotPlaced { why: error.to_string() })?;
-        Ok(Loaded { observations, held_out, doubtful })
+        Ok(Loaded { observations, held_out, doubtful, remarks })
     }
 
     fn no_observations(&self) -> Observations {
@@ -177,11 +180,12 @@ impl Plan {
     }
 
     /// Says where objects and stations are to start.
-    fn place_objects(&self, observations: &mut Observations) -> Result<(), StartError> {
-        let Some(unknowns) = &observations.unknowns else { return Ok(()) };
+    fn place_objects(&self, observations: &mut Observations) -> Result<Vec<Remark>, StartError> {
+        let Some(unknowns) = &observations.unknowns else { return Ok(Vec::new()) };
         let stations = self.places.stations.iter().map(|station| station.label.as_str());
         let objects = self.places.objects.iter().map(|object| object.label.as_str());
         check_named(unknowns, stations, objects)?;
+        check_scale(&self.chain, observations, &self.fit)?;
         place(&self.chain, observations, &self.fit.start)
     }
 
@@ -305,11 +309,11 @@ impl Plan {
                 Kind::Range if at(0, row) < 0.0 => {
                     Err(impossible(row, format!("a range of {} m is negative", at(0, row))))
                 }
-                Kind::Wire if at(0, row) < 0.0 => {
+                Kind::Wire | Kind::Distance if at(0, row) < 0.0 => {
                     Err(impossible(row, format!("a length of {} m is negative", at(0, row))))
                 }
                 Kind::Range => Ok(Measured::Range { range_m: at(0, row) }),
-                Kind::Wire => Ok(Measured::Length { length_m: at(0, row) }),
+                Kind::Wire | Kind::Distance => Ok(Measured::Length { length_m: at(0, row) }),
                 Kind::Plane | Kind::Target | Kind::Fixed | Kind::Sight => Ok(Measured::Readings),
             })
             .collect()

@@ -29,13 +29,14 @@ impl Study {
         let (observed, place) = (written.get_ref(), written.span());
         let observable = chain.observable(id);
         let is_point = observable.kind == model_core::ObservableKind::Point;
-        let of_points = [Kind::Point, Kind::Range, Kind::Plane, Kind::Target, Kind::Fixed, Kind::Wire];
+        let of_points =
+            [Kind::Point, Kind::Range, Kind::Plane, Kind::Target, Kind::Fixed, Kind::Wire, Kind::Distance];
         let wants_point = of_points.contains(&observed.kind);
         if is_point != wants_point {
             let (what, help) = if is_point {
                 (
                     "a point",
-                    "write kind = \"point\", \"range\", \"plane\", \"target\", \"fixed\" or \"wire\", or name another observable",
+                    "write kind = \"point\", \"range\", \"plane\", \"target\", \"fixed\", \"wire\" or \"distance\", or name another observable",
                 )
             } else {
                 (
@@ -46,7 +47,7 @@ impl Study {
             let message = format!("`{}` is {what}, which this kind does not measure", observable.name);
             return Err(mistake(place, message, help));
         }
-        let kinds = [Kind::Plane, Kind::Target, Kind::Fixed, Kind::Wire, Kind::Sight];
+        let kinds = [Kind::Plane, Kind::Target, Kind::Fixed, Kind::Wire, Kind::Distance, Kind::Sight];
         let of_objects = kinds.contains(&observed.kind);
         if of_objects && observed.object.0.is_empty() {
             let help = "write `object = \"…\"`: the column that names the wall, the target or the socket of each row";
@@ -54,7 +55,7 @@ impl Study {
         }
         let names_places = !observed.object.0.is_empty() || !observed.station.0.is_empty();
         if names_places && !of_objects {
-            let help = "leave `object` and `station` out, or write kind = \"plane\", \"target\", \"fixed\", \"wire\" or \"sight\"";
+            let help = "leave `object` and `station` out, or write kind = \"plane\", \"target\", \"fixed\", \"wire\", \"distance\" or \"sight\"";
             return Err(mistake(place, "what this kind observes is known row by row", help));
         }
         Ok(())
@@ -78,7 +79,7 @@ impl Study {
     pub(super) fn places(&self, sources: &[SourcePlan]) -> Outcome<Places> {
         let said = self.stations.keys().chain(self.objects.keys()).next();
         if let (Some(name), true) = (said, sources.iter().all(|source| Shape::of(source.measure).is_none())) {
-            let help = "write `[observed] kind = \"target\"`, \"plane\", \"fixed\", \"wire\" or \"sight\", or leave it out";
+            let help = "write `[observed] kind = \"target\"`, \"plane\", \"fixed\", \"wire\", \"distance\" or \"sight\", or leave it out";
             return Err(mistake(name.span(), "no data of this study observe objects from stations", help));
         }
         let stations = every(self.stations.iter().map(|(name, table)| station(name.get_ref(), table)));

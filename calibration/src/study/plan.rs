@@ -423,6 +423,7 @@ fn observed_columns(
         Kind::Target => (Measure::Target, Quantity::Length, Vec::new()),
         Kind::Fixed => (Measure::Fixed, Quantity::Length, Vec::new()),
         Kind::Wire => (Measure::Wire, Quantity::Length, vec![("length", &observed.length)]),
+        Kind::Distance => (Measure::Distance, Quantity::Length, vec![("length", &observed.length)]),
         Kind::Sight => (Measure::Sight, Quantity::Angle, Vec::new()),
     };
     let plan = |(key, column): (&str, &Option<Column>)| match column {

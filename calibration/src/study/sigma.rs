@@ -74,7 +74,8 @@ pub(super) fn quantity(measure: Measure) -> Quantity {
         | Measure::Plane
         | Measure::Target
         | Measure::Fixed
-        | Measure::Wire => Quantity::Length,
+        | Measure::Wire
+        | Measure::Distance => Quantity::Length,
     }
 }
 

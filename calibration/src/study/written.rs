@@ -174,6 +174,7 @@ pub(super) enum Kind {
     Target,
     Fixed,
     Wire,
+    Distance,
     Sight,
 }
 

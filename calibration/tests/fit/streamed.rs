@@ -2,7 +2,7 @@
 
 use calibration::data::{Observations, Series};
 use calibration::fit::{
-    FitError, FitOptions, FitResult, Next, PartialError, Streamed, StreamedResult, Tally, fit,
+    FitError, FitOptions, FitResult, Next, PartialError, Pass, Streamed, StreamedResult, Tally, fit,
 };
 
 use crate::simulated::{Simulation, swapped};
@@ -134,6 +134,37 @@ fn tallies_of_different_passes_do_not_belong_together() {
     let Next::Pass(next) = state.next(&first) else { panic!("one pass never is enough") };
     let second = next.pass.accumulate(&observations).unwrap();
     assert_eq!(first.merge(&second), Err(PartialError::Passes));
+}
+
+/// A process that has the declaration alone makes the same tally of the bytes of a pass; other bytes are refused.
+#[test]
+fn a_pass_goes_through_bytes() {
+    let mut simulation = Simulation::lidar(500, 3);
+    let observations = simulation.directions("pointing", 2.0 * ARCSEC);
+    let options = FitOptions::for_chain(&simulation.chain);
+    let state = Streamed::from_sample(&simulation.chain, &observations, &options).unwrap();
+    let first = state.pass.accumulate(&observations).unwrap();
+    let Next::Pass(state) = state.next(&first) else { panic!("one pass never is enough") };
+    let bytes = state.pass.to_bytes();
+    let read = |bytes: &[u8]| Pass::from_bytes(bytes, &simulation.chain, &observations, &options);
+    let there = read(&bytes).unwrap();
+    assert_eq!(there.accumulate(&observations), state.pass.accumulate(&observations));
+    let mut other = bytes.clone();
+    other[7] += 1;
+    let mut unknown = bytes.clone();
+    unknown[8] = 9;
+    let mut fewer = bytes.clone();
+    fewer[16] -= 1;
+    for (bytes, words) in [
+        (&other[..], "run the same version everywhere"),
+        (&unknown, "run the same version everywhere"),
+        (&bytes[..bytes.len() - 1], "run the same version everywhere"),
+        (&[], "run the same version everywhere"),
+        (&fewer, "give every process the same declaration"),
+    ] {
+        let error = read(bytes).map(|_| ()).unwrap_err();
+        assert!(error.to_string().contains(words), "{error}");
+    }
 }
 
 /// Directions in the first 2,000 rows, positions in the next: most chunks hold one of the two alone.

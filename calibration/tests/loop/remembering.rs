@@ -15,9 +15,16 @@ use crate::simulated::{lidar, pointing, search};
 const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;
 const ROWS: usize = 300;
 
+/// Where noise stands still: across and along the beam, or in space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Axes {
+    OfTheBeam,
+    OfSpace,
+}
+
 /// What the search makes of the scanner along a path, `eccentric` off centre in beta, with noise of 2
 /// arcsec: each value keeps `kept` of the one before, and a walk steps by `step`.
-fn report(seed: u64, kept: f64, step: f64, eccentric: f64) -> Diagnosis {
+fn report(seed: u64, kept: f64, step: f64, eccentric: f64, axes: Axes) -> Diagnosis {
     let text = lidar();
     let chain = Chain::from_text(&text).unwrap();
     let study = "chain = \"c\"\nobservable = \"pointing\"\ndata = \"d\"\n[observed]\nkind = \"direction\"\n";
@@ -27,7 +34,7 @@ fn report(seed: u64, kept: f64, step: f64, eccentric: f64) -> Diagnosis {
     let names = ["alpha", "beta", "gamma"];
     let mut columns: Vec<_> =
         names.iter().map(|name| (chain.find_symbol(name).unwrap(), Vec::new())).collect();
-    let (mut state, mut walk) = ([normal(), normal()], [0.0; 2]);
+    let (mut state, mut walk) = ([normal(), normal(), normal()], [0.0; 3]);
     let mut observed = Vec::new();
     for row in 0..ROWS {
         let turned =
@@ -39,8 +46,12 @@ fn report(seed: u64, kept: f64, step: f64, eccentric: f64) -> Diagnosis {
         state = state.map(|value| kept * value + (1.0 - kept * kept).sqrt() * normal());
         walk = walk.map(|value| value + step * normal());
         let [across, along] = tangent_frame(&aim);
-        let moved = [0, 1].map(|at| 2.0 * ARCSEC * (state[at] + walk[at]));
-        observed.push(Measured::Direction((aim + across * moved[0] + along * moved[1]).normalize()));
+        let moved = [0, 1, 2].map(|at| 2.0 * ARCSEC * (state[at] + walk[at]));
+        let moved = match axes {
+            Axes::OfTheBeam => across * moved[0] + along * moved[1],
+            Axes::OfSpace => moved.into(),
+        };
+        observed.push(Measured::Direction((aim + moved).normalize()));
     }
     columns.sort_by_key(|(id, _)| *id);
     let observations = Observations {
@@ -62,12 +73,12 @@ fn report(seed: u64, kept: f64, step: f64, eccentric: f64) -> Diagnosis {
 }
 
 /// One of eight at most; without regard to memory it was every one.
-#[test]
-fn memory_is_no_effect() {
+#[track_caller]
+fn is_no_effect(axes: Axes) {
     let mut accepted = Vec::new();
     for (kept, step) in [(0.5, 0.0), (0.9, 0.0), (0.0, 0.2), (0.0, 0.4)] {
         for seed in [1, 2] {
-            let report = report(seed, kept, step, 0.0);
+            let report = report(seed, kept, step, 0.0, axes);
             if report.effects.is_empty() {
                 continue;
             }
@@ -77,10 +88,33 @@ fn memory_is_no_effect() {
     assert!(accepted.len() <= 1, "{accepted:?}");
 }
 
+#[test]
+fn memory_is_no_effect() {
+    is_no_effect(Axes::OfTheBeam);
+}
+
+/// A drift of the ground turns across and along the beam as the beam turns.
+#[test]
+fn memory_of_the_ground_is_no_effect() {
+    is_no_effect(Axes::OfSpace);
+}
+
+/// A beam that looks everywhere tells in whose axes rows remember.
+#[test]
+fn memory_is_told_in_its_own_axes() {
+    for (axes, in_space) in [(Axes::OfTheBeam, false), (Axes::OfSpace, true)] {
+        let report = report(5, 0.9, 0.0, 0.0, axes);
+        let serial = report.noise.serial.unwrap_or_else(|| panic!("{axes:?}: {:?}", report.noise));
+        assert_eq!(serial.in_space, in_space, "{axes:?}: {serial:?}");
+        let told = noise(&report).iter().any(|said| said.contains("stand still in space"));
+        assert_eq!(told, in_space, "{axes:?}");
+    }
+}
+
 /// It is said, with the order.
 #[test]
 fn memory_is_told() {
-    let report = report(3, 0.9, 0.0, 0.0);
+    let report = report(3, 0.9, 0.0, 0.0, Axes::OfTheBeam);
     assert!(report.noise.undeclared_order && report.noise.serial.is_some(), "{:?}", report.noise);
     assert!(
         noise(&report).iter().any(|said| said.contains("in the order of the file")),
@@ -92,7 +126,7 @@ fn memory_is_told() {
 /// An effect well above the noise is no memory, though rows follow each other along a path.
 #[test]
 fn an_effect_is_no_memory() {
-    let report = report(4, 0.0, 0.0, 8.0 * ARCSEC);
+    let report = report(4, 0.0, 0.0, 8.0 * ARCSEC, Axes::OfTheBeam);
     // The cosine of beta alone is what gravity does too.
     let here = |effect: &EffectFound| effect.body == "middle" && effect.dof == "Rx";
     assert!(report.effects.iter().any(here), "{:?}", report.effects);

@@ -46,7 +46,7 @@ impl Outside {
         &mut self,
         chain: &Chain,
         readings: &[(SymbolId, &[f64])],
-        evaluator: &mut Evaluator,
+        evaluator: &Evaluator,
     ) -> Result<(), Failure> {
         let rows = readings.first().map_or(0, |(_, column)| column.len());
         self.rows += rows;
@@ -121,7 +121,7 @@ fn turns(
     chain: &Chain,
     symbol: SymbolId,
     readings: &[(SymbolId, &[f64])],
-    evaluator: &mut Evaluator,
+    evaluator: &Evaluator,
 ) -> Result<bool, Failure> {
     let declared = chain.symbol(symbol);
     if declared.kind != SymbolKind::Joint
@@ -131,7 +131,7 @@ fn turns(
         return Ok(false);
     }
     let rows = readings.first().map_or(0, |(_, column)| column.len()).min(TRIED);
-    let mut at = |turn: f64| {
+    let at = |turn: f64| {
         let moved: Vec<(SymbolId, Vec<f64>)> = readings
             .iter()
             .map(|&(id, column)| {

@@ -72,6 +72,7 @@ fn observable(chain: &Chain, one: &Measured) -> Markup {
             h2 { (name(chain, one)) }
             @if let Some(designed) = &one.designed {
                 p.lead { (sentence(chain, one, designed)) }
+                p.quiet { (assumed(designed)) }
                 div.grid {
                     (first(chain, designed))
                     (over_poses(chain, one, designed))
@@ -102,6 +103,21 @@ fn sentence(chain: &Chain, one: &Measured, designed: &Designed) -> Markup {
         }
         @if designed.registered { " Common turns and shifts are taken out by registration." }
     }
+}
+
+/// What the figures assume: others would give others.
+fn assumed(designed: &Designed) -> String {
+    let campaign = if designed.remaining.is_some() {
+        "; after a calibration: the tolerances as what is known before, and each pose measured once in each component with \
+         independent noise"
+    } else {
+        ""
+    };
+    format!(
+        "Assumed: independent errors, each spread evenly over its size (standard deviation size/√3) unless the command below says \
+         otherwise; first order; {} poses, counted alike{campaign}.",
+        designed.worst.len()
+    )
 }
 
 /// What to tighten first.

@@ -59,8 +59,8 @@ fn correct(arguments: &Arguments) -> Result<(), Failure> {
         .map(|&observable| Seen::new(&chain, observable, arguments.form, is_named))
         .collect::<Result<_, _>>()?;
     let evaluator = |quantity| Evaluator::new(&chain, chosen.clone(), Exactness::Exact, quantity, &values);
-    let mut value = evaluator(Quantity::Value);
-    let mut error = arguments.correction.then(|| evaluator(Quantity::Error));
+    let value = evaluator(Quantity::Value);
+    let error = arguments.correction.then(|| evaluator(Quantity::Error));
     table.want(&chain, &value.readings)?;
     // Says if a joint has the name of a column.
     column_names(&chain, &chosen)?;
@@ -70,9 +70,9 @@ fn correct(arguments: &Arguments) -> Result<(), Failure> {
     arguments.table.write(table, &added, |rows| {
         let readings: Vec<(SymbolId, &[f64])> =
             rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
-        outside.see(&chain, &readings, &mut value)?;
+        outside.see(&chain, &readings, &value)?;
         let values = value.columns(&readings, rows.count)?;
-        let errors = error.as_mut().map(|error| error.columns(&readings, rows.count)).transpose()?;
+        let errors = error.as_ref().map(|error| error.columns(&readings, rows.count)).transpose()?;
         let (mut columns, mut at) = (Vec::new(), 0);
         for seen in &seen {
             let own = at..at + seen.shown(&chain);
@@ -133,7 +133,7 @@ fn solve(arguments: &Arguments) -> Result<(), Failure> {
     let quantity = model_core::budget::unit(&chain, observable);
     added.push(format!("{}_remaining [{quantity}]", chain.observable(observable).name));
     let mut outside = Outside::new(found.clone());
-    let mut checked = Evaluator::new(&chain, vec![observable], Exactness::Exact, Quantity::Value, &values);
+    let checked = Evaluator::new(&chain, vec![observable], Exactness::Exact, Quantity::Value, &values);
     let (mut missed, mut farthest, mut count) = (0, 0.0_f64, 0);
     arguments.table.write(table, &added, |rows| {
         let columns: Vec<&[f64]> = rows.others.iter().map(Vec::as_slice).collect();
@@ -144,7 +144,7 @@ fn solve(arguments: &Arguments) -> Result<(), Failure> {
             inputs.cloned().chain(solver.joints.iter().copied().zip(solved.joints.clone())).collect();
         let set_columns: Vec<(SymbolId, &[f64])> =
             set.iter().map(|(id, column)| (*id, column.as_slice())).collect();
-        outside.see(&chain, &set_columns, &mut checked)?;
+        outside.see(&chain, &set_columns, &checked)?;
         for remaining in &solved.remaining {
             count += 1;
             if *remaining > REACHED {

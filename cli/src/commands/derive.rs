@@ -19,6 +19,9 @@ use crate::terminal::{self, HEADING};
 /// The error is the transform with errors minus the one without, times the observable, kept up to the given
 /// order in the errors. Nothing is typed in: every coefficient follows from the declaration.
 ///
+/// Angles are in radians. Unless the declaration names other axes, an azimuth is 0 along x and a quarter turn along y, an
+/// hour angle or a horizontal circle turns the other way, an elevation is above the plane across z, a zenith distance from z.
+///
 /// Example: trueaxis derive examples/mobile-lidar/mobile-lidar.chain --observable pointing --format latex
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
@@ -54,7 +57,7 @@ enum Format {
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let is_certified = arguments.certificate.is_wanted()?;
     let source = Source::read(&arguments.chain)?;
-    let chain = source.chain()?;
+    let chain = source.symbolic_chain()?;
     let chosen = observables(&chain, &arguments.observable)?;
     let forms: Vec<Form> = chosen
         .iter()
@@ -112,6 +115,7 @@ fn sections(chain: &Chain, forms: &[Form], style: print::Style, title: impl Fn(&
 pub fn title_of(chain: &Chain, form: &Form) -> String {
     let observable = chain.observable(form.observable);
     let kind = match observable.kind {
+        ObservableKind::Direction if observable.is_orientation() => "orientation",
         ObservableKind::Direction => "direction",
         ObservableKind::Point => "point",
     };

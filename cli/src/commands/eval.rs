@@ -9,6 +9,10 @@ use crate::terminal;
 
 /// Evaluate the error of each observable over a table of readings.
 ///
+/// Angles that are shown are in radians. Unless the declaration names other axes, an azimuth is 0 along x and a quarter turn
+/// along y, an hour angle or a horizontal circle turns the other way, an elevation is above the plane across z, a zenith
+/// distance from z.
+///
 /// Reads columns named like the chain's joints and inputs (`alpha [deg]`, `range [mm]`; without a unit: SI) and
 /// writes every column of the input, with three more for each observable: what the errors add to it (the
 /// default), or the observable itself.

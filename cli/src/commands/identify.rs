@@ -58,7 +58,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         })?;
         return Ok(Answer::Done);
     }
-    let chain = source.chain()?;
+    let chain = source.symbolic_chain()?;
     let Identified { texts, answers, found: certified } =
         identified(&chain, &arguments.observable, arguments.candidate.as_deref())?;
     let certificate = is_certified.then(|| certify(&source, &certified)).transpose()?;

@@ -1,7 +1,7 @@
 //! A table as `init` looks at it: its columns with what their names and numbers say.
 
 use calibration::data::units::Unit;
-use calibration::formats::{Cells, ColumnName, DataError, Form, TableReader, Wanted};
+use calibration::formats::{Cells, ColumnName, DataError, Form, TableReader, Texts, Wanted};
 use model_core::Quantity;
 
 use super::words::{self, Part, Side};
@@ -107,7 +107,8 @@ impl Look {
         let mut columns = Vec::new();
         for (name, cells) in header.into_iter().zip(chunk.columns) {
             let Cells::Kept(kept) = cells else { unreachable!("kept columns were wanted") };
-            columns.push(Column::new(name, &kept.texts().map_err(told)?));
+            let texts = kept.texts().map_err(told)?;
+            columns.push(Column::new(name, &texts));
         }
         Ok(Self { file, columns })
     }
@@ -226,7 +227,7 @@ impl Look {
 }
 
 impl Column {
-    fn new(name: ColumnName, texts: &[String]) -> Self {
+    fn new(name: ColumnName, texts: &Texts) -> Self {
         let in_brackets =
             name.full.strip_prefix(&name.stem).map(|rest| rest.trim().trim_matches(['[', ']', '(', ')']));
         let text = in_brackets.map(str::trim).filter(|text| !text.is_empty() && !text.starts_with('_'));
@@ -244,9 +245,9 @@ impl Column {
             words.pop();
         }
         let unknown = text.filter(|_| unit.is_none()).map(str::to_owned);
-        let numbers = texts.iter().map(|text| number(text)).collect();
+        let numbers = texts.iter().map(number).collect();
         let no_number = texts.iter().position(|text| number(text).is_none());
-        let different: std::collections::BTreeSet<&str> = texts.iter().map(|text| text.trim()).collect();
+        let different: std::collections::BTreeSet<&str> = texts.iter().map(str::trim).collect();
         Self { name, words, unit, unknown, numbers, no_number, different: different.len(), rows: texts.len() }
     }
 

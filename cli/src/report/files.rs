@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use calibration::diagnose::Diagnosis;
+use calibration::formats::{Texts, Written};
 use model_core::Chain;
 use serde::Serialize;
 
@@ -90,17 +91,16 @@ pub fn json(reported: &Reported<'_>) -> Result<String, Failure> {
 fn write_residuals(reported: &Reported<'_>, path: &Path, file: &mut dyn Write) -> Result<(), Failure> {
     let columns = residuals::table(reported);
     tables::csv_row(file, path, columns.iter().map(|(name, _)| name.as_str()))?;
-    for row in 0..reported.observations.rows() {
-        let cells: Vec<String> = columns
-            .iter()
-            .map(|(_, cells)| match cells {
-                Cells::Rows(numbers) => numbers[row].to_string(),
-                Cells::Texts(texts) => texts[row].clone(),
-                Cells::Numbers(numbers) => tables::number(numbers[row]),
-                Cells::Residuals(numbers) => numbers[row].map_or_else(String::new, tables::number),
-            })
-            .collect();
-        tables::csv_row(file, path, cells.iter().map(String::as_str))?;
-    }
-    Ok(())
+    let texts: Vec<Option<Texts>> = columns
+        .iter()
+        .map(|(_, cells)| if let Cells::Texts(texts) = cells { Some(texts.iter().collect()) } else { None })
+        .collect();
+    let written = columns.iter().zip(&texts).map(|((_, cells), texts)| match (cells, texts) {
+        (Cells::Rows(numbers), _) => Written::Counts(numbers),
+        (Cells::Numbers(numbers), _) => Written::Numbers(numbers),
+        (Cells::Residuals(numbers), _) => Written::Residuals(numbers),
+        (Cells::Texts(_), Some(texts)) => Written::Texts(texts),
+        (Cells::Texts(_), None) => unreachable!("texts were gathered above"),
+    });
+    tables::csv_rows(file, path, &written.collect::<Vec<_>>(), reported.observations.rows())
 }

@@ -55,3 +55,8 @@ pub struct FileRead {
     /// SHA-256 of its bytes; none for what is no file and can be read once only.
     pub sha256: Option<String>,
 }
+
+/// `1 row`, `2 rows`.
+fn counted(rows: usize) -> String {
+    format!("{rows} row{}", if rows == 1 { "" } else { "s" })
+}

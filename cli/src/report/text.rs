@@ -6,12 +6,15 @@ use calibration::diagnose::{Diagnosis, EffectFound};
 use calibration::report::{self as words, Answers, Tone, numbers, sentence_case};
 use similar::TextDiff;
 
-use super::Reported;
+use super::{Reported, counted};
 use crate::terminal::{BAD, CAREFUL, GOOD, HEADING};
 use crate::wrap::paragraph;
 
 /// Lines of a list that the terminal shows.
 const LINES: usize = 5;
+
+/// Rows that the terminal names of those that the estimates lean on.
+const LEANED_ON: usize = 12;
 
 /// How much to tell, and how wide.
 #[derive(Debug, Clone, Copy)]
@@ -36,6 +39,7 @@ pub fn as_text(reported: &Reported<'_>, layout: Layout) -> String {
         page.list("noise", &words::noise(diagnosis));
         page.list("what is left", &words::remaining(diagnosis));
         page.poses(diagnosis);
+        page.leverage(diagnosis);
         page.set_aside(diagnosis, usize::MAX);
         page.not_shown(diagnosis);
         page.amended(reported);
@@ -102,8 +106,10 @@ impl Page {
             self.say("", &format!("{}.", sentence_case(chance)));
         }
         for caution in &diagnosis.cautions {
-            let _ = write!(self.text, "{CAREFUL}Caution{CAREFUL:#}");
-            self.say(": ", &words::caution(caution, diagnosis));
+            let mut told = String::new();
+            paragraph(&mut told, "Caution: ", &words::caution(caution, diagnosis), self.layout.width);
+            let styled = format!("{CAREFUL}Caution{CAREFUL:#}");
+            self.text.push_str(&told.replacen("Caution", &styled, 1));
         }
         if !answers.what.is_empty() {
             self.heading("What it is");
@@ -153,13 +159,13 @@ impl Page {
         let aside = diagnosis.observations.set_aside.len();
         row("on the data that were fitted", Some(before.rms), Some(after.rms));
         if aside > 0 {
-            let name = format!("  without the {aside} rows set aside");
+            let name = format!("  without the {} set aside", counted(aside));
             row(&name, Some(before.rms_kept), Some(after.rms_kept));
         }
         row("on data that nobody fitted", before.held_out_rms, after.held_out_rms);
         let out = after.held_out_rows - after.held_out_rows_kept;
         if out > 0 {
-            let name = format!("  without {out} rows out of reach");
+            let name = format!("  without {} out of reach", counted(out));
             row(&name, before.held_out_rms_kept, after.held_out_rms_kept);
         }
         if after.elsewhere_rms.is_some() {
@@ -198,15 +204,37 @@ impl Page {
         }
     }
 
+    /// Rows that carry more than their share, those that carry most first.
+    fn leverage(&mut self, diagnosis: &Diagnosis) {
+        let rows = &diagnosis.precision.leverage;
+        if rows.is_empty() {
+            return;
+        }
+        self.heading("rows that the estimates lean on");
+        let told = rows.iter().take(LEANED_ON).map(|(row, leverage)| format!("row {row} ({leverage:.2})"));
+        let more = rows.len().saturating_sub(LEANED_ON);
+        let more = if more > 0 { format!(", and {more} more in report.json") } else { String::new() };
+        self.say(
+            "  ",
+            &format!(
+                "by leverage, of as many as a row has components: {}{more}",
+                told.collect::<Vec<_>>().join(", ")
+            ),
+        );
+    }
+
     fn poses(&mut self, diagnosis: &Diagnosis) {
         for table in words::pose_tables(diagnosis) {
-            self.heading(&format!("measure next, {}", table.title));
+            self.heading("measure next");
+            self.say("  ", &table.title);
             if !table.poses.is_empty() {
-                let line =
-                    |cells: &[String]| cells.iter().map(|cell| format!("{cell:>16}")).collect::<String>();
-                let _ = writeln!(self.text, "{}", line(&table.joints));
-                for pose in &table.poses {
-                    let _ = writeln!(self.text, "{}", line(pose));
+                let rows = || std::iter::once(&table.joints).chain(&table.poses);
+                let widths: Vec<usize> = (0..table.joints.len())
+                    .map(|at| 2 + rows().map(|row| row[at].chars().count()).max().unwrap_or(0))
+                    .collect();
+                for row in rows() {
+                    let cells = row.iter().zip(&widths).map(|(cell, width)| format!("{cell:>width$}"));
+                    let _ = writeln!(self.text, "{}", cells.collect::<String>());
                 }
             }
             table.notes.iter().for_each(|note| self.say("  ", note));

@@ -9,10 +9,10 @@ use calibration::formats::DataError;
 
 use crate::failure::Failure;
 pub use readings::{ReadingsTable, Rows};
-pub use write::{Column, csv_row, number, write};
+pub use write::{Column, csv_row, csv_rows, write};
 
 /// Rows that are read, computed and written at a time.
-pub const CHUNK: usize = 4096;
+pub const CHUNK: usize = 1 << 16;
 
 fn ending(path: &Path) -> String {
     path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase()

@@ -185,11 +185,10 @@ impl<'t> ReadingsTable<'t> {
         }
         for reading in &self.readings {
             // What was read as a number with a decimal comma is no number between commas.
-            if let Some(Kept::Texts(texts)) = rows.kept.get_mut(reading.column) {
-                texts
-                    .iter_mut()
-                    .filter(|text| text.contains(','))
-                    .for_each(|text| *text = text.replace(',', "."));
+            if let Some(Kept::Texts(texts)) = rows.kept.get_mut(reading.column)
+                && texts.contain(',')
+            {
+                *texts = texts.iter().map(|text| text.replace(',', ".")).collect();
             }
         }
         Ok(Some(rows))

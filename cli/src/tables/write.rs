@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use calibration::formats::{self, Kept};
+use calibration::formats::{self, Kept, Written};
 #[cfg(feature = "parquet")]
 use calibration::formats::{Options, parquet};
 
@@ -29,17 +29,15 @@ pub enum TableWriter<'a> {
         /// What takes the rows.
         file: &'a mut dyn Write,
     },
-    /// Columns that are written when all rows are known.
+    /// Groups of rows, as they fill.
     #[cfg(feature = "parquet")]
     Parquet {
         /// Where to.
         path: &'a Path,
-        /// Names of the columns.
-        names: Vec<String>,
-        /// Their cells.
-        columns: Vec<parquet::Column>,
-        /// Memory that the cells take, about.
-        bytes: usize,
+        /// What takes the bytes.
+        file: &'a mut dyn Write,
+        /// What makes them.
+        writer: parquet::Writer,
     },
 }
 
@@ -54,16 +52,13 @@ pub fn write(
     known_format(path)?;
     #[cfg(feature = "parquet")]
     if super::ending(path) == "parquet" {
-        let (names, columns) = (Vec::new(), Vec::new());
-        let mut writer = TableWriter::Parquet { path, names, columns, bytes: 0 };
-        write(&mut writer)?;
-        let TableWriter::Parquet { names, columns, .. } = writer else {
-            unreachable!("a writer stays what it is")
-        };
-        let bytes = parquet::file_of(&names, columns)
-            .map_err(|error| Failure::write(path, &io::Error::other(error)))?;
         return output::write_with(path, |file| {
-            file.write_all(&bytes).map_err(|error| Failure::write(path, &error))
+            let mut table = TableWriter::Parquet { path, file, writer: parquet::Writer::new(Vec::new()) };
+            write(&mut table)?;
+            let TableWriter::Parquet { file, writer, .. } = table else {
+                unreachable!("a writer stays what it is")
+            };
+            put(file, path, writer.finish())
         });
     }
     output::write_with(path, |file| write(&mut TableWriter::Csv { path, file }))
@@ -78,7 +73,7 @@ impl TableWriter<'_> {
         match self {
             Self::Csv { path, file } => csv_row(*file, path, header.iter().map(String::as_str)),
             #[cfg(feature = "parquet")]
-            Self::Parquet { path, names, .. } => {
+            Self::Parquet { path, writer, .. } => {
                 if header.iter().filter(|name| name.is_empty()).count() > 1 {
                     let message = format!(
                         "`{}`: several columns have no name, and a Parquet file could not tell them apart: name them, or write a \
@@ -87,7 +82,7 @@ impl TableWriter<'_> {
                     );
                     return Err(Failure::Input(message));
                 }
-                *names = header.to_vec();
+                *writer = parquet::Writer::new(header.to_vec());
                 Ok(())
             }
         }
@@ -100,37 +95,40 @@ impl TableWriter<'_> {
     pub fn rows(&mut self, rows: &[Column<'_>], count: usize) -> Result<(), Failure> {
         match self {
             Self::Csv { path, file } => {
-                let texts = rows
-                    .iter()
-                    .map(|column| match column {
-                        Column::Kept(kept) => kept.texts().map_err(failure),
-                        Column::Numbers(numbers) => {
-                            Ok(numbers.iter().copied().map(number).collect::<Vec<_>>().into())
-                        }
-                    })
-                    .collect::<Result<Vec<_>, _>>()?;
-                (0..count)
-                    .try_for_each(|row| csv_row(*file, path, texts.iter().map(|column| column[row].as_str())))
+                let texts = rows.iter().map(|column| match column {
+                    Column::Kept(kept) => kept.texts().map(Some).map_err(failure),
+                    Column::Numbers(_) => Ok(None),
+                });
+                let texts = texts.collect::<Result<Vec<_>, _>>()?;
+                let written = rows.iter().zip(&texts).map(|(column, texts)| match (column, texts) {
+                    (Column::Numbers(numbers), _) => Written::Numbers(numbers),
+                    (Column::Kept(_), Some(texts)) => Written::Texts(texts),
+                    (Column::Kept(_), None) => unreachable!("kept cells have texts"),
+                });
+                csv_rows(*file, path, &written.collect::<Vec<_>>(), count)
             }
             #[cfg(feature = "parquet")]
-            Self::Parquet { path, columns, bytes, .. } => {
-                let is_first = columns.is_empty();
-                for (at, column) in rows.iter().enumerate() {
-                    let more = match *column {
-                        Column::Kept(kept) => parquet::Column::Kept(kept.clone()),
-                        Column::Numbers(numbers) => parquet::Column::Numbers(numbers.to_vec()),
-                    };
-                    *bytes += more.bytes();
-                    if is_first {
-                        columns.push(more);
-                    } else {
-                        columns[at].append(more);
-                    }
-                }
-                Options::default().holds(*bytes, &path.display().to_string()).map_err(failure)
+            Self::Parquet { path, file, writer } => {
+                let columns = rows.iter().map(|column| match *column {
+                    Column::Kept(kept) => parquet::Column::Kept(kept.clone()),
+                    Column::Numbers(numbers) => parquet::Column::Numbers(numbers.to_vec()),
+                });
+                put(*file, path, writer.rows(columns.collect(), count))?;
+                Options::default().holds(writer.bytes(), &path.display().to_string()).map_err(failure)
             }
         }
     }
+}
+
+/// Writes bytes of a Parquet file.
+#[cfg(feature = "parquet")]
+fn put<E: std::error::Error + Send + Sync + 'static>(
+    file: &mut dyn Write,
+    path: &Path,
+    bytes: Result<Vec<u8>, E>,
+) -> Result<(), Failure> {
+    let written = bytes.map_err(io::Error::other).and_then(|bytes| file.write_all(&bytes));
+    written.map_err(|error| Failure::write(path, &error))
 }
 
 /// Writes one row of separated values into the file of a name.
@@ -145,7 +143,15 @@ pub fn csv_row<'c>(
     formats::write_row(file, cells).map_err(|error: io::Error| Failure::write(path, &error))
 }
 
-/// A number as tables hold it: as short as reads back to the same number.
-pub fn number(number: f64) -> String {
-    format!("{number:?}")
+/// Writes rows of columns as separated values into the file of a name.
+///
+/// # Errors
+/// The place cannot be written.
+pub fn csv_rows(
+    file: &mut dyn Write,
+    path: &Path,
+    columns: &[Written<'_>],
+    rows: usize,
+) -> Result<(), Failure> {
+    formats::write_rows(file, columns, rows).map_err(|error| Failure::write(path, &error))
 }

@@ -4,6 +4,7 @@
 mod support;
 
 mod formulas;
+mod formulas_only;
 mod generated;
 mod tables;
 

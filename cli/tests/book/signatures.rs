@@ -22,17 +22,19 @@ struct Signature {
     errors: &'static str,
     /// The range of an input.
     input: Option<&'static str>,
+    /// What comes of the order of the rows, as an input of the mount: `azimuth_direction` or `time`.
+    order: Option<&'static str>,
     /// What the study adds.
     search: &'static str,
 }
 
 const NONE: Signature =
-    Signature { name: "noise", declared: &[], real: &[], errors: "", input: None, search: "" };
+    Signature { name: "noise", declared: &[], real: &[], errors: "", input: None, order: None, search: "" };
 const TEMPERATURE: (&str, &str) = ("chain Mount {", "chain Mount {\n    input temperature: temperature;");
 const AZIMUTH: &str = "Rz(azimuth_index)";
 const ELEVATION: &str = "Rx(elevation_index)";
 
-const SIGNATURES: [Signature; 11] = [
+const SIGNATURES: [Signature; 13] = [
     NONE,
     Signature {
         name: "tilt",
@@ -88,6 +90,7 @@ const SIGNATURES: [Signature; 11] = [
         real: &[TEMPERATURE, (ELEVATION, "Rx(elevation_index), Rx(growth*temperature)")],
         errors: "growth = \"2 arcsec\"\n",
         input: Some("temperature=-5..20"),
+        order: None,
         search: "[search]\ninputs = [\"temperature\"]\n",
     },
     Signature {
@@ -95,6 +98,28 @@ const SIGNATURES: [Signature; 11] = [
         real: &[(ELEVATION, "Rx(elevation_index), Rx(jump*ramp(azimuth, 200 deg, 200 deg))")],
         errors: "jump = \"15 arcsec\"\n",
         search: "[search]\nfunctions = true\n",
+        ..NONE
+    },
+    Signature {
+        name: "backlash",
+        real: &[
+            ("chain Mount {", "chain Mount {\n    input azimuth_direction;"),
+            (AZIMUTH, "Rz(azimuth_index), Rz(lag*azimuth_direction)"),
+        ],
+        errors: "lag = \"8 arcsec\"\n",
+        order: Some("azimuth_direction"),
+        search: "[search]\nsequence = true\n",
+        ..NONE
+    },
+    Signature {
+        name: "drift",
+        real: &[
+            ("chain Mount {", "chain Mount {\n    input time;"),
+            (ELEVATION, "Rx(elevation_index), Rx(creep*time)"),
+        ],
+        errors: "creep = \"0.1 arcsec\"\n",
+        order: Some("time"),
+        search: "[search]\nsequence = true\n[noise]\norder = \"time\"\n",
         ..NONE
     },
 ];
@@ -122,12 +147,14 @@ fn made(signature: &Signature) -> (String, String) {
     }
     folder.write("declared.chain", edited(signature.declared)).write("real.chain", edited(signature.real));
     folder
+        .write("declared.toml", &errors)
         .write("truth.toml", errors + signature.errors)
         .write("study.toml", format!("{STUDY}{}", signature.search));
-    let mut simulate: Vec<&str> =
-        "simulate real.chain --errors truth.toml --poses 200 --seed 7 --out measured.csv"
-            .split(' ')
-            .collect();
+    let simulate = match signature.order {
+        None => "simulate real.chain --errors truth.toml --poses 200 --seed 7 --out measured.csv",
+        Some(_) => "simulate declared.chain --errors declared.toml --poses 200 --seed 7 --out noisy.csv",
+    };
+    let mut simulate: Vec<&str> = simulate.split(' ').collect();
     let noise = format!("{NOISE_ARCSEC} arcsec");
     simulate.extend([
         "--noise",
@@ -138,12 +165,69 @@ fn made(signature: &Signature) -> (String, String) {
         "elevation=12 deg..82 deg",
     ]);
     simulate.extend(signature.input.iter().flat_map(|range| ["--range", range]));
-    for arguments in [&simulate[..], &["calibrate", "study.toml", "--out", "result"]] {
+    let done = |arguments: &[&str]| {
         let run = folder.trueaxis(arguments);
         assert_eq!(run.code, 0, "{}: {}", signature.name, run.stderr);
+    };
+    done(&simulate);
+    if let Some(order) = signature.order {
+        in_order(&folder, order, &done);
     }
+    done(&["calibrate", "study.toml", "--out", "result"]);
     let report: Value = serde_json::from_str(&folder.read("result/report.json")).expect("a report");
     (picture(signature, &folder.read("result/residuals.csv")), found(&report))
+}
+
+/// What the order of the rows gives: +1 or −1 as the azimuth came, or the number of the row.
+fn of_order(order: &str, azimuth: &[f64]) -> Vec<f64> {
+    if order == "time" {
+        return (0..azimuth.len()).map(|row| row as f64).collect();
+    }
+    let came = azimuth.windows(2).map(|two| (two[1] - two[0]).signum());
+    std::iter::once(0.0).chain(came).collect()
+}
+
+/// Rows of a mount that knows their order: the simulated ones, moved by what the mount does more than its declaration says.
+fn in_order(folder: &Folder, order: &str, done: &impl Fn(&[&str])) {
+    let noisy = folder.read("noisy.csv");
+    let [azimuth, elevation] = ["azimuth", "elevation"].map(|name| column(&noisy, name));
+    let driven = of_order(order, &azimuth);
+    let mut poses = format!("azimuth,elevation,{order}\n");
+    for ((azimuth, elevation), driven) in azimuth.iter().zip(&elevation).zip(&driven) {
+        let _ = writeln!(poses, "{azimuth:?},{elevation:?},{driven}");
+    }
+    folder.write("poses.csv", poses);
+    for (chain, errors, out) in
+        [("declared.chain", "declared.toml", "0.csv"), ("real.chain", "truth.toml", "1.csv")]
+    {
+        done(&[
+            "eval",
+            chain,
+            "--errors",
+            errors,
+            "--data",
+            "poses.csv",
+            "--quantity",
+            "value",
+            "--out",
+            out,
+        ]);
+    }
+    let [declared, real] = ["0.csv", "1.csv"].map(|file| folder.read(file));
+    let names = ["pointing_x", "pointing_y", "pointing_z"];
+    let moved = names.map(|name| -> Vec<f64> {
+        let pairs = column(&noisy, name).into_iter().zip(column(&declared, name)).zip(column(&real, name));
+        pairs.map(|((noisy, declared), real)| noisy + (real - declared)).collect()
+    });
+    let mut rows = format!("time,azimuth,elevation,{}\n", names.join(","));
+    for (row, (azimuth, elevation)) in azimuth.iter().zip(&elevation).enumerate() {
+        let _ = writeln!(
+            rows,
+            "{row},{azimuth:?},{elevation:?},{:?},{:?},{:?}",
+            moved[0][row], moved[1][row], moved[2][row]
+        );
+    }
+    folder.write("measured.csv", rows);
 }
 
 /// What `calibrate` finds, in a line.
@@ -189,10 +273,12 @@ fn column(table: &str, name: &str) -> Vec<f64> {
 /// An axis of a panel: column, label, range, marks; turned into degrees for angles.
 type Reading = (&'static str, &'static str, [f64; 2], &'static [f64], bool);
 
-const READINGS: [Reading; 3] = [
+const READINGS: [Reading; 5] = [
     ("azimuth", "azimuth", [0.0, 360.0], &[0.0, 90.0, 180.0, 270.0, 360.0], true),
     ("elevation", "elevation", [10.0, 84.0], &[15.0, 45.0, 75.0], true),
     ("temperature", "temperature", [-5.0, 20.0], &[0.0, 10.0, 20.0], false),
+    ("azimuth_direction", "azimuth came falling (−1), rising (+1)", [-1.6, 1.6], &[-1.0, 1.0], false),
+    ("time", "row", [0.0, 200.0], &[0.0, 100.0, 200.0], false),
 ];
 const PANEL: [f64; 2] = [250.0, 112.0];
 const LEFT: f64 = 76.0;
@@ -200,7 +286,18 @@ const GAP: f64 = 16.0;
 
 /// What is left before the search: upwards and sideways, over each reading.
 fn picture(signature: &Signature, table: &str) -> String {
-    let readings = &READINGS[..if signature.input.is_some() { 3 } else { 2 }];
+    let third = signature.order.or(signature.input.and_then(|range| range.split('=').next()));
+    let readings: Vec<&Reading> = READINGS
+        .iter()
+        .enumerate()
+        .filter(|(at, one)| *at < 2 || Some(one.0) == third)
+        .map(|(_, one)| one)
+        .collect();
+    let readings = readings.as_slice();
+    let values_of = |name: &str| match signature.order {
+        Some(order) if order == name => of_order(order, &column(table, "azimuth")),
+        _ => column(table, name),
+    };
     let arcsec = |name| -> Vec<f64> {
         column(table, name).into_iter().map(|rad: f64| rad.to_degrees() * 3600.0).collect()
     };
@@ -221,7 +318,7 @@ fn picture(signature: &Signature, table: &str) -> String {
         let top = 10.0 + row as f64 * (PANEL[1] + GAP);
         let middle = top + PANEL[1] / 2.0;
         let band = 2.0 * NOISE_ARCSEC / scale * PANEL[1] / 2.0;
-        for (at, (name, _, [low, high], marks, is_angle)) in readings.iter().enumerate() {
+        for (at, &&(name, _, [low, high], marks, is_angle)) in readings.iter().enumerate() {
             let left = LEFT + at as f64 * (PANEL[0] + GAP);
             let x = |value: f64| left + (value - low) / (high - low) * PANEL[0];
             let _ = writeln!(
@@ -236,12 +333,12 @@ fn picture(signature: &Signature, table: &str) -> String {
                 PANEL[0],
                 PANEL[1]
             );
-            for mark in *marks {
+            for mark in marks {
                 let _ = write!(out, "<path d=\"M{:.0} {}v5\" stroke=\"#999999\"/>", x(*mark), top + PANEL[1]);
             }
             let mut dots = String::new();
-            for (reading, value) in column(table, name).into_iter().zip(values) {
-                let reading = if *is_angle { reading.to_degrees().rem_euclid(360.0) } else { reading };
+            for (reading, value) in values_of(name).into_iter().zip(values) {
+                let reading = if is_angle { reading.to_degrees().rem_euclid(360.0) } else { reading };
                 let _ = write!(dots, "M{:.0} {:.0}h0", x(reading), middle - value / scale * PANEL[1] / 2.0);
             }
             let _ = writeln!(
@@ -260,10 +357,10 @@ fn picture(signature: &Signature, table: &str) -> String {
         );
     }
     let base = 10.0 + 2.0 * (PANEL[1] + GAP);
-    for (at, (_, label, [low, high], marks, is_angle)) in readings.iter().enumerate() {
+    for (at, &&(_, label, [low, high], marks, is_angle)) in readings.iter().enumerate() {
         let left = LEFT + at as f64 * (PANEL[0] + GAP);
-        let unit = if *is_angle { "°" } else { "" };
-        for mark in *marks {
+        let unit = if is_angle { "°" } else { "" };
+        for mark in marks {
             let x = left + (mark - low) / (high - low) * PANEL[0];
             let _ = write!(
                 out,

@@ -6,9 +6,12 @@ mod support;
 mod bad_studies;
 mod instruments;
 mod noiseless;
+mod objects;
 mod observations;
 mod ranges;
 mod readings;
+mod sockets;
+mod survey;
 mod unusable;
 
 use serde_json::Value;

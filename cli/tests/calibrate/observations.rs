@@ -339,13 +339,13 @@ fn poses_to_measure_next_are_proposed_in_degrees() {
     );
     let run = folder.trueaxis(&["calibrate", "study.toml", "--verbose"]);
     assert_eq!(run.code, 0, "{run}");
-    let (_, proposed) = run.stdout.split_once("measure next, to determine").expect("a proposal");
+    let (_, proposed) = run.stdout.split_once("measure next\n  to determine").expect("a proposal");
     let mut lines = proposed.lines().skip(1);
     let header = lines.next().unwrap_or_default();
     assert!(header.trim().starts_with("reading, °"), "{run}");
     // A pose that is proposed more than once stands once, with how often.
     let mut measured = 0;
-    for line in lines.take_while(|line| line.starts_with("        ")) {
+    for line in lines.take_while(|line| line.starts_with("      ")) {
         let mut cells = line.split_whitespace();
         let degrees: f64 =
             cells.next().and_then(|cell| cell.parse().ok()).unwrap_or_else(|| panic!("{line} in {run}"));

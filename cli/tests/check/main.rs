@@ -4,6 +4,7 @@
 mod support;
 
 mod bad_claims;
+mod kinds;
 
 use serde_json::Value;
 use support::{Folder, trueaxis};

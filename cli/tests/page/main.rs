@@ -37,6 +37,12 @@ addEventListener("load", () => {
     const drawn = [...document.querySelectorAll("svg.rows .over")];
     say("brushed", drawn.filter((over) => over.querySelector(".marked")).length === drawn.length);
     say("told", /\d+ of \d+ rows marked/.test(document.getElementById("state").textContent));
+    const zoom = document.getElementById("zoom"), ticks = () => [...svg.querySelectorAll(".axes text")].map((t) => t.textContent).join();
+    const whole = ticks(), dots = () => svg.querySelector(".dot").getAttribute("d").split("M").length, all = dots();
+    zoom.click();
+    say("zoomed", ticks() !== whole && dots() < all && !/NaN|Infinity|undefined/.test(document.getElementById("residuals").innerHTML));
+    zoom.click();
+    say("whole", ticks() === whole && dots() === all);
     document.getElementById("show-after").click();
     say("toggle", getComputedStyle(document.querySelector("path.before")).display === "none"
       && getComputedStyle(document.querySelector("path.after")).display !== "none");
@@ -100,7 +106,10 @@ fn the_page_answers_to_a_person() {
         let (_, answers) =
             dom.split_once("id=\"said\">").unwrap_or_else(|| panic!("{width}: nothing said: {said}"));
         let answers = answers.split('<').next().unwrap_or_default();
-        for name in ["wide", "hover", "brushed", "told", "toggle", "enlarged", "cleared", "names", "ids"] {
+        for name in [
+            "wide", "hover", "brushed", "told", "zoomed", "whole", "toggle", "enlarged", "cleared", "names",
+            "ids",
+        ] {
             assert!(answers.contains(&format!("{name}=true")), "{width}: {answers}");
         }
     }

@@ -53,6 +53,12 @@ pub enum GenerateError {
         /// The form.
         form: Form,
     },
+    /// A constant of the declaration has no value.
+    #[error("the constant `{name}` has no value: write it into the declaration, `const {name} = 0.25;`")]
+    NoValue {
+        /// The constant's name.
+        name: String,
+    },
     /// A value is neither one of an error nor of a constant, or not a number.
     #[error(
         "`{name}` cannot be written into the file: only errors and constants can, with finite values, each once"

@@ -151,6 +151,9 @@ fn check(unit: &Unit<'_>, language: Language, file_name: &str) -> Result<(), Gen
         }
     }
     let declared = unit.chain.symbols.iter().filter(|symbol| symbol.kind == SymbolKind::Constant);
+    if let Some(symbol) = declared.clone().find(|symbol| symbol.value.is_none()) {
+        return Err(GenerateError::NoValue { name: symbol.name.clone() });
+    }
     let is_beyond = |value: Option<f64>| value.is_some_and(|value| !is_within(value, unit.precision));
     if let (Some(&form), true) =
         (unit.forms.first(), declared.into_iter().any(|symbol| is_beyond(symbol.value)))

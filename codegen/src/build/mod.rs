@@ -98,6 +98,18 @@ impl Builds<'_> {
             for path in paths {
                 let b = &mut b;
                 match form {
+                    Form::ExactValue | Form::ExactError if path.is_orientation() => {
+                        let axes = path.to_axes().each_ref().map(|axis| exact::both(b, axis));
+                        let turned = readings::rotation(b, &axes);
+                        outputs.extend(path.rotations_of(&turned));
+                    }
+                    Form::FirstOrderError if path.is_orientation() => {
+                        let axes = path.to_axes().each_ref().map(|axis| {
+                            (nominal(b, path, axis), first_order::error(b, chain, axis, meeting))
+                        });
+                        let turned = readings::sine(b, &axes);
+                        outputs.extend(path.rotations_of(&turned));
+                    }
                     Form::ExactValue if path.has_components_only() => {
                         let value = exact::value(b, path);
                         outputs.extend(path.components_of(&value));
@@ -114,7 +126,7 @@ impl Builds<'_> {
                     }
                     Form::FirstOrderError => {
                         let error = first_order::error(b, chain, path, meeting);
-                        let nominal = nominal(b, path);
+                        let nominal = nominal(b, path, path);
                         outputs.extend(path.shown.iter().map(|one| readings::rate(b, one, &nominal, &error)));
                     }
                     Form::ExactJacobian | Form::FirstOrderJacobian => {
@@ -132,9 +144,9 @@ impl Builds<'_> {
     }
 }
 
-/// The vector without errors, where a reading needs it.
-fn nominal(b: &mut Builder, path: &Path) -> Vector {
-    if path.has_components_only() { NOTHING } else { exact::both(b, path).0 }
+/// The vector at the end of a way without errors, where what is shown needs it.
+fn nominal(b: &mut Builder, shown: &Path, way: &Path) -> Vector {
+    if shown.has_components_only() { NOTHING } else { exact::both(b, way).0 }
 }
 
 /// The rows of a Jacobian, one behind the other.
@@ -145,6 +157,9 @@ fn jacobian_rows(
     at: jacobian::At,
     wrt: &[SymbolId],
 ) -> Vec<Value> {
+    if path.is_orientation() {
+        return orientation_rows(b, chain, path, at, wrt);
+    }
     let columns = jacobian::columns(b, chain, path, at, wrt);
     if path.has_components_only() {
         let component = |i: usize| columns.iter().map(move |column| column[i]);
@@ -168,6 +183,36 @@ fn jacobian_rows(
         }
     }
     rows
+}
+
+/// The rows of the Jacobian of a small rotation vector.
+fn orientation_rows(
+    b: &mut Builder,
+    chain: &Chain,
+    path: &Path,
+    at: jacobian::At,
+    wrt: &[SymbolId],
+) -> Vec<Value> {
+    let ways = path.to_axes();
+    let axes = ways.each_ref().map(|way| match at {
+        jacobian::At::Errors => exact::both(b, way),
+        jacobian::At::Nominal => (exact::both(b, way).0, NOTHING),
+    });
+    let real = ways.each_ref().map(|way| jacobian::columns(b, chain, way, at, wrt));
+    let designed = ways.each_ref().map(|way| jacobian::columns(b, chain, way, jacobian::At::Nominal, wrt));
+    let rates: Vec<Vector> = wrt
+        .iter()
+        .enumerate()
+        .map(|(index, &symbol)| {
+            let is_error = chain.symbol(symbol).kind == SymbolKind::Error;
+            let changes = std::array::from_fn(|axis: usize| {
+                (if is_error { NOTHING } else { designed[axis][index] }, real[axis][index])
+            });
+            readings::rotation_rate(b, &axes, &changes)
+        })
+        .collect();
+    let axes = path.shown.iter().filter_map(|reading| reading.rotation());
+    axes.flat_map(|axis| rates.iter().map(move |rate| rate[axis.index()])).collect()
 }
 
 /// All operations, then those of every pose.

@@ -9,6 +9,7 @@ use super::vectors::Vector;
 use crate::builder::Value;
 
 /// An amount in two parts.
+#[derive(Clone)]
 pub(super) struct Split {
     /// The amount where every error is zero.
     pub(super) nominal: Poly,
@@ -25,6 +26,7 @@ impl Split {
 }
 
 /// One factor on the way: an elementary transform by its nominal amount and one by the error, which commute.
+#[derive(Clone)]
 pub(super) struct Step {
     pub(super) motion: Motion,
     pub(super) axis: Axis,
@@ -32,6 +34,7 @@ pub(super) struct Step {
 }
 
 /// The way to an observable.
+#[derive(Clone)]
 pub(super) struct Path {
     /// From the frame that it is seen in up.
     pub(super) steps: Vec<Step>,
@@ -48,9 +51,31 @@ impl Path {
         self.shown.iter().all(|reading| reading.component().is_some())
     }
 
+    /// Whether it is shown how a body is turned, and no vector.
+    pub(super) fn is_orientation(&self) -> bool {
+        self.shown.iter().any(|reading| reading.rotation().is_some())
+    }
+
+    /// The same way to the three axes of the body.
+    pub(super) fn to_axes(&self) -> [Self; 3] {
+        std::array::from_fn(|axis| Self {
+            components: std::array::from_fn(|i| Split {
+                nominal: if i == axis { Poly::one() } else { Poly::zero() },
+                error: Poly::zero(),
+            }),
+            ..self.clone()
+        })
+    }
+
     /// The axes of the components that are shown.
     pub(super) fn axes(&self) -> impl Iterator<Item = usize> {
         self.shown.iter().filter_map(|reading| reading.component().map(Axis::index))
+    }
+
+    /// The components of the small rotation vector that are shown.
+    pub(super) fn rotations_of(&self, turned: &Vector) -> impl Iterator<Item = Value> {
+        let axes = self.shown.iter().filter_map(|reading| reading.rotation().map(Axis::index));
+        axes.map(|axis| turned[axis])
     }
 
     /// The components of a vector that are shown.

@@ -5,7 +5,7 @@
 
 use model_core::readings::{Measures, Reading, SignedAxis};
 
-use super::vectors::{Vector, add, cross};
+use super::vectors::{NOTHING, Vector, add, cross};
 use crate::builder::{Builder, Value};
 
 /// What is shown with errors.
@@ -34,7 +34,9 @@ pub(super) fn value(b: &mut Builder, reading: &Reading, nominal: &Vector, error:
             let real = real(b);
             length(b, &real)
         }
-        Measures::CrossElevation { .. } | Measures::OffAxis => self::error(b, reading, nominal, error),
+        Measures::CrossElevation { .. } | Measures::OffAxis | Measures::Rotation(_) => {
+            self::error(b, reading, nominal, error)
+        }
     }
 }
 
@@ -57,6 +59,7 @@ pub(super) fn error(b: &mut Builder, reading: &Reading, nominal: &Vector, error:
             let cosine = dot(b, nominal, &real);
             b.arc_tangent(sine, cosine)
         }
+        Measures::Rotation(_) => unreachable!("{ORIENTATION}"),
     }
 }
 
@@ -82,7 +85,103 @@ pub(super) fn rate(b: &mut Builder, reading: &Reading, vector: &Vector, change: 
             let (above, below) = (length(b, &sideways), dot(b, vector, vector));
             b.div(above, below)
         }
+        Measures::Rotation(_) => unreachable!("{ORIENTATION}"),
     }
+}
+
+/// Why no single vector is asked how a body is turned.
+const ORIENTATION: &str = "orientations go by the three axes of their body";
+
+/// The turn of a body: its small rotation vector, its angle, and the sine and cosine of that.
+struct Turn {
+    vector: Vector,
+    angle: Value,
+    sine: Value,
+    cosine: Value,
+}
+
+fn turn(b: &mut Builder, axes: &[(Vector, Vector); 3]) -> Turn {
+    /// Far below the square of any turn, it keeps θ/sin θ a number where there is none; single precision has it too.
+    const LEAST: f64 = 1e-36;
+    let along = sine(b, axes);
+    let half = b.constant(0.5);
+    let mut cosine = Builder::ONE;
+    for (nominal, error) in axes {
+        let along = dot(b, nominal, error);
+        let part = b.mul(along, half);
+        cosine = b.add(cosine, part);
+    }
+    let square = dot(b, &along, &along);
+    let least = b.constant(LEAST);
+    let square = b.add(square, least);
+    let sine = b.root(square);
+    let angle = b.arc_tangent(sine, cosine);
+    let stretch = b.div(angle, sine);
+    Turn { vector: along.map(|component| b.mul(component, stretch)), angle, sine, cosine }
+}
+
+/// The small rotation vector from the axes of a body without errors and what the errors add to each.
+///
+/// Source: as [`model_core`] has it, from the sine and the cosine of the turn.
+pub(super) fn rotation(b: &mut Builder, axes: &[(Vector, Vector); 3]) -> Vector {
+    turn(b, axes).vector
+}
+
+/// How the small rotation vector changes where the axes change, without errors and with them.
+///
+/// Source: ω′ = ψ − ½ ω × ψ + (1 − θ (1 + cos θ) / (2 sin θ)) / θ² · ω × (ω × ψ), the inverse of the left Jacobian of the
+/// exponential map, with ψ = φ − E φ₀ for rates of turning φ with errors and φ₀ without, and E = R R₀ᵀ.
+pub(super) fn rotation_rate(
+    b: &mut Builder,
+    axes: &[(Vector, Vector); 3],
+    changes: &[(Vector, Vector); 3],
+) -> Vector {
+    let real = axes.each_ref().map(|(nominal, error)| add(b, nominal, error));
+    let mut with_errors = Vec::new();
+    let mut without = Vec::new();
+    for ((real, (nominal, _)), (designed, change)) in real.iter().zip(axes).zip(changes) {
+        with_errors.push((*real, *change));
+        without.push((*nominal, *designed));
+    }
+    let (Ok(with_errors), Ok(without)) =
+        (<[(Vector, Vector); 3]>::try_from(with_errors), <[(Vector, Vector); 3]>::try_from(without))
+    else {
+        unreachable!("a body has three axes")
+    };
+    let (mut rate, designed) = (sine(b, &with_errors), sine(b, &without));
+    for (real, (nominal, _)) in real.iter().zip(axes) {
+        let along = dot(b, nominal, &designed);
+        let carried = real.map(|component| b.mul(component, along));
+        rate = std::array::from_fn(|i| b.sub(rate[i], carried[i]));
+    }
+    let Turn { vector, angle, sine, cosine } = turn(b, axes);
+    let half = b.constant(0.5);
+    let once = cross(b, &vector, &rate);
+    let twice = cross(b, &vector, &once);
+    let grown = b.add(Builder::ONE, cosine);
+    let above = b.mul(angle, grown);
+    let ratio = b.div(above, sine);
+    let ratio = b.mul(ratio, half);
+    let rest = b.sub(Builder::ONE, ratio);
+    let square = b.mul(angle, angle);
+    let factor = b.div(rest, square);
+    std::array::from_fn(|i| {
+        let bent = b.mul(once[i], half);
+        let straight = b.sub(rate[i], bent);
+        let curved = b.mul(factor, twice[i]);
+        b.add(straight, curved)
+    })
+}
+
+/// The axis of the turn times its sine: to first order the small rotation vector.
+pub(super) fn sine(b: &mut Builder, axes: &[(Vector, Vector); 3]) -> Vector {
+    let half = b.constant(0.5);
+    let mut sum = NOTHING;
+    for (nominal, error) in axes {
+        let crossed = cross(b, nominal, error);
+        sum = add(b, &sum, &crossed);
+    }
+    sum.map(|component| b.mul(component, half))
 }
 
 /// The derivative of the value of a reading with respect to a symbol. `nominal` is the vector without errors and how it

@@ -9,6 +9,7 @@ mod batches;
 mod counts;
 mod jacobians;
 mod order;
+mod orientation;
 mod random_chains;
 mod reference;
 mod texts;

@@ -36,7 +36,8 @@ impl Declared {
     /// Every mistake in it, sorted by place.
     pub fn from_text(text: &str) -> Result<Self, Mistakes> {
         let tokens = syntax::tokens_of(text).map_err(|mistake| syntax::located(text, vec![mistake]))?;
-        let (declaration, chain) = check::read(tokens).map_err(|mistakes| syntax::located(text, mistakes))?;
+        let (declaration, chain) =
+            check::read_symbolic(tokens).map_err(|mistakes| syntax::located(text, mistakes))?;
         let mut bodies = Vec::with_capacity(chain.bodies.len());
         for body in &chain.bodies {
             let statement = declaration.bodies().find(|statement| statement.name == body.name);

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use super::Refusal;
+use super::condition::Condition;
 use super::expanded::{Expanded, Part};
 use super::section::Section;
 use super::witness::{Search, Value, substitute};
@@ -49,7 +50,9 @@ impl Section<'_> {
         let difference = verdict.differences.first().ok_or(Refusal::NoWitness)?;
         let component = difference.component.index();
         let axis = difference.component.to_string();
-        let formulas = [Expanded::new(&printed[component])?, Expanded::new(&derived[component])?];
+        let one = Expanded::new(&Poly::one())?;
+        let formulas =
+            [[Expanded::new(&printed[component])?, one.clone()], [Expanded::new(&derived[component])?, one]];
         // Errors that have no part in the difference are zero.
         let declared = self.certificate.declared;
         let without_part = |symbol: &SymbolId| {
@@ -67,20 +70,20 @@ impl Section<'_> {
              assert (D : {axis} derived = {derived}) by (cbv [{axis} derived]; {by_value}).\n  \
              assert (H := f_equal {axis} (one_error _ _ _ _ C is_derived)). rewrite E, D in H. different H.\nQed."
         );
-        self.conclude("So the formula as printed is not the error.", &points);
-        Ok(())
+        self.conclude("So the formula as printed is not the error.", &points)
     }
 
-    /// Values at which two formulas are different numbers, `differs` being what the one has and the other has not.
+    /// Values at which two formulas, each what stands above and below its stroke, are different numbers, `differs` being what the one has and the other has not.
     pub(super) fn place(
         &self,
         mut differs: Expanded,
-        formulas: &[Expanded; 2],
+        formulas: &[[Expanded; 2]; 2],
         zeros: &[SymbolId],
     ) -> Result<Place, Refusal> {
         let circles = self.angles.symbols();
         let numbers: BTreeSet<SymbolId> = formulas
             .iter()
+            .flatten()
             .flat_map(|formula| formula.0.keys().flatten())
             .filter(|(_, part, _)| *part == Part::Value)
             .map(|(symbol, ..)| *symbol)
@@ -106,7 +109,16 @@ impl Section<'_> {
         if involved.iter().any(|symbol| declared.chain().ramp(*symbol).is_some()) {
             return Err(Refusal::Ramp);
         }
-        let involved: Vec<SymbolId> = involved.into_iter().collect();
+        let bounded = self.conditions.iter().flat_map(|condition| match condition {
+            Condition::Wave(..) => Vec::new(),
+            Condition::NonZero(amount) | Condition::Positive(amount) => amount.symbols(),
+        });
+        let mut involved: Vec<SymbolId> = involved.into_iter().collect();
+        for symbol in bounded {
+            if symbol != SymbolId::PI && !involved.contains(&symbol) {
+                involved.push(symbol);
+            }
+        }
         values.extend(search.find(&differs, &involved).ok_or(Refusal::NoWitness)?);
         for &symbol in &self.used {
             if values.iter().all(|(other, _)| *other != symbol) {
@@ -121,12 +133,16 @@ impl Section<'_> {
             }
         }
         values.sort_by_key(|(symbol, _)| *symbol);
-        let at = |formula: &Expanded| -> Result<String, Refusal> {
-            let mut formula = formula.clone();
-            for (symbol, value) in &values {
-                formula = substitute(&formula, *symbol, value).ok_or(Refusal::NoWitness)?;
-            }
-            Ok(formula.write(&|_| "PI".to_owned()))
+        let there = |formula: &Expanded| {
+            let all = values
+                .iter()
+                .try_fold(formula.clone(), |formula, (symbol, value)| substitute(&formula, *symbol, value));
+            all.ok_or(Refusal::NoWitness)
+        };
+        let at = |[above, below]: &[Expanded; 2]| -> Result<String, Refusal> {
+            let inverse = there(below)?.as_constant().and_then(|below| below.recip());
+            let value = there(above)?.scale(&inverse.ok_or(Refusal::NoWitness)?);
+            Ok(value.write(&|_| "PI".to_owned()))
         };
         let equations: Vec<(String, String)> =
             values.iter().flat_map(|(symbol, value)| value.equations(&self.name(*symbol))).collect();
@@ -152,11 +168,14 @@ impl Section<'_> {
     }
 
     /// From one place at which the claim is wrong: it is not true of all values. The section is closed.
-    pub(super) fn conclude(&mut self, said: &str, points: &str) {
+    pub(super) fn conclude(&mut self, said: &str, points: &str) -> Result<(), Refusal> {
         self.close_section();
         let names: Vec<String> = self.used.iter().map(|symbol| self.name(*symbol)).collect();
-        let conditions: Vec<String> =
-            self.conditions.iter().map(|condition| format!("{} -> ", self.condition(*condition))).collect();
+        let conditions = self
+            .conditions
+            .iter()
+            .map(|condition| Ok(format!("{} -> ", self.condition(condition)?)))
+            .collect::<Result<Vec<String>, Refusal>>()?;
         let (all, names) = match names.join(" ") {
             none if none.is_empty() => (String::new(), String::new()),
             names => (format!("forall {names} : R, "), format!(" {names}")),
@@ -168,6 +187,7 @@ impl Section<'_> {
              repeat match goal with E : _ = _ |- _ => rewrite E; clear E end; values.\nQed.",
             conditions.concat(),
         );
+        Ok(())
     }
 }
 

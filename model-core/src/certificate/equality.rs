@@ -6,6 +6,7 @@ use super::declared::without_places;
 use super::expanded::Expanded;
 use super::section::{Question, Section};
 use super::{Certificate, Refusal};
+use crate::algebra::Poly;
 use crate::checker::{Equality, EqualityVerdict};
 
 impl Certificate<'_> {
@@ -45,8 +46,10 @@ impl Certificate<'_> {
             );
             section.close_section();
         } else {
+            let one = Expanded::new(&Poly::one())?;
             let [first, second] = claim.formulas().map(|formula| Expanded::new(&formula.value.above));
-            let place = section.place(Expanded::new(&verdict.difference.above)?, &[first?, second?], &[])?;
+            let quotients = [[first?, one.clone()], [second?, one]];
+            let place = section.place(Expanded::new(&verdict.difference.above)?, &quotients, &[])?;
             let [first, second] = &place.at;
             let by_value = &place.by_value;
             let _ = writeln!(
@@ -58,7 +61,7 @@ impl Certificate<'_> {
                  rewrite E, D in C. different C.\nQed.",
                 place.premises, place.intros,
             );
-            section.conclude("So the two are not the same.", &place.points);
+            section.conclude("So the two are not the same.", &place.points)?;
         }
         let section = section.close(&name);
         self.finish_section(section, &name, said);

@@ -78,6 +78,21 @@ impl Expanded {
         }
     }
 
+    /// The number that this is, if it is one.
+    pub(super) fn as_constant(&self) -> Option<Rational> {
+        let mut keys = self.0.iter();
+        match (keys.next(), keys.next()) {
+            (None, _) => Some(Rational::ZERO),
+            (Some((key, value)), None) if key.is_empty() => Some(value.clone()),
+            _ => None,
+        }
+    }
+
+    /// Times a number other than zero.
+    pub(super) fn scale(&self, factor: &Rational) -> Self {
+        Self(self.0.iter().map(|(key, value)| (key.clone(), value * factor)).collect())
+    }
+
     /// In Coq's syntax, with `name` for a symbol.
     pub(super) fn write(&self, name: &dyn Fn(SymbolId) -> String) -> String {
         let mut text = String::new();

@@ -68,7 +68,7 @@ impl Certificate<'_> {
             certificate.as_printed(formulas[1])?,
             certificate.as_printed(&Poly::zero())?,
         ];
-        let mut section = Section::new(certificate, &question, &[&numbers])?;
+        let mut section = Section::new(certificate, &question, &numbers.each_ref())?;
         section.open_plain(&module, &title, Some("size"))?;
         let influence = |influence: &Influence| {
             let arguments = influence.symbols.iter().map(|symbol| {
@@ -129,8 +129,8 @@ impl Certificate<'_> {
         symbols.dedup();
         let module = self.names.give(&format!("{name}_on_{shown}"));
         let question = Question { observable: Some(observable), order: 1, kept: vec![error], zeros };
-        let mut section = Section::new(self, &question, &[&formula])?;
-        section.open(&module, &title);
+        let mut section = Section::new(self, &question, &formula.each_ref())?;
+        section.open(&module, &title)?;
         section.formula("derived", &formula);
         section.claim("derived");
         section.prove("derived", "holds", "claim")?;

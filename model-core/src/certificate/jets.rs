@@ -1,7 +1,7 @@
 //! Powers of t, where every error is multiplied by t: what the observable's vector is after each factor, by degree.
 
 use super::Refusal;
-use super::declared::WrittenFactor;
+use super::passage::Passage;
 use crate::algebra::{AngleSum, Poly, Rational};
 use crate::chain::{Motion, ObservableKind};
 use crate::forms::FormError;
@@ -24,14 +24,14 @@ pub(super) fn constant(value: &Poly, order: u32) -> Jet {
     jet
 }
 
-/// The vector after one more factor, whose amount is given by powers of t.
+/// The vector after one more factor.
 pub(super) fn moved(
     before: &VectorJet,
     kind: ObservableKind,
-    factor: &WrittenFactor,
-    amount: &Jet,
+    factor: &Passage,
     body: &str,
 ) -> Result<VectorJet, Refusal> {
+    let amount = &factor.jet;
     let mut vector = before.clone();
     match factor.motion {
         Motion::Translation if kind == ObservableKind::Direction => {}

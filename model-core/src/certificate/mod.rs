@@ -6,6 +6,7 @@
 //! be certified is a [`Refusal`].
 
 mod angles;
+mod condition;
 mod declared;
 mod differs;
 mod equality;
@@ -15,6 +16,8 @@ mod influence;
 mod jets;
 mod leaf;
 mod names;
+mod passage;
+mod readings;
 mod section;
 mod steps;
 mod witness;
@@ -86,12 +89,30 @@ pub enum Refusal {
     Ramp,
     /// A claim of another kind than certificates speak of.
     #[error(
-        "certificates speak of whole vectors in the ground frame to an order, of one face, without quotients by sums, half \
-         angles and roots"
+        "certificates speak of forms to an order, of one face, without half angles and roots, and of vectors without quotients \
+         by sums"
     )]
     Claim,
+    /// How a body is turned.
+    #[error(
+        "{reading} of an orientation; certificates speak of vectors: claim the directions of its three axes"
+    )]
+    Orientation {
+        /// The reading in words.
+        reading: String,
+    },
+    /// An angle or a length beyond first order.
+    #[error("the {reading} to order {order}; certificates state angles and lengths to first order")]
+    ReadingToOrder {
+        /// The reading in words.
+        reading: String,
+        /// The order.
+        order: u32,
+    },
     /// A quotient that exists nowhere, or not where the claim is looked at.
-    #[error("it divides by something other than numbers, sines and cosines of single angles")]
+    #[error(
+        "it divides by something other than products of numbers, symbols, sines and cosines of single angles"
+    )]
     Divisor,
 }
 
@@ -151,6 +172,9 @@ impl<'a> Certificate<'a> {
     /// [`Refusal`].
     pub fn derived(&mut self, observable: ObservableId, order: u32) -> Result<(), Refusal> {
         let chain = self.declared.chain();
+        if !chain.observable(observable).is_vector() {
+            return self.derived_readings(observable, order);
+        }
         let derived = self.printed(&vector_to_order(chain, observable, order)?)?;
         let question = Question {
             observable: Some(observable),
@@ -160,8 +184,8 @@ impl<'a> Certificate<'a> {
         };
         let title = format!("The error of {} to {} order", chain.observable(observable).name, ordinal(order));
         let name = self.names.give(&chain.observable(observable).name);
-        let mut section = Section::new(self, &question, &[&derived])?;
-        section.open(&name, &title);
+        let mut section = Section::new(self, &question, &derived.each_ref())?;
+        section.open(&name, &title)?;
         section.formula("derived", &derived);
         section.claim("derived");
         section.prove("derived", "holds", "claim")?;
@@ -190,6 +214,12 @@ impl<'a> Certificate<'a> {
             .each_ref()
             .map(|component| declared::without_places(&component.expression));
         self.only_symbols_of_the_chain(&printed)?;
+        if claim.only.is_some() || !self.declared.chain().observable(claim.observable).is_vector() {
+            return self.printed_readings(title, claim, order, verdict);
+        }
+        if !claim.printed.components.iter().all(|component| component.value.is_whole()) {
+            return Err(Refusal::Claim);
+        }
         let question = Question {
             observable: Some(claim.observable),
             order,
@@ -203,8 +233,8 @@ impl<'a> Certificate<'a> {
             ordinal(order)
         );
         if verdict.differences.is_empty() {
-            let mut section = Section::new(self, &question, &[&printed])?;
-            section.open(&name, &format!("{title}: holds"));
+            let mut section = Section::new(self, &question, &printed.each_ref())?;
+            section.open(&name, &format!("{title}: holds"))?;
             section.formula("printed", &printed);
             section.claim("printed");
             section.prove("printed", "holds", "claim")?;
@@ -212,8 +242,9 @@ impl<'a> Certificate<'a> {
             self.finish_section(section, &name, "holds");
         } else {
             let derived = self.printed(&whole(&verdict.derived)?)?;
-            let mut section = Section::new(self, &question, &[&printed, &derived])?;
-            section.open(&name, &format!("{title}: differs from what the chain implies"));
+            let mut section =
+                Section::new(self, &question, &[printed.each_ref(), derived.each_ref()].concat())?;
+            section.open(&name, &format!("{title}: differs from what the chain implies"))?;
             section.formula("printed", &printed);
             section.claim("printed");
             section.formula("derived", &derived);
@@ -369,10 +400,9 @@ fn ordinal(order: u32) -> &'static str {
     }
 }
 
-/// The error of an observable that is a vector in the ground frame: certificates know no others.
+/// The error of an observable that is a whole vector.
 fn vector_to_order(chain: &Chain, id: ObservableId, order: u32) -> Result<[Poly; 3], Refusal> {
-    let observable = chain.observable(id);
-    if !observable.is_vector() || observable.frame.is_some() {
+    if !chain.observable(id).is_vector() {
         return Err(Refusal::Claim);
     }
     whole(&forms::derive(chain, id, order)?.components)

@@ -10,14 +10,16 @@ const WORDS: &str = "Axiom CoFixpoint Eval Fixpoint Parameter Variable as at cof
     then Type using where with by Definition Lemma Theorem Proof Qed Section End Module Variables Hypothesis Ltac From \
     Require Import Print Assumptions R PI sin cos tan atan pow sqrt list nil cons hd tl app length fst snd eq_refl f_equal \
     cos_plus sin_plus cos_neg sin_neg cos_PI2 sin_PI2 cos_PI sin_PI cos_0 sin_0 PI_RGT_0 PI_4 Rmult_1_l Rinv INR IZR \
-    X Y Z V x y z t Rot Tr Rx Ry Rz Tx Ty Tz Point Direction S O I True False";
+    X Y Z V x y z t Plus Minus conj symmetry Rot Tr Rx Ry Rz Tx Ty Tz Point Direction S O I True False";
 
 /// Words that the text of a certificate gives a meaning to.
 const OWN: &str = "instrument vector printed derived claim holds differs there same_chain is_derived for_all size x_of_formula \
-    y_of_formula z_of_formula first_formula second_formula x_differs y_differs z_differs C E H D P Q";
+    y_of_formula z_of_formula first_formula second_formula x_differs y_differs z_differs seen is_seen C0 C1 C2 C E H D P Q";
 /// Beginnings of such words, before a number or a name.
-const OWN_BEGINNINGS: [&str; 10] =
-    ["from_", "step_", "cos_of_", "sin_of_", "body_", "at_", "defined_", "angle_", "cosine_", "sine_"];
+const OWN_BEGINNINGS: [&str; 12] = [
+    "from_", "step_", "cos_of_", "sin_of_", "body_", "at_", "defined_", "angle_", "cosine_", "sine_",
+    "printed_", "derived_",
+];
 
 /// Which names are taken.
 #[derive(Debug, Clone)]

@@ -3,13 +3,15 @@
 use std::fmt::Write as _;
 
 use super::angles::Angles;
+use super::condition::Condition;
 use super::expanded::Expanded;
 use super::expression::{self, Level, Term};
-use super::jets::{self, Jet, VectorJet};
+use super::jets::{self, VectorJet};
 use super::leaf;
 use super::names::comment;
+use super::passage::{self, Passage};
 use super::{Certificate, Refusal};
-use crate::algebra::{Poly, Wave};
+use crate::algebra::Poly;
 use crate::chain::{BodyId, ObservableId, ObservableKind};
 use crate::expr::Expr;
 use crate::symbol::SymbolId;
@@ -40,14 +42,15 @@ pub(super) struct Section<'c> {
     pub certificate: &'c Certificate<'c>,
     pub question: &'c Question,
     pub kind: ObservableKind,
-    pub path: Vec<BodyId>,
+    /// The bodies on the way, each with whether it is gone through backwards.
+    pub path: Vec<(BodyId, bool)>,
     /// The symbols that the statement is for all values of, in order.
     pub used: Vec<SymbolId>,
-    /// The sines and cosines that are divided by, and so are not zero.
-    pub conditions: Vec<(SymbolId, Wave)>,
+    /// Where the statement is defined.
+    pub conditions: Vec<Condition>,
     pub angles: Angles,
-    /// Every factor on the way, with its amount by powers of t.
-    pub factors: Vec<(BodyId, usize, Jet)>,
+    /// Every factor on the way.
+    pub factors: Vec<Passage>,
     /// The vector by powers of t: of the observable itself, then after each factor from the last to the first.
     pub states: Vec<VectorJet>,
     pub out: String,
@@ -58,15 +61,12 @@ impl<'c> Section<'c> {
     pub(super) fn new(
         certificate: &'c Certificate<'c>,
         question: &'c Question,
-        formulas: &[&[Expr<()>; 3]],
+        formulas: &[&Expr<()>],
     ) -> Result<Self, Refusal> {
         let declared = certificate.declared;
         let chain = declared.chain();
         let observable = chain.observable(question.observable());
-        if !observable.is_vector() || observable.frame.is_some() {
-            return Err(Refusal::Claim);
-        }
-        let path = chain.path(observable.body);
+        let path = passage::bodies(declared, question.observable());
         let mut section = Self {
             certificate,
             question,
@@ -84,36 +84,36 @@ impl<'c> Section<'c> {
         let mut angles = Angles::default();
         let mut divisors = Vec::new();
         let vector = declared.observable(question.observable());
-        for expression in vector.iter().chain(formulas.iter().copied().flatten()) {
+        for expression in vector.iter().chain(formulas.iter().copied()) {
             section.used.extend(declared.symbols_of(expression));
             angles.add_all(&lower, expression, &name)?;
             expression::divisors(expression, &mut divisors);
         }
-        for body in &section.path {
+        for (body, _) in &section.path {
             let kept = |symbol: &SymbolId| {
                 !declared.is_error(*symbol) || question.kept.binary_search(symbol).is_ok()
             };
             section.used.extend(certificate.body_symbols(*body).into_iter().filter(kept));
-            for (index, factor) in declared.body(*body).iter().enumerate() {
-                let is_error = |symbol| declared.is_error(symbol);
-                let is_kept = |symbol| section.is_kept(symbol);
-                let amount =
-                    jets::amount(&put_zeros(question, &factor.amount)?, question.order, is_error, is_kept);
-                section.factors.push((*body, index, amount));
-                angles.add_all(&lower, &factor.written, &name)?;
-                expression::divisors(&factor.written, &mut divisors);
-                let is_nominal = factor.amount.symbols().iter().all(|symbol| !declared.is_error(*symbol));
-                if is_nominal && factor.motion == crate::chain::Motion::Rotation {
-                    angles.add(&lower, &factor.written, &name)?;
-                }
+        }
+        for mut factor in passage::factors(declared, &section.path) {
+            let is_error = |symbol| declared.is_error(symbol);
+            let is_kept = |symbol| section.is_kept(symbol);
+            let amount = put_zeros(question, &factor.amount)?;
+            factor.jet = jets::amount(&amount, question.order, is_error, is_kept);
+            angles.add_all(&lower, &factor.written, &name)?;
+            expression::divisors(&factor.written, &mut divisors);
+            let is_nominal = factor.amount.symbols().iter().all(|symbol| !declared.is_error(*symbol));
+            if is_nominal && factor.motion == crate::chain::Motion::Rotation {
+                angles.add(&lower, &factor.written, &name)?;
             }
+            section.factors.push(factor);
         }
         section.used.sort_unstable();
         section.used.dedup();
         section.used.retain(|symbol| !question.zeros.contains(symbol));
         section.angles = angles;
         for divisor in divisors {
-            section.add_conditions(&divisor)?;
+            section.add_divisor(&divisor)?;
         }
         section.run()?;
         Ok(section)
@@ -149,7 +149,7 @@ impl<'c> Section<'c> {
         section.used.dedup();
         section.used.retain(|symbol| !question.zeros.contains(symbol));
         for divisor in divisors {
-            section.add_conditions(&divisor)?;
+            section.add_divisor(&divisor)?;
         }
         Ok(section)
     }
@@ -158,32 +158,17 @@ impl<'c> Section<'c> {
         self.question.kept.binary_search(&symbol).is_ok()
     }
 
-    /// What has to differ from zero for a quotient to exist.
-    fn add_conditions(&mut self, divisor: &Expr<()>) -> Result<(), Refusal> {
-        let poly = lower(self.certificate, self.question, divisor)?;
-        for pole in poly.recip().ok_or(Refusal::Divisor)?.terms().flat_map(|term| term.poles) {
-            let wave = if pole.sin_power > 0 { Wave::Sin } else { Wave::Cos };
-            if !self.conditions.contains(&(pole.symbol, wave)) {
-                self.conditions.push((pole.symbol, wave));
-            }
-        }
-        self.conditions.sort_unstable();
-        Ok(())
-    }
-
     /// The vector, from the observable itself to the ground.
     fn run(&mut self) -> Result<(), Refusal> {
-        let declared = self.certificate.declared;
-        let chain = declared.chain();
+        let chain = self.certificate.declared.chain();
         let components = &chain.observable(self.question.observable()).components;
         let [x, y, z] = components.each_ref().map(|component| put_zeros(self.question, component));
         self.states.push([x?, y?, z?].map(|component| jets::constant(&component, self.question.order)));
-        for (body, index, amount) in self.factors.iter().rev() {
-            let factor = &declared.body(*body)[*index];
+        for factor in self.factors.iter().rev() {
             let Some(before) = self.states.last() else {
                 unreachable!("the vector itself was put there first")
             };
-            let after = jets::moved(before, self.kind, factor, amount, &chain.body(*body).name)?;
+            let after = jets::moved(before, self.kind, factor, &chain.body(factor.body).name)?;
             self.states.push(after);
         }
         Ok(())
@@ -228,7 +213,7 @@ impl<'c> Section<'c> {
     }
 
     /// The heading, the variables and the instrument.
-    pub(super) fn open(&mut self, module: &str, title: &str) {
+    pub(super) fn open(&mut self, module: &str, title: &str) -> Result<(), Refusal> {
         let certificate = self.certificate;
         let chain = certificate.declared.chain();
         let observable = chain.observable(self.question.observable());
@@ -237,25 +222,29 @@ impl<'c> Section<'c> {
         if !names.is_empty() {
             let _ = writeln!(self.out, "Variables {} : R.", names.join(" "));
         }
-        self.write_conditions();
+        self.write_conditions()?;
         let body = &chain.body(observable.body).name;
+        let from = observable
+            .frame
+            .map_or("the ground".to_owned(), |frame| format!("body {}", chain.body(frame).name));
         let _ = writeln!(
             self.out,
-            "(* From the ground to body {}, every error multiplied by t; what is neglected is 0. *)\n\
+            "(* From {} to body {}, every error multiplied by t; what is neglected is 0. *)\n\
              Definition instrument (t : R) : list motion :=",
+            comment(&from),
             comment(body)
         );
-        for (index, body) in self.path.iter().enumerate() {
+        if self.path.is_empty() {
+            self.out.push_str("  [].\n");
+        }
+        for (index, (body, is_reversed)) in self.path.iter().enumerate() {
             let symbols = certificate.body_symbols(*body).into_iter();
             let arguments: Vec<String> =
                 symbols.map(|symbol| format!(" {}", self.scaled(symbol).at(Level::Atom))).collect();
             let end = if index + 1 == self.path.len() { "." } else { " ++" };
-            let _ = writeln!(
-                self.out,
-                "  {}{}{end}",
-                certificate.bodies[usize::from(body.0)],
-                arguments.concat()
-            );
+            let whole = format!("{}{}", certificate.bodies[usize::from(body.0)], arguments.concat());
+            let whole = if *is_reversed { format!("back ({whole})") } else { whole };
+            let _ = writeln!(self.out, "  {whole}{end}");
         }
         let what = match self.kind {
             ObservableKind::Direction => "direction",
@@ -263,6 +252,7 @@ impl<'c> Section<'c> {
         };
         let _ = writeln!(self.out, "(* {}: a {what} in the frame of that body *)", comment(&observable.name));
         self.formula("vector", certificate.declared.observable(self.question.observable()));
+        Ok(())
     }
 
     /// The heading, the variables and besides them `more`, and the rules of calculation, for a statement about numbers.
@@ -284,23 +274,19 @@ impl<'c> Section<'c> {
         if !names.is_empty() {
             let _ = writeln!(self.out, "Variables {} : R.", names.join(" "));
         }
-        self.write_conditions();
+        self.write_conditions()?;
         let mut lemmas = String::new();
         self.angles.write(&mut lemmas, &|symbol| self.name(symbol))?;
         self.out.push_str(&lemmas);
         Ok(())
     }
 
-    fn write_conditions(&mut self) {
+    fn write_conditions(&mut self) -> Result<(), Refusal> {
         for (index, condition) in self.conditions.iter().enumerate() {
-            let _ = writeln!(self.out, "Hypothesis defined_{index} : {}.", self.condition(*condition));
+            let text = self.condition(condition)?;
+            let _ = writeln!(self.out, "Hypothesis defined_{index} : {text}.");
         }
-    }
-
-    /// `sin e <> 0`
-    pub(super) fn condition(&self, (symbol, wave): (SymbolId, Wave)) -> String {
-        let wave = if wave == Wave::Sin { "sin" } else { "cos" };
-        format!("{wave} {} <> 0", self.name(symbol))
+        Ok(())
     }
 
     /// A vector as written.
@@ -357,7 +343,11 @@ fn section_leaf(certificate: &Certificate<'_>, question: &Question, expression: 
 }
 
 /// What an expression says, with zero for what is zero.
-fn lower(certificate: &Certificate<'_>, question: &Question, expression: &Expr<()>) -> Result<Poly, Refusal> {
+pub(super) fn lower(
+    certificate: &Certificate<'_>,
+    question: &Question,
+    expression: &Expr<()>,
+) -> Result<Poly, Refusal> {
     put_zeros(question, &certificate.declared.lower(expression).ok_or(Refusal::Divisor)?)
 }
 

@@ -56,6 +56,19 @@ impl Section<'_> {
 
     /// The steps, and the theorem that a formula, whose canonical form is proved, is the error.
     pub(super) fn reach(&mut self, formula: &str, theorem: &str, statement: &str) -> Result<(), Refusal> {
+        self.write_steps()?;
+        let _ = writeln!(
+            self.out,
+            "\nTheorem {theorem} : {statement}.\nProof.\n  try unfold claim. rewrite same_chain.\n  apply (reached {} _ _ _ _ {formula} \
+             step_0); [reflexivity | reflexivity | reflexivity | rewrite x_of_formula | rewrite y_of_formula | rewrite z_of_formula];\n    \
+             total.\nQed.",
+            self.question.order
+        );
+        Ok(())
+    }
+
+    /// The vector and its derivatives after each factor.
+    pub(super) fn write_steps(&mut self) -> Result<(), Refusal> {
         let count = self.factors.len();
         let kind = self.kind_name();
         let orders = self.question.order + 1;
@@ -81,20 +94,13 @@ impl Section<'_> {
             };
             let _ = writeln!(self.out, "Proof. {proof} Qed.");
         }
-        let _ = writeln!(
-            self.out,
-            "\nTheorem {theorem} : {statement}.\nProof.\n  try unfold claim. rewrite same_chain.\n  apply (reached {} _ _ _ _ {formula} \
-             step_0); [reflexivity | reflexivity | reflexivity | rewrite x_of_formula | rewrite y_of_formula | rewrite z_of_formula];\n    \
-             total.\nQed.",
-            self.question.order
-        );
         Ok(())
     }
 
     /// The proof of the step that one factor makes.
     fn step(&self, index: usize) -> Result<String, Refusal> {
-        let (body, at, jet) = &self.factors[index];
-        let factor = &self.certificate.declared.body(*body)[*at];
+        let factor = &self.factors[index];
+        let jet = &factor.jet;
         let before = format!("step_{}", index + 1);
         let amount = format!("(fun t : R => {})", self.amount_text(index, false));
         if factor.motion == Motion::Translation && self.kind == ObservableKind::Direction {
@@ -140,18 +146,16 @@ impl Section<'_> {
 
     /// `Rx` to `Tz`.
     fn head(&self, index: usize) -> String {
-        let (body, at, _) = &self.factors[index];
-        let factor = &self.certificate.declared.body(*body)[*at];
+        let factor = &self.factors[index];
         motion(factor.motion, factor.axis)
     }
 
     /// An amount as written, every error multiplied by t.
     fn amount_text(&self, index: usize, as_argument: bool) -> String {
-        let (body, at, _) = &self.factors[index];
         let declared = self.certificate.declared;
         let scaled = |symbol| self.scaled(symbol);
         let symbol = |leaf: &Expr<()>| leaf::leaf(declared, leaf, &scaled);
-        let written = &declared.body(*body)[*at].written;
+        let written = &self.factors[index].written;
         if as_argument { expression::argument(written, &symbol) } else { expression::write(written, &symbol) }
     }
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::condition::Condition;
 use super::expanded::{Expanded, Key, Part};
 use crate::algebra::{Rational, Wave};
 use crate::symbol::SymbolId;
@@ -134,8 +135,8 @@ fn is_seen(number: &Expanded) -> bool {
 
 /// A search for values of some symbols, others staying as they are given.
 pub(super) struct Search<'a> {
-    /// The sines and cosines that must not be zero.
-    pub conditions: &'a [(SymbolId, Wave)],
+    /// Where the formulas are defined.
+    pub conditions: &'a [Condition],
     /// Which symbols are angles in some formula.
     pub is_angle: &'a dyn Fn(SymbolId) -> bool,
     /// Which symbols stand in some formula as they are.
@@ -154,8 +155,10 @@ impl Search<'_> {
                 (Some((_, sine)), Wave::Sin) => !sine.is_zero(),
                 (None, _) => false,
             };
-            let defined =
-                self.conditions.iter().filter(|(other, _)| *other == symbol).all(|(_, wanted)| wave(*wanted));
+            let defined = self.conditions.iter().all(|condition| match condition {
+                Condition::Wave(other, wanted) if *other == symbol => wave(*wanted),
+                _ => true,
+            });
             defined && (!is_number || value.number.is_some())
         });
         values
@@ -175,7 +178,9 @@ impl Search<'_> {
         found: &mut Vec<(SymbolId, Value)>,
         tries: &mut usize,
     ) -> bool {
-        let Some((&symbol, rest)) = symbols.split_first() else { return is_seen(formula) };
+        let Some((&symbol, rest)) = symbols.split_first() else {
+            return is_seen(formula) && self.conditions.iter().all(|condition| condition.is_satisfied(found));
+        };
         for value in self.values(symbol) {
             *tries += 1;
             if *tries > TRIES_LIMIT {

@@ -83,6 +83,9 @@ pub enum Measures {
     Range,
     /// The angle between v and the v of the perfect instrument, in [0, π]. It is an error by itself, and never negative.
     OffAxis,
+    /// One component of the small rotation vector ω of a body, in the frame that it is seen in: with errors the body is turned
+    /// as by design and then about ω by its length, R = exp(ω×) R₀. It is an error by itself, and belongs to no vector.
+    Rotation(Axis),
 }
 
 const X: SignedAxis = SignedAxis::along(Axis::X);
@@ -92,7 +95,7 @@ const MINUS_Y: SignedAxis = SignedAxis::against(Axis::Y);
 
 /// Every reading by its word, by the convention that holds where none is written. This is the one place that says where an
 /// angle is zero and which way it turns.
-pub const WORDS: [Reading; 13] = [
+pub const WORDS: [Reading; 16] = [
     Reading { word: "x", measures: Measures::Component(Axis::X) },
     Reading { word: "y", measures: Measures::Component(Axis::Y) },
     Reading { word: "z", measures: Measures::Component(Axis::Z) },
@@ -106,7 +109,13 @@ pub const WORDS: [Reading; 13] = [
     Reading { word: "vertical_circle", measures: Measures::ZenithDistance { up: Z } },
     Reading { word: "range", measures: Measures::Range },
     Reading { word: "off_axis", measures: Measures::OffAxis },
+    Reading { word: "rotation_x", measures: Measures::Rotation(Axis::X) },
+    Reading { word: "rotation_y", measures: Measures::Rotation(Axis::Y) },
+    Reading { word: "rotation_z", measures: Measures::Rotation(Axis::Z) },
 ];
+
+/// The small rotation vector: what an orientation shows that names no readings.
+pub const ROTATION: [Reading; 3] = [WORDS[13], WORDS[14], WORDS[15]];
 
 /// The components of a vector: what an observable shows that names no readings.
 pub const COMPONENTS: [Reading; 3] = [WORDS[0], WORDS[1], WORDS[2]];
@@ -124,7 +133,7 @@ impl Reading {
         match self.measures {
             Measures::Azimuth { .. } | Measures::CrossElevation { .. } => 2,
             Measures::Elevation { .. } | Measures::ZenithDistance { .. } => 1,
-            Measures::Component(_) | Measures::Range | Measures::OffAxis => 0,
+            Measures::Component(_) | Measures::Range | Measures::OffAxis | Measures::Rotation(_) => 0,
         }
     }
 
@@ -143,6 +152,15 @@ impl Reading {
             _ => return None,
         };
         Some(Self { measures, ..*self })
+    }
+
+    /// The component of the small rotation vector that it is, if it is one.
+    #[must_use]
+    pub fn rotation(&self) -> Option<Axis> {
+        match self.measures {
+            Measures::Rotation(axis) => Some(axis),
+            _ => None,
+        }
     }
 
     /// The component that it is, if it is one.
@@ -182,6 +200,7 @@ impl Reading {
             Measures::ZenithDistance { up } => format!("{} from {up}", self.words()),
             Measures::Range => "range".to_owned(),
             Measures::OffAxis => "angle off the axis".to_owned(),
+            Measures::Rotation(axis) => format!("component {axis} of the small rotation vector"),
         }
     }
 
@@ -203,7 +222,9 @@ impl Reading {
                 format!("{}({zero}, {through})", self.word)
             }
             Measures::Elevation { up } | Measures::ZenithDistance { up } => format!("{}({up})", self.word),
-            Measures::Component(_) | Measures::Range | Measures::OffAxis => self.word.to_owned(),
+            Measures::Component(_) | Measures::Range | Measures::OffAxis | Measures::Rotation(_) => {
+                self.word.to_owned()
+            }
         }
     }
 }
@@ -213,6 +234,12 @@ impl Observable {
     #[must_use]
     pub fn is_vector(&self) -> bool {
         self.shown == COMPONENTS
+    }
+
+    /// Whether it shows how a body is turned, and no vector.
+    #[must_use]
+    pub fn is_orientation(&self) -> bool {
+        self.shown.iter().any(|reading| reading.rotation().is_some())
     }
 
     /// Whether it shows nothing but components of its vector.

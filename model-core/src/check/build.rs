@@ -9,9 +9,10 @@ use super::quantity::inferred;
 use super::scope::documentation;
 use super::words::{self, OBSERVABLE_KINDS, meaning};
 use crate::algebra::{Poly, Rational};
-use crate::chain::reading::COMPONENTS;
+use crate::chain::reading::{COMPONENTS, ROTATION};
 use crate::chain::{Body, BodyId, Chain, Factor, Observable, ObservableKind};
 use crate::symbol::{Quantity, Symbol, SymbolId, SymbolKind};
+use crate::syntax::ORIENTATION;
 use crate::syntax::declaration::{BodyStatement, ObserveStatement};
 
 /// The chain. The rules have seen to it that nothing is missing; what were missing all the same is left out.
@@ -44,6 +45,7 @@ pub fn chain(subject: &Subject<'_>) -> Chain {
                     body: ids.get(&observe.body.to_string()).copied()?,
                     frame: observe.frame.as_ref().and_then(|frame| ids.get(&frame.to_string()).copied()),
                     shown: match observe.readings.as_slice() {
+                        [] if observe.kind == ORIENTATION => ROTATION.to_vec(),
                         [] => COMPONENTS.to_vec(),
                         readings => readings.iter().filter_map(words::reading).collect(),
                     },

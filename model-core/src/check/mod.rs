@@ -20,6 +20,7 @@ use proc_macro2::{Span, TokenStream};
 
 use crate::chain::Chain;
 use crate::mistake::{Mistake, Mistakes};
+use crate::syntax::declaration::ConstantStatement;
 use crate::syntax::{self, Declaration};
 use amounts::Amount;
 use scope::Scope;
@@ -65,6 +66,21 @@ impl Chain {
             Err(mistakes) => Err(syntax::located(text, mistakes)),
         }
     }
+
+    /// The same for those who want formulas and no numbers: constants need no value.
+    ///
+    /// Everything that calculates with numbers needs a chain from [`Self::from_text`].
+    ///
+    /// # Errors
+    ///
+    /// Every other mistake in it, sorted by place.
+    pub fn symbolic_from_text(text: &str) -> Result<Self, Mistakes> {
+        let tokens = syntax::tokens_of(text).map_err(|mistake| syntax::located(text, vec![mistake]))?;
+        match read_symbolic(tokens) {
+            Ok((_, chain)) => Ok(chain),
+            Err(mistakes) => Err(syntax::located(text, mistakes)),
+        }
+    }
 }
 
 /// Reads and checks a declaration: all mistakes of form and of meaning, sorted by place.
@@ -73,8 +89,31 @@ impl Chain {
 ///
 /// Every mistake, at the token at fault.
 pub fn read(tokens: TokenStream) -> Result<(Declaration, Chain), Vec<Mistake<Span>>> {
+    read_for(tokens, Purpose::Numbers)
+}
+
+/// The same, where constants need no value.
+///
+/// # Errors
+///
+/// Every mistake, at the token at fault.
+pub fn read_symbolic(tokens: TokenStream) -> Result<(Declaration, Chain), Vec<Mistake<Span>>> {
+    read_for(tokens, Purpose::Formulas)
+}
+
+/// What a chain is wanted for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Purpose {
+    Numbers,
+    Formulas,
+}
+
+fn read_for(tokens: TokenStream, purpose: Purpose) -> Result<(Declaration, Chain), Vec<Mistake<Span>>> {
     let mut mistakes = Vec::new();
     let declaration = syntax::read(tokens, &mut mistakes);
+    if purpose == Purpose::Numbers {
+        mistakes.extend(declaration.iter().flat_map(without_value));
+    }
     let chain = declaration.as_ref().map(check);
     match (declaration, chain) {
         (Some(declaration), Some(Ok(chain))) if mistakes.is_empty() => Ok((declaration, chain)),
@@ -83,6 +122,20 @@ pub fn read(tokens: TokenStream) -> Result<(Declaration, Chain), Vec<Mistake<Spa
             Err(sorted(mistakes))
         }
     }
+}
+
+/// The constants without a value.
+fn without_value(declaration: &Declaration) -> Vec<Mistake<Span>> {
+    let unknown = declaration.constants().filter(|constant| constant.is_open);
+    let mistake = |constant: &ConstantStatement| {
+        let name = &constant.name;
+        let stated = constant.quantity.as_ref().map_or(String::new(), |quantity| format!(": {quantity}"));
+        let message = format!("the constant `{name}` has no value, and numbers are asked for");
+        Mistake::new(name.span(), message).with_help(format!(
+            "write its value: `const {name}{stated} = 0.25;`; the formulas of `derive`, `check` and `identify` do without"
+        ))
+    };
+    unknown.map(mistake).collect()
 }
 
 /// The chain that a declaration stands for.

@@ -29,9 +29,12 @@ pub const TRANSFORMS: [(&str, (Motion, Axis)); 6] = [
     ("Tz", (Motion::Translation, Axis::Z)),
 ];
 
-/// The kinds of observables.
-pub const OBSERVABLE_KINDS: [(&str, ObservableKind); 2] =
-    [("direction", ObservableKind::Direction), ("point", ObservableKind::Point)];
+/// The kinds of observables; like a direction, an orientation is not moved by shifts.
+pub const OBSERVABLE_KINDS: [(&str, ObservableKind); 3] = [
+    ("direction", ObservableKind::Direction),
+    ("point", ObservableKind::Point),
+    (crate::syntax::ORIENTATION, ObservableKind::Direction),
+];
 
 /// The axes that readings are told by.
 pub const AXES: [(&str, Axis); 3] = [("x", Axis::X), ("y", Axis::Y), ("z", Axis::Z)];

@@ -51,16 +51,11 @@ pub struct ClosedForm {
 }
 
 impl ClosedForm {
-    /// Whether this is a whole vector to an order, of one face, in the names of the chain alone and without quotients.
+    /// Whether this is a form to an order, of one face, in the names of the chain alone.
     #[must_use]
     pub fn is_plain(&self) -> bool {
-        let PrintedVector { components, halves, has_roots } = &self.printed;
-        self.only.is_none()
-            && self.faces.is_none()
-            && self.order != Order::Exact
-            && halves.is_empty()
-            && !has_roots
-            && components.iter().all(|component| component.value.is_whole())
+        let PrintedVector { halves, has_roots, .. } = &self.printed;
+        self.faces.is_none() && self.order != Order::Exact && halves.is_empty() && !has_roots
     }
 }
 

@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use super::angles;
 use super::claim::Order;
 use super::compare::{Columns, Pair};
 use super::lowering::{self, Sines};
@@ -41,6 +42,19 @@ enum ChangeKind {
     Function,
     Angle,
     Removed,
+}
+
+impl Change {
+    /// The slip that it takes back, perhaps with the other sign; a factor too much with another sign is none.
+    fn slip(self, sign: bool) -> Option<TermSlip> {
+        let (printed, derived) = (self.from, self.to);
+        match self.kind {
+            ChangeKind::Function => Some(TermSlip::SineForCosine { printed, derived, sign }),
+            ChangeKind::Angle => Some(TermSlip::OtherAngle { printed, derived, sign }),
+            ChangeKind::Removed if sign => None,
+            ChangeKind::Removed => Some(TermSlip::ExtraFactor(printed)),
+        }
+    }
 }
 
 /// The claim, and both forms by products of errors.
@@ -95,6 +109,9 @@ impl Case<'_> {
             if let Some((slip, place)) = self.change(candidate, &needed, pair.component) {
                 return found(slip, place.or_else(|| candidate.term.place.clone()));
             }
+        }
+        if let Some((slip, place)) = self.shared_change(&candidates, &lacking, pair.component) {
+            return found(slip, Some(place));
         }
         if derived.is_zero() {
             return found(TermSlip::Superfluous, place);
@@ -166,28 +183,61 @@ impl Case<'_> {
             let slip = if factor == -&Rational::ONE { TermSlip::Sign } else { TermSlip::Factor(factor) };
             return Some((slip, None));
         }
-        for (index, factor) in candidate.term.factors.iter().enumerate() {
-            for change in self.changes(factor) {
-                let Some(rest) = self.without(candidate, index, component) else { continue };
-                let changed = &rest * &change.to;
-                let sign = changed == -needed;
-                if changed != *needed && !sign {
-                    continue;
+        // The right sign first: what another sign explains, two slips have made.
+        for with_sign in [false, true] {
+            for (index, factor) in candidate.term.factors.iter().enumerate() {
+                for change in self.changes(factor) {
+                    let Some(rest) = self.without(candidate, index, component) else { continue };
+                    let changed = &rest * &change.to;
+                    let is_needed = if with_sign { changed == -needed } else { changed == *needed };
+                    if let Some(slip) = is_needed.then(|| change.slip(with_sign)).flatten() {
+                        return Some((slip, Some(factor.expression.place.clone())));
+                    }
                 }
-                let (printed, derived) = (change.from, change.to);
-                let slip = match change.kind {
-                    ChangeKind::Function => TermSlip::SineForCosine { printed, derived, sign },
-                    ChangeKind::Angle => TermSlip::OtherAngle { printed, derived, sign },
-                    ChangeKind::Removed if sign => continue,
-                    ChangeKind::Removed => TermSlip::ExtraFactor(printed),
-                };
-                return Some((slip, Some(factor.expression.place.clone())));
             }
         }
         self.waves()
             .into_iter()
             .find(|wave| &candidate.factor * wave == *needed)
             .map(|wave| (TermSlip::MissingFactor(wave), None))
+    }
+
+    /// The change of one printed factor of a sum, and with it of all the terms that multiplying out makes of it.
+    fn shared_change(
+        &self,
+        candidates: &[Candidate<'_>],
+        lacking: &Poly,
+        component: Axis,
+    ) -> Option<(TermSlip, Range<usize>)> {
+        let mut seen: Vec<&Range<usize>> = Vec::new();
+        for factor in candidates.iter().flat_map(|candidate| &candidate.term.factors) {
+            let place = &factor.expression.place;
+            let is_same = |other: &TermFactor<'_>| other.expression.place == *place;
+            let sharing = || {
+                candidates.iter().filter_map(|candidate| {
+                    Some((candidate, candidate.term.factors.iter().position(is_same)?))
+                })
+            };
+            if seen.contains(&place) || sharing().count() < 2 {
+                continue;
+            }
+            seen.push(place);
+            let rests: Option<Vec<Poly>> =
+                sharing().map(|(candidate, index)| self.without(candidate, index, component)).collect();
+            let Some(rests) = rests else { continue };
+            let rest = rests.iter().fold(Poly::zero(), |sum, rest| &sum + rest);
+            let needed = sharing().fold(lacking.clone(), |sum, (candidate, _)| &sum + &candidate.factor);
+            for with_sign in [false, true] {
+                for change in self.changes(factor) {
+                    let changed = &rest * &change.to;
+                    let is_needed = if with_sign { changed == -&needed } else { changed == needed };
+                    if let Some(slip) = is_needed.then(|| change.slip(with_sign)).flatten() {
+                        return Some((slip, place.clone()));
+                    }
+                }
+            }
+        }
+        None
     }
 
     /// What multiplies the errors in a term, without one of its factors.
@@ -224,9 +274,7 @@ impl Case<'_> {
         if let Some(other) = exchanged(*function) {
             add(raised(other, angle.as_ref().clone()), ChangeKind::Function);
         }
-        for joint in self.chain.symbols_of(SymbolKind::Joint) {
-            let name = self.chain.symbol(joint).name.clone();
-            let other = Expr { node: Node::Symbol(name), place: angle.place.clone() };
+        for other in angles::taken_for(self.chain, angle) {
             add(raised(*function, other), ChangeKind::Angle);
         }
         changes.push(Change { from, to: Poly::one(), kind: ChangeKind::Removed });

@@ -8,6 +8,7 @@
 //! [`Mistake`](crate::mistake::Mistake), never a verdict.
 
 mod algebraic;
+mod angles;
 mod assert;
 mod claim;
 mod compare;

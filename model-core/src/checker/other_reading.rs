@@ -72,6 +72,6 @@ fn others(reading: &Reading) -> Vec<Reading> {
         ],
         Measures::Elevation { up } => vec![with("zenith_distance", Measures::ZenithDistance { up })],
         Measures::ZenithDistance { up } => vec![with("elevation", Measures::Elevation { up })],
-        Measures::Component(_) | Measures::Range | Measures::OffAxis => Vec::new(),
+        Measures::Component(_) | Measures::Range | Measures::OffAxis | Measures::Rotation(_) => Vec::new(),
     }
 }

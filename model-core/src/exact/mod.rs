@@ -127,6 +127,9 @@ impl Path {
     /// What the observable shows, with errors: one number for each reading.
     #[must_use]
     pub fn shown(&self, values: &[f64]) -> Vec<f64> {
+        if self.is_orientation() {
+            return self.turned(values);
+        }
         let parts = self.parts(values);
         let error = parts.first + parts.rest;
         self.shown.iter().map(|reading| reading.value(&parts.nominal, &error)).collect()
@@ -135,12 +138,45 @@ impl Path {
     /// What the errors add to what the observable shows: exact, with full relative precision.
     #[must_use]
     pub fn shown_error(&self, values: &[f64]) -> Vec<f64> {
+        if self.is_orientation() {
+            return self.turned(values);
+        }
         let parts = self.parts(values);
         let error = parts.first + parts.rest;
         self.shown.iter().map(|reading| reading.error(&parts.nominal, &error)).collect()
     }
 
+    fn is_orientation(&self) -> bool {
+        self.shown.iter().any(|reading| reading.rotation().is_some())
+    }
+
+    /// What is shown of the small rotation vector, from the three axes of the body.
+    fn turned(&self, values: &[f64]) -> Vec<f64> {
+        let axes = std::array::from_fn(|axis| {
+            let start =
+                |nominal: Vector3<f64>| Parts { nominal, first: Vector3::zeros(), rest: Vector3::zeros() };
+            let parts = self.carried(values, |_| start(Vector3::ith(axis, 1.0)));
+            (parts.nominal, parts.first + parts.rest)
+        });
+        let turned = reading::rotation_vector(&axes);
+        let axes = self.shown.iter().filter_map(Reading::rotation);
+        axes.map(|axis| turned[axis.index()]).collect()
+    }
+
     fn parts(&self, values: &[f64]) -> Parts {
+        self.carried(values, |values| {
+            let start =
+                |part: fn(&Split) -> &Poly| Vector3::from_fn(|axis, _| part(&self.vector[axis]).eval(values));
+            Parts {
+                nominal: start(|split| &split.nominal),
+                first: start(|split| &split.linear),
+                rest: start(|split| &split.beyond),
+            }
+        })
+    }
+
+    /// A vector of the body in the frame that the observable is seen in.
+    fn carried(&self, values: &[f64], start: impl Fn(&[f64]) -> Parts) -> Parts {
         let mut with_ramps;
         let values = if self.ramps.is_empty() {
             values
@@ -154,13 +190,7 @@ impl Path {
             }
             &with_ramps
         };
-        let start =
-            |part: fn(&Split) -> &Poly| Vector3::from_fn(|axis, _| part(&self.vector[axis]).eval(values));
-        let mut parts = Parts {
-            nominal: start(|split| &split.nominal),
-            first: start(|split| &split.linear),
-            rest: start(|split| &split.beyond),
-        };
+        let mut parts = start(values);
         for step in &self.steps {
             let [nominal, linear, beyond] = [&step.amount.nominal, &step.amount.linear, &step.amount.beyond]
                 .map(|part| part.eval(values));
@@ -239,6 +269,8 @@ impl Chain {
     pub fn nominal_values(&self) -> Vec<f64> {
         let value = |symbol: &crate::Symbol| match symbol.kind {
             SymbolKind::Pi => std::f64::consts::PI,
+            // A constant without a value makes whatever depends on it no number.
+            SymbolKind::Constant => symbol.value.unwrap_or(f64::NAN),
             _ => symbol.value.unwrap_or(0.0),
         };
         self.symbols.iter().map(value).collect()

@@ -24,7 +24,9 @@ impl Reading {
                 plane.length.atan2(up.of(&vector))
             }
             Measures::Range => vector.norm(),
-            Measures::CrossElevation { .. } | Measures::OffAxis => self.error(nominal, error),
+            Measures::CrossElevation { .. } | Measures::OffAxis | Measures::Rotation(_) => {
+                self.error(nominal, error)
+            }
         }
     }
 
@@ -54,8 +56,25 @@ impl Reading {
             }
             Measures::Range => growth(nominal, error),
             Measures::OffAxis => nominal.cross(error).norm().atan2(nominal.dot(&(nominal + error))),
+            // No single vector says how a body is turned.
+            Measures::Rotation(_) => f64::NAN,
         }
     }
+}
+
+/// The small rotation vector from the axes of a body without errors and what the errors add to each; with full relative
+/// precision, for turns of less than a half.
+///
+/// Source: with R = R₀ + D, ½ Σ n × d over the columns n of R₀ and d of D is the axis times sin θ, and 1 + ½ Σ n · d is
+/// cos θ.
+pub(super) fn rotation_vector(axes: &[(Vector3<f64>, Vector3<f64>); 3]) -> Vector3<f64> {
+    /// Far below the square of any turn, it keeps θ/sin θ a number where there is none.
+    const NOTHING: f64 = 1e-36;
+    let sine: Vector3<f64> =
+        axes.iter().map(|(nominal, error)| nominal.cross(error)).sum::<Vector3<f64>>() / 2.0;
+    let cosine = 1.0 + axes.iter().map(|(nominal, error)| nominal.dot(error)).sum::<f64>() / 2.0;
+    let length = (sine.norm_squared() + NOTHING).sqrt();
+    sine * (length.atan2(cosine) / length)
 }
 
 /// How long a vector is across an axis, and how much errors add to that.

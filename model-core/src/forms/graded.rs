@@ -14,13 +14,31 @@ const TERMS_LIMIT: usize = 1_000_000;
 pub(super) fn parts_up_to(chain: &Chain, id: ObservableId, order: u32) -> Result<Vec<Vector>, FormError> {
     let is_error = error_table(chain);
     let grade = |poly: &Poly, degree| poly.graded_part(|symbol| is_error[symbol.index()], degree);
+    let start = chain.observable(id).components.each_ref();
+    let parts = (0..=order).map(|degree| start.map(|poly| grade(poly, degree))).collect();
+    carried(chain, id, parts)
+}
+
+/// The three axes of the body that an observable belongs to in the frame that it is seen in, each as [`parts_up_to`] has it.
+pub(super) fn axes_up_to(chain: &Chain, id: ObservableId, order: u32) -> Result<[Vec<Vector>; 3], FormError> {
+    let axis = |axis: usize| {
+        let mut parts = vec![Vector::default(); order as usize + 1];
+        parts[0][axis] = Poly::one();
+        carried(chain, id, parts)
+    };
+    Ok([axis(0)?, axis(1)?, axis(2)?])
+}
+
+/// A vector of the body that carries an observable, by degree in the errors, in the frame that the observable is seen in.
+fn carried(chain: &Chain, id: ObservableId, mut parts: Vec<Vector>) -> Result<Vec<Vector>, FormError> {
+    let is_error = error_table(chain);
+    let grade = |poly: &Poly, degree| poly.graded_part(|symbol| is_error[symbol.index()], degree);
     let observable = chain.observable(id);
-    let mut parts: Vec<Vector> =
-        (0..=order).map(|degree| observable.components.each_ref().map(|poly| grade(poly, degree))).collect();
     for passed in chain.way(id).into_iter().rev() {
         let factor = &passed.factor;
         let refuse = |error| FormError::new(&chain.body(passed.body).name, factor.axis, error);
-        let amount: Vec<Poly> = (0..=order).map(|degree| grade(&factor.amount, degree)).collect();
+        let amount: Vec<Poly> =
+            (0u32..).take(parts.len()).map(|degree| grade(&factor.amount, degree)).collect();
         match factor.motion {
             Motion::Translation if observable.kind == ObservableKind::Direction => {}
             Motion::Translation => {

@@ -100,6 +100,14 @@ impl FormError {
 /// [`check`](crate::check) has none such), if the form would have more than a million terms, or if a reading has no closed
 /// form.
 pub fn derive(chain: &Chain, observable: ObservableId, order: u32) -> Result<Form, FormError> {
+    if chain.observable(observable).is_orientation() {
+        let turned = reading::rotation(&graded::axes_up_to(chain, observable, order)?);
+        let axes = chain.observable(observable).shown.iter().filter_map(Reading::rotation);
+        let components: Vec<Fraction> =
+            axes.map(|axis| Fraction::whole(turned[axis.index()].clone())).collect();
+        let positive = vec![Vec::new(); components.len()];
+        return Ok(Form { observable, order, components, positive });
+    }
     let parts = graded::parts_up_to(chain, observable, order)?;
     let (mut components, mut positive) = (Vec::new(), Vec::new());
     for reading in &chain.observable(observable).shown {

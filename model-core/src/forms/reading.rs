@@ -43,7 +43,36 @@ pub(super) fn read(reading: &Reading, parts: &[[Poly; 3]]) -> Result<ReadSeries,
         }
         Measures::Range => vector.range(),
         Measures::OffAxis => Err(NoSeries::NotSmooth),
+        Measures::Rotation(_) => unreachable!("how a body is turned is read of its three axes"),
     }
+}
+
+/// The small rotation vector of a body, whose three axes are given by degree in the errors, from 0 to the order.
+///
+/// Source: as in [`crate::exact`], ½ Σ n × d is the axis times sin θ; θ = sin θ + sin³θ/6 up to third order.
+pub(super) fn rotation(axes: &[Vec<[Poly; 3]>; 3]) -> [Poly; 3] {
+    let order = axes[0].len() - 1;
+    let sine = |degree: usize| -> [Poly; 3] {
+        std::array::from_fn(|i| {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            let crossed = axes.iter().map(|parts| {
+                let (nominal, error) = (&parts[0], &parts[degree]);
+                &(&nominal[j] * &error[k]) - &(&nominal[k] * &error[j])
+            });
+            sum(crossed).scale(&Rational::half())
+        })
+    };
+    let sines: Vec<[Poly; 3]> = (1..=order).map(sine).collect();
+    let mut total: [Poly; 3] = std::array::from_fn(|i| sum(sines.iter().map(|part| part[i].clone())));
+    if order >= 3 {
+        let first = &sines[0];
+        let square = sum(first.iter().map(|component| component * component));
+        let sixth = Rational::new(1, 6).unwrap_or_else(|| unreachable!("six is not zero"));
+        for (total, first) in total.iter_mut().zip(first) {
+            *total = &*total + &(first * &square).scale(&sixth);
+        }
+    }
+    total
 }
 
 /// A vector by degree in the errors.

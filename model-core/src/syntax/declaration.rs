@@ -94,8 +94,10 @@ pub struct ConstantStatement {
     pub name: Ident,
     /// `angle` or `length`, as written.
     pub quantity: Option<Ident>,
-    /// The value in SI; `None` if it could not be read.
+    /// The value in SI; `None` if none is stated, or one that cannot be read.
     pub value: Option<Expr<Span>>,
+    /// Whether none is stated.
+    pub is_open: bool,
 }
 
 /// `input ambient: temperature;`
@@ -132,7 +134,7 @@ pub struct ObserveStatement {
     pub name: Ident,
     /// What is read of the vector, in order; nothing for the vector itself.
     pub readings: Vec<ReadingTerm>,
-    /// `direction` or `point`, as written.
+    /// `direction`, `point` or `orientation`, as written.
     pub kind: Ident,
     /// The components; `None` for one that could not be read.
     pub components: [Option<Expr<Span>>; 3],

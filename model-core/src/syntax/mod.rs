@@ -17,6 +17,7 @@ use syn::buffer::TokenBuffer;
 
 pub use amount::{FUNCTIONS, RAMP};
 pub use declaration::Declaration;
+pub use statements::ORIENTATION;
 
 use crate::expr::Expr;
 use crate::mistake::{Mistake, Mistakes};

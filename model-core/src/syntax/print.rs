@@ -3,6 +3,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
+use super::ORIENTATION;
 use super::amount::{FUNCTIONS, RAMP};
 use super::declaration::{
     AxisTerm, BodyStatement, ConstantStatement, Declaration, FactorGroup, FactorTerm, GravityStatement,
@@ -27,13 +28,18 @@ impl Display for Declaration {
         for statement in &self.statements {
             match statement {
                 Statement::Body(body) => write_body(f, body)?,
-                Statement::Constant(ConstantStatement { documentation: text, name, quantity, value }) => {
+                Statement::Constant(ConstantStatement {
+                    documentation: text, name, quantity, value, ..
+                }) => {
                     documentation(f, "    ", text)?;
                     write!(f, "    const {name}")?;
                     if let Some(quantity) = quantity {
                         write!(f, ": {quantity}")?;
                     }
-                    writeln!(f, " = {};", Written(value.as_ref()))?;
+                    match value {
+                        Some(value) => writeln!(f, " = {};", Written(Some(value)))?,
+                        None => writeln!(f, ";")?,
+                    }
                 }
                 Statement::Input(InputStatement { documentation: text, name, meaning, of }) => {
                     documentation(f, "    ", text)?;
@@ -63,7 +69,11 @@ impl Display for Declaration {
                     let [x, y, z] = components.each_ref().map(|component| Written(component.as_ref()));
                     write!(f, "    observe {name}: ")?;
                     write_readings(f, readings)?;
-                    write!(f, "{kind}({x}, {y}, {z}) of {body}")?;
+                    if kind == ORIENTATION {
+                        write!(f, "{kind} of {body}")?;
+                    } else {
+                        write!(f, "{kind}({x}, {y}, {z}) of {body}")?;
+                    }
                     if let Some(frame) = frame {
                         write!(f, " in {frame}")?;
                     }

@@ -10,10 +10,13 @@ use super::declaration::{
     InputStatement, ObserveStatement, ReadingTerm, Statement, SymbolStatement,
 };
 use super::tokens::Reader;
-use crate::expr::Expr;
+use crate::algebra::Rational;
+use crate::expr::{Expr, Node};
 use crate::mistake::Mistake;
 use crate::names::nearest;
 
+/// The kind of observable that shows how a body is turned, and has no components.
+pub const ORIENTATION: &str = "orientation";
 /// The words that begin a statement of a chain.
 const STATEMENT_WORDS: [&str; 6] = ["body", "const", "input", "symbol", "observe", "gravity"];
 
@@ -181,21 +184,27 @@ fn factor(reader: &mut Reader<'_, '_>) -> Read<FactorTerm> {
 fn constant(reader: &mut Reader<'_, '_>, documentation: String) -> Read<ConstantStatement> {
     reader.keyword("const", CONSTANT_HELP)?;
     let name = reader.name("the name of the constant").map_err(|m| m.with_help(CONSTANT_HELP))?;
-    let mut constant = ConstantStatement { documentation, name, quantity: None, value: None };
+    let mut constant = ConstantStatement { documentation, name, quantity: None, value: None, is_open: false };
     // The name is declared, whatever is wrong with the rest.
-    if let Err(mistake) = constant_value(reader, &mut constant) {
-        reader.mistakes.push(mistake);
-        reader.skip_statement();
-    } else if constant.value.is_none() {
-        reader.skip_statement();
-    } else {
-        reader.end_of_statement()?;
+    match constant_value(reader, &mut constant) {
+        Err(mistake) => {
+            reader.mistakes.push(mistake);
+            reader.skip_statement();
+        }
+        Ok(()) if constant.value.is_none() && !constant.is_open => reader.skip_statement(),
+        Ok(()) => {
+            reader.end_of_statement()?;
+        }
     }
     Ok(constant)
 }
 
 fn constant_value(reader: &mut Reader<'_, '_>, constant: &mut ConstantStatement) -> Read<()> {
     constant.quantity = stated(reader, "`angle` or `length`", CONSTANT_HELP)?;
+    if reader.is_mark(';') {
+        constant.is_open = true;
+        return Ok(());
+    }
     reader.expect_mark('=', CONSTANT_HELP)?;
     constant.value = amount::part(reader);
     Ok(())
@@ -249,8 +258,14 @@ fn observe(reader: &mut Reader<'_, '_>, documentation: String) -> Read<ObserveSt
         }
         reader.keyword("of", READING_HELP)?;
     }
-    let kind = reader.name("`direction` or `point`").map_err(|m| m.with_help(OBSERVE_HELP))?;
-    let components = components(reader, OBSERVE_HELP)?;
+    let kind = reader.name("`direction`, `point` or `orientation`").map_err(|m| m.with_help(OBSERVE_HELP))?;
+    let components = if kind == ORIENTATION {
+        // It has none; what stands for them is never looked at.
+        let number = |value| Some(Expr { node: Node::Number(value), place: kind.span() });
+        [number(Rational::ZERO), number(Rational::ZERO), number(Rational::ONE)]
+    } else {
+        components(reader, OBSERVE_HELP)?
+    };
     reader.keyword("of", OBSERVE_HELP)?;
     let body = reader.name("the name of the body").map_err(|m| m.with_help(OBSERVE_HELP))?;
     let frame = match reader.peek_word() {
@@ -273,9 +288,13 @@ fn is_reading(reader: &Reader<'_, '_>) -> bool {
     if rest.punct().is_some_and(|(mark, _)| mark.as_char() == ',') {
         return true;
     }
+    if reader.peek_word().is_some_and(|word| word == ORIENTATION) {
+        return false;
+    }
     let Some((_, behind_of)) = rest.ident().filter(|(word, _)| word == "of") else { return false };
-    let is_vector =
-        behind_of.ident().is_some_and(|(_, behind)| behind.group(Delimiter::Parenthesis).is_some());
+    let is_vector = behind_of
+        .ident()
+        .is_some_and(|(kind, behind)| kind == ORIENTATION || behind.group(Delimiter::Parenthesis).is_some());
     group.is_none() || is_vector
 }
 

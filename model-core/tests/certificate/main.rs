@@ -3,5 +3,6 @@
 mod alterations;
 mod coq;
 mod outside;
+mod readings;
 mod statements;
 mod support;

@@ -163,27 +163,6 @@ fn equalities_of_quotients_and_roots_are_decided_but_not_certified() {
     }
 }
 
-/// What is read off a vector, or seen from another body, is no claim on the vector in the ground frame.
-#[test]
-fn angles_ranges_and_other_frames_are_refused() {
-    let chain = |observed: &str| {
-        format!(
-            "chain C {{ body a on ground {{ motion: Rz(q); motion_error: Rx(e); }} body b on a {{ motion_error: Ry(f); }} \
-             observe o: {observed}; }}"
-        )
-    };
-    assert!(of_chain(&chain("direction(0, 1, 0) of b"), 1).is_ok());
-    for observed in [
-        "azimuth(y, x), elevation of direction(0, 1, 0) of b",
-        "elevation of direction(0, 1, 0) of b",
-        "range of point(0, 1, 0) of b",
-        "direction(0, 1, 0) of b in a",
-        "x, y of direction(0, 1, 0) of b",
-    ] {
-        assert_eq!(of_chain(&chain(observed), 1), Err(Refusal::Claim), "{observed}");
-    }
-}
-
 /// Too much for Coq is refused with a limit.
 #[test]
 fn chains_that_would_keep_coq_busy_for_too_long_are_refused() {

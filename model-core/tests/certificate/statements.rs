@@ -7,7 +7,8 @@ use model_core::identify;
 
 use crate::coq;
 use crate::support::{
-    ALT_AZIMUTH, AXIOMS, Claim, MOBILE_LIDAR, add, declared, observable, of_chain, of_claim, paper,
+    ALT_AZIMUTH, AXIOMS, Claim, EXCLUDED_MIDDLE, MOBILE_LIDAR, add, declared, observable, of_chain, of_claim,
+    paper,
 };
 
 /// Coq accepts a certificate of so many statements, and says that each rests on nothing but its real numbers.
@@ -15,13 +16,26 @@ pub fn accepted(name: &str, text: &str, statements: usize) {
     let Some(folder) = coq::folder() else { return };
     match coq::check(folder, name, text) {
         // An equality of numbers may need fewer of them.
+        Ok(assumptions) => rests_on(name, &assumptions, statements, &AXIOMS),
+        Err(why) => panic!("{name}: {why}"),
+    }
+}
+
+/// The same for statements about angles and lengths.
+pub fn accepted_reading(name: &str, text: &str, statements: usize) {
+    let Some(folder) = coq::folder() else { return };
+    match coq::check(folder, name, text) {
         Ok(assumptions) => {
-            let others = AXIOMS.iter().fold(assumptions.clone(), |rest, axiom| rest.replace(axiom, ""));
-            let told: Vec<&str> = others.lines().collect();
-            assert_eq!(told, vec!["Axioms:"; statements], "{name}: {assumptions}");
+            rests_on(name, &assumptions, statements, &[&AXIOMS[..], &[EXCLUDED_MIDDLE]].concat());
         }
         Err(why) => panic!("{name}: {why}"),
     }
+}
+
+fn rests_on(name: &str, assumptions: &str, statements: usize, axioms: &[&str]) {
+    let others = axioms.iter().fold(assumptions.to_owned(), |rest, axiom| rest.replace(axiom, ""));
+    let told: Vec<&str> = others.lines().collect();
+    assert_eq!(told, vec!["Axioms:"; statements], "{name}: {assumptions}");
 }
 
 #[test]

@@ -16,6 +16,9 @@ pub const AXIOMS: [&str; 3] = [
      (forall x : A, f x = g x) -> f = g\n",
 ];
 
+/// What Coq's arc tangent rests on besides, and with it every statement about an angle.
+pub const EXCLUDED_MIDDLE: &str = "Classical_Prop.classic : forall P : Prop, P \\/ ~ P\n";
+
 /// The paper's chain.
 pub const MOBILE_LIDAR: &str = include_str!("../../../examples/mobile-lidar/mobile-lidar.chain");
 /// A mount with six errors.

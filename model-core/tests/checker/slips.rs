@@ -45,15 +45,6 @@ struct Contribution {
     factor: String,
 }
 
-/// Whether a sine or cosine is of a sum: `cos(q2 + q3)`.
-fn has_sum_of_angles(factor: &str) -> bool {
-    let calls = ["sin", "cos"].into_iter().flat_map(|wave| factor.split(wave).skip(1));
-    calls.map(|call| call.trim_start_matches("\\left")).any(|call| {
-        let inside = call.strip_prefix('(').and_then(|rest| rest.split(')').next());
-        inside.is_some_and(|inside| inside.contains(" + ") || inside.contains(" - "))
-    })
-}
-
 /// A first-order formula as a list of contributions.
 pub struct Formula<'a> {
     style: Style,
@@ -100,10 +91,7 @@ impl<'a> Formula<'a> {
             .flat_map(|wave| self.contributions[chosen].factor.match_indices(wave))
             .collect();
         let mut slip = Slip::ALL[random.below(Slip::ALL.len())];
-        // Of a sum of angles the place is told and the term, but not that a sine stands for a cosine: that takes several
-        // terms of the normal form at once.
-        let of_sums = has_sum_of_angles(&self.contributions[chosen].factor);
-        if (waves.is_empty() || of_sums) && matches!(slip, Slip::SineForCosine) {
+        if waves.is_empty() && matches!(slip, Slip::SineForCosine) {
             slip = Slip::Sign;
         }
         let Contribution { axis, error, .. } = self.contributions[chosen];

@@ -3,6 +3,7 @@
 
 mod language;
 mod numbers;
+mod orientation;
 mod slips;
 
 use model_core::Chain;

@@ -3,19 +3,20 @@
 use super::chain;
 use model_core::{Chain, SymbolKind, exact, forms, print};
 
-struct Line {
-    observable: &'static str,
-    size: f64,
-    values: Vec<f64>,
+const REFERENCE: &str = include_str!("../reference/readings.csv");
+
+pub struct Line {
+    pub observable: &'static str,
+    pub size: f64,
+    pub values: Vec<f64>,
     /// The sum of the errors' sizes.
-    sum: f64,
-    shown: usize,
+    pub sum: f64,
+    pub shown: usize,
     /// The value, the exact error, then its parts of degree 1, 2 and 3 over size to that power.
-    numbers: [f64; 5],
+    pub numbers: [f64; 5],
 }
 
-fn lines(chain: &Chain) -> Vec<Line> {
-    let text = include_str!("../reference/readings.csv");
+pub fn lines(chain: &Chain, text: &'static str) -> Vec<Line> {
     text.lines()
         .skip(1)
         .map(|line| {
@@ -46,7 +47,7 @@ fn lines(chain: &Chain) -> Vec<Line> {
 #[test]
 fn validate_values_and_errors_to_twelve_digits_however_small_they_are() {
     let chain = chain();
-    let lines = lines(&chain);
+    let lines = lines(&chain, REFERENCE);
     assert_eq!(lines.len(), 57);
     for line in lines {
         let path = exact::Path::new(&chain, chain.find_observable(line.observable).unwrap());
@@ -73,7 +74,7 @@ fn validate_the_parts_of_degree_one_two_and_three() {
         scaled
     };
     let mut count = 0;
-    for line in lines(&chain) {
+    for line in lines(&chain, REFERENCE) {
         let id = chain.find_observable(line.observable).unwrap();
         let values = is_error(&line.values, line.size);
         let form = |order| forms::derive(&chain, id, order).unwrap().components[line.shown].eval(&values);

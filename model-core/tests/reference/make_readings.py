@@ -4,8 +4,10 @@ Nothing is shared with trueaxis: the chain is written out here as 4 x 4 matrices
 tangents (which 120 digits can afford), and the parts by degree are the Taylor coefficients of the exact error along a ray.
 
     python make_readings.py > readings.csv
+    python make_readings.py turned > orientations.csv     the small rotation vector, by the trace and the antisymmetric part
 """
 
+import sys
 from random import Random
 
 from mpmath import acos, atan2, cos, mp, mpf, pi, sin, sqrt, taylor
@@ -126,6 +128,35 @@ def vector(name, j, e):
     return apply(mul(inverse(frames[frame]), frames[body]), components, 1 if kind == "point" else 0)
 
 
+TURNED = {"turned": ("tube", "ground"), "held": ("table", "mount")}
+
+
+def turned(name, j, e):
+    """The vector along the axis by which the body is turned from where it is by design, as long as the angle is large."""
+    body, frame = TURNED[name]
+    at = lambda errors: mul(inverse((frames := bodies(j, errors))[frame]), frames[body])
+    r = mul(at(e), inverse(at({error: mpf(0) for error in ERRORS})))
+    half = [(r[2][1] - r[1][2]) / 2, (r[0][2] - r[2][0]) / 2, (r[1][0] - r[0][1]) / 2]
+    sine = norm(half)
+    return [h * (atan2(sine, (r[0][0] + r[1][1] + r[2][2] - 1) / 2) / sine if sine else 1) for h in half]
+
+
+def orientations():
+    random = Random(18)
+    print("observable,size,values,shown,value,error,first,second,third")
+    for name in TURNED:
+        for size in ["1", "1e-2", "1e-5", "1e-12"]:
+            j = {joint: random.uniform(-3, 3) for joint in JOINTS}
+            given = {error: float(mpf(size) * mpf(random.uniform(-0.3, 0.3))) for error in ERRORS}
+            jm, em = ({key: mpf(value) for key, value in d.items()} for d in (j, given))
+            exact = turned(name, jm, em)
+            for i in range(3):
+                series = taylor(lambda t: turned(name, jm, {key: t * em[key] for key in ERRORS})[i], 0, 3)
+                numbers = [exact[i], exact[i]] + [series[k] / mpf(size)**k for k in (1, 2, 3)]
+                values = " ".join(f"{key}={value!r}" for key, value in {**j, **given}.items())
+                print(f"{name},{size},{values},{i}," + ",".join(mp.nstr(n, 25) for n in numbers))
+
+
 def main():
     random = Random(17)
     print("observable,size,values,shown,value,error,first,second,third")
@@ -150,4 +181,4 @@ def main():
                 print(f"{name},{size},{values},{index}," + ",".join(mp.nstr(n, 25) for n in numbers))
 
 
-main()
+orientations() if sys.argv[1:] == ["turned"] else main()

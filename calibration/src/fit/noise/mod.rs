@@ -9,6 +9,7 @@ mod layout;
 mod pool;
 pub(crate) mod serial;
 pub(super) mod session;
+pub(crate) mod space;
 pub(super) mod trend;
 mod variance;
 
@@ -24,6 +25,7 @@ pub(super) use estimate::{ln_scale, stated};
 pub use layout::{Layout, Run};
 pub use pool::pools;
 pub use session::Offsets;
+pub use space::Filter;
 
 /// What is known of the noise, and what to find out about it.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,6 +66,8 @@ pub struct Noise {
     pub variance: Option<VarianceModel>,
     /// The serial correlation, if one was found.
     pub serial: Option<Serial>,
+    /// What whitens by it, where rows remember in axes that stand still in space, and not across and along a beam that turns.
+    pub in_space: Option<Filter>,
     /// Whether rows were found to remember those before in the order of the file, though none is declared; without
     /// [serial](Self::serial) where that may as well be an effect that the chain lacks.
     pub undeclared_order: bool,
@@ -159,7 +163,13 @@ impl Noise {
     /// The same noise as if no observation remembered the one before.
     #[must_use]
     pub fn without_memory(&self) -> Self {
-        Self { sigma: self.sigma_without_memory().into_owned(), serial: None, offsets: None, ..self.clone() }
+        Self {
+            sigma: self.sigma_without_memory().into_owned(),
+            serial: None,
+            in_space: None,
+            offsets: None,
+            ..self.clone()
+        }
     }
 
     /// The same noise, so many times as large.
@@ -179,9 +189,11 @@ impl Noise {
             start = own.end;
             own
         });
+        let own: Vec<Run> = own.collect();
         let parts = runs.iter().map(|run| run.start..run.end);
         Self {
-            runs: own.collect(),
+            in_space: self.in_space.as_ref().and_then(|filter| filter.of_runs(runs, &own)),
+            runs: own,
             sigma: sigma.copied().collect(),
             offsets: self.offsets.as_ref().map(|offsets| offsets.of_parts(parts)),
             ..self.clone()
@@ -214,29 +226,16 @@ impl Noise {
         }
     }
 
-    /// Multiplies a column that was whitened [without memory](Self::without_memory) by a root of the correlation
-    /// matrix, in place.
-    pub fn colour(&self, column: &mut [f64]) {
-        if let Some(offsets) = &self.offsets {
-            offsets.whiten(column);
-        }
-        if let Some(serial) = self.serial {
-            for &run in &self.runs {
-                serial.colour(column, run);
-            }
-        }
-    }
-
     /// Whitens a column of residual components (length n, SI) in place: divides by the standard deviations and
     /// takes out what the observation before it explains. Robust weights are not part of it.
     pub fn whiten(&self, column: &mut [f64]) {
         for (value, sigma) in column.iter_mut().zip(&self.sigma) {
             *value /= sigma;
         }
-        if let Some(serial) = self.serial {
-            for &run in &self.runs {
-                serial.whiten(column, run);
-            }
+        if let Some(filter) = &self.in_space {
+            self.runs.iter().for_each(|&run| filter.whiten(column, run));
+        } else if let Some(serial) = self.serial {
+            self.runs.iter().for_each(|&run| serial.whiten(column, run));
         }
     }
 }

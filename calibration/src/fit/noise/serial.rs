@@ -6,14 +6,16 @@
 //! Hurvich, C.-L. Tsai, Biometrika 76 (1989) 297-307, for the price of parameters in few observations (AICc).
 
 use faer::{Mat, Side};
+use rayon::prelude::*;
 
+use super::space::Filter;
 use super::{Layout, Run, Serial};
 
 /// Components below which no serial correlation is looked for.
 pub(crate) const FEWEST: usize = 60;
 
 /// Components from which on what the fit took out of the residuals makes no difference.
-const MANY: usize = 50_000;
+pub(super) const MANY: usize = 50_000;
 
 /// Values further out than this count as this far, so that outliers do not decide.
 const CLIP: f64 = 3.0;
@@ -37,6 +39,8 @@ const LOOKED_AT: f64 = 1.0;
 pub struct Memory {
     /// The likeliest model.
     pub serial: Serial,
+    /// What whitens by it, where it is one of axes that stand still in space.
+    pub in_space: Option<Filter>,
     /// Standard deviation of its innovations, in units of the values.
     pub innovation: f64,
     /// QᵀVQ, V the covariance of the values: the mean over all models, each weighed by its likelihood, so that what is not
@@ -49,9 +53,42 @@ pub struct Memory {
     pub independent: f64,
 }
 
+/// A memory in the residuals' own axes, or in those of space.
+#[derive(Debug, Clone)]
+pub(crate) struct Model {
+    pub serial: Serial,
+    pub in_space: Option<Filter>,
+}
+
+impl Model {
+    /// No memory.
+    fn white() -> Self {
+        Self { serial: Serial { autoregressive: 0.0, moving_average: 0.0 }, in_space: None }
+    }
+
+    /// Turns values into innovations in place.
+    pub fn whiten(&self, column: &mut [f64], runs: &[Run]) {
+        for &run in runs {
+            match &self.in_space {
+                Some(filter) => filter.whiten(column, run),
+                None => self.serial.whiten(column, run),
+            }
+        }
+    }
+
+    /// ln |V| of values whose innovations have variance one.
+    pub fn ln_determinant(&self, runs: &[Run]) -> f64 {
+        match &self.in_space {
+            Some(filter) => filter.ln_determinant(),
+            // Only the first value of each run is scaled.
+            None => runs.iter().map(|run| 2.0 * run.stride as f64 * self.serial.gain().ln()).sum(),
+        }
+    }
+}
+
 /// A model, and how likely it is.
 struct Tried {
-    serial: Serial,
+    model: Model,
     /// −2 ln of the restricted likelihood, and AICc.
     deviance: f64,
     criterion: f64,
@@ -59,25 +96,34 @@ struct Tried {
 }
 
 /// What the data bear out of the serial correlation of values, in order; `q` holds the orthonormal columns that were fitted to
-/// them (n × k), `beside` those with what else they may hold, and `earns` what a model must gain over white noise.
+/// them (n × k), `beside` those with what else they may hold, `earns` what a model must gain over white noise, and `axes` the
+/// [axes](super::space::axes) of the components.
 #[must_use]
-pub fn fit(layout: &Layout, values: &[f64], q: &Mat<f64>, beside: &Mat<f64>, earns: f64) -> Option<Memory> {
+pub fn fit(
+    layout: &Layout,
+    values: &[f64],
+    q: &Mat<f64>,
+    beside: &Mat<f64>,
+    earns: f64,
+    axes: Option<&[[f64; 3]]>,
+) -> Option<Memory> {
     let length = longest(&layout.runs)?;
-    if values.len() < FEWEST + beside.ncols() || length < 4 {
-        return None;
-    }
-    if neighbours(layout, values) < LOOKED_AT {
+    if values.len() < FEWEST + beside.ncols() || length < 4 || looks_white(layout, values, axes) {
         return None;
     }
     let problem = Problem::new(layout, values, beside);
-    let white = problem.tried(Serial { autoregressive: 0.0, moving_average: 0.0 }, 0.0)?;
-    let tried: Vec<Tried> =
-        models(length).filter_map(|(serial, coefficients)| problem.tried(serial, coefficients)).collect();
+    let white = problem.tried(Model::white(), 0.0)?;
+    let tried: Vec<Tried> = models(length, &layout.runs, axes)
+        .collect::<Vec<_>>()
+        .into_par_iter()
+        .filter_map(|(model, coefficients)| problem.tried(model, coefficients))
+        .collect();
     let best = tried.iter().min_by(|a, b| a.criterion.total_cmp(&b.criterion))?;
     if white.deviance - best.deviance < earns || best.criterion >= white.criterion {
         return None;
     }
-    let (serial, innovation, least) = (best.serial, best.innovation, best.criterion);
+    let (Model { serial, in_space }, innovation, least) =
+        (best.model.clone(), best.innovation, best.criterion);
     let mut product = Mat::zeros(q.ncols(), q.ncols());
     let mut sum = 0.0;
     for model in tried {
@@ -92,11 +138,38 @@ pub fn fit(layout: &Layout, values: &[f64], q: &Mat<f64>, beside: &Mat<f64>, ear
     let (phi, theta) = (serial.autoregressive, serial.moving_average);
     let first = (1.0 + phi * theta) * (phi + theta) / (1.0 + 2.0 * phi * theta + theta * theta);
     let squares = first * first / (1.0 - phi * phi) * (1.0 - phi.powi(2 * length as i32));
-    Some(Memory { serial, innovation, product, independent: values.len() as f64 / (1.0 + 2.0 * squares) })
+    Some(Memory {
+        serial,
+        in_space,
+        innovation,
+        product,
+        independent: values.len() as f64 / (1.0 + 2.0 * squares),
+    })
 }
 
-/// The models that are tried on runs of at most so many rows, each with its number of coefficients.
-pub(crate) fn models(length: usize) -> impl Iterator<Item = (Serial, f64)> {
+/// Whether neighbours among the values hang together so little that no memory is looked for.
+#[must_use]
+pub fn looks_white(layout: &Layout, values: &[f64], axes: Option<&[[f64; 3]]>) -> bool {
+    neighbours(layout, values, axes) < LOOKED_AT
+}
+
+/// The models that are tried on runs of at most so many rows, each with its number of coefficients: in the residuals' own axes,
+/// and in those of space where they differ.
+pub(crate) fn models<'a>(
+    length: usize,
+    runs: &'a [Run],
+    axes: Option<&'a [[f64; 3]]>,
+) -> impl Iterator<Item = (Model, f64)> + 'a {
+    let own = serials(length).map(|(serial, free)| (Model { serial, in_space: None }, free));
+    let in_space = axes.into_iter().flat_map(move |axes| {
+        serials(length).filter_map(move |(serial, free)| {
+            Some((Model { serial, in_space: Some(Filter::new(serial, axes, runs)?) }, free))
+        })
+    });
+    own.chain(in_space)
+}
+
+fn serials(length: usize) -> impl Iterator<Item = (Serial, f64)> {
     // Away from the circle by what so many rows can tell: at this coefficient a run remembers its beginning.
     let largest = 1.0 - 1.0 / length as f64;
     AUTOREGRESSIVE.into_iter().filter(move |phi| *phi < largest).chain([largest]).flat_map(move |phi| {
@@ -116,16 +189,29 @@ pub(crate) fn longest(runs: &[Run]) -> Option<usize> {
     runs.iter().map(|run| (run.end - run.start) / run.stride.max(1)).max()
 }
 
-/// The correlation of each value with the one before, in standard deviations of what chance makes.
-fn neighbours(layout: &Layout, values: &[f64]) -> f64 {
+/// The correlation of each value with the one before, in standard deviations of what chance makes: by component, or in space.
+fn neighbours(layout: &Layout, values: &[f64], axes: Option<&[[f64; 3]]>) -> f64 {
     let clipped: Vec<f64> = values.iter().map(|value| value.clamp(-CLIP, CLIP)).collect();
-    let (mut products, mut squares) = (0.0, 0.0);
-    for run in &layout.runs {
-        let own = &clipped[run.start..run.end];
-        squares += own.iter().map(|value| value * value).sum::<f64>();
-        products += own.iter().zip(own.iter().skip(run.stride)).map(|(a, b)| a * b).sum::<f64>();
-    }
-    if squares > 0.0 { products / squares * (values.len() as f64).sqrt() } else { 0.0 }
+    let square = clipped.iter().map(|value| value * value).sum::<f64>() / clipped.len() as f64;
+    let correlation = |between: &dyn Fn(usize, usize) -> f64| {
+        let (mut products, mut variance) = (0.0, 0.0);
+        for run in &layout.runs {
+            for row in (run.start + run.stride..run.end).step_by(run.stride) {
+                for (a, b) in
+                    (row..row + run.stride).flat_map(|a| (row - run.stride..row).map(move |b| (a, b)))
+                {
+                    let between = between(a, b);
+                    products += between * clipped[a] * clipped[b];
+                    variance += between * between;
+                }
+            }
+        }
+        if square > 0.0 && variance > 0.0 { products / square / variance.sqrt() } else { 0.0 }
+    };
+    let own = correlation(&|a, b| if layout.kind[a] == layout.kind[b] { 1.0 } else { 0.0 });
+    let in_space =
+        |axes: &[[f64; 3]]| correlation(&|a, b| axes[a].iter().zip(&axes[b]).map(|(a, b)| a * b).sum());
+    axes.map_or(own, |axes| own.max(in_space(axes)))
 }
 
 /// The values and what was fitted to them.
@@ -145,34 +231,38 @@ impl<'a> Problem<'a> {
     }
 
     /// How likely a model of so many coefficients is; `None` where its columns are not independent.
-    fn tried(&self, serial: Serial, coefficients: f64) -> Option<Tried> {
+    fn tried(&self, model: Model, coefficients: f64) -> Option<Tried> {
         let mut white = self.columns.clone();
-        for j in 0..white.ncols() {
-            self.runs.iter().for_each(|&run| serial.whiten(white.col_as_slice_mut(j), run));
-        }
+        (0..white.ncols()).for_each(|j| model.whiten(white.col_as_slice_mut(j), self.runs));
         let gram = white.transpose() * &white;
         let factor = gram.llt(Side::Lower).ok()?;
         let l = factor.L();
         let (n, k) = (white.nrows() as f64, white.ncols() - 1);
         let ln_columns: f64 = (0..k).map(|at| 2.0 * l[(at, at)].ln()).sum();
-        // Only the first value of each run is scaled.
-        let ln_values: f64 = self.runs.iter().map(|run| 2.0 * run.stride as f64 * serial.gain().ln()).sum();
         let left = n - k as f64;
         let innovation = l[(k, k)] / left.sqrt();
-        let deviance = left * (innovation * innovation).ln() + ln_values + ln_columns;
+        let deviance = left * (innovation * innovation).ln() + model.ln_determinant(self.runs) + ln_columns;
         // The size of the innovations is a parameter too.
         let price = coefficients + 1.0;
         let criterion = deviance + 2.0 * price * left / (left - price - 1.0).max(1.0);
-        deviance.is_finite().then_some(Tried { serial, deviance, criterion, innovation })
+        deviance.is_finite().then_some(Tried { model, deviance, criterion, innovation })
     }
 
     /// QᵀVQ for a model.
-    fn product(&self, model: &Tried, q: &Mat<f64>) -> Mat<f64> {
-        let mut coloured = q.clone();
-        for j in 0..coloured.ncols() {
-            self.runs.iter().for_each(|&run| model.serial.colour(coloured.col_as_slice_mut(j), run));
-        }
-        let deviation = model.innovation * model.serial.gain();
+    fn product(&self, tried: &Tried, q: &Mat<f64>) -> Mat<f64> {
+        let Model { serial, in_space } = &tried.model;
+        let coloured = |j: usize| match in_space {
+            Some(filter) => filter.coloured(q.col_as_slice(j), self.runs),
+            None => {
+                let mut column = q.col_as_slice(j).to_vec();
+                self.runs.iter().for_each(|&run| serial.colour(&mut column, run));
+                column
+            }
+        };
+        let columns: Vec<Vec<f64>> = (0..q.ncols()).map(coloured).collect();
+        let rows = columns.first().map_or(0, Vec::len);
+        let coloured = Mat::from_fn(rows, columns.len(), |row, column| columns[column][row]);
+        let deviation = tried.innovation * serial.gain();
         coloured.transpose() * &coloured * faer::Scale(deviation * deviation)
     }
 }

@@ -5,6 +5,7 @@ use faer::Mat;
 use model_core::{Chain, Quantity, SymbolKind};
 
 use super::Layout;
+use super::serial::MANY;
 use crate::data::Observations;
 
 /// Columns at most at a first look and at a thorough one, and components for each.
@@ -23,6 +24,9 @@ const NEW: f64 = 1e-4;
 /// An orthonormal basis that begins with `q` (n × k, orthonormal but for weights) and goes on with smooth functions of the
 /// readings, each divided by the standard deviation of its component, `most` columns in all; rows that count for nothing are
 /// zero. And whether there was room for all of them.
+///
+/// Of more than [`MANY`] components the basis has those of every so-manieth row alone: what reads it asks only how many columns
+/// it has.
 #[must_use]
 pub fn beside(
     chain: &Chain,
@@ -33,8 +37,11 @@ pub fn beside(
     q: &Mat<f64>,
     most: usize,
 ) -> (Mat<f64>, bool) {
-    let n = layout.components();
-    let most = most.min(n / COMPONENTS);
+    let all = layout.components();
+    let most = most.min(all / COMPONENTS);
+    let step = all.div_ceil(MANY).max(1);
+    let looked_at: Vec<usize> =
+        (0..all).filter(|&at| (layout.row[at] as usize).is_multiple_of(step)).collect();
     let mut basis: Vec<Vec<f64>> = Vec::new();
     let mut take = |mut column: Vec<f64>| {
         let before = norm(&column);
@@ -50,8 +57,8 @@ pub fn beside(
         }
         basis.len()
     };
-    let fitted = (0..q.ncols()).map(|j| q.col_as_slice(j).to_vec()).filter(|own| norm(own) > UNDETERMINED);
-    fitted.for_each(|own| {
+    let own = |j: usize| looked_at.iter().map(|&at| q[(at, j)]).collect::<Vec<f64>>();
+    kept(q).into_iter().map(own).for_each(|own| {
         take(own);
     });
     let readings: Vec<(bool, &[f64])> = observations
@@ -84,13 +91,24 @@ pub fn beside(
                 let own = usize::from(layout.kind[at]) == kind && weight[row] > 0.0;
                 if own { function(row) / sigma[at] } else { 0.0 }
             };
-            if take((0..n).map(at).collect()) >= most.max(q.ncols()) {
+            if take(looked_at.iter().copied().map(at).collect()) >= most.max(q.ncols()) {
                 complete = false;
                 break 'all;
             }
         }
     }
-    (Mat::from_fn(n, basis.len(), |row, column| basis[column][row]), complete)
+    (Mat::from_fn(looked_at.len(), basis.len(), |row, column| basis[column][row]), complete)
+}
+
+/// The columns of what the data determine: the others are as good as zero, and no likelihood can do with them.
+#[must_use]
+pub fn determined(q: &Mat<f64>) -> Mat<f64> {
+    let kept = kept(q);
+    Mat::from_fn(q.nrows(), kept.len(), |row, column| q[(row, kept[column])])
+}
+
+fn kept(q: &Mat<f64>) -> Vec<usize> {
+    (0..q.ncols()).filter(|&j| norm(q.col_as_slice(j)) > UNDETERMINED).collect()
 }
 
 fn norm(column: &[f64]) -> f64 {

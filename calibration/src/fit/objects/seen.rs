@@ -22,7 +22,9 @@ fn numbers<const N: usize>(state: &[f64], first: usize, count: usize) -> [f64; N
 
 /// What a row shows of its object from its station, the chain saying `predicted`; `None` if it observes nothing unknown.
 ///
-/// `state` holds all numbers that are estimated, `first` where those of each station and of each object begin.
+/// `state` holds all numbers that are estimated, `first` where those of each station and of each object begin; `beam` points
+/// the way in which a target was seen, of any length.
+#[allow(clippy::too_many_arguments)]
 pub(crate) fn seen(
     unknowns: &Unknowns,
     first: &[Vec<usize>; 2],
@@ -31,6 +33,7 @@ pub(crate) fn seen(
     measure: Measure,
     measured: &Measured,
     predicted: &Vector3<f64>,
+    beam: &Vector3<f64>,
 ) -> Option<Seen> {
     let at = (*unknowns.object.get(row)?)? as usize;
     let object = unknowns.objects.get(at)?;
@@ -44,13 +47,14 @@ pub(crate) fn seen(
     let own: [f64; OF_OBJECT] = numbers(state, first[1][at], object.numbers());
     Some(match (measure, measured) {
         (Measure::Plane, _) => frame.plane(object, own, predicted),
-        (Measure::Target, _) => frame.target(object, own, predicted),
+        (Measure::Target, _) => frame.target(object, own, predicted, beam),
         (Measure::Fixed, _) => frame.fixed(object, own, predicted),
-        (Measure::Wire, Measured::Length { length_m }) => frame.wire(object, own, *length_m, predicted),
-        (Measure::Sight, _) => frame.sight(object, own, predicted),
-        (Measure::Wire | Measure::Direction | Measure::Point | Measure::Range | Measure::Azimuth, _) => {
-            return None;
+        // A distance is a wire's length that lacks nothing: an object that is a point has no fourth number.
+        (Measure::Wire | Measure::Distance, Measured::Length { length_m }) => {
+            frame.wire(object, own, *length_m, predicted)
         }
+        (Measure::Sight, _) => frame.sight(object, own, predicted),
+        _ => return None,
     })
 }
 
@@ -90,9 +94,9 @@ impl Frame {
     }
 
     /// Rᵀ(X − t) − p across, up and along the beam.
-    fn target(&self, object: &Object, own: [f64; OF_OBJECT], p: &Vector3<f64>) -> Seen {
+    fn target(&self, object: &Object, own: [f64; OF_OBJECT], p: &Vector3<f64>, beam: &Vector3<f64>) -> Seen {
         let there = self.pose.back(&(object.place + Vector3::new(own[0], own[1], own[2])));
-        let beam = p.normalize();
+        let beam = beam.normalize();
         let [across, up] = tangent_frame(&beam);
         let difference = there - p;
         let component = |axis: Vector3<f64>| {
@@ -154,8 +158,8 @@ mod tests {
 
     use super::*;
 
-    const KINDS: [Measure; 5] =
-        [Measure::Plane, Measure::Target, Measure::Fixed, Measure::Wire, Measure::Sight];
+    const KINDS: [Measure; 6] =
+        [Measure::Plane, Measure::Target, Measure::Fixed, Measure::Wire, Measure::Distance, Measure::Sight];
 
     /// Every derivative against differences of the residual.
     #[test]
@@ -165,7 +169,7 @@ mod tests {
             let object = Object {
                 place: Vector3::new(4.0, 7.0, 1.0),
                 normal: Vector3::new(0.6, 0.8, 0.0),
-                offset: 0.2,
+                offset: if measure == Measure::Wire { 0.2 } else { 0.0 },
                 known: Known::Yes,
                 ..Object::unknown("A".to_owned(), shape)
             };
@@ -192,7 +196,7 @@ mod tests {
             };
             let at = |state: &[f64], p: &Vector3<f64>| {
                 let length = Measured::Length { length_m: 0.3 };
-                seen(&unknowns, &first, state, 0, measure, &length, p).unwrap()
+                seen(&unknowns, &first, state, 0, measure, &length, p, p).unwrap()
             };
             // The point that the row would have at no residual.
             let p = (0..20).fold(p, |p, _| {

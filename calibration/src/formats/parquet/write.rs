@@ -4,17 +4,20 @@ use std::sync::Arc;
 
 use ::parquet::basic::{Compression, ConvertedType, LogicalType, Repetition, Type as Physical};
 use ::parquet::data_type::{
-    BoolType, ByteArray, ByteArrayType, DataType, DoubleType, FixedLenByteArray, FixedLenByteArrayType,
-    FloatType, Int32Type, Int64Type,
+    BoolType, ByteArray, ByteArrayType, DataType, DoubleType, FixedLenByteArrayType, FloatType, Int32Type,
+    Int64Type,
 };
 use ::parquet::errors::{ParquetError, Result};
 use ::parquet::file::properties::WriterProperties;
 use ::parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
-use ::parquet::record::Field;
-use ::parquet::schema::types::{Type, TypePtr};
+use ::parquet::schema::types::{ColumnPath, Type, TypePtr};
 
 use super::TypedCells;
+use super::cells::Values;
 use crate::formats::Kept;
+
+/// Rows of a group: what is held of a table whose types are known.
+const GROUP: usize = 1 << 19;
 
 /// Digits of a decimal number that a double holds in any case.
 const DOUBLE_DIGITS: usize = 15;
@@ -44,36 +47,99 @@ impl Column {
     pub fn bytes(&self) -> usize {
         match self {
             Self::Numbers(numbers) => numbers.len() * size_of::<f64>(),
-            Self::Kept(Kept::Texts(texts)) => texts.iter().map(|text| text.len() + size_of::<String>()).sum(),
-            Self::Kept(Kept::Typed(cells)) => cells.fields.len() * size_of::<Field>(),
+            Self::Kept(Kept::Texts(texts)) => texts.bytes(),
+            Self::Kept(Kept::Typed(cells)) => cells.bytes(),
         }
     }
 }
 
-/// A table as a Parquet file.
-///
-/// # Errors
-/// What the format says, such as columns of different lengths.
-pub fn file_of(names: &[String], columns: Vec<Column>) -> Result<Vec<u8>> {
-    let columns = names
-        .iter()
-        .zip(columns)
-        .map(|(name, column)| typed(name, column))
-        .collect::<Result<Vec<TypedCells>>>()?;
+/// A table that is being written: rows go in and the bytes of the file come out, group by group. Texts have no type before the
+/// last is known, so that a table with a column of them comes out at the end.
+pub struct Writer {
+    names: Vec<String>,
+    /// Rows that have not come out.
+    held: Vec<Column>,
+    rows: usize,
+    /// None before the types of the columns are known.
+    file: Option<SerializedFileWriter<Vec<u8>>>,
+}
+
+impl Writer {
+    /// A table of columns with these names.
+    #[must_use]
+    pub fn new(names: Vec<String>) -> Self {
+        Self { names, held: Vec::new(), rows: 0, file: None }
+    }
+
+    /// Takes in so many rows, column by column; returns the bytes of the file that are now known.
+    ///
+    /// # Errors
+    /// What the format says, such as columns of different lengths.
+    pub fn rows(&mut self, columns: Vec<Column>, count: usize) -> Result<Vec<u8>> {
+        if self.held.is_empty() {
+            self.held = columns;
+        } else {
+            self.held.iter_mut().zip(columns).for_each(|(held, more)| held.append(more));
+        }
+        self.rows += count;
+        let waits = self.held.iter().any(|column| matches!(column, Column::Kept(Kept::Texts(_))));
+        if self.rows < GROUP || waits { Ok(Vec::new()) } else { self.group() }
+    }
+
+    /// The memory that what is held takes, in bytes, about.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.held.iter().map(Column::bytes).sum()
+    }
+
+    /// The rest of the file.
+    ///
+    /// # Errors
+    /// As [`Writer::rows`].
+    pub fn finish(mut self) -> Result<Vec<u8>> {
+        let mut bytes = if self.held.is_empty() && self.file.is_some() { Vec::new() } else { self.group()? };
+        if let Some(file) = self.file {
+            bytes.extend(file.into_inner()?);
+        }
+        Ok(bytes)
+    }
+
+    /// Writes what is held as a group of rows.
+    fn group(&mut self) -> Result<Vec<u8>> {
+        let columns = self.names.iter().zip(std::mem::take(&mut self.held));
+        let columns: Vec<TypedCells> =
+            columns.map(|(name, column)| typed(name, column)).collect::<Result<_>>()?;
+        self.rows = 0;
+        let mut file = match self.file.take() {
+            Some(file) => file,
+            None => begun(&columns)?,
+        };
+        let mut group = file.next_row_group()?;
+        for cells in &columns {
+            let Some(mut column) = group.next_column()? else { break };
+            write(&mut column, cells)?;
+            column.close()?;
+        }
+        group.close()?;
+        file.flush()?;
+        let bytes = std::mem::take(file.inner_mut());
+        self.file = Some(file);
+        Ok(bytes)
+    }
+}
+
+fn begun(columns: &[TypedCells]) -> Result<SerializedFileWriter<Vec<u8>>> {
     let fields = columns.iter().map(|column| column.of_type.clone()).collect();
     let schema = Arc::new(Type::group_type_builder("table").with_fields(fields).build()?);
-    let properties = Arc::new(WriterProperties::builder().set_compression(Compression::SNAPPY).build());
-    let mut file = Vec::new();
-    let mut writer = SerializedFileWriter::new(&mut file, schema, properties)?;
-    let mut group = writer.next_row_group()?;
-    for cells in &columns {
-        let Some(mut column) = group.next_column()? else { break };
-        write(&mut column, cells)?;
-        column.close()?;
-    }
-    group.close()?;
-    writer.close()?;
-    Ok(file)
+    let doubles = columns.iter().filter(|column| matches!(column.values, Values::Double(_)));
+    let properties = doubles.fold(
+        WriterProperties::builder().set_compression(Compression::SNAPPY),
+        // Numbers that hardly come twice are not worth a dictionary.
+        |properties, column| {
+            properties.set_column_dictionary_enabled(ColumnPath::from(column.of_type.name()), false)
+        },
+    );
+    SerializedFileWriter::new(Vec::new(), schema, Arc::new(properties.build()))
 }
 
 /// The column with a type of its own.
@@ -81,29 +147,28 @@ fn typed(name: &str, column: Column) -> Result<TypedCells> {
     let texts = match column {
         Column::Kept(Kept::Typed(cells)) => return Ok(cells),
         Column::Numbers(numbers) => {
-            let fields = numbers.into_iter().map(Field::Double).collect();
-            return Ok(TypedCells { of_type: optional(name, Physical::DOUBLE)?, fields });
+            let levels = Some(vec![1; numbers.len()]);
+            let of_type = optional(name, Physical::DOUBLE)?;
+            return Ok(TypedCells { of_type, levels, values: Values::Double(numbers) });
         }
         Column::Kept(Kept::Texts(texts)) => texts,
     };
     let present = || texts.iter().filter(|text| !text.is_empty());
-    let any = present().next().is_some();
-    let field = |of: &dyn Fn(&str) -> Field| -> Vec<Field> {
-        let of = |text: &String| if text.is_empty() { Field::Null } else { of(text) };
-        texts.iter().map(of).collect()
-    };
-    let (of_type, fields) = if any && present().all(|text| whole(text).is_some()) {
-        (optional(name, Physical::INT64)?, field(&|text| whole(text).map_or(Field::Null, Field::Long)))
-    } else if any && present().all(|text| double(text).is_some()) {
-        (optional(name, Physical::DOUBLE)?, field(&|text| double(text).map_or(Field::Null, Field::Double)))
-    } else {
-        let builder = Type::primitive_type_builder(name, Physical::BYTE_ARRAY)
-            .with_repetition(Repetition::OPTIONAL)
-            .with_logical_type(Some(LogicalType::String))
-            .with_converted_type(ConvertedType::UTF8);
-        (Arc::new(builder.build()?), field(&|text| Field::Str(text.to_owned())))
-    };
-    Ok(TypedCells { of_type, fields })
+    let levels = Some(texts.iter().map(|text| i16::from(!text.is_empty())).collect());
+    let of = |of_type, values| Ok(TypedCells { of_type, levels, values });
+    if present().next().is_some() {
+        if let Some(longs) = present().map(whole).collect() {
+            return of(optional(name, Physical::INT64)?, Values::Int64(longs));
+        }
+        if let Some(doubles) = present().map(double).collect() {
+            return of(optional(name, Physical::DOUBLE)?, Values::Double(doubles));
+        }
+    }
+    let builder = Type::primitive_type_builder(name, Physical::BYTE_ARRAY)
+        .with_repetition(Repetition::OPTIONAL)
+        .with_logical_type(Some(LogicalType::String))
+        .with_converted_type(ConvertedType::UTF8);
+    of(Arc::new(builder.build()?), Values::Bytes(present().map(ByteArray::from).collect()))
 }
 
 fn optional(name: &str, physical: Physical) -> Result<TypePtr> {
@@ -133,78 +198,29 @@ fn double(text: &str) -> Option<f64> {
 }
 
 fn write(column: &mut SerializedColumnWriter<'_>, cells: &TypedCells) -> Result<()> {
-    let of_type = &cells.of_type;
-    match of_type.get_physical_type() {
-        Physical::BOOLEAN => batch::<BoolType>(column, cells, &|field| match field {
-            Field::Bool(value) => Some(*value),
-            _ => None,
-        }),
-        // The widths are those of the types that the fields were read from: nothing is cut off.
-        #[allow(clippy::cast_possible_wrap)]
-        Physical::INT32 => batch::<Int32Type>(column, cells, &|field| match field {
-            Field::Byte(value) => Some(i32::from(*value)),
-            Field::Short(value) => Some(i32::from(*value)),
-            Field::Int(value) | Field::Date(value) | Field::TimeMillis(value) => Some(*value),
-            Field::UByte(value) => Some(i32::from(*value)),
-            Field::UShort(value) => Some(i32::from(*value)),
-            Field::UInt(value) => Some(*value as i32),
-            Field::Decimal(value) => value.data().try_into().ok().map(i32::from_be_bytes),
-            _ => None,
-        }),
-        #[allow(clippy::cast_possible_wrap)]
-        Physical::INT64 => batch::<Int64Type>(column, cells, &|field| match field {
-            Field::Long(value)
-            | Field::TimeMicros(value)
-            | Field::TimestampMillis(value)
-            | Field::TimestampMicros(value) => Some(*value),
-            Field::ULong(value) => Some(*value as i64),
-            Field::Decimal(value) => value.data().try_into().ok().map(i64::from_be_bytes),
-            _ => None,
-        }),
-        Physical::FLOAT => batch::<FloatType>(column, cells, &|field| match field {
-            Field::Float(value) => Some(*value),
-            _ => None,
-        }),
-        Physical::DOUBLE => batch::<DoubleType>(column, cells, &|field| match field {
-            Field::Double(value) => Some(*value),
-            _ => None,
-        }),
-        Physical::BYTE_ARRAY => batch::<ByteArrayType>(column, cells, &bytes),
-        Physical::FIXED_LEN_BYTE_ARRAY => {
-            batch::<FixedLenByteArrayType>(column, cells, &|field| bytes(field).map(FixedLenByteArray::from))
-        }
-        Physical::INT96 => Err(ParquetError::NYI("times as INT96".to_owned())),
+    match &cells.values {
+        Values::Bool(values) => batch::<BoolType>(column, cells, values),
+        Values::Int32(values) => batch::<Int32Type>(column, cells, values),
+        Values::Int64(values) => batch::<Int64Type>(column, cells, values),
+        Values::Float(values) => batch::<FloatType>(column, cells, values),
+        Values::Double(values) => batch::<DoubleType>(column, cells, values),
+        Values::Bytes(values) => batch::<ByteArrayType>(column, cells, values),
+        Values::Fixed(values) => batch::<FixedLenByteArrayType>(column, cells, values),
     }
 }
 
-fn bytes(field: &Field) -> Option<ByteArray> {
-    match field {
-        Field::Str(text) => Some(text.as_str().into()),
-        Field::Bytes(bytes) => Some(bytes.clone()),
-        Field::Decimal(value) => Some(ByteArray::from(value.data().to_vec())),
-        Field::Float16(value) => Some(ByteArray::from(value.to_le_bytes().to_vec())),
-        _ => None,
-    }
-}
-
-/// Writes the cells that are there, and which of them are.
 fn batch<T: DataType>(
     column: &mut SerializedColumnWriter<'_>,
     cells: &TypedCells,
-    value: &dyn Fn(&Field) -> Option<T::T>,
+    values: &[T::T],
 ) -> Result<()> {
-    let mut present = Vec::with_capacity(cells.fields.len());
-    let mut values = Vec::with_capacity(cells.fields.len());
-    for field in &cells.fields {
-        present.push(i16::from(*field != Field::Null));
-        if *field == Field::Null {
-            continue;
-        }
-        let other = || ParquetError::General(format!("column `{}` holds {field}", cells.of_type.name()));
-        values.push(value(field).ok_or_else(other)?);
+    let written = column.typed::<T>().write_batch(values, cells.levels.as_deref(), None)?;
+    if written != values.len() {
+        return Err(ParquetError::General(format!(
+            "column `{}` was not written whole",
+            cells.of_type.name()
+        )));
     }
-    let optional = cells.of_type.get_basic_info().repetition() == Repetition::OPTIONAL;
-    column.typed::<T>().write_batch(&values, optional.then_some(present.as_slice()), None)?;
     Ok(())
 }
 
@@ -226,13 +242,21 @@ mod tests {
         }
         let texts = kept
             .iter()
-            .map(|column| column.texts().map(std::borrow::Cow::into_owned))
+            .map(|column| column.texts().map(|texts| texts.iter().map(str::to_owned).collect()))
             .collect::<std::result::Result<Vec<_>, _>>()?;
         Ok((kept, texts))
     }
 
+    /// A table written at once.
+    fn file_of(names: &[String], columns: Vec<Column>) -> Result<Vec<u8>> {
+        let mut writer = Writer::new(names.to_vec());
+        let mut file = writer.rows(columns, 1)?;
+        file.extend(writer.finish()?);
+        Ok(file)
+    }
+
     fn texts(cells: &[&str]) -> Column {
-        Column::Kept(Kept::Texts(cells.iter().map(|cell| (*cell).to_owned()).collect()))
+        Column::Kept(Kept::Texts(cells.iter().collect()))
     }
 
     #[test]
@@ -273,6 +297,38 @@ mod tests {
         // What came from such a file goes back into one as it came.
         let again = file_of(&names, kept.iter().cloned().map(Column::Kept).collect())?;
         assert_eq!(read(&again)?, (kept, said));
+        Ok(())
+    }
+
+    #[test]
+    fn groups_come_out_as_they_fill() -> std::result::Result<(), Box<dyn std::error::Error>> {
+        const ROWS: usize = 200_000;
+        let mut writer = Writer::new(vec!["a".to_owned()]);
+        let mut pieces = Vec::new();
+        for part in 0..7 {
+            let numbers = (0..ROWS).map(|row| (part * ROWS + row) as f64).collect();
+            pieces.push(writer.rows(vec![Column::Numbers(numbers)], ROWS)?);
+            assert!(writer.bytes() < 8 * (GROUP + ROWS));
+        }
+        assert!(pieces.iter().filter(|piece| !piece.is_empty()).count() == 2);
+        pieces.push(writer.finish()?);
+        let mut reader = Reader::new(pieces.concat().as_slice(), "f.parquet", &Options::default())?;
+        let wanted = [Wanted { column: 0, form: Form::Number(1.0) }];
+        let mut next = 0;
+        loop {
+            // No divisor of a group: chunks reach from one into the next.
+            let chunk = reader.read(&wanted, 65_537)?;
+            let Some(Cells::Numbers(numbers)) = chunk.columns.first() else {
+                unreachable!("what was wanted")
+            };
+            assert!(numbers.iter().enumerate().all(|(at, number)| *number == (next + at) as f64));
+            next += numbers.len();
+            assert_eq!(chunk.rows.last().copied().unwrap_or(next as u64), next as u64);
+            if numbers.is_empty() {
+                break;
+            }
+        }
+        assert_eq!(next, 7 * ROWS);
         Ok(())
     }
 

@@ -199,29 +199,38 @@ impl Columns {
     /// The columns of each effect over a part of the rows, zero where there is no finite value; and what the part shows of
     /// which effects are usable, which all parts together decide.
     #[must_use]
-    pub fn of_part(
+    pub fn of_part<'e>(
         &self,
         chain: &Chain,
-        effects: &[Effect],
+        effects: &'e [Effect],
         poses: &Poses,
         values: &[f64],
     ) -> (Vec<Vec<Vec<f64>>>, Seen) {
         let mut readings = Functions::new(chain, poses, values);
         let mut seen = Seen::of_probes(&self.places, &self.probes);
         let mut columns = Vec::with_capacity(effects.len());
+        // Many effects have the same functions at other places.
+        let mut known: Vec<(&Poly, Option<Vec<f64>>, Extent)> = Vec::new();
         for effect in effects {
             let places = effect.places();
             let mut extents = Vec::new();
-            let column = |function: &Function| {
+            let column = |function: &'e Function| {
                 let mut sum = vec![0.0; self.row.len()];
                 for &place in &places {
                     let Some(number) = self.places.iter().position(|known| *known == place) else { continue };
                     let probe = self.probes.col_as_slice(number);
                     for amount in function.at(effect.place, place) {
-                        let mut by_row = readings.column(amount);
-                        let symbols = amount.symbols();
-                        let of_joints = symbols.iter().all(|&id| chain.symbol(id).kind != SymbolKind::Input);
-                        extents.push(Extent::of(by_row.as_deref_mut(), of_joints));
+                        let at = known.iter().position(|(other, ..)| *other == amount).unwrap_or_else(|| {
+                            let mut by_row = readings.column(amount);
+                            let symbols = amount.symbols();
+                            let of_joints =
+                                symbols.iter().all(|&id| chain.symbol(id).kind != SymbolKind::Input);
+                            let extent = Extent::of(by_row.as_deref_mut(), of_joints);
+                            known.push((amount, by_row, extent));
+                            known.len() - 1
+                        });
+                        let (_, by_row, extent) = &known[at];
+                        extents.push(extent.clone());
                         let Some(by_row) = by_row else { continue };
                         let moved = probe.iter().zip(&self.row);
                         sum.iter_mut().zip(moved).for_each(|(s, (p, &row))| *s += p * by_row[row as usize]);

@@ -27,6 +27,10 @@ const ENDS: usize = 12;
 const PERIODS: std::ops::RangeInclusive<u32> = 1..=8;
 const PHASES: u32 = 8;
 
+/// The highest harmonic that is looked for, and different readings for each of its periods.
+const HIGHEST: u32 = 40;
+const FOR_A_PERIOD: f64 = 4.0;
+
 /// Stretches of tables.
 const STRETCHES: [usize; 4] = [4, 8, 16, 24];
 
@@ -63,6 +67,15 @@ impl Driver {
     /// Whether the readings are enough for a table of so many stretches.
     pub fn resolves(&self, stretches: usize) -> bool {
         self.different >= FOR_A_KNOT * stretches
+    }
+
+    /// Harmonics beyond one that the readings tell apart.
+    pub fn harmonics(&self, beyond: u32) -> impl Iterator<Item = Shape> + use<> {
+        let turns = if self.turns { self.span() / TAU } else { 0.0 };
+        // At fewer readings in even steps another order looks the same.
+        let most = (self.different as f64 / FOR_A_PERIOD / turns.max(f64::MIN_POSITIVE)) as u32;
+        let first = beyond.max(if turns > 0.0 { (1.0 / turns).ceil() as u32 } else { HIGHEST });
+        (first + 1..=HIGHEST.min(most)).map(|order| Shape::Harmonic { order })
     }
 
     /// Shapes of one function each, with their thresholds on the grid.
@@ -104,9 +117,8 @@ impl Driver {
             let at = |i: usize| self.low + self.span() * i as f64 / stretches as f64;
             Shape::Table { knots: (0..=stretches).map(at).collect() }
         };
-        // Powers grow beyond the readings; a joint that has turned all around cannot go there.
-        let closed = !self.turns || self.span() > 0.75 * TAU;
-        let powers = [2, 3].map(|highest| Shape::Powers { highest }).into_iter().filter(|_| closed);
+        // Powers grow beyond the readings, and a joint that turns comes round.
+        let powers = [2, 3].map(|highest| Shape::Powers { highest }).into_iter().filter(|_| !self.turns);
         powers.chain(tables.map(knots)).collect()
     }
 }

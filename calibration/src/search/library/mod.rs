@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use self::grid::Driver;
 use self::refine::{Gain, orthonormal, refined};
 pub(crate) use self::shape::{Shape, ShapeKind};
-use super::contest::{Contender, Price, contender, criterion};
+use super::contest::{Contender, Price, contender, criterion, predicts};
 use super::flips::familywise;
 use super::rivals::AS_GOOD;
 use super::scan::{Left, Sheet};
@@ -36,6 +36,9 @@ const BETTER: f64 = 3.0;
 
 /// The share of the accepted false alarms that functions at places without an accepted effect may have.
 const OWN_SHARE: f64 = 0.2;
+
+/// Functions that are held to rows that were held out, the likeliest first.
+const CONFIRMED: usize = 8;
 
 /// Shapes of one place whose thresholds are refined.
 const REFINED: usize = 4;
@@ -203,6 +206,7 @@ impl Library<'_, '_> {
                 .filter(|&stretches| driver.resolves(stretches))
                 .map(|of| Shape::Table { knots: (0..=of).map(|i| at(i as f64 / of as f64)).collect() }),
         );
+        shapes.extend(driver.harmonics(self.whole.setting.harmonics));
         let parts: Vec<Mat<f64>> = shapes.iter().map(|shape| shape.values(readings)).collect();
         let mut blocks = Vec::new();
         let mut values = Mat::zeros(readings.len(), parts.iter().map(Mat::ncols).sum());
@@ -257,19 +261,40 @@ impl Library<'_, '_> {
         let single = starts
             .into_iter()
             .map(|(_, shape)| refined(shape, driver.span(), step, &gain, column).0.rounded(driver.span()));
-        let several = driver.several().into_iter().map(|shape| shape.rounded(driver.span()));
+        // Of the harmonics the one that explains most.
+        let harmonic = driver
+            .harmonics(self.whole.setting.harmonics)
+            .map(|shape| {
+                let columns = column(&shape);
+                (gain.of(columns.col_as_slice(0)) + gain.of(columns.col_as_slice(1)), shape)
+            })
+            .max_by(|a, b| a.0.total_cmp(&b.0))
+            .map(|(_, shape)| shape);
+        let several = driver.several().into_iter().map(|shape| shape.rounded(driver.span())).chain(harmonic);
         single
             .chain(several)
             .map(|shape| {
+                // Which harmonic it is was a choice as well, as thresholds are.
+                let orders = match shape {
+                    Shape::Harmonic { .. } => driver.harmonics(self.whole.setting.harmonics).count(),
+                    _ => 1,
+                };
                 let price = Price {
                     classes: self.last.classes.len(),
-                    functions: places,
+                    functions: places * orders,
                     parameters: shape.parameters(),
                 };
                 let fitted = contender(&self.left, column(&shape).as_ref(), price);
                 Judged { smooth, shape, fitted }
             })
             .collect()
+    }
+
+    /// Whether a function predicts rows that were held out better than what was accepted.
+    fn is_confirmed(&self, judged: &Judged) -> bool {
+        let Some((_, readings)) = self.driver(judged.smooth) else { return false };
+        let columns = self.sheet(judged.smooth.place, &judged.shape.values(readings));
+        predicts(&self.left, columns.as_ref(), &judged.fitted.kept, self.last.posed.of_rows())
     }
 
     /// The function that is taken up, and those that are about as good as what they would replace.
@@ -281,17 +306,12 @@ impl Library<'_, '_> {
             (0..self.shown.len()).filter(|at| !judged.fitted.kept.contains(at)).collect()
         };
         let mut contest = Contest::default();
-        let mut best: Option<&Judged> = None;
-        for one in &judged {
-            // Where nothing stood before, the scan must have been alarmed.
-            if most != Some(one.smooth) && replaced(one).is_empty() {
-                continue;
-            }
-            let to_beat = best.map_or(present + BETTER, |best| best.fitted.criterion + 1e-6);
-            if one.fitted.criterion > to_beat {
-                best = Some(one);
-            }
-        }
+        // Where nothing stood before, the scan must have been alarmed.
+        let stands = |one: &&Judged| most == Some(one.smooth) || !replaced(one).is_empty();
+        let mut better: Vec<&Judged> =
+            judged.iter().filter(stands).filter(|one| one.fitted.criterion > present + BETTER).collect();
+        better.sort_by(|a, b| b.fitted.criterion.total_cmp(&a.fitted.criterion));
+        let best = better.into_iter().take(CONFIRMED).find(|one| self.is_confirmed(one));
         if let Some(best) = best {
             let of_replaced =
                 replaced(best).into_iter().map(|at| self.last.fitted.found[self.shown[at].0].p_value);
@@ -309,7 +329,14 @@ impl Library<'_, '_> {
             let known = |other: &AsGood| {
                 (other.place, other.driver, other.kind) == (one.smooth.place, one.smooth.driver, kind)
             };
+            // A function that was taken up is no rival of itself.
+            let of_its_own = |&number: &usize| {
+                let effect = &self.whole.catalogue[self.last.fitted.found[number].effect];
+                (effect.place, effect.form.as_str()) == (one.smooth.place, kind.words().as_str())
+                    && effect.driver == self.whole.setting.name(one.smooth.driver)
+            };
             if !instead_of.is_empty()
+                && !instead_of.iter().any(of_its_own)
                 && one.fitted.criterion >= present - AS_GOOD
                 && !contest.as_good.iter().any(known)
             {

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use faer::Mat;
-use model_core::algebra::{Poly, Rational};
+use model_core::algebra::{AngleSum, Poly, Rational};
 use model_core::{Chain, Quantity, SymbolId};
 
 /// Digits of a threshold, relative to the range of the readings.
@@ -35,6 +35,8 @@ pub(crate) enum Shape {
     Periodic { wave: Wave, order: u32, start: f64, range: (f64, f64) },
     /// Powers from the first on.
     Powers { highest: u32 },
+    /// A harmonic beyond those of the catalogue: cosine and sine of so many times a turn.
+    Harmonic { order: u32 },
     /// Straight between knots, a coefficient for each stretch.
     Table { knots: Vec<f64> },
 }
@@ -57,7 +59,7 @@ impl Shape {
             Self::Ramp { from, to } | Self::Plateau { from, to } => vec![from, to],
             Self::Bump { middle, width } => vec![middle, width],
             Self::Periodic { start, .. } => vec![start],
-            Self::Powers { .. } | Self::Table { .. } => Vec::new(),
+            Self::Powers { .. } | Self::Harmonic { .. } | Self::Table { .. } => Vec::new(),
         }
     }
 
@@ -76,7 +78,7 @@ impl Shape {
         Some(moved)
     }
 
-    /// The sums of ramps that it is made of, one sum a function: sign, from, to. Nothing for powers.
+    /// The sums of ramps that it is made of, one sum a function: sign, from, to. Nothing for powers and harmonics.
     fn ramps(&self) -> Vec<Vec<(f64, f64, f64)>> {
         match self {
             &Self::Step { at } => vec![vec![(1.0, at, at)]],
@@ -86,7 +88,7 @@ impl Shape {
             }
             &Self::Plateau { from, to } => vec![vec![(1.0, from, from), (-1.0, to, to)]],
             &Self::Periodic { wave, order, start, range } => vec![periods(wave, order, start, range)],
-            Self::Powers { .. } => Vec::new(),
+            Self::Powers { .. } | Self::Harmonic { .. } => Vec::new(),
             Self::Table { knots } => knots.windows(2).map(|pair| vec![(1.0, pair[0], pair[1])]).collect(),
         }
     }
@@ -95,6 +97,14 @@ impl Shape {
     pub fn values(&self, readings: &[f64]) -> Mat<f64> {
         if let Self::Powers { highest } = *self {
             return Mat::from_fn(readings.len(), highest as usize, |i, j| readings[i].powi(j as i32 + 1));
+        }
+        if let Self::Harmonic { order } = *self {
+            let angle = |i: usize| f64::from(order) * readings[i];
+            return Mat::from_fn(
+                readings.len(),
+                2,
+                |i, j| if j == 0 { angle(i).cos() } else { angle(i).sin() },
+            );
         }
         let ramps = self.ramps();
         Mat::from_fn(readings.len(), ramps.len(), |i, j| {
@@ -111,6 +121,10 @@ impl Shape {
                 Some(power.clone())
             });
             return Some(powers.collect());
+        }
+        if let Self::Harmonic { order } = self {
+            let angle = AngleSum::symbol(driver).times(*order).ok()?;
+            return Some(vec![Poly::cos(&angle), Poly::sin(&angle)]);
         }
         let mut amounts = Vec::new();
         for ramps in self.ramps() {
@@ -171,6 +185,7 @@ impl Shape {
             Self::Plateau { .. } => ShapeKind::Plateau,
             &Self::Periodic { wave, order, .. } => ShapeKind::Periodic(wave, order),
             Self::Powers { .. } => ShapeKind::Powers,
+            &Self::Harmonic { order } => ShapeKind::Harmonic(order),
             Self::Table { .. } => ShapeKind::Table,
         }
     }
@@ -185,6 +200,7 @@ pub(crate) enum ShapeKind {
     Plateau,
     Periodic(Wave, u32),
     Powers,
+    Harmonic(u32),
     Table,
 }
 
@@ -200,6 +216,7 @@ impl ShapeKind {
             Self::Periodic(Wave::Sawtooth, order) => format!("sawtooth, {order} per turn"),
             Self::Periodic(Wave::Triangle, order) => format!("triangle wave, {order} per turn"),
             Self::Powers => "powers".to_owned(),
+            Self::Harmonic(order) => format!("harmonic, {order} per turn"),
             Self::Table => "unnamed function, tabulated".to_owned(),
         }
     }
@@ -215,6 +232,7 @@ impl ShapeKind {
             Self::Periodic(Wave::Sawtooth, _) => "sawtooth",
             Self::Periodic(Wave::Triangle, _) => "triangle",
             Self::Powers => "power",
+            Self::Harmonic(_) => "harmonic",
             Self::Table => "table",
         }
     }
@@ -260,6 +278,8 @@ mod tests {
         assert_eq!(one(Shape::Plateau { from: 1.0, to: 2.0 }, 1.5), 1.0);
         assert_eq!(one(Shape::Plateau { from: 1.0, to: 2.0 }, 2.5), 0.0);
         assert_eq!(Shape::Powers { highest: 3 }.values(&[2.0])[(0, 2)], 8.0);
+        let harmonic = Shape::Harmonic { order: 17 }.values(&[TAU / 68.0]);
+        assert!(harmonic[(0, 0)].abs() < 1e-12 && (harmonic[(0, 1)] - 1.0).abs() < 1e-12);
         let table = Shape::Table { knots: vec![0.0, 1.0, 3.0] }.values(&[2.0]);
         assert_eq!((table[(0, 0)], table[(0, 1)]), (1.0, 0.5));
     }

@@ -1,10 +1,12 @@
 //! Claims that are numbers: comparisons of influences, sizes, bounds.
 
+use std::ops::Range;
+
 use calibration::data::units;
 use model_core::budget::{self, Measure, Poses};
 use model_core::checker::{Bound, Claim, Combined, Comparison, Limits, Size, SizeMeasure};
 use model_core::remainder::Domain;
-use model_core::{ObservableId, Quantity, SymbolId, SymbolKind, names};
+use model_core::{ObservableId, Quantity, Symbol, SymbolId, SymbolKind, check, names};
 use toml::{Spanned, Value};
 
 use super::super::table::{ClaimTable, CompareTable, Sizes};
@@ -15,6 +17,7 @@ use crate::ranges::{self, RangeArgument};
 impl Reader<'_> {
     pub(super) fn comparison(&mut self, claim: &ClaimTable) -> Option<Claim> {
         let compare: &CompareTable = claim.compare.as_ref()?.get_ref();
+        self.numbers(claim.compare.as_ref()?.span())?;
         let observable = self.observable(claim);
         let error = self.one_error(&compare.error);
         let against = self.one_error(&compare.against);
@@ -48,6 +51,19 @@ impl Reader<'_> {
             at_most,
             poses: poses?,
         }))
+    }
+
+    /// That every constant has a value, for a claim that is about numbers.
+    fn numbers(&mut self, place: Range<usize>) -> Option<()> {
+        let chain = self.chain;
+        let mut constants = chain.symbols_of(SymbolKind::Constant).map(|constant| chain.symbol(constant));
+        // Halves of angles, which print has, are no constants of the declaration: no name is written like theirs.
+        let is_open = |constant: &&Symbol| constant.value.is_none() && check::is_name(&constant.name);
+        let Some(unknown) = constants.find(is_open) else { return Some(()) };
+        let name = &unknown.name;
+        self.mistake(place, format!("the constant `{name}` has no value, and this claim is about numbers"))
+            .help = Some(format!("write its value into the declaration: `const {name} = 0.25;`"));
+        None
     }
 
     /// A quantity above zero, in SI.
@@ -101,6 +117,7 @@ impl Reader<'_> {
     }
 
     pub(super) fn size(&mut self, claim: &ClaimTable) -> Option<Claim> {
+        self.numbers(claim.size.as_ref()?.span())?;
         let table = claim.size.as_ref()?.get_ref();
         let observable = self.observable(claim)?;
         let sizes = self.sizes(&table.errors);
@@ -148,6 +165,7 @@ impl Reader<'_> {
     }
 
     pub(super) fn bound(&mut self, claim: &ClaimTable) -> Option<Claim> {
+        self.numbers(claim.bound.as_ref()?.span())?;
         let table = claim.bound.as_ref()?.get_ref();
         let observable = self.observable(claim)?;
         let sizes = self.sizes(&table.errors)?;

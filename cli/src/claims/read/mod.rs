@@ -29,7 +29,7 @@ type Place = Range<usize>;
 /// Every mistake, each with its place.
 pub(super) fn claims(source: Source, declaration: Source, file: &File) -> Result<ClaimsFile, Failure> {
     // With the roots and half angles that print has.
-    let chain = extended(&declaration.chain()?);
+    let chain = extended(&declaration.symbolic_chain()?);
     let mut reader = Reader {
         text: &source.text,
         chain: &chain,

@@ -14,12 +14,17 @@ pub fn first_screen(diagnosis: &Diagnosis, answers: &Answers) -> Markup {
         Tone::Careful => ("tone careful", "▲"),
         Tone::Bad => ("tone bad", "■"),
     };
+    let several = diagnosis.effects.iter().filter(|effect| effect.causes.len() > 1).count();
     html! {
         section id="answer" {
             ul.badges {
                 li class=(tone) { span aria-hidden="true" { (sign) " " } (answers.badge) }
-                @if answers.causes.len() > 1 {
-                    li.tone.ambiguous { span aria-hidden="true" { "◐ " } (answers.causes.len()) " physical causes fit" }
+                @if several > 0 {
+                    li.tone.ambiguous {
+                        span aria-hidden="true" { "◐ " }
+                        @if diagnosis.effects.len() == 1 { (diagnosis.effects[0].causes.len()) " physical causes fit" }
+                        @else { "several causes fit " (several) " of them" }
+                    }
                 }
                 @if let Some(chance) = &answers.chance { li { (chance) } }
             }
@@ -37,7 +42,7 @@ pub fn first_screen(diagnosis: &Diagnosis, answers: &Answers) -> Markup {
                 }
             }
             @for caution in &diagnosis.cautions {
-                p.caution role="note" { b { "Caution. " } (words::caution(caution, diagnosis)) }
+                p.caution role="note" { b { "Caution. " } (coded(&words::caution(caution, diagnosis))) }
             }
             div.grid {
                 section.card aria-label="Where it sits" {
@@ -45,7 +50,7 @@ pub fn first_screen(diagnosis: &Diagnosis, answers: &Answers) -> Markup {
                     (chain::chain(diagnosis))
                 }
                 section.card aria-label="How much better" {
-                    h2 { "How much better" }
+                    h2 { @if diagnosis.effects.is_empty() { "How large it is" } @else { "How much better" } }
                     (better(diagnosis, answers))
                 }
                 section.card aria-label="What to do next" {
@@ -53,13 +58,27 @@ pub fn first_screen(diagnosis: &Diagnosis, answers: &Answers) -> Markup {
                     ol.steps {
                         @for step in &answers.next {
                             li {
-                                b { (step.title) } br; (step.text)
-                                @if let Some(command) = &step.command { pre.copy { (command) } }
+                                b { (step.title) } br; (coded(&step.text))
+                                @match &step.command {
+                                    // Lines for the study stand where what is left is told.
+                                    Some(lines) if lines.contains('\n') => { " " a href="#left" { "The lines to write" } }
+                                    Some(command) => pre.copy tabindex="0" { @for word in command.split_inclusive(' ') { span { (word) } } },
+                                    None => {}
+                                }
                             }
                         }
                     }
                 }
             }
+        }
+    }
+}
+
+/// A sentence with what stands in backquotes set as code.
+fn coded(text: &str) -> Markup {
+    html! {
+        @for (at, part) in text.split('`').enumerate() {
+            @if at % 2 == 1 { code { (part) } } @else { (part) }
         }
     }
 }
@@ -79,19 +98,20 @@ fn better(diagnosis: &Diagnosis, answers: &Answers) -> Markup {
     .collect();
     let noise = diagnosis.noise.expected_rms;
     let most = pairs.iter().map(|pair| pair.1.max(pair.2)).fold(noise, f64::max).max(f64::MIN_POSITIVE);
+    let changed = !diagnosis.effects.is_empty();
     html! {
-        @if let (Some(&(_, before, after)), false) = (pairs.first(), diagnosis.effects.is_empty()) {
+        @if let (Some(&(_, before, after)), true) = (pairs.first(), changed) {
             p.figure { span.b { (told(before)) } " → " span.a { (told(after)) } }
         }
         p { (answers.better) }
         @for &(name, before, after) in &pairs {
-            (bars(name, [before, after].map(|si| (si / most, told(si))), noise / most))
+            (bars(name, [before, after].map(|si| (si / most, told(si))), noise / most, changed))
         }
         p.quiet {
-            "Hatched: before. Filled: after. Dotted line: the noise, " (told(noise)) " (measured). RMS of the residual's \
-             length over every row"
+            @if changed { "Hatched: before. Filled: after. " }
+            "Dotted line: the noise, " (told(noise)) " (measured). RMS of the residual's length over every row"
             @if !diagnosis.observations.set_aside.is_empty() {
-                "; without the " (diagnosis.observations.set_aside.len()) " rows set aside "
+                "; without the " (crate::report::counted(diagnosis.observations.set_aside.len())) " set aside "
                 (told(before.rms_kept)) " → " (told(after.rms_kept)) " on the data that were fitted"
             }
             "."
@@ -99,26 +119,30 @@ fn better(diagnosis: &Diagnosis, answers: &Answers) -> Markup {
     }
 }
 
-/// Two bars, before above after, with the noise across them.
-fn bars(name: &str, [before, after]: [(f64, String); 2], noise: f64) -> Markup {
+/// Two bars, before above after, with the noise across them; one where nothing was added.
+fn bars(name: &str, [before, after]: [(f64, String); 2], noise: f64, changed: bool) -> Markup {
     let width = |share: f64| 2.0 + 228.0 * share;
-    let label = format!("{name}: {} before, {} after", before.1, after.1);
+    let label = if changed {
+        format!("{name}: {} before, {} after", before.1, after.1)
+    } else {
+        format!("{name}: {}", after.1)
+    };
+    let tick = 1.0 + width(noise);
     let bar = |class: &str, y: i32, (share, told): &(f64, String)| {
+        let end = width(*share);
+        // The dotted line does not run through a number.
+        let text = if (end - 2.0..end + 60.0).contains(&tick) { tick.max(end) + 8.0 } else { end + 8.0 };
         format!(
-            "<path class=\"bar {class}\" d=\"M1 {y}h{:.1}v18h-{:.1}z\"/><text x=\"{:.1}\" y=\"{}\" class=\"label\">{}</text>",
-            width(*share),
-            width(*share),
-            width(*share) + 8.0,
+            "<path class=\"bar {class}\" d=\"M1 {y}h{end:.1}v18h-{end:.1}z\"/><text x=\"{text:.1}\" y=\"{}\" class=\"label\">{}</text>",
             y + 14,
             super::svg::escaped(told)
         )
     };
+    let (height, bars) =
+        if changed { (50, bar("b", 4, &before) + &bar("a", 27, &after)) } else { (26, bar("a", 4, &after)) };
     let svg = format!(
-        "<svg viewBox=\"0 0 310 50\" role=\"img\" aria-label=\"{}\">{}{}<path class=\"tick\" d=\"M{:.1} 0V50\"/></svg>",
-        super::svg::escaped(&label),
-        bar("b", 4, &before),
-        bar("a", 27, &after),
-        1.0 + width(noise)
+        "<svg viewBox=\"0 0 310 {height}\" role=\"img\" aria-label=\"{}\">{bars}<path class=\"tick\" d=\"M{tick:.1} 0V{height}\"/></svg>",
+        super::svg::escaped(&label)
     );
     html! {
         p.quiet style="margin:10px 0 2px" { (name) }

@@ -1,8 +1,11 @@
 //! The chain drawn from the ground up, with the places of what was found marked.
 
-use calibration::diagnose::{BodyShown, Diagnosis, EffectFound, ErrorState, Side};
-use calibration::report::numbers;
+use calibration::diagnose::{BodyShown, Diagnosis, EffectFound, ErrorState};
+use calibration::report::{self as words, numbers};
 use maud::{Markup, PreEscaped, html};
+
+/// Effects of one body that the drawing names.
+const NAMED: usize = 3;
 
 /// The bodies, the uppermost first, as a list.
 pub fn chain(diagnosis: &Diagnosis) -> Markup {
@@ -20,8 +23,9 @@ pub fn chain(diagnosis: &Diagnosis) -> Markup {
 }
 
 fn row(body: &BodyShown, diagnosis: &Diagnosis) -> Markup {
-    let here: Vec<&EffectFound> =
+    let mut here: Vec<&EffectFound> =
         diagnosis.effects.iter().filter(|effect| effect.body == body.name).collect();
+    here.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
     let left =
         diagnosis.remaining.as_ref().and_then(|left| left.place.as_ref()).filter(|p| p.body == body.name);
     let class = if here.is_empty() && left.is_none() { "body" } else { "body here" };
@@ -38,21 +42,19 @@ fn row(body: &BodyShown, diagnosis: &Diagnosis) -> Markup {
                     }
                 }
                 @if !body.documentation.is_empty() { p.quiet { (body.documentation.lines().next().unwrap_or_default()) } }
-                @for effect in &here { p.tag { "◆ Here: " (tag(effect, body, diagnosis)) } }
-                @if let Some(place) = left { p.tag { "◆ Left: " (motion(&place.dof)) " with " (place.driver) } }
+                @for effect in here.iter().take(NAMED) { p.tag { "◆ Here: " (tag(effect, diagnosis)) } }
+                @if here.len() > NAMED { p.tag { a href="#causes" { "and " (here.len() - NAMED) " more here" } } }
+                @if let Some(place) = left { p.tag { "◇ Left: " (motion(&place.dof)) " with " (place.driver) } }
                 @if !body.errors.is_empty() { (dots(body)) }
             }
         }
     }
 }
 
-fn tag(effect: &EffectFound, body: &BodyShown, diagnosis: &Diagnosis) -> String {
-    let side = match (body.joints.is_empty(), effect.side) {
-        (true, _) => "",
-        (false, Side::Before) => ", before the joint",
-        (false, Side::After) => ", behind the joint",
-    };
-    format!("{}{side}, up to {}", effect.dof, numbers::short(effect.amplitude, diagnosis.unit))
+/// `turns about x, once per turn of β, up to 10.1″`
+fn tag(effect: &EffectFound, diagnosis: &Diagnosis) -> String {
+    let form = words::form(&effect.form, &effect.driver);
+    format!("{}, {form}, up to {}", motion(&effect.dof), numbers::short(effect.amplitude, diagnosis.unit))
 }
 
 fn dots(body: &BodyShown) -> Markup {
@@ -76,10 +78,10 @@ fn dots(body: &BodyShown) -> Markup {
     }
 }
 
-/// `turns about x`, `slides along z`.
+/// `turns about x`, `slides along z`, `turns about x and y`.
 fn motion(dof: &str) -> String {
-    let (kind, axis) = dof.split_at(1);
-    format!("{} {axis}", if kind == "R" { "turns about" } else { "slides along" })
+    let axes: Vec<&str> = dof.split(", ").map(|one| one.trim_start_matches(['R', 'T'])).collect();
+    format!("{} {}", if dof.starts_with('R') { "turns about" } else { "slides along" }, axes.join(" and "))
 }
 
 /// A joint's printed form where it is one Greek letter, else its name.

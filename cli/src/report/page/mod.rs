@@ -3,6 +3,8 @@
 
 mod answer;
 mod chain;
+mod distribution;
+mod map;
 mod pictures;
 mod rows;
 pub mod svg;
@@ -38,7 +40,7 @@ pub fn page(reported: &Reported<'_>) -> String {
                     strong { (reported.calibration.chain.name) }
                     p.quiet {
                         "calibrated " (reported.provenance.date) " · " (used.used) " of " (used.rows) " rows used"
-                        @if used.groups > 1 { " · " (used.groups) " groups" }
+                        @if used.groups > 1 && used.groups < used.used { " · " (used.groups) " groups" }
                     }
                     nav aria-label="Contents" {
                         a href="#answer" { "Answer" }

@@ -1,61 +1,72 @@
 //! Which pictures the page has.
 
-use std::f64::consts::PI;
-
-use calibration::data::{Measure, Measured};
 use calibration::diagnose::Harmonics;
 use calibration::report::{self as words, numbers};
 use maud::{Markup, PreEscaped, html};
-use statrs::distribution::{ContinuousCDF as _, Normal};
 
 use super::rows::{Column, Component, Rows, axis_size, trace_reading};
 use super::svg::{Axis, Mark, Picture};
+use super::{distribution, map};
 use crate::report::Reported;
 
 /// Size of a picture in a card, and of one across the page.
-const CARD: (f64, f64) = (380.0, 262.0);
+pub const CARD: (f64, f64) = (380.0, 262.0);
 const BROAD: (f64, f64) = (1140.0, 250.0);
 
-/// More arrows than these are drawn as means of cells, so many across and so many up.
-const ARROWS: usize = 500;
-const CELLS: (usize, usize) = (22, 14);
-
-/// Bins of means along a reading, and of a histogram.
+/// Bins of means along a reading.
 const BINS: usize = 12;
-const BARS: usize = 24;
+
+/// Effects whose pictures are not folded away.
+const OPEN: usize = 3;
 
 /// The section of residuals.
 pub fn residuals(reported: &Reported<'_>, rows: &Rows) -> Markup {
     let drawn = rows.numbers.len();
+    let found = &reported.calibration.diagnosis.effects;
+    let mut effects: Vec<usize> = (0..reported.calibration.traces.len()).collect();
+    effects.sort_by(|&a, &b| found[b].amplitude.total_cmp(&found[a].amplitude));
     html! {
         section id="residuals" {
             h2 { "Residuals" }
             p.quiet {
                 "Measured minus what the fitted declaration says. What is left should scatter evenly around zero. Crosses: \
                  rows set aside. Diamonds: means of what is left, with two standard errors."
-                @if drawn < rows.of { " " (drawn) " of " (rows.of) " rows drawn, all counted in figures, tables and histograms." }
+                @if drawn < rows.of {
+                    " " (drawn) " of " (rows.of) " rows are drawn"
+                    @if rows.of > reported.calibration.drawn.len() { ": those set aside, those with the largest residuals, and others by lot" }
+                    ". Figures, tables, histograms, quantiles, means and maps count all."
+                }
             }
             fieldset.toggle {
-                legend.quiet { "Show" }
-                input type="radio" name="show" id="show-before"; label for="show-before" { "△ Before" }
-                input type="radio" name="show" id="show-both" checked; label for="show-both" { "Both" }
-                input type="radio" name="show" id="show-after"; label for="show-after" { "● After" }
-                span.key { "— fitted effect with two standard uncertainties" }
+                legend.quiet { @if rows.changed { "Show" } @else { "Rows" } }
+                @if rows.changed {
+                    input type="radio" name="show" id="show-before"; label for="show-before" { "△ Before" }
+                    input type="radio" name="show" id="show-both" checked; label for="show-both" { "Both" }
+                    input type="radio" name="show" id="show-after"; label for="show-after" { "● After" }
+                    span.key { "— fitted effect with two standard uncertainties" }
+                }
                 span id="state" role="status" {}
+                button id="zoom" type="button" hidden { "Zoom to them" }
                 button id="clear" type="button" hidden { "Clear" }
             }
             div.grid {
-                @for (at, _) in reported.calibration.traces.iter().enumerate() { (effect(reported, rows, at)) }
-                (map(reported, rows))
+                @for &at in effects.iter().take(OPEN) { (effect(reported, rows, at)) }
+                (map::maps(reported, rows))
                 @if let [across, along, ..] = rows.components.as_slice() { (against(rows, across, along)) }
-                @for component in &rows.components { (histogram(reported, component)) (quantiles(component)) }
-                (order(rows))
+                @for component in &rows.components { (distribution::histogram(component, rows.changed)) (distribution::quantiles(component, rows.changed)) }
+                (order(reported, rows))
+            }
+            @if effects.len() > OPEN {
+                details {
+                    summary { "The other " (effects.len() - OPEN) " effects" }
+                    div.grid { @for &at in &effects[OPEN..] { (effect(reported, rows, at)) } }
+                }
             }
             details open[rows.readings.len() * rows.components.len() <= 6] {
                 summary { "Every residual against every reading (" (rows.readings.len() * rows.components.len()) " pictures)" }
                 div.grid {
                     @for component in &rows.components {
-                        @for reading in &rows.readings { (over(rows, reading, component)) }
+                        @for reading in &rows.readings { (over(reported, rows, reading, component)) }
                     }
                 }
             }
@@ -63,7 +74,8 @@ pub fn residuals(reported: &Reported<'_>, rows: &Rows) -> Markup {
     }
 }
 
-fn card(title: &str, note: &str, svg: &str) -> Markup {
+/// A picture under its title, with a note.
+pub fn card(title: &str, note: &str, svg: &str) -> Markup {
     html! {
         section.card {
             h3 { (title) }
@@ -92,7 +104,9 @@ fn marks(
     before: &[Option<f64>],
     after: &[Option<f64>],
 ) {
-    picture.marks("before", Mark::Triangle, pairs(rows, x, before, false));
+    if rows.changed {
+        picture.marks("before", Mark::Triangle, pairs(rows, x, before, false));
+    }
     picture.marks("after", Mark::Dot, pairs(rows, x, after, false));
     picture.marks("after", Mark::Cross, pairs(rows, x, after, true));
 }
@@ -126,21 +140,32 @@ fn effect(reported: &Reported<'_>, rows: &Rows, at: usize) -> Markup {
     let (drawn, in_si) =
         (trace_reading(trace), numbers::reading(shown.unit, axis_size(shown.unit, &shown.range)).in_si);
     let label = format!("{} of {}, {}", told.dof, told.body, drawn.name);
-    let mut picture = Picture::new(
-        CARD.0,
-        CARD.1,
-        axis_of(reading, false),
-        residual_axis(&label, rows, [&without.values, &left.values]),
-    )
-    .of_rows(&reading.key, &without.key, &left.key);
-    marks(&mut picture, rows, &reading.values, &without.values, &left.values);
+    let y = residual_axis(&label, rows, [&without.values, &left.values]);
+    // Of a function that repeats too often, every period lies on the first.
+    let first = trace.curve.first().map_or(0.0, |point| point[0] / in_si);
+    let folded: Option<Vec<Option<f64>>> = trace.period.map(|period| {
+        let within = |q: f64| first + (q - first).rem_euclid(period / in_si);
+        reading.values.iter().map(|value| value.map(within)).collect()
+    });
+    let mut picture = match &folded {
+        Some(folded) => {
+            let label = format!("{}, every period on the first", reading.label);
+            Picture::new(CARD.0, CARD.1, Axis::around(label, folded.iter().flatten().copied(), false), y)
+        }
+        None => Picture::new(CARD.0, CARD.1, axis_of(reading, false), y).of_rows(
+            &reading.key,
+            &without.key,
+            &left.key,
+        ),
+    };
+    marks(&mut picture, rows, folded.as_ref().unwrap_or(&reading.values), &without.values, &left.values);
     let curve = trace.curve.iter().map(|[q, f, two]| [q / in_si, f / drawn.in_si, two / drawn.in_si]);
     let curve: Vec<[f64; 3]> = curve.collect();
     let band: Vec<[f64; 3]> = curve.iter().map(|[q, f, two]| [*q, f - two, f + two]).collect();
     picture.band("band before", &band);
     picture.line("curve before", curve.iter().map(|[q, f, _]| (*q, *f)));
     let note = format!(
-        "What each row says of {} in {}: before, without this effect, and what is left with it.",
+        "Triangles: what each row says of {} of {}, without this effect. Dots: what is left with it.",
         told.dof, told.body
     );
     let name = format!(
@@ -152,81 +177,6 @@ fn effect(reported: &Reported<'_>, rows: &Rows, at: usize) -> Markup {
     card(&words::sentence_case(&told.names[0]), &note, &picture.finish(&name))
 }
 
-/// Arrows of the residual over where was pointed, or where the point was.
-fn map(reported: &Reported<'_>, rows: &Rows) -> Markup {
-    let observations = reported.observations;
-    let [first, second, ..] = rows.components.as_slice() else { return html! {} };
-    let Some(series) = observations.poses.series.first() else { return html! {} };
-    if series.measure != series.measure.bare() {
-        // Nobody knows where these rows pointed to.
-        return html! {};
-    }
-    let position = |at: usize| -> Option<(f64, f64)> {
-        let row = reported.calibration.drawn[at];
-        match observations.measured[row] {
-            _ if !series.rows.contains(&row) => None,
-            Measured::Direction(u) => {
-                Some((u.x.atan2(u.y) * 180.0 / PI, u.z.clamp(-1.0, 1.0).asin() * 180.0 / PI))
-            }
-            Measured::Point(point) => Some((point.x, point.y)),
-            _ => None,
-        }
-    };
-    let (title, labels) = match series.measure {
-        Measure::Direction => ("Residuals over the sky", ["azimuth, °", "elevation, °"]),
-        _ => ("Residuals in space, seen from above", ["x, m", "y, m"]),
-    };
-    let places: Vec<Option<(f64, f64)>> = (0..rows.numbers.len()).map(position).collect();
-    let axis = |label: &str, pick: fn(&(f64, f64)) -> f64| {
-        Axis::around(label, places.iter().flatten().map(pick), false)
-    };
-    let mut picture = Picture::new(CARD.0, CARD.1, axis(labels[0], |p| p.0), axis(labels[1], |p| p.1));
-    let lengths = |columns: [&Column; 2]| -> Vec<f64> {
-        let both =
-            columns[0].values.iter().zip(&columns[1].values).zip(&rows.aside).filter(|(_, aside)| !**aside);
-        both.filter_map(|((a, b), _)| Some((*a)?.hypot((*b)?))).collect()
-    };
-    let mut before = lengths([&first.before, &second.before]);
-    before.sort_by(f64::total_cmp);
-    let typical = before.get(before.len() * 19 / 20).copied().unwrap_or(1.0).max(f64::MIN_POSITIVE);
-    let scale = 22.0 / typical;
-    let in_cells = places.len() > ARROWS;
-    for (class, columns) in
-        [("before", [&first.before, &second.before]), ("after", [&first.after, &second.after])]
-    {
-        let arrows = (0..places.len()).filter(|&at| !rows.aside[at]).filter_map(|at| {
-            Some((places[at]?, (scale * columns[0].values[at]?, scale * columns[1].values[at]?)))
-        });
-        if in_cells {
-            picture.arrows(class, means_of_cells(arrows, picture.cells(CELLS)).into_iter());
-        } else {
-            picture.arrows(class, arrows);
-        }
-    }
-    let each =
-        if in_cells { "Each line is the mean over a cell" } else { "Each line starts where was measured" };
-    let note = format!(
-        "{each} and runs along the residual; {} long: {}. Dashed: before. Solid: after.",
-        "a tenth of the height",
-        numbers::told_in(22.0 / scale * rows.unit.in_si, &rows.unit)
-    );
-    card(title, &note, &picture.finish(&format!("{title}: {note}")))
-}
-
-/// A place and an arrow from there.
-type Arrow = ((f64, f64), (f64, f64));
-
-/// The mean place and the mean arrow of each cell, in order of the cells.
-fn means_of_cells(arrows: impl Iterator<Item = Arrow>, cell: impl Fn((f64, f64)) -> usize) -> Vec<Arrow> {
-    let mut sums = vec![[0.0; 5]; CELLS.0 * CELLS.1];
-    for ((x, y), (dx, dy)) in arrows {
-        let sum = &mut sums[cell((x, y))];
-        sum.iter_mut().zip([1.0, x, y, dx, dy]).for_each(|(sum, value)| *sum += value);
-    }
-    let filled = sums.into_iter().filter(|sum| sum[0] > 0.0);
-    filled.map(|[count, x, y, dx, dy]| ((x / count, y / count), (dx / count, dy / count))).collect()
-}
-
 /// One component against another.
 fn against(rows: &Rows, x: &Component, y: &Component) -> Markup {
     let mut picture = Picture::new(
@@ -235,7 +185,9 @@ fn against(rows: &Rows, x: &Component, y: &Component) -> Markup {
         residual_axis(&x.label, rows, [&x.before.values, &x.after.values]),
         residual_axis(&y.label, rows, [&y.before.values, &y.after.values]),
     );
-    picture.marks("before", Mark::Triangle, pairs(rows, &x.before.values, &y.before.values, false));
+    if rows.changed {
+        picture.marks("before", Mark::Triangle, pairs(rows, &x.before.values, &y.before.values, false));
+    }
     picture.marks("after", Mark::Dot, pairs(rows, &x.after.values, &y.after.values, false));
     picture.marks("after", Mark::Cross, pairs(rows, &x.after.values, &y.after.values, true));
     let title = format!("{} against {}", words::sentence_case(y.name), x.name);
@@ -244,14 +196,21 @@ fn against(rows: &Rows, x: &Component, y: &Component) -> Markup {
 }
 
 /// A component against a reading, with means of what is left.
-fn over(rows: &Rows, reading: &Column, component: &Component) -> Markup {
+fn over(reported: &Reported<'_>, rows: &Rows, reading: &Column, component: &Component) -> Markup {
     let (before, after) = (&component.before, &component.after);
-    let x = axis_of(reading, false);
+    let number = rows.readings.iter().position(|one| one.key == reading.key);
+    let every = number.map(|number| reported.observations.poses.columns[number].1.as_slice());
+    let x = match every {
+        Some(every) => Axis::around(&reading.label, every.iter().map(|si| si / reading.in_si), false),
+        None => axis_of(reading, false),
+    };
     let (low, high) = (x.low, x.high);
     let y = residual_axis(&component.label, rows, [&before.values, &after.values]);
     let mut picture = Picture::new(CARD.0, CARD.1, x, y).of_rows(&reading.key, &before.key, &after.key);
     marks(&mut picture, rows, &reading.values, &before.values, &after.values);
-    means(&mut picture, low, high, pairs(rows, &reading.values, &after.values, false));
+    if let Some(every) = every {
+        means(&mut picture, low, high, rows.kept(|row| every[row] / reading.in_si, component));
+    }
     let title = format!("{} over {}", words::sentence_case(component.name), reading.key);
     let svg = picture.finish(&format!("{title}, before and after, with means of what is left"));
     card(&title, "", &svg)
@@ -262,9 +221,9 @@ fn means(picture: &mut Picture, low: f64, high: f64, points: impl Iterator<Item 
     let mut sums = [[0.0; 4]; BINS];
     for (x, y) in points {
         let share = (x - low) / (high - low) * BINS as f64;
-        // Within the axis by its making.
+        // Within the axis by its making, or at its end.
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-        let bin = (share as usize).min(BINS - 1);
+        let bin = (share.max(0.0) as usize).min(BINS - 1);
         let [count, sum_x, sum, square] = &mut sums[bin];
         (*count, *sum_x, *sum, *square) = (*count + 1.0, *sum_x + x, *sum + y, *square + y * y);
     }
@@ -278,112 +237,37 @@ fn means(picture: &mut Picture, low: f64, high: f64, points: impl Iterator<Item 
     picture.marks("after", Mark::Diamond, marks.into_iter());
 }
 
-/// How often a residual has which size, of every row; the normal distribution of what is left beside it.
-fn histogram(reported: &Reported<'_>, component: &Component) -> Markup {
-    let all = crate::report::residuals::components(reported);
-    let Some(full) = all.iter().find(|full| full.name == component.name) else { return html! {} };
-    let reading = numbers::reading(full.unit, largest(&full.before));
-    let finite = |values: &[Option<f64>]| -> Vec<f64> {
-        values.iter().flatten().filter(|v| v.is_finite()).map(|si| si / reading.in_si).collect()
-    };
-    let (before, after) = (finite(&full.before), finite(&full.after));
-    let reach = middle(&before).max(middle(&after)) * 1.05 + f64::MIN_POSITIVE;
-    let width = 2.0 * reach / BARS as f64;
-    let count = |values: &[f64]| {
-        let mut bins = [0.0; BARS];
-        for value in values.iter().filter(|value| value.abs() < reach) {
-            // Between zero and the number of bars by the filter.
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-            let bin = (((value + reach) / width) as usize).min(BARS - 1);
-            bins[bin] += 1.0;
-        }
-        bins
-    };
-    let (of_before, of_after) = (count(&before), count(&after));
-    let spread = robust_spread(&after).max(f64::MIN_POSITIVE);
-    let peak = after.len() as f64 * width / (spread * (2.0 * PI).sqrt());
-    let highest = of_before.iter().chain(&of_after).copied().fold(peak, f64::max);
-    let label = numbers::name_with_unit(component.name, &reading.name);
-    let x = Axis { label, low: -reach, high: reach };
-    let y = Axis { label: "rows".to_owned(), low: 0.0, high: 1.06 * highest };
-    let mut picture = Picture::new(CARD.0, CARD.1, x, y);
-    let edges = |at: usize| (-reach + at as f64 * width, -reach + (at as f64 + 1.0) * width);
-    picture.bars("after fillbar", (0..BARS).map(|at| (edges(at).0, edges(at).1, of_after[at])));
-    picture.bars("before outline", (0..BARS).map(|at| (edges(at).0, edges(at).1, of_before[at])));
-    let normal = (0..=96).map(|at| {
-        let x = -reach + 2.0 * reach * f64::from(at) / 96.0;
-        (x, peak * (-0.5 * (x / spread).powi(2)).exp())
-    });
-    picture.line("after normal", normal);
-    let title = format!("How often: {}", component.name);
-    let note = "Filled: after. Dashed: before. Curve: normal, with the spread of what is left.";
-    card(&title, note, &picture.finish(&format!("Histogram of {}", component.name)))
-}
-
-fn largest(values: &[Option<f64>]) -> f64 {
-    values.iter().flatten().filter(|v| v.is_finite()).fold(0.0, |a: f64, b| a.max(b.abs()))
-}
-
-/// The size that 99 of 100 values stay below.
-fn middle(values: &[f64]) -> f64 {
-    let mut sizes: Vec<f64> = values.iter().map(|value| value.abs()).collect();
-    sizes.sort_by(f64::total_cmp);
-    sizes.get(sizes.len() * 99 / 100).copied().unwrap_or(1.0)
-}
-
-/// 1.4826 times the median size: the standard deviation of normal values.
-fn robust_spread(values: &[f64]) -> f64 {
-    let mut sizes: Vec<f64> = values.iter().map(|value| value.abs()).collect();
-    sizes.sort_by(f64::total_cmp);
-    1.4826 * sizes.get(sizes.len() / 2).copied().unwrap_or(1.0)
-}
-
-/// Sorted residuals over the quantiles of a normal distribution: a straight line if the noise is normal.
-fn quantiles(component: &Component) -> Markup {
-    let sorted = |column: &Column| -> Vec<(f64, f64)> {
-        let mut values: Vec<f64> =
-            column.values.iter().flatten().copied().filter(|v| v.is_finite()).collect();
-        values.sort_by(f64::total_cmp);
-        let (count, normal) = (values.len() as f64, Normal::standard());
-        (0..).zip(values).map(|(at, v)| (normal.inverse_cdf((f64::from(at) + 0.5) / count), v)).collect()
-    };
-    let (before, after) = (sorted(&component.before), sorted(&component.after));
-    let both = || before.iter().chain(&after);
-    let x = Axis::around("quantile of the normal distribution", both().map(|p| p.0), false);
-    let y = Axis::around(&component.label, both().map(|p| p.1), true);
-    let (low, high) = (x.low, x.high);
-    let mut picture = Picture::new(CARD.0, CARD.1, x, y);
-    let spread = robust_spread(&after.iter().map(|p| p.1).collect::<Vec<_>>());
-    picture.line("after normal", [(low, low * spread), (high, high * spread)].into_iter());
-    picture.marks("before", Mark::Triangle, before.iter().copied());
-    picture.marks("after", Mark::Dot, after.iter().copied());
-    let title = format!("Against the normal distribution: {}", component.name);
-    card(&title, "On the line: normal.", &picture.finish(&title))
-}
-
-/// The length of the residual row by row, in two drawings: one for a broad window, one for a narrow one.
-fn order(rows: &Rows) -> Markup {
+/// Each component of the residual row by row, in two drawings: one for a broad window, one for a narrow one.
+fn order(reported: &Reported<'_>, rows: &Rows) -> Markup {
     let numbers: Vec<Option<f64>> = rows.numbers.iter().map(|&number| Some(number as f64)).collect();
     html! {
         @for component in &rows.components {
             section.card.wide {
                 h3 { "In the order of the file: " (component.name) }
-                @for (class, (width, height)) in [("broad", BROAD), ("narrow", CARD)] {
-                    div class=(class) { (PreEscaped(in_order(rows, component, &numbers, width, height))) }
+                @for (class, size) in [("broad", BROAD), ("narrow", CARD)] {
+                    div class=(class) { (PreEscaped(in_order(reported, rows, component, &numbers, size))) }
                 }
             }
         }
     }
 }
 
-fn in_order(rows: &Rows, component: &Component, numbers: &[Option<f64>], width: f64, height: f64) -> String {
+fn in_order(
+    reported: &Reported<'_>,
+    rows: &Rows,
+    component: &Component,
+    numbers: &[Option<f64>],
+    (width, height): (f64, f64),
+) -> String {
     let (before, after) = (&component.before, &component.after);
     let x = Axis::around("row", numbers.iter().flatten().copied(), false);
     let (low, high) = (x.low, x.high);
     let y = residual_axis(&component.label, rows, [&before.values, &after.values]);
     let mut picture = Picture::new(width, height, x, y).of_rows("order", &before.key, &after.key);
     marks(&mut picture, rows, numbers, &before.values, &after.values);
-    means(&mut picture, low, high, pairs(rows, numbers, &after.values, false));
+    let of_file = &reported.observations.row_numbers;
+    let number = |row: usize| of_file.get(row).map_or(row as f64 + 1.0, |&number| number as f64);
+    means(&mut picture, low, high, rows.kept(number, component));
     picture.finish(&format!("{} row by row, before and after", component.name))
 }
 
@@ -398,7 +282,7 @@ pub fn left(reported: &Reported<'_>) -> Markup {
             @if diagnosis.remaining.is_none() { p { "No search was made." } }
             @if let Some(offer) = diagnosis.remaining.as_ref().and_then(|left| left.offer.as_ref()) {
                 p { "To let the declaration have it, write into the study and calibrate again:" }
-                pre.copy { (offer) }
+                pre.copy tabindex="0" { (offer) }
             }
             @if !joints.is_empty() {
                 details open {
@@ -438,7 +322,9 @@ fn harmonic(harmonics: &Harmonics, reported: &Reported<'_>) -> Markup {
         let at = values.iter().zip(1..);
         at.map(|(v, order)| (f64::from(order) + from, f64::from(order) + to, v / reading.in_si)).collect()
     };
-    picture.bars("before hatch", bars(&harmonics.before, -0.32, -0.02).into_iter());
+    if !reported.calibration.diagnosis.effects.is_empty() {
+        picture.bars("before hatch", bars(&harmonics.before, -0.32, -0.02).into_iter());
+    }
     picture.bars("after fillbar", bars(&harmonics.after, 0.02, 0.32).into_iter());
     let limit = harmonics.limit.iter().zip(1..).flat_map(|(v, order)| {
         [(f64::from(order) - 0.5, v / reading.in_si), (f64::from(order) + 0.5, v / reading.in_si)]

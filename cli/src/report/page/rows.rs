@@ -8,6 +8,9 @@ use calibration::report::numbers::{self, Reading};
 use crate::report::Reported;
 use crate::report::residuals;
 
+/// Bytes that the marks and numbers of rows may take in the page, about.
+const BYTES: usize = 620_000;
+
 /// A column over the drawn rows.
 pub struct Column {
     /// Its key for the script.
@@ -16,6 +19,8 @@ pub struct Column {
     pub label: String,
     /// Values in the unit of the label.
     pub values: Vec<Option<f64>>,
+    /// That unit, in SI.
+    pub in_si: f64,
 }
 
 /// A residual component over the drawn rows.
@@ -28,6 +33,8 @@ pub struct Component {
     pub before: Column,
     /// After.
     pub after: Column,
+    /// What is left, of every row, drawn or not, in SI.
+    pub every: residuals::Component,
 }
 
 /// Everything drawn.
@@ -36,8 +43,12 @@ pub struct Rows {
     pub numbers: Vec<u64>,
     /// How many rows there are.
     pub of: usize,
-    /// Whether each was set aside.
+    /// Whether each drawn row was set aside.
     pub aside: Vec<bool>,
+    /// Whether each of all rows was set aside.
+    pub every_aside: Vec<bool>,
+    /// Whether anything was added to the declaration: else what was before is what is after.
+    pub changed: bool,
     /// Joints and inputs.
     pub readings: Vec<Column>,
     /// Residual components.
@@ -55,10 +66,17 @@ impl Rows {
     pub fn of(reported: &Reported<'_>) -> Self {
         let calibration = reported.calibration;
         let observations = reported.observations;
-        let drawn = &calibration.drawn;
-        let number = |&row: &usize| observations.row_numbers.get(row).copied().unwrap_or(row as u64 + 1);
         let weight = &calibration.after.residuals.weight;
+        let every_aside: Vec<bool> =
+            (0..observations.rows()).map(|row| weight.get(row) == Some(&0.0)).collect();
         let all = residuals::components(reported);
+        let places = thinned(
+            &calibration.drawn,
+            &every_aside,
+            bytes_of_a_row(observations.poses.columns.len(), all.len(), calibration.traces.len()),
+        );
+        let drawn: Vec<usize> = places.iter().map(|&at| calibration.drawn[at]).collect();
+        let number = |&row: &usize| observations.row_numbers.get(row).copied().unwrap_or(row as u64 + 1);
         let largest = all
             .iter()
             .flat_map(|component| component.before.iter().chain(&component.after))
@@ -70,9 +88,10 @@ impl Rows {
             key,
             label: label.to_owned(),
             values: drawn.iter().map(|&row| values[row].map(|si| si / reading.in_si)).collect(),
+            in_si: reading.in_si,
         };
         let components: Vec<Component> = all
-            .iter()
+            .into_iter()
             .map(|component| {
                 let reading = if component.unit == calibration.diagnosis.unit {
                     unit.clone()
@@ -85,6 +104,7 @@ impl Rows {
                     before: column(format!("{} before", component.name), &label, &component.before, &reading),
                     after: column(format!("{} after", component.name), &label, &component.after, &reading),
                     label,
+                    every: component,
                 }
             })
             .collect();
@@ -95,17 +115,19 @@ impl Rows {
                 key: shown.name.clone(),
                 label: numbers::name_with_unit(&shown.name, &reading.name),
                 values: drawn.iter().map(|&row| Some(values[row] / reading.in_si)).collect(),
+                in_si: reading.in_si,
             }
         });
         let effects = calibration.traces.iter().zip(1..).map(|(trace, number): (_, usize)| {
             let reading = trace_reading(trace);
-            ["without", "left"].map(|kind| Column {
-                key: format!("effect {number} {kind}"),
-                label: reading.name.clone(),
-                values: (if kind == "left" { &trace.left } else { &trace.without })
-                    .iter()
-                    .map(|value| value.map(|si| si / reading.in_si))
-                    .collect(),
+            ["without", "left"].map(|kind| {
+                let values = if kind == "left" { &trace.left } else { &trace.without };
+                Column {
+                    key: format!("effect {number} {kind}"),
+                    label: reading.name.clone(),
+                    values: places.iter().map(|&at| values[at].map(|si| si / reading.in_si)).collect(),
+                    in_si: reading.in_si,
+                }
             })
         });
         let length = |which: fn(&Component) -> &Column| -> Vec<Option<f64>> {
@@ -120,13 +142,27 @@ impl Rows {
         Self {
             numbers: drawn.iter().map(number).collect(),
             of: observations.rows(),
-            aside: drawn.iter().map(|&row| weight.get(row) == Some(&0.0)).collect(),
+            aside: drawn.iter().map(|&row| every_aside[row]).collect(),
+            changed: !calibration.diagnosis.effects.is_empty(),
+            every_aside,
             readings: readings.collect(),
             effects: effects.collect(),
             lengths: [length(|component| &component.before), length(|component| &component.after)],
             components,
             unit,
         }
+    }
+
+    /// A reading and a residual of every row that was kept, drawn or not, in the units of their axes.
+    pub fn kept<'a>(
+        &'a self,
+        reading: impl Fn(usize) -> f64 + 'a,
+        component: &'a Component,
+    ) -> impl Iterator<Item = (f64, f64)> + 'a {
+        let values = component.every.after.iter().zip(&self.every_aside).enumerate();
+        values
+            .filter(|(_, (_, aside))| !**aside)
+            .filter_map(move |(row, (value, _))| Some((reading(row), (*value)? / component.after.in_si)))
     }
 
     /// What the script reads.
@@ -145,6 +181,7 @@ impl Rows {
             key: "order".to_owned(),
             label: String::new(),
             values: self.numbers.iter().map(|&number| Some(number as f64)).collect(),
+            in_si: 1.0,
         };
         let of_components =
             self.components.iter().flat_map(|component| [&component.before, &component.after]);
@@ -164,6 +201,25 @@ impl Rows {
             list(&self.lengths[1])
         )
     }
+}
+
+/// About what a row takes in the page: two marks in each picture of rows, and a number in each column.
+fn bytes_of_a_row(readings: usize, components: usize, effects: usize) -> usize {
+    let pictures = readings * components + 2 * components + effects + 1;
+    let columns = readings + 2 * components + 2 * effects + 3;
+    30 * pictures + 7 * columns
+}
+
+/// Places among the drawn rows of those that the page has room for: every row that was set aside, and others evenly.
+fn thinned(drawn: &[usize], aside: &[bool], bytes: usize) -> Vec<usize> {
+    let room = BYTES / bytes.max(1);
+    let (set_aside, kept): (Vec<usize>, Vec<usize>) = (0..drawn.len()).partition(|&at| aside[drawn[at]]);
+    let room = room.saturating_sub(set_aside.len()).max(room / 4);
+    let mut places: Vec<usize> = set_aside.into_iter().take(room).collect();
+    let count = kept.len().min(room);
+    places.extend((0..count).map(|at| kept[at * kept.len() / count]));
+    places.sort_unstable();
+    places
 }
 
 /// Text as JSON has it, and as markup lets it stand in a script.
@@ -187,4 +243,26 @@ pub fn trace_reading(trace: &calibration::diagnose::Trace) -> Reading {
 /// The size by which a reading's unit is chosen: angles of joints in degrees, however small.
 pub fn axis_size(unit: SiUnit, range: &[f64; 2]) -> f64 {
     if unit == SiUnit::RAD { 1.0 } else { range[0].abs().max(range[1].abs()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_are_thinned_evenly_and_those_set_aside_stay() {
+        let drawn: Vec<usize> = (0..2000).collect();
+        let aside: Vec<bool> = (0..2000).map(|row| row % 500 == 7).collect();
+        let places = thinned(&drawn, &aside, BYTES / 100);
+        assert_eq!(places.len(), 100);
+        assert!([7, 507, 1007, 1507].iter().all(|row| places.contains(row)), "{places:?}");
+        assert!(places.windows(2).all(|two| two[0] < two[1] && two[1] - two[0] <= 25), "{places:?}");
+        assert_eq!(thinned(&drawn, &aside, 1), drawn);
+        // Nearly all set aside: some of them, and some of the others.
+        let most: Vec<bool> = (0..2000).map(|row| row % 10 != 0).collect();
+        let places = thinned(&drawn, &most, BYTES / 100);
+        assert_eq!(places.len(), 50);
+        assert!(places.iter().any(|row| row % 10 == 0), "{places:?}");
+        assert!(thinned(&[], &[], 10).is_empty());
+    }
 }

@@ -1,23 +1,77 @@
-// Hover names the row, a drag marks the rows in every picture, Escape or Clear forgets them; a button enlarges a picture. Without it the page is whole.
+// Hover names the row, a drag marks the rows in every picture, Zoom shows only where they are, Escape or Clear forgets them; a button enlarges a
+// picture. Without it the page is whole.
 (() => {
   const data = JSON.parse(document.getElementById("rows").textContent);
   const count = data.rows.length;
   const tip = document.createElement("div");
   tip.id = "tip"; tip.hidden = true; tip.setAttribute("role", "status");
   document.body.append(tip);
-  const state = document.getElementById("state"), clear = document.getElementById("clear");
+  const state = document.getElementById("state"), clear = document.getElementById("clear"), zoom = document.getElementById("zoom");
   let marked = new Set();
   const pictures = [...document.querySelectorAll("svg.rows")].map((svg) => {
-    const [left, top, width, height] = svg.dataset.box.split(",").map(Number);
-    const [x0, x1, y0, y1] = svg.dataset.range.split(",").map(Number);
+    const numbers = (name) => svg.dataset[name].split(",").map(Number);
+    return { svg, over: svg.querySelector(".over"), box: numbers("box"), whole: numbers("range"), first: svg.innerHTML };
+  });
+  // Where each row stands in a picture that shows a range; rows outside stand nowhere.
+  const put = (picture, range) => {
+    const { svg, box: [left, top, width, height] } = picture, [x0, x1, y0, y1] = picture.range = range;
     const place = (name) => {
       const x = data.columns[svg.dataset.x], y = data.columns[name];
       if (!x || !y) return [];
-      return Array.from({ length: count }, (_, i) => x[i] === null || y[i] === null ? null
+      return Array.from({ length: count }, (_, i) => x[i] === null || y[i] === null || x[i] < x0 || x[i] > x1 || y[i] < y0 || y[i] > y1 ? null
         : [left + (x[i] - x0) / (x1 - x0) * width, top + (1 - (y[i] - y0) / (y1 - y0)) * height]);
     };
-    return { svg, over: svg.querySelector(".over"), before: place(svg.dataset.before), after: place(svg.dataset.after) };
-  });
+    picture.before = place(svg.dataset.before); picture.after = place(svg.dataset.after);
+  };
+  pictures.forEach((picture) => put(picture, picture.whole));
+  const ticks = (low, high, about) => {
+    const rough = (high - low) / about, power = 10 ** Math.floor(Math.log10(rough));
+    const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= rough), from = Math.ceil(low / step);
+    return Array.from({ length: Math.max(0, Math.floor(high / step) - from + 1) }, (_, i) => (from + i) * step);
+  };
+  const told = (tick) => (Math.abs(tick) >= 1e4 && tick % 1000 === 0 ? tick / 1000 + "k" : String(+tick.toPrecision(6))).replace("-", "−");
+  // The picture drawn again for the range that it shows.
+  const redraw = (picture) => {
+    const { svg, box: [left, top, width, height], range: [x0, x1, y0, y1] } = picture, at = (path) => svg.querySelector(path);
+    if (picture.range === picture.whole) { svg.innerHTML = picture.first; picture.over = at(".over"); return; }
+    const path = (points, aside, mark) => points.map((p, i) => p && !!data.aside[i] === aside ? mark(p[0].toFixed(1), +p[1].toFixed(1)) : "").join("");
+    at(".tri")?.setAttribute("d", path(picture.before, false, (x, y) => `M${x} ${y - 3}l3 5h-6z`));
+    at(".dot")?.setAttribute("d", path(picture.after, false, (x, y) => `M${x} ${y}h0`));
+    at(".cross")?.setAttribute("d", path(picture.after, true, (x, y) => `M${x - 3} ${y - 3}l6 6m0-6l-6 6`));
+    // Curves and means keep their numbers and move with the range, cut at the edge of the picture.
+    const [u0, u1, v0, v1] = picture.whole, across = (u1 - u0) / (x1 - x0), up = (v1 - v0) / (y1 - y0), plot = at(".plot");
+    const right = left - left * across + (u0 - x0) / (x1 - x0) * width, down = top - top * up - (v1 - y1) / (y1 - y0) * height;
+    plot.querySelectorAll(".curve, .band, .normal, .dia").forEach((line) => {
+      line.setAttribute("transform", `matrix(${across} 0 0 ${up} ${right} ${down})`); line.setAttribute("vector-effect", "non-scaling-stroke");
+    });
+    const id = `cut${pictures.indexOf(picture)}`;
+    plot.insertAdjacentHTML("afterbegin", `<clipPath id="${id}"><path d="M${left} ${top}h${width}v${height}h${-width}z"/></clipPath>`);
+    plot.setAttribute("clip-path", `url(#${id})`);
+    const labels = [...svg.querySelectorAll(".axes .label")].map((label) => label.outerHTML).join(""), bottom = top + height;
+    at(".axes").innerHTML = ticks(x0, x1, Math.max(3, Math.min(9, (left + width) / 75))).map((t) => {
+      const x = (left + (t - x0) / (x1 - x0) * width).toFixed(1);
+      return `<path class="grid" d="M${x} ${top}V${bottom}"/><text x="${x}" y="${bottom + 13}" text-anchor="middle">${told(t)}</text>`;
+    }).join("") + ticks(y0, y1, 5).map((t) => {
+      const y = (top + (1 - (t - y0) / (y1 - y0)) * height).toFixed(1);
+      return `<path class="grid" d="M${left} ${y}h${width}"/><text x="${left - 5}" y="${+y + 4}" text-anchor="end">${told(t)}</text>`;
+    }).join("") + (y0 < 0 && y1 > 0 ? `<path class="zero" d="M${left} ${(top + y1 / (y1 - y0) * height).toFixed(1)}h${width}"/>` : "") + labels;
+  };
+  const range = (picture) => {
+    const x = data.columns[picture.svg.dataset.x], [x0, x1, y0, y1] = picture.whole;
+    const which = document.querySelector("input[name=show]:checked")?.id;
+    const names = [which === "show-after" ? null : picture.svg.dataset.before, which === "show-before" ? null : picture.svg.dataset.after];
+    const xs = [], ys = [];
+    for (const name of names) for (const i of marked) {
+      const y = data.columns[name]?.[i];
+      if (x?.[i] != null && y != null) { xs.push(x[i]); ys.push(y); }
+    }
+    if (xs.length < 2) return picture.whole;
+    const around = (values, all) => {
+      const low = Math.min(...values), high = Math.max(...values), room = 0.08 * (high - low) || 0.02 * all;
+      return [low - room, high + room];
+    };
+    return [...around(xs, x1 - x0), ...around(ys, y1 - y0)];
+  };
   const shown = (picture) => {
     const which = document.querySelector("input[name=show]:checked")?.id;
     return [which === "show-after" ? [] : picture.before, which === "show-before" ? [] : picture.after];
@@ -37,8 +91,16 @@
       return squares.length ? (Math.sqrt(squares.reduce((a, b) => a + b, 0) / squares.length)).toPrecision(3) + data.unit : "–";
     };
     state.textContent = marked.size ? `${marked.size} of ${count}${of} marked: ${rms("before")} before, ${rms("after")} after (RMS)` : "Drag over a picture to mark rows in all.";
-    clear.hidden = !marked.size;
+    clear.hidden = !marked.size; zoom.hidden = marked.size < 2;
   };
+  let zoomed = false;
+  const look = (closer) => {
+    zoomed = closer;
+    zoom.textContent = closer ? "Show all again" : "Zoom to them";
+    for (const picture of pictures) { put(picture, closer ? range(picture) : picture.whole); redraw(picture); }
+    draw();
+  };
+  zoom.addEventListener("click", () => look(!zoomed));
   const local = (svg, event) => {
     const point = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
     return [point.x, point.y];
@@ -81,7 +143,7 @@
       draw();
     });
   }
-  document.querySelectorAll(".grid > .card > svg").forEach((svg) => {
+  document.querySelectorAll("#residuals .card > svg, #left .card > svg").forEach((svg) => {
     const card = svg.parentElement, grow = document.createElement("button");
     if (card.classList.contains("wide")) return;
     grow.type = "button"; grow.className = "grow"; grow.textContent = "Enlarge";
@@ -90,7 +152,7 @@
     grow.addEventListener("click", () => grow.setAttribute("aria-pressed", String(card.classList.toggle("wide"))));
     card.prepend(grow);
   });
-  const forget = () => { marked = new Set(); draw(); };
+  const forget = () => { marked = new Set(); look(false); };
   clear.addEventListener("click", forget);
   addEventListener("keydown", (event) => { if (event.key === "Escape") forget(); });
   document.querySelectorAll("input[name=show]").forEach((input) => input.addEventListener("change", draw));

@@ -111,7 +111,7 @@ impl Picture {
         for (x, y) in points.filter(|(x, y)| x.is_finite() && y.is_finite()) {
             let (x, y) = self.at(x, y);
             let _ = match mark {
-                Mark::Triangle => write!(path, "M{x:.1} {:.1}l2.6 4.6h-5.2z", y - 2.8),
+                Mark::Triangle => write!(path, "M{x:.1} {:.1}l3 5h-6z", y - 3.0),
                 Mark::Dot => write!(path, "M{x:.1} {y:.1}h0"),
                 Mark::Diamond => write!(path, "M{x:.1} {:.1}l4 4-4 4-4-4z", y - 4.0),
                 Mark::Cross => write!(path, "M{:.1} {:.1}l6 6m0-6l-6 6", x - 3.0, y - 3.0),
@@ -156,6 +156,21 @@ impl Picture {
         let _ = write!(self.body, "<path class=\"{class} arrow\" d=\"{path}\"/>");
     }
 
+    /// A bar of some length at the upper edge, with what it stands for.
+    pub fn scale(&mut self, length: f64, told: &str) {
+        let right = self.width - RIGHT - 4.0;
+        let _ = write!(
+            self.body,
+            "<path class=\"scale\" d=\"M{:.1} {:.1}h{length:.1}m0-3v6m-{length:.1}-6v6\"/>\
+             <text class=\"onplot\" x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
+            right - length,
+            TOP + 8.0,
+            right - length - 5.0,
+            TOP + 12.0,
+            escaped(told)
+        );
+    }
+
     /// Bars from zero, each from one place to another.
     pub fn bars(&mut self, class: &str, bars: impl Iterator<Item = (f64, f64, f64)>) {
         let mut path = String::new();
@@ -190,10 +205,11 @@ impl Picture {
                 self.height - TOP - BOTTOM
             );
         }
-        svg.push('>');
+        svg.push_str("><g class=\"axes\">");
         self.axes(&mut svg);
+        svg.push_str("</g><g class=\"plot\">");
         svg.push_str(&self.body);
-        svg.push_str("<g class=\"over\"></g></svg>");
+        svg.push_str("</g><g class=\"over\"></g></svg>");
         svg
     }
 
@@ -236,8 +252,11 @@ impl Picture {
     }
 }
 
-/// A tick's number, with a real minus.
+/// A tick's number, with a real minus; many thousands as `200k`.
 fn number(tick: f64) -> String {
+    if tick.abs() >= 1e4 && tick % 1000.0 == 0.0 {
+        return format!("{}k", number(tick / 1000.0));
+    }
     let rounded = format!("{tick:.6}");
     let short = rounded.trim_end_matches('0').trim_end_matches('.');
     if short == "-0" || short.is_empty() { "0".to_owned() } else { short.replace('-', "−") }
@@ -258,6 +277,7 @@ mod tests {
         assert_eq!(axis.ticks(5.0), [-5.0, 0.0, 5.0, 10.0]);
         assert_eq!(number(-5.0), "−5");
         assert_eq!(number(0.25), "0.25");
+        assert_eq!(number(-200_000.0), "−200k");
         let flat = Axis::around("x", [3.0, 3.0].into_iter(), false);
         assert!(flat.low < 3.0 && flat.high > 3.0);
     }

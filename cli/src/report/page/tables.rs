@@ -1,6 +1,6 @@
 //! The tables of the page: causes, values, and the details behind folds.
 
-use calibration::diagnose::{Diagnosis, EffectFound, Relation};
+use calibration::diagnose::{Cause, Diagnosis, EffectFound, Relation};
 use calibration::report::{self as words, numbers};
 use maud::{Markup, html};
 
@@ -12,44 +12,77 @@ const MATRIX: usize = 40;
 /// Rows of a long list that the page shows.
 const LISTED: usize = 200;
 
+/// Effects whose causes are not folded away.
+const OPEN: usize = 3;
+
 /// A table that scrolls by itself where it is broad.
 fn scrolled(name: &str, table: &Markup) -> Markup {
     html! { div.scroll tabindex="0" role="region" aria-label=(name) { (table) } }
 }
 
-/// Every accepted effect, the largest first, with its causes and their checks.
+/// Every accepted effect, the largest first, with its causes and their checks; small ones folded.
 pub fn causes(reported: &Reported<'_>) -> Markup {
     let diagnosis = &reported.calibration.diagnosis;
     let mut effects: Vec<&EffectFound> = diagnosis.effects.iter().collect();
     effects.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+    let (first, more) = effects.split_at(effects.len().min(OPEN));
     html! {
         @if !effects.is_empty() {
             section id="causes" {
                 h2 { "What it may be, and how to check" }
-                @for effect in effects { (effect_card(effect, diagnosis)) }
+                @for effect in first { (effect_card(effect, diagnosis)) }
+                @if !more.is_empty() {
+                    details {
+                        summary { (more.len()) " smaller" }
+                        @for effect in more { (effect_card(effect, diagnosis)) }
+                    }
+                }
             }
         }
     }
 }
 
+/// Causes that look the same and are checked the same way, in the order of the first of each.
+fn alike(causes: &[Cause]) -> Vec<Vec<&Cause>> {
+    let mut groups: Vec<Vec<&Cause>> = Vec::new();
+    for cause in causes {
+        match groups.iter_mut().find(|group| group[0].looks == cause.looks && group[0].check == cause.check) {
+            Some(group) => group.push(cause),
+            None => groups.push(vec![cause]),
+        }
+    }
+    groups
+}
+
 fn effect_card(effect: &EffectFound, diagnosis: &Diagnosis) -> Markup {
+    let headline = words::headline(effect, diagnosis);
     html! {
         section.card style="margin-top:14px" {
-            h3 { (words::headline(effect, diagnosis)) }
+            h3 { (headline) }
             p.quiet { (words::sentence_case(&words::place(effect, diagnosis))) "." }
-            (scrolled("Causes that fit", &html! {
-                table {
-                    thead { tr { th scope="col" { "cause" } th scope="col" { "looks like" } th scope="col" { "check" } } }
-                    tbody {
-                        @for cause in &effect.causes {
-                            tr {
-                                th scope="row" {
-                                    (words::sentence_case(&words::cause(cause)))
-                                    @if cause.relation == Relation::Rival { span.quiet { " (fits about as well)" } }
-                                    @if !cause.published.is_empty() { br; span.quiet { (cause.published.join(", ")) } }
+            (scrolled(&format!("Causes that fit: {headline}"), &html! {
+                table.stack role="table" {
+                    thead role="rowgroup" {
+                        tr role="row" {
+                            th scope="col" role="columnheader" { "cause" }
+                            th scope="col" role="columnheader" { "looks like" }
+                            th scope="col" role="columnheader" { "check" }
+                        }
+                    }
+                    tbody role="rowgroup" {
+                        @for group in alike(&effect.causes) {
+                            tr role="row" {
+                                th scope="row" role="rowheader" {
+                                    @for cause in &group {
+                                        div {
+                                            (words::sentence_case(&words::cause(cause)))
+                                            @if cause.relation == Relation::Rival { span.quiet { " (fits about as well)" } }
+                                            @if !cause.published.is_empty() { br; span.quiet { (cause.published.join(", ")) } }
+                                        }
+                                    }
                                 }
-                                td { (cause.looks) }
-                                td { (cause.check) }
+                                td role="cell" { b.name { "Looks like: " } (group[0].looks) }
+                                td role="cell" { b.name { "Check: " } (group[0].check) }
                             }
                         }
                     }
@@ -108,6 +141,7 @@ pub fn details(reported: &Reported<'_>) -> Markup {
             details { summary { "Noise" } ul { @for line in words::noise(diagnosis) { li { (line) } } } }
             (poses(diagnosis))
             (correlations(diagnosis))
+            (leverage(diagnosis))
             (set_aside(diagnosis))
             (not_shown(diagnosis))
             @if let Some(search) = &diagnosis.search {
@@ -199,12 +233,35 @@ fn correlations(diagnosis: &Diagnosis) -> Markup {
     }
 }
 
+/// Rows that carry more than their share.
+fn leverage(diagnosis: &Diagnosis) -> Markup {
+    let rows = &diagnosis.precision.leverage;
+    html! {
+        @if !rows.is_empty() {
+            details {
+                summary { "Rows that the estimates lean on" }
+                p.quiet {
+                    "Leverage goes from 0 to the number of components of a row; there, the estimates follow the row wherever it goes, and a \
+                     mistake in it does not show in its residual."
+                }
+                (scrolled("Rows that the estimates lean on", &html! {
+                    table {
+                        thead { tr { th.number scope="col" { "row" } th.number scope="col" { "leverage" } } }
+                        tbody { @for (row, leverage) in rows.iter().take(LISTED) { tr { td.number { (row) } td.number { (format!("{leverage:.2}")) } } } }
+                    }
+                }))
+                @if rows.len() > LISTED { p { "The first " (LISTED) " of " (rows.len()) "; report.json lists all." } }
+            }
+        }
+    }
+}
+
 fn set_aside(diagnosis: &Diagnosis) -> Markup {
     let aside = &diagnosis.observations.set_aside;
     html! {
         @if !aside.is_empty() {
             details {
-                summary { (aside.len()) " rows set aside" }
+                summary { (crate::report::counted(aside.len())) " set aside" }
                 (scrolled("Rows set aside", &html! {
                     table {
                         thead { tr { th scope="col" { "row" } th scope="col" { "why" } } }

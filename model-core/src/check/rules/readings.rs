@@ -9,6 +9,7 @@ use crate::chain::ObservableKind;
 use crate::chain::reading::{Measures, Reading, WORDS};
 use crate::mistake::Mistake;
 use crate::names::nearest;
+use crate::syntax::ORIENTATION;
 use crate::syntax::declaration::{ObserveStatement, ReadingTerm};
 
 /// As many numbers as a vector has.
@@ -48,6 +49,22 @@ fn mistake_in(observe: &ObserveStatement, written: &ReadingTerm) -> Option<Mista
         };
         return Some(Mistake::new(place, format!("unknown reading `{word}`")).with_help(help));
     };
+    match (reading.rotation().is_some(), observe.kind == ORIENTATION) {
+        (true, false) => {
+            return Some(
+                Mistake::new(place, format!("a {} has no `{word}`", observe.kind))
+                    .with_help(format!("write `{word} of orientation of body`")),
+            );
+        }
+        (false, true) => {
+            return Some(
+                Mistake::new(place, format!("an orientation has no `{word}`")).with_help(
+                    "write `rotation_x, rotation_y, rotation_z`, or observe a direction: `direction(0, 0, 1) of body`",
+                ),
+            );
+        }
+        _ => {}
+    }
     let is_direction = meaning(&OBSERVABLE_KINDS, &observe.kind) == Some(ObservableKind::Direction);
     if reading.measures == Measures::Range && is_direction {
         return Some(

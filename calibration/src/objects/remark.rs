@@ -1,0 +1,170 @@
+//! What is doubtful of rows that observe objects: rows that say nothing, planes seen head-on alone, labels that are likely
+//! swapped.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use nalgebra::Vector3;
+
+use super::rows::{Row, tells};
+use crate::data::Observations;
+use crate::data::unknowns::{Freedom, Object, Shape, Unknowns};
+
+/// A plane that no beam meets at more than this from its normal shows ranges alone, rad.
+const HEAD_ON_RAD: f64 = 0.15;
+
+/// A row lies astray that is so many times as far from its object's others as rows usually are.
+const ASTRAY: f64 = 8.0;
+
+/// It lies where another object is when it is this much nearer to that.
+const NEARER: f64 = 0.2;
+
+/// Something that a user should look at.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Remark {
+    /// Objects whose rows do no more than say where they are.
+    SaysNothing {
+        /// The first of them.
+        object: String,
+        /// How many there are.
+        objects: usize,
+    },
+    /// A plane that beams meet at nearly a right angle alone.
+    HeadOn {
+        /// Its label.
+        plane: String,
+        /// How far from the normal a beam meets it at most, degrees.
+        most_deg: f64,
+    },
+    /// Rows of one object that lie where another is.
+    Swapped {
+        /// The label that they bear.
+        one: String,
+        /// The object that is there.
+        other: String,
+        /// How many rows, and how many of the other lie where this one is.
+        rows: [usize; 2],
+        /// The first of them, counted from 1 without the header.
+        first: u64,
+    },
+}
+
+impl fmt::Display for Remark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::SaysNothing { object, objects: 1 } => write!(
+                f,
+                "the rows of `{object}` say where it is and nothing of the errors: observe it from more places or poses"
+            ),
+            Self::SaysNothing { object, objects } => write!(
+                f,
+                "the rows of {objects} objects (`{object}` is the first) say where they are and nothing of the errors: observe \
+                 them from more places or poses"
+            ),
+            Self::HeadOn { plane, most_deg } => write!(
+                f,
+                "the plane `{plane}` was seen head-on alone (at most {most_deg:.1} deg from its normal): it shows ranges and \
+                 hardly any angle; aim at it obliquely too"
+            ),
+            Self::Swapped { one, other, rows: [there, 0], first } => write!(
+                f,
+                "{there} rows labelled `{one}` lie where `{other}` is, the first of them row {first}: are their labels right?"
+            ),
+            Self::Swapped { one, other, rows: [there, back], first } => write!(
+                f,
+                "the labels `{one}` and `{other}` are likely swapped: {there} rows of the first lie where the second is, and \
+                 {back} the other way round; the first of them is row {first}"
+            ),
+        }
+    }
+}
+
+/// What is doubtful of these rows, the objects and stations being where they start.
+pub(super) fn remarks(observations: &Observations, unknowns: &Unknowns, rows: &[Row]) -> Vec<Remark> {
+    let mut remarks = Vec::new();
+    let mut components = vec![0; unknowns.objects.len()];
+    rows.iter().for_each(|row| components[row.object] += row.measure.components());
+    let says_nothing = |(object, components): &(&Object, &usize)| {
+        object.freedom == Freedom::Free && **components > 0 && **components <= object.numbers()
+    };
+    let idle: Vec<&Object> =
+        unknowns.objects.iter().zip(&components).filter(says_nothing).map(|(object, _)| object).collect();
+    if let Some(first) = idle.first() {
+        remarks.push(Remark::SaysNothing { object: first.label.clone(), objects: idle.len() });
+    }
+    for (number, plane) in unknowns.objects.iter().enumerate().filter(|(_, own)| own.shape == Shape::Plane) {
+        let from_normal = |row: &Row| {
+            let beam = unknowns.stations[row.station].pose.turn * row.point.normalize();
+            beam.dot(&plane.normal).abs().min(1.0).acos()
+        };
+        let most = rows.iter().filter(|row| row.object == number).map(from_normal).reduce(f64::max);
+        if let Some(most) = most.filter(|most| *most < HEAD_ON_RAD) {
+            remarks.push(Remark::HeadOn { plane: plane.label.clone(), most_deg: most.to_degrees() });
+        }
+    }
+    remarks.extend(swapped(observations, unknowns, rows));
+    remarks
+}
+
+/// A sum of points and how many they are.
+type Sum = (Vector3<f64>, f64);
+
+fn without(all: Sum, part: Sum) -> Option<Vector3<f64>> {
+    (all.1 > part.1).then(|| (all.0 - part.0) / (all.1 - part.1))
+}
+
+/// Rows that lie where another object is.
+fn swapped(observations: &Observations, unknowns: &Unknowns, rows: &[Row]) -> Vec<Remark> {
+    let rows: Vec<&Row> = rows.iter().filter(|row| tells(row)).collect();
+    let there = |row: &Row| unknowns.stations[row.station].pose.apply(&row.point);
+    let mut whole: Vec<Sum> = vec![(Vector3::zeros(), 0.0); unknowns.objects.len()];
+    let mut from: BTreeMap<(usize, usize), Sum> = BTreeMap::new();
+    for row in &rows {
+        let own = from.entry((row.object, row.station)).or_insert((Vector3::zeros(), 0.0));
+        for sum in [own, &mut whole[row.object]] {
+            sum.0 += there(row);
+            sum.1 += 1.0;
+        }
+    }
+    // Where an object is as other stations say, or where there are none its other rows.
+    let others = |row: &Row| {
+        let all = whole[row.object];
+        let own = from.get(&(row.object, row.station)).copied().unwrap_or((Vector3::zeros(), 0.0));
+        without(all, own).or_else(|| without(all, (there(row), 1.0)))
+    };
+    let away: Vec<Option<f64>> =
+        rows.iter().map(|row| others(row).map(|place| (there(row) - place).norm())).collect();
+    let mut sorted: Vec<f64> = away.iter().flatten().copied().collect();
+    if sorted.is_empty() {
+        return Vec::new();
+    }
+    sorted.sort_by(f64::total_cmp);
+    let usual = sorted[sorted.len() / 2];
+    let mut found: BTreeMap<(usize, usize), (usize, usize)> = BTreeMap::new();
+    for (row, away) in rows.iter().zip(away) {
+        let Some(away) = away.filter(|away| *away > ASTRAY * usual && *away > 0.0) else { continue };
+        let nearest = (0..whole.len()).filter(|&other| other != row.object).filter_map(|other| {
+            let own = from.get(&(other, row.station)).copied().unwrap_or((Vector3::zeros(), 0.0));
+            let place =
+                without(whole[other], own).or_else(|| without(whole[other], (Vector3::zeros(), 0.0)))?;
+            Some(((there(row) - place).norm(), other))
+        });
+        let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((_, other)) = nearest.filter(|(distance, _)| *distance < NEARER * away) {
+            let known = found.entry((row.object, other)).or_insert((0, row.number));
+            known.0 += 1;
+            known.1 = known.1.min(row.number);
+        }
+    }
+    let label = |object: usize| unknowns.objects[object].label.clone();
+    let count = |one: usize, other: usize| found.get(&(one, other)).map_or(0, |found| found.0);
+    let pairs = found.iter().filter(|((one, other), _)| count(*other, *one) == 0 || one < other);
+    pairs
+        .map(|(&(one, other), &(rows, first))| Remark::Swapped {
+            one: label(one),
+            other: label(other),
+            rows: [rows, count(other, one)],
+            first: observations.row_numbers.get(first).copied().unwrap_or_default(),
+        })
+        .collect()
+}

@@ -1,0 +1,50 @@
+//! The rows that observe objects, each with the point or direction that the chain without errors says.
+
+use model_core::{Chain, exact};
+use nalgebra::Vector3;
+
+use crate::data::unknowns::Unknowns;
+use crate::data::{Measure, Measured, Observations};
+
+/// A row that observes an object: the point that the chain says, without errors.
+pub(super) struct Row {
+    pub number: usize,
+    pub object: usize,
+    pub station: usize,
+    pub measure: Measure,
+    pub point: Vector3<f64>,
+    pub measured: Measured,
+}
+
+/// The rows that observe objects.
+pub(super) fn rows(
+    chain: &Chain,
+    observations: &Observations,
+    unknowns: &Unknowns,
+    values: &[f64],
+) -> Vec<Row> {
+    let mut values = values.to_vec();
+    values.truncate(chain.symbols.len());
+    let mut rows = Vec::new();
+    for series in &observations.poses.series {
+        let path = exact::Path::new(chain, series.observable);
+        for row in series.rows.clone() {
+            let Some(object) = unknowns.object[row] else { continue };
+            for (id, readings) in &observations.poses.columns {
+                values[id.index()] = readings[row];
+            }
+            let point = path.value(&values);
+            if point.iter().all(|part| part.is_finite()) {
+                let (station, measured) = (unknowns.station[row] as usize, observations.measured[row]);
+                let (object, measure) = (object as usize, series.measure);
+                rows.push(Row { number: row, object, station, measure, point, measured });
+            }
+        }
+    }
+    rows
+}
+
+/// Whether a row tells the place of its object from that of its station, and the other way round.
+pub(super) fn tells(row: &Row) -> bool {
+    matches!(row.measure, Measure::Target | Measure::Fixed)
+}

@@ -1,0 +1,76 @@
+//! Robot arms whose ball sits in unknown sockets: measured data, each robot's rows by themselves.
+//!
+//! The data lie outside the project; without them the tests say so and pass, except where `CI` is set.
+
+use serde_json::Value;
+
+use crate::support::{Folder, root, run_in};
+
+const STUDY: &str = "examples/ball-sockets/panda.toml";
+
+/// A folder with the example and the rows of one robot under the name that the study asks for; `None`, with a word about it,
+/// where the data are not at hand.
+#[allow(clippy::print_stdout, reason = "a skipped test says so")]
+fn robot(name: &str, folder: &str) -> Option<Folder> {
+    let data = root().join("../shared/data/ball-sockets.csv");
+    let Ok(text) = std::fs::read_to_string(&data) else {
+        assert!(std::env::var_os("CI").is_none(), "{} is missing", data.display());
+        println!("skipped: {} is missing", data.display());
+        return None;
+    };
+    let mut lines = text.lines();
+    let header = lines.next().expect("a header");
+    let own: Vec<&str> = lines.filter(|line| line.split(',').next() == Some(name)).collect();
+    let folder = Folder::new(folder);
+    let rows: Vec<&str> = std::iter::once(header).chain(own.iter().copied()).collect();
+    // The sockets of a stand are 50 mm apart: what is in the second is that far from the first.
+    let apart = own.iter().filter_map(|line| {
+        let mut cells: Vec<&str> = line.split(',').collect();
+        (cells[2] == "1").then(|| {
+            cells[2] = "0";
+            format!("{},0.05", cells.join(","))
+        })
+    });
+    let apart: Vec<String> = std::iter::once(format!("{header},apart [m]")).chain(apart).collect();
+    folder.copy(STUDY).copy("examples/ball-sockets/scale.toml").copy("examples/ball-sockets/panda.chain");
+    folder.write("robot.csv", rows.join("\n") + "\n").write("apart.csv", apart.join("\n") + "\n");
+    Some(folder)
+}
+
+fn number(report: &Value, path: &str) -> f64 {
+    report.pointer(path).and_then(Value::as_f64).unwrap_or_else(|| panic!("no {path}"))
+}
+
+fn calibrated(folder: &Folder, study: &str) -> Value {
+    let run = run_in(&folder.0, &["calibrate", study, "--format", "json"], "");
+    assert_eq!(run.code, 0, "{run}");
+    serde_json::from_str(&run.stdout).expect("JSON")
+}
+
+/// Bounds in mm on placements never seen, declared errors alone and with what the search adds: those of an independent
+/// analysis of the same rows. Its one effect for `panda_1` (0.582 mm, in one fold of three) is not found here.
+#[test]
+fn an_arm_is_calibrated_by_sockets_that_nobody_measured() {
+    for (name, rows, declared_mm, amended_mm) in
+        [("panda_1", 182.0, 0.869, 0.869), ("panda_4", 269.0, 0.261, 0.244)]
+    {
+        let Some(folder) = robot(name, &format!("sockets-{name}")) else { return };
+        let report = calibrated(&folder, "panda.toml");
+        assert_eq!(number(&report, "/observations/rows"), rows, "{name}");
+        let (before, after) =
+            (number(&report, "/before/held_out_rms") * 1e3, number(&report, "/after/held_out_rms") * 1e3);
+        assert!(before <= declared_mm && after <= amended_mm, "{name}: {before} and {after} mm");
+    }
+}
+
+/// The stand's known distance shows the length of the upper arm, which all others are measured by without it.
+#[test]
+fn sockets_at_a_known_distance_hold_the_scale() {
+    let Some(folder) = robot("panda_4", "sockets-scale") else { return };
+    let report = calibrated(&folder, "scale.toml");
+    let errors = report["errors"].as_array().expect("a list");
+    let d3 = errors.iter().find(|error| error["name"] == "d3").expect("it is estimated");
+    let [value, sigma] = ["value", "standard_uncertainty"].map(|key| d3[key].as_f64().expect("a number"));
+    // The maker's 316 mm, to within a hundredth and what the rows say that they show.
+    assert!(value.abs() < 4.0 * sigma && sigma < 2e-3, "{d3}");
+}

@@ -1,0 +1,112 @@
+//! The fit of many files: passes and sums of them as bytes, which Python carries to whoever has the rows.
+
+use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
+
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use trueaxis_cli::library::{self, Rows, Source, Streaming, Studied};
+
+use crate::errors;
+use crate::tables::Table;
+
+/// A text with the name that mistakes in it are shown with: `(name, text)`.
+type Text = (String, String);
+
+/// A table in memory, or the path of a file: `(name, columns or none)`.
+type Given<'py> = (String, Option<Vec<(String, Bound<'py, PyAny>)>>);
+
+fn source((name, text): Text) -> Source {
+    Source::of_text(name, &text)
+}
+
+/// Does something with rows that were given, without the interpreter's lock.
+fn with_rows<T: Send>(
+    py: Python<'_>,
+    (name, columns): Given<'_>,
+    work: impl FnOnce(Rows<'_>) -> Result<T, library::Failure> + Send,
+) -> PyResult<T> {
+    let table = columns.map(Table::of).transpose()?;
+    let columns = table.as_ref().map(Table::columns).transpose()?;
+    errors::run(py, || {
+        work(match &columns {
+            Some(columns) => Rows::Table(library::table(&name, columns)?),
+            None => Rows::File(&name),
+        })
+    })
+}
+
+/// A fit of many files, between passes.
+#[pyclass(frozen, module = "trueaxis._native")]
+pub struct Fitting {
+    study: Text,
+    chain: Text,
+    /// None while it is being worked on.
+    streaming: Mutex<Option<Streaming>>,
+}
+
+#[pymethods]
+impl Fitting {
+    /// Starts from some rows. A study without text is read from its file, a declaration that is not given from the file that
+    /// the study names.
+    #[new]
+    fn new(py: Python<'_>, study: (PathBuf, Option<String>), chain: Option<Text>, sample: Given<'_>) -> PyResult<Self> {
+        let (path, text) = study;
+        let studied = errors::run(py, || {
+            let study = match &text {
+                Some(text) => Source::of_text(path, text),
+                None => Source::read(&path)?,
+            };
+            match chain {
+                Some(chain) => Studied::of(study, source(chain)),
+                None => Studied::read(study),
+            }
+        })?;
+        let as_text = |source: &Source| (source.path.display().to_string(), source.text.clone());
+        let (study, chain) = (as_text(&studied.study), as_text(&studied.chain));
+        let streaming = with_rows(py, sample, |rows| Streaming::new(studied, rows))?;
+        Ok(Self { study, chain, streaming: Mutex::new(Some(streaming)) })
+    }
+
+    /// The study and the declaration, each with its name.
+    #[getter]
+    fn texts(&self) -> (Text, Text) {
+        (self.study.clone(), self.chain.clone())
+    }
+
+    /// The pass to make; none when the fit is done.
+    fn step<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyBytes>> {
+        let streaming = self.streaming.lock().unwrap_or_else(PoisonError::into_inner);
+        streaming.as_ref().and_then(Streaming::pass).map(|bytes| PyBytes::new(py, &bytes))
+    }
+
+    /// Takes up what all files say in that pass, in their order.
+    fn take(&self, py: Python<'_>, tallies: Vec<Vec<u8>>) -> PyResult<()> {
+        let mut streaming = self.streaming.lock().unwrap_or_else(PoisonError::into_inner);
+        let Some(before) = streaming.take() else {
+            return Err(pyo3::exceptions::PyValueError::new_err("this fit has failed"));
+        };
+        *streaming = Some(errors::run(py, || before.take(tallies.iter().map(Vec::as_slice)))?);
+        Ok(())
+    }
+
+    /// What was found, as JSON; none while there are passes to make.
+    fn found(&self) -> Option<String> {
+        let streaming = self.streaming.lock().unwrap_or_else(PoisonError::into_inner);
+        streaming.as_ref().and_then(Streaming::found).map(|found| found.to_string())
+    }
+}
+
+/// What some rows say in a pass, as bytes.
+#[pyfunction]
+pub fn accumulate<'py>(
+    py: Python<'py>,
+    study: Text,
+    chain: Text,
+    rows: Given<'py>,
+    pass: Vec<u8>,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let studied = errors::run(py, || Studied::of(source(study), source(chain)))?;
+    let bytes = with_rows(py, rows, |rows| library::accumulated(&studied, rows, &pass))?;
+    Ok(PyBytes::new(py, &bytes))
+}

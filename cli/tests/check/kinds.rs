@@ -172,7 +172,7 @@ fn constants_without_a_value_stand_in_formulas_and_in_no_number() {
         ("unvalued_holds", right, 0),
         ("unvalued_differs", &right.replace("'-reach*g'", "'-g'"), 1),
         ("unvalued_rank", r#"rank = { errors = "*", equals = 2 }"#, 0),
-        ("unvalued_total", r"total = '\sqrt{reach^2 ((e + f)^2 + g^2)}'", 0),
+        ("unvalued_total", r"total = '\sqrt{\mathrm{reach}^2 ((e + f)^2 + g^2)}'", 0),
     ] {
         let run = check(name, &chain, &on_end(claim));
         assert_eq!((run.code, run.stderr.as_str()), (code, ""), "{claim}: {}", run.stdout);

@@ -257,7 +257,9 @@ impl Case<'_> {
         }
         let mut add = |changed: Expr<Range<usize>>, kind| {
             let changed = TermFactor { expression: &changed, divides: factor.divides };
-            if let Some(to) = self.factor_value(&changed) {
+            // Of an angle less itself nothing is left: that is a factor less.
+            let is_one = |to: &Poly| matches!(kind, ChangeKind::Angle) && to.as_constant().is_some();
+            if let Some(to) = self.factor_value(&changed).filter(|to| !is_one(to)) {
                 changes.push(Change { from: from.clone(), to, kind });
             }
         };

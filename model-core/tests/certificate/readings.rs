@@ -189,7 +189,7 @@ fn names_of_the_statement_are_names() {
         body seen on ground { position: Rx(Minus); position_error: Rx(Plus), Ty(component); motion: Rz(seen); }
         body back on seen { position: Tx(sqrt); motion: Ry(-opposite); motion_error: Rz(printed_azimuth), Ry(derived_azimuth), Rx(C0); }
         observe is_seen: azimuth, elevation of direction(1, 0, 0) of back in seen;
-        observe seen_0: azimuth of direction(1, 0, 0) of seen;
+        observe seen_0: z of point(sqrt, 0, atan) of seen;
     }";
     let certificate = of_chain(text, 1).expect("a certificate");
     accepted_reading("reading_names", &certificate, 2);

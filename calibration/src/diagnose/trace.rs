@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 use super::units::of_reading;
-use crate::candidate::{Effect, Function};
+use crate::candidate::{Dependence, Effect, Function};
 use crate::data::{Observations, Poses, SiUnit};
 use crate::fit::FitResult;
 use crate::search::SearchError;

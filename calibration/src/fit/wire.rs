@@ -156,7 +156,7 @@ impl Pass {
         if values.len() != expected {
             return Err(PassError::OtherChain { expected, found: values.len() });
         }
-        let model = Model::new(chain, rows, &options.estimate)?;
+        let model = Model::new(chain, &rows.poses, &options.estimate)?;
         let noise = streamed(&options.noise);
         Ok(Self { model, values: values.to_vec(), floor: floor.to_vec(), noise, weighting })
     }

@@ -25,7 +25,10 @@ pub fn check_scale(chain: &Chain, observations: &Observations, fit: &FitOptions)
         |series: &&Series| matches!(series.measure, Measure::Plane | Measure::Target | Measure::Fixed);
     let shows_none = |series: &Series| of_points(&series) || series.measure.bare() == Measure::Direction;
     let mut points = observations.poses.series.iter().filter(of_points).peekable();
-    if points.peek().is_none() || !observations.poses.series.iter().all(shows_none) || known_places(unknowns) >= 2 {
+    if points.peek().is_none()
+        || !observations.poses.series.iter().all(shows_none)
+        || known_places(unknowns) >= 2
+    {
         return Ok(());
     }
     let is_length = |id: &&SymbolId| {

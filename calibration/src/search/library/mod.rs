@@ -332,7 +332,7 @@ impl Library<'_, '_> {
             // A function that was taken up is no rival of itself.
             let of_its_own = |&number: &usize| {
                 let effect = &self.whole.catalogue[self.last.fitted.found[number].effect];
-                (effect.place, effect.form.as_str()) == (one.smooth.place, kind.words().as_str())
+                (effect.place, &effect.form) == (one.smooth.place, &Dependence::from(kind.words()))
                     && effect.driver == self.whole.setting.name(one.smooth.driver)
             };
             if !instead_of.is_empty()

@@ -24,7 +24,7 @@ use super::rivals::AS_GOOD;
 use super::scan::{Left, Sheet};
 use super::select::class_columns;
 use super::signs::Signs;
-use crate::candidate::{Function, Place};
+use crate::candidate::{Dependence, Function, Place};
 use crate::effects::{SmoothPlace, smooth};
 use crate::search::SearchError;
 use crate::search::columns::Columns;

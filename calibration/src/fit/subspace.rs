@@ -11,13 +11,6 @@ use super::partial::Partial;
 /// uncertainty would be ten thousand times that of what is seen best, and beyond what is linear.
 const UNSEEN: f64 = 1e-4;
 
-/// What an undetermined combination of its whole size makes of a parameter is left out of account below this share of the
-/// parameter's own uncertainty.
-const LOST_IN_NOISE: f64 = 0.1;
-
-/// How many times what noise alone makes of a combination that nothing shows.
-const ABOVE_NOISE: f64 = 3.0;
-
 /// A column this much shorter than the longest is zero but for rounding: a quarter turn's cosine, say.
 const ROUNDING: f64 = 1e-14;
 
@@ -47,20 +40,6 @@ impl Subspace {
     /// that counts as one, SI, length p.
     #[must_use]
     pub fn determined(partial: &Partial, size: Vec<f64>) -> Self {
-        Self::above(partial, size, UNSEEN)
-    }
-
-    /// The same beside readings that are noisy: what residuals are as large as is not seen either.
-    #[must_use]
-    pub fn beside_noise(partial: &Partial, size: Vec<f64>) -> Self {
-        let p = partial.parameters;
-        let left = partial.factor().col(p).norm_l2();
-        let longest = (0..p).map(|column| partial.length(column)).fold(0.0, f64::max);
-        let noise = if longest > 0.0 { ABOVE_NOISE * left / longest } else { 0.0 };
-        Self::above(partial, size, UNSEEN.max(noise))
-    }
-
-    fn above(partial: &Partial, size: Vec<f64>, unseen: f64) -> Self {
         let p = partial.parameters;
         let factor = partial.factor();
         let lengths: Vec<f64> = (0..p).map(|column| partial.length(column)).collect();
@@ -74,7 +53,7 @@ impl Subspace {
             Ok(svd) => {
                 let values = svd.S().column_vector();
                 let largest = if p > 0 { values[0] } else { 0.0 };
-                let seen = |at: &usize| values[*at] > unseen * largest && values[*at] > 0.0;
+                let seen = |at: &usize| values[*at] > UNSEEN * largest && values[*at] > 0.0;
                 let rank = (0..p).filter(seen).count();
                 svd.V().subcols(rank, p - rank).to_owned()
             }
@@ -92,22 +71,16 @@ impl Subspace {
         let p = partial.parameters;
         let factor = partial.factor();
         let scaled = Mat::from_fn(p, p, |row, column| factor[(row, column)] * size[column]);
-        let (unseen, sigma) = match scaled.svd() {
+        let unseen = match scaled.svd() {
             Ok(svd) => {
-                let (values, v) = (svd.S().column_vector(), svd.V());
+                let values = svd.S().column_vector();
                 let rank = (0..p).filter(|&at| values[at] > 1.0).count();
-                let sigma =
-                    |row: usize| (0..rank).map(|at| (v[(row, at)] / values[at]).powi(2)).sum::<f64>().sqrt();
-                (v.subcols(rank, p - rank).to_owned(), (0..p).map(sigma).collect())
+                svd.V().subcols(rank, p - rank).to_owned()
             }
             // Only numbers that are none do not factor: nothing is seen then.
-            Err(_) => (Mat::identity(p, p), vec![0.0; p]),
+            Err(_) => Mat::identity(p, p),
         };
-        let (mut unseen, pivots) = echelon(unseen);
-        for column in unseen.col_iter_mut() {
-            let small = |(part, sigma): &(&mut f64, &f64)| part.abs() < LOST_IN_NOISE * **sigma;
-            column.iter_mut().zip(&sigma).filter(small).for_each(|(part, _)| *part = 0.0);
-        }
+        let (unseen, pivots) = echelon(unseen);
         let scale = size.iter().map(|size| 1.0 / size).collect();
         Self { scale, unseen, pivots, size: Vec::new(), axes: Mat::zeros(p, p) }.resized(size)
     }

@@ -139,7 +139,7 @@ fn visible(
     let tally = tally(model, observations, &layout, &values, &sigma, Weighting::Full)?;
     let partial = tally.partial.spread(model.column_of());
     let parameters = model.parameters();
-    let subspace = Subspace::beside_noise(&partial, vec![1.0; parameters.len()]);
+    let subspace = Subspace::determined(&partial, vec![1.0; parameters.len()]);
     let pick = |chosen: &[bool]| {
         let all = parameters.iter().zip(chosen).filter(|(_, chosen)| **chosen);
         all.map(|(&id, _)| id).collect::<Vec<_>>()

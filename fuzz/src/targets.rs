@@ -6,7 +6,7 @@ use calibration::amend::{Addition, NewInput, amend};
 use calibration::data::units::Amount;
 use calibration::formats::{self, ColumnName, Form, Kept, Options, Wanted, write_row};
 use calibration::study::Study;
-use model_core::{BodyId, Chain, Quantity, Role, syntax};
+use model_core::{BodyId, Chain, Role, syntax};
 
 /// Takes one input; panics if something is wrong with how it is taken.
 pub type Target = fn(&[u8]);
@@ -105,7 +105,7 @@ fn amended(input: &[u8]) {
     };
     let input = NewInput {
         name: "fuzzed_input".to_owned(),
-        quantity: Quantity::Number,
+        meaning: None,
         documentation: name.to_owned(),
     };
     let Ok(amended) = amend(declaration, &chain, &[addition], &[input]) else {

@@ -7,6 +7,7 @@ mod support;
 mod apply;
 mod doubts;
 mod kept;
+mod many;
 mod round_trip;
 
 use support::{Folder, Run};

@@ -61,7 +61,7 @@ pub struct Writer {
     held: Vec<Column>,
     rows: usize,
     /// None before the types of the columns are known.
-    file: Option<SerializedFileWriter<Vec<u8>>>,
+    file: Option<Box<SerializedFileWriter<Vec<u8>>>>,
 }
 
 impl Writer {
@@ -99,7 +99,7 @@ impl Writer {
     pub fn finish(mut self) -> Result<Vec<u8>> {
         let mut bytes = if self.held.is_empty() && self.file.is_some() { Vec::new() } else { self.group()? };
         if let Some(file) = self.file {
-            bytes.extend(file.into_inner()?);
+            bytes.extend((*file).into_inner()?);
         }
         Ok(bytes)
     }
@@ -112,7 +112,7 @@ impl Writer {
         self.rows = 0;
         let mut file = match self.file.take() {
             Some(file) => file,
-            None => begun(&columns)?,
+            None => Box::new(begun(&columns)?),
         };
         let mut group = file.next_row_group()?;
         for cells in &columns {

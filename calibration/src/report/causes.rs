@@ -179,7 +179,7 @@ mod tests {
         assert_eq!(sentence_case("q2_a wanders"), "q2_a wanders");
         assert_eq!(sentence_case("étagère"), "Étagère");
         assert_eq!(
-            form("gravity along z of tube", "gravity, pier"),
+            form(&"gravity along z of tube".into(), "gravity, pier"),
             "as gravity pulls along z of tube, changing with pier"
         );
     }

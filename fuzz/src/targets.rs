@@ -103,11 +103,7 @@ fn amended(input: &[u8]) {
         factor: "Rx(found_by_fuzzing)".to_owned(),
         documentation: vec![name.to_owned()],
     };
-    let input = NewInput {
-        name: "fuzzed_input".to_owned(),
-        meaning: None,
-        documentation: name.to_owned(),
-    };
+    let input = NewInput { name: "fuzzed_input".to_owned(), meaning: None, documentation: name.to_owned() };
     let Ok(amended) = amend(declaration, &chain, &[addition], &[input]) else {
         unreachable!("what is well meant can be added:\n{text}")
     };

@@ -36,7 +36,8 @@ fn the_number_of_processors_changes_no_byte() {
     for threads in ["1", "3"] {
         let mut command = Command::new(env!("CARGO_BIN_EXE_trueaxis"));
         let arguments = EVAL.split(' ').chain([if threads == "1" { "one.csv" } else { "three.csv" }]);
-        let status = command.args(arguments).current_dir(&folder.0).env("RAYON_NUM_THREADS", threads).status();
+        let status =
+            command.args(arguments).current_dir(&folder.0).env("RAYON_NUM_THREADS", threads).status();
         assert!(status.is_ok_and(|status| status.success()), "{threads} threads");
     }
     let [one, three] = ["one.csv", "three.csv"].map(|name| folder.read(name));
@@ -67,12 +68,9 @@ fn a_mistake_far_down_has_its_place() {
 #[test]
 fn other_tables_than_expected_are_refused_or_read() {
     let folder = shaft("many-other", "");
-    for (table, words_of) in [
-        ("", "empty"),
-        ("name,q\n", "no rows"),
-        ("name,q\r\n\r\n", "no rows"),
-        ("\u{1f}\u{8b}\u{8}", "q"),
-    ] {
+    for (table, words_of) in
+        [("", "empty"), ("name,q\n", "no rows"), ("name,q\r\n\r\n", "no rows"), ("\u{1f}\u{8b}\u{8}", "q")]
+    {
         folder.write("in.csv", table);
         let run = words(&folder, &format!("{EVAL} out.csv"));
         assert_eq!(run.code, 2, "{table:?}: {run}");

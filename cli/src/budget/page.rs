@@ -3,12 +3,13 @@
 use calibration::data::SiUnit;
 use calibration::report::numbers;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
-use model_core::Chain;
 use model_core::budget::Curves;
 use model_core::checker::Verdict;
+use model_core::{Chain, Symbol};
 
 use super::tables::{PARTS, samples};
 use super::{Designed, Measured, Shown, reading_unit, short, size};
+use crate::letters;
 use crate::report::page::STYLE;
 use crate::report::page::svg::{Axis, Picture};
 
@@ -292,19 +293,25 @@ fn panels(chain: &Chain, one: &Measured, curves: &Curves) -> Markup {
                     @let symbol = chain.symbol(error);
                     @let sizes: Vec<String> = of.iter().map(|curve| size(curve.size, symbol.quantity.unit())).collect();
                     div.card {
-                        h3.top { (symbol.name) " at " (sizes.join(", ")) }
+                        h3.top { (printed(symbol)) " at " (sizes.join(", ")) }
                         @let highest = Axis::around(format!("influence, {unit}"), [0.0, most * factor].into_iter(), false);
                         @let mut picture = Picture::new(360.0, 220.0, Axis::around("t, rad", curves.t.iter().copied(), false), highest);
                         @for (at, curve) in of.iter().enumerate() {
                             @let points = curves.t.iter().zip(&curve.influence).step_by(EVERY);
                             (drawn(&mut picture, at + 1 == of.len(), points.map(|(&t, &value)| (t, value * factor))))
                         }
-                        (PreEscaped(picture.finish(&format!("Influence of {} along the path", symbol.name))))
+                        (PreEscaped(picture.finish(&format!("Influence of {} along the path", printed(symbol)))))
                     }
                 }
             }
         }
     }
+}
+
+/// An error as it is printed, with its name where that is another.
+fn printed(symbol: &Symbol) -> String {
+    let letters = letters::plain(&symbol.latex);
+    if letters == symbol.name { letters } else { format!("{letters} ({})", symbol.name) }
 }
 
 /// Draws a line where markup is made.

@@ -16,6 +16,7 @@ mod partial;
 mod prior;
 pub(crate) mod residual;
 pub mod robust;
+mod shared;
 mod size;
 mod solve;
 mod solver;

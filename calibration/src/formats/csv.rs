@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use super::error::clipped;
 use super::header::{ColumnName, unique};
 use super::records::{Dialect, Line, Record, RecordError, Records};
+use super::separator::guess_separator;
 use super::{Cell, Cells, Chunk, DataError, Form, Kept, Options, TableReader, Wanted};
 
 /// How much of a file is looked at to see its separator.
@@ -293,31 +294,6 @@ impl<R: Read> TableReader for Reader<R> {
             }
         }
         Ok(chunk)
-    }
-}
-
-/// The separator that splits the header into most names; a comma if nothing does.
-fn guess_separator(head: &[u8], line_end: u8) -> u8 {
-    let header = head
-        .split(|&byte| byte == line_end)
-        .find(|line| !line.starts_with(b"#") && line.iter().any(|byte| !byte.is_ascii_whitespace()))
-        .unwrap_or_default();
-    let count = |separator: u8| {
-        let mut quoted = false;
-        header
-            .iter()
-            .filter(|&&byte| {
-                quoted ^= byte == b'"';
-                byte == separator && !quoted
-            })
-            .count()
-    };
-    let most = [b',', b';', b'\t', b'|'].into_iter().max_by_key(|&separator| count(separator));
-    match most {
-        Some(separator) if count(separator) > 0 => separator,
-        // A space also sets off a unit, so that it separates only where nothing else does.
-        _ if count(b' ') > 0 && !header.contains(&b'[') && !header.contains(&b'(') => b' ',
-        _ => b',',
     }
 }
 

@@ -19,6 +19,7 @@ mod options;
 pub mod parquet;
 mod quote;
 mod records;
+mod separator;
 mod texts;
 pub mod tpoint;
 mod write;

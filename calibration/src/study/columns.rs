@@ -2,7 +2,8 @@
 
 use model_core::SymbolId;
 
-use super::plan::{ColumnPlan, Plan, Reading, SourcePlan};
+use super::column_plan::ColumnPlan;
+use super::plan::{Plan, Reading, SourcePlan};
 use crate::data::units::{BareColumn, Plausible};
 use crate::formats::{
     DataError, Form, ReadAs, TableReader, Wanted, declared_columns, find_column, find_reading,

@@ -4,6 +4,7 @@
 //! resolved (`plan`); with the data files the plan becomes [`Observations`](crate::data::Observations)
 //! (`load`). Whatever is wrong with a study is told at once, each mistake with its place (`mistakes`, `syntax`).
 
+mod column_plan;
 mod columns;
 mod doubts;
 mod effects;

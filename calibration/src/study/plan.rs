@@ -5,13 +5,14 @@ use std::ops::Range;
 use model_core::{Axis, Chain, Mistakes, ObservableId, Quantity, SymbolId, SymbolKind};
 use toml::Spanned;
 
+use super::column_plan::{ColumnPlan, column_plan};
 use super::estimated::{estimable, matching};
 use super::mistakes::{Gathered, Outcome, Several, every, mistake, plain, unknown, within};
 use super::shown::{self, Convention};
 use super::unstated::{Unstated, unstated};
 use super::written::{Column, Kind, Observed, Study, Table};
 use crate::candidate::Effect;
-use crate::data::units::{Amount, Doubt, Unit};
+use crate::data::units::{Amount, Doubt};
 use crate::data::unknowns::Places;
 use crate::data::{Measure, derive::Derived, derive::parse_derived};
 use crate::fit::FitOptions;
@@ -115,18 +116,6 @@ pub struct Search {
 pub(super) enum Reading {
     Column(ColumnPlan),
     Derived(Derived),
-}
-
-/// A column that is to be found in a file.
-#[derive(Debug, Clone)]
-pub(super) struct ColumnPlan {
-    pub name: String,
-    pub unit: Option<Unit>,
-    pub quantity: Quantity,
-    /// A column with a declared name needs no unit: it is in SI.
-    pub declared: bool,
-    /// The study names it.
-    pub named: bool,
 }
 
 impl Study {
@@ -369,27 +358,6 @@ fn needed(chain: &Chain, observable: ObservableId) -> Vec<SymbolId> {
     let mut symbols = chain.symbols_of_way(observable);
     symbols.retain(|&id| matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input));
     symbols
-}
-
-pub(super) fn column_plan(
-    column: &Column,
-    quantity: Quantity,
-    place: &Range<usize>,
-    of_input: bool,
-) -> Outcome<ColumnPlan> {
-    let unit = column.unit.as_deref().map(Unit::parse).transpose();
-    let unit = unit.map_err(|error| plain(place.clone(), error.to_string()))?;
-    if let (Some(meaning), false) = (&column.meaning, of_input) {
-        return Err(mistake(
-            meaning.span(),
-            "what is measured has no meaning of its own",
-            "leave `meaning` out",
-        ));
-    }
-    match &column.column {
-        Some(name) => Ok(ColumnPlan { name: name.clone(), unit, quantity, declared: false, named: true }),
-        None => Err(mistake(place.clone(), "this column is measured, not derived", "write `column = \"…\"`")),
-    }
 }
 
 /// The columns of `[observed]` in their order, and what they measure.

@@ -8,8 +8,9 @@ use std::ops::Range;
 use model_core::Quantity;
 use toml::Spanned;
 
+use super::column_plan::{ColumnPlan, column_plan};
 use super::mistakes::{Outcome, every, mistake};
-use super::plan::{ColumnPlan, SourcePlan, column_plan, si};
+use super::plan::{SourcePlan, si};
 use super::written::{Sigma, Study};
 use crate::data::Measure;
 

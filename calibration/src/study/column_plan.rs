@@ -1,0 +1,43 @@
+//! A column that a study takes from its files.
+
+use std::ops::Range;
+
+use model_core::Quantity;
+
+use super::mistakes::{Outcome, mistake, plain};
+use super::written::Column;
+use crate::data::units::Unit;
+
+/// A column that is to be found in a file.
+#[derive(Debug, Clone)]
+pub(super) struct ColumnPlan {
+    pub name: String,
+    pub unit: Option<Unit>,
+    pub quantity: Quantity,
+    /// A column with a declared name needs no unit: it is in SI.
+    pub declared: bool,
+    /// The study names it.
+    pub named: bool,
+}
+
+/// The column that a study names, with its unit; only inputs have a meaning.
+pub(super) fn column_plan(
+    column: &Column,
+    quantity: Quantity,
+    place: &Range<usize>,
+    of_input: bool,
+) -> Outcome<ColumnPlan> {
+    let unit = column.unit.as_deref().map(Unit::parse).transpose();
+    let unit = unit.map_err(|error| plain(place.clone(), error.to_string()))?;
+    if let (Some(meaning), false) = (&column.meaning, of_input) {
+        return Err(mistake(
+            meaning.span(),
+            "what is measured has no meaning of its own",
+            "leave `meaning` out",
+        ));
+    }
+    match &column.column {
+        Some(name) => Ok(ColumnPlan { name: name.clone(), unit, quantity, declared: false, named: true }),
+        None => Err(mistake(place.clone(), "this column is measured, not derived", "write `column = \"…\"`")),
+    }
+}

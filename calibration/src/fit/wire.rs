@@ -149,12 +149,12 @@ impl Pass {
         let numbers: Vec<f64> = words.iter().map(|&word| f64::from_le_bytes(word)).collect();
         let count = usize::try_from(u64::from_le_bytes(values)).map_err(|_| PassError::NotPass)?;
         let (values, floor) = numbers.split_at_checked(count).ok_or(PassError::NotPass)?;
-        if !numbers.iter().all(|number| number.is_finite()) || !floor.iter().all(|floor| *floor > 0.0) {
-            return Err(PassError::NotPass);
-        }
         let expected = chain.symbols.len();
         if values.len() != expected {
             return Err(PassError::OtherChain { expected, found: values.len() });
+        }
+        if !numbers.iter().all(|number| number.is_finite()) || !floor.iter().all(|floor| *floor > 0.0) {
+            return Err(PassError::NotPass);
         }
         let model = Model::new(chain, &rows.poses, &options.estimate)?;
         let noise = streamed(&options.noise);

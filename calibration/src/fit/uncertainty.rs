@@ -17,7 +17,7 @@ use super::subspace::Subspace;
 use super::sweep::Weighting;
 use super::{FitError, Partial, robust};
 use crate::fit::noise::serial;
-use crate::fit::noise::{self, Noise, pools, session, trend};
+use crate::fit::noise::{self, pools, session, trend};
 
 /// Degrees of freedom from which on it makes no difference which kind of component they come from.
 const MANY: f64 = 1000.0;

@@ -98,9 +98,10 @@ mod tests {
                 let [Cells::Kept(Kept::Texts(read)), Cells::Numbers(read_numbers)] = chunk.columns.as_slice() else {
                     unreachable!("what was wanted")
                 };
-                for at in 0..chunk.rows.len() {
+                proptest::prop_assert_eq!(read_numbers.len(), chunk.rows.len());
+                for (at, number) in read_numbers.iter().enumerate() {
                     proptest::prop_assert_eq!(read.get(at), texts.get(row));
-                    proptest::prop_assert_eq!(read_numbers[at], numbers[row]);
+                    proptest::prop_assert_eq!(*number, numbers[row]);
                     proptest::prop_assert_eq!((chunk.rows[at], chunk.lines[at]), (row as u64 + 1, line));
                     line += if row.is_multiple_of(quoted) { 2 } else { 1 };
                     row += 1;

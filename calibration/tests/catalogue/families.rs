@@ -153,10 +153,13 @@ fn a_declared_meaning_counts_and_a_name_does_not() {
         of.filter(|effect| effect.driver == name).map(|effect| effect.family).collect::<Vec<_>>()
     };
     let plain = families("zahl");
-    for (meaning, family) in
-        [("temperature", "thermal"), ("time", "drift"), ("side", "flop"), ("direction of q1", "backlash")]
-    {
-        for name in ["temperature", "elapsed", "pier", "q1_direction", "x"] {
+    for (meaning, family) in [
+        ("temperature", "thermal"),
+        ("time", "drift"),
+        ("side", "flop"),
+        ("direction of shoulder", "backlash"),
+    ] {
+        for name in ["temperature", "elapsed", "pier", "shoulder_direction", "x"] {
             assert_eq!(families(name), plain, "{name}");
             let declared = families(&format!("{name}: {meaning}"));
             assert!(declared.contains(&family) && !plain.contains(&family), "{name}: {meaning} {declared:?}");

@@ -193,7 +193,7 @@ fn the_page_stands_alone() {
         assert!(page.contains(wanted), "{wanted}");
     }
     // Figures 7 and 8: a panel an error that does something, five lines each.
-    assert!(page.contains("db2 at 2 arcsec, 4 arcsec, 6 arcsec, 8 arcsec, 10 arcsec"), "no panel");
+    assert!(page.contains("Δβ₂ (db2) at 2 arcsec, 4 arcsec, 6 arcsec, 8 arcsec, 10 arcsec"), "no panel");
     for foreign in ["http://", "https://", "<script", "NaN", "src="] {
         assert!(!page.contains(foreign), "{foreign}");
     }

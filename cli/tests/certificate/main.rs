@@ -97,25 +97,27 @@ fn what_cannot_be_certified_is_said_beside_what_is() {
     }
 }
 
-/// Angles are read off a vector; certificates speak of the vector.
+/// An orientation is no vector; certificates speak of vectors.
 #[test]
 fn an_observable_that_cannot_be_certified_leaves_the_others() {
-    let folder = folder("angles");
+    let folder = folder("turned");
     folder.write(
-        "angles.chain",
+        "turned.chain",
         "chain C { body a on ground { motion: Rz(q); motion_error: Rx(e); } observe o: direction(0, 1, 0) of a; \
-         observe sky: azimuth(y, x), elevation of direction(0, 1, 0) of a; }",
+         observe turned: orientation of a; }",
     );
-    let run = folder.trueaxis(&["derive", "angles.chain", "--certificate", "c.v"]);
+    let run = folder.trueaxis(&["derive", "turned.chain", "--certificate", "c.v"]);
     assert_eq!(run.code, 0, "{}", run.stderr);
     assert!(
-        run.stderr.starts_with("not certified: sky: certificates speak of whole vectors"),
+        run.stderr.starts_with(
+            "not certified: turned: rotation x of an orientation; certificates speak of vectors"
+        ),
         "{}",
         run.stderr
     );
     assert!(folder.read("c.v").ends_with("Print Assumptions o.holds.\n"), "{}", folder.read("c.v"));
-    let run = folder.trueaxis(&["derive", "angles.chain", "--observable", "sky", "--certificate", "d.v"]);
-    refused(&run, "no certificate of sky: certificates speak of whole vectors");
+    let run = folder.trueaxis(&["derive", "turned.chain", "--observable", "turned", "--certificate", "d.v"]);
+    refused(&run, "no certificate of turned: rotation x of an orientation");
 }
 
 #[test]

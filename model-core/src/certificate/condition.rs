@@ -1,11 +1,6 @@
-//! Where a statement is defined: what is divided by there is not zero, and lengths have their sign.
+//! A condition under which a statement is defined: what is divided by is not zero, and lengths have their sign.
 
-use super::expanded::Expanded;
-use super::section::Section;
-use super::witness::{Value, substitute};
-use super::{Refusal, section};
-use crate::algebra::{Poly, Rational, Wave};
-use crate::expr::Expr;
+use crate::algebra::{Poly, Wave};
 use crate::symbol::SymbolId;
 
 /// One condition.
@@ -17,85 +12,4 @@ pub(super) enum Condition {
     NonZero(Poly),
     /// An amount is greater than zero.
     Positive(Poly),
-}
-
-impl Condition {
-    /// Whether values satisfy it; `None` where they do not say.
-    pub(super) fn is_satisfied(&self, values: &[(SymbolId, Value)]) -> bool {
-        let (Self::NonZero(amount) | Self::Positive(amount)) = self else { return true };
-        let Ok(amount) = Expanded::new(amount) else { return false };
-        let there = values
-            .iter()
-            .try_fold(amount, |amount, (symbol, value)| substitute(&amount, *symbol, value))
-            .and_then(|amount| amount.as_constant());
-        there.is_some_and(|there: Rational| {
-            !there.is_zero() && (matches!(self, Self::NonZero(_)) || !there.is_negative())
-        })
-    }
-}
-
-impl Section<'_> {
-    /// What has to differ from zero for a quotient to exist.
-    pub(super) fn add_divisor(&mut self, divisor: &Expr<()>) -> Result<(), Refusal> {
-        let poly = section::lower(self.certificate, self.question, divisor)?;
-        self.add_nonzero(&poly).then_some(()).ok_or(Refusal::Divisor)
-    }
-
-    /// That a product is not zero, factor by factor; whether it is such a product.
-    fn add_nonzero(&mut self, product: &Poly) -> bool {
-        let content = product.monomial_content();
-        let Some(inverse) = product.without_monomial(&content).recip() else { return false };
-        let waves = inverse
-            .terms()
-            .flat_map(|term| term.poles)
-            .map(|pole| Condition::Wave(pole.symbol, if pole.sin_power > 0 { Wave::Sin } else { Wave::Cos }));
-        let symbols = content.iter().filter(|(symbol, _)| *symbol != SymbolId::PI);
-        let symbols = symbols.map(|(symbol, _)| Condition::NonZero(Poly::symbol(*symbol)));
-        let all: Vec<Condition> = waves.chain(symbols).collect();
-        all.into_iter().for_each(|condition| self.add(condition));
-        true
-    }
-
-    /// That a square, given its root if that is known, is not zero. In Coq's syntax, a product that is seen not to be zero then.
-    pub(super) fn add_square(&mut self, square: &Poly) -> Result<String, Refusal> {
-        let Some(root) = square.square_root() else {
-            self.add(Condition::NonZero(square.clone()));
-            return Ok(format!("({})", self.poly(square)?));
-        };
-        if root.as_constant().is_none() && !self.add_nonzero(&root) {
-            self.add(Condition::NonZero(root.clone()));
-        }
-        let root = self.poly(&root)?;
-        Ok(format!("(({root}) * ({root}))"))
-    }
-
-    /// The root of a square, which is greater than zero, in Coq's syntax.
-    pub(super) fn add_root(&mut self, square: &Poly) -> Result<String, Refusal> {
-        let mut root = square.square_root().ok_or(Refusal::Divisor)?;
-        match root.as_constant() {
-            Some(number) if number.is_negative() => root = -&root,
-            Some(_) => {}
-            None => {
-                self.add_nonzero(&root);
-                self.add(Condition::Positive(root.clone()));
-            }
-        }
-        self.poly(&root)
-    }
-
-    fn add(&mut self, condition: Condition) {
-        if !self.conditions.contains(&condition) {
-            self.conditions.push(condition);
-        }
-    }
-
-    /// `sin e <> 0`, `0 < cos e`
-    pub(super) fn condition(&self, condition: &Condition) -> Result<String, Refusal> {
-        Ok(match condition {
-            Condition::Wave(symbol, Wave::Sin) => format!("sin {} <> 0", self.name(*symbol)),
-            Condition::Wave(symbol, Wave::Cos) => format!("cos {} <> 0", self.name(*symbol)),
-            Condition::NonZero(amount) => format!("{} <> 0", self.poly(amount)?),
-            Condition::Positive(amount) => format!("0 < {}", self.poly(amount)?),
-        })
-    }
 }

@@ -8,6 +8,7 @@
 mod angles;
 mod condition;
 mod declared;
+mod defined;
 mod differs;
 mod equality;
 mod expanded;

@@ -199,3 +199,18 @@ impl Search<'_> {
         false
     }
 }
+
+impl Condition {
+    /// Whether values satisfy it; `None` where they do not say.
+    pub(super) fn is_satisfied(&self, values: &[(SymbolId, Value)]) -> bool {
+        let (Self::NonZero(amount) | Self::Positive(amount)) = self else { return true };
+        let Ok(amount) = Expanded::new(amount) else { return false };
+        let there = values
+            .iter()
+            .try_fold(amount, |amount, (symbol, value)| substitute(&amount, *symbol, value))
+            .and_then(|amount| amount.as_constant());
+        there.is_some_and(|there: Rational| {
+            !there.is_zero() && (matches!(self, Self::NonZero(_)) || !there.is_negative())
+        })
+    }
+}

@@ -1,4 +1,5 @@
 //! Constants without a value: formulas have them as symbols, numbers are refused.
+#![allow(clippy::unwrap_used)]
 
 use model_core::{Chain, forms, print};
 

@@ -121,8 +121,9 @@ impl Filter {
             let mut lifted = Vec::new();
             for row in (run.start..run.end).step_by(run.stride) {
                 let mut sum = Vector::default();
-                for at in row..(row + run.stride).min(run.end) {
-                    sum.iter_mut().zip(self.axes[at]).for_each(|(sum, axis)| *sum += axis * column[at]);
+                let own = row..(row + run.stride).min(run.end);
+                for (axes, value) in self.axes[own.clone()].iter().zip(&column[own]) {
+                    sum.iter_mut().zip(axes).for_each(|(sum, axis)| *sum += axis * value);
                 }
                 lifted.extend(sum);
             }

@@ -50,7 +50,12 @@ impl Fitting {
     /// Starts from some rows. A study without text is read from its file, a declaration that is not given from the file that
     /// the study names.
     #[new]
-    fn new(py: Python<'_>, study: (PathBuf, Option<String>), chain: Option<Text>, sample: Given<'_>) -> PyResult<Self> {
+    fn new(
+        py: Python<'_>,
+        study: (PathBuf, Option<String>),
+        chain: Option<Text>,
+        sample: Given<'_>,
+    ) -> PyResult<Self> {
         let (path, text) = study;
         let studied = errors::run(py, || {
             let study = match &text {

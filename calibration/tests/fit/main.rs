@@ -5,6 +5,7 @@ mod align;
 mod coverage;
 mod kinds;
 mod nasty;
+mod poses;
 mod precision;
 mod simulated;
 mod streamed;

@@ -1,7 +1,7 @@
 //! The fit of a study whose rows somebody else deals out, to processes or machines: passes and sums of them as bytes.
 
 use calibration::fit::{Next, Pass, Streamed, StreamedResult, Tally};
-use calibration::formats::{TableReader, open};
+use calibration::formats::{DataError, TableReader, open};
 use calibration::study::Loaded;
 use model_core::SymbolKind;
 use serde_json::{Value, json};
@@ -98,13 +98,21 @@ fn load(studied: &Studied, rows: Rows<'_>) -> Result<Loaded, Failure> {
             "the fit over many files is of one table: name one file in `data`, which the others stand for",
         );
     }
+    let place = match &rows {
+        Rows::Table(table) => table.source().to_owned(),
+        Rows::File(file) => (*file).to_owned(),
+    };
     let mut rows = Some(rows);
     let loaded = studied.plan.load_tables(&mut |path, options| match rows.take() {
         Some(Rows::Table(table)) => Ok(table),
         Some(Rows::File(file)) => open(calibrate::open_beside(&studied.study, file, None)?, file, options),
         None => unreachable!("one table is read once: {path}"),
     });
-    let loaded = loaded.map_err(tables::failure)?;
+    let loaded = loaded.map_err(|error| match error {
+        // The study's table stands for this file.
+        DataError::NoRows { .. } => tables::failure(DataError::NoRows { file: place }),
+        error => tables::failure(error),
+    })?;
     if loaded.observations.unknowns.is_some() {
         return refused(
             "objects and stations that nobody knows are estimated from all rows at once: calibrate on one machine",

@@ -69,6 +69,11 @@ def apply(
                 rows[file] = count
                 if progress is not None:
                     progress(done, len(tasks))
+        # A worker that died leaves what it had begun.
+        wanted = {file.name for file in files}
+        for begun in staged.iterdir():
+            if begun.name not in wanted:
+                begun.unlink()
         staged.rename(target)
     finally:
         shutil.rmtree(staged, ignore_errors=True)

@@ -110,7 +110,7 @@ def fit(
     :raises TrueaxisError: a file that cannot be read, a worker of another version, a scheduler that does not answer; each by name.
     """
     files = [str(file) for file in files_of(data, [".parquet", ".csv"])]
-    declaration = None if chain is None else (chain.origin, chain.text)
+    declaration = None if chain is None else (chain._native.origin, chain.text)
     sample = next(_chunks(files[0]), None)
     if sample is None:
         raise TrueaxisError(f"{files[0]}: there are no rows")

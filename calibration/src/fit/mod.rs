@@ -7,6 +7,7 @@ mod align;
 mod cluster;
 mod descent;
 mod few;
+mod fingerprint;
 mod model;
 pub mod noise;
 mod normal;

@@ -7,13 +7,13 @@
 use faer::Mat;
 use model_core::{Chain, SymbolId, SymbolKind};
 
+use super::fingerprint::fingerprint;
 use super::model::Model;
 use super::normal::Rest;
 use super::partial::Partial;
 use super::size::UNSHOWN;
 use super::subspace::Subspace;
 use super::sweep::{Tally, Weighting, tally};
-use super::wire::fingerprint;
 use super::{FitError, FitOptions, fit, robust};
 use crate::data::Observations;
 use crate::fit::noise::{self, Layout, NoiseOptions};

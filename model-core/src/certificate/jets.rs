@@ -1,7 +1,7 @@
 //! Powers of t, where every error is multiplied by t: what the observable's vector is after each factor, by degree.
 
 use super::Refusal;
-use super::passage::Passage;
+use super::passage::{Jet, Passage};
 use crate::algebra::{AngleSum, Poly, Rational};
 use crate::chain::{Motion, ObservableKind};
 use crate::forms::FormError;
@@ -10,9 +10,6 @@ use crate::symbol::SymbolId;
 /// Terms that a vector may have on its way: with 400 Coq takes half a minute for a chain of six joints; with 4,000 it did not get
 /// through the first component in that time.
 const TERMS_LIMIT: usize = 1_000;
-
-/// A function of t by its powers, lowest first.
-pub(super) type Jet = Vec<Poly>;
 
 /// x, y and z by powers of t.
 pub(super) type VectorJet = [Jet; 3];

@@ -1,10 +1,12 @@
 //! The way of a statement: every factor from the frame that an observable is seen in to the body that carries it.
 
 use super::declared::Declared;
-use super::jets::Jet;
 use crate::algebra::Poly;
 use crate::chain::{Axis, BodyId, Motion, ObservableId};
 use crate::expr::{Expr, Node};
+
+/// A function of t by its powers, lowest first.
+pub(super) type Jet = Vec<Poly>;
 
 /// A factor on the way.
 #[derive(Debug, Clone)]

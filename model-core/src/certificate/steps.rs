@@ -3,8 +3,9 @@
 use std::fmt::Write as _;
 
 use super::expression;
-use super::jets::{self, Jet};
+use super::jets;
 use super::leaf;
+use super::passage::Jet;
 use super::section::Section;
 use super::{Refusal, motion};
 use crate::algebra::{AngleSum, Poly};

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use maud::Markup;
 use statrs::distribution::{ContinuousCDF as _, Normal};
 
-use super::pictures::{CARD, card};
+use super::card::{CARD, card};
 use super::rows::{Column, Component};
 use super::svg::{Axis, Mark, Picture};
 

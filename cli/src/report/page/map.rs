@@ -6,7 +6,7 @@ use calibration::data::{Measure, Measured};
 use calibration::report::numbers;
 use maud::{Markup, PreEscaped, html};
 
-use super::pictures::CARD;
+use super::card::CARD;
 use super::rows::Rows;
 use super::svg::{Axis, Mark, Picture};
 use crate::report::Reported;

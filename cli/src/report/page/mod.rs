@@ -2,6 +2,7 @@
 //! of rows and copying are missing.
 
 mod answer;
+mod card;
 mod chain;
 mod distribution;
 mod map;

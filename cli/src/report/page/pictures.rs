@@ -4,13 +4,13 @@ use calibration::diagnose::Harmonics;
 use calibration::report::{self as words, numbers};
 use maud::{Markup, PreEscaped, html};
 
+use super::card::{CARD, card};
 use super::rows::{Column, Component, Rows, axis_size, trace_reading};
 use super::svg::{Axis, Mark, Picture};
 use super::{distribution, map};
 use crate::report::Reported;
 
-/// Size of a picture in a card, and of one across the page.
-pub const CARD: (f64, f64) = (380.0, 262.0);
+/// Size of a picture across the page.
 const BROAD: (f64, f64) = (1140.0, 250.0);
 
 /// Bins of means along a reading.
@@ -70,17 +70,6 @@ pub fn residuals(reported: &Reported<'_>, rows: &Rows) -> Markup {
                     }
                 }
             }
-        }
-    }
-}
-
-/// A picture under its title, with a note.
-pub fn card(title: &str, note: &str, svg: &str) -> Markup {
-    html! {
-        section.card {
-            h3 { (title) }
-            @if !note.is_empty() { p.quiet { (note) } }
-            (PreEscaped(svg))
         }
     }
 }

@@ -137,6 +137,19 @@ pub enum Subject {
     Length,
 }
 
+impl Subject {
+    /// Whether a name of this kind and quantity is such a thing.
+    #[must_use]
+    pub fn is_met_by(self, kind: SymbolKind, quantity: Option<Quantity>) -> bool {
+        match self {
+            Self::Joint => kind == SymbolKind::Joint,
+            Self::Length => {
+                matches!(kind, SymbolKind::Joint | SymbolKind::Input) && quantity == Some(Quantity::Length)
+            }
+        }
+    }
+}
+
 impl Meaning {
     /// What it is of; `None` for what stands by itself.
     #[must_use]

@@ -189,6 +189,10 @@ impl Model {
         values: &[f64],
         f: impl Fn(usize, Range<usize>, &Block) -> T + Sync,
     ) -> Result<Vec<T>, FitError> {
+        if poses.series.iter().any(|series| series.measure != series.measure.bare()) {
+            let why = "poses at which nothing was measured show no objects: take them bare".to_owned();
+            return Err(FitError::WrongShape { why });
+        }
         self.map_rows(Rows { poses, observed: None }, values, f)
     }
 

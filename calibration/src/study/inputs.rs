@@ -1,7 +1,7 @@
 //! Inputs that a study brings with it: side quantities that the chain does not declare, and what follows from the
 //! sequence of the rows.
 
-use model_core::{Chain, Meaning, Quantity, Subject, Symbol, SymbolId, SymbolKind, check, names};
+use model_core::{Chain, Meaning, Quantity, Symbol, SymbolId, SymbolKind, check, names};
 use toml::Spanned;
 
 use super::mistakes::{Outcome, every, mistake};
@@ -147,13 +147,7 @@ fn stated_meaning(text: &Spanned<String>, chain: &Chain) -> Outcome<(Option<Mean
             let id = chain.find_symbol(name);
             let fits = id.zip(subject).is_some_and(|(id, subject)| {
                 let symbol = chain.symbol(id);
-                match subject {
-                    Subject::Joint => symbol.kind == SymbolKind::Joint,
-                    Subject::Length => {
-                        matches!(symbol.kind, SymbolKind::Joint | SymbolKind::Input)
-                            && symbol.quantity == Quantity::Length
-                    }
-                }
+                subject.is_met_by(symbol.kind, Some(symbol.quantity))
             });
             if fits {
                 return Ok((meaning(word), id));

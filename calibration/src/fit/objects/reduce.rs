@@ -61,12 +61,7 @@ impl Reduction {
     /// Rotates a whitened and weighted column, and puts to zero what objects explain.
     pub fn reduce(&self, column: &mut [f64]) {
         for turned in &self.turned {
-            let mut own: Vec<f64> = turned.at.iter().map(|&at| column[at]).collect();
-            turned.turn(&mut own);
-            own.iter_mut()
-                .zip(&turned.moves)
-                .filter(|(_, moves)| **moves)
-                .for_each(|(value, _)| *value = 0.0);
+            let own = turned.unexplained(column);
             turned.at.iter().zip(own).for_each(|(&at, value)| column[at] = value);
         }
     }
@@ -130,12 +125,7 @@ impl Reduction {
     /// Takes out of a whitened column what objects explain of it.
     fn take_out(&self, column: &mut [f64]) {
         for turned in &self.turned {
-            let mut own: Vec<f64> = turned.at.iter().map(|&at| column[at]).collect();
-            turned.turn(&mut own);
-            own.iter_mut()
-                .zip(&turned.moves)
-                .filter(|(_, moves)| **moves)
-                .for_each(|(value, _)| *value = 0.0);
+            let mut own = turned.unexplained(column);
             turned.turn_back(&mut own);
             turned.at.iter().zip(own).for_each(|(&at, value)| column[at] = value);
         }
@@ -153,6 +143,14 @@ fn without(column: &mut [f64], unit: &[f64]) {
 }
 
 impl Turned {
+    /// The object's part of a whitened column, rotated, zero where the object explains it.
+    fn unexplained(&self, column: &[f64]) -> Vec<f64> {
+        let mut own: Vec<f64> = self.at.iter().map(|&at| column[at]).collect();
+        self.turn(&mut own);
+        own.iter_mut().zip(&self.moves).filter(|(_, moves)| **moves).for_each(|(value, _)| *value = 0.0);
+        own
+    }
+
     fn turn_back(&self, own: &mut [f64]) {
         let all: Vec<_> = self.reflections.col_iter().zip(&self.moves).filter(|(_, moves)| **moves).collect();
         for (v, _) in all.into_iter().rev() {

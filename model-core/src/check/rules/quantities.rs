@@ -40,16 +40,11 @@ pub fn meaning_is_of_what_it_can_be_of(subject: &Subject<'_>, mistakes: &mut Vec
             );
             continue;
         };
-        let (is_such, such) = match wanted {
-            symbol::Subject::Joint => (entry.is_some_and(|entry| entry.kind == SymbolKind::Joint), "a joint"),
-            symbol::Subject::Length => {
-                let is_read = |kind| matches!(kind, SymbolKind::Joint | SymbolKind::Input);
-                let is_length = entry
-                    .is_some_and(|entry| is_read(entry.kind) && entry.quantity == Some(Quantity::Length));
-                (is_length, "a joint or input that is a length")
-            }
+        let such = match wanted {
+            symbol::Subject::Joint => "a joint",
+            symbol::Subject::Length => "a joint or input that is a length",
         };
-        if !is_such {
+        if !entry.is_some_and(|entry| wanted.is_met_by(entry.kind, entry.quantity)) {
             mistakes.push(
                 Mistake::new(of.span(), format!("`{word}` is of {such}, which `{of}` is not"))
                     .with_help(format!("name {such}: `input {}: {word} of NAME;`", input.name)),

@@ -4,7 +4,7 @@
 use std::cell::OnceCell;
 
 use super::rounds::rounds;
-use crate::candidate::{Effect, Function};
+use crate::candidate::{Effect, EffectId, Function};
 use crate::effects::{HIGH_HARMONIC, SHAPE};
 use crate::fit::Outcome;
 use crate::search::Request;
@@ -47,9 +47,9 @@ pub(super) fn settled<'a>(
         let last = &settled.whole;
         let request = Request { plan, ..last.request };
         let next = Context { tell: last.tell, ..Context::new(request, last.setting.observables, last.held)? };
-        let numbered = |effect: usize| {
+        let numbered = |effect: EffectId| {
             let Effect { name, place, .. } = &last.catalogue[effect];
-            next.catalogue.iter().position(|other| (&other.name, &other.place) == (name, place))
+            next.catalogue.iter().position(|other| (&other.name, &other.place) == (name, place)).map(EffectId)
         };
         let mut found: Vec<Found> = taken
             .kept
@@ -61,7 +61,7 @@ pub(super) fn settled<'a>(
             })
             .collect();
         let Some(own) = next.catalogue.iter().position(|effect| effect.name == name) else { break };
-        found.push(Found { effect: own, p_value: taken.p_value, alike: vec![own] });
+        found.push(Found { effect: EffectId(own), p_value: taken.p_value, alike: vec![EffectId(own)] });
         let fitted = Fitted::with(&next, found, &settled.round.fitted)?;
         if matches!(fitted.fit.outcome, Outcome::NotConverged { .. }) {
             break;

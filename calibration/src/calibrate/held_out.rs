@@ -14,7 +14,7 @@ use crate::search::context::{Context, declared};
 use crate::search::elsewhere::{Elsewhere, Judged, elsewhere};
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
-use crate::search::row_set::Portion;
+use crate::search::row_set::RowSet;
 
 /// In sample; held out from the study's second file, or else from the nested folds; and in the outer thirds of the joints'
 /// ranges, from searches that did not see them.
@@ -36,7 +36,7 @@ pub(crate) fn rms(
                 residual(&last.fitted.chain, &last.fitted.fit.values)?,
             )
         }
-        None if last.posed.problem.folds() > 1 => {
+        None if last.search.problem.folds() > 1 => {
             let [before, after] = predicted(whole, last, [&held_out.before, &held_out.after])?;
             let within = within_reach(whole, last, &after);
             let of = |residual: &[f64]| Figures::of(residual, rows, |row| within[row as usize]);
@@ -125,27 +125,27 @@ pub(crate) fn predicted<const N: usize>(
     last: &Round<'_>,
     coefficients: [&Coefficients; N],
 ) -> Result<[Vec<f64>; N], SearchError> {
-    let portions = last.posed.each_portion(whole, &last.fitted, |components, portion| {
-        coefficients.map(|coefficients| predicted_of(last, coefficients, components.start, portion))
+    let row_sets = last.search.each_row_set(whole, &last.fitted, |components, row_set| {
+        coefficients.map(|coefficients| predicted_of(last, coefficients, components.start, row_set))
     })?;
     let mut left = [const { Vec::new() }; N];
-    for portion in portions {
-        left.iter_mut().zip(portion).for_each(|(left, part)| left.extend(part));
+    for row_set in row_sets {
+        left.iter_mut().zip(row_set).for_each(|(left, part)| left.extend(part));
     }
     Ok(left)
 }
 
-/// The same for a portion of the rows, whose components start at one of all.
+/// The same for some of the rows, whose components start at one of all.
 fn predicted_of(
     last: &Round<'_>,
     coefficients: &Coefficients,
     start: usize,
-    portion: &Portion<'_>,
+    row_set: &RowSet<'_>,
 ) -> Vec<f64> {
-    let problem = &last.posed.problem;
-    let declared = portion.columns.declared.as_ref();
-    let own: Vec<&Vec<f64>> = portion.effects.iter().flatten().collect();
-    let mut left = problem.before_whitening(problem.residual(), declared, &portion.without);
+    let problem = &last.search.problem;
+    let declared = row_set.columns.declared.as_ref();
+    let own: Vec<&Vec<f64>> = row_set.effects.iter().flatten().collect();
+    let mut left = problem.before_whitening(problem.residual(), declared, &row_set.without);
     let mut columns: Vec<usize> = coefficients.iter().flatten().map(|&(column, _)| column).collect();
     columns.sort_unstable();
     columns.dedup();
@@ -159,10 +159,10 @@ fn predicted_of(
             .map(|fold| fold.iter().find(|&&(c, _)| c == column).map_or(0.0, |&(_, b)| b))
             .collect();
         for (component, (left, value)) in left.iter_mut().zip(&values).enumerate() {
-            *left -= by_fold[last.posed.fold_of(start + component)] * value;
+            *left -= by_fold[last.search.fold_of(start + component)] * value;
         }
     }
-    portion.with_objects_anew(left)
+    row_set.with_objects_anew(left)
 }
 
 /// RMS over observations of the length of the residual, and how many they are; `None` without observations. Rows at which

@@ -146,7 +146,7 @@ pub fn calibrate_telling(
     let plans = if is_rounding { &plans[..0] } else { &plans[..] };
     let Settled { whole, round, as_good } = settled(&whole, plans, round)?;
     tell(Stage::HeldOut);
-    let held_out = nested(&round.posed.problem, &round.classes, &whole.options);
+    let held_out = nested(&round.search.problem, &round.sets, &whole.options);
     let rms = held_out::rms(&whole, &before, &round, &held_out)?;
     let confirmed = Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good };
     let diagnosis = diagnose(&whole, &before, &round.fitted, Ok(confirmed))?;

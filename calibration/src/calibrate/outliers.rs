@@ -75,6 +75,6 @@ fn criterion(whole: &Context<'_>, round: &Round<'_>) -> f64 {
     let spread: f64 = noise.sigma.iter().map(|sigma| sigma.ln()).sum();
     let terms = noise.variance.map_or(0, |model| model.terms.len());
     let parameters = (round.fitted.fit.rank + terms) as f64;
-    let choice = ln_choices(round.classes.len(), round.fitted.found.len());
+    let choice = ln_choices(round.sets.len(), round.fitted.found.len());
     -spread - loss / 2.0 - parameters / 2.0 * (white.len() as f64).ln() - choice
 }

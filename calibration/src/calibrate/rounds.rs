@@ -1,5 +1,6 @@
 //! Rounds of fit and search, from a first one until one changes nothing.
 
+use crate::candidate::EffectId;
 use crate::search::SearchError;
 use crate::search::Stage;
 use crate::search::context::{Context, Found};
@@ -11,7 +12,7 @@ const ROUNDS: usize = 8;
 
 /// Rounds of search and fit from a first one, until one changes nothing.
 pub(crate) fn rounds<'a>(whole: &Context<'a>, mut round: Round<'a>) -> Result<Round<'a>, SearchError> {
-    let mut visited: Vec<Vec<usize>> = vec![names(&round.fitted.found)];
+    let mut visited: Vec<Vec<EffectId>> = vec![names(&round.fitted.found)];
     for _ in 0..ROUNDS {
         (whole.tell)(Stage::Search);
         let found = round.search(whole);
@@ -27,8 +28,8 @@ pub(crate) fn rounds<'a>(whole: &Context<'a>, mut round: Round<'a>) -> Result<Ro
 }
 
 /// The numbers of some effects, sorted.
-pub(crate) fn names(found: &[Found]) -> Vec<usize> {
-    let mut names: Vec<usize> = found.iter().map(|found| found.effect).collect();
+pub(crate) fn names(found: &[Found]) -> Vec<EffectId> {
+    let mut names: Vec<EffectId> = found.iter().map(|found| found.effect).collect();
     names.sort_unstable();
     names
 }

@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::candidate::Effect;
+use crate::candidate::{Effect, EffectId};
 use crate::data::Poses;
 use crate::design::{OFTEN, joints, spread};
 use crate::search::columns::{Probed, places};
@@ -30,7 +30,7 @@ const MOST: usize = 16;
 /// By how much, in σ², the poses must be able to raise the squared difference of two effects; less tells nothing apart.
 const TELLING: f64 = 4.0;
 
-/// Poses that would tell an accepted effect from its class and its rivals.
+/// Poses that would tell an accepted effect from those confounded with it and from competing models.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Separation {
     /// The name of the effect.
@@ -74,7 +74,7 @@ type Column = (usize, Vec<f64>);
 
 /// An effect that may be the true one.
 struct Hypothesis {
-    effect: usize,
+    effect: EffectId,
     columns: Vec<Column>,
     /// What these data make of its columns' coefficients.
     coefficients: DVector<f64>,
@@ -114,15 +114,15 @@ pub(crate) fn separation(
     whole: &Context<'_>,
     last: &Round<'_>,
     at: usize,
-    others: &[usize],
-    behind: &[usize],
+    others: &[EffectId],
+    behind: &[EffectId],
 ) -> Option<Separation> {
     let plan = whole.request.plan;
     let found = &last.fitted.found;
     let own = found.get(at)?.effect;
-    let mut candidates: Vec<usize> = Vec::new();
+    let mut candidates: Vec<EffectId> = Vec::new();
     for &effect in [own].iter().chain(others).chain(behind) {
-        let visible = !last.posed.problem.columns(effect).is_empty();
+        let visible = !last.search.problem.columns(effect).is_empty();
         if visible && candidates.len() < MOST && !candidates.contains(&effect) {
             candidates.push(effect);
         }
@@ -130,12 +130,12 @@ pub(crate) fn separation(
     let ranges = plan.next.as_ref().map_or(&[][..], |next| &next.ranges);
     let count = plan.next.as_ref().map_or(POSES, |next| next.count);
     let poses = spread(&last.fitted.chain, &whole.request.observations.poses, ranges);
-    let kept: Vec<usize> = (0..found.len()).filter(|&i| i != at).map(|i| found[i].effect).collect();
+    let kept: Vec<EffectId> = (0..found.len()).filter(|&i| i != at).map(|i| found[i].effect).collect();
     let columns = columns_at(whole, last, &poses, &[&kept[..], &candidates].concat())?;
     let (known, open) = columns.effects.split_at(kept.len());
     let base = columns.declared.into_iter().chain(known.iter().flatten().cloned()).collect();
-    let (gram, _) = last.posed.problem.gram(|_| true);
-    let residual = last.posed.problem.residual();
+    let (gram, _) = last.search.problem.gram(|_| true);
+    let residual = last.search.problem.residual();
     let design = Design { gram, residual, components: columns.components, base, poses: poses.rows() };
     let hypotheses: Vec<Hypothesis> = candidates
         .iter()
@@ -203,8 +203,8 @@ struct There {
     effects: Vec<Vec<Column>>,
 }
 
-fn columns_at(whole: &Context<'_>, last: &Round<'_>, poses: &Poses, effects: &[usize]) -> Option<There> {
-    let (fitted, problem) = (&last.fitted, &last.posed.problem);
+fn columns_at(whole: &Context<'_>, last: &Round<'_>, poses: &Poses, effects: &[EffectId]) -> Option<There> {
+    let (fitted, problem) = (&last.fitted, &last.search.problem);
     let values = &fitted.fit.values;
     let list: Vec<Effect> = effects.iter().map(|&effect| whole.catalogue[effect].clone()).collect();
     let columns = Probed::new(&fitted.chain, poses, declared(whole), values, &places(&list))
@@ -244,7 +244,7 @@ impl Design {
         Some((normal.cholesky()?.inverse(), right))
     }
 
-    fn hypothesis(&self, effect: usize, columns: Vec<Column>) -> Option<Hypothesis> {
+    fn hypothesis(&self, effect: EffectId, columns: Vec<Column>) -> Option<Hypothesis> {
         let all: Vec<&Column> = self.base.iter().chain(&columns).collect();
         let (spread, right) = self.normal(&all, &[self.residual])?;
         let coefficients = (spread * right).column(0).rows(self.base.len(), columns.len()).into_owned();

@@ -7,7 +7,7 @@ use model_core::{Chain, SymbolId, SymbolKind};
 use serde::Serialize;
 
 use super::rms::BeforeAfter;
-use crate::candidate::{Effect, Place};
+use crate::candidate::{Effect, EffectId, Place};
 use crate::data::SiUnit;
 use crate::effects::assembly_name;
 use crate::search::context::{Context, declared};
@@ -42,10 +42,10 @@ pub struct NotShown {
 pub(crate) fn bias(
     whole: &Context<'_>,
     last: &Round<'_>,
-    effect: usize,
+    effect: EffectId,
     errors: &[SymbolId],
 ) -> BTreeMap<String, f64> {
-    let columns = last.posed.problem.block(effect);
+    let columns = last.search.problem.block(effect);
     let sigmas = errors.iter().map(|&error| {
         let sigma = last.fitted.fit.standard_uncertainty(error);
         sigma.unwrap_or_else(|| unreachable!("the errors of an accepted effect are estimated"))
@@ -63,7 +63,7 @@ fn moved(
     let combinations = &last.fitted.combinations;
     let mut squares = vec![0.0; combinations.nrows()];
     for (column, size) in sizes {
-        let share = last.posed.problem.share(column);
+        let share = last.search.problem.share(column);
         for (i, square) in squares.iter_mut().enumerate() {
             let moved: f64 = share.iter().enumerate().map(|(j, s)| combinations[(i, j)] * s).sum();
             *square += (size * moved).powi(2);
@@ -79,8 +79,8 @@ fn moved(
 
 /// Effects that could be as large as the residual without these data showing them.
 pub(crate) fn not_shown(whole: &Context<'_>, last: &Round<'_>, rms: &BeforeAfter) -> Vec<NotShown> {
-    let problem = &last.posed.problem;
-    let accepted: Vec<usize> = last.fitted.found.iter().map(|found| found.effect).collect();
+    let problem = &last.search.problem;
+    let accepted: Vec<EffectId> = last.fitted.found.iter().map(|found| found.effect).collect();
     let hidden = |name: String, place: Place| NotShown {
         name,
         body: whole.setting.body_name(place.body).to_owned(),
@@ -94,7 +94,7 @@ pub(crate) fn not_shown(whole: &Context<'_>, last: &Round<'_>, rms: &BeforeAfter
         hidden(assembly_name(whole.setting.body_name(place.body), place.role, place.freedom), place)
     });
     let mut list: Vec<NotShown> = unmoved.collect();
-    for (number, effect) in whole.catalogue.iter().enumerate() {
+    for (number, effect) in whole.catalogue.iter().enumerate().map(|(at, effect)| (EffectId(at), effect)) {
         if accepted.contains(&number) || is_declared(&whole.request.plan.chain, effect) {
             continue;
         }
@@ -137,8 +137,8 @@ fn is_declared(chain: &Chain, effect: &Effect) -> bool {
 }
 
 /// The declared errors that would take an effect of amplitude one upon them, and how far each would move.
-fn mistaken_for(whole: &Context<'_>, last: &Round<'_>, effect: usize) -> BTreeMap<String, f64> {
-    let mut moved = moved(whole, last, last.posed.problem.block(effect).map(|column| (column, 1.0)));
+fn mistaken_for(whole: &Context<'_>, last: &Round<'_>, effect: EffectId) -> BTreeMap<String, f64> {
+    let mut moved = moved(whole, last, last.search.problem.block(effect).map(|column| (column, 1.0)));
     let largest = moved.values().copied().fold(0.0, f64::max);
     moved.retain(|_, shift| *shift > TOLD * largest);
     moved

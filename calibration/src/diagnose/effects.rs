@@ -7,13 +7,13 @@ use serde::Serialize;
 
 use super::detectability;
 use super::units::unit_of;
-use crate::candidate::{Dependence, Effect};
+use crate::candidate::{Dependence, Effect, EffectId};
 use crate::data::SiUnit;
 use crate::effects::FAMILIES;
 use crate::search::context::Context;
 use crate::search::round::Round;
-use crate::search::select::{State, class_columns};
-use crate::search::{AS_GOOD, HeldOut, Rival, rivals};
+use crate::search::select::State;
+use crate::search::{AS_GOOD, CompetingModel, HeldOut, SetColumns, competing_models};
 
 /// Units of log-likelihood behind the best within which an explanation is kept in view when poses are chosen.
 const IN_VIEW: f64 = 10.0;
@@ -36,10 +36,10 @@ pub struct EffectFound {
     /// What it may be called.
     pub names: Vec<String>,
     /// Effects that no data at these poses could tell from it.
-    pub class: Vec<String>,
+    pub confounded_with: Vec<String>,
     /// Effects that explain these data about as well.
-    pub rivals: Vec<String>,
-    /// The physical causes that it may have, in the order in which to check them: its own, its class's, its rivals'.
+    pub competing_with: Vec<String>,
+    /// The physical causes that it may have, in the order in which to check them: its own, those confounded with it, those of competing models.
     pub causes: Vec<Cause>,
     /// The new errors and their estimates, SI.
     pub coefficients: BTreeMap<String, f64>,
@@ -99,46 +99,47 @@ pub enum Relation {
     /// No data at these poses could tell it from that effect: it makes the same correction there.
     Same,
     /// It explains these data about as well, by another correction.
-    Rival,
+    Competing,
 }
 
 /// What an accepted effect could be instead.
 pub(super) struct Others {
-    /// Effects of its class, as it was when it came in or as it is at the last fit.
-    pub alike: Vec<usize>,
-    /// The first of each class that explains these data about as well.
-    pub rivals: Vec<usize>,
-    /// The first of each class that explains them somewhat worse.
-    pub behind: Vec<usize>,
+    /// Effects of its confounded set, as it was when it came in or as it is at the last fit.
+    pub alike: Vec<EffectId>,
+    /// The first of each confounded set that explains these data about as well.
+    pub competing: Vec<EffectId>,
+    /// The first of each confounded set that explains them somewhat worse.
+    pub behind: Vec<EffectId>,
 }
 
 /// What each accepted effect could be instead.
 pub(super) fn others(last: &Round<'_>) -> Vec<Others> {
-    let accepted = last.accepted_classes();
-    let mut state = State::declared(&last.posed.problem, |_| true);
-    let blocks = class_columns(&last.posed.problem, &last.classes);
-    accepted.iter().for_each(|&class| state.add(&blocks[class]));
-    let mut rivals = rivals(&last.posed.problem, &last.classes, &accepted, &state, IN_VIEW).into_iter();
+    let accepted = last.accepted_sets();
+    let mut state = State::declared(&last.search.problem, |_| true);
+    let blocks = SetColumns::of(&last.search.problem, &last.sets);
+    accepted.iter().for_each(|&set| state.add(&blocks[set]));
+    let mut competing =
+        competing_models(&last.search.problem, &last.sets, &accepted, &state, IN_VIEW).into_iter();
     last.fitted
         .found
         .iter()
         .map(|found| {
-            let class = last.class_of(found.effect);
+            let set = last.set_of(found.effect);
             let mut alike = found.alike.clone();
-            alike.extend(class.iter().flat_map(|&class| &last.classes[class].members));
+            alike.extend(set.iter().flat_map(|&set| &last.sets[set].members));
             alike.retain(|&member| member != found.effect);
             alike.sort_unstable();
             alike.dedup();
-            // An effect without a class has no rivals: these data do not show it any more.
-            let rivals = class.and_then(|_| rivals.next()).unwrap_or_default();
-            let (rivals, behind): (Vec<Rival>, Vec<Rival>) =
-                rivals.into_iter().partition(|rival| rival.behind <= AS_GOOD);
-            let first = |rivals: Vec<Rival>| -> Vec<usize> {
-                let effects = rivals.iter().map(|rival| last.classes[rival.class].members[0]);
+            // An effect without a set competes with nothing: these data do not show it any more.
+            let competing = set.and_then(|_| competing.next()).unwrap_or_default();
+            let (competing, behind): (Vec<CompetingModel>, Vec<CompetingModel>) =
+                competing.into_iter().partition(|other| other.behind <= AS_GOOD);
+            let first = |competing: Vec<CompetingModel>| -> Vec<EffectId> {
+                let effects = competing.iter().map(|other| last.sets[other.set].members[0]);
                 effects.filter(|effect| !alike.contains(effect)).collect()
             };
-            let (rivals, behind) = (first(rivals), first(behind));
-            Others { alike, rivals, behind }
+            let (competing, behind) = (first(competing), first(behind));
+            Others { alike, competing, behind }
         })
         .collect()
 }
@@ -155,7 +156,7 @@ pub(super) fn effects(
         .map(|((found, errors), others)| {
             let effect = &whole.catalogue[found.effect];
             let chain = &last.fitted.chain;
-            let class = last.class_of(found.effect);
+            let set = last.set_of(found.effect);
             let (amplitude, amplitude_rms) = amplitude(last, found.effect, errors);
             let name_of = |&id: &SymbolId| chain.symbol(id).name.clone();
             EffectFound {
@@ -166,8 +167,16 @@ pub(super) fn effects(
                 driver: effect.driver.clone(),
                 form: effect.form.clone(),
                 names: names(whole, effect, found.effect, &others.alike),
-                class: others.alike.iter().map(|&other| whole.catalogue[other].name.clone()).collect(),
-                rivals: others.rivals.iter().map(|&other| whole.catalogue[other].name.clone()).collect(),
+                confounded_with: others
+                    .alike
+                    .iter()
+                    .map(|&other| whole.catalogue[other].name.clone())
+                    .collect(),
+                competing_with: others
+                    .competing
+                    .iter()
+                    .map(|&other| whole.catalogue[other].name.clone())
+                    .collect(),
                 causes: causes(whole, found.effect, others),
                 coefficients: errors
                     .iter()
@@ -180,7 +189,7 @@ pub(super) fn effects(
                 amplitude,
                 amplitude_rms,
                 p_value: found.p_value,
-                selected_in_folds: class.map_or(0.0, |class| held_out.share(class)),
+                selected_in_folds: set.map_or(0.0, |set| held_out.share(set)),
                 observations: observations_behind(last, found.effect),
                 bias: detectability::bias(whole, last, found.effect, errors),
             }
@@ -188,24 +197,24 @@ pub(super) fn effects(
         .collect()
 }
 
-/// Its own name, those of its class at the same place (the same function by another name), and those of other fields.
-fn names(whole: &Context<'_>, effect: &Effect, number: usize, alike: &[usize]) -> Vec<String> {
+/// Its own name, those of its set at the same place (the same function by another name), and those of other fields.
+fn names(whole: &Context<'_>, effect: &Effect, number: EffectId, alike: &[EffectId]) -> Vec<String> {
     let mut names = vec![effect.name.clone()];
     let here =
         alike.iter().map(|&member| &whole.catalogue[member]).filter(|other| other.place == effect.place);
     names.extend(here.map(|other| other.name.clone()));
     names.dedup();
-    names.extend(whole.names[number].iter().map(ToString::to_string));
+    names.extend(whole.names[number.0].iter().map(ToString::to_string));
     names
 }
 
 /// Every cause once.
-fn causes(whole: &Context<'_>, own: usize, others: &Others) -> Vec<Cause> {
+fn causes(whole: &Context<'_>, own: EffectId, others: &Others) -> Vec<Cause> {
     let mut causes: Vec<Cause> = Vec::new();
     let all = [
         (Relation::Accepted, &[own][..]),
         (Relation::Same, &others.alike),
-        (Relation::Rival, &others.rivals),
+        (Relation::Competing, &others.competing),
     ];
     for (relation, effects) in all {
         for &number in effects {
@@ -221,7 +230,7 @@ fn causes(whole: &Context<'_>, own: usize, others: &Others) -> Vec<Cause> {
                 family: family.name,
                 body: whole.setting.body_name(effect.place.body).to_owned(),
                 relation,
-                published: whole.names[number].iter().map(ToString::to_string).collect(),
+                published: whole.names[number.0].iter().map(ToString::to_string).collect(),
                 causes: family.causes,
                 looks: family.looks,
                 check: family.check,
@@ -232,10 +241,10 @@ fn causes(whole: &Context<'_>, own: usize, others: &Others) -> Vec<Cause> {
 }
 
 /// The most that an effect moves an observation, and the root mean square over observations.
-fn amplitude(last: &Round<'_>, effect: usize, errors: &[SymbolId]) -> (f64, f64) {
-    let rows = &last.posed.rows;
+fn amplitude(last: &Round<'_>, effect: EffectId, errors: &[SymbolId]) -> (f64, f64) {
+    let rows = &last.search.rows;
     let mut by_row: BTreeMap<u32, f64> = BTreeMap::new();
-    let columns: Vec<(&Vec<f64>, f64)> = rows.effects[effect]
+    let columns: Vec<(&Vec<f64>, f64)> = rows.effects[effect.0]
         .iter()
         .zip(errors)
         .map(|(column, error)| (column, last.fitted.fit.values[error.index()]))
@@ -250,16 +259,16 @@ fn amplitude(last: &Round<'_>, effect: usize, errors: &[SymbolId]) -> (f64, f64)
 }
 
 /// How many observations an effect hangs on: the rows' share of its projected columns, as an effective number.
-fn observations_behind(last: &Round<'_>, effect: usize) -> f64 {
-    let problem = last.posed.of_rows();
+fn observations_behind(last: &Round<'_>, effect: EffectId) -> f64 {
+    let problem = last.search.of_rows();
     let rows = problem.rows();
     let mut by_row = BTreeMap::new();
     for column in problem.columns(effect) {
-        for (i, &row) in last.posed.rows.columns.row.iter().enumerate() {
+        for (i, &row) in last.search.rows.columns.row.iter().enumerate() {
             *by_row.entry(row).or_insert(0.0) += rows[(i, column)] * rows[(i, column)];
         }
     }
     let sum: f64 = by_row.values().sum();
     let squares: f64 = by_row.values().map(|share| share * share).sum();
-    if squares > 0.0 { last.posed.share() * sum * sum / squares } else { 0.0 }
+    if squares > 0.0 { last.search.share() * sum * sum / squares } else { 0.0 }
 }

@@ -21,6 +21,7 @@ mod verdict;
 
 use serde::Serialize;
 
+use crate::candidate::EffectId;
 use crate::data::{Origin, SiUnit};
 use crate::design::discrimination::separation;
 use crate::design::{Criterion, Proposal, Separation, propose};
@@ -152,7 +153,7 @@ pub struct Searching {
     /// Candidate effects.
     pub candidates: usize,
     /// Classes of them that these data could tell apart.
-    pub classes: usize,
+    pub sets: usize,
     /// Folds that the search was repeated without.
     pub folds: usize,
     /// Sign flips behind a familywise p.
@@ -203,7 +204,10 @@ pub(crate) fn diagnose(
         Caution::SetAsideShare { reading, from, to, rows }
     }));
     let remaining = found.remaining.as_ref();
-    let alone = found.effects.iter().all(|effect| effect.class.is_empty() && effect.rivals.is_empty());
+    let alone = found
+        .effects
+        .iter()
+        .all(|effect| effect.confounded_with.is_empty() && effect.competing_with.is_empty());
     let verdict = verdict::verdict(Evidence {
         ended: &ended,
         unnamed: remaining.is_some_and(|remaining| remaining.place.is_some()) || has_unnamed(whole, last),
@@ -265,11 +269,11 @@ impl Found {
         for other in confirmed.as_good {
             let name = other.name(&last.fitted.chain);
             for &number in &other.instead_of {
-                effects[number].rivals.push(name.clone());
+                effects[number].competing_with.push(name.clone());
             }
         }
         let separating = |(at, others): (usize, &Others)| {
-            let all: Vec<usize> = others.alike.iter().chain(&others.rivals).copied().collect();
+            let all: Vec<EffectId> = others.alike.iter().chain(&others.competing).copied().collect();
             separation(whole, last, at, &all, &others.behind)
         };
         (whole.tell)(Stage::Remaining);
@@ -283,7 +287,7 @@ impl Found {
             not_shown: detectability::not_shown(whole, last, &confirmed.rms),
             search: Some(Searching {
                 candidates: whole.catalogue.len(),
-                classes: last.classes.len(),
+                sets: last.sets.len(),
                 folds: confirmed.held_out.chosen.len(),
                 flips: whole.options.flips,
                 seed: whole.options.seed,

@@ -13,13 +13,13 @@ use crate::data::{Observations, SiUnit};
 use crate::effects::{SmoothPlace, smooth, tensor};
 use crate::fit::noise::Layout;
 use crate::search::SearchError;
+use crate::search::SetColumns;
 use crate::search::columns::{self, Columns};
 use crate::search::contest::{Price, contender, criterion, most_telling};
 use crate::search::context::{Context, declared};
 use crate::search::remains::{Statistic, along, combined, lagged, nearest};
 use crate::search::round::Round;
 use crate::search::scan::{Left, Sheet};
-use crate::search::select::class_columns;
 use crate::search::signs::Signs;
 
 /// Harmonics of each joint that are scanned, unless the study asks for more.
@@ -116,7 +116,7 @@ fn tabulated(readings: &[f64], functions: impl Fn(f64) -> Vec<f64> + Sync) -> Ma
 
 /// Looks for structure in the last residual.
 pub(crate) fn remaining(whole: &Context<'_>, last: &Round<'_>) -> Result<Remaining, SearchError> {
-    let observations = &*last.posed.rows.observations;
+    let observations = &*last.search.rows.observations;
     let mut smooths = smooth(&whole.setting);
     let mut symbols: Vec<SymbolId> = smooths.iter().map(|smooth| smooth.driver).collect();
     symbols.sort_unstable();
@@ -134,8 +134,8 @@ pub(crate) fn remaining(whole: &Context<'_>, last: &Round<'_>) -> Result<Remaini
     let columns = Columns::at(&last.fitted.chain, observations, declared(whole), values, &places)?;
     let of_tensors = columns.of_effects(&last.fitted.chain, &tensors, &observations.poses, values);
     let tensors = tensors.into_iter().zip(of_tensors).map(|(effect, own)| {
-        let white: Vec<Vec<f64>> = own.iter().map(|column| last.posed.rows.whiten(column)).collect();
-        (effect, Mat::from_fn(last.posed.rows.columns.residual.len(), white.len(), |i, j| white[j][i]))
+        let white: Vec<Vec<f64>> = own.iter().map(|column| last.search.rows.whiten(column)).collect();
+        (effect, Mat::from_fn(last.search.rows.columns.residual.len(), white.len(), |i, j| white[j][i]))
     });
     let tensors = tensors.filter(|(_, own)| own.ncols() > 0).collect();
     let scanned = Scanned { last, columns, drivers, tensors };
@@ -143,14 +143,14 @@ pub(crate) fn remaining(whole: &Context<'_>, last: &Round<'_>) -> Result<Remaini
         scanned.columns.probe(smooth.place).is_some() && scanned.driver(smooth.driver).is_some()
     });
 
-    let blocks = class_columns(last.posed.of_rows(), &last.classes);
+    let blocks = SetColumns::of(last.search.of_rows(), &last.sets);
     let accepted: Vec<Vec<usize>> =
-        last.accepted_classes().into_iter().filter_map(|class| blocks.get(class).cloned()).collect();
+        last.accepted_sets().into_iter().map(|set| blocks[set].to_vec()).collect();
     let options = &whole.options;
-    let signs = Signs::scattered(last.posed.of_rows().group_of_row(), options.flips, options.seed);
-    let left = Left::new(last.posed.of_rows(), &accepted, &signs);
+    let signs = Signs::scattered(last.search.of_rows().group_of_row(), options.flips, options.seed);
+    let left = Left::new(last.search.of_rows(), &accepted, &signs);
 
-    let groups = last.posed.of_rows().groups();
+    let groups = last.search.of_rows().groups();
     if groups < FEWEST || left.residual.len() < left.basis.ncols() + FEWEST {
         let (looked, shape) = (Vec::new(), Vec::new());
         return Ok(Remaining {
@@ -215,19 +215,19 @@ fn harmonics(whole: &Context<'_>) -> Vec<(Place, SymbolId, u32)> {
 impl Scanned<'_> {
     /// A function's columns at a place: the place's derivative times the function's values, whitened.
     fn sheet(&self, place: Place, values: &Mat<f64>) -> Mat<f64> {
-        let row = &self.last.posed.rows.columns.row;
+        let row = &self.last.search.rows.columns.row;
         let mut sheet = Mat::zeros(row.len(), values.ncols());
         let Some(probe) = self.columns.probe(place) else { return sheet };
-        let mixed = self.last.posed.rows.mixes_rows();
+        let mixed = self.last.search.rows.mixes_rows();
         // Else whitening is a factor to each component.
-        let probe = if mixed { probe.to_vec() } else { self.last.posed.rows.whiten(probe) };
+        let probe = if mixed { probe.to_vec() } else { self.last.search.rows.whiten(probe) };
         for j in 0..values.ncols() {
             let (column, values) = (sheet.col_as_slice_mut(j), values.col_as_slice(j));
             for ((target, p), &row) in column.iter_mut().zip(&probe).zip(row) {
                 *target = p * values[row as usize];
             }
             if mixed {
-                let whitened = self.last.posed.rows.whiten(column);
+                let whitened = self.last.search.rows.whiten(column);
                 column.copy_from_slice(&whitened);
             }
         }
@@ -244,7 +244,7 @@ impl Scanned<'_> {
         let places = smooths.len();
         let mut each: Vec<Function> =
             smooths.par_iter().flat_map_iter(|smooth| self.at(whole, *smooth, places, left)).collect();
-        let price = Price { classes: self.last.classes.len(), functions: self.tensors.len(), parameters: 0 };
+        let price = Price { sets: self.last.sets.len(), functions: self.tensors.len(), parameters: 0 };
         each.par_extend(self.tensors.par_iter().map(|(effect, columns)| Function {
             place: effect.place,
             driver: effect.driver.clone(),
@@ -265,7 +265,7 @@ impl Scanned<'_> {
     /// The functions at one place of so many.
     fn at(&self, whole: &Context<'_>, smooth: SmoothPlace, places: usize, left: &Left<'_>) -> Vec<Function> {
         let Some(driver) = self.driver(smooth.driver) else { return Vec::new() };
-        let (basis, classes) = (driver.basis, self.last.classes.len());
+        let (basis, sets) = (driver.basis, self.last.sets.len());
         let function = |kind, fitted| Function {
             place: smooth.place,
             driver: whole.setting.name(smooth.driver).to_owned(),
@@ -277,14 +277,14 @@ impl Scanned<'_> {
         let series = self.sheet(smooth.place, &driver.series);
         let orders: Vec<(u32, usize)> = basis.orders().collect();
         for &(order, width) in orders.iter().filter(|&&(_, width)| width <= series.ncols()) {
-            let price = Price { classes, functions: places * orders.len(), parameters: 0 };
+            let price = Price { sets, functions: places * orders.len(), parameters: 0 };
             let fitted = contender(left, series.subcols(0, width), price);
             all.push(function(Kind::Series(basis, order), fitted));
         }
         let columns = self.sheet(smooth.place, &driver.bumps);
         let bumps = basis.bumps();
         for at in most_telling(left, columns.as_ref()) {
-            let price = Price { classes, functions: places, parameters: 2 };
+            let price = Price { sets, functions: places, parameters: 2 };
             let fitted = contender(left, columns.subcols(at, 1), price);
             all.push(function(Kind::Bump(basis, bumps[at]), fitted));
         }
@@ -297,7 +297,7 @@ impl Scanned<'_> {
 
     fn smooth(&self, smooth: SmoothPlace) -> Sheet {
         let columns = self.driver(smooth.driver).map(|driver| self.sheet(smooth.place, &driver.series));
-        Sheet::of(columns.unwrap_or_else(|| Mat::zeros(self.last.posed.rows.columns.residual.len(), 0)))
+        Sheet::of(columns.unwrap_or_else(|| Mat::zeros(self.last.search.rows.columns.residual.len(), 0)))
     }
 
     fn harmonics(&self, observations: &Observations, sheet: (Place, SymbolId, u32)) -> Sheet {
@@ -314,8 +314,8 @@ impl Scanned<'_> {
 
 /// Products of neighbours: in the space of all joints, along each joint, and in order of acquisition.
 fn neighbours(whole: &Context<'_>, last: &Round<'_>, left: &Left<'_>, signs: &Signs) -> Vec<Statistic> {
-    let portion = &last.posed.rows;
-    let observations = &*portion.observations;
+    let row_set = &last.search.rows;
+    let observations = &*row_set.observations;
     let chain = whole.setting.chain;
     let first = Layout::of(observations).first;
     let joints: Vec<(SymbolId, &[f64])> = observations
@@ -345,7 +345,7 @@ fn neighbours(whole: &Context<'_>, last: &Round<'_>, left: &Left<'_>, signs: &Si
     if observations.in_sequence {
         for lag in LAGS {
             let what = format!("observations {lag} rows apart");
-            statistics.push(Statistic::of_pairs(what, &lagged(&portion.stretches, lag), &first, left, signs));
+            statistics.push(Statistic::of_pairs(what, &lagged(&row_set.stretches, lag), &first, left, signs));
         }
     }
     statistics

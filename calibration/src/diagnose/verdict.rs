@@ -8,7 +8,7 @@ use super::ended::Ended;
 /// What a calibration comes to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub enum Verdict {
-    /// Every accepted effect is the only one of its class, without rivals, and nothing is left.
+    /// Every accepted effect is confounded with no other, competes with none, and nothing is left.
     #[serde(rename = "explained")]
     Explained,
     /// Nothing is left, but some effects have others that explain these data as well.

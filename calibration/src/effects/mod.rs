@@ -46,7 +46,7 @@ pub(crate) const SHAPE: &str = shape::FAMILY.name;
 /// The family of harmonics that a calibration took up.
 pub(crate) const HIGH_HARMONIC: &str = high_harmonic::FAMILY.name;
 
-/// Every family, in the order in which members of one class lend it their name.
+/// Every family, in the order in which members of one confounded set lend it their name.
 pub const FAMILIES: &[Family] = &[
     own::FAMILY,
     shape::FAMILY,

@@ -319,13 +319,13 @@ fn missing(diagnosis: &Diagnosis) -> usize {
 }
 
 fn correct(diagnosis: &Diagnosis, folder: Option<&str>) -> Step {
-    let rivals = diagnosis
+    let competing = diagnosis
         .effects
         .iter()
         .flat_map(|effect| &effect.causes)
-        .any(|cause| cause.relation == Relation::Rival);
+        .any(|cause| cause.relation == Relation::Competing);
     let several = diagnosis.effects.iter().any(|effect| effect.causes.len() > 1);
-    let text = match (diagnosis.effects.is_empty(), rivals, several) {
+    let text = match (diagnosis.effects.is_empty(), competing, several) {
         (true, ..) => "The declared errors were estimated; nothing was added.",
         (false, true, _) => "Where these data lie, the causes that fit make about the same correction.",
         (false, false, true) => "The correction is the same whichever cause it is, where these data lie.",

@@ -134,7 +134,7 @@ mod tests {
             name: name.to_owned(),
             family: "",
             body: String::new(),
-            relation: Relation::Rival,
+            relation: Relation::Competing,
             published: Vec::new(),
             causes: "",
             looks: "",

@@ -103,11 +103,11 @@ pub fn evidence(effect: &EffectFound, diagnosis: &Diagnosis) -> Vec<String> {
     ));
     lines.push(chance_of(effect, diagnosis));
     lines.extend(bias(effect, diagnosis));
-    if !effect.class.is_empty() {
-        lines.push(format!("these data cannot tell it from: {}", effect.class.join("; ")));
+    if !effect.confounded_with.is_empty() {
+        lines.push(format!("these data cannot tell it from: {}", effect.confounded_with.join("; ")));
     }
-    if !effect.rivals.is_empty() {
-        lines.push(format!("explains these data about as well: {}", effect.rivals.join("; ")));
+    if !effect.competing_with.is_empty() {
+        lines.push(format!("explains these data about as well: {}", effect.competing_with.join("; ")));
     }
     lines
 }

@@ -18,7 +18,7 @@ use super::sweep::Sweep;
 #[derive(Debug, Clone, Copy)]
 pub struct Price {
     /// Classes that accepted effects were chosen from.
-    pub classes: usize,
+    pub sets: usize,
     /// Functions (places and shapes) that a smooth one was chosen from.
     pub functions: usize,
     /// Parameters of the shape that were fitted beside its columns: centre and width of a bump.
@@ -42,7 +42,7 @@ pub struct Contender {
 #[must_use]
 pub fn criterion(left: &Left<'_>, price: Price) -> f64 {
     let rss = left.residual.iter().map(|r| r * r).sum();
-    penalised(rss, left.residual.len(), left.basis.ncols()) - ln_choices(price.classes, left.accepted.len())
+    penalised(rss, left.residual.len(), left.basis.ncols()) - ln_choices(price.sets, left.accepted.len())
 }
 
 /// The model with a function's columns in it, without those accepted effects that it makes idle.
@@ -70,9 +70,7 @@ pub fn contender(left: &Left<'_>, columns: MatRef<'_, f64>, price: Price) -> Con
         let mut sweep = Sweep::scaled(small.clone(), open.iter().map(|&column| before[column]).collect());
         let added = effects.iter().flat_map(|(_, own)| own).filter(|&&column| sweep.add(column)).count();
         let rss = sweep.entry(open.len() - 1, open.len() - 1);
-        penalised(rss, rows, count + added + price.parameters)
-            - own
-            - ln_choices(price.classes, effects.len())
+        penalised(rss, rows, count + added + price.parameters) - own - ln_choices(price.sets, effects.len())
     };
     let mut criterion = judged(&kept);
     loop {

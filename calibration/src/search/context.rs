@@ -4,7 +4,7 @@ use model_core::{ObservableId, SymbolId};
 
 use super::select::Options;
 use super::{SearchError, Stage};
-use crate::candidate::{Effect, Setting};
+use crate::candidate::{Effect, EffectId, Setting};
 use crate::catalogue::{Name, catalogue, chosen, known_names};
 use crate::data::Observations;
 use crate::study::Plan;
@@ -24,13 +24,13 @@ pub struct Request<'a> {
     pub when: &'a str,
 }
 
-/// An accepted effect: its number in the catalogue, and the evidence for it.
+/// An accepted effect, and the evidence for it.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Found {
-    pub effect: usize,
+    pub effect: EffectId,
     pub p_value: f64,
-    /// Its class when it was accepted, itself included.
-    pub alike: Vec<usize>,
+    /// The confounded set that it came in with, itself included.
+    pub alike: Vec<EffectId>,
 }
 
 /// What all stages share.

@@ -56,7 +56,7 @@ impl Judged {
 
 /// Both outer thirds of each joint's range where the data are enough for it.
 pub(crate) fn elsewhere(whole: &Context<'_>, last: &Round<'_>) -> Vec<Elsewhere> {
-    let observations = &*last.posed.rows.observations;
+    let observations = &*last.search.rows.observations;
     if observations.unknowns.is_some() {
         // A region cuts through objects: what stands inside and outside would be one unknown.
         return Vec::new();
@@ -82,8 +82,8 @@ pub(crate) fn elsewhere(whole: &Context<'_>, last: &Round<'_>) -> Vec<Elsewhere>
 }
 
 fn judged(whole: &Context<'_>, last: &Round<'_>, joint: SymbolId, from: f64, to: f64) -> Option<Elsewhere> {
-    let rows = &last.posed.rows;
-    let problem = last.posed.of_rows();
+    let rows = &last.search.rows;
+    let problem = last.search.of_rows();
     let readings = rows.observations.poses.column(joint)?;
     let held: Vec<bool> =
         rows.columns.row.iter().map(|&row| (from..=to).contains(&readings[row as usize])).collect();
@@ -98,7 +98,7 @@ fn judged(whole: &Context<'_>, last: &Round<'_>, joint: SymbolId, from: f64, to:
         seen = seen.with_reach(reach.without(|component| !held[component], joint));
     }
     let before = State::declared(&seen, |fold| fold == 0).coefficients();
-    let after = select(&seen, &last.classes, &[], |fold| fold == 0, &whole.options).state.coefficients();
+    let after = select(&seen, &last.sets, &[], |fold| fold == 0, &whole.options).state.coefficients();
     let (before, after) = (left(last, &seen, &before), left(last, &seen, &after));
     let mut by_row = std::collections::BTreeMap::new();
     for component in (0..held.len()).filter(|&component| held[component]) {
@@ -117,7 +117,7 @@ fn judged(whole: &Context<'_>, last: &Round<'_>, joint: SymbolId, from: f64, to:
 
 /// What coefficients leave of every component, before whitening.
 fn left(last: &Round<'_>, problem: &Problem, coefficients: &[(usize, f64)]) -> Vec<f64> {
-    let rows = &last.posed.rows;
+    let rows = &last.search.rows;
     let declared: faer::MatRef<'_, f64> = Mat::as_ref(&rows.columns.declared);
     let own: Vec<&Vec<f64>> = rows.effects.iter().flatten().collect();
     let mut left = problem.before_whitening(problem.residual(), declared, &rows.without);

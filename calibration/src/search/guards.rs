@@ -5,6 +5,7 @@
 
 use faer::Mat;
 
+use super::confounded::{SetColumns, SetId};
 use super::reach::Reach;
 use super::sweep::Sweep;
 
@@ -14,12 +15,12 @@ const ALONE: f64 = 1.5;
 /// G2: what all effects do at poses further out, over what they do at those of the data, at most.
 const FURTHER_OUT: f64 = 5.0;
 
-/// Joint regressions of some classes on what the declared columns leave.
+/// Joint regressions of some confounded sets on what the declared columns leave.
 pub(super) struct Guards<'a> {
     /// The Gram matrix with the declared columns swept, and nothing else.
     pub projected: Sweep,
-    /// The columns of each class.
-    pub blocks: &'a [Vec<usize>],
+    /// The columns of each set.
+    pub blocks: &'a SetColumns,
     /// How many columns are declared.
     pub declared: usize,
     /// The column that holds the residual.
@@ -29,9 +30,9 @@ pub(super) struct Guards<'a> {
 }
 
 impl Guards<'_> {
-    /// Whether these classes, fitted together, neither cancel each other nor grow beyond the data.
-    pub fn hold(&self, classes: &[usize]) -> bool {
-        let own: Vec<usize> = classes.iter().flat_map(|&class| &self.blocks[class]).copied().collect();
+    /// Whether these sets, fitted together, neither cancel each other nor grow beyond the data.
+    pub fn hold(&self, sets: &[SetId]) -> bool {
+        let own: Vec<usize> = sets.iter().flat_map(|&set| &self.blocks[set]).copied().collect();
         let (coefficients, gram) = self.fitted(&own);
         let square = |within: &dyn Fn(usize) -> bool| -> f64 {
             let inside: Vec<usize> = (0..own.len()).filter(|&i| within(i)).collect();
@@ -40,8 +41,8 @@ impl Guards<'_> {
         };
         let together = square(&|_| true);
         let mut start = 0;
-        for &class in classes {
-            let end = start + self.blocks[class].len();
+        for &set in sets {
+            let end = start + self.blocks[set].len();
             if square(&|i| (start..end).contains(&i)) > ALONE * ALONE * together {
                 return false;
             }

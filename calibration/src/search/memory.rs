@@ -18,7 +18,7 @@ use crate::fit::noise::space;
 /// Whether a memory of the row before, beside the declared errors alone, explains the data of a round as well as the effects
 /// that it accepted, whatever memory there is beside them.
 pub(crate) fn explains(last: &Round<'_>) -> bool {
-    let rows = &last.posed.rows;
+    let rows = &last.search.rows;
     let mut groups = rows.observations.groups.clone();
     groups.sort_unstable();
     groups.dedup();
@@ -33,7 +33,7 @@ pub(crate) fn explains(last: &Round<'_>) -> bool {
         .collect();
     let mut with_effects = declared.clone();
     for found in &last.fitted.found {
-        let own = rows.effects[found.effect].iter();
+        let own = rows.effects[found.effect.0].iter();
         with_effects.extend(own.map(|column| rows.whiten_but_for_memory(column)));
     }
     let values = rows.whiten_but_for_memory(&rows.without);
@@ -43,7 +43,7 @@ pub(crate) fn explains(last: &Round<'_>) -> bool {
     }
     let each = (values.len() as f64).ln();
     let effects = (with_effects.len() - declared.len()) as f64 * each
-        + 2.0 * ln_choices(last.classes.len(), last.fitted.found.len());
+        + 2.0 * ln_choices(last.sets.len(), last.fitted.found.len());
     let deviance =
         |columns: &[Vec<f64>], model: Option<&Model>| deviance(rows.runs(), columns, &values, model);
     let axes = space::axes(&rows.observations);

@@ -6,14 +6,15 @@
 //! (fit, whiten, search, amend, fit again) in [`crate::calibrate`].
 //!
 //! The pipeline reads from one place: deal groups to folds (`folds`), merge rows where they are many (`cells`), project
-//! (`problem`), merge what coincides (`classes`), test
-//! (`tail`, `flips`), select (`select`, within what `guards` allow), name the rivals (`rivals`), confirm on held-out folds
+//! (`problem`), merge what coincides (`confounded`), test
+//! (`tail`, `flips`), select (`select`, within what `guards` allow), name the competing models (`competing`), confirm on held-out folds
 //! (`nested`) and elsewhere (`elsewhere`), let a memory of the noise (`memory`) and a library of shapes (`library`) compete, and look for structure that no candidate explains (`remains`, `scan`, `contest`).
 
 pub(crate) mod aside;
 pub mod cells;
-pub mod classes;
 pub mod columns;
+pub mod competing;
+pub mod confounded;
 pub mod contest;
 pub(crate) mod context;
 pub(crate) mod elsewhere;
@@ -25,15 +26,14 @@ mod guards;
 pub(crate) mod library;
 pub(crate) mod memory;
 pub mod nested;
-pub(crate) mod posed;
 pub mod problem;
 mod products;
 pub mod reach;
 pub mod remains;
-pub mod rivals;
 pub(crate) mod round;
 pub(crate) mod row_set;
 pub mod scan;
+pub(crate) mod search_problem;
 pub mod select;
 pub mod signs;
 mod stage;
@@ -42,14 +42,14 @@ pub mod sweep;
 pub mod tail;
 
 pub use cells::Cells;
-pub use classes::{Class, classes};
+pub use competing::{AS_GOOD, CompetingModel, competing_models};
+pub use confounded::{ConfoundedSet, SetColumns, SetId, confounded_sets};
 pub use context::Request;
 pub use error::SearchError;
 pub use folds::Folds;
 pub use nested::{HeldOut, nested};
 pub use problem::{Problem, ProblemError};
 pub use reach::Reach;
-pub use rivals::{AS_GOOD, Rival, rivals};
 pub use select::{Accepted, Options, Selection, select};
 pub use stage::Stage;
 

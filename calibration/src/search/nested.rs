@@ -2,15 +2,15 @@
 
 use rayon::prelude::*;
 
-use super::classes::Class;
+use super::confounded::{ConfoundedSet, SetId};
 use super::problem::Problem;
 use super::select::{Options, State, select};
 
 /// What the searches without each fold found, and the regressions that predict it.
 #[derive(Debug, Clone)]
 pub struct HeldOut {
-    /// Classes accepted without each fold.
-    pub chosen: Vec<Vec<usize>>,
+    /// Confounded sets accepted without each fold.
+    pub chosen: Vec<Vec<SetId>>,
     /// Per fold the coefficients, fitted without it, of the declared columns alone: column and value.
     pub before: Vec<Vec<(usize, f64)>>,
     /// The same with the effects that its search found.
@@ -18,10 +18,10 @@ pub struct HeldOut {
 }
 
 impl HeldOut {
-    /// In what share of the folds a class was chosen.
+    /// In what share of the folds a set was chosen.
     #[must_use]
-    pub fn share(&self, class: usize) -> f64 {
-        let times = self.chosen.iter().filter(|chosen| chosen.contains(&class)).count();
+    pub fn share(&self, set: SetId) -> f64 {
+        let times = self.chosen.iter().filter(|chosen| chosen.contains(&set)).count();
         times as f64 / self.chosen.len().max(1) as f64
     }
 
@@ -48,12 +48,12 @@ fn left(problem: &Problem, fold: usize, coefficients: &[(usize, f64)]) -> f64 {
 
 /// Repeats the search without each fold.
 #[must_use]
-pub fn nested(problem: &Problem, classes: &[Class], options: &Options) -> HeldOut {
-    let folds: Vec<(Vec<usize>, State, State)> = (0..problem.folds())
+pub fn nested(problem: &Problem, sets: &[ConfoundedSet], options: &Options) -> HeldOut {
+    let folds: Vec<(Vec<SetId>, State, State)> = (0..problem.folds())
         .into_par_iter()
         .map(|fold| {
-            let selection = select(problem, classes, &[], |f| f != fold, options);
-            let chosen = selection.accepted.iter().map(|a| a.class).collect();
+            let selection = select(problem, sets, &[], |f| f != fold, options);
+            let chosen = selection.accepted.iter().map(|a| a.set).collect();
             (chosen, State::declared(problem, |f| f != fold), selection.state)
         })
         .collect();

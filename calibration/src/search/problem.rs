@@ -15,6 +15,7 @@ use faer::{Accum, Mat, MatRef, Par};
 use super::folds::Folds;
 use super::products::{add_products, mirrored, picked};
 use super::reach::Reach;
+use crate::candidate::EffectId;
 
 /// Share of a column's sum of squares that must be left by those before it (the declared ones, for a candidate) for it to
 /// count.
@@ -280,28 +281,27 @@ impl Problem {
         self.rows.ncols() - 1
     }
 
-    /// How many candidates there are.
-    #[must_use]
-    pub fn candidates(&self) -> usize {
-        self.blocks.len()
+    /// The candidates, as the catalogue numbers them.
+    pub fn candidates(&self) -> impl ExactSizeIterator<Item = EffectId> + use<> {
+        (0..self.blocks.len()).map(EffectId)
     }
 
     /// The columns of a candidate that the declared ones leave anything of.
     #[must_use]
-    pub fn columns(&self, candidate: usize) -> Vec<usize> {
-        self.blocks[candidate].clone().filter(|&j| self.lengths[j - self.declared] > 0.0).collect()
+    pub fn columns(&self, candidate: EffectId) -> Vec<usize> {
+        self.blocks[candidate.0].clone().filter(|&j| self.lengths[j - self.declared] > 0.0).collect()
     }
 
     /// All columns of a candidate.
     #[must_use]
-    pub fn block(&self, candidate: usize) -> Range<usize> {
-        self.blocks[candidate].clone()
+    pub fn block(&self, candidate: EffectId) -> Range<usize> {
+        self.blocks[candidate.0].clone()
     }
 
     /// What the declared columns leave of a candidate's sum of squares, 0 (absorbed) to 1.
     #[must_use]
-    pub fn visible(&self, candidate: usize) -> f64 {
-        self.visible[candidate]
+    pub fn visible(&self, candidate: EffectId) -> f64 {
+        self.visible[candidate.0]
     }
 
     /// One candidate column or the residual (the last) in its own units: what is left of it, before whitening, after

@@ -1,35 +1,37 @@
 //! One round: the declaration with the effects accepted so far is fitted, and the search starts from there.
 
 use super::SearchError;
+use super::confounded::SetId;
 use super::context::{Context, Found};
 use super::fitted::Fitted;
-use crate::search::posed::Posed;
-use crate::search::{Accepted, Class, Selection, classes, select};
+use crate::candidate::EffectId;
+use crate::search::search_problem::SearchProblem;
+use crate::search::{Accepted, ConfoundedSet, Selection, confounded_sets, select};
 
 /// A fit, and the search that starts from it.
 pub(crate) struct Round<'a> {
     pub fitted: Fitted,
-    pub posed: Posed<'a>,
+    pub search: SearchProblem<'a>,
     /// Effects that these data cannot tell apart.
-    pub classes: Vec<Class>,
+    pub sets: Vec<ConfoundedSet>,
 }
 
 impl<'a> Round<'a> {
     /// At a fit.
     pub fn at(whole: &Context<'a>, fitted: Fitted) -> Result<Self, SearchError> {
-        let posed = Posed::at(whole, &fitted)?;
-        let classes = classes(&posed.problem);
-        Ok(Self { fitted, posed, classes })
+        let search = SearchProblem::at(whole, &fitted)?;
+        let sets = confounded_sets(&search.problem);
+        Ok(Self { fitted, search, sets })
     }
 
-    /// The class that an effect belongs to.
-    pub fn class_of(&self, effect: usize) -> Option<usize> {
-        self.classes.iter().position(|class| class.members.contains(&effect))
+    /// The confounded set that an effect belongs to.
+    pub fn set_of(&self, effect: EffectId) -> Option<SetId> {
+        self.sets.iter().position(|set| set.members.contains(&effect)).map(SetId)
     }
 
-    /// The classes of the accepted effects.
-    pub fn accepted_classes(&self) -> Vec<usize> {
-        self.fitted.found.iter().filter_map(|found| self.class_of(found.effect)).collect()
+    /// The sets of the accepted effects.
+    pub fn accepted_sets(&self) -> Vec<SetId> {
+        self.fitted.found.iter().filter_map(|found| self.set_of(found.effect)).collect()
     }
 
     /// The linear search from the accepted effects.
@@ -38,23 +40,21 @@ impl<'a> Round<'a> {
             .fitted
             .found
             .iter()
-            .filter_map(|found| {
-                Some(Accepted { class: self.class_of(found.effect)?, p_value: found.p_value })
-            })
+            .filter_map(|found| Some(Accepted { set: self.set_of(found.effect)?, p_value: found.p_value }))
             .collect();
-        select(&self.posed.problem, &self.classes, &start, |_| true, &whole.options)
+        select(&self.search.problem, &self.sets, &start, |_| true, &whole.options)
     }
 
-    /// What the search ends with: accepted effects keep their name and p, a new class lends its first member's.
+    /// What the search ends with: accepted effects keep their name and p, a new set lends its first member's.
     pub fn search(&self, whole: &Context<'_>) -> Vec<Found> {
-        let kept = self.accepted_classes();
+        let kept = self.accepted_sets();
         self.selection(whole)
             .accepted
             .into_iter()
-            .map(|accepted| match kept.iter().position(|&class| class == accepted.class) {
+            .map(|accepted| match kept.iter().position(|&set| set == accepted.set) {
                 Some(at) => self.fitted.found[at].clone(),
                 None => {
-                    let alike = self.classes[accepted.class].members.clone();
+                    let alike = self.sets[accepted.set].members.clone();
                     Found { effect: alike[0], p_value: accepted.p_value, alike }
                 }
             })

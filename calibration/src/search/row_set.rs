@@ -24,9 +24,9 @@ const CHUNK: usize = 4096;
 const STRETCH: usize = 64;
 
 /// Some rows, with their columns at a fit.
-pub(crate) struct Portion<'a> {
+pub(crate) struct RowSet<'a> {
     pub observations: Cow<'a, Observations>,
-    /// Rows of this portion that follow each other in the data.
+    /// Its rows that follow each other in the data.
     pub stretches: Vec<Range<usize>>,
     /// Columns before whitening of the declared combinations and of the effects' places.
     pub columns: Columns,
@@ -43,7 +43,7 @@ pub(crate) struct Portion<'a> {
     reduction: Option<Reduction>,
 }
 
-impl<'a> Portion<'a> {
+impl<'a> RowSet<'a> {
     /// Of rows that follow each other stretch by stretch, each within one series, in order.
     pub fn of(whole: &Context<'a>, fitted: &Fitted, stretches: &[Range<usize>]) -> Result<Self, SearchError> {
         let all = whole.request.observations;
@@ -59,7 +59,7 @@ impl<'a> Portion<'a> {
         let (effects, seen) = columns.of_part(&fitted.chain, &whole.catalogue, &observations.poses, values);
         let mut without = columns.residual.clone();
         for (found, new) in fitted.found.iter().zip(&fitted.errors) {
-            for (column, error) in effects[found.effect].iter().zip(new) {
+            for (column, error) in effects[found.effect.0].iter().zip(new) {
                 let value = values[error.index()];
                 without.iter_mut().zip(column).for_each(|(r, z)| *r += value * z);
             }

@@ -4,7 +4,7 @@
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 
-use super::classes::Class;
+use super::confounded::{ConfoundedSet, SetColumns, SetId};
 use super::flips::{Family, familywise};
 use super::guards::Guards;
 use super::problem::Problem;
@@ -16,7 +16,7 @@ use super::tail::Tails;
 /// ln of a Bonferroni p below which the flips are not asked.
 const BEYOND_FLIPS: f64 = -25.0;
 
-/// Passing classes, the likeliest first, that are asked whether they hold on held-out folds and within the guards.
+/// Passing sets, the likeliest first, that are asked whether they hold on held-out folds and within the guards.
 const ASKED: usize = 8;
 
 /// How a search decides.
@@ -38,11 +38,11 @@ impl Default for Options {
     }
 }
 
-/// An accepted class.
+/// An accepted confounded set.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Accepted {
-    /// Number of the class.
-    pub class: usize,
+    /// Which.
+    pub set: SetId,
     /// Its familywise p when it was accepted.
     pub p_value: f64,
 }
@@ -50,7 +50,7 @@ pub struct Accepted {
 /// What a selection ends with.
 #[derive(Debug, Clone)]
 pub struct Selection {
-    /// The accepted classes in the order they came in.
+    /// The accepted sets in the order they came in.
     pub accepted: Vec<Accepted>,
     /// The smallest familywise p of all that was left out at the end.
     pub remaining_p: f64,
@@ -67,13 +67,13 @@ pub enum Ended {
     NothingPasses,
     /// What passes gains nothing on held-out folds.
     NothingGains,
-    /// What passes and gains would be large and cancel over the data, or far larger further out: the classes refused.
-    Refused(Vec<usize>),
+    /// What passes and gains would be large and cancel over the data, or far larger further out: the sets refused.
+    Refused(Vec<SetId>),
     /// The largest number of effects is reached, and more would pass.
     MostReached,
 }
 
-/// A regression on the declared columns and some classes, over some folds.
+/// A regression on the declared columns and some sets, over some folds.
 #[derive(Debug, Clone)]
 pub struct State {
     /// The Gram matrix, swept.
@@ -115,15 +115,10 @@ impl State {
         self.base.retain(|column| !block.contains(column));
     }
 
-    /// Takes out one of the blocks that are in; columns that the others share with it stay with them.
-    pub fn remove_among(
-        &mut self,
-        block: usize,
-        all: impl IntoIterator<Item = usize>,
-        blocks: &[Vec<usize>],
-    ) {
-        self.remove(&blocks[block]);
-        all.into_iter().filter(|&other| other != block).for_each(|other| self.add(&blocks[other]));
+    /// Takes out one of the sets that are in; columns that the others share with it stay with them.
+    pub fn remove_among(&mut self, set: SetId, all: impl IntoIterator<Item = SetId>, blocks: &SetColumns) {
+        self.remove(&blocks[set]);
+        all.into_iter().filter(|&other| other != set).for_each(|other| self.add(&blocks[other]));
     }
 
     /// The residual's sum of squares.
@@ -171,22 +166,16 @@ impl State {
     }
 }
 
-/// The columns of each class's first member.
-#[must_use]
-pub fn class_columns(problem: &Problem, classes: &[Class]) -> Vec<Vec<usize>> {
-    classes.iter().map(|class| class.members.first().map_or_else(Vec::new, |&c| problem.columns(c))).collect()
-}
-
-/// Searches the folds chosen, starting from `start` (classes accepted before).
+/// Searches the folds chosen, starting from `start` (sets accepted before).
 #[must_use]
 pub fn select(
     problem: &Problem,
-    classes: &[Class],
+    sets: &[ConfoundedSet],
     start: &[Accepted],
     chosen: impl Fn(usize) -> bool + Copy,
     options: &Options,
 ) -> Selection {
-    let blocks = class_columns(problem, classes);
+    let blocks = SetColumns::of(problem, sets);
     let members = problem.rows_of_folds(chosen);
     let rows = problem.rows_at(&members);
     let groups: Vec<usize> = members.iter().map(|&row| problem.group_of_row()[row]).collect();
@@ -203,7 +192,7 @@ pub fn select(
     };
     let mut accepted: Vec<Accepted> = Vec::new();
     for known in start {
-        state.add(&blocks[known.class]);
+        state.add(&blocks[known.set]);
         accepted.push(known.clone());
     }
     let search = Search { problem, blocks: &blocks, folds: &folds, guards };
@@ -212,7 +201,7 @@ pub fn select(
         let mut tests = search.test(&state, &accepted, &rows, &signs);
         // What was dropped once does not come back, here or by a swap: every turn of this loop accepts one more or
         // shortens the list of candidates, so it ends.
-        tests.retain(|test| !dropped.contains(&test.class));
+        tests.retain(|test| !dropped.contains(&test.set));
         let remaining_p = tests.iter().map(|test| test.p_value).fold(1.0, f64::min);
         if remaining_p > options.false_alarm {
             break (remaining_p, Ended::NothingPasses);
@@ -223,20 +212,20 @@ pub fn select(
         match search.best(&state, &accepted, tests, options) {
             Err(ended) => break (remaining_p, ended),
             Ok(best) => {
-                state.add(&blocks[best.class]);
+                state.add(&blocks[best.set]);
                 accepted.push(best);
             }
         }
         search.swap(&mut state, &mut accepted, &dropped);
-        let newest = accepted.last().map(|a| a.class);
+        let newest = accepted.last().map(|a| a.set);
         dropped.extend(search.drop_idle(&mut state, &mut accepted, options, newest));
     };
     Selection { accepted, remaining_p, ended, state }
 }
 
-/// The test of one class against the present state.
+/// The test of one set against the present state.
 struct Test {
-    class: usize,
+    set: SetId,
     p_value: f64,
     criterion: f64,
 }
@@ -250,13 +239,13 @@ struct Left {
 /// What every step of one search reads.
 struct Search<'a> {
     problem: &'a Problem,
-    blocks: &'a [Vec<usize>],
+    blocks: &'a SetColumns,
     folds: &'a [usize],
     guards: Guards<'a>,
 }
 
 impl Search<'_> {
-    /// The likeliest class that passes, gains on held-out folds and is within the guards.
+    /// The likeliest set that passes, gains on held-out folds and is within the guards.
     fn best(
         &self,
         state: &State,
@@ -266,30 +255,30 @@ impl Search<'_> {
     ) -> Result<Accepted, Ended> {
         let mut passing: Vec<Test> =
             tests.into_iter().filter(|test| test.p_value <= options.false_alarm).collect();
-        passing.sort_by(|a, b| b.criterion.total_cmp(&a.criterion).then(a.class.cmp(&b.class)));
+        passing.sort_by(|a, b| b.criterion.total_cmp(&a.criterion).then(a.set.cmp(&b.set)));
         let before = self.held_out(&state.base);
         let mut refused = Vec::new();
         for test in passing.into_iter().take(ASKED) {
-            let with: Vec<usize> = state.base.iter().chain(&self.blocks[test.class]).copied().collect();
+            let with: Vec<usize> = state.base.iter().chain(&self.blocks[test.set]).copied().collect();
             if self.held_out(&with) >= before {
                 continue;
             }
-            let classes: Vec<usize> = accepted.iter().map(|a| a.class).chain([test.class]).collect();
-            if self.guards.hold(&classes) {
-                return Ok(Accepted { class: test.class, p_value: test.p_value });
+            let sets: Vec<SetId> = accepted.iter().map(|a| a.set).chain([test.set]).collect();
+            if self.guards.hold(&sets) {
+                return Ok(Accepted { set: test.set, p_value: test.p_value });
             }
-            refused.push(test.class);
+            refused.push(test.set);
         }
         Err(if refused.is_empty() { Ended::NothingGains } else { Ended::Refused(refused) })
     }
 
-    /// Tests every class that is not in yet.
+    /// Tests every set that is not in yet.
     fn test(&self, state: &State, accepted: &[Accepted], rows: &Mat<f64>, signs: &Signs) -> Vec<Test> {
-        let open: Vec<usize> =
-            (0..self.blocks.len()).filter(|&class| accepted.iter().all(|a| a.class != class)).collect();
-        let gains: Vec<(f64, usize)> = open.iter().map(|&class| state.gain(&self.blocks[class])).collect();
+        let open: Vec<SetId> =
+            self.blocks.ids().filter(|&set| accepted.iter().all(|a| a.set != set)).collect();
+        let gains: Vec<(f64, usize)> = open.iter().map(|&set| state.gain(&self.blocks[set])).collect();
         let tails = Tails::new(gains.iter().map(|&(_, rank)| rank), state.df());
-        let tested: Vec<Vec<usize>> = open.iter().map(|&c| self.blocks[c].clone()).collect();
+        let tested: Vec<Vec<usize>> = open.iter().map(|&set| self.blocks[set].to_vec()).collect();
         let best = gains.iter().map(|&(gain, rank)| tails.ln_p(rank, gain, state.rss())).fold(0.0, f64::min);
         // Far beyond what the flips could resolve, their number alone bounds the p; not where groups are few, since the
         // table knows nothing of them.
@@ -306,8 +295,8 @@ impl Search<'_> {
         open.iter()
             .zip(gains)
             .filter(|&(_, (_, rank))| rank > 0)
-            .map(|(&class, (gain, rank))| Test {
-                class,
+            .map(|(&set, (gain, rank))| Test {
+                set,
                 p_value: familywise(tails.ln_p(rank, gain, state.rss()), &smallest),
                 criterion: state.criterion(gain, rank),
             })
@@ -333,34 +322,36 @@ impl Search<'_> {
         parts.iter().map(|part| held_out_rss(&total, part)).sum()
     }
 
-    /// Tries each accepted class against the others of no larger rank, those dropped before aside, until no exchange
+    /// Tries each accepted set against the others of no larger rank, those dropped before aside, until no exchange
     /// gains.
-    fn swap(&self, state: &mut State, accepted: &mut [Accepted], dropped: &[usize]) {
+    fn swap(&self, state: &mut State, accepted: &mut [Accepted], dropped: &[SetId]) {
         for _ in 0..2 {
             let mut changed = false;
             for at in 0..accepted.len() {
-                let own = accepted[at].class;
-                state.remove_among(own, accepted.iter().map(|a| a.class), self.blocks);
+                let own = accepted[at].set;
+                state.remove_among(own, accepted.iter().map(|a| a.set), self.blocks);
                 let (gain, rank) = state.gain(&self.blocks[own]);
                 let present = state.criterion(gain, rank);
-                let mut better: Vec<(f64, usize)> = (0..self.blocks.len())
-                    .filter(|class| accepted.iter().all(|a| a.class != *class) && !dropped.contains(class))
-                    .filter_map(|class| {
-                        let (gain, other) = state.gain(&self.blocks[class]);
+                let mut better: Vec<(f64, SetId)> = self
+                    .blocks
+                    .ids()
+                    .filter(|set| accepted.iter().all(|a| a.set != *set) && !dropped.contains(set))
+                    .filter_map(|set| {
+                        let (gain, other) = state.gain(&self.blocks[set]);
                         let criterion = state.criterion(gain, other);
                         let gains = other > 0 && other <= rank.max(1) && criterion > present + 1e-9;
-                        gains.then_some((criterion, class))
+                        gains.then_some((criterion, set))
                     })
                     .collect();
                 better.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-                let with = |class: usize| -> Vec<usize> {
-                    accepted.iter().map(|a| if a.class == own { class } else { a.class }).collect()
+                let with = |set: SetId| -> Vec<SetId> {
+                    accepted.iter().map(|a| if a.set == own { set } else { a.set }).collect()
                 };
-                let best = better.into_iter().map(|(_, class)| class).take(ASKED);
-                let best = best.into_iter().find(|&class| self.guards.hold(&with(class))).unwrap_or(own);
+                let best = better.into_iter().map(|(_, set)| set).take(ASKED);
+                let best = best.into_iter().find(|&set| self.guards.hold(&with(set))).unwrap_or(own);
                 state.add(&self.blocks[best]);
                 changed |= best != own;
-                accepted[at].class = best;
+                accepted[at].set = best;
             }
             if !changed {
                 break;
@@ -368,10 +359,10 @@ impl Search<'_> {
         }
     }
 
-    /// What an accepted class takes off the sum of squares beside the others, its rank there, and what is left without it.
-    fn taken_off(&self, state: &mut State, accepted: &[Accepted], own: usize) -> (f64, usize, Left) {
-        let all = || accepted.iter().map(|a| a.class);
-        if all().flat_map(|class| &self.blocks[class]).all(|&column| state.sweep.contains(column)) {
+    /// What an accepted set takes off the sum of squares beside the others, its rank there, and what is left without it.
+    fn taken_off(&self, state: &mut State, accepted: &[Accepted], own: SetId) -> (f64, usize, Left) {
+        let all = || accepted.iter().map(|a| a.set);
+        if all().flat_map(|set| &self.blocks[set]).all(|&column| state.sweep.contains(column)) {
             let (gain, rank) = state.loss(&self.blocks[own]);
             return (gain, rank, Left { rss: state.rss() + gain, df: state.df() + rank as f64 });
         }
@@ -383,22 +374,22 @@ impl Search<'_> {
         (gain, rank, left)
     }
 
-    /// Drops accepted classes, `newest` aside, that later ones have made idle: their Bonferroni p is above the
+    /// Drops accepted sets, `newest` aside, that later ones have made idle: their Bonferroni p is above the
     /// false-alarm rate. Returns them.
     fn drop_idle(
         &self,
         state: &mut State,
         accepted: &mut Vec<Accepted>,
         options: &Options,
-        newest: Option<usize>,
-    ) -> Vec<usize> {
+        newest: Option<SetId>,
+    ) -> Vec<SetId> {
         let mut dropped = Vec::new();
         loop {
             let mut worst: Option<(f64, usize)> = None;
-            for (at, own) in accepted.iter().enumerate().filter(|(_, a)| Some(a.class) != newest) {
-                let (gain, rank, left) = self.taken_off(state, accepted, own.class);
+            for (at, own) in accepted.iter().enumerate().filter(|(_, a)| Some(a.set) != newest) {
+                let (gain, rank, left) = self.taken_off(state, accepted, own.set);
                 let tails = Tails::new([rank], left.df);
-                let ln_p = tails.ln_p(rank, gain, left.rss) + (self.blocks.len() as f64).ln();
+                let ln_p = tails.ln_p(rank, gain, left.rss) + (self.blocks.ids().len() as f64).ln();
                 let idle = rank == 0 || ln_p > options.false_alarm.ln();
                 if idle && worst.is_none_or(|(most, _)| ln_p > most) {
                     worst = Some((ln_p, at));
@@ -406,9 +397,9 @@ impl Search<'_> {
             }
             let Some((_, at)) = worst else { return dropped };
             let gone = accepted.remove(at);
-            let left = accepted.iter().map(|a| a.class);
-            state.remove_among(gone.class, left, self.blocks);
-            dropped.push(gone.class);
+            let left = accepted.iter().map(|a| a.set);
+            state.remove_among(gone.set, left, self.blocks);
+            dropped.push(gone.set);
         }
     }
 }

@@ -29,13 +29,13 @@ fn problem(n: usize, p: usize, count: usize, planted: Option<(usize, f64)>, seed
 #[test]
 fn a_planted_effect_is_found_and_nothing_else() {
     let problem = problem(400, 10, 60, Some((17, 0.5)), 3);
-    let classes = classes(&problem);
-    assert_eq!(classes.len(), 60);
-    let found = select(&problem, &classes, &[], |_| true, &Options::default());
-    let names: Vec<usize> = found.accepted.iter().map(|a| a.class).collect();
-    assert_eq!(names, [17]);
-    let held = nested(&problem, &classes, &Options::default());
-    assert!((held.share(17) - 1.0).abs() < 1e-12);
+    let sets = confounded_sets(&problem);
+    assert_eq!(sets.len(), 60);
+    let found = select(&problem, &sets, &[], |_| true, &Options::default());
+    let names: Vec<SetId> = found.accepted.iter().map(|a| a.set).collect();
+    assert_eq!(names, [SetId(17)]);
+    let held = nested(&problem, &sets, &Options::default());
+    assert!((held.share(SetId(17)) - 1.0).abs() < 1e-12);
     let (before, after) = held.sums_of_squares(&problem);
     assert!(after < 0.9 * before);
 }
@@ -46,9 +46,9 @@ fn the_false_alarm_rate_is_as_stated() {
     let tries = 200;
     for seed in 0..tries {
         let problem = problem(200, 10, 60, None, 100 + seed);
-        let classes = classes(&problem);
+        let sets = confounded_sets(&problem);
         let options = Options { flips: 199, ..Options::default() };
-        let found = select(&problem, &classes, &[], |_| true, &options);
+        let found = select(&problem, &sets, &[], |_| true, &options);
         alarms += usize::from(found.remaining_p <= 0.05 || !found.accepted.is_empty());
     }
     // 200 tries at 5 %: binomial, 10 ± 3.1; three standard deviations either way.

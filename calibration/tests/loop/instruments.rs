@@ -23,7 +23,7 @@ fn calibrated(study: &str, bound: f64) -> Option<Calibration> {
     Some(found)
 }
 
-/// All names of the effects accepted up to `first`, class and rivals aside.
+/// All names of the effects accepted up to `first`, those that could stand in their place aside.
 fn names(found: &Calibration, first: usize) -> Vec<String> {
     found.diagnosis.effects.iter().take(first).flat_map(|effect| effect.names.clone()).collect()
 }

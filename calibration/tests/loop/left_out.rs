@@ -1,4 +1,4 @@
-//! Each declared error in turn is taken out of a declaration whose instrument has it: the search names it or its class, or
+//! Each declared error in turn is taken out of a declaration whose instrument has it: the search names it or its set, or
 //! says that the data cannot show it.
 
 use calibration::calibrate::{Request, calibrate};
@@ -30,7 +30,10 @@ enum Said {
 /// What a report says of an effect of this name and size; `None` if nothing.
 fn said(report: &Diagnosis, wanted: &str, size: f64) -> Option<Said> {
     let named = report.effects.iter().any(|effect| {
-        [&effect.names, &effect.class, &effect.rivals].into_iter().flatten().any(|name| name == wanted)
+        [&effect.names, &effect.confounded_with, &effect.competing_with]
+            .into_iter()
+            .flatten()
+            .any(|name| name == wanted)
     });
     let too_small = |smallest: Option<f64>| smallest.is_none_or(|smallest| smallest > size);
     let hidden = || report.not_shown.iter().any(|effect| effect.name == wanted && too_small(effect.smallest));
@@ -174,7 +177,8 @@ fn each_error_of_the_auxiliary_telescope_is_named_or_said_to_be_hidden() {
         let here = |e: &EffectFound| moves(e) && e.body == declared.name;
         let placed = || report.effects.iter().any(here).then_some(Said::Placed);
         let said = said(&report, &wanted, size).or_else(placed).unwrap_or_else(|| {
-            let found: Vec<_> = report.effects.iter().map(|e| (&e.names, &e.class, &e.rivals)).collect();
+            let found: Vec<_> =
+                report.effects.iter().map(|e| (&e.names, &e.confounded_with, &e.competing_with)).collect();
             panic!("{name}: {wanted} not among {found:#?}")
         });
         told.push((name, said));

@@ -111,9 +111,9 @@ fn found(lines: &str, errors: &[(&str, f64)], seed: u64) -> Diagnosis {
     search(&text, &plan, &observations).diagnosis
 }
 
-/// Whether an effect goes by a name, alone or in its class.
+/// Whether an effect goes by a name, alone or in its set.
 fn called(effect: &EffectFound, name: &str) -> bool {
-    effect.names.iter().chain(&effect.class).any(|known| known == name)
+    effect.names.iter().chain(&effect.confounded_with).any(|known| known == name)
 }
 
 #[test]
@@ -163,7 +163,8 @@ fn eight_kinds_are_named_right() {
         ),
     ] {
         let report = found(line, &errors, 5);
-        let told: Vec<_> = report.effects.iter().map(|e| (&e.names, &e.class, &e.rivals)).collect();
+        let told: Vec<_> =
+            report.effects.iter().map(|e| (&e.names, &e.confounded_with, &e.competing_with)).collect();
         assert_eq!(told.len(), 1, "{line}: {told:?}");
         assert!(called(&report.effects[0], name), "{line}: {told:?}");
         assert_eq!(report.verdict, verdict, "{line}: {told:?}");

@@ -3,11 +3,11 @@
 use std::error::Error;
 use std::f64::consts::TAU;
 
-use calibration::candidate::Effect;
+use calibration::candidate::{Effect, EffectId};
 use calibration::catalogue::catalogue;
 use calibration::data::{Measure, Measured, Observations, Series, tangent_frame};
 use calibration::search::columns::{Columns, places};
-use calibration::search::{Class, Problem, classes};
+use calibration::search::{ConfoundedSet, Problem, SetId, confounded_sets};
 use calibration::study::{Plan, Study};
 use faer::Mat;
 use model_core::{Chain, SymbolId, exact};
@@ -49,7 +49,7 @@ pub struct Design {
     pub readings: Observations,
     /// Declared columns and candidates at unit noise, without a residual.
     pub problem: Problem,
-    pub classes: Vec<Class>,
+    pub sets: Vec<ConfoundedSet>,
 }
 
 /// The study of the evaluation.
@@ -100,8 +100,8 @@ impl Design {
             hold_out.folds,
             hold_out.seed,
         )?;
-        let classes = classes(&problem);
-        Ok(Self { plan, catalogue, readings, problem, classes })
+        let sets = confounded_sets(&problem);
+        Ok(Self { plan, catalogue, readings, problem, sets })
     }
 
     /// The readings of a joint or input.
@@ -109,17 +109,18 @@ impl Design {
         self.plan.chain.find_symbol(name).and_then(|id| self.readings.poses.column(id)).unwrap_or_default()
     }
 
-    /// A member of a class drawn evenly from all candidates that these poses show.
-    pub fn draw(&self, random: &mut ChaCha8Rng) -> (usize, usize) {
-        let visible: Vec<(usize, usize)> = (0..self.classes.len())
-            .flat_map(|class| self.classes[class].members.iter().map(move |&member| (class, member)))
+    /// A confounded set and a member of it, drawn evenly from all candidates that these poses show.
+    pub fn draw(&self, random: &mut ChaCha8Rng) -> (SetId, EffectId) {
+        let visible: Vec<(SetId, EffectId)> = (0..self.sets.len())
+            .map(SetId)
+            .flat_map(|set| self.sets[set].members.iter().map(move |&member| (set, member)))
             .collect();
         visible[random.random_range(0..visible.len())]
     }
 
     /// Coefficients (in units of the functions, times σ) of a candidate in a random direction, of the size that gives
     /// its projected effect an RMS of `snr` σ a component; with the projected effect in σ.
-    pub fn amplitudes(&self, candidate: usize, snr: f64, random: &mut ChaCha8Rng) -> (Vec<f64>, Vec<f64>) {
+    pub fn amplitudes(&self, candidate: EffectId, snr: f64, random: &mut ChaCha8Rng) -> (Vec<f64>, Vec<f64>) {
         let rows = self.problem.rows();
         let block = self.problem.block(candidate);
         let mut coefficients = vec![0.0; block.len()];

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use calibration::search::{AS_GOOD, Options, rivals, select};
+use calibration::search::{AS_GOOD, Options, SetId, competing_models, select};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -16,45 +16,45 @@ struct Outcome {
     /// Something was found, or would have been but for the held-out folds.
     alarm: bool,
     accepted: usize,
-    /// The first effect is of the planted class.
+    /// The first effect is of the planted set.
     right: bool,
-    /// Every planted class is among the accepted ones.
+    /// Every planted set is among the accepted ones.
     all: bool,
-    /// The planted class is the first or one of its rivals, and how many those are.
+    /// The planted set is the first or one of its competing models, and how many those are.
     covered: bool,
-    rivals: usize,
+    competing: usize,
 }
 
-/// Searches a residual with effects of these ratios planted, all of different classes.
+/// Searches a residual with effects of these ratios planted, all of different confounded sets.
 fn search(design: &Design, ratios: &[f64], seed: u64) -> Result<Outcome, Failure> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let n = design.problem.rows().nrows();
     let mut residual: Vec<f64> = (0..n).map(|_| StandardNormal.sample(&mut random)).collect();
-    let mut planted: Vec<usize> = Vec::new();
+    let mut planted: Vec<SetId> = Vec::new();
     while planted.len() < ratios.len() {
-        let (class, member) = design.draw(&mut random);
-        if planted.contains(&class) {
+        let (set, member) = design.draw(&mut random);
+        if planted.contains(&set) {
             continue;
         }
         let (_, effect) = design.amplitudes(member, ratios[planted.len()], &mut random);
         residual.iter_mut().zip(&effect).for_each(|(r, e)| *r += e);
-        planted.push(class);
+        planted.push(set);
     }
     let problem = design.problem.with_residual(&residual)?;
     let options = Options { seed: random.random(), ..Options::default() };
-    let found = select(&problem, &design.classes, &[], |_| true, &options);
-    let accepted: Vec<usize> = found.accepted.iter().map(|a| a.class).collect();
-    let near = rivals(&problem, &design.classes, &accepted, &found.state, AS_GOOD);
+    let found = select(&problem, &design.sets, &[], |_| true, &options);
+    let accepted: Vec<SetId> = found.accepted.iter().map(|a| a.set).collect();
+    let near = competing_models(&problem, &design.sets, &accepted, &found.state, AS_GOOD);
     let first = accepted.first().copied();
-    let near: Vec<usize> = near.first().into_iter().flatten().map(|rival| rival.class).collect();
-    let set: Vec<usize> = first.into_iter().chain(near).collect();
+    let near: Vec<SetId> = near.first().into_iter().flatten().map(|other| other.set).collect();
+    let either: Vec<SetId> = first.into_iter().chain(near).collect();
     Ok(Outcome {
         alarm: found.remaining_p <= options.false_alarm || !accepted.is_empty(),
         accepted: accepted.len(),
         right: first.is_some() && first == planted.first().copied(),
-        all: planted.iter().all(|class| accepted.contains(class)),
-        covered: planted.first().is_some_and(|class| set.contains(class)),
-        rivals: set.len(),
+        all: planted.iter().all(|set| accepted.contains(set)),
+        covered: planted.first().is_some_and(|set| either.contains(set)),
+        competing: either.len(),
     })
 }
 
@@ -93,7 +93,7 @@ pub fn false_positives(runs: usize) -> Result<Vec<Line>, Failure> {
     Ok(lines)
 }
 
-/// One effect planted; the rival sets over all of these cases together.
+/// One effect planted; the sets of competing models over all of these cases together.
 pub fn one_effect(runs: usize) -> Result<Vec<Line>, Failure> {
     let mut lines = Vec::new();
     let (mut covered, mut sizes, mut all_took) = (Vec::new(), Vec::new(), Duration::ZERO);
@@ -109,7 +109,7 @@ pub fn one_effect(runs: usize) -> Result<Vec<Line>, Failure> {
         let (outcomes, took) = searches(&design, &[snr], runs, seed)?;
         let right = Rate::of(outcomes.iter().map(|o| o.right));
         lines.push(line(
-            format!("right class, one effect, N = {rows}, SNR {snr}"),
+            format!("right set, one effect, N = {rows}, SNR {snr}"),
             Target::AtLeast(least),
             right,
             seed,
@@ -126,16 +126,16 @@ pub fn one_effect(runs: usize) -> Result<Vec<Line>, Failure> {
         let found = outcomes.iter().filter(|o| o.accepted > 0);
         found.for_each(|o| {
             covered.push(o.covered);
-            sizes.push(o.rivals as f64);
+            sizes.push(o.competing as f64);
         });
         all_took += took;
     }
     let rate = Rate::of(covered);
-    let what = "the rival set covers the truth, where anything was found".to_owned();
+    let what = "the set of competing models covers the truth, where anything was found".to_owned();
     lines.push(line(what, Target::AtLeast(0.95), rate, 400_000, all_took));
     let mean = sizes.iter().sum::<f64>() / sizes.len().max(1) as f64;
     lines.push(Line {
-        what: "mean size of the rival set, classes".to_owned(),
+        what: "mean size of the set of competing models, sets".to_owned(),
         through: "linear",
         target: Target::AtMost(2.0),
         value: mean,
@@ -172,13 +172,13 @@ pub fn time(runs: usize) -> Result<Vec<Line>, Failure> {
         residual.iter_mut().zip(&effect).for_each(|(r, e)| *r += e);
         let problem = design.problem.with_residual(&residual)?;
         let begun = Instant::now();
-        std::hint::black_box(select(&problem, &design.classes, &[], |_| true, &Options::default()));
+        std::hint::black_box(select(&problem, &design.sets, &[], |_| true, &Options::default()));
         least = least.min(begun.elapsed().as_secs_f64());
     }
     Ok(vec![Line {
         what: format!(
             "seconds for one search, {} candidates, N = 5000, 999 flips",
-            design.problem.candidates()
+            design.problem.candidates().len()
         ),
         through: "linear",
         target: Target::AtMost(0.1),

@@ -89,9 +89,9 @@ pub fn false_positives(count: usize) -> Result<Vec<Line>, Failure> {
     Ok(lines)
 }
 
-/// Whether an effect goes by a name, alone or in its class.
+/// Whether an effect goes by a name, its own or that of one confounded with it.
 fn called(effect: &EffectFound, name: &str) -> bool {
-    effect.names.iter().chain(&effect.class).any(|known| known == name)
+    effect.names.iter().chain(&effect.confounded_with).any(|known| known == name)
 }
 
 /// An effect drawn from the catalogue in a random direction of its coefficients: itself, the chain with it, and the value of
@@ -123,11 +123,11 @@ pub fn outliers(count: usize) -> Result<Vec<Line>, Failure> {
             calibrated(&design, &design.observe(&design.readings, &chain, values, &sampled, |_, q| q))?;
         Ok(report.effects.first().is_some_and(|found| called(found, &effect.name)))
     })?;
-    let what = format!("right class, one effect, 5 % outliers, N = {rows}, SNR {snr}");
+    let what = format!("right set, one effect, 5 % outliers, N = {rows}, SNR {snr}");
     Ok(vec![line(what, Target::AtLeast(0.88), Rate::of(right), seed, took)])
 }
 
-/// The poses that a report proposes are measured: one class is left.
+/// The poses that a report proposes are measured: one set is left.
 pub fn next_poses(count: usize) -> Result<Vec<Line>, Failure> {
     let (seed, rows, snr, share) = (1_000_000, 300, 1.0, 0.2);
     let mut design = Design::new(rows, Poses::Random(share), seed)?;
@@ -146,12 +146,13 @@ pub fn next_poses(count: usize) -> Result<Vec<Line>, Failure> {
         sampled.extend(Noise::Even.sample(&vec![0.0; proposed.poses.len()], random));
         let readings = design.and(&proposed.joints, &proposed.poses);
         let report = calibrated(&design, &design.observe(&readings, &chain, values, &sampled, |_, q| q))?;
-        let one = report.effects.first().is_some_and(|f| called(f, &effect.name) && f.rivals.is_empty());
+        let one =
+            report.effects.first().is_some_and(|f| called(f, &effect.name) && f.competing_with.is_empty());
         Ok(Some(one))
     })?;
     let left: Vec<bool> = left.into_iter().flatten().collect();
     let what = format!(
-        "12 proposed poses leave one class, the true one; data within {:.0}°, N = {rows}, SNR {snr}, of {count} those \
+        "12 proposed poses leave one set, the true one; data within {:.0}°, N = {rows}, SNR {snr}, of {count} those \
          that had something to separate",
         180.0 * share
     );

@@ -18,11 +18,11 @@ use rayon::prelude::*;
 use self::grid::Driver;
 use self::refine::{Gain, orthonormal, refined};
 pub(crate) use self::shape::{Shape, ShapeKind};
+use super::competing::AS_GOOD;
+use super::confounded::{SetColumns, SetId};
 use super::contest::{Contender, Price, contender, criterion, predicts};
 use super::flips::familywise;
-use super::rivals::AS_GOOD;
 use super::scan::{Left, Sheet};
-use super::select::class_columns;
 use super::signs::Signs;
 use crate::candidate::{Dependence, Function, Place};
 use crate::effects::{SmoothPlace, smooth};
@@ -94,7 +94,7 @@ struct Judged {
 
 /// Lets the library compete with what was accepted, and with nothing at the most conspicuous place of what is left.
 pub(crate) fn contest(whole: &Context<'_>, last: &Round<'_>) -> Result<Contest, SearchError> {
-    let observations = &*last.posed.rows.observations;
+    let observations = &*last.search.rows.observations;
     let chain = &last.fitted.chain;
     let mut smooths = smooth(&whole.setting);
     let mut symbols: Vec<SymbolId> = smooths.iter().map(|smooth| smooth.driver).collect();
@@ -112,15 +112,15 @@ pub(crate) fn contest(whole: &Context<'_>, last: &Round<'_>) -> Result<Contest, 
         columns.probe(smooth.place).is_some() && drivers.iter().any(|driver| driver.symbol == smooth.driver)
     });
 
-    let blocks = class_columns(last.posed.of_rows(), &last.classes);
+    let blocks = SetColumns::of(last.search.of_rows(), &last.sets);
     // Accepted effects that these data still show, by their number among those found.
-    let shown: Vec<(usize, usize)> = (last.fitted.found.iter().enumerate())
-        .filter_map(|(number, found)| Some((number, last.class_of(found.effect)?)))
+    let shown: Vec<(usize, SetId)> = (last.fitted.found.iter().enumerate())
+        .filter_map(|(number, found)| Some((number, last.set_of(found.effect)?)))
         .collect();
-    let accepted: Vec<Vec<usize>> = shown.iter().map(|&(_, class)| blocks[class].clone()).collect();
+    let accepted: Vec<Vec<usize>> = shown.iter().map(|&(_, set)| blocks[set].to_vec()).collect();
     let signs =
-        Signs::scattered(last.posed.of_rows().group_of_row(), whole.options.flips, whole.options.seed);
-    let left = Left::new(last.posed.of_rows(), &accepted, &signs);
+        Signs::scattered(last.search.of_rows().group_of_row(), whole.options.flips, whole.options.seed);
+    let left = Left::new(last.search.of_rows(), &accepted, &signs);
     let library = Library { whole, last, columns, drivers, left, shown };
 
     let scan = library.left.scan(smooths.len(), |number| library.sheet_of_scan(smooths[number]));
@@ -142,8 +142,8 @@ struct Library<'a, 'b> {
     columns: Columns,
     drivers: Vec<Driver>,
     left: Left<'a>,
-    /// Accepted effects that the data show, in the order of the left's: number among those found, and class.
-    shown: Vec<(usize, usize)>,
+    /// Accepted effects that the data show, in the order of the left's: number among those found, and confounded set.
+    shown: Vec<(usize, SetId)>,
 }
 
 impl Library<'_, '_> {
@@ -164,15 +164,15 @@ impl Library<'_, '_> {
 
     fn driver(&self, smooth: SmoothPlace) -> Option<(&Driver, &[f64])> {
         let driver = self.drivers.iter().find(|driver| driver.symbol == smooth.driver)?;
-        Some((driver, self.last.posed.rows.observations.poses.column(smooth.driver)?))
+        Some((driver, self.last.search.rows.observations.poses.column(smooth.driver)?))
     }
 
     /// A shape's columns at a place: the place's derivative times the function's values, whitened.
     fn sheet(&self, place: Place, values: &Mat<f64>) -> Mat<f64> {
-        let rows = &self.last.posed.rows;
+        let rows = &self.last.search.rows;
         let mut sheet = Mat::zeros(rows.columns.row.len(), values.ncols());
         let Some(probe) = self.columns.probe(place) else { return sheet };
-        let mixed = self.last.posed.rows.mixes_rows();
+        let mixed = self.last.search.rows.mixes_rows();
         // Else whitening is a factor to each component.
         let probe = if mixed { probe.to_vec() } else { rows.whiten(probe) };
         for j in 0..values.ncols() {
@@ -280,7 +280,7 @@ impl Library<'_, '_> {
                     _ => 1,
                 };
                 let price = Price {
-                    classes: self.last.classes.len(),
+                    sets: self.last.sets.len(),
                     functions: places * orders,
                     parameters: shape.parameters(),
                 };
@@ -294,12 +294,12 @@ impl Library<'_, '_> {
     fn is_confirmed(&self, judged: &Judged) -> bool {
         let Some((_, readings)) = self.driver(judged.smooth) else { return false };
         let columns = self.sheet(judged.smooth.place, &judged.shape.values(readings));
-        predicts(&self.left, columns.as_ref(), &judged.fitted.kept, self.last.posed.of_rows())
+        predicts(&self.left, columns.as_ref(), &judged.fitted.kept, self.last.search.of_rows())
     }
 
     /// The function that is taken up, and those that are about as good as what they would replace.
     fn verdict(&self, judged: Vec<Judged>, most: Option<SmoothPlace>, p_value: f64) -> Contest {
-        let price = Price { classes: self.last.classes.len(), functions: 1, parameters: 0 };
+        let price = Price { sets: self.last.sets.len(), functions: 1, parameters: 0 };
         let present = criterion(&self.left, price);
         let numbers = |of: &[usize]| -> Vec<usize> { of.iter().map(|&at| self.shown[at].0).collect() };
         let replaced = |judged: &Judged| -> Vec<usize> {
@@ -329,7 +329,7 @@ impl Library<'_, '_> {
             let known = |other: &AsGood| {
                 (other.place, other.driver, other.kind) == (one.smooth.place, one.smooth.driver, kind)
             };
-            // A function that was taken up is no rival of itself.
+            // A function that was taken up does not compete with itself.
             let of_its_own = |&number: &usize| {
                 let effect = &self.whole.catalogue[self.last.fitted.found[number].effect];
                 (effect.place, &effect.form) == (one.smooth.place, &Dependence::from(kind.words()))

@@ -76,7 +76,7 @@ fn effect_card(effect: &EffectFound, diagnosis: &Diagnosis) -> Markup {
                                     @for cause in &group {
                                         div {
                                             (words::sentence_case(&words::cause(cause)))
-                                            @if cause.relation == Relation::Rival { span.quiet { " (fits about as well)" } }
+                                            @if cause.relation == Relation::Competing { span.quiet { " (fits about as well)" } }
                                             @if !cause.published.is_empty() { br; span.quiet { (cause.published.join(", ")) } }
                                         }
                                     }
@@ -148,7 +148,7 @@ pub fn details(reported: &Reported<'_>) -> Markup {
                 details {
                     summary { "How the search was made" }
                     p {
-                        (search.candidates) " candidates in " (search.classes) " classes that these data could tell apart; "
+                        (search.candidates) " candidates in " (search.sets) " confounded sets that these data could tell apart; "
                         (search.flips) " sign flips; " (search.folds) " folds; seed " (search.seed)
                         "; at most " (search.false_alarm) " chance of a false alarm."
                     }

@@ -6,7 +6,7 @@ use faer::Mat;
 use model_core::SymbolKind;
 use rayon::prelude::*;
 
-use super::row_set::{Portion, all_rows, chunks, dealt, sample};
+use super::row_set::{RowSet, all_rows, chunks, dealt, sample};
 use crate::data::Poses;
 use crate::search::columns::{Columns, Seen, keep};
 use crate::search::context::Context;
@@ -28,11 +28,11 @@ const FURTHER_OUT: usize = 1200;
 const AT_MOST: usize = 4800;
 
 /// The whitened problem at a fit, and the rows behind it.
-pub(crate) struct Posed<'a> {
+pub(crate) struct SearchProblem<'a> {
     /// Of all rows. Candidates are the catalogue's effects in order.
     pub problem: Problem,
     /// All rows, or a sample where they are many.
-    pub rows: Portion<'a>,
+    pub rows: RowSet<'a>,
     /// The whitened problem of the sample; none where `rows` are all.
     sampled: Option<Problem>,
     /// The folds that the components of all rows were dealt to.
@@ -41,7 +41,7 @@ pub(crate) struct Posed<'a> {
     usable: Vec<bool>,
 }
 
-impl<'a> Posed<'a> {
+impl<'a> SearchProblem<'a> {
     /// At a fit.
     pub fn at(whole: &Context<'a>, fitted: &Fitted) -> Result<Self, SearchError> {
         let hold_out = &whole.request.plan.hold_out;
@@ -57,7 +57,7 @@ impl<'a> Posed<'a> {
 
     /// With every row in memory.
     fn held(whole: &Context<'a>, fitted: &Fitted, folds: Folds) -> Result<Self, SearchError> {
-        let mut rows = Portion::of(whole, fitted, &all_rows(whole.request.observations))?;
+        let mut rows = RowSet::of(whole, fitted, &all_rows(whole.request.observations))?;
         let usable = rows.seen.usable(&whole.catalogue);
         rows.keep(&usable);
         let problem = problem(whole, fitted, &usable, &rows.whitened(), folds.clone())?;
@@ -70,7 +70,7 @@ impl<'a> Posed<'a> {
         let observations = whole.request.observations;
         let mut cells = Cells::new(&folds, CELLS.min(whole.held / (2 * width * width)), width);
         let mut seen: Option<Seen> = None;
-        let columns = |_: &Range<usize>, portion: Portion<'a>| (portion.whitened(), portion.seen);
+        let columns = |_: &Range<usize>, row_set: RowSet<'a>| (row_set.whitened(), row_set.seen);
         each_chunk(whole, fitted, columns, |components, (whitened, of_chunk)| {
             let rows = fitted.layout.row[components.start] as usize;
             (whole.tell)(Stage::Columns { rows, of: observations.rows() });
@@ -97,7 +97,7 @@ impl<'a> Posed<'a> {
 
         let few = whole.held / 4 / width * observations.rows() / folds.rows();
         let mut rows =
-            Portion::of(whole, fitted, &sample(observations, few, whole.request.plan.hold_out.seed))?;
+            RowSet::of(whole, fitted, &sample(observations, few, whole.request.plan.hold_out.seed))?;
         rows.keep(&usable);
         let hold_out = &whole.request.plan.hold_out;
         let of_rows = dealt(&rows.observations, &rows.columns.row, hold_out.folds, hold_out.seed);
@@ -123,20 +123,20 @@ impl<'a> Posed<'a> {
         self.folds.of_row(component)
     }
 
-    /// What `f` makes of all rows, one portion after another, each with its components.
-    pub fn each_portion<T: Send>(
+    /// What `f` makes of all rows, one set of rows after another, each with its components.
+    pub fn each_row_set<T: Send>(
         &self,
         whole: &Context<'a>,
         fitted: &Fitted,
-        f: impl Fn(&Range<usize>, &Portion<'_>) -> T + Sync,
+        f: impl Fn(&Range<usize>, &RowSet<'_>) -> T + Sync,
     ) -> Result<Vec<T>, SearchError> {
         if self.sampled.is_none() {
             return Ok(vec![f(&(0..self.folds.rows()), &self.rows)]);
         }
         let mut all = Vec::new();
-        let made = |components: &Range<usize>, mut portion: Portion<'a>| {
-            portion.keep(&self.usable);
-            f(components, &portion)
+        let made = |components: &Range<usize>, mut row_set: RowSet<'a>| {
+            row_set.keep(&self.usable);
+            f(components, &row_set)
         };
         each_chunk(whole, fitted, made, |_, made| all.push(made))?;
         Ok(all)
@@ -148,7 +148,7 @@ impl<'a> Posed<'a> {
 fn each_chunk<'a, T: Send>(
     whole: &Context<'a>,
     fitted: &Fitted,
-    make: impl Fn(&Range<usize>, Portion<'a>) -> T + Sync,
+    make: impl Fn(&Range<usize>, RowSet<'a>) -> T + Sync,
     mut take: impl FnMut(Range<usize>, T),
 ) -> Result<(), SearchError> {
     let first = &fitted.layout.first;
@@ -157,8 +157,8 @@ fn each_chunk<'a, T: Send>(
             .par_iter()
             .map(|chunk| {
                 let components = first[chunk.start]..first[chunk.end];
-                let portion = Portion::of(whole, fitted, std::slice::from_ref(chunk))?;
-                let made = make(&components, portion);
+                let row_set = RowSet::of(whole, fitted, std::slice::from_ref(chunk))?;
+                let made = make(&components, row_set);
                 Ok((components, made))
             })
             .collect();
@@ -195,7 +195,7 @@ fn reach(
     whole: &Context<'_>,
     fitted: &Fitted,
     problem: &Problem,
-    rows: &Portion<'_>,
+    rows: &RowSet<'_>,
     usable: &[bool],
 ) -> Result<Reach, SearchError> {
     let all = whole.request.observations;
@@ -343,10 +343,10 @@ mod tests {
         let [all, merged] = [1 << 24, 1 << 19].map(|held| Context::new(request, &observables, held).unwrap());
         let of_all = Round::at(&all, Fitted::first(&all).unwrap()).unwrap();
         let of_merged = Round::at(&merged, Fitted::first(&merged).unwrap()).unwrap();
-        assert!(of_merged.posed.problem.rows().nrows() < ROWS / 2);
-        assert!(of_merged.posed.rows.observations.rows() < ROWS / 4);
+        assert!(of_merged.search.problem.rows().nrows() < ROWS / 2);
+        assert!(of_merged.search.rows.observations.rows() < ROWS / 4);
 
-        assert_eq!(of_all.classes, of_merged.classes);
+        assert_eq!(of_all.sets, of_merged.sets);
         let found = of_all.search(&all);
         assert_eq!(all.catalogue[found[0].effect].driver, "gravity");
         // Fewer cells than nights: the flips can say less, but not something else.
@@ -354,9 +354,9 @@ mod tests {
         let names = |found: &[Found]| found.iter().map(|f| (f.effect, f.alike.clone())).collect::<Vec<_>>();
         assert_eq!(names(&found), names(&of_fewer));
         assert!(of_fewer.iter().all(|found| found.p_value < 0.01));
-        for fold in 0..of_all.posed.problem.folds() {
-            let [one, other] = [&of_all, &of_merged].map(|round| round.posed.problem.fold_gram(fold));
-            let candidates = of_all.posed.problem.declared()..one.ncols();
+        for fold in 0..of_all.search.problem.folds() {
+            let [one, other] = [&of_all, &of_merged].map(|round| round.search.problem.fold_gram(fold));
+            let candidates = of_all.search.problem.declared()..one.ncols();
             for (i, j) in candidates.clone().flat_map(|i| candidates.clone().map(move |j| (i, j))) {
                 assert_relative_eq!(
                     one[(i, j)],
@@ -366,7 +366,7 @@ mod tests {
             }
         }
         let left = [(&all, &of_all), (&merged, &of_merged)].map(|(whole, round)| {
-            let held = nested(&round.posed.problem, &round.classes, &whole.options);
+            let held = nested(&round.search.problem, &round.sets, &whole.options);
             crate::calibrate::held_out::predicted(whole, round, [&held.after]).unwrap()
         });
         for (one, other) in left[0][0].iter().zip(&left[1][0]) {

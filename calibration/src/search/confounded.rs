@@ -1,47 +1,87 @@
-//! Classes: candidates that no data at these poses can tell apart.
+//! Confounded sets: candidates that no data at these poses can tell apart.
+
+use std::ops::Index;
 
 use super::problem::Problem;
 use super::sweep::Sweep;
+use crate::candidate::EffectId;
 
-/// Overlap of the projected spaces above which two candidates are one class.
+/// Overlap of the projected spaces above which two candidates are confounded.
 const SAME: f64 = 0.995;
 
-/// Candidates whose projected spaces coincide. The first stands for all of them.
+/// Candidates whose projected spaces coincide: at least one, of which the first stands for all.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Class {
-    /// Candidate numbers; the first is the one that is tested.
-    pub members: Vec<usize>,
+pub struct ConfoundedSet {
+    /// Its candidates; the first is the one that is tested.
+    pub members: Vec<EffectId>,
     /// The common rank after projection.
     pub rank: usize,
 }
 
-/// Merges candidates into classes, in order of first member; those of rank zero are left out.
+/// Where a confounded set stands among those of one problem.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SetId(pub usize);
+
+impl Index<SetId> for Vec<ConfoundedSet> {
+    type Output = ConfoundedSet;
+
+    fn index(&self, id: SetId) -> &ConfoundedSet {
+        &self[id.0]
+    }
+}
+
+/// The columns that each confounded set is tested by: those of its first member.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SetColumns(Vec<Vec<usize>>);
+
+impl SetColumns {
+    /// Of all sets of a problem.
+    #[must_use]
+    pub fn of(problem: &Problem, sets: &[ConfoundedSet]) -> Self {
+        Self(sets.iter().map(|set| problem.columns(set.members[0])).collect())
+    }
+
+    /// Every set.
+    pub fn ids(&self) -> impl ExactSizeIterator<Item = SetId> + use<> {
+        (0..self.0.len()).map(SetId)
+    }
+}
+
+impl Index<SetId> for SetColumns {
+    type Output = [usize];
+
+    fn index(&self, id: SetId) -> &[usize] {
+        &self.0[id.0]
+    }
+}
+
+/// Merges candidates into confounded sets, in order of first member; those of rank zero are left out.
 #[must_use]
-pub fn classes(problem: &Problem) -> Vec<Class> {
+pub fn confounded_sets(problem: &Problem) -> Vec<ConfoundedSet> {
     let (gram, _) = problem.gram(|_| true);
     let sweep = Sweep::new(gram);
-    let mut classes: Vec<Class> = Vec::new();
+    let mut sets: Vec<ConfoundedSet> = Vec::new();
     let mut bases: Vec<Vec<usize>> = Vec::new();
-    for candidate in 0..problem.candidates() {
+    for candidate in problem.candidates() {
         let columns = problem.columns(candidate);
         let rank = rank(&sweep, &columns);
         if rank == 0 {
             continue;
         }
-        let same = (0..classes.len()).find(|&i| {
-            classes[i].rank == rank
+        let same = (0..sets.len()).find(|&i| {
+            sets[i].rank == rank
                 && overlap(&sweep, &columns, &bases[i], rank) > SAME
                 && overlap(&sweep, &bases[i], &columns, rank) > SAME
         });
         match same {
-            Some(i) => classes[i].members.push(candidate),
+            Some(i) => sets[i].members.push(candidate),
             None => {
-                classes.push(Class { members: vec![candidate], rank });
+                sets.push(ConfoundedSet { members: vec![candidate], rank });
                 bases.push(columns);
             }
         }
     }
-    classes
+    sets
 }
 
 /// Rank of a block of columns.

@@ -57,7 +57,7 @@ pub struct Factor {
     /// What it is for.
     pub role: Role,
     /// Rotation or shift.
-    pub motion: Motion,
+    pub kind: TransformKind,
     /// About or along which axis.
     pub axis: Axis,
     /// By how much: rad for rotations, m for shifts.
@@ -81,7 +81,7 @@ pub enum Role {
 
 /// The two kinds of elementary transform.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Motion {
+pub enum TransformKind {
     /// `Rx Ry Rz`: rotation about an axis, right-handed, rad.
     Rotation,
     /// `Tx Ty Tz`: shift along an axis, m.

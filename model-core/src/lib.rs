@@ -1,6 +1,6 @@
 //! The declaration of an instrument as a chain of bodies, and everything that follows from it by algebra.
 //!
-//! The pipeline reads: text → [`syntax`] → [`check`] → [`chain`] → [`forms`] (over [`algebra`]) → verdicts, bounds and
+//! The pipeline reads: text → [`syntax`] → [`validate`] → [`chain`] → [`forms`] (over [`algebra`]) → verdicts, bounds and
 //! null spaces. Nothing here reads a file, prints, or knows a clock.
 
 pub mod algebra;
@@ -9,7 +9,6 @@ pub mod budget;
 pub mod caution;
 pub mod certificate;
 pub mod chain;
-pub mod check;
 pub mod checker;
 pub mod exact;
 pub mod expr;
@@ -24,10 +23,11 @@ pub mod remainder;
 pub mod symbol;
 pub mod syntax;
 pub mod unit;
+pub mod validate;
 
 pub use chain::reading as readings;
 pub use chain::{
-    Axis, Body, BodyId, Chain, Factor, Motion, Observable, ObservableId, ObservableKind, Passed, Role,
+    Axis, Body, BodyId, Chain, Factor, Observable, ObservableId, ObservableKind, Passed, Role, TransformKind,
 };
 pub use mistake::{Mistake, Mistakes};
 pub use symbol::{Meaning, Quantity, Subject, Symbol, SymbolId, SymbolKind};

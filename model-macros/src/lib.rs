@@ -35,7 +35,7 @@ use expand::Names;
 /// chapter on the macro shows the whole of it.
 #[proc_macro]
 pub fn chain(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
-    let result = model_core::check::read(input.into())
+    let result = model_core::validate::read(input.into())
         .and_then(|(declaration, chain)| expand::module(&chain, &Names::of(&declaration)));
     result.unwrap_or_else(|mistakes| report::at_tokens(&mistakes)).into()
 }

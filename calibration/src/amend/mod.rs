@@ -9,7 +9,7 @@ mod verify;
 use std::ops::Range;
 
 use model_core::syntax::declaration::{BodyStatement, Declaration, FactorGroup, Statement};
-use model_core::{BodyId, Chain, Mistakes, Role, Symbol, SymbolKind, check};
+use model_core::{BodyId, Chain, Mistakes, Role, Symbol, SymbolKind, validate};
 
 /// A factor to add, as a declaration writes it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -74,7 +74,7 @@ pub fn amend(
     let declaration = Declaration::from_text(text)?;
     // π and ramps are written, not named.
     let named = |symbol: &Symbol| !matches!(symbol.kind, SymbolKind::Pi | SymbolKind::Ramp);
-    let no_name = |symbol: &&Symbol| named(symbol) && !check::is_name(&symbol.name);
+    let no_name = |symbol: &&Symbol| named(symbol) && !validate::is_name(&symbol.name);
     if let Some(symbol) = chain.symbols.iter().find(no_name) {
         return Err(AmendError::NotAsMeant(format!("`{}` is no name", symbol.name)));
     }

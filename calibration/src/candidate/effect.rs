@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use model_core::algebra::Poly;
 use model_core::{
-    Axis, BodyId, Chain, Factor, Motion, Quantity, Role, Symbol, SymbolId, SymbolKind, check, print,
+    Axis, BodyId, Chain, Factor, Quantity, Role, Symbol, SymbolId, SymbolKind, TransformKind, print, validate,
 };
 
 use super::Dependence;
@@ -13,7 +13,7 @@ use super::Dependence;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Freedom {
     /// Rotation or shift.
-    pub motion: Motion,
+    pub kind: TransformKind,
     /// The axis.
     pub axis: Axis,
 }
@@ -32,37 +32,37 @@ impl Freedom {
     /// A rotation.
     #[must_use]
     pub const fn about(axis: Axis) -> Self {
-        Self { motion: Motion::Rotation, axis }
+        Self { kind: TransformKind::Rotation, axis }
     }
 
     /// A shift.
     #[must_use]
     pub const fn along(axis: Axis) -> Self {
-        Self { motion: Motion::Translation, axis }
+        Self { kind: TransformKind::Translation, axis }
     }
 
     /// The three rotations.
     pub fn rotations() -> impl Iterator<Item = Self> {
-        Self::ALL.into_iter().filter(|freedom| freedom.motion == Motion::Rotation)
+        Self::ALL.into_iter().filter(|freedom| freedom.kind == TransformKind::Rotation)
     }
 
     /// As declarations write it: `Rx`.
     #[must_use]
     pub fn word(self) -> &'static str {
-        match (self.motion, self.axis) {
-            (Motion::Rotation, Axis::X) => "Rx",
-            (Motion::Rotation, Axis::Y) => "Ry",
-            (Motion::Rotation, Axis::Z) => "Rz",
-            (Motion::Translation, Axis::X) => "Tx",
-            (Motion::Translation, Axis::Y) => "Ty",
-            (Motion::Translation, Axis::Z) => "Tz",
+        match (self.kind, self.axis) {
+            (TransformKind::Rotation, Axis::X) => "Rx",
+            (TransformKind::Rotation, Axis::Y) => "Ry",
+            (TransformKind::Rotation, Axis::Z) => "Rz",
+            (TransformKind::Translation, Axis::X) => "Tx",
+            (TransformKind::Translation, Axis::Y) => "Ty",
+            (TransformKind::Translation, Axis::Z) => "Tz",
         }
     }
 
     /// `about x`, `along x`.
     #[must_use]
     pub fn words(self) -> String {
-        let preposition = if self.motion == Motion::Rotation { "about" } else { "along" };
+        let preposition = if self.kind == TransformKind::Rotation { "about" } else { "along" };
         format!("{preposition} {}", self.axis_name())
     }
 
@@ -75,9 +75,9 @@ impl Freedom {
     /// What an amount of it measures.
     #[must_use]
     pub fn quantity(self) -> Quantity {
-        match self.motion {
-            Motion::Rotation => Quantity::Angle,
-            Motion::Translation => Quantity::Length,
+        match self.kind {
+            TransformKind::Rotation => Quantity::Angle,
+            TransformKind::Translation => Quantity::Length,
         }
     }
 }
@@ -263,7 +263,7 @@ impl Function {
 
 /// The stem itself, or the stem with the first number that makes it a new name.
 fn free_name(chain: &Chain, stem: &str) -> String {
-    if chain.find_symbol(stem).is_none() && check::is_name(stem) {
+    if chain.find_symbol(stem).is_none() && validate::is_name(stem) {
         return stem.to_owned();
     }
     let mut number = 2_u32;
@@ -298,6 +298,6 @@ pub(crate) fn add_error(chain: &mut Chain, name: String, quantity: Quantity) -> 
 pub(crate) fn insert(chain: &mut Chain, place: Place, amount: Poly, documentation: String) {
     let at = place.position(chain);
     let Some(body) = chain.bodies.get_mut(usize::from(place.body.0)) else { return };
-    let Place { role, freedom: Freedom { motion, axis }, .. } = place;
-    body.factors.insert(at, Factor { role, motion, axis, amount, documentation });
+    let Place { role, freedom: Freedom { kind, axis }, .. } = place;
+    body.factors.insert(at, Factor { role, kind, axis, amount, documentation });
 }

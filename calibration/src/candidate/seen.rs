@@ -1,7 +1,7 @@
 //! What a place in the chain sees in its own frame, without errors: directions of the ground, and what is observed.
 
 use model_core::algebra::{AngleSum, Poly};
-use model_core::{Axis, BodyId, Factor, Motion, ObservableId, ObservableKind, SymbolKind};
+use model_core::{Axis, BodyId, Factor, ObservableId, ObservableKind, SymbolKind, TransformKind};
 
 use super::{Place, Setting, whole};
 
@@ -16,7 +16,7 @@ pub(crate) fn from_ground(setting: &Setting<'_>, vector: &[Poly; 3], place: Plac
         let factors = &setting.chain.body(body).factors;
         let end = if body == place.body { place.position(setting.chain) } else { factors.len() };
         for factor in &factors[..end] {
-            if factor.motion == Motion::Rotation {
+            if factor.kind == TransformKind::Rotation {
                 seen = turned(setting, factor, &seen, true)?;
             }
         }
@@ -52,13 +52,13 @@ fn carried(
         let factors = &chain.body(body).factors;
         let start = if body == place.body { place.position(chain) } else { 0 };
         for factor in factors[start..].iter().rev() {
-            match factor.motion {
-                Motion::Rotation => seen = turned(setting, factor, &seen, false)?,
-                Motion::Translation if shifts => {
+            match factor.kind {
+                TransformKind::Rotation => seen = turned(setting, factor, &seen, false)?,
+                TransformKind::Translation if shifts => {
                     let at = factor.axis.index();
                     seen[at] = &seen[at] + &nominal(setting, factor);
                 }
-                Motion::Translation => {}
+                TransformKind::Translation => {}
             }
         }
     }
@@ -76,9 +76,9 @@ pub(crate) fn moves(setting: &Setting<'_>, place: Place) -> bool {
         if carries_both || !path_to(observable.body).contains(&place.body) {
             return false;
         }
-        match place.freedom.motion {
-            Motion::Translation => observable.kind == ObservableKind::Point,
-            Motion::Rotation => observed(setting, id, place).is_none_or(|seen| {
+        match place.freedom.kind {
+            TransformKind::Translation => observable.kind == ObservableKind::Point,
+            TransformKind::Rotation => observed(setting, id, place).is_none_or(|seen| {
                 seen.iter().enumerate().any(|(i, s)| i != place.freedom.axis.index() && !s.is_zero())
             }),
         }

@@ -1,7 +1,9 @@
 //! What the catalogue is made for: a chain, what was observed, and what was measured beside the joints.
 
 use model_core::algebra::AngleSum;
-use model_core::{Axis, BodyId, Chain, Motion, ObservableId, ObservableKind, Role, SymbolId, SymbolKind};
+use model_core::{
+    Axis, BodyId, Chain, ObservableId, ObservableKind, Role, SymbolId, SymbolKind, TransformKind,
+};
 
 use super::{Effect, Freedom, Kind, Place, seen};
 
@@ -39,7 +41,7 @@ impl JointAxis {
     /// Whether it is an angle.
     #[must_use]
     pub fn turns(&self) -> bool {
-        self.freedom.motion == Motion::Rotation
+        self.freedom.kind == TransformKind::Rotation
     }
 
     /// About or along the joint's own axis, after the motion: where an encoder's error sits.
@@ -116,7 +118,7 @@ impl Setting<'_> {
                 let angle = AngleSum::from_poly(&seen::nominal(self, factor)).ok();
                 for symbol in factor.amount.symbols() {
                     if self.chain.symbol(symbol).kind == SymbolKind::Joint {
-                        let freedom = Freedom { motion: factor.motion, axis: factor.axis };
+                        let freedom = Freedom { kind: factor.kind, axis: factor.axis };
                         let multiples = angle.as_ref().map_or(&[][..], |angle| angle.multiples());
                         let reversed = multiples.iter().any(|&(id, times)| id == symbol && times < 0);
                         joints.push(JointAxis { symbol, body, freedom, reversed });

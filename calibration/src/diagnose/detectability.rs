@@ -120,10 +120,11 @@ pub(crate) fn not_shown(whole: &Context<'_>, last: &Round<'_>, rms: &BeforeAfter
 /// Whether the declaration has this very effect: an error of its own for each function, at the same place.
 fn is_declared(chain: &Chain, effect: &Effect) -> bool {
     let Place { body, role, freedom } = effect.place;
-    let factors =
-        chain.body(body).factors.iter().filter(|factor| {
-            (factor.role, factor.motion, factor.axis) == (role, freedom.motion, freedom.axis)
-        });
+    let factors = chain
+        .body(body)
+        .factors
+        .iter()
+        .filter(|factor| (factor.role, factor.kind, factor.axis) == (role, freedom.kind, freedom.axis));
     let declared: Vec<Poly> = factors
         .flat_map(|factor| factor.amount.collect_by(|symbol| chain.symbol(symbol).kind == SymbolKind::Error))
         .filter(|(errors, _)| matches!(errors.as_slice(), [(_, 1)]))

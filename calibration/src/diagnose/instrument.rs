@@ -1,6 +1,6 @@
 //! The instrument as a report draws it: bodies, joints, and the errors at their places.
 
-use model_core::{Chain, Motion, Role, SymbolId, SymbolKind};
+use model_core::{Chain, Role, SymbolId, SymbolKind, TransformKind};
 use serde::Serialize;
 
 use super::errors::ErrorFound;
@@ -118,7 +118,7 @@ pub(super) fn instrument(
         let mut joints = Vec::new();
         let mut own: Vec<ErrorShown> = Vec::new();
         for factor in &body.factors {
-            let dof = dof(factor.motion, factor.axis.index());
+            let dof = dof(factor.kind, factor.axis.index());
             for id in factor.amount.symbols() {
                 let symbol = chain.symbol(id);
                 let name = symbol.name.clone();
@@ -161,10 +161,10 @@ pub(super) fn instrument(
     }
 }
 
-fn dof(motion: Motion, axis: usize) -> &'static str {
-    match motion {
-        Motion::Rotation => ["Rx", "Ry", "Rz"][axis],
-        Motion::Translation => ["Tx", "Ty", "Tz"][axis],
+fn dof(kind: TransformKind, axis: usize) -> &'static str {
+    match kind {
+        TransformKind::Rotation => ["Rx", "Ry", "Rz"][axis],
+        TransformKind::Translation => ["Tx", "Ty", "Tz"][axis],
     }
 }
 

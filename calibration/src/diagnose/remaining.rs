@@ -204,7 +204,7 @@ fn harmonics(whole: &Context<'_>) -> Vec<(Place, SymbolId, u32)> {
     let most = HARMONICS.max(whole.setting.harmonics);
     let mut sheets = Vec::new();
     for joint in whole.setting.joints().into_iter().filter(crate::candidate::JointAxis::turns) {
-        for freedom in Freedom::ALL.into_iter().filter(|freedom| freedom.motion == joint.freedom.motion) {
+        for freedom in Freedom::ALL.into_iter().filter(|freedom| freedom.kind == joint.freedom.kind) {
             let place = Place { body: joint.body, role: Role::MotionError, freedom };
             sheets.extend((1..=most).step_by(A_SHEET as usize).map(|first| (place, joint.symbol, first)));
         }

@@ -1,7 +1,7 @@
 //! The unit of each error and coefficient: what it multiplies, and what that moves, decide it.
 
 use model_core::algebra::Poly;
-use model_core::{Chain, Motion, SymbolId, SymbolKind};
+use model_core::{Chain, SymbolId, SymbolKind, TransformKind};
 
 use crate::candidate::{Kind, Setting};
 use crate::data::SiUnit;
@@ -14,9 +14,9 @@ pub(crate) fn unit_of(setting: &Setting<'_>, chain: &Chain, id: SymbolId) -> SiU
         .find_map(|factor| {
             let parts = factor.amount.collect_by(|symbol| symbol == id);
             let (_, cofactor) = parts.into_iter().find(|(monomial, _)| matches!(monomial[..], [(_, 1)]))?;
-            let moved = match factor.motion {
-                Motion::Rotation => SiUnit::RAD,
-                Motion::Translation => SiUnit::METRE,
+            let moved = match factor.kind {
+                TransformKind::Rotation => SiUnit::RAD,
+                TransformKind::Translation => SiUnit::METRE,
             };
             Some(moved.per(of_amount(setting, chain, &cofactor)?))
         })

@@ -1,7 +1,7 @@
 //! Assembly: a constant rotation or shift that the declaration does not have.
 
 use model_core::algebra::Poly;
-use model_core::{Motion, Role};
+use model_core::{Role, TransformKind};
 
 use crate::candidate::{Dependence, Effect, Family, Freedom, Function, Place, Setting};
 
@@ -20,7 +20,7 @@ pub(super) const FAMILY: Family = Family {
 /// The name of a constant at a place.
 #[must_use]
 pub fn assembly_name(body: &str, role: Role, freedom: Freedom) -> String {
-    let what = if freedom.motion == Motion::Rotation { "rotation" } else { "shift" };
+    let what = if freedom.kind == TransformKind::Rotation { "rotation" } else { "shift" };
     let axis = if role == Role::MotionError { "" } else { " axis" };
     format!("constant {what} of {body}{axis} {}", freedom.words())
 }

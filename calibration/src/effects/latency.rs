@@ -1,6 +1,6 @@
 //! Latency: encoders read earlier or later than the observation.
 
-use model_core::Motion;
+use model_core::TransformKind;
 use model_core::algebra::Poly;
 
 use crate::candidate::{Dependence, Kind};
@@ -48,7 +48,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
         .collect();
     // One time for all that turn; a time in rad and one in m would be different errors.
     let turning: Vec<_> =
-        late.into_iter().filter(|(joint, _)| joint.freedom.motion == Motion::Rotation).collect();
+        late.into_iter().filter(|(joint, _)| joint.freedom.kind == TransformKind::Rotation).collect();
     if let [(first, input), others @ ..] = turning.as_slice()
         && !others.is_empty()
     {

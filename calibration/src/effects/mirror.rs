@@ -1,7 +1,7 @@
 //! Mirrors: a beam that comes along a joint's axis and is turned aside by a mirror on the joint.
 
 use model_core::algebra::{AngleSum, Poly};
-use model_core::{Axis, Motion};
+use model_core::{Axis, TransformKind};
 
 use crate::candidate::{Dependence, Effect, Family, Freedom, Function, JointAxis, Setting, seen, whole};
 
@@ -59,7 +59,7 @@ fn tilted(setting: &Setting<'_>, joint: &JointAxis) -> Option<Effect> {
 
 /// The axis of its body, across the joint's own, along which everything is observed.
 fn line_of_sight(setting: &Setting<'_>, joint: &JointAxis) -> Option<Axis> {
-    debug_assert!(joint.freedom.motion == Motion::Rotation);
+    debug_assert!(joint.freedom.kind == TransformKind::Rotation);
     let sees = |axis: Axis| {
         setting.observables.iter().all(|&id| {
             let seen = seen::observed(setting, id, joint.place());

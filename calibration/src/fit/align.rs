@@ -5,7 +5,7 @@
 //! axes by constants that are estimated and start at zero. Only starting values come from here; the fit has the last word.
 
 use model_core::algebra::Poly;
-use model_core::{Axis, Chain, Factor, Motion, ObservableId, SymbolId};
+use model_core::{Axis, Chain, Factor, ObservableId, SymbolId, TransformKind};
 use nalgebra::{Matrix3, Vector3};
 
 use super::model::Model;
@@ -88,10 +88,10 @@ impl BasePose {
         };
         let shift = |axis| {
             let own = shifts.iter().find(|factor| factor.axis == axis)?;
-            free(own).filter(|_| own.motion == Motion::Translation)
+            free(own).filter(|_| own.kind == TransformKind::Translation)
         };
         let turn = |factor: &Factor| {
-            let (id, sign) = free(factor).filter(|_| factor.motion == Motion::Rotation)?;
+            let (id, sign) = free(factor).filter(|_| factor.kind == TransformKind::Rotation)?;
             Some((factor.axis, id, sign))
         };
         let turns = [turn(turns[0])?, turn(turns[1])?, turn(turns[2])?];

@@ -1,7 +1,7 @@
 //! Inputs that a study brings with it: side quantities that the chain does not declare, and what follows from the
 //! sequence of the rows.
 
-use model_core::{Chain, Meaning, Quantity, Symbol, SymbolId, SymbolKind, check, names};
+use model_core::{Chain, Meaning, Quantity, Symbol, SymbolId, SymbolKind, names, validate};
 use toml::Spanned;
 
 use super::mistakes::{Outcome, every, mistake};
@@ -19,7 +19,7 @@ impl Study {
             let text = name.get_ref();
             match chain.find_symbol(text).map(|id| chain.symbol(id).kind) {
                 // The amended declaration would declare it under this name.
-                None if !check::is_name(text) => {
+                None if !validate::is_name(text) => {
                     let message = format!("`{text}` cannot be the name of an input");
                     let help = "write letters, digits and underscores, no reserved word, and name its column: \
                                 temp_x = { column = \"temp x\" }";

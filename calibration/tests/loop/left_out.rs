@@ -8,7 +8,7 @@ use calibration::diagnose::{Diagnosis, EffectFound};
 use calibration::effects::assembly_name;
 use calibration::study::{Plan, Study};
 use model_core::algebra::Poly;
-use model_core::{Chain, Factor, Motion, Role, SymbolId, SymbolKind, exact};
+use model_core::{Chain, Factor, Role, SymbolId, SymbolKind, TransformKind, exact};
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -43,13 +43,13 @@ fn said(report: &Diagnosis, wanted: &str, size: f64) -> Option<Said> {
 /// A plan without one factor of the declaration and its error, and the name of what it lacks.
 fn without(plan: &Plan, body: usize, factor: usize) -> (Plan, SymbolId, String) {
     let mut lacking = plan.clone();
-    let Factor { role, motion, axis, amount, .. } = lacking.chain.bodies[body].factors.remove(factor);
+    let Factor { role, kind, axis, amount, .. } = lacking.chain.bodies[body].factors.remove(factor);
     let is_error = |id: &SymbolId| plan.chain.symbol(*id).kind == SymbolKind::Error;
     let error = amount.symbols().into_iter().find(is_error).unwrap();
     lacking.fit.estimate.retain(|&id| id != error);
     let constant = amount == Poly::symbol(error) || amount == -&Poly::symbol(error);
     let name = if constant {
-        assembly_name(&plan.chain.bodies[body].name, role, Freedom { motion, axis })
+        assembly_name(&plan.chain.bodies[body].name, role, Freedom { kind, axis })
     } else {
         "refraction, cot of elevation".to_owned()
     };
@@ -127,7 +127,7 @@ fn each_of_the_scanners_30_errors_is_named_or_said_to_be_hidden() {
     let (aiming, measuring) = (plan("pointing", "direction"), plan("target", "point"));
     let mut told: Vec<(String, Said)> = Vec::new();
     for (body, at) in errors(&full) {
-        let turns = full.bodies[body].factors[at].motion == Motion::Rotation;
+        let turns = full.bodies[body].factors[at].kind == TransformKind::Rotation;
         let (plan, measure, size) = if turns {
             (&aiming, Measure::Direction, 30.0 * ARCSEC)
         } else {
@@ -172,7 +172,7 @@ fn each_error_of_the_auxiliary_telescope_is_named_or_said_to_be_hidden() {
         let name = study.plan.chain.symbol(error).name.clone();
         let size = before.diagnosis.errors.iter().find(|e| e.name == name).unwrap().value.abs();
         let declared = &study.plan.chain.bodies[body];
-        let freedom = Freedom { motion: declared.factors[at].motion, axis: declared.factors[at].axis };
+        let freedom = Freedom { kind: declared.factors[at].kind, axis: declared.factors[at].axis };
         let moves = |e: &EffectFound| e.dof.split(", ").any(|word| word == freedom.word());
         let here = |e: &EffectFound| moves(e) && e.body == declared.name;
         let placed = || report.effects.iter().any(here).then_some(Said::Placed);

@@ -5,7 +5,7 @@
 //! `δ + (E − I)(v + δ) + t`, where `E − I` is made of sin ε and 1 − cos ε. A motion turns both alike. The value
 //! is its own difference from zero.
 
-use model_core::{Axis, Motion};
+use model_core::{Axis, TransformKind};
 
 use super::amount::{lower, small_turn, turn};
 use super::path::Path;
@@ -105,9 +105,9 @@ impl Carried {
         let mut run: Option<Bend> = None;
         for step in path.steps.iter().rev() {
             if !step.amount.error.is_zero() {
-                let bend = match step.motion {
-                    Motion::Rotation => Bend::rotation(b, step.axis, &step.amount.error),
-                    Motion::Translation => {
+                let bend = match step.kind {
+                    TransformKind::Rotation => Bend::rotation(b, step.axis, &step.amount.error),
+                    TransformKind::Translation => {
                         let amount = lower(b, &step.amount.error);
                         Bend { bend: NO_TURN, shift: along(step.axis, amount) }
                     }
@@ -125,12 +125,12 @@ impl Carried {
                 if let Some(bend) = run.take() {
                     self.bend(b, &bend);
                 }
-                match step.motion {
-                    Motion::Rotation => {
+                match step.kind {
+                    TransformKind::Rotation => {
                         let turn = turn(b, &step.amount.nominal);
                         self.turn(b, step.axis, turn);
                     }
-                    Motion::Translation => {
+                    TransformKind::Translation => {
                         let amount = lower(b, &step.amount.nominal);
                         self.shift(b, step.axis, amount, origin);
                     }

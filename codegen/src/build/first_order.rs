@@ -6,7 +6,7 @@
 //! is taken where it sits; [`super::build`] tries every meeting place and keeps the cheapest program.
 
 use model_core::algebra::Poly;
-use model_core::{Axis, Chain, Motion, ObservableKind};
+use model_core::{Axis, Chain, ObservableKind, TransformKind};
 
 use super::amount::{lower, turn};
 use super::exact::components;
@@ -90,16 +90,16 @@ fn levels(b: &mut Builder, chain: &Chain, path: &Path) -> (Vec<Level>, Vec<Move>
     let mut level = Level::default();
     for step in &path.steps {
         if !step.amount.nominal.is_zero() {
-            let above = commuting(&mut level, step.motion, step.axis);
+            let above = commuting(&mut level, step.kind, step.axis);
             levels.push(std::mem::replace(&mut level, above));
-            moves.push(match step.motion {
-                Motion::Rotation => Move::Turn(step.axis, turn(b, &step.amount.nominal)),
-                Motion::Translation => Move::Shift(step.axis, lower(b, &step.amount.nominal)),
+            moves.push(match step.kind {
+                TransformKind::Rotation => Move::Turn(step.axis, turn(b, &step.amount.nominal)),
+                TransformKind::Translation => Move::Shift(step.axis, lower(b, &step.amount.nominal)),
             });
         }
-        let sums = match step.motion {
-            Motion::Rotation => &mut level.turns,
-            Motion::Translation => &mut level.shifts,
+        let sums = match step.kind {
+            TransformKind::Rotation => &mut level.turns,
+            TransformKind::Translation => &mut level.shifts,
         };
         sums[step.axis.index()] = &sums[step.axis.index()] + &linear(chain, &step.amount.error);
     }
@@ -108,13 +108,13 @@ fn levels(b: &mut Builder, chain: &Chain, path: &Path) -> (Vec<Level>, Vec<Move>
 }
 
 /// Takes out of a level what commutes with the motion above it.
-fn commuting(level: &mut Level, motion: Motion, axis: Axis) -> Level {
+fn commuting(level: &mut Level, kind: TransformKind, axis: Axis) -> Level {
     let mut above = Level::default();
     let i = axis.index();
     above.turns[i] = std::mem::take(&mut level.turns[i]);
-    match motion {
-        Motion::Rotation => above.shifts[i] = std::mem::take(&mut level.shifts[i]),
-        Motion::Translation => above.shifts = std::mem::take(&mut level.shifts),
+    match kind {
+        TransformKind::Rotation => above.shifts[i] = std::mem::take(&mut level.shifts[i]),
+        TransformKind::Translation => above.shifts = std::mem::take(&mut level.shifts),
     }
     above
 }

@@ -6,7 +6,7 @@
 //! a point's differs by the shifts between them, so that no turn need be applied to it. Without errors `a × s` has
 //! zeros and equal columns that products of the columns of `P` would hide.
 
-use model_core::{Axis, Chain, Motion, SymbolId};
+use model_core::{Axis, Chain, SymbolId, TransformKind};
 
 use super::amount::{lower, small_turn, turn};
 use super::exact::{component_errors, components};
@@ -92,16 +92,16 @@ fn column(b: &mut Builder, chain: &Chain, path: &Path, places: &Places, at: At, 
     let mut sum = NOTHING;
     for ((step, below), above) in path.steps.iter().zip(&places.below).zip(&places.above) {
         let rate = derivative(b, &step.amount);
-        let moved = match (step.motion, at) {
-            (Motion::Rotation, At::Errors) => {
+        let moved = match (step.kind, at) {
+            (TransformKind::Rotation, At::Errors) => {
                 let axis = column_of(below, step.axis);
                 cross(b, &axis, above).map(|component| b.mul(rate, component))
             }
-            (Motion::Rotation, At::Nominal) => {
+            (TransformKind::Rotation, At::Nominal) => {
                 let moved = axis_cross(step.axis, above).map(|component| b.mul(rate, component));
                 affine(b, below, &moved, &NOTHING)
             }
-            (Motion::Translation, _) => affine(b, below, &along(step.axis, rate), &NOTHING),
+            (TransformKind::Translation, _) => affine(b, below, &along(step.axis, rate), &NOTHING),
         };
         sum = add(b, &sum, &moved);
     }
@@ -114,7 +114,7 @@ fn column(b: &mut Builder, chain: &Chain, path: &Path, places: &Places, at: At, 
 
 /// The turns that a step makes, of the design and of the errors.
 fn turns(b: &mut Builder, step: &Step, at: At) -> Vec<Turn> {
-    if step.motion == Motion::Translation {
+    if step.kind == TransformKind::Translation {
         return Vec::new();
     }
     let mut turns = Vec::new();
@@ -130,11 +130,11 @@ fn turns(b: &mut Builder, step: &Step, at: At) -> Vec<Turn> {
 
 /// The perfect instrument's vector above a step as it is below it.
 fn lowered(b: &mut Builder, step: &Step, vector: &Vector) -> Vector {
-    match step.motion {
-        Motion::Rotation => {
+    match step.kind {
+        TransformKind::Rotation => {
             turns(b, step, At::Nominal).into_iter().fold(*vector, |v, turn| turn.apply(b, step.axis, &v))
         }
-        Motion::Translation => {
+        TransformKind::Translation => {
             let nominal = lower(b, &step.amount.nominal);
             add(b, vector, &along(step.axis, nominal))
         }
@@ -143,9 +143,9 @@ fn lowered(b: &mut Builder, step: &Step, vector: &Vector) -> Vector {
 
 /// The ground's vector from above a step as it is from below it.
 fn seen_from(b: &mut Builder, step: &Step, below: &Matrix, vector: &Vector) -> Vector {
-    match step.motion {
-        Motion::Rotation => *vector,
-        Motion::Translation => {
+    match step.kind {
+        TransformKind::Rotation => *vector,
+        TransformKind::Translation => {
             let (nominal, error) = (lower(b, &step.amount.nominal), lower(b, &step.amount.error));
             let shift = b.add(nominal, error);
             affine(b, below, &along(step.axis, shift), vector)

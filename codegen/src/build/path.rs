@@ -3,7 +3,7 @@
 
 use model_core::algebra::Poly;
 use model_core::readings::Reading;
-use model_core::{Axis, Chain, Motion, ObservableId, ObservableKind, SymbolId, SymbolKind};
+use model_core::{Axis, Chain, ObservableId, ObservableKind, SymbolId, SymbolKind, TransformKind};
 
 use super::vectors::Vector;
 use crate::builder::Value;
@@ -28,7 +28,7 @@ impl Split {
 /// One factor on the way: an elementary transform by its nominal amount and one by the error, which commute.
 #[derive(Clone)]
 pub(super) struct Step {
-    pub(super) motion: Motion,
+    pub(super) kind: TransformKind,
     pub(super) axis: Axis,
     pub(super) amount: Split,
 }
@@ -92,9 +92,9 @@ pub(super) fn path(chain: &Chain, observable: ObservableId) -> Path {
         .way(observable)
         .into_iter()
         .map(|passed| passed.factor)
-        .filter(|factor| kind == ObservableKind::Point || factor.motion == Motion::Rotation)
+        .filter(|factor| kind == ObservableKind::Point || factor.kind == TransformKind::Rotation)
         .map(|factor| Step {
-            motion: factor.motion,
+            kind: factor.kind,
             axis: factor.axis,
             amount: Split::new(chain, &factor.amount),
         })

@@ -3,7 +3,7 @@
 //! For those who want the product itself, as the theory writes it; [`super::exact`] multiplies it out as far as can be
 //! done before a pose is known.
 
-use model_core::{Axis, Chain, Motion, ObservableId};
+use model_core::{Axis, Chain, ObservableId, TransformKind};
 
 use super::amount::{lower, turn};
 use super::exact::{component_errors, components};
@@ -73,18 +73,20 @@ pub fn matrix_product(chain: &Chain, observable: ObservableId) -> MatrixProduct 
         let axis = step.axis;
         if !step.amount.error.is_zero() {
             let amount = put(lower(&mut b, &step.amount.error));
-            steps.push(match step.motion {
-                Motion::Rotation => Step::SmallRotation { axis, angle: amount },
-                Motion::Translation => Step::SmallShift { axis, amount },
+            steps.push(match step.kind {
+                TransformKind::Rotation => Step::SmallRotation { axis, angle: amount },
+                TransformKind::Translation => Step::SmallShift { axis, amount },
             });
         }
         if !step.amount.nominal.is_zero() {
-            steps.push(match step.motion {
-                Motion::Rotation => {
+            steps.push(match step.kind {
+                TransformKind::Rotation => {
                     let turn = turn(&mut b, &step.amount.nominal);
                     Step::Rotation { axis, sin: put(turn.sin), cos: put(turn.cos) }
                 }
-                Motion::Translation => Step::Shift { axis, amount: put(lower(&mut b, &step.amount.nominal)) },
+                TransformKind::Translation => {
+                    Step::Shift { axis, amount: put(lower(&mut b, &step.amount.nominal)) }
+                }
             });
         }
     }

@@ -1,13 +1,13 @@
 //! A declaration as written and what it means, side by side: a certificate states amounts as the user wrote them.
 
 use crate::algebra::Poly;
-use crate::chain::{Axis, BodyId, Chain, Motion, ObservableId, Role};
-use crate::check;
+use crate::chain::{Axis, BodyId, Chain, ObservableId, Role, TransformKind};
 use crate::expr::Expr;
 use crate::mistake::Mistakes;
 use crate::ramp::Ramp;
 use crate::symbol::{SymbolId, SymbolKind};
 use crate::syntax;
+use crate::validate;
 
 /// A declaration with its chain.
 #[derive(Debug, Clone)]
@@ -21,7 +21,7 @@ pub struct Declared {
 #[derive(Debug, Clone)]
 pub(super) struct WrittenFactor {
     pub role: Role,
-    pub motion: Motion,
+    pub kind: TransformKind,
     pub axis: Axis,
     /// As the user wrote it.
     pub written: Expr<()>,
@@ -37,7 +37,7 @@ impl Declared {
     pub fn from_text(text: &str) -> Result<Self, Mistakes> {
         let tokens = syntax::tokens_of(text).map_err(|mistake| syntax::located(text, vec![mistake]))?;
         let (declaration, chain) =
-            check::read_symbolic(tokens).map_err(|mistakes| syntax::located(text, mistakes))?;
+            validate::read_symbolic(tokens).map_err(|mistakes| syntax::located(text, mistakes))?;
         let mut bodies = Vec::with_capacity(chain.bodies.len());
         for body in &chain.bodies {
             let statement = declaration.bodies().find(|statement| statement.name == body.name);
@@ -50,7 +50,7 @@ impl Declared {
                 factors
                     .map(|(factor, written)| WrittenFactor {
                         role: factor.role,
-                        motion: factor.motion,
+                        kind: factor.kind,
                         axis: factor.axis,
                         written: without_places(written),
                         amount: factor.amount.clone(),

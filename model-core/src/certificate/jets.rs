@@ -3,7 +3,7 @@
 use super::Refusal;
 use super::passage::{Jet, Passage};
 use crate::algebra::{AngleSum, Poly, Rational};
-use crate::chain::{Motion, ObservableKind};
+use crate::chain::{ObservableKind, TransformKind};
 use crate::forms::FormError;
 use crate::symbol::SymbolId;
 
@@ -30,13 +30,13 @@ pub(super) fn moved(
 ) -> Result<VectorJet, Refusal> {
     let amount = &factor.jet;
     let mut vector = before.clone();
-    match factor.motion {
-        Motion::Translation if kind == ObservableKind::Direction => {}
-        Motion::Translation => {
+    match factor.kind {
+        TransformKind::Translation if kind == ObservableKind::Direction => {}
+        TransformKind::Translation => {
             let component = &mut vector[factor.axis.index()];
             *component = component.iter().zip(amount).map(|(a, b)| a + b).collect();
         }
-        Motion::Rotation => {
+        TransformKind::Rotation => {
             let angle = AngleSum::from_poly(&amount[0]).map_err(|error| FormError::Factor {
                 body: body.to_owned(),
                 axis: factor.axis,

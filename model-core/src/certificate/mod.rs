@@ -26,7 +26,7 @@ mod witness;
 use std::fmt::Write as _;
 
 use crate::algebra::{AlgebraError, Fraction, Poly};
-use crate::chain::{Axis, BodyId, Chain, Motion, ObservableId, Role};
+use crate::chain::{Axis, BodyId, Chain, ObservableId, Role, TransformKind};
 use crate::checker::{ClosedForm, FormVerdict, Order};
 use crate::expr::Expr;
 use crate::forms::{self, FormError};
@@ -316,7 +316,7 @@ impl<'a> Certificate<'a> {
             let symbol = |symbol| self.term(symbol);
             let leaf = |expression: &Expr<()>| leaf::leaf(self.declared, expression, &symbol);
             let amount = expression::argument(&factor.written, &leaf);
-            let head = motion(factor.motion, factor.axis);
+            let head = motion(factor.kind, factor.axis);
             let _ = writeln!(out, "{begin}{head} {amount}{end} (* {} *)", role(factor.role));
         }
         out
@@ -376,10 +376,10 @@ impl<'a> Certificate<'a> {
 }
 
 /// `Rx` to `Tz`.
-fn motion(motion: Motion, axis: Axis) -> String {
-    let letter = match motion {
-        Motion::Rotation => 'R',
-        Motion::Translation => 'T',
+fn motion(kind: TransformKind, axis: Axis) -> String {
+    let letter = match kind {
+        TransformKind::Rotation => 'R',
+        TransformKind::Translation => 'T',
     };
     format!("{letter}{axis}")
 }

@@ -2,7 +2,7 @@
 
 use super::declared::Declared;
 use crate::algebra::Poly;
-use crate::chain::{Axis, BodyId, Motion, ObservableId};
+use crate::chain::{Axis, BodyId, ObservableId, TransformKind};
 use crate::expr::{Expr, Node};
 
 /// A function of t by its powers, lowest first.
@@ -12,7 +12,7 @@ pub(super) type Jet = Vec<Poly>;
 #[derive(Debug, Clone)]
 pub(super) struct Passage {
     pub body: BodyId,
-    pub motion: Motion,
+    pub kind: TransformKind,
     pub axis: Axis,
     /// Its amount as written, the opposite on the way out of a frame.
     pub written: Expr<()>,
@@ -39,7 +39,7 @@ pub(super) fn factors(declared: &Declared, bodies: &[(BodyId, bool)]) -> Vec<Pas
     for &(body, is_reversed) in bodies {
         let straight = declared.body(body).iter().map(|factor| Passage {
             body,
-            motion: factor.motion,
+            kind: factor.kind,
             axis: factor.axis,
             written: factor.written.clone(),
             amount: factor.amount.clone(),

@@ -103,7 +103,7 @@ impl<'c> Section<'c> {
             angles.add_all(&lower, &factor.written, &name)?;
             expression::divisors(&factor.written, &mut divisors);
             let is_nominal = factor.amount.symbols().iter().all(|symbol| !declared.is_error(*symbol));
-            if is_nominal && factor.motion == crate::chain::Motion::Rotation {
+            if is_nominal && factor.kind == crate::chain::TransformKind::Rotation {
                 angles.add(&lower, &factor.written, &name)?;
             }
             section.factors.push(factor);

@@ -9,7 +9,7 @@ use super::passage::Jet;
 use super::section::Section;
 use super::{Refusal, motion};
 use crate::algebra::{AngleSum, Poly};
-use crate::chain::{Motion, ObservableKind};
+use crate::chain::{ObservableKind, TransformKind};
 use crate::expr::Expr;
 
 impl Section<'_> {
@@ -104,21 +104,21 @@ impl Section<'_> {
         let jet = &factor.jet;
         let before = format!("step_{}", index + 1);
         let amount = format!("(fun t : R => {})", self.amount_text(index, false));
-        if factor.motion == Motion::Translation && self.kind == ObservableKind::Direction {
+        if factor.kind == TransformKind::Translation && self.kind == ObservableKind::Direction {
             return Ok(format!("exact (translated_direction _ {amount} _ _ _ _ _ {before})."));
         }
         if jet.iter().all(Poly::is_zero) {
-            let rule = match factor.motion {
-                Motion::Rotation => "no_rotation",
-                Motion::Translation => "no_translation",
+            let rule = match factor.kind {
+                TransformKind::Rotation => "no_rotation",
+                TransformKind::Translation => "no_translation",
             };
             return Ok(format!("refine ({rule} _ _ {amount} _ _ _ _ _ _ {before}); is_polynomial."));
         }
         let coefficients = self.coefficients(index, jet)?;
         let axis = factor.axis;
-        Ok(match factor.motion {
-            Motion::Translation => format!("translate_{axis} {before} {amount} ([{coefficients}])."),
-            Motion::Rotation => {
+        Ok(match factor.kind {
+            TransformKind::Translation => format!("translate_{axis} {before} {amount} ([{coefficients}])."),
+            TransformKind::Rotation => {
                 let angle = AngleSum::from_poly(&jet[0])?;
                 let (cosine, sine) = angle.cos_sin();
                 format!(
@@ -148,7 +148,7 @@ impl Section<'_> {
     /// `Rx` to `Tz`.
     fn head(&self, index: usize) -> String {
         let factor = &self.factors[index];
-        motion(factor.motion, factor.axis)
+        motion(factor.kind, factor.axis)
     }
 
     /// An amount as written, every error multiplied by t.

@@ -5,7 +5,7 @@ use super::claim::{ClosedForm, Order};
 use super::compare::{self, AXES, Columns, Implied, Monomial};
 use super::slip::{FormSlip, FormSlipKind, factor_name};
 use crate::algebra::Poly;
-use crate::chain::{BodyId, Chain, Factor, Motion, ObservableId, Role};
+use crate::chain::{BodyId, Chain, Factor, ObservableId, Role, TransformKind};
 
 /// One misreading and the form that follows from it.
 #[derive(Debug, Clone)]
@@ -67,7 +67,7 @@ fn factor_at(chain: &Chain, (body, factor): (usize, usize)) -> &Factor {
 
 /// Whether the order of two transforms makes no difference.
 fn commute(a: &Factor, b: &Factor) -> bool {
-    a.axis == b.axis || (a.motion == Motion::Translation && b.motion == Motion::Translation)
+    a.axis == b.axis || (a.kind == TransformKind::Translation && b.kind == TransformKind::Translation)
 }
 
 /// What explains several differences at once: exchanged components first, then a misreading of the chain for the whole

@@ -2,7 +2,7 @@
 
 use crate::algebra::{Poly, Rational};
 use crate::chain::reading::{Measures, Reading};
-use crate::chain::{Axis, Chain, Factor, Motion, ObservableId};
+use crate::chain::{Axis, Chain, Factor, ObservableId, TransformKind};
 use crate::print;
 use crate::symbol::SymbolId;
 
@@ -174,9 +174,9 @@ fn in_words(reading: &Reading) -> String {
 
 /// An elementary transform as the declaration writes it: `Ry(dtheta_y1) of outer`.
 pub(super) fn factor_name(chain: &Chain, body: &str, factor: &Factor) -> String {
-    let kind = match factor.motion {
-        Motion::Rotation => 'R',
-        Motion::Translation => 'T',
+    let kind = match factor.kind {
+        TransformKind::Rotation => 'R',
+        TransformKind::Translation => 'T',
     };
     format!("{kind}{}({}) of {body}", factor.axis, print::text(&factor.amount, chain))
 }

@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 
 use crate::algebra::Poly;
 use crate::chain::reading::Reading;
-use crate::chain::{Axis, Chain, Motion, ObservableId, ObservableKind};
+use crate::chain::{Axis, Chain, ObservableId, ObservableKind, TransformKind};
 use crate::forms::error_table;
 use crate::ramp::Ramp;
 use crate::symbol::{SymbolId, SymbolKind};
@@ -29,7 +29,7 @@ pub struct Path {
 
 #[derive(Debug, Clone)]
 struct Step {
-    motion: Motion,
+    kind: TransformKind,
     axis: Axis,
     amount: Split,
 }
@@ -62,14 +62,14 @@ impl Path {
             Split { beyond: &(amount - &nominal) - &linear, nominal, linear }
         };
         let observable = chain.observable(id);
-        let moves = |motion| motion == Motion::Rotation || observable.kind == ObservableKind::Point;
+        let moves = |motion| motion == TransformKind::Rotation || observable.kind == ObservableKind::Point;
         let steps = chain
             .way(id)
             .into_iter()
             .rev()
             .map(|passed| passed.factor)
-            .filter(|factor| moves(factor.motion))
-            .map(|factor| Step { motion: factor.motion, axis: factor.axis, amount: split(&factor.amount) })
+            .filter(|factor| moves(factor.kind))
+            .map(|factor| Step { kind: factor.kind, axis: factor.axis, amount: split(&factor.amount) })
             .collect();
         let mut path = Self {
             steps,
@@ -194,13 +194,13 @@ impl Path {
         for step in &self.steps {
             let [nominal, linear, beyond] = [&step.amount.nominal, &step.amount.linear, &step.amount.beyond]
                 .map(|part| part.eval(values));
-            match step.motion {
-                Motion::Translation => {
+            match step.kind {
+                TransformKind::Translation => {
                     parts.nominal[step.axis.index()] += nominal;
                     parts.first[step.axis.index()] += linear;
                     parts.rest[step.axis.index()] += beyond;
                 }
-                Motion::Rotation => parts.rotate(step.axis, nominal, linear, beyond),
+                TransformKind::Rotation => parts.rotate(step.axis, nominal, linear, beyond),
             }
         }
         parts

@@ -3,7 +3,7 @@
 use super::FormError;
 use super::graded::rotate;
 use crate::algebra::{AngleSum, Poly};
-use crate::chain::{Axis, Chain, Motion, ObservableId, ObservableKind};
+use crate::chain::{Axis, Chain, ObservableId, ObservableKind, TransformKind};
 use crate::forms::error_table;
 
 /// What the errors add to the components that an observable shows, without approximation: the transform with errors minus
@@ -41,13 +41,13 @@ fn transformed(
     for passed in chain.way(id).into_iter().rev() {
         let factor = &passed.factor;
         let amount = amount_of(&factor.amount);
-        match factor.motion {
-            Motion::Translation if observable.kind == ObservableKind::Direction => {}
-            Motion::Translation => {
+        match factor.kind {
+            TransformKind::Translation if observable.kind == ObservableKind::Direction => {}
+            TransformKind::Translation => {
                 let component = &mut vector[factor.axis.index()];
                 *component = &*component + &amount;
             }
-            Motion::Rotation => {
+            TransformKind::Rotation => {
                 let angle = AngleSum::from_poly(&amount)
                     .map_err(|error| FormError::new(&chain.body(passed.body).name, factor.axis, error))?;
                 let (cosine, sine) = angle.cos_sin();

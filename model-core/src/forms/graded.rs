@@ -3,7 +3,7 @@
 
 use super::{FormError, error_table};
 use crate::algebra::{AlgebraError, AngleSum, Poly, Rational};
-use crate::chain::{Axis, Chain, Motion, ObservableId, ObservableKind};
+use crate::chain::{Axis, Chain, ObservableId, ObservableKind, TransformKind};
 
 type Vector = [Poly; 3];
 
@@ -39,9 +39,9 @@ fn carried(chain: &Chain, id: ObservableId, mut parts: Vec<Vector>) -> Result<Ve
         let refuse = |error| FormError::new(&chain.body(passed.body).name, factor.axis, error);
         let amount: Vec<Poly> =
             (0u32..).take(parts.len()).map(|degree| grade(&factor.amount, degree)).collect();
-        match factor.motion {
-            Motion::Translation if observable.kind == ObservableKind::Direction => {}
-            Motion::Translation => {
+        match factor.kind {
+            TransformKind::Translation if observable.kind == ObservableKind::Direction => {}
+            TransformKind::Translation => {
                 for (part, shift) in parts.iter_mut().zip(&amount) {
                     if !shift.is_zero() {
                         let component = &mut part[factor.axis.index()];
@@ -49,7 +49,7 @@ fn carried(chain: &Chain, id: ObservableId, mut parts: Vec<Vector>) -> Result<Ve
                     }
                 }
             }
-            Motion::Rotation => {
+            TransformKind::Rotation => {
                 rotate_by_error(&mut parts, factor.axis, &amount);
                 if parts.iter().flatten().map(Poly::len).sum::<usize>() > TERMS_LIMIT {
                     return Err(refuse(AlgebraError::TooLarge));

@@ -97,7 +97,7 @@ impl FormError {
 ///
 /// # Errors
 /// [`FormError`] if a rotation by a nominal amount is no [`AngleSum`](crate::algebra::AngleSum) (a chain from
-/// [`check`](crate::check) has none such), if the form would have more than a million terms, or if a reading has no closed
+/// [`validate`](crate::validate) has none such), if the form would have more than a million terms, or if a reading has no closed
 /// form.
 pub fn derive(chain: &Chain, observable: ObservableId, order: u32) -> Result<Form, FormError> {
     if chain.observable(observable).is_orientation() {

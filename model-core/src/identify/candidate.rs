@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::elimination::Echelon;
 use super::{Column, IdentifyError, Ratio, equations};
 use crate::algebra::Poly;
-use crate::chain::{Axis, BodyId, Chain, Factor, Motion, ObservableId, Role};
+use crate::chain::{Axis, BodyId, Chain, Factor, ObservableId, Role, TransformKind};
 use crate::expr::{Expr, Node};
 use crate::mistake::{Mistake, Mistakes};
 use crate::symbol::{Quantity, Symbol, SymbolId, SymbolKind};
@@ -57,7 +57,7 @@ impl Candidate {
     /// The mistakes in the text.
     pub fn parse(chain: &Chain, body: BodyId, role: Role, text: &str) -> Result<Self, Mistakes> {
         let fail = |mistake: Mistake<Range<usize>>| Mistakes::locate(text, [mistake]);
-        let (motion, axis, amount_text, offset) = head(text).ok_or_else(|| {
+        let (kind, axis, amount_text, offset) = head(text).ok_or_else(|| {
             fail(
                 Mistake::new(0..text.len(), "no elementary transform")
                     .with_help("write Rx, Ry, Rz, Tx, Ty or Tz and an amount: `Rx(x*cos(beta))`"),
@@ -105,7 +105,7 @@ impl Candidate {
         .map_err(|error| fail(Mistake::new(shift(error.place()), error.to_string())))?;
         let factors = &mut extended.bodies[usize::from(body.0)].factors;
         let place = factors.partition_point(|factor| factor.role <= role);
-        factors.insert(place, Factor { role, motion, axis, amount, documentation: String::new() });
+        factors.insert(place, Factor { role, kind, axis, amount, documentation: String::new() });
         Ok(Self { chain: extended, unknowns })
     }
 }
@@ -156,20 +156,20 @@ fn lookalikes(column: &Column, columns: &[Column], declared: &[SymbolId]) -> Vec
     }
 }
 
-/// `Rx(amount)` taken apart: motion, axis, amount, and where that begins.
-fn head(text: &str) -> Option<(Motion, Axis, &str, usize)> {
+/// `Rx(amount)` taken apart: kind, axis, amount, and where that begins.
+fn head(text: &str) -> Option<(TransformKind, Axis, &str, usize)> {
     let (name, rest) = text.split_once('(')?;
     let amount = rest.trim_end().strip_suffix(')')?;
-    let (motion, axis) = match name.trim() {
-        "Rx" => (Motion::Rotation, Axis::X),
-        "Ry" => (Motion::Rotation, Axis::Y),
-        "Rz" => (Motion::Rotation, Axis::Z),
-        "Tx" => (Motion::Translation, Axis::X),
-        "Ty" => (Motion::Translation, Axis::Y),
-        "Tz" => (Motion::Translation, Axis::Z),
+    let (kind, axis) = match name.trim() {
+        "Rx" => (TransformKind::Rotation, Axis::X),
+        "Ry" => (TransformKind::Rotation, Axis::Y),
+        "Rz" => (TransformKind::Rotation, Axis::Z),
+        "Tx" => (TransformKind::Translation, Axis::X),
+        "Ty" => (TransformKind::Translation, Axis::Y),
+        "Tz" => (TransformKind::Translation, Axis::Z),
         _ => return None,
     };
-    Some((motion, axis, amount, name.len() + 1))
+    Some((kind, axis, amount, name.len() + 1))
 }
 
 /// The names in an expression, each once, from the left.

@@ -7,7 +7,7 @@ use super::domain::{Domain, DomainError};
 use super::quadratic::{Amount, Linear, Quadratic};
 use super::upper::Upper;
 use crate::algebra::{AngleSum, Poly};
-use crate::chain::{Chain, Motion, ObservableId, ObservableKind};
+use crate::chain::{Chain, ObservableId, ObservableKind, TransformKind};
 use crate::forms::error_table;
 
 /// A rotation by a small amount, or a vector to be carried to the ground, along an axis of the cluster's frame.
@@ -37,13 +37,13 @@ pub(super) fn clusters(
     let mut frame = [0, 1, 2];
     for factor in chain.way(id).into_iter().map(|passed| passed.factor) {
         let axis = factor.axis.index();
-        match factor.motion {
-            Motion::Translation if observable.kind == ObservableKind::Direction => {}
-            Motion::Translation => {
+        match factor.kind {
+            TransformKind::Translation if observable.kind == ObservableKind::Direction => {}
+            TransformKind::Translation => {
                 let amount = Amount::new(chain, &factor.amount, &is_error, domain)?;
                 cluster.elements.push(Element::Vector(frame[axis], amount));
             }
-            Motion::Rotation => {
+            TransformKind::Rotation => {
                 let nominal = factor.amount.graded_part(|symbol| is_error[symbol.index()], 0);
                 if !nominal.is_zero() {
                     match odd_quarter_turns(&nominal) {

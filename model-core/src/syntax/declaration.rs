@@ -1,5 +1,5 @@
 //! The declaration as written: every statement in its order, every name with its place. What it means is the
-//! business of [`crate::check`].
+//! business of [`crate::validate`].
 
 use proc_macro2::{Ident, Span};
 

@@ -1,7 +1,7 @@
 //! The language: text → tokens → [`Declaration`], and amounts by themselves.
 //!
 //! `chain!` and `.chain` files share this parser. It says what stands where and nothing of what it means:
-//! whether names exist and amounts make sense is decided in [`crate::check`].
+//! whether names exist and amounts make sense is decided in [`crate::validate`].
 
 mod amount;
 pub mod declaration;

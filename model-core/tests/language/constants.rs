@@ -41,7 +41,7 @@ fn numbers_are_refused_with_the_name_and_what_to_write() {
 
 #[test]
 fn the_declaration_reads_back_and_a_broken_value_is_still_a_mistake() {
-    let (declaration, chain) = model_core::check::read_symbolic(TEXT.parse().unwrap()).unwrap();
+    let (declaration, chain) = model_core::validate::read_symbolic(TEXT.parse().unwrap()).unwrap();
     assert_eq!(Chain::symbolic_from_text(&declaration.to_string()).unwrap(), chain);
     for (broken, said) in [
         ("const reach: length =;", "expected"),

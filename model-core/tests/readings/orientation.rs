@@ -111,7 +111,7 @@ fn bounds_of_orientations_are_refused_in_words() {
 fn the_declaration_reads_back_as_it_is_written() {
     let text = "chain C { body a on ground { motion: Rz(q); motion_error: Rx(e); } body b on a { motion_error: Ry(f); }
         observe t: orientation of b in a; observe u: rotation_z, rotation_x of orientation of b; }";
-    let declaration: Declaration = model_core::check::read(text.parse().unwrap()).unwrap().0;
+    let declaration: Declaration = model_core::validate::read(text.parse().unwrap()).unwrap().0;
     let printed = declaration.to_string();
     assert!(printed.contains("observe t: orientation of b in a;"), "{printed}");
     assert!(printed.contains("observe u: rotation_z, rotation_x of orientation of b;"), "{printed}");

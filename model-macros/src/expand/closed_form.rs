@@ -1,6 +1,6 @@
 //! The closed form of the first-order error as text, so that a program can print its own formula.
 
-use model_core::{Chain, Motion, ObservableId, Role, forms, print};
+use model_core::{Chain, ObservableId, Role, TransformKind, forms, print};
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
@@ -15,7 +15,7 @@ pub fn constants(chain: &Chain, id: ObservableId) -> Option<TokenStream> {
         .way(id)
         .into_iter()
         .map(|passed| passed.factor)
-        .filter(|factor| factor.role == Role::Motion && factor.motion == Motion::Rotation);
+        .filter(|factor| factor.role == Role::Motion && factor.kind == TransformKind::Rotation);
     if turns.count() > MAX_TURNS {
         return None;
     }

@@ -16,7 +16,7 @@ fn read(path: &str) -> String {
 }
 
 fn expand(text: &str) -> TokenStream {
-    let (declaration, chain) = model_core::check::read(TokenStream::from_str(text).unwrap()).unwrap();
+    let (declaration, chain) = model_core::validate::read(TokenStream::from_str(text).unwrap()).unwrap();
     module(&chain, &Names::of(&declaration)).unwrap()
 }
 
@@ -80,7 +80,7 @@ fn names_that_would_clash_are_refused() {
             "the observable `sight_error` needs the method `sight_error`, which exists already",
         ),
     ] {
-        let (declaration, chain) = model_core::check::read(TokenStream::from_str(text).unwrap()).unwrap();
+        let (declaration, chain) = model_core::validate::read(TokenStream::from_str(text).unwrap()).unwrap();
         let mistakes = module(&chain, &Names::of(&declaration)).unwrap_err();
         assert_eq!(mistakes.iter().map(|mistake| mistake.message.as_str()).collect::<Vec<_>>(), [message]);
     }

@@ -8,7 +8,7 @@ use calibration::candidate::Effect;
 use calibration::data::Observations;
 use calibration::diagnose::{Diagnosis, EffectFound, Verdict};
 use calibration::study::NextPoses;
-use model_core::{Chain, Motion, Role, SymbolId};
+use model_core::{Chain, Role, SymbolId, TransformKind};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -235,7 +235,7 @@ impl Bump {
         let chain = &design.plan.chain;
         let own = chain.bodies.iter().flat_map(|body| &body.factors).find(|factor| {
             factor.role == Role::Motion
-                && factor.motion == Motion::Rotation
+                && factor.kind == TransformKind::Rotation
                 && factor.amount.symbols().iter().any(|&id| chain.symbol(id).name == name)
         });
         let mut bump = Self {

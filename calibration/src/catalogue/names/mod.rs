@@ -10,7 +10,7 @@ mod scanner;
 mod tpoint;
 
 use model_core::algebra::{BasisFunction, Poly};
-use model_core::{Motion, SymbolId, SymbolKind, syntax};
+use model_core::{SymbolId, SymbolKind, TransformKind, syntax};
 
 use crate::candidate::{Effect, Setting, seen};
 use mount::{Kind, Mount};
@@ -133,16 +133,16 @@ impl Mount {
     fn unit(&self, setting: &Setting<'_>, place: crate::candidate::Place) -> Option<Shape> {
         let axis = place.freedom.axis;
         let mut motion = [Poly::zero(), Poly::zero(), Poly::zero()];
-        match place.freedom.motion {
+        match place.freedom.kind {
             // The cross product of the axis and what is observed.
-            Motion::Rotation => {
+            TransformKind::Rotation => {
                 let seen = seen::observed(setting, self.observable, place)?;
                 let (a, b) = seen::others(axis);
                 motion[a.index()] = -&seen[b.index()];
                 motion[b.index()] = seen[a.index()].clone();
             }
-            Motion::Translation if self.range.is_some() => motion[axis.index()] = Poly::one(),
-            Motion::Translation => return Some(motion),
+            TransformKind::Translation if self.range.is_some() => motion[axis.index()] = Poly::one(),
+            TransformKind::Translation => return Some(motion),
         }
         let project = |direction| Some(seen::dot(&seen::from_ground(setting, direction, place)?, &motion));
         let [across, along, radial] = &self.frame;

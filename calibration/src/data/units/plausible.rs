@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use model_core::chain::Motion;
+use model_core::chain::TransformKind;
 use model_core::{Chain, ObservableId, ObservableKind, Quantity, Role, SymbolId, SymbolKind};
 
 use super::Amount;
@@ -138,7 +138,7 @@ fn largest_length_m(chain: &Chain) -> Option<f64> {
         .bodies
         .iter()
         .flat_map(|body| &body.factors)
-        .filter(|factor| factor.role == Role::Position && factor.motion == Motion::Translation);
+        .filter(|factor| factor.role == Role::Position && factor.kind == TransformKind::Translation);
     let points = chain.observables.iter().filter(|shown| shown.kind == ObservableKind::Point);
     let written = fixed.map(|factor| &factor.amount).chain(points.flat_map(|shown| &shown.components));
     let written = written.filter_map(|amount| amount.as_constant()).map(|amount| amount.to_f64());

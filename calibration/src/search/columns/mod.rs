@@ -176,7 +176,7 @@ impl Columns {
     pub fn probe(&self, place: Place) -> Option<&[f64]> {
         let at = self.places.iter().position(|known| *known == place)?;
         let alike = self.places.iter().zip(self.probes.col_iter());
-        let alike = alike.filter(|(other, _)| other.freedom.motion == place.freedom.motion);
+        let alike = alike.filter(|(other, _)| other.freedom.kind == place.freedom.kind);
         let most = alike.map(|(_, probe)| probe.norm_l2()).fold(0.0, f64::max);
         (self.probes.col(at).norm_l2() > UNSEEN * most).then(|| self.probes.col_as_slice(at))
     }

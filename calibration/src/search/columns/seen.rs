@@ -1,7 +1,7 @@
 //! Which effects the rows let one use: what parts of the rows show of it, added up.
 
 use faer::Mat;
-use model_core::Motion;
+use model_core::TransformKind;
 
 use super::UNSEEN;
 use crate::candidate::{Effect, Place};
@@ -85,13 +85,13 @@ impl Seen {
     #[must_use]
     pub fn usable(&self, effects: &[Effect]) -> Vec<bool> {
         let strongest = |motion| {
-            let own = self.places.iter().zip(&self.squares).filter(|(p, _)| p.freedom.motion == motion);
+            let own = self.places.iter().zip(&self.squares).filter(|(p, _)| p.freedom.kind == motion);
             own.map(|(_, squares)| squares.sqrt()).fold(0.0, f64::max)
         };
-        let (turn, shift) = (strongest(Motion::Rotation), strongest(Motion::Translation));
+        let (turn, shift) = (strongest(TransformKind::Rotation), strongest(TransformKind::Translation));
         let strength = |place: &Place| {
             let at = self.places.iter().position(|known| known == place)?;
-            let most = if place.freedom.motion == Motion::Rotation { turn } else { shift };
+            let most = if place.freedom.kind == TransformKind::Rotation { turn } else { shift };
             Some((self.squares[at].sqrt(), most))
         };
         effects

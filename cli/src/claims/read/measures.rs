@@ -6,7 +6,7 @@ use calibration::data::units;
 use model_core::budget::{self, Measure, Poses};
 use model_core::checker::{Bound, Claim, Combined, Comparison, Limits, Size, SizeMeasure};
 use model_core::remainder::Domain;
-use model_core::{ObservableId, Quantity, Symbol, SymbolId, SymbolKind, check, names};
+use model_core::{ObservableId, Quantity, Symbol, SymbolId, SymbolKind, names, validate};
 use toml::{Spanned, Value};
 
 use super::super::table::{ClaimTable, CompareTable, Sizes};
@@ -58,7 +58,7 @@ impl Reader<'_> {
         let chain = self.chain;
         let mut constants = chain.symbols_of(SymbolKind::Constant).map(|constant| chain.symbol(constant));
         // Halves of angles, which print has, are no constants of the declaration: no name is written like theirs.
-        let is_open = |constant: &&Symbol| constant.value.is_none() && check::is_name(&constant.name);
+        let is_open = |constant: &&Symbol| constant.value.is_none() && validate::is_name(&constant.name);
         let Some(unknown) = constants.find(is_open) else { return Some(()) };
         let name = &unknown.name;
         self.mistake(place, format!("the constant `{name}` has no value, and this claim is about numbers"))

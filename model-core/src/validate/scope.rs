@@ -173,7 +173,7 @@ impl Scope {
         let Some(id) = self.find(name) else { return };
         let entry = &mut self.entries[id.index()];
         if entry.kind == SymbolKind::Joint && entry.quantity.is_none() {
-            entry.quantity = words::transform(&factor.axis).map(|(motion, _)| words::quantity_moved(motion));
+            entry.quantity = words::transform(&factor.axis).map(|(kind, _)| words::quantity_moved(kind));
             documentation.clone_into(&mut entry.documentation);
         }
     }

@@ -92,12 +92,12 @@ pub fn one_quantity_each(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>
     let scope = &subject.scope;
     let mut known: BTreeMap<SymbolId, Quantity> = BTreeMap::new();
     for amount in &subject.amounts {
-        let Purpose::Factor { role, motion, .. } = amount.purpose else { continue };
+        let Purpose::Factor { role, kind, .. } = amount.purpose else { continue };
         let uses: Vec<(SymbolId, Quantity)> = if role == Role::Motion {
             let names = amount.written.names().into_iter().filter_map(|(name, _)| scope.find(name));
             names
                 .filter(|&id| scope.entry(id).kind == SymbolKind::Joint)
-                .map(|id| (id, quantity_moved(motion)))
+                .map(|id| (id, quantity_moved(kind)))
                 .collect()
         } else {
             inferred(scope, amount)

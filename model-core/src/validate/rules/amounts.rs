@@ -9,7 +9,7 @@ use super::super::amounts::{Amount, Purpose};
 use super::super::words::is_reserved;
 use super::names::unknown_name;
 use crate::algebra::{AngleSum, Poly};
-use crate::chain::{Motion, Role};
+use crate::chain::{Role, TransformKind};
 use crate::expr::{Expr, Node};
 use crate::mistake::Mistake;
 use crate::names::nearest;
@@ -21,7 +21,7 @@ pub fn names_are_declared(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span
         arguments_in(amount.written, &mut arguments);
         let turned: BTreeSet<&str> =
             arguments.iter().flat_map(|argument| argument.names()).map(|(name, _)| name).collect();
-        let turns = matches!(amount.purpose, Purpose::Factor { motion: Motion::Rotation, .. });
+        let turns = matches!(amount.purpose, Purpose::Factor { kind: TransformKind::Rotation, .. });
         for (name, place) in amount.written.names() {
             if subject.scope.find(name).is_none() && !is_reserved(name) {
                 let value = if turns || turned.contains(name) { "angle = pi/6" } else { "length = 0.25" };
@@ -94,15 +94,15 @@ fn arguments_in<'a>(amount: &'a Expr<Span>, arguments: &mut Vec<&'a Expr<Span>>)
 fn factors_of<'a, 's>(
     subject: &'s Subject<'a>,
     wanted: impl Fn(Role) -> bool,
-) -> impl Iterator<Item = (&'s Amount<'a>, Motion)> {
+) -> impl Iterator<Item = (&'s Amount<'a>, TransformKind)> {
     subject.amounts.iter().filter_map(move |amount| match amount.purpose {
-        Purpose::Factor { role, motion, .. } if wanted(role) => Some((amount, motion)),
+        Purpose::Factor { role, kind, .. } if wanted(role) => Some((amount, kind)),
         _ => None,
     })
 }
 
 pub fn position_is_constant(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
-    for (amount, motion) in factors_of(subject, |role| role == Role::Position) {
+    for (amount, kind) in factors_of(subject, |role| role == Role::Position) {
         for (name, place) in amount.written.names() {
             let Some(entry) = subject.scope.lookup(name) else { continue };
             let (what, help) = match entry.kind {
@@ -115,9 +115,9 @@ pub fn position_is_constant(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Sp
                     ("input", "write factors with inputs in `position_error` or `motion_error`".to_owned())
                 }
                 SymbolKind::Error => {
-                    let quantity = match motion {
-                        Motion::Rotation => "angle",
-                        Motion::Translation => "length",
+                    let quantity = match kind {
+                        TransformKind::Rotation => "angle",
+                        TransformKind::Translation => "length",
                     };
                     (
                         "error",
@@ -135,8 +135,8 @@ pub fn position_is_constant(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Sp
 }
 
 pub fn position_turns_by_angles(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
-    for (amount, _) in
-        factors_of(subject, |role| role == Role::Position).filter(|(_, motion)| *motion == Motion::Rotation)
+    for (amount, _) in factors_of(subject, |role| role == Role::Position)
+        .filter(|(_, kind)| *kind == TransformKind::Rotation)
     {
         let Some(value) = &amount.value else { continue };
         let is_constant = value
@@ -162,7 +162,7 @@ fn is_angle_sum(subject: &Subject<'_>, value: &Poly) -> bool {
 }
 
 pub fn motion_is_linear(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
-    for (amount, motion) in factors_of(subject, |role| role == Role::Motion) {
+    for (amount, kind) in factors_of(subject, |role| role == Role::Motion) {
         let mut is_moved = false;
         let mut has_input = false;
         for (name, place) in amount.written.names() {
@@ -192,9 +192,9 @@ pub fn motion_is_linear(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>
         }
         let Some(value) = &amount.value else { continue };
         let is_joint = |id: SymbolId| subject.scope.entry(id).kind == SymbolKind::Joint;
-        let is_linear = match motion {
-            Motion::Rotation => is_angle_sum(subject, value),
-            Motion::Translation => {
+        let is_linear = match kind {
+            TransformKind::Rotation => is_angle_sum(subject, value),
+            TransformKind::Translation => {
                 let joints = value.symbols().into_iter().filter(|&id| is_joint(id));
                 value.degree_in(is_joint) <= 1
                     && value.symbols().iter().all(|&id| subject.scope.entry(id).kind != SymbolKind::Ramp)
@@ -202,12 +202,12 @@ pub fn motion_is_linear(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>
             }
         };
         if !is_linear {
-            let (what, help) = match motion {
-                Motion::Rotation => (
+            let (what, help) = match kind {
+                TransformKind::Rotation => (
                     "a motion turns by whole multiples of joints, constant angles and pi/2 only",
                     "write `Rz(alpha)`, `Rz(-alpha)` or `Rx(alpha - pi/2)`; what depends on a joint otherwise belongs in `motion_error`",
                 ),
-                Motion::Translation => (
+                TransformKind::Translation => (
                     "a motion shifts by numbers times joints, and constants, only",
                     "write `Tx(travel)` or `Tx(travel + offset)`; what depends on a joint otherwise belongs in `motion_error`",
                 ),

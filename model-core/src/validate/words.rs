@@ -3,7 +3,7 @@
 use proc_macro2::Ident;
 
 use crate::chain::reading::{Reading, SignedAxis};
-use crate::chain::{Axis, Motion, ObservableKind, Role};
+use crate::chain::{Axis, ObservableKind, Role, TransformKind};
 use crate::names::nearest;
 use crate::symbol::Quantity;
 use crate::syntax::declaration::{AxisTerm, ReadingTerm};
@@ -20,13 +20,13 @@ pub const ROLES: [(&str, Role); 4] = [
 ];
 
 /// The elementary transforms.
-pub const TRANSFORMS: [(&str, (Motion, Axis)); 6] = [
-    ("Rx", (Motion::Rotation, Axis::X)),
-    ("Ry", (Motion::Rotation, Axis::Y)),
-    ("Rz", (Motion::Rotation, Axis::Z)),
-    ("Tx", (Motion::Translation, Axis::X)),
-    ("Ty", (Motion::Translation, Axis::Y)),
-    ("Tz", (Motion::Translation, Axis::Z)),
+pub const TRANSFORMS: [(&str, (TransformKind, Axis)); 6] = [
+    ("Rx", (TransformKind::Rotation, Axis::X)),
+    ("Ry", (TransformKind::Rotation, Axis::Y)),
+    ("Rz", (TransformKind::Rotation, Axis::Z)),
+    ("Tx", (TransformKind::Translation, Axis::X)),
+    ("Ty", (TransformKind::Translation, Axis::Y)),
+    ("Tz", (TransformKind::Translation, Axis::Z)),
 ];
 
 /// The kinds of observables; like a direction, an orientation is not moved by shifts.
@@ -66,15 +66,15 @@ pub fn likely_role(word: &Ident) -> Option<Role> {
 }
 
 /// The elementary transform that a word stands for.
-pub fn transform(word: &Ident) -> Option<(Motion, Axis)> {
+pub fn transform(word: &Ident) -> Option<(TransformKind, Axis)> {
     meaning(&TRANSFORMS, word)
 }
 
 /// What the amount of a transform measures.
-pub fn quantity_moved(motion: Motion) -> Quantity {
-    match motion {
-        Motion::Rotation => Quantity::Angle,
-        Motion::Translation => Quantity::Length,
+pub fn quantity_moved(kind: TransformKind) -> Quantity {
+    match kind {
+        TransformKind::Rotation => Quantity::Angle,
+        TransformKind::Translation => Quantity::Length,
     }
 }
 

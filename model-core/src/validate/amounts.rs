@@ -6,7 +6,7 @@ use super::scope::Scope;
 use super::words;
 use crate::algebra::{AlgebraError, Poly};
 use crate::amount::LowerError;
-use crate::chain::{Axis, Motion, Role};
+use crate::chain::{Axis, Role, TransformKind};
 use crate::expr::Expr;
 use crate::mistake::Mistake;
 use crate::syntax::Declaration;
@@ -25,7 +25,7 @@ pub enum Purpose<'a> {
         /// What the factor is for.
         role: Role,
         /// Rotation or shift.
-        motion: Motion,
+        kind: TransformKind,
         /// About or along which axis.
         axis: Axis,
     },
@@ -64,8 +64,8 @@ pub fn collect<'a>(
                 for group in &body.groups {
                     for factor in &group.factors {
                         let role = words::meaning(&words::ROLES, &group.role);
-                        if let (Some(role), Some((motion, axis))) = (role, words::transform(&factor.axis)) {
-                            let purpose = Purpose::Factor { body, group, factor, role, motion, axis };
+                        if let (Some(role), Some((kind, axis))) = (role, words::transform(&factor.axis)) {
+                            let purpose = Purpose::Factor { body, group, factor, role, kind, axis };
                             add(factor.amount.as_ref(), purpose);
                         }
                     }

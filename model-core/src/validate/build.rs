@@ -86,12 +86,10 @@ fn factors(subject: &Subject<'_>, body: &BodyStatement) -> Vec<Factor> {
         .amounts
         .iter()
         .filter_map(|amount| match amount.purpose {
-            Purpose::Factor { body: owner, group, factor, role, motion, axis }
-                if std::ptr::eq(owner, body) =>
-            {
+            Purpose::Factor { body: owner, group, factor, role, kind, axis } if std::ptr::eq(owner, body) => {
                 Some(Factor {
                     role,
-                    motion,
+                    kind,
                     axis,
                     amount: amount.value.clone()?,
                     documentation: documentation(group, factor).to_owned(),

@@ -88,8 +88,8 @@ impl Figures {
         let rms = |figure: Option<(f64, usize)>| figure.map(|(rms, _)| rms);
         let count = |figure: Option<(f64, usize)>| figure.map_or(0, |(_, rows)| rows);
         Rms {
-            rms: rms(in_sample.all).unwrap_or(f64::NAN),
-            rms_kept: rms(in_sample.kept).unwrap_or(f64::NAN),
+            rms: rms(in_sample.all),
+            rms_kept: rms(in_sample.kept),
             held_out_rms: rms(self.all),
             held_out_rms_kept: rms(self.kept),
             held_out_rows: count(self.all),

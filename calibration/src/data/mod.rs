@@ -34,7 +34,7 @@ pub struct Observations {
     pub groups: Vec<u32>,
     /// Whether the order of the rows is their order of acquisition.
     pub in_sequence: bool,
-    /// Number of each row in its file, counted from 1 without the header.
+    /// Number of each row in its file, counted from 1 without the header; empty where no file was read.
     pub row_numbers: Vec<u64>,
     /// Where each row stands.
     pub origins: Origins,
@@ -47,6 +47,12 @@ impl Observations {
     #[must_use]
     pub fn rows(&self) -> usize {
         self.measured.len()
+    }
+
+    /// The number of a row as its reader knows it: in its file, or here, counted from 1.
+    #[must_use]
+    pub fn row_number(&self, row: usize) -> u64 {
+        self.row_numbers.get(row).copied().unwrap_or(row as u64 + 1)
     }
 
     /// Whether the rows of a series state their standard uncertainties.

@@ -199,7 +199,7 @@ pub(crate) fn spread(chain: &Chain, poses: &Poses, ranges: &[(SymbolId, Range<f6
         let stated = ranges.iter().find(|(known, _)| known == id).map(|(_, range)| range.clone());
         let symbol = chain.symbol(*id);
         if symbol.kind != SymbolKind::Joint {
-            *values = vec![sorted.get(sorted.len() / 2).copied().unwrap_or_default(); CANDIDATES];
+            *values = vec![sorted[sorted.len() / 2]; CANDIDATES];
             continue;
         }
         let full = if symbol.quantity == Quantity::Angle { 0.0 } else { 1.0 };

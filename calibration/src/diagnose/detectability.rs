@@ -106,7 +106,9 @@ pub(crate) fn not_shown(whole: &Context<'_>, last: &Round<'_>, rms: &BeforeAfter
         let columns = problem.columns(number);
         let shortest = columns.iter().map(|&column| problem.length(column)).fold(f64::INFINITY, f64::min);
         let smallest = (!columns.is_empty()).then(|| FOUND / shortest);
-        if smallest.is_none_or(|smallest| smallest > rms.after.rms_kept) {
+        // Where nothing is left to compare with, no size is small enough to be seen.
+        let left = rms.after.rms_kept.unwrap_or(0.0);
+        if smallest.is_none_or(|smallest| smallest > left) {
             let absorbed = 1.0 - problem.visible(number);
             let mistaken_for = mistaken_for(whole, last, number);
             list.push(NotShown { smallest, absorbed, mistaken_for, ..unseen });

@@ -315,7 +315,6 @@ fn cautions(found: &Found, whole: &Context<'_>, rms: &BeforeAfter) -> Vec<Cautio
 
 fn used(whole: &Context<'_>, fit: &FitResult) -> Used {
     let observations = whole.request.observations;
-    let row_number = |row: usize| observations.row_numbers.get(row).copied().unwrap_or(row as u64 + 1);
     let mut groups = observations.groups.clone();
     groups.sort_unstable();
     groups.dedup();
@@ -329,7 +328,13 @@ fn used(whole: &Context<'_>, fit: &FitResult) -> Used {
             .map(|aside| {
                 let Origin { file, line, name } = observations.origins.of(aside.row);
                 let (file, id) = (file.map(str::to_owned), name.map(str::to_owned));
-                SetAsideRow { row: row_number(aside.row), file, line, id, why: aside.why.to_string() }
+                SetAsideRow {
+                    row: observations.row_number(aside.row),
+                    file,
+                    line,
+                    id,
+                    why: aside.why.to_string(),
+                }
             })
             .collect(),
     }

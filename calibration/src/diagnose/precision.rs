@@ -168,9 +168,7 @@ fn leverage(chain: &Chain, observations: &Observations, fit: &FitResult) -> Vec<
         .into_iter()
         .enumerate()
         .filter(|(_, leverage)| *leverage > HIGH_LEVERAGE * mean)
-        .map(|(row, leverage)| {
-            (observations.row_numbers.get(row).copied().unwrap_or(row as u64 + 1), leverage)
-        })
+        .map(|(row, leverage)| (observations.row_number(row), leverage))
         .collect();
     high.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
     high.truncate(10);

@@ -5,10 +5,10 @@ use serde::Serialize;
 /// Root mean square over observations of the length of the residual, SI: over every row, and over the rows kept.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Rms {
-    /// On the data that were fitted, every row.
-    pub rms: f64,
-    /// The same over rows with weight in the last fit.
-    pub rms_kept: f64,
+    /// On the data that were fitted, every row; absent if the residual has no finite value.
+    pub rms: Option<f64>,
+    /// The same over rows with weight in the last fit; absent if there are none.
+    pub rms_kept: Option<f64>,
     /// On data that no stage saw, every row: a second file, or random folds; absent where nothing could be held out.
     pub held_out_rms: Option<f64>,
     /// The same over rows that are within reach of what the searches without them predict.

@@ -61,7 +61,7 @@ pub(crate) fn drawn(observations: &Observations, fit: &FitResult) -> Vec<usize> 
     for (&row, residual) in fit.residuals.row.iter().zip(&fit.residuals.raw) {
         length[row as usize] += residual * residual;
     }
-    let weight = |row: usize| fit.residuals.weight.get(row).copied().unwrap_or(1.0);
+    let weight = |row: usize| fit.residuals.weight[row];
     let mut order: Vec<usize> = (0..rows).collect();
     order.sort_by(|&a, &b| {
         (weight(a) > 0.0).cmp(&(weight(b) > 0.0)).then(length[b].total_cmp(&length[a])).then(a.cmp(&b))

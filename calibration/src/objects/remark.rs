@@ -164,7 +164,7 @@ fn swapped(observations: &Observations, unknowns: &Unknowns, rows: &[Row]) -> Ve
             one: label(one),
             other: label(other),
             rows: [rows, count(other, one)],
-            first: observations.row_numbers.get(first).copied().unwrap_or_default(),
+            first: observations.row_number(first),
         })
         .collect()
 }

@@ -73,7 +73,7 @@ fn is_sum_of(
         for (at, (id, readings)) in observations.poses.columns.iter().enumerate() {
             // Each joint from another row: poses at which nothing was fixed.
             let row = series.rows.start + (pose * (2 * at + 1) + 7 * at) % series.rows.len().max(1);
-            values[id.index()] = readings.get(row).copied().unwrap_or_default();
+            values[id.index()] = readings[row];
         }
         let point = path.value(&values);
         for axis in 0..3 {

@@ -213,8 +213,14 @@ fn too_few(diagnosis: &Diagnosis) -> String {
 fn better(diagnosis: &Diagnosis) -> String {
     let told = |si: f64| short(si, diagnosis.unit);
     let observed = diagnosis.instrument.observed.first().map_or("residual", |seen| &seen.name);
+    let fitted = |rms: Option<f64>| {
+        rms.map_or_else(
+            || "no number, since the fit left none,".to_owned(),
+            |rms| format!("{} (RMS)", told(rms)),
+        )
+    };
     if !diagnosis.verdict.is_usable() {
-        return format!("No better: the {observed} error is {} (RMS) as fitted.", told(diagnosis.before.rms));
+        return format!("No better: the {observed} error is {} as fitted.", fitted(diagnosis.before.rms));
     }
     if diagnosis.effects.is_empty() {
         let held_out = diagnosis
@@ -222,13 +228,19 @@ fn better(diagnosis: &Diagnosis) -> String {
             .held_out_rms
             .map_or_else(String::new, |rms| format!("; {} on data that nobody fitted", told(rms)));
         return format!(
-            "The {observed} error of the fitted declaration is {} (RMS){held_out}.",
-            told(diagnosis.after.rms)
+            "The {observed} error of the fitted declaration is {}{held_out}.",
+            fitted(diagnosis.after.rms)
         );
     }
-    let (where_, before, after) = match (diagnosis.before.held_out_rms, diagnosis.after.held_out_rms) {
-        (Some(before), Some(after)) => ("on data that nobody fitted", before, after),
-        _ => ("on the data that were fitted", diagnosis.before.rms, diagnosis.after.rms),
+    let (before, after) = (diagnosis.before, diagnosis.after);
+    let pairs = [
+        ("on data that nobody fitted", before.held_out_rms.zip(after.held_out_rms)),
+        ("on the data that were fitted", before.rms.zip(after.rms)),
+    ];
+    let Some((where_, before, after)) =
+        pairs.into_iter().find_map(|(where_, pair)| pair.map(|(before, after)| (where_, before, after)))
+    else {
+        return format!("The {observed} error is {} before.", fitted(before.rms));
     };
     let ratio = match before / after {
         ratio if ratio >= 1.05 => format!(", {} smaller", times(ratio)),

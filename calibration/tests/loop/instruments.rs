@@ -12,7 +12,7 @@ fn calibrated(study: &str, bound: f64) -> Option<Calibration> {
     let found = load(study)?.calibrate();
     let (before, after) = (found.diagnosis.before, found.diagnosis.after);
     println!(
-        "{study}: held-out RMS {:?} -> {:?} {} (bound {bound}), in sample {} -> {}",
+        "{study}: held-out RMS {:?} -> {:?} {} (bound {bound}), in sample {:?} -> {:?}",
         before.held_out_rms_kept, after.held_out_rms_kept, found.diagnosis.unit, before.rms, after.rms
     );
     for effect in &found.diagnosis.effects {

@@ -107,14 +107,13 @@ pub fn table<'a>(reported: &'a Reported<'_>) -> Vec<(String, Cells<'a>)> {
     };
     let [row, file, line, id, weight] = ["row", "file", "line", "id", "weight"].map(own);
     let observations = reported.observations;
-    let number = |row: usize| observations.row_numbers.get(row).map_or(row as u64 + 1, |&number| number);
     let weights = &reported.calibration.after.residuals.weight;
     let rows = observations.rows();
     let origins = &observations.origins;
     let lines: Option<Vec<u64>> = (0..rows).map(|row| origins.of(row).line).collect();
     let text = |text: Option<&str>| text.unwrap_or_default().to_owned();
     let places = [
-        Some((row, Cells::Rows((0..rows).map(number).collect()))),
+        Some((row, Cells::Rows((0..rows).map(|row| observations.row_number(row)).collect()))),
         origins
             .has_files()
             .then(|| (file, Cells::Texts((0..rows).map(|row| text(origins.of(row).file)).collect()))),

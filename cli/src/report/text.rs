@@ -157,10 +157,10 @@ impl Page {
             let _ = writeln!(self.text, "  {name:36} {:>12} {:>12}", told(before), told(after));
         };
         let aside = diagnosis.observations.set_aside.len();
-        row("on the data that were fitted", Some(before.rms), Some(after.rms));
+        row("on the data that were fitted", before.rms, after.rms);
         if aside > 0 {
             let name = format!("  without the {} set aside", counted(aside));
-            row(&name, Some(before.rms_kept), Some(after.rms_kept));
+            row(&name, before.rms_kept, after.rms_kept);
         }
         row("on data that nobody fitted", before.held_out_rms, after.held_out_rms);
         let out = after.held_out_rows - after.held_out_rows_kept;

@@ -64,7 +64,7 @@ impl Layout {
 
     /// The components of each row, row by row.
     pub fn by_row<'a>(&'a self, column: &'a [f64]) -> impl Iterator<Item = &'a [f64]> {
-        self.first.windows(2).map(|ends| column.get(ends[0]..ends[1]).unwrap_or_default())
+        self.first.windows(2).map(|ends| &column[ends[0]..ends[1]])
     }
 
     /// The length of each row's components.

@@ -182,7 +182,7 @@ impl Noise {
     /// The noise of some runs of components, put one after another: the first component of each remembers none.
     #[must_use]
     pub fn of_runs(&self, runs: &[Run]) -> Self {
-        let sigma = runs.iter().flat_map(|run| self.sigma.get(run.start..run.end).unwrap_or_default());
+        let sigma = runs.iter().flat_map(|run| &self.sigma[run.start..run.end]);
         let mut start = 0;
         let own = runs.iter().map(|&run| {
             let own = Run { start, end: start + (run.end - run.start), stride: run.stride };
@@ -206,7 +206,7 @@ impl Noise {
     pub fn expected(&self, observations: &Observations) -> Vec<f64> {
         let Some(first) = observations.poses.series.first() else { return vec![1.0] };
         let (components, sigma) = (first.measure.components(), self.sigma_without_memory());
-        let own = sigma.get(..first.rows.len() * components).unwrap_or_default();
+        let own = &sigma[..first.rows.len() * components];
         (0..components)
             .map(|component| median(own.iter().skip(component).step_by(components).copied().collect()))
             .map(|sigma| sigma.max(f64::MIN_POSITIVE))

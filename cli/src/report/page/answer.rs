@@ -89,7 +89,7 @@ fn better(diagnosis: &Diagnosis, answers: &Answers) -> Markup {
     let (before, after) = (diagnosis.before, diagnosis.after);
     let pairs: Vec<(&str, f64, f64)> = [
         ("On data that nobody fitted", before.held_out_rms, after.held_out_rms),
-        ("On the data that were fitted", Some(before.rms), Some(after.rms)),
+        ("On the data that were fitted", before.rms, after.rms),
         ("Elsewhere: in regions of the joints left out", before.elsewhere_rms, after.elsewhere_rms),
     ]
     .into_iter()
@@ -110,9 +110,9 @@ fn better(diagnosis: &Diagnosis, answers: &Answers) -> Markup {
         p.quiet {
             @if changed { "Hatched: before. Filled: after. " }
             "Dotted line: the noise, " (told(noise)) " (measured). RMS of the residual's length over every row"
-            @if !diagnosis.observations.set_aside.is_empty() {
+            @if let (Some(before), Some(after), false) = (before.rms_kept, after.rms_kept, diagnosis.observations.set_aside.is_empty()) {
                 "; without the " (crate::report::counted(diagnosis.observations.set_aside.len())) " set aside "
-                (told(before.rms_kept)) " → " (told(after.rms_kept)) " on the data that were fitted"
+                (told(before)) " → " (told(after)) " on the data that were fitted"
             }
             "."
         }

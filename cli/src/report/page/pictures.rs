@@ -254,8 +254,7 @@ fn in_order(
     let y = residual_axis(&component.label, rows, [&before.values, &after.values]);
     let mut picture = Picture::new(width, height, x, y).of_rows("order", &before.key, &after.key);
     marks(&mut picture, rows, numbers, &before.values, &after.values);
-    let of_file = &reported.observations.row_numbers;
-    let number = |row: usize| of_file.get(row).map_or(row as f64 + 1.0, |&number| number as f64);
+    let number = |row: usize| reported.observations.row_number(row) as f64;
     means(&mut picture, low, high, rows.kept(number, component));
     picture.finish(&format!("{} row by row, before and after", component.name))
 }

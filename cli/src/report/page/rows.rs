@@ -76,7 +76,6 @@ impl Rows {
             bytes_of_a_row(observations.poses.columns.len(), all.len(), calibration.traces.len()),
         );
         let drawn: Vec<usize> = places.iter().map(|&at| calibration.drawn[at]).collect();
-        let number = |&row: &usize| observations.row_numbers.get(row).copied().unwrap_or(row as u64 + 1);
         let largest = all
             .iter()
             .flat_map(|component| component.before.iter().chain(&component.after))
@@ -140,7 +139,7 @@ impl Rows {
                 .collect()
         };
         Self {
-            numbers: drawn.iter().map(number).collect(),
+            numbers: drawn.iter().map(|&row| observations.row_number(row)).collect(),
             of: observations.rows(),
             aside: drawn.iter().map(|&row| every_aside[row]).collect(),
             changed: !calibration.diagnosis.effects.is_empty(),

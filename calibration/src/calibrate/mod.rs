@@ -1,9 +1,9 @@
 //! The whole loop: fit, search, reconsider outliers, confirm, diagnose, amend.
 //!
-//! One round ([`crate::search`]'s `round`) fits the declaration with the effects accepted so far, sets up the search at that fit and
-//! searches from there; rounds go on until one changes nothing (`rounds`). Rows that were set aside together are
-//! heard once more (`outliers`), so is noise that remembers (`memory`), shapes of the library compete with what the catalogue made of them (`functions`), and the search is repeated without each fold (`held_out`). What it all means is for
-//! [`crate::diagnose`] to say, in words for [`crate::report`].
+//! One round (`round` of [`crate::search`]) fits the declaration with the effects accepted so far and searches from there.
+//! Rounds go on until one changes nothing (`rounds`). Then rows that were set aside together are reconsidered (`outliers`),
+//! a memory of the noise competes with the effects (`memory`), shapes of the library compete with them (`functions`), and
+//! the search is repeated without each fold (`held_out`). [`crate::diagnose`] says what it means, [`crate::report`] in words.
 
 mod functions;
 pub(crate) mod held_out;

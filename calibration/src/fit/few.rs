@@ -1,7 +1,7 @@
 //! Few rows: least squares, without rows that are proven to be wrong.
 //!
-//! Weights that lean on a scale from few residuals take what is left for better than it is. So where degrees of freedom are
-//! few, a row counts in full or not at all, and only rows that chance does not explain are set aside.
+//! Robust weights need the scale of the residuals. With few degrees of freedom the residuals are smaller than the noise, and
+//! the weights with them. So a row counts fully or not at all here, and only rows that chance does not explain are set aside.
 
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 use statrs::function::factorial::ln_binomial;

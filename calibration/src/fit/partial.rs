@@ -1,4 +1,4 @@
-//! What the rows leave behind: a packed triangular factor that more rows go into and that merges with others.
+//! A packed triangular factor of the weighted derivatives and residuals: rows are added to it, and two of them merge.
 //!
 //! Its size depends on the number of columns alone. A factor rather than normal equations, so that the condition
 //! number is not squared: which combinations the data determine is decided at 1e-8, where normal equations have

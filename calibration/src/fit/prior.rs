@@ -1,4 +1,5 @@
-//! The sizes that a fit goes by where the data say nothing: stated, learned from the errors that they show, or by default.
+//! Prior standard deviations of what the data do not determine: as the study states, as the determined errors suggest, or
+//! by default.
 
 use model_core::{Quantity, SymbolId, SymbolKind};
 

@@ -1,5 +1,5 @@
-//! Weights that observations far from the rest lose: Tukey's biweight on the norm of an observation's whitened
-//! components.
+//! Robust weights: the further an observation lies from what is predicted, the less it counts, and beyond a cutoff not at
+//! all. Tukey's biweight of the norm of an observation's whitened components.
 //!
 //! Source: J. W. Tukey's biweight as in P. J. Huber, E. M. Ronchetti, Robust Statistics, 2nd ed., sections 4.8 and
 //! 7.8; the constants for one to three components are computed by `tests/reference/biweight.py`.

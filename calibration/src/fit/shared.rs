@@ -1,4 +1,4 @@
-//! What rows share in their noise: a memory of the row before, or an offset of their group.
+//! Correlated noise: a row remembers the one before, or rows of a group share an offset.
 
 use crate::fit::noise::serial::Memory;
 use crate::fit::noise::{Noise, Offsets};

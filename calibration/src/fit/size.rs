@@ -1,5 +1,5 @@
-//! How large a parameter may be of which the data say nothing: as the study states, or by default as large as the largest
-//! error of the same kind that the data do show.
+//! How large a parameter may be that the data do not determine: as large as the study states, else as large as the largest
+//! determined error of the same kind.
 
 use model_core::SymbolId;
 

@@ -1,4 +1,5 @@
-//! The fit: downhill robustly by degrees, with few rows by least squares, then what the data leave open under its prior.
+//! The fit in its order: least squares, then robust weights by degrees (not with few rows), then what the data do not
+//! determine, under its prior.
 
 use std::cell::OnceCell;
 

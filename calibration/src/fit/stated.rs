@@ -1,4 +1,4 @@
-//! A stated noise beside the noise that was found: as long as the two agree, what is stated is what is known.
+//! The stated noise against the noise that was found. While the two agree, the stated one is used.
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 

@@ -1,4 +1,4 @@
-//! One pass over rows at given values: what every row says of the next step, summed up so that parts merge.
+//! One pass over the rows at given values of the parameters: residuals and derivatives, summed up so that parts merge.
 //!
 //! Nothing of a row is kept but its residual, and that only for those who ask: derivatives go straight into the factor.
 

@@ -42,8 +42,10 @@ fn the_loop_closes_on_the_mobile_lidar() {
     assert_eq!(effects.len(), 1, "{effects:#?}");
     assert_eq!(effects[0]["body"], "middle");
     assert_eq!(effects[0]["dof"], "Rx");
-    let called: Vec<&Value> =
-        ["names", "class"].into_iter().flat_map(|key| effects[0][key].as_array().expect("a list")).collect();
+    let called: Vec<&Value> = ["names", "confounded_with"]
+        .into_iter()
+        .flat_map(|key| effects[0][key].as_array().expect("a list"))
+        .collect();
     assert!(called.iter().any(|name| *name == "encoder eccentricity of beta"), "{called:?}");
     assert!(effects[0]["p_value"].as_f64().expect("a number") <= 0.001);
 

@@ -59,7 +59,7 @@ fn outline(reader: &mut Reader<'_, '_>) -> Read<Declaration> {
     if reader.is_at_end() {
         return Err(Mistake::new(reader.here(), "no chain is declared here").with_help(CHAIN_HELP));
     }
-    let documentation = documentation(reader);
+    let documentation = documentation(reader)?;
     reader.keyword("chain", CHAIN_HELP)?;
     let name = reader.name("the name of the chain").map_err(|m| m.with_help(CHAIN_HELP))?;
     let Some((inside, braces)) = reader.group(Delimiter::Brace) else {
@@ -82,7 +82,7 @@ fn outline(reader: &mut Reader<'_, '_>) -> Read<Declaration> {
 }
 
 fn statement(reader: &mut Reader<'_, '_>) -> Read<Statement> {
-    let documentation = documentation(reader);
+    let documentation = documentation(reader)?;
     let word = reader.peek_word().map(|word| word.to_string()).unwrap_or_default();
     match word.as_str() {
         "body" => body(reader, documentation).map(Statement::Body),
@@ -100,9 +100,11 @@ fn statement(reader: &mut Reader<'_, '_>) -> Read<Statement> {
 }
 
 /// The `///` lines here, which the lexer has turned into `#[doc = "…"]`.
-fn documentation(reader: &mut Reader<'_, '_>) -> String {
+fn documentation(reader: &mut Reader<'_, '_>) -> Read<String> {
     let mut lines = Vec::new();
+    let mut last = None;
     while let Some(hash) = reader.mark('#') {
+        last = Some(hash);
         reader.mark('!');
         let line = reader.group(Delimiter::Bracket).and_then(|(inside, _)| documentation_line(inside));
         match line {
@@ -113,7 +115,13 @@ fn documentation(reader: &mut Reader<'_, '_>) -> String {
             ),
         }
     }
-    lines.join("\n")
+    match last {
+        Some(last) if reader.is_at_end() => {
+            Err(Mistake::new(last, "nothing follows this documentation")
+                .with_help("write `/// …` above what it documents, and any other remark as `// …`"))
+        }
+        _ => Ok(lines.join("\n")),
+    }
 }
 
 /// The text in `doc = "…"`, without the blank that follows `///`.
@@ -160,7 +168,7 @@ fn body(reader: &mut Reader<'_, '_>, documentation: String) -> Read<BodyStatemen
 }
 
 fn factor_group(reader: &mut Reader<'_, '_>) -> Read<FactorGroup> {
-    let documentation = documentation(reader);
+    let documentation = documentation(reader)?;
     let role = reader.name("a list of factors").map_err(|m| m.with_help(FACTORS_HELP))?;
     reader.expect_mark(':', FACTORS_HELP)?;
     let mut factors = vec![factor(reader)?];
@@ -172,7 +180,7 @@ fn factor_group(reader: &mut Reader<'_, '_>) -> Read<FactorGroup> {
 }
 
 fn factor(reader: &mut Reader<'_, '_>) -> Read<FactorTerm> {
-    let documentation = documentation(reader);
+    let documentation = documentation(reader)?;
     let axis = reader.name("a factor").map_err(|m| m.with_help(FACTOR_HELP))?;
     let Some((inside, parentheses)) = reader.group(Delimiter::Parenthesis) else {
         return Err(reader.expected("`(`").with_help(FACTOR_HELP));

@@ -2,24 +2,34 @@
 
 use std::collections::BTreeMap;
 
+use proc_macro2::Ident;
+
 use super::Subject;
-use super::amounts::Purpose;
+use super::amounts::{Amount, Purpose};
 use super::printed_form;
 use super::quantity::inferred;
 use super::scope::documentation;
-use super::words::{self, OBSERVABLE_KINDS, meaning};
+use super::words::{self, GROUND, OBSERVABLE_KINDS, meaning};
 use crate::algebra::{Poly, Rational};
-use crate::chain::reading::{COMPONENTS, ROTATION};
-use crate::chain::{Body, BodyId, Chain, Factor, Observable, ObservableKind};
+use crate::chain::reading::{COMPONENTS, ROTATION, Reading};
+use crate::chain::{Body, BodyId, Chain, Factor, Observable};
 use crate::symbol::{Quantity, Symbol, SymbolId, SymbolKind};
 use crate::syntax::ORIENTATION;
-use crate::syntax::declaration::{BodyStatement, ObserveStatement};
+use crate::syntax::declaration::{BodyStatement, ObserveStatement, ReadingTerm};
 
-/// The chain. The rules have seen to it that nothing is missing; what were missing all the same is left out.
+/// Why a lookup here finds what it looks for.
+const RULED: &str = "a declaration that breaks a rule is not built";
+
+/// The chain of a declaration that breaks no rule.
 pub fn chain(subject: &Subject<'_>) -> Chain {
     let bodies = in_order(subject.declaration.bodies().collect());
     let ids: BTreeMap<String, BodyId> =
         (0u16..).zip(&bodies).map(|(index, body)| (body.name.to_string(), BodyId(index))).collect();
+    let known = |body: &Ident| match ids.get(&body.to_string()) {
+        Some(id) => *id,
+        None => unreachable!("the body `{body}` is not declared: {RULED}"),
+    };
+    let above_ground = |body: &Ident| (body != GROUND).then(|| known(body));
     let mut chain = Chain {
         name: subject.declaration.name.to_string(),
         documentation: subject.declaration.documentation.clone(),
@@ -29,27 +39,26 @@ pub fn chain(subject: &Subject<'_>) -> Chain {
             .map(|body| Body {
                 name: body.name.to_string(),
                 documentation: body.documentation.clone(),
-                lower: ids.get(&body.lower.to_string()).copied(),
+                lower: above_ground(&body.lower),
                 factors: factors(subject, body),
             })
             .collect(),
         observables: subject
             .declaration
             .observables()
-            .filter_map(|observe| {
-                Some(Observable {
-                    name: observe.name.to_string(),
-                    documentation: observe.documentation.clone(),
-                    kind: meaning(&OBSERVABLE_KINDS, &observe.kind).unwrap_or(ObservableKind::Point),
-                    components: components(subject, observe),
-                    body: ids.get(&observe.body.to_string()).copied()?,
-                    frame: observe.frame.as_ref().and_then(|frame| ids.get(&frame.to_string()).copied()),
-                    shown: match observe.readings.as_slice() {
-                        [] if observe.kind == ORIENTATION => ROTATION.to_vec(),
-                        [] => COMPONENTS.to_vec(),
-                        readings => readings.iter().filter_map(words::reading).collect(),
-                    },
-                })
+            .map(|observe| Observable {
+                name: observe.name.to_string(),
+                documentation: observe.documentation.clone(),
+                kind: meaning(&OBSERVABLE_KINDS, &observe.kind)
+                    .unwrap_or_else(|| unreachable!("`{}` is no kind: {RULED}", observe.kind)),
+                components: components(subject, observe),
+                body: known(&observe.body),
+                frame: observe.frame.as_ref().and_then(above_ground),
+                shown: match observe.readings.as_slice() {
+                    [] if observe.kind == ORIENTATION => ROTATION.to_vec(),
+                    [] => COMPONENTS.to_vec(),
+                    readings => readings.iter().map(reading).collect(),
+                },
             })
             .collect(),
         ramps: Vec::new(),
@@ -81,6 +90,15 @@ fn in_order(bodies: Vec<&BodyStatement>) -> Vec<&BodyStatement> {
     ordered
 }
 
+fn reading(written: &ReadingTerm) -> Reading {
+    words::reading(written).unwrap_or_else(|| unreachable!("`{}` is no reading: {RULED}", written.word))
+}
+
+/// What an amount comes to; a mistake was told where it comes to nothing.
+fn value(amount: &Amount<'_>) -> Poly {
+    amount.value.clone().unwrap_or_else(|| unreachable!("an amount without a value: {RULED}"))
+}
+
 fn factors(subject: &Subject<'_>, body: &BodyStatement) -> Vec<Factor> {
     subject
         .amounts
@@ -91,7 +109,7 @@ fn factors(subject: &Subject<'_>, body: &BodyStatement) -> Vec<Factor> {
                     role,
                     kind,
                     axis,
-                    amount: amount.value.clone()?,
+                    amount: value(amount),
                     documentation: documentation(group, factor).to_owned(),
                 })
             }
@@ -105,17 +123,26 @@ fn components(subject: &Subject<'_>, observe: &ObserveStatement) -> [Poly; 3] {
         .amounts
         .iter()
         .filter(|amount| matches!(amount.purpose, Purpose::Component(owner) if std::ptr::eq(owner, observe)));
-    three(values.filter_map(|amount| amount.value.clone()), [0, 0, 0])
+    match three(values) {
+        Some(components) => components,
+        // An orientation states none, and needs none.
+        None => [0; 3].map(|number| Poly::constant(Rational::from(number))),
+    }
 }
 
 /// Down is −z, unless declared.
 fn gravity(subject: &Subject<'_>) -> [Poly; 3] {
     let values = subject.amounts.iter().filter(|amount| matches!(amount.purpose, Purpose::Gravity));
-    three(values.filter_map(|amount| amount.value.clone()), [0, 0, -1])
+    three(values).unwrap_or_else(|| [0, 0, -1].map(|number| Poly::constant(Rational::from(number))))
 }
 
-fn three(mut values: impl Iterator<Item = Poly>, otherwise: [i64; 3]) -> [Poly; 3] {
-    otherwise.map(|number| values.next().unwrap_or_else(|| Poly::constant(Rational::from(number))))
+/// The three components of a vector; `None` if it is not stated.
+fn three<'a>(amounts: impl Iterator<Item = &'a Amount<'a>>) -> Option<[Poly; 3]> {
+    match amounts.map(value).collect::<Vec<Poly>>().try_into() {
+        Ok(components) => Some(components),
+        Err(stated) if stated.is_empty() => None,
+        Err(stated) => unreachable!("a vector has three components, not {}: {RULED}", stated.len()),
+    }
 }
 
 fn symbols(subject: &Subject<'_>) -> Vec<Symbol> {

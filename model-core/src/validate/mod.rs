@@ -114,12 +114,13 @@ fn read_for(tokens: TokenStream, purpose: Purpose) -> Result<(Declaration, Chain
     if purpose == Purpose::Numbers {
         mistakes.extend(declaration.iter().flat_map(without_value));
     }
-    let chain = declaration.as_ref().map(check);
+    // What is told of the meaning is told with what is told of the form; only a text without either is built.
+    let chain = declaration.as_ref().and_then(|declaration| validated(declaration, &mut mistakes));
     match (declaration, chain) {
-        (Some(declaration), Some(Ok(chain))) if mistakes.is_empty() => Ok((declaration, chain)),
-        (_, chain) => {
-            mistakes.extend(chain.and_then(Result::err).unwrap_or_default());
-            Err(sorted(mistakes))
+        (Some(declaration), Some(chain)) => Ok((declaration, chain)),
+        _ => {
+            mistakes.sort_by_key(|mistake| (mistake.place.start(), mistake.place.end()));
+            Err(mistakes)
         }
     }
 }
@@ -138,26 +139,17 @@ fn without_value(declaration: &Declaration) -> Vec<Mistake<Span>> {
     unknown.map(mistake).collect()
 }
 
-/// The chain that a declaration stands for.
-///
-/// # Errors
-///
-/// Every rule that it breaks, sorted by place.
-pub fn check(declaration: &Declaration) -> Result<Chain, Vec<Mistake<Span>>> {
+/// The chain that a declaration stands for, if neither the mistakes known before nor a rule that it breaks forbid it.
+fn validated(declaration: &Declaration, mistakes: &mut Vec<Mistake<Span>>) -> Option<Chain> {
     if let Some(mistake) = limits::beyond(declaration) {
-        return Err(vec![mistake]);
+        mistakes.push(mistake);
+        return None;
     }
     let scope = Scope::collect(declaration);
-    let mut mistakes = Vec::new();
-    let amounts = amounts::collect(declaration, &scope, &mut mistakes);
+    let amounts = amounts::collect(declaration, &scope, mistakes);
     let subject = Subject { declaration, scope, amounts };
     for (_, rule) in rules::RULES {
-        rule(&subject, &mut mistakes);
+        rule(&subject, mistakes);
     }
-    if mistakes.is_empty() { Ok(build::chain(&subject)) } else { Err(sorted(mistakes)) }
-}
-
-fn sorted(mut mistakes: Vec<Mistake<Span>>) -> Vec<Mistake<Span>> {
-    mistakes.sort_by_key(|mistake| (mistake.place.start(), mistake.place.end()));
-    mistakes
+    mistakes.is_empty().then(|| build::chain(&subject))
 }

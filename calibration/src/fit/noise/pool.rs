@@ -1,4 +1,4 @@
-//! Kinds of component that share one standard deviation because alone each has too few degrees of freedom to know its own.
+//! Kinds of component that share one standard deviation, because each alone has too few degrees of freedom.
 
 use super::Layout;
 use crate::data::{Observations, SiUnit};

@@ -1,4 +1,4 @@
-//! What an effect that the chain lacks could look like: smooth functions of the readings in each kind of component. Memory and
+//! Smooth functions of the readings in each kind of component, as a missing effect could look. Memory and
 //! offsets of groups are looked for beside them, so that a missing effect is not taken for noise and whitened away.
 
 use faer::Mat;

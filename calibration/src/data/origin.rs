@@ -54,7 +54,7 @@ impl Origins {
             self.files.push(file.to_owned());
             self.files.len() - 1
         });
-        u32::try_from(at).unwrap_or(u32::MAX)
+        at as u32
     }
 
     /// Appends rows with their places, and their names where the study says a column of them.

@@ -81,6 +81,12 @@ pub enum DataError {
         /// Name of the file.
         file: String,
     },
+    /// More rows than their numbers have room for.
+    #[error("{file}: these are more than {} rows, the most that one fit holds: fit a part of them", u32::MAX)]
+    TooManyRows {
+        /// Names of the files.
+        file: String,
+    },
     /// Bytes that are no text.
     #[error("{file}: line {line}: not UTF-8: save the file as UTF-8 text")]
     NotUtf8 {

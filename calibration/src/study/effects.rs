@@ -53,7 +53,7 @@ impl Study {
             unreachable!("what is missing comes with a mistake")
         };
         let only = self.search.effects.iter().map(|name| name.get_ref().clone()).collect();
-        let harmonics = u32::try_from(*harmonics.get_ref()).unwrap_or(u32::MAX);
+        let harmonics = *harmonics.get_ref() as u32;
         let most = usize::try_from(*most.get_ref()).unwrap_or(usize::MAX);
         let (functions, sequence) = (self.search.functions, self.search.sequence);
         let search = Search { false_alarm, most, functions, inputs, sequence, harmonics, lines, own, only };
@@ -85,7 +85,7 @@ fn encoder(chain: &Chain, name: &Spanned<String>, lines: &Spanned<u64>) -> Outco
         unknown(name.span(), "joint", name.get_ref(), names.iter().copied())
     })?;
     within(lines.span(), "lines of an encoder", *lines.get_ref(), 1..=MOST_LINES)?;
-    Ok((id, u32::try_from(*lines.get_ref()).unwrap_or(u32::MAX)))
+    Ok((id, *lines.get_ref() as u32))
 }
 
 impl Search {

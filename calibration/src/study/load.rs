@@ -130,6 +130,9 @@ impl Plan {
         }
         let start = all.rows();
         let count = rows.row_numbers.len();
+        if u32::try_from(start + count).is_err() {
+            return Err(DataError::TooManyRows { file });
+        }
         let readings = self.readings(source, &columns, &rows);
         let measured = self.measured(source, &columns, &rows, &readings, &file)?;
         for (id, values) in readings {
@@ -157,10 +160,10 @@ impl Plan {
         self.append_objects(all, source, &rows, start);
         for row in 0..count {
             let group = if grouping == 0 {
-                u32::try_from(start + row).unwrap_or(u32::MAX)
+                (start + row) as u32
             } else {
                 let label = rows.labels.iter().take(grouping).map(|labels| labels[row].clone()).collect();
-                let next = u32::try_from(groups.len()).unwrap_or(u32::MAX);
+                let next = groups.len() as u32;
                 *groups.entry(label).or_insert(next)
             };
             all.groups.push(group);
@@ -223,8 +226,8 @@ impl Plan {
                 unknowns.stations.push(self.places.station(&name));
                 unknowns.stations.len() - 1
             });
-            unknowns.object.push(u32::try_from(object).ok());
-            unknowns.station.push(u32::try_from(station).unwrap_or(u32::MAX));
+            unknowns.object.push(Some(object as u32));
+            unknowns.station.push(station as u32);
         }
     }
 

@@ -118,6 +118,9 @@ pub(super) enum Reading {
     Derived(Derived),
 }
 
+/// Sources beside the first.
+const MOST_ALSO: usize = 100;
+
 impl Study {
     /// Resolves every name.
     ///
@@ -189,6 +192,14 @@ impl Study {
 
     /// What is read, source by source.
     fn sources(&self, chain: &Chain) -> Outcome<Vec<SourcePlan>> {
+        if let Some(beyond) = self.also.get(MOST_ALSO) {
+            let message = format!("a study has at most {MOST_ALSO} further sources");
+            return Err(mistake(
+                beyond.data.span(),
+                message,
+                "give one source several files: `data = [\"a.csv\", \"b.csv\"]`",
+            ));
+        }
         let first = (&self.observable, &self.data, &self.columns, &self.observed, &None);
         let also = self
             .also

@@ -193,6 +193,14 @@ fn every_key_that_is_none_is_told_at_once() {
 }
 
 #[test]
+fn a_study_of_more_sources_than_there_are_kinds_of_residual_is_refused() {
+    let also = "[[also]]\ndata = \"more.csv\"\n[also.observed]\nkind = \"offset\"\ncross = { column = \"a\" }\nalong = { column = \"b\" }\n";
+    let told = refused(&format!("{STUDY}\n{}", also.repeat(101)));
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(told[0].contains("at most 100 further sources"), "{told:?}");
+}
+
+#[test]
 fn names_of_a_study_are_names_of_the_language() {
     for name in ["mirror-temp", "fn", "\"temp x\"", "\"x; motion: Rz(y)\"", "pi"] {
         let study = STUDY.replace("sense  ", name);

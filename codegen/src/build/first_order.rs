@@ -1,4 +1,4 @@
-//! The first-order form: small turns and shifts between two motions of the design add up to one of each, and
+//! The first-order form: small rotations and translations between two motions of the design add up to one of each, and
 //! what they do to the observable is carried down to the ground.
 //!
 //! A small turn ε acts as `ε × v`. It may be taken where it sits or carried up the chain first, through the
@@ -20,45 +20,45 @@ enum Move {
     Shift(Axis, Value),
 }
 
-/// The small turns and shifts between two motions of the design, by axis.
+/// The small rotations and translations between two motions of the design, by axis.
 #[derive(Clone, Default)]
 struct Level {
-    turns: [Poly; 3],
-    shifts: [Poly; 3],
+    rotations: [Poly; 3],
+    translations: [Poly; 3],
 }
 
 /// The part of the error that is linear in the errors, with every small turn below the motion number `meeting`,
 /// counted from the ground, carried up to there.
 pub(super) fn error(b: &mut Builder, chain: &Chain, path: &Path, meeting: usize) -> Vector {
     let (levels, moves) = levels(b, chain, path);
-    let mut turns: Vec<Vector> = Vec::with_capacity(levels.len());
-    let mut shifts: Vec<Vector> = Vec::with_capacity(levels.len());
+    let mut rotations: Vec<Vector> = Vec::with_capacity(levels.len());
+    let mut translations: Vec<Vector> = Vec::with_capacity(levels.len());
     for level in &levels {
-        turns.push(std::array::from_fn(|i| lower(b, &level.turns[i])));
-        shifts.push(std::array::from_fn(|i| lower(b, &level.shifts[i])));
+        rotations.push(std::array::from_fn(|i| lower(b, &level.rotations[i])));
+        translations.push(std::array::from_fn(|i| lower(b, &level.translations[i])));
     }
     for (below, motion) in moves.iter().enumerate().take(meeting) {
-        let small = std::mem::replace(&mut turns[below], NOTHING);
+        let small = std::mem::replace(&mut rotations[below], NOTHING);
         let carried = match motion {
             Move::Turn(axis, turn) => turn.back().apply(b, *axis, &small),
             Move::Shift(axis, amount) => {
                 if path.kind == ObservableKind::Point {
                     let lever = cross(b, &small, &along(*axis, *amount));
-                    shifts[below] = add(b, &shifts[below], &lever);
+                    translations[below] = add(b, &translations[below], &lever);
                 }
                 small
             }
         };
-        turns[below + 1] = add(b, &turns[below + 1], &carried);
+        rotations[below + 1] = add(b, &rotations[below + 1], &carried);
     }
 
     let mut nominal = components(b, path);
     let mut difference = std::array::from_fn(|i| lower(b, &linear(chain, &path.components[i].error)));
     for at in (0..levels.len()).rev() {
-        let turned = cross(b, &turns[at], &nominal);
+        let turned = cross(b, &rotations[at], &nominal);
         difference = add(b, &difference, &turned);
         if path.kind == ObservableKind::Point {
-            difference = add(b, &difference, &shifts[at]);
+            difference = add(b, &difference, &translations[at]);
         }
         match at.checked_sub(1).map(|motion| &moves[motion]) {
             Some(Move::Turn(axis, turn)) => {
@@ -82,7 +82,7 @@ pub(super) fn motions(path: &Path) -> usize {
     path.steps.iter().filter(|step| !step.amount.nominal.is_zero()).count()
 }
 
-/// The levels of small turns and shifts, one more than there are motions between them. What commutes with
+/// The levels of small rotations and translations, one more than there are motions between them. What commutes with
 /// the motion above it is put above it.
 fn levels(b: &mut Builder, chain: &Chain, path: &Path) -> (Vec<Level>, Vec<Move>) {
     let mut levels = Vec::new();
@@ -98,8 +98,8 @@ fn levels(b: &mut Builder, chain: &Chain, path: &Path) -> (Vec<Level>, Vec<Move>
             });
         }
         let sums = match step.kind {
-            TransformKind::Rotation => &mut level.turns,
-            TransformKind::Translation => &mut level.shifts,
+            TransformKind::Rotation => &mut level.rotations,
+            TransformKind::Translation => &mut level.translations,
         };
         sums[step.axis.index()] = &sums[step.axis.index()] + &linear(chain, &step.amount.error);
     }
@@ -111,10 +111,10 @@ fn levels(b: &mut Builder, chain: &Chain, path: &Path) -> (Vec<Level>, Vec<Move>
 fn commuting(level: &mut Level, kind: TransformKind, axis: Axis) -> Level {
     let mut above = Level::default();
     let i = axis.index();
-    above.turns[i] = std::mem::take(&mut level.turns[i]);
+    above.rotations[i] = std::mem::take(&mut level.rotations[i]);
     match kind {
-        TransformKind::Rotation => above.shifts[i] = std::mem::take(&mut level.shifts[i]),
-        TransformKind::Translation => above.shifts = std::mem::take(&mut level.shifts),
+        TransformKind::Rotation => above.translations[i] = std::mem::take(&mut level.translations[i]),
+        TransformKind::Translation => above.translations = std::mem::take(&mut level.translations),
     }
     above
 }

@@ -116,10 +116,8 @@ fn documentation(reader: &mut Reader<'_, '_>) -> Read<String> {
         }
     }
     match last {
-        Some(last) if reader.is_at_end() => {
-            Err(Mistake::new(last, "nothing follows this documentation")
-                .with_help("write `/// …` above what it documents, and any other remark as `// …`"))
-        }
+        Some(last) if reader.is_at_end() => Err(Mistake::new(last, "nothing follows this documentation")
+            .with_help("write `/// …` above what it documents, and any other remark as `// …`")),
         _ => Ok(lines.join("\n")),
     }
 }

@@ -39,8 +39,8 @@ impl Layout {
             let start = layout.row.len();
             for row in series.rows.clone() {
                 for component in 0..stride {
-                    layout.row.push(u32::try_from(row).unwrap_or(u32::MAX));
-                    layout.kind.push(u16::try_from(layout.kinds + component).unwrap_or(u16::MAX));
+                    layout.row.push(row as u32);
+                    layout.kind.push((layout.kinds + component) as u16);
                 }
                 layout.first.push(layout.row.len());
             }

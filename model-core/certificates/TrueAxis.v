@@ -566,7 +566,11 @@ Proof. now intros -> ->. Qed.
 Ltac multiples := idtac.
 Ltac angles := idtac.
 Ltac settle := fail.
-Ltac nonzero := repeat split; repeat (apply Rmult_integral_contrapositive_currified || apply pow_nonzero); assumption || lra.
+Ltac level := fail.
+(* A sum that is not zero in other words. *)
+Ltac known := match goal with H : ?d <> 0 |- ?e <> 0 => let E := fresh in assert (E : e = d) by level; rewrite E; exact H end.
+Ltac nonzero := repeat split; repeat (apply Rmult_integral_contrapositive_currified || apply pow_nonzero);
+  first [assumption | lra | known].
 
 (* The sine or cosine of a sum of angles, and of one more multiple of an angle. *)
 Ltac apart := repeat first [rewrite cos_plus | rewrite sin_plus | rewrite cos_neg | rewrite sin_neg];

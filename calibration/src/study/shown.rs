@@ -13,6 +13,10 @@ use super::mistakes::{Outcome, mistake};
 use super::written::Kind;
 use crate::data::direction_from_spherical;
 
+/// What to write for a measured orientation.
+pub(super) const ORIENTATION_HELP: &str = "give the directions of two of the body's axes as two observables: \
+    `observe forward: direction(1, 0, 0) of body;`, each with x, y and z from the measured rotation matrix, the second under [[also]]";
+
 /// Where two measured angles are zero, and which way they turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Convention {
@@ -49,6 +53,13 @@ pub(super) fn convention(
     let measures: Vec<Measures> = observable.shown.iter().map(|reading| reading.measures).collect();
     if observable.is_vector() {
         return Ok(None);
+    }
+    if observable.is_orientation() {
+        return Err(mistake(
+            place.clone(),
+            format!("`{}` shows how a body is turned, which no kind measures", observable.name),
+            ORIENTATION_HELP,
+        ));
     }
     let shown: Vec<String> = observable.shown.iter().map(|reading| reading.written()).collect();
     let name = &observable.name;

@@ -2,11 +2,13 @@
 
 use std::ops::Range;
 
+use model_core::readings::Reading;
 use model_core::{Mistake, Mistakes, names};
 use serde::Deserialize as _;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue, Deserializer, Error};
 
+use super::shown::ORIENTATION_HELP;
 use super::written::Study;
 
 /// Mistakes that are told of one text, at most.
@@ -112,10 +114,12 @@ fn mistake(error: &Error) -> Mistake<Range<usize>> {
     match quoted.split_first() {
         Some((found, expected)) if unknown => {
             let key = if message.starts_with("unknown field") { "key" } else { "value" };
-            let help = names::nearest(found, expected.iter().copied()).map_or_else(
-                || format!("write one of {}", expected.join(", ")),
-                |near| format!("did you mean `{near}`?"),
-            );
+            let is_turn = Reading::of_word(found).is_some_and(|reading| reading.rotation().is_some());
+            let help = match names::nearest(found, expected.iter().copied()) {
+                _ if is_turn => ORIENTATION_HELP.to_owned(),
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("write one of {}", expected.join(", ")),
+            };
             Mistake::new(place, format!("`{found}` is no {key} here")).with_help(help)
         }
         _ => Mistake::new(place, message.trim_end()),

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use model_core::remainder::{self, Bound, Domain, DomainError, Found};
-use model_core::{Chain, ObservableKind, SymbolKind};
+use model_core::remainder::{self, Bound, Domain, DomainError, Found, PairShare, Parts};
+use model_core::{Chain, SymbolKind};
 use serde_json::json;
 
 use super::{Answer, TextOrJson};
@@ -93,9 +93,13 @@ pub fn bounds(
         match answer {
             Ok(answer) => answers.push(answer),
             // Nobody asked for this observable in particular; the others still have an answer.
-            Err(error @ (DomainError::RangeNeeded { .. } | DomainError::NoProof { .. }))
-                if names.is_empty() =>
-            {
+            Err(
+                error @ (DomainError::RangeNeeded { .. }
+                | DomainError::NoProof { .. }
+                | DomainError::Lost { .. }
+                | DomainError::Turned { .. }
+                | DomainError::Units { .. }),
+            ) if names.is_empty() => {
                 let name = &chain.observable(observable).name;
                 terminal::warn(format_args!("{name} is left out: {}", failure(error)));
             }
@@ -118,24 +122,29 @@ fn failure(error: DomainError) -> Failure {
 /// A bound for programs.
 pub fn as_json(chain: &Chain, bound: &Bound, found: &Found) -> serde_json::Value {
     let observable = chain.observable(bound.observable);
-    let unit = match observable.kind {
-        ObservableKind::Direction => "1",
-        ObservableKind::Point => "m",
-    };
-    let name = |id| &chain.symbol(id).name;
-    let shares: Vec<_> = bound
-        .shares
-        .iter()
-        .map(|pair| json!({"errors": [name(pair.one), name(pair.other)], "share": pair.share}))
-        .collect();
-    json!({
+    let mut value = json!({
         "observable": observable.name,
-        "unit": unit,
+        "unit": remainder::unit(bound, chain),
         "bound": bound.value,
-        "second_order": bound.second_order,
-        "tail": bound.tail,
         "largest_found": found.value,
         "ratio": bound.value / found.value,
-        "shares": shares,
-    })
+    });
+    let name = |id| &chain.symbol(id).name;
+    match &bound.parts {
+        Parts::Vector { second_order, tail, shares } => {
+            let share =
+                |pair: &PairShare| json!({"errors": [name(pair.one), name(pair.other)], "share": pair.share});
+            value["second_order"] = (*second_order).into();
+            value["tail"] = (*tail).into();
+            value["shares"] = shares.iter().map(share).collect();
+        }
+        Parts::Readings(readings) => {
+            let named = observable
+                .labels()
+                .zip(readings)
+                .map(|(name, bound)| json!({"reading": name, "bound": bound}));
+            value["readings"] = named.collect();
+        }
+    }
+    value
 }

@@ -6,6 +6,7 @@ use model_core::Chain;
 use model_core::budget::{Budget, BudgetError, Curves, Poses};
 use model_core::checker::{Checker, Claim};
 use model_core::mistake::Mistake;
+use model_core::remainder::DomainError;
 use serde_json::{Value, json};
 
 use super::{Answer, TextOrJson};
@@ -134,7 +135,9 @@ pub fn measured(
         match Budget::measure(chain, observable, sizes, poses) {
             Ok(budget) => budgets.push(budget),
             // Nobody asked for this observable in particular; the others still have an answer.
-            Err(error @ BudgetError::NoValue { .. }) if names.is_empty() => {
+            Err(error @ (BudgetError::NoValue { .. } | BudgetError::Pole(DomainError::Lost { .. })))
+                if names.is_empty() =>
+            {
                 terminal::warn(format_args!("{} is left out: {error}", chain.observable(observable).name));
             }
             Err(error) => return Err(failure(&error)),
@@ -150,6 +153,8 @@ fn failure(error: &BudgetError) -> Failure {
             format!("{error}: name {name} in --path, or say --range \"{name}=lo..hi\"")
         }
         BudgetError::NotFinite { .. }
+        | BudgetError::Pole(_)
+        | BudgetError::AtPose { .. }
         | BudgetError::Form(_)
         | BudgetError::Units { .. }
         | BudgetError::NotVector { .. } => error.to_string(),

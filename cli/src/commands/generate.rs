@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum as _;
 use codegen::{Form, Precision, Unit};
 use model_core::remainder::{self, Domain};
-use model_core::{Chain, ObservableId, ObservableKind, SymbolKind};
+use model_core::{Chain, ObservableId, SymbolKind};
 
 use super::Answer;
 use crate::errors_file;
@@ -192,12 +192,11 @@ fn remarks(chain: &Chain, chosen: &[ObservableId], sizes: &Path) -> Result<Vec<S
     let mut lines = Vec::new();
     for &id in chosen {
         let Ok(bound) = remainder::bound(chain, id, &domain) else { continue };
-        let observable = chain.observable(id);
-        let unit = match observable.kind {
-            ObservableKind::Direction => "",
-            ObservableKind::Point => " m",
+        let unit = match remainder::unit(&bound, chain) {
+            "1" => String::new(),
+            unit => format!(" {unit}"),
         };
-        let (name, bound) = (&observable.name, bound.value);
+        let (name, bound) = (&chain.observable(id).name, bound.value);
         lines.push(format!(
             "First order, {name}: off by at most {bound:.3e}{unit} while errors stay within {file}, proven."
         ));

@@ -154,3 +154,16 @@ sigma = \"2 arcsec\"
     assert_eq!((run.code, run.stdout.as_str()), (2, ""), "{run}");
     assert_snapshot!(run.stderr);
 }
+
+/// A measured orientation is two directions, and that is what both slips are told.
+#[test]
+fn an_orientation_is_no_kind_of_observation() {
+    let turned = "observe pointing: orientation of table;";
+    let shown = refused("turned", "observe pointing: direction(1, 0, 0) of table;", turned);
+    let named = refused("turned_key", "x = \"x\"", "rotation_x = \"x\"");
+    for said in [&shown, &named] {
+        assert!(said.contains("the directions of two of the body's axes"), "{said}");
+    }
+    assert!(shown.contains("`pointing` shows how a body is turned"), "{shown}");
+    assert!(named.contains("`rotation_x` is no key here"), "{named}");
+}

@@ -216,3 +216,45 @@ components = '''
     let run = check("azimuth_cosine", chain, &claim.replace(r"- (T_x \cos A", r"+ (T_x \cos A"));
     assert_eq!(run.code, 1, "{}", run.stderr);
 }
+
+/// Two joints and an error of each; the rotation vector of Rx(e) Rz(q) Ry(f) is worked out by hand.
+const TURNED: &str = "chain Turned {
+    body arm on ground { position_error: Rx(e); motion: Rz(q); motion_error: Ry(f); }
+    observe turned: orientation of arm;
+}";
+
+#[test]
+fn a_printed_matrix_of_a_small_rotation_is_compared_entry_by_entry() {
+    // ω = (e − f sin q, f cos q, 0).
+    let matrix = |entries: [&str; 9]| {
+        let [xx, xy, xz, yx, yy, yz, zx, zy, zz] = entries;
+        format!(
+            r"components = '\begin{{pmatrix}} {xx} & {xy} & {xz} \\ {yx} & {yy} & {yz} \\ {zx} & {zy} & {zz} \end{{pmatrix}}'"
+        )
+    };
+    let right = ["1", "0", r"f\cos q", "0", "1", r"-e + f\sin q", r"-f\cos q", r"e - f\sin q", "1"];
+    let run = check("matrix", TURNED, &matrix(right));
+    assert_eq!(run.code, 0, "{run}");
+    let mut added = right;
+    (added[0], added[4], added[8]) = ("0", "0", "0");
+    let run = check("matrix_added", TURNED, &matrix(added));
+    assert_eq!(run.code, 0, "{run}");
+    for (place, entries) in
+        [(5, "23, 31, 12"), (1, "23, 31, 12"), (7, "32, 13, 21"), (3, "32, 13, 21"), (4, "entry 22")]
+    {
+        let mut wrong = right;
+        wrong[place] = r"2 e + f\sin q";
+        let run = check(&format!("matrix_{place}"), TURNED, &matrix(wrong));
+        assert_eq!(run.code, 1, "{run}");
+        let differs: Vec<&str> = run.stdout.lines().filter(|line| line.starts_with("differs")).collect();
+        assert!(matches!(differs.as_slice(), [one] if one.contains(entries)), "{place}: {run}");
+    }
+    let run = check("matrix_order", TURNED, &format!("order = 2\n{}", matrix(right)));
+    assert_eq!(run.code, 2, "{run}");
+    assert!(run.stderr.contains("to first order"), "{run}");
+    let mut unread = right;
+    unread[2] = r"h\cos q";
+    let run = check("matrix_unread", TURNED, &matrix(unread));
+    assert_eq!(run.code, 2, "{run}");
+    assert!(run.stderr.contains("unknown symbol `h`"), "{run}");
+}

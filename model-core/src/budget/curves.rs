@@ -46,6 +46,7 @@ impl Curves {
         // Says what the path leaves open.
         let first_order = FirstOrder::new(chain, observable, &sized(chain, sizes))?;
         let space = Space::new(chain, observable, &poses, |symbol| first_order.harmonic(symbol))?;
+        space.keeps_from_poles(chain, observable, &sized(chain, sizes))?;
         let probe = Probe::new(chain, observable);
         let range = Path::PARAMETER;
         let last = points.max(2) - 1;

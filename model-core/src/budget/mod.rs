@@ -24,6 +24,7 @@ mod tests;
 
 use crate::chain::{Chain, ObservableId, ObservableKind};
 use crate::forms::FormError;
+use crate::remainder::DomainError;
 use crate::symbol::SymbolId;
 use first_order::FirstOrder;
 use poses::Space;
@@ -66,7 +67,7 @@ pub struct Influence {
 }
 
 /// Why a budget cannot be measured.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BudgetError {
     /// A joint or input moves the observable, and nothing says what its value is.
     #[error("{observable} depends on {name}, and nothing says over which values it goes")]
@@ -97,6 +98,17 @@ pub enum BudgetError {
         /// The observable.
         observable: String,
     },
+    /// There is a pole among the poses.
+    #[error(transparent)]
+    Pole(#[from] DomainError),
+    /// There is one at a given pose.
+    #[error("pose {row}: {why}")]
+    AtPose {
+        /// The number of the pose, from one.
+        row: usize,
+        /// What is wrong there.
+        why: DomainError,
+    },
     /// The observable has no finite value at a pose.
     #[error("{observable} has no finite value at {pose}")]
     NotFinite {
@@ -122,6 +134,7 @@ impl Budget {
         let errors = sized(chain, sizes);
         let first_order = FirstOrder::new(chain, observable, &errors)?;
         let space = Space::new(chain, observable, poses, |symbol| first_order.harmonic(symbol))?;
+        space.keeps_from_poles(chain, observable, &errors)?;
         let probe = Probe::new(chain, observable);
         let mut single: Vec<Vec<f64>> = errors.iter().map(|_| Vec::new()).collect();
         let mut values = chain.nominal_values();
@@ -210,9 +223,7 @@ pub fn unit(chain: &Chain, observable: ObservableId) -> &'static str {
 /// What an observable shows has to be of one unit, so that its errors can be added up.
 pub(crate) fn one_unit(chain: &Chain, id: ObservableId) -> Result<(), BudgetError> {
     let observable = chain.observable(id);
-    let unit = unit(chain, id);
-    let differs = |reading: &&crate::chain::reading::Reading| reading.unit(observable.kind) != unit;
-    match observable.shown.iter().find(differs).filter(|_| !observable.is_vector()) {
+    match observable.of_other_unit() {
         None => Ok(()),
         Some(other) => Err(BudgetError::Units {
             observable: observable.name.clone(),

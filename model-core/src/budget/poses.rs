@@ -9,6 +9,7 @@ use crate::algebra::Poly;
 use crate::amount::LowerError;
 use crate::chain::{Chain, ObservableId};
 use crate::expr::Expr;
+use crate::remainder::{Domain, Parameter, along_path, keep_away};
 use crate::symbol::{Quantity, SymbolId, SymbolKind};
 
 /// The poses that a budget goes over.
@@ -263,6 +264,38 @@ impl<'a> Space<'a> {
             }
         }
         Some(turning)
+    }
+
+    /// Refuses poses with a pole: see [`keep_away`]. Errors of these sizes act at once.
+    pub fn keeps_from_poles(
+        &self,
+        chain: &Chain,
+        observable: ObservableId,
+        sizes: &[(SymbolId, f64)],
+    ) -> Result<(), BudgetError> {
+        let mut errors = Domain::new(chain);
+        for &(error, size) in sizes {
+            errors.set_size(chain, error, size.abs())?;
+        }
+        let start: Vec<[f64; 2]> = self.bounds.iter().map(|&(low, high)| [low, high]).collect();
+        match &self.kind {
+            Kind::Ranges(symbols) => {
+                let parameters: Vec<Parameter> = symbols.iter().copied().map(Parameter::Symbol).collect();
+                let domain_of = |ranges: &[[f64; 2]]| Some(errors.with(symbols, ranges));
+                Ok(keep_away(chain, observable, (&parameters, &start), domain_of)?)
+            }
+            Kind::Path(path) => {
+                let symbols: Vec<SymbolId> = path.symbols().collect();
+                let domain_of = |ranges: &[[f64; 2]]| {
+                    let range = *ranges.first()?;
+                    let amounts = path.assignments.iter();
+                    let there: Option<Vec<[f64; 2]>> =
+                        amounts.map(|(_, amount)| along_path(chain, amount, range)).collect();
+                    Some(errors.with(&symbols, &there?))
+                };
+                Ok(keep_away(chain, observable, (&[Parameter::Path], &start), domain_of)?)
+            }
+        }
     }
 
     /// The joints and inputs that are parameters themselves; none along a path.

@@ -24,6 +24,7 @@ pub fn influences_at(
     let errors = sized(chain, sizes);
     let first_order = FirstOrder::new(chain, observable, &errors)?;
     let space = Space::new(chain, observable, poses, |symbol| first_order.harmonic(symbol))?;
+    space.keeps_from_poles(chain, observable, &errors)?;
     let probe = Probe::new(chain, observable);
     let mut values = chain.nominal_values();
     let mut found = Vec::with_capacity(count);

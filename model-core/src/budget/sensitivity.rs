@@ -1,10 +1,11 @@
 //! What a unit of each error does to an observable at poses, to first order: the columns that tolerances are summed with.
 
 use super::first_order::FirstOrder;
-use super::poses::{Path, Poses, Space, spread};
+use super::poses::{Path, Poses, Space, movable, spread};
 use super::probe::Probe;
 use super::{BudgetError, sized};
 use crate::chain::{Chain, ObservableId, ObservableKind};
+use crate::remainder::{Domain, DomainError, keep_away};
 use crate::symbol::SymbolId;
 
 /// The first-order columns of some errors at poses, a row of them a pose.
@@ -41,6 +42,7 @@ impl Sensitivity {
         whole_vector(chain, observable)?;
         let first_order = FirstOrder::new(chain, observable, &sized(chain, sizes))?;
         let space = Space::new(chain, observable, poses, |symbol| first_order.harmonic(symbol))?;
+        space.keeps_from_poles(chain, observable, &sized(chain, sizes))?;
         let probe = Probe::new(chain, observable);
         let mut found = Self::empty(chain, observable, sizes);
         let parameters: Vec<Vec<f64>> = match poses {
@@ -79,6 +81,8 @@ impl Sensitivity {
             for (symbol, column) in readings {
                 values[symbol.index()] = column[row];
             }
+            at_pose(chain, observable, &sized(chain, sizes), &values)
+                .map_err(|why| BudgetError::AtPose { row: row + 1, why })?;
             found.add(chain, (&first_order, &probe), &values, || format!("pose {}", row + 1))?;
         }
         Ok(found)
@@ -135,6 +139,23 @@ impl Sensitivity {
     pub fn at_pose(&self, pose: usize) -> &[[f64; 3]] {
         &self.columns[pose * self.errors.len()..(pose + 1) * self.errors.len()]
     }
+}
+
+/// Refuses one pose at a pole.
+fn at_pose(
+    chain: &Chain,
+    observable: ObservableId,
+    sizes: &[(SymbolId, f64)],
+    values: &[f64],
+) -> Result<(), DomainError> {
+    let mut domain = Domain::new(chain);
+    for &(error, size) in sizes {
+        domain.set_size(chain, error, size.abs())?;
+    }
+    let moved: Vec<SymbolId> = movable(chain).collect();
+    let there: Vec<[f64; 2]> = moved.iter().map(|id| [values[id.index()]; 2]).collect();
+    let domain = domain.with(&moved, &there);
+    keep_away(chain, observable, (&[], &[]), |_| Some(domain.clone()))
 }
 
 /// What an observable shows has to be its whole vector.

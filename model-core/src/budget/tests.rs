@@ -190,3 +190,56 @@ fn a_ramp_of_a_turning_joint_has_the_mean_of_its_nodes() {
     let mean = (2.0 / 3.0 + 2.0 * PI - 3.0) / (2.0 * PI);
     assert_relative_eq!(budget.influences[0].summary.rms, 1e-6 * mean.sqrt(), max_relative = 1e-2);
 }
+
+const MOUNT: &str = "chain Mount {
+    body mount on ground { position_error: Rx(an); motion: Rz(azimuth); motion_error: Rz(scale*tan(elevation)); }
+    body tube on mount { motion: Ry(-elevation); motion_error: Rz(col); }
+    observe axis: direction(1, 0, 0) of tube;
+    observe sky: azimuth of direction(1, 0, 0) of tube;
+    observe height: elevation of direction(1, 0, 0) of tube;
+}";
+
+/// Ranges and paths that pass the zenith have no budget of what is lost there, and those that keep away have one.
+#[test]
+fn poles_are_said_and_never_measured() {
+    let chain = Chain::from_text(MOUNT).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let elevation = chain.find_symbol("elevation").unwrap_or(SymbolId::PI);
+    let range = |low: f64, high: f64| Poses::Ranges(vec![JointRange { symbol: elevation, low, high }]);
+    let along = |text: &str| Poses::Path(path(&chain, &[("azimuth", "t"), ("elevation", text)]));
+    let refused = |name: &str, error: &str, poses: &Poses| {
+        let (id, sizes) = (observable(&chain, name), sizes(&chain, &[(error, 1e-5)]));
+        let budget = Budget::measure(&chain, id, &sizes, poses).map_err(|error| error.to_string());
+        let influences = influences_at(&chain, id, &sizes, poses, 50).map_err(|error| error.to_string());
+        assert_eq!(budget.is_err(), influences.is_err(), "{name} {error}");
+        budget.err()
+    };
+    let passing =
+        [Poses::Ranges(Vec::new()), range(1.0, 2.0), along("t"), along("1.5 + 0.2*sin(3*t)"), along("t/4")];
+    for poses in &passing {
+        let why = refused("axis", "scale", poses).unwrap_or_else(|| panic!("{poses:?}"));
+        assert!(
+            why.contains("`elevation` passes a place where the cosine in a denominator is zero"),
+            "{why}"
+        );
+        let why = refused("sky", "col", poses).unwrap_or_else(|| panic!("{poses:?}"));
+        assert!(why.starts_with("the azimuth of `sky` is lost near"), "{why}");
+        // What is left out has no pole, and an elevation is none.
+        assert_eq!(refused("axis", "col", poses), None);
+        assert_eq!(refused("height", "an", poses), None);
+    }
+    for poses in [range(-1.5, 1.5), range(1.6, 3.0), along("1.5*sin(t)"), along("t/5")] {
+        assert_eq!(refused("axis", "scale", &poses), None, "{poses:?}");
+        assert_eq!(refused("sky", "scale", &poses), None, "{poses:?}");
+    }
+    // What tolerances come to, over poses and at given ones, and curves.
+    let scale = sizes(&chain, &[("scale", 1e-5)]);
+    let axis = observable(&chain, "axis");
+    assert!(matches!(Sensitivity::over(&chain, axis, &scale, &passing[1], 7), Err(BudgetError::Pole(_))));
+    let azimuth = chain.find_symbol("azimuth").unwrap_or(SymbolId::PI);
+    let readings = |second: f64| [(azimuth, vec![0.0, 0.0]), (elevation, vec![0.1, second])];
+    let at = Sensitivity::at(&chain, axis, &scale, &readings(PI / 2.0)).map_err(|error| error.to_string());
+    assert!(at.is_err_and(|why| why.starts_with("pose 2: `elevation` passes a place")));
+    assert!(Sensitivity::at(&chain, axis, &scale, &readings(1.5)).is_ok());
+    let Poses::Path(passing) = along("t") else { unreachable!("a path") };
+    assert!(matches!(Curves::along(&chain, axis, &scale, &passing, 9, 1), Err(BudgetError::Pole(_))));
+}

@@ -72,6 +72,7 @@ impl Angles {
         let squares: Vec<String> = self.highest.keys().map(|id| format!("(squares {})", name(*id))).collect();
         let squares = if squares.is_empty() { String::new() } else { format!(" [{}]", squares.join(" ")) };
         let _ = writeln!(out, "Ltac settle ::= first [ring{squares} | field{squares}; nonzero].");
+        let _ = writeln!(out, "Ltac level ::= ring{squares}.");
         let mut rules = Vec::new();
         for (id, highest) in &self.highest {
             let a = name(*id);

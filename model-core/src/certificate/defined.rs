@@ -11,7 +11,13 @@ impl Section<'_> {
     /// What has to differ from zero for a quotient to exist.
     pub(super) fn add_divisor(&mut self, divisor: &Expr<()>) -> Result<(), Refusal> {
         let poly = section::lower(self.certificate, self.question, divisor)?;
-        self.add_nonzero(&poly).then_some(()).ok_or(Refusal::Divisor)
+        if poly.is_zero() {
+            return Err(Refusal::Divisor);
+        }
+        if !self.add_nonzero(&poly) {
+            self.add(Condition::NonZero(poly));
+        }
+        Ok(())
     }
 
     /// That a product is not zero, factor by factor; whether it is such a product.

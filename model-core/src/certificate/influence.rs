@@ -99,7 +99,11 @@ impl Certificate<'_> {
     }
 
     /// The theorem on what one error does, which is stated and proved if it is not there yet.
-    fn influence(&mut self, observable: ObservableId, error: SymbolId) -> Result<Influence, Refusal> {
+    pub(super) fn influence(
+        &mut self,
+        observable: ObservableId,
+        error: SymbolId,
+    ) -> Result<Influence, Refusal> {
         let same = |influence: &&Influence| influence.observable == observable && influence.error == error;
         if let Some(found) = self.influences.iter().find(same) {
             return Ok(found.clone());
@@ -142,7 +146,7 @@ impl Certificate<'_> {
     }
 
     /// Constants that are declared as zero: [`crate::identify`] counts them as zero.
-    fn zero_constants(&self) -> Vec<SymbolId> {
+    pub(super) fn zero_constants(&self) -> Vec<SymbolId> {
         let chain = self.declared.chain();
         chain
             .symbols_of(SymbolKind::Constant)

@@ -9,6 +9,7 @@ mod angles;
 mod condition;
 mod declared;
 mod defined;
+mod derived;
 mod differs;
 mod equality;
 mod expanded;
@@ -165,34 +166,6 @@ impl<'a> Certificate<'a> {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.sections.is_empty()
-    }
-
-    /// States and proves the error of an observable up to an order, as [`print::text`] prints it.
-    ///
-    /// # Errors
-    /// [`Refusal`].
-    pub fn derived(&mut self, observable: ObservableId, order: u32) -> Result<(), Refusal> {
-        let chain = self.declared.chain();
-        if !chain.observable(observable).is_vector() {
-            return self.derived_readings(observable, order);
-        }
-        let derived = self.printed(&vector_to_order(chain, observable, order)?)?;
-        let question = Question {
-            observable: Some(observable),
-            order,
-            kept: chain.symbols_of(SymbolKind::Error).collect(),
-            zeros: Vec::new(),
-        };
-        let title = format!("The error of {} to {} order", chain.observable(observable).name, ordinal(order));
-        let name = self.names.give(&chain.observable(observable).name);
-        let mut section = Section::new(self, &question, &derived.each_ref())?;
-        section.open(&name, &title)?;
-        section.formula("derived", &derived);
-        section.claim("derived");
-        section.prove("derived", "holds", "claim")?;
-        let section = section.close_all(&name);
-        self.finish_section(section, &name, "holds");
-        Ok(())
     }
 
     /// States a printed formula and proves the verdict on it: that it holds, or that it differs.

@@ -29,7 +29,7 @@ pub(super) struct Question {
 }
 
 impl Question {
-    fn observable(&self) -> ObservableId {
+    pub(super) fn observable(&self) -> ObservableId {
         match self.observable {
             Some(observable) => observable,
             None => unreachable!("what an instrument shows is only asked for in statements about one"),

@@ -236,6 +236,13 @@ impl Observable {
         self.shown == COMPONENTS
     }
 
+    /// The first of its numbers whose unit is not that of the first one.
+    #[must_use]
+    pub fn of_other_unit(&self) -> Option<&Reading> {
+        let unit = self.shown.first()?.unit(self.kind);
+        self.shown.iter().find(|reading| reading.unit(self.kind) != unit)
+    }
+
     /// Whether it shows how a body is turned, and no vector.
     #[must_use]
     pub fn is_orientation(&self) -> bool {

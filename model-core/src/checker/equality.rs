@@ -1,9 +1,12 @@
 //! That two printed formulas say the same at all values of their symbols: two ways of printing one thing.
 
+use std::ops::Range;
+
 use super::algebraic;
 use super::{CheckError, Checker, PrintedComponent, PrintedVector, TextPlace};
-use crate::algebra::Fraction;
+use crate::algebra::{Fraction, Rational};
 use crate::chain::Chain;
+use crate::expr::{Expr, Node};
 use crate::latex::PrintedSymbols;
 use crate::mistake::Mistake;
 
@@ -32,6 +35,15 @@ impl Equality {
         texts: [&str; 2],
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
         PrintedVector::read_pair(chain, symbols, texts).map(|printed| Self { printed })
+    }
+
+    /// Two formulas that were read from one text.
+    pub(super) fn of_expressions(
+        chain: &Chain,
+        [first, second]: [Expr<Range<usize>>; 2],
+    ) -> Result<Self, Vec<Mistake<TextPlace>>> {
+        let nothing = Expr { node: Node::Number(Rational::ZERO), place: first.place.clone() };
+        PrintedVector::of_expressions(chain, [first, second, nothing]).map(|printed| Self { printed })
     }
 
     /// The two formulas.

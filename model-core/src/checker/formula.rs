@@ -191,6 +191,25 @@ impl PrintedVector {
             .map_err(|error| vec![Mistake::new(at_end(), error.to_string())])
     }
 
+    /// Three formulas that were read from one text.
+    pub(super) fn of_expressions(
+        chain: &Chain,
+        expressions: [Expr<Range<usize>>; 3],
+    ) -> Result<Self, Vec<Mistake<TextPlace>>> {
+        let (mut components, mut mistakes) = (Vec::new(), Vec::new());
+        let whole = expressions[0].place.start..expressions[2].place.end;
+        for expression in expressions {
+            match lowering::fraction(chain, &expression, Sines::OfAngles) {
+                Ok(value) => components.push(PrintedComponent { text_index: 0, expression, value }),
+                Err(mistake) => mistakes.push(in_text(0, mistake)),
+            }
+        }
+        let Ok(components) = <[PrintedComponent; 3]>::try_from(components) else { return Err(mistakes) };
+        Self { components, halves: Vec::new(), has_roots: false }
+            .normalised(chain)
+            .map_err(|error| vec![in_text(0, Mistake::new(whole, error.to_string()))])
+    }
+
     /// One amount as a vector, to be said in the same terms as the derived one.
     pub(super) fn of_one(
         chain: &Chain,

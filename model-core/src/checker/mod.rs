@@ -25,6 +25,7 @@ mod sizes;
 mod slip;
 mod terms;
 mod total;
+mod turn;
 mod verdict;
 
 #[cfg(test)]
@@ -55,6 +56,7 @@ pub use ranks::{Rank, RankSaid, RankVerdict};
 pub use sizes::{Bound, BoundVerdict, Combined, Limits, Outcome, Size, SizeMeasure, SizeVerdict};
 pub use slip::{FormSlip, FormSlipKind, TermSlip};
 pub use total::TotalVerdict;
+pub use turn::PrintedTurn;
 pub use verdict::{Counted, Difference, FormVerdict, Means, Measured, Verdict};
 
 /// Checks claims about one chain; what it derives for one claim it keeps for the next.

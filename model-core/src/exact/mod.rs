@@ -146,21 +146,48 @@ impl Path {
         self.shown.iter().map(|reading| reading.error(&parts.nominal, &error)).collect()
     }
 
+    /// What the errors add to what the observable shows, less its first order.
+    #[must_use]
+    pub fn shown_remainder(&self, values: &[f64]) -> Vec<f64> {
+        if self.is_orientation() {
+            let axes = self.axes(values);
+            let first = reading::rotation_to_first_order(&axes.map(|parts| (parts.nominal, parts.first)));
+            let axes = self.shown.iter().filter_map(Reading::rotation);
+            return axes
+                .zip(self.turned(values))
+                .map(|(axis, turned)| turned - first[axis.index()])
+                .collect();
+        }
+        let parts = self.parts(values);
+        let error = parts.first + parts.rest;
+        self.shown
+            .iter()
+            .map(|reading| match reading.component() {
+                Some(axis) => parts.rest[axis.index()],
+                None => reading.error(&parts.nominal, &error) - reading.slope(&parts.nominal, &parts.first),
+            })
+            .collect()
+    }
+
     fn is_orientation(&self) -> bool {
         self.shown.iter().any(|reading| reading.rotation().is_some())
     }
 
     /// What is shown of the small rotation vector, from the three axes of the body.
     fn turned(&self, values: &[f64]) -> Vec<f64> {
-        let axes = std::array::from_fn(|axis| {
-            let start =
-                |nominal: Vector3<f64>| Parts { nominal, first: Vector3::zeros(), rest: Vector3::zeros() };
-            let parts = self.carried(values, |_| start(Vector3::ith(axis, 1.0)));
-            (parts.nominal, parts.first + parts.rest)
-        });
+        let axes = self.axes(values).map(|parts| (parts.nominal, parts.first + parts.rest));
         let turned = reading::rotation_vector(&axes);
         let axes = self.shown.iter().filter_map(Reading::rotation);
         axes.map(|axis| turned[axis.index()]).collect()
+    }
+
+    /// The three axes of the body.
+    fn axes(&self, values: &[f64]) -> [Parts; 3] {
+        std::array::from_fn(|axis| {
+            let start =
+                |nominal: Vector3<f64>| Parts { nominal, first: Vector3::zeros(), rest: Vector3::zeros() };
+            self.carried(values, |_| start(Vector3::ith(axis, 1.0)))
+        })
     }
 
     fn parts(&self, values: &[f64]) -> Parts {

@@ -62,6 +62,40 @@ impl Reading {
     }
 }
 
+impl Reading {
+    /// What an error adds to what is shown to first order in it: the derivative of the reading along it. Where the reading has
+    /// none, it is no number.
+    pub(super) fn slope(&self, nominal: &Vector3<f64>, error: &Vector3<f64>) -> f64 {
+        match self.measures {
+            Measures::Component(axis) => error[axis.index()],
+            Measures::Azimuth { zero, through } => {
+                let (a, b) = (zero.of(nominal), through.of(nominal));
+                (a * through.of(error) - b * zero.of(error)) / (a * a + b * b)
+            }
+            Measures::CrossElevation { zero, through } => {
+                let (a, b) = (zero.of(nominal), through.of(nominal));
+                (a * through.of(error) - b * zero.of(error)) / (a.hypot(b) * nominal.norm())
+            }
+            Measures::Elevation { up } => {
+                let plane = Plane::across(up, nominal, &Vector3::zeros());
+                let (height, rise) = (up.of(nominal), up.of(error));
+                let outward = (nominal.dot(error) - height * rise) / plane.length;
+                (plane.length * rise - height * outward) / nominal.norm_squared()
+            }
+            Measures::ZenithDistance { up } => {
+                -Self { measures: Measures::Elevation { up }, ..*self }.slope(nominal, error)
+            }
+            Measures::Range => nominal.dot(error) / nominal.norm(),
+            Measures::OffAxis | Measures::Rotation(_) => f64::NAN,
+        }
+    }
+}
+
+/// The small rotation vector to first order, from the axes of a body without errors and what they gain in first order.
+pub(super) fn rotation_to_first_order(axes: &[(Vector3<f64>, Vector3<f64>); 3]) -> Vector3<f64> {
+    axes.iter().map(|(nominal, first)| nominal.cross(first)).sum::<Vector3<f64>>() / 2.0
+}
+
 /// The small rotation vector from the axes of a body without errors and what the errors add to each; with full relative
 /// precision, for turns of less than a half.
 ///
@@ -70,8 +104,7 @@ impl Reading {
 pub(super) fn rotation_vector(axes: &[(Vector3<f64>, Vector3<f64>); 3]) -> Vector3<f64> {
     /// Far below the square of any turn, it keeps θ/sin θ a number where there is none.
     const NOTHING: f64 = 1e-36;
-    let sine: Vector3<f64> =
-        axes.iter().map(|(nominal, error)| nominal.cross(error)).sum::<Vector3<f64>>() / 2.0;
+    let sine = rotation_to_first_order(axes);
     let cosine = 1.0 + axes.iter().map(|(nominal, error)| nominal.dot(error)).sum::<f64>() / 2.0;
     let length = (sine.norm_squared() + NOTHING).sqrt();
     sine * (length.atan2(cosine) / length)

@@ -120,6 +120,15 @@ pub fn derive(chain: &Chain, observable: ObservableId, order: u32) -> Result<For
     Ok(Form { observable, order, components, positive })
 }
 
+/// The vector of an observable without errors, in the frame that it is seen in.
+pub(crate) fn nominal(chain: &Chain, observable: ObservableId) -> Result<[Poly; 3], FormError> {
+    let parts = graded::parts_up_to(chain, observable, 0)?;
+    match parts.into_iter().next() {
+        Some(nominal) => Ok(nominal),
+        None => unreachable!("the part of degree zero is always there"),
+    }
+}
+
 /// What the errors would add to another reading of the same vector.
 pub(crate) fn derive_reading(
     chain: &Chain,

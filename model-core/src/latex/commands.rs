@@ -79,6 +79,19 @@ pub(super) const FUNCTIONS: [&str; 6] = ["sin", "cos", "tan", "cot", "sec", "csc
 /// The function of three arguments, `\operatorname{ramp}(x, from, to)`.
 pub(super) const RAMP: &str = "ramp";
 
+/// Inverse functions as they are printed, the two-armed one by its first letters.
+const INVERSES: [&str; 11] =
+    ["arcsin", "arccos", "arctan", "arccot", "arctg", "arcctg", "asin", "acos", "atan", "acot", "atg"];
+
+/// What to write in place of an inverse function.
+pub(super) const INVERSE_HELP: &str = r"claim the form to an order in the errors: to first order the arc tangent of a small quotient is the quotient, `\frac{…}{…}`; an angle itself is observed, `observe sky: azimuth of direction(…) of body;`";
+
+/// Whether a word is an inverse function: `arctan`, `Arctan`, `atan`, `atantwo`.
+pub(super) fn is_inverse(word: &str) -> bool {
+    let word = word.to_ascii_lowercase();
+    INVERSES.contains(&word.strip_suffix("two").unwrap_or(&word))
+}
+
 /// Fractions.
 pub(super) const FRACTIONS: [&str; 4] = ["frac", "tfrac", "dfrac", "cfrac"];
 
@@ -88,10 +101,9 @@ pub(super) fn refusal(command: &str) -> Option<(&'static str, &'static str)> {
         "pm" | "mp" => {
             ("two signs at once are two formulas", "write one claim for each sign, with `+` and with `-`")
         }
-        "arcsin" | "arccos" | "arctan" | "arccot" | "atan" | "asin" | "acos" => (
-            "an inverse function is no sum of products of sines and cosines",
-            "give the form to an order in the errors, or observe the angle itself",
-        ),
+        inverse if is_inverse(inverse) => {
+            ("an inverse function is no sum of products of sines and cosines", INVERSE_HELP)
+        }
         "sinh" | "cosh" | "tanh" | "exp" | "ln" | "log" | "lg" | "arg" | "det" | "max" | "min" => (
             "this function is not known to closed forms",
             "sines, cosines, tangents and their reciprocals are",

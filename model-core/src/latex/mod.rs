@@ -102,6 +102,17 @@ pub fn read_vector(text: &str, symbols: &PrintedSymbols) -> Result<Vec<Formula>,
     Ok(components)
 }
 
+/// Reads a printed matrix of three rows and three columns, row after row; nothing if the text is something else.
+#[must_use]
+pub fn read_square(text: &str, symbols: &PrintedSymbols) -> Option<[Formula; 9]> {
+    let rows = layout::rows(text, token::tokens(text).ok()?, true).ok()?;
+    let [row] = rows.as_slice() else { return None };
+    match value(text, row, symbols).ok()? {
+        Value::Matrix(matrix) if matrix.rows == 3 && matrix.columns == 3 => matrix.entries.try_into().ok(),
+        _ => None,
+    }
+}
+
 /// Reads `\sqrt{…}`, a total error, and returns what stands below the root.
 ///
 /// # Errors

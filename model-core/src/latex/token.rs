@@ -8,6 +8,7 @@ use std::ops::Range;
 
 use super::commands::{
     DISTANCES, FUNCTIONS, NOTES, RAMP, RELATIONS, SIZES, SWITCHES, TYPEFACES, WIDE, WITHOUT_MEANING,
+    is_inverse,
 };
 use super::{Unreadable, typed};
 use crate::mistake::Mistake;
@@ -137,7 +138,7 @@ impl Lexer<'_> {
     fn letters(&mut self, start: usize) {
         self.skip_while(|c| c.is_ascii_alphabetic());
         let run = &self.text[start..self.at];
-        if FUNCTIONS.contains(&run) {
+        if FUNCTIONS.contains(&run) || is_inverse(run) {
             let function = Kind::Command(run.to_owned());
             return self.push(function, start);
         }
@@ -312,7 +313,9 @@ impl Lexer<'_> {
         };
         let kind = match typed {
             Some(command) => Kind::Command(command.to_owned()),
-            None if FUNCTIONS.contains(&word) || word == RAMP => Kind::Command(word.to_owned()),
+            None if FUNCTIONS.contains(&word) || word == RAMP || is_inverse(word) => {
+                Kind::Command(word.to_owned())
+            }
             None => Kind::Word(word.to_owned()),
         };
         self.at += 1;

@@ -1,10 +1,10 @@
 //! The domain of a bound: how large errors may be, and where joints, inputs and constants lie.
 
-use dashu_float::{FBig, round::mode};
-
+use super::interval::Interval;
 use super::upper::Upper;
 use crate::algebra::{Pole, Term, Wave};
 use crate::chain::Chain;
+use crate::forms::FormError;
 use crate::symbol::{SymbolId, SymbolKind};
 
 /// A box of errors, with ranges of joints and inputs.
@@ -33,14 +33,56 @@ pub enum DomainError {
         /// The symbol.
         name: String,
     },
-    /// Something else than components of a vector is shown.
-    #[error("no bound is proven for the {reading} of `{observable}`; bound its vector: `x, y, z of …`")]
+    /// A reading that is no smooth function of the errors where they are zero.
+    #[error(
+        "no bound is proven for the {reading} of `{observable}`: where there are no errors it is no smooth function of them; \
+         bound its vector: `x, y, z of …`"
+    )]
     NoProof {
         /// The observable.
         observable: String,
         /// The reading in words.
         reading: String,
     },
+    /// A vector that can come to the axis that an angle goes about, or to the origin.
+    #[error(
+        "the {reading} of `{observable}` is lost near {place}, where its vector may come as close to {lost} as the errors reach; \
+         state ranges that keep away, or take its vector: `x, y, z of …`"
+    )]
+    Lost {
+        /// The observable.
+        observable: String,
+        /// The reading in words.
+        reading: String,
+        /// Where, in words.
+        place: String,
+        /// To what it comes.
+        lost: &'static str,
+    },
+    /// Turns that add up to more than the bound of orientations is derived for.
+    #[error(
+        "no bound is proven for how `{observable}` is turned: the errors on its way add up to {sum_rad:.3} rad, and it is derived \
+         up to 1 rad; state smaller sizes"
+    )]
+    Turned {
+        /// The observable.
+        observable: String,
+        /// What the errors add up to.
+        sum_rad: f64,
+    },
+    /// Angles and lengths have no common length.
+    #[error("{observable} shows {one} and {other}, whose errors are not of one unit: observe them apart")]
+    Units {
+        /// The observable.
+        observable: String,
+        /// What it shows first.
+        one: &'static str,
+        /// What has another unit.
+        other: &'static str,
+    },
+    /// The observable has no first-order form.
+    #[error(transparent)]
+    Form(#[from] FormError),
     /// A range in which a denominator vanishes.
     #[error(
         "`{name}` passes a place where the {function} in a denominator is zero; state a range that keeps away"
@@ -51,6 +93,14 @@ pub enum DomainError {
         /// `sine` or `cosine`.
         function: &'static str,
     },
+}
+
+impl DomainError {
+    /// A denominator that vanishes.
+    pub(super) fn singular(chain: &Chain, symbol: SymbolId, of_sine: bool) -> Self {
+        let name = chain.symbol(symbol).name.clone();
+        Self::Singular { name, function: if of_sine { "sine" } else { "cosine" } }
+    }
 }
 
 impl Domain {
@@ -100,6 +150,20 @@ impl Domain {
         self.ranges.get(symbol.index()).copied().flatten()
     }
 
+    /// By the number of each symbol.
+    pub(super) fn of_ranges(ranges: Vec<Option<[f64; 2]>>) -> Self {
+        Self { ranges }
+    }
+
+    /// The same with other ranges of some symbols.
+    pub(crate) fn with(&self, symbols: &[SymbolId], ranges: &[[f64; 2]]) -> Self {
+        let mut domain = self.clone();
+        for (symbol, range) in symbols.iter().zip(ranges) {
+            domain.ranges[symbol.index()] = Some(*range);
+        }
+        domain
+    }
+
     /// The largest size of a term.
     pub(super) fn size(&self, chain: &Chain, term: &Term) -> Result<Upper, DomainError> {
         let coefficient = match term.coefficient.to_integer() {
@@ -113,6 +177,10 @@ impl Domain {
                 .ok_or_else(|| DomainError::RangeNeeded { name: chain.symbol(symbol).name.clone() })?;
             size = size * Upper::exact(low).max(Upper::exact(high)).powi(power);
         }
+        // What is left out has no poles either.
+        if size.is_zero() {
+            return Ok(size);
+        }
         // Sines and cosines are at most one; over a pole, they go with it.
         for pole in &term.poles {
             let wave = term.waves.iter().find(|wave| wave.symbol == pole.symbol).map(|wave| wave.wave);
@@ -123,41 +191,15 @@ impl Domain {
 
     /// The largest size of 1/cosᵏ θ, or of sin θ/cosᵏ θ with a wave; and the same with sine and cosine exchanged.
     fn pole(&self, chain: &Chain, pole: &Pole, wave: Option<Wave>) -> Result<Upper, DomainError> {
-        let name = || chain.symbol(pole.symbol).name.clone();
         let of_sine = pole.sin_power > 0;
-        let singular =
-            || DomainError::Singular { name: name(), function: if of_sine { "sine" } else { "cosine" } };
-        let [low, high] = self.range(pole.symbol).ok_or_else(singular)?;
-        // Zeros of the denominator are whole turns of π from here.
-        let zero_rad = if of_sine { 0.0 } else { std::f64::consts::FRAC_PI_2 };
-        let piece = |angle_rad: f64, sign: f64| {
-            let halves = (angle_rad - zero_rad) / std::f64::consts::PI;
-            (halves + sign * (1e-9 + 1e-12 * halves.abs())).floor()
-        };
-        if piece(low, -1.0) != piece(high, 1.0) {
-            return Err(singular());
-        }
-        // Between its zeros the denominator is smallest at an end of the range.
-        let least =
-            [low, high].map(|angle_rad| toward_zero(angle_rad, of_sine)).into_iter().fold(1.0, f64::min);
-        if least <= 0.0 {
-            return Err(singular());
-        }
-        let over = Upper::rounded(1.0 / least).powi(pole.sin_power.max(pole.cos_power));
+        let singular = || DomainError::singular(chain, pole.symbol, of_sine);
+        let range = Interval::new(self.range(pole.symbol).ok_or_else(singular)?);
+        let least = if of_sine { range.sin() } else { range.cos() }.least_size();
+        let over = Upper::ONE.over(least).ok_or_else(singular)?.powi(pole.sin_power.max(pole.cos_power));
         let above = match wave {
             Some(_) => Upper::rounded((1.0 - (least * least).next_down()).next_up().max(0.0).sqrt()),
             None => Upper::ONE,
         };
         Ok(over * above)
     }
-}
-
-/// |sin| or |cos| of an angle, rounded toward zero.
-fn toward_zero(angle_rad: f64, sine: bool) -> f64 {
-    /// Bits carried; more than the 53 of the result.
-    const PRECISION: usize = 80;
-    let Ok(angle) = FBig::<mode::Zero, 2>::try_from(angle_rad) else { return 0.0 };
-    let angle = angle.with_precision(PRECISION).value();
-    let value = if sine { angle.sin() } else { angle.cos() };
-    value.to_f64().value().abs()
 }

@@ -5,39 +5,60 @@
 //! number on the way is rounded up (`upper`). [`search`] looks for a large remainder, to show how sharp the bound is.
 //! The derivation is in the book, page "Remainder".
 
+mod angles;
+mod cells;
 mod cluster;
 mod domain;
+mod enclose;
+mod interval;
 mod majorant;
+mod poles;
 mod quadratic;
 mod search;
+mod sight;
+mod turned;
 mod upper;
+mod vector;
 mod words;
 
-use crate::chain::reading::Reading;
-use crate::chain::{Axis, Chain, ObservableId};
+use crate::chain::reading::{Measures, Reading};
+use crate::chain::{Chain, ObservableId};
 use crate::symbol::SymbolId;
-use cluster::{Cluster, Element, clusters};
-use majorant::Majorant;
-use quadratic::{Linear, PairTable, Quadratic};
+use sight::Sight;
 use upper::Upper;
+
+pub(crate) use poles::{Parameter, along_path, keep_away};
 
 pub use domain::{Domain, DomainError};
 pub use search::{Found, search};
-pub use words::text;
+pub use words::{text, unit};
 
-/// A bound on the length of the remainder, exact minus first order; no unit for a direction, metres for a point.
+/// A bound on the length of the remainder, exact minus first order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bound {
     /// Of which observable.
     pub observable: ObservableId,
-    /// The bound: never exceeded in the domain. The sum of the two below, rounded up.
+    /// The bound: never exceeded in the domain. No unit for a direction, metres for a point and for ranges, radians for
+    /// angles; of several readings, the root of the sum of their squares.
     pub value: f64,
-    /// The part of it for products of two errors.
-    pub second_order: f64,
-    /// The part of it for products of three errors and more.
-    pub tail: f64,
-    /// What share of `second_order` each pair of errors has, largest first. They add up to one.
-    pub shares: Vec<PairShare>,
+    /// What it is made of.
+    pub parts: Parts,
+}
+
+/// What a bound is made of.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Parts {
+    /// Of components, of which the whole vector is bounded: the two numbers add up to the bound, rounded up.
+    Vector {
+        /// For products of two errors.
+        second_order: f64,
+        /// For products of three errors and more.
+        tail: f64,
+        /// What share of `second_order` each pair of errors has, largest first. They add up to one.
+        shares: Vec<PairShare>,
+    },
+    /// The bound of each reading, in order.
+    Readings(Vec<f64>),
 }
 
 /// The share of a pair of errors in a bound.
@@ -57,7 +78,7 @@ pub struct PairShare {
 ///
 /// # Errors
 /// [`DomainError`] if a joint or input without a range stands outside of sines and cosines, a denominator vanishes, or
-/// something else than components is shown. The bound of some components is that of the whole vector.
+/// a reading is lost in the domain or is the angle off the axis. The bound of some components is that of the whole vector.
 ///
 /// # Example
 ///
@@ -77,126 +98,45 @@ pub struct PairShare {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn bound(chain: &Chain, observable: ObservableId, domain: &Domain) -> Result<Bound, DomainError> {
-    shown_axes(chain, observable)?;
-    let clusters = clusters(chain, observable, domain)?;
-    let mut prefix = Prefix::new(chain.symbols.len());
-    let mut table = PairTable::new(chain.symbols.len());
-    let mut second_order = Upper::ZERO;
-    for cluster in &clusters {
-        second_order = second_order + prefix.carry(cluster, &mut table);
-        prefix.append(cluster);
+    let shown = chain.observable(observable);
+    has_first_order(chain, observable)?;
+    if shown.has_components_only() {
+        let whole = vector::bound(chain, observable, domain)?;
+        let parts = Parts::Vector {
+            second_order: whole.second_order.get(),
+            tail: whole.tail.get(),
+            shares: whole.shares(),
+        };
+        return Ok(Bound { observable, value: whole.remainder().get(), parts });
     }
-    let tail = tail(&clusters);
-    let sum: f64 = table.entries().map(|(_, _, value)| value).sum();
-    let mut shares: Vec<PairShare> =
-        table.entries().map(|(one, other, value)| PairShare { one, other, share: value / sum }).collect();
-    shares.sort_by(|a, b| b.share.total_cmp(&a.share));
-    Ok(Bound {
-        observable,
-        value: (second_order + tail).get(),
-        second_order: second_order.get(),
-        tail: tail.get(),
-        shares,
-    })
-}
-
-/// The axes of the components that are shown.
-fn shown_axes(chain: &Chain, id: ObservableId) -> Result<Vec<Axis>, DomainError> {
-    let observable = chain.observable(id);
-    let axis = |reading: &Reading| {
-        reading.component().ok_or_else(|| DomainError::NoProof {
-            observable: observable.name.clone(),
-            reading: reading.words(),
-        })
+    let readings = if shown.is_orientation() {
+        let clusters = cluster::clusters(chain, observable, domain)?;
+        let one = turned::bound(&clusters)
+            .map_err(|sum_rad| DomainError::Turned { observable: shown.name.clone(), sum_rad })?;
+        // The components together are no longer than the vector that they are of.
+        return Ok(Bound {
+            observable,
+            value: one.get(),
+            parts: Parts::Readings(vec![one.get(); shown.shown.len()]),
+        });
+    } else {
+        let sight = Sight::new(chain, observable, domain)?;
+        shown.shown.iter().map(|reading| sight.bound(reading, domain)).collect::<Result<Vec<f64>, _>>()?
     };
-    observable.shown.iter().map(axis).collect()
+    let squares: Upper = readings.iter().map(|&one| Upper::exact(one) * Upper::exact(one)).sum();
+    Ok(Bound { observable, value: squares.root().get(), parts: Parts::Readings(readings) })
 }
 
-/// Bounds on the product of all clusters passed, by degree in the errors.
-struct Prefix {
-    first: Upper,
-    second: Upper,
-    /// `first` and `second` by errors, for the shares.
-    by_error: Vec<(SymbolId, f64)>,
-    by_pair: PairTable,
-}
-
-impl Prefix {
-    fn new(symbols: usize) -> Self {
-        Self {
-            first: Upper::ZERO,
-            second: Upper::ZERO,
-            by_error: Vec::new(),
-            by_pair: PairTable::new(symbols),
-        }
+/// Whether what is shown has a first order, and one unit.
+fn has_first_order(chain: &Chain, id: ObservableId) -> Result<(), DomainError> {
+    let observable = chain.observable(id);
+    let name = || observable.name.clone();
+    if let Some(other) = observable.of_other_unit() {
+        return Err(DomainError::Units { observable: name(), one: observable.label(0), other: other.word });
     }
-
-    /// The part of degree two of the cluster's vectors in the ground frame.
-    fn carry(&self, cluster: &Cluster, table: &mut PairTable) -> Upper {
-        let nominal = Upper::norm(cluster.nominal());
-        let (first, by_error) = length(&cluster.first_order());
-        let second = add_length(&cluster.second_order(), table);
-        table.add_table(nominal.get(), &self.by_pair);
-        table.add_product(1.0, &self.by_error, &by_error);
-        self.second * nominal + self.first * first + second
+    let is_rough = |reading: &&Reading| reading.measures == Measures::OffAxis;
+    match observable.shown.iter().find(is_rough) {
+        Some(reading) => Err(DomainError::NoProof { observable: name(), reading: reading.words() }),
+        None => Ok(()),
     }
-
-    /// Multiplies by the rotation of the cluster.
-    fn append(&mut self, cluster: &Cluster) {
-        let (first, by_error) = length(&cluster.rotation_vector());
-        let [crosses, amounts] = cluster.commutators();
-        let second = (first * first).half()
-            + add_length(&crosses, &mut self.by_pair)
-            + add_length(&amounts, &mut self.by_pair);
-        self.by_pair.add_product(0.5, &by_error, &by_error);
-        self.by_pair.add_product(1.0, &self.by_error, &by_error);
-        self.second = self.second + self.first * first + second;
-        self.first = self.first + first;
-        self.by_error.extend(by_error);
-    }
-}
-
-/// The length of a vector of degree one, given by what adds up along each axis, and what each error has of it.
-fn length(terms: &[(usize, Upper, &Linear)]) -> (Upper, Vec<(SymbolId, f64)>) {
-    let mut sum = [Upper::ZERO; 3];
-    for &(axis, scale, linear) in terms {
-        sum[axis] = sum[axis] + scale * linear.sum;
-    }
-    let length = Upper::norm(sum);
-    let mut by_error = Vec::new();
-    if !length.is_zero() {
-        for &(axis, scale, linear) in terms {
-            let weight = scale.get() * sum[axis].get() / length.get();
-            by_error.extend(linear.parts.iter().map(|&(error, size)| (error, weight * size.get())));
-        }
-    }
-    (length, by_error)
-}
-
-/// The length of a vector of degree two, its pairs added to the table.
-fn add_length(terms: &[(usize, Quadratic)], table: &mut PairTable) -> Upper {
-    let mut sum = [Upper::ZERO; 3];
-    for (axis, quadratic) in terms {
-        sum[*axis] = sum[*axis] + quadratic.size();
-    }
-    let length = Upper::norm(sum);
-    if !length.is_zero() {
-        for (axis, quadratic) in terms {
-            table.add_quadratic(sum[*axis].get() / length.get(), quadratic);
-        }
-    }
-    length
-}
-
-/// All parts of degree three and more, of every vector carried to the ground.
-fn tail(clusters: &[Cluster]) -> Upper {
-    let mut prefix = Majorant::ONE;
-    let mut tail = Upper::ZERO;
-    for element in clusters.iter().flat_map(|cluster| &cluster.elements) {
-        match element {
-            Element::Rotation(_, amount) => prefix = &prefix * &Majorant::rotation(&amount.majorant()),
-            Element::Vector(_, amount) => tail = tail + (&prefix * &amount.majorant()).tail,
-        }
-    }
-    tail
 }

@@ -1,7 +1,7 @@
 //! A search for the largest remainder in a domain: many starts, each climbing one symbol at a time.
 
 use super::domain::{Domain, DomainError};
-use super::shown_axes;
+use super::has_first_order;
 use crate::chain::{Chain, ObservableId};
 use crate::exact::Path;
 use crate::symbol::{SymbolId, SymbolKind};
@@ -9,7 +9,7 @@ use crate::symbol::{SymbolId, SymbolKind};
 /// The largest remainder that a search found, and where.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Found {
-    /// The length of exact minus first order; no unit for a direction, metres for a point.
+    /// The length of exact minus first order, in the unit of [`Bound::value`](super::Bound).
     pub value: f64,
     /// Values of all symbols at that place, indexed by [`SymbolId`], in SI units.
     pub values: Vec<f64>,
@@ -25,7 +25,7 @@ const ROUNDS: u32 = 30;
 /// Searches a domain for the largest |exact − first order| of an observable. The same seed finds the same.
 ///
 /// # Errors
-/// [`DomainError`] if an input has no range, or something else than components is shown.
+/// [`DomainError`] if an input has no range, or what is shown has no first order.
 pub fn search(
     chain: &Chain,
     observable: ObservableId,
@@ -33,12 +33,10 @@ pub fn search(
     starts: u32,
     seed: u64,
 ) -> Result<Found, DomainError> {
-    let axes = shown_axes(chain, observable)?;
+    has_first_order(chain, observable)?;
     let path = Path::new(chain, observable);
-    let length = |values: &[f64]| {
-        let remainder = path.remainder(values);
-        axes.iter().map(|axis| remainder[axis.index()].powi(2)).sum::<f64>().sqrt()
-    };
+    let length =
+        |values: &[f64]| path.shown_remainder(values).iter().map(|part| part * part).sum::<f64>().sqrt();
     let nominal = chain.nominal_values();
     let mut climbed = Vec::new();
     let mut cornered = Vec::new();

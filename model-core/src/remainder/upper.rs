@@ -40,14 +40,27 @@ impl Upper {
         Self(self.0.max(other.0))
     }
 
+    /// This over a number that is known to be at least so large; `None` unless that is above zero.
+    pub(super) fn over(self, least: f64) -> Option<Self> {
+        if least > 0.0 {
+            Some(if self.is_zero() { self } else { Self((self.0 / least).next_up()) })
+        } else {
+            None
+        }
+    }
+
     pub(super) fn powi(self, exponent: u32) -> Self {
         (0..exponent).fold(Self::ONE, |product, _| product * self)
     }
 
     /// The length of a vector of which the components are bounded.
     pub(super) fn norm(vector: [Self; 3]) -> Self {
-        let square: Self = vector.iter().map(|&component| component * component).sum();
-        if square.is_zero() { square } else { Self(square.0.sqrt().next_up()) }
+        vector.iter().map(|&component| component * component).sum::<Self>().root()
+    }
+
+    /// The square root.
+    pub(super) fn root(self) -> Self {
+        if self.is_zero() { self } else { Self(self.0.sqrt().next_up()) }
     }
 
     /// e to this. For x ≤ 1, eˣ ≤ 1 + x + x²; larger arguments are halved and the result squared.

@@ -163,11 +163,23 @@ fn equalities_of_quotients_and_roots_are_decided_but_not_certified() {
     }
 }
 
-/// Too much for Coq is refused with a limit.
+/// What is too much for Coq at once is certified as it is placed, or for each error alone.
 #[test]
-fn chains_that_would_keep_coq_busy_for_too_long_are_refused() {
+fn chains_that_would_keep_coq_busy_for_too_long_are_certified_as_far_as_they_go() {
     let ur10 = include_str!("../../../examples/ur10/ur10.chain");
-    let Err(Refusal::TooLarge { terms, limit: 1_000 }) = of_chain(ur10, 1) else {
+    let text = of_chain(ur10, 1).expect("a certificate");
+    let theorems = text.matches("\nTheorem holds : claim.").count();
+    assert!(theorems == 1 && text.contains("at zero that are declared so"), "{theorems}");
+    // The same arm on a base that is not at the origin.
+    let text = of_chain(&ur10.replace(" = 0;", " = 1/7;"), 1).expect("a certificate");
+    let theorems = text.matches("\nTheorem holds : claim.").count();
+    assert_eq!(theorems, 24);
+}
+
+/// To second order errors do not add, and that is refused with a limit.
+#[test]
+fn what_cannot_be_taken_apart_is_refused_with_a_limit() {
+    let Err(Refusal::TooLarge { terms, limit: 1_000 }) = of_chain(MOBILE_LIDAR, 3) else {
         panic!("not refused for its size")
     };
     assert!(terms > 1_000);

@@ -4,6 +4,7 @@
 
 mod formulas;
 mod measures;
+mod turns;
 
 use std::ops::Range;
 
@@ -38,7 +39,7 @@ pub(super) fn claims(source: Source, declaration: Source, file: &File) -> Result
         mistakes: Vec::new(),
     };
     let printed = reader.printed_symbols(file);
-    let claims: Vec<NamedClaim> = file.claim.iter().filter_map(|claim| reader.claim(claim)).collect();
+    let claims: Vec<NamedClaim> = file.claim.iter().flat_map(|claim| reader.claims_of(claim)).collect();
     if file.claim.is_empty() {
         reader.mistake(0..0, "this file makes no claim").help = Some("add a [[claim]]".to_owned());
     }
@@ -142,6 +143,11 @@ impl Reader<'_> {
             let place = place_in_string(self.text, symbol.span(), place);
             self.mistake(place, message).help = help;
         }
+    }
+
+    /// What a table claims: several things where it prints a matrix.
+    fn claims_of(&mut self, table: &Spanned<ClaimTable>) -> Vec<NamedClaim> {
+        self.matrix(table.get_ref()).unwrap_or_else(|| self.claim(table).into_iter().collect())
     }
 
     /// One claim; `None` if it has a mistake, which is then noted.

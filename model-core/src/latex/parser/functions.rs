@@ -3,6 +3,7 @@
 use super::powers::raised;
 use super::{Formula, Parser, is_fraction};
 use crate::expr::{Expr, Function, Node};
+use crate::latex::commands::INVERSE_HELP;
 use crate::latex::token::Kind;
 use crate::latex::{Unreadable, glyph};
 use crate::mistake::Mistake;
@@ -32,7 +33,9 @@ impl Parser<'_> {
                     caret.start..end,
                     "a negative power of a function can mean its inverse",
                 )
-                .with_help(format!(r"write `\frac{{1}}{{\{name}…}}`")));
+                .with_help(format!(
+                    r"for the reciprocal write `\frac{{1}}{{\{name}…}}`; for the inverse, {INVERSE_HELP}"
+                )));
             }
             power = Some(value);
         }

@@ -1,0 +1,77 @@
+//! What the chain implies, stated and proved: of a whole vector, all errors at once, or each alone where that is too much for
+//! Coq.
+
+use super::section::{Question, Section};
+use super::{Certificate, Refusal, ordinal, vector_to_order};
+use crate::algebra::Poly;
+use crate::chain::ObservableId;
+use crate::expr::Expr;
+use crate::symbol::SymbolKind;
+
+impl Certificate<'_> {
+    /// States and proves the error of an observable up to an order, as [`crate::print::text`] prints it.
+    ///
+    /// # Errors
+    /// [`Refusal`].
+    pub fn derived(&mut self, observable: ObservableId, order: u32) -> Result<(), Refusal> {
+        let chain = self.declared.chain();
+        if !chain.observable(observable).is_vector() {
+            return self.derived_readings(observable, order);
+        }
+        let derived = self.printed(&vector_to_order(chain, observable, order)?)?;
+        let question = Question {
+            observable: Some(observable),
+            order,
+            kept: chain.symbols_of(SymbolKind::Error).collect(),
+            zeros: Vec::new(),
+        };
+        let title = format!("The error of {} to {} order", chain.observable(observable).name, ordinal(order));
+        let name = self.names.give(&chain.observable(observable).name);
+        match self.whole_vector(&question, &name, &title, &derived) {
+            Err(Refusal::TooLarge { .. }) => self.smaller(question, &title),
+            other => other,
+        }
+    }
+
+    /// What is too much for Coq at once: with the constants at zero that are declared so, and if that is still too much, to first
+    /// order, by each error alone.
+    fn smaller(&mut self, question: Question, title: &str) -> Result<(), Refusal> {
+        let chain = self.declared.chain();
+        let (observable, order) = (question.observable(), question.order);
+        let zeros = self.zero_constants();
+        let put = |component: &Poly| {
+            zeros.iter().try_fold(component.clone(), |poly, zero| poly.substitute(*zero, &Poly::zero()))
+        };
+        let [x, y, z] = vector_to_order(chain, observable, order)?.each_ref().map(put);
+        let derived = self.printed(&[x?, y?, z?])?;
+        let name = self.names.give(&format!("{}_as_placed", chain.observable(observable).name));
+        let title = format!("{title}, with the constants at zero that are declared so");
+        match self.whole_vector(&Question { zeros, ..question }, &name, &title, &derived) {
+            Err(Refusal::TooLarge { .. }) if order == 1 => {
+                let errors = chain.symbols_of_way(observable).into_iter();
+                errors
+                    .filter(|symbol| chain.symbol(*symbol).kind == SymbolKind::Error)
+                    .try_for_each(|error| self.influence(observable, error).map(|_| ()))
+            }
+            other => other,
+        }
+    }
+
+    /// States that a formula is the error of a vector, and proves it.
+    fn whole_vector(
+        &mut self,
+        question: &Question,
+        name: &str,
+        title: &str,
+        derived: &[Expr<()>; 3],
+    ) -> Result<(), Refusal> {
+        let mut section = Section::new(self, question, &derived.each_ref())?;
+        section.open(name, title)?;
+        section.formula("derived", derived);
+        section.claim("derived");
+        section.prove("derived", "holds", "claim")?;
+        let section = section.close_all(name);
+        self.finish_section(section, name, "holds");
+        Ok(())
+    }
+}

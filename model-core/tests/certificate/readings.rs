@@ -204,3 +204,33 @@ fn poles_are_refused_and_rest_is_proved() {
         observe still: azimuth, elevation of direction(3, 4, 0) of b; }";
     accepted_reading("rest", &of_chain(rest, 1).expect("a certificate"), 1);
 }
+
+/// A tracker whose head stands beside its axis: its azimuth divides by a sum.
+const OFFSET: &str = "chain Tracker {
+    const off: length = 0.1;
+    input range: range;
+    body base on ground { motion: Rz(pan); motion_error: Rx(i); }
+    body head on base { position: Tx(off); position_error: Ty(e); motion: Ry(-tilt); motion_error: Rz(c); }
+    observe seen: azimuth of point(range, 0, 0) of head;
+}";
+
+/// Quotients by sums are proved where the sum is not zero, and refuted at a place where it is not.
+#[test]
+fn quotients_by_sums_are_proved_under_their_condition() {
+    let derived = of_chain(OFFSET, 1).expect("a certificate");
+    assert!(derived.contains("<> 0."), "{derived}");
+    accepted_reading("by_sums", &derived, 1);
+    // The same as a paper would print it, and with a slip.
+    let printed = ["(e + range*c)/(off + range*cos(tilt)) - i*range*sin(tilt)/(off + range*cos(tilt))"];
+    let (holds, text) = claim(OFFSET, "seen", None, &printed, 1);
+    assert!(holds);
+    accepted_reading("by_sums_printed", &text.expect("a certificate"), 1);
+    let (holds, text) = claim(OFFSET, "seen", None, &[&printed[0].replace("off +", "off -")], 1);
+    assert!(!holds);
+    accepted_reading("by_sums_slip", &text.expect("a certificate"), 1);
+    let altered = derived.replacen("Ry (- tilt)", "Ry (tilt)", 1);
+    if let Some(folder) = coq::folder() {
+        assert_ne!(altered, derived);
+        assert!(coq::check(folder, "by_sums_altered", &altered).is_err());
+    }
+}

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use model_core::algebra::{Fraction, Poly};
 use model_core::certificate::{Certificate, Declared};
-use model_core::forms::{self, Form};
+use model_core::forms::{self, Form, FormError};
 use model_core::{Chain, ObservableId, ObservableKind, print};
 use serde_json::json;
 
@@ -59,12 +59,23 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let source = Source::read(&arguments.chain)?;
     let chain = source.symbolic_chain()?;
     let chosen = observables(&chain, &arguments.observable)?;
-    let forms: Vec<Form> = chosen
-        .iter()
-        .copied()
-        .map(|observable| forms::derive(&chain, observable, arguments.order))
-        .collect::<Result<_, _>>()
-        .map_err(|error| Failure::Input(error.to_string()))?;
+    let mut forms: Vec<Form> = Vec::new();
+    for &observable in &chosen {
+        match forms::derive(&chain, observable, arguments.order) {
+            Ok(form) => forms.push(form),
+            // Nobody asked for this observable in particular; the others still have an answer.
+            Err(error @ (FormError::Root { .. } | FormError::NotSmooth { .. }))
+                if arguments.observable.is_empty() && chosen.len() > 1 =>
+            {
+                let name = &chain.observable(observable).name;
+                terminal::warn(format_args!("{name} is left out: {error}"));
+            }
+            Err(error) => return Err(Failure::Input(error.to_string())),
+        }
+    }
+    if forms.is_empty() {
+        return Err(Failure::Input("no observable of this chain has a closed form".to_owned()));
+    }
     let printed = match arguments.format {
         Format::Json => format!("{:#}\n", as_json(&chain, &forms, arguments.order)),
         Format::Text => {

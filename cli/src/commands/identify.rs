@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use model_core::certificate::{Certificate, Declared, Refusal};
+use model_core::forms::{self, FormError};
 use model_core::identify::{self, Candidate, Identifiability, Mistaken, Ratio, Verdict};
 use model_core::{BodyId, Chain, Mistakes, ObservableId, Role, names, print};
 use serde_json::{Value, json};
@@ -89,7 +90,21 @@ pub fn identified(
     names: &[String],
     candidate_text: Option<&str>,
 ) -> Result<Identified, Failure> {
-    let chosen = observables(chain, names)?;
+    let mut chosen = observables(chain, names)?;
+    if names.is_empty() && chosen.len() > 1 {
+        // Nobody asked for these in particular; the others still have an answer.
+        chosen.retain(|&observable| match forms::derive(chain, observable, 1) {
+            Err(error @ (FormError::Root { .. } | FormError::NotSmooth { .. })) => {
+                let name = &chain.observable(observable).name;
+                terminal::warn(format_args!("{name} is left out: {error}"));
+                false
+            }
+            _ => true,
+        });
+    }
+    if chosen.is_empty() {
+        return Err(Failure::Input("no observable of this chain has a closed form".to_owned()));
+    }
     let sets = if names.is_empty() && chosen.len() > 1 {
         chosen.iter().map(|&id| vec![id]).chain([chosen.clone()]).collect()
     } else {

@@ -24,8 +24,14 @@ impl FirstOrder {
         observable: ObservableId,
         errors: &[(SymbolId, f64)],
     ) -> Result<Self, FormError> {
-        let form = forms::derive(chain, observable, 1)?;
-        let is_whole = form.is_whole();
+        let (form, is_closed) = match forms::derive(chain, observable, 1) {
+            // What has no closed form has the waves of its vector, and is measured at nodes.
+            Err(FormError::Root { .. } | FormError::NotSmooth { .. }) => {
+                (forms::derive_vector(chain, observable, 1)?, false)
+            }
+            form => (form?, true),
+        };
+        let is_whole = is_closed && form.is_whole();
         let mut columns = form.columns(chain);
         columns.retain(|(error, _)| errors.iter().any(|(sized, _)| sized == error));
         let mut harmonics = vec![0; chain.symbols.len()];

@@ -243,3 +243,27 @@ fn poles_are_said_and_never_measured() {
     let Poses::Path(passing) = along("t") else { unreachable!("a path") };
     assert!(matches!(Curves::along(&chain, axis, &scale, &passing, 9, 1), Err(BudgetError::Pole(_))));
 }
+
+/// A range whose square has no root has no closed form, and an angle off the axis none either; both are measured.
+#[test]
+fn what_has_no_closed_form_is_measured() {
+    let text = "chain Machine {
+        body slide on ground { motion: Tx(x); motion_error: Ty(straightness), Rz(yaw); }
+        observe far: range of point(3, 4, 0) of slide;
+        observe off: off_axis of direction(1, 0, 0) of slide;
+    }";
+    let chain = Chain::from_text(text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let x = chain.find_symbol("x").unwrap_or(SymbolId::PI);
+    let poses = Poses::Ranges(vec![JointRange { symbol: x, low: 0.0, high: 2.0 }]);
+    let measure = |name: &str, error: &str| {
+        Budget::measure(&chain, observable(&chain, name), &sizes(&chain, &[(error, 1e-6)]), &poses)
+            .unwrap_or_else(|error| panic!("{error}"))
+    };
+    // The slope of the distance across the slide is 4/√((3 + x)² + 16), 0.8 at its start.
+    let far = &measure("far", "straightness").influences[0].summary;
+    assert_relative_eq!(far.sup, 0.8e-6, max_relative = 1e-6);
+    // ∫ 16/((3 + x)² + 16) dx over (0, 2) is 4 (atan 5/4 − atan 3/4), and its mean half of that.
+    let mean = 2.0 * (1.25f64.atan() - 0.75f64.atan());
+    assert_relative_eq!(far.rms, 1e-6 * mean.sqrt(), max_relative = 1e-6);
+    assert_relative_eq!(measure("off", "yaw").influences[0].summary.sup, 1e-6, max_relative = 1e-9);
+}

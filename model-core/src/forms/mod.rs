@@ -129,6 +129,17 @@ pub(crate) fn nominal(chain: &Chain, observable: ObservableId) -> Result<[Poly; 
     }
 }
 
+/// What the errors add to the vector of an observable, whatever it shows of it.
+pub(crate) fn derive_vector(chain: &Chain, observable: ObservableId, order: u32) -> Result<Form, FormError> {
+    let parts = graded::parts_up_to(chain, observable, order)?;
+    let component = |axis: usize| {
+        let added = parts.iter().skip(1).map(|part| &part[axis]);
+        Fraction::whole(added.fold(Poly::zero(), |sum, part| &sum + part))
+    };
+    let components = (0..3).map(component).collect();
+    Ok(Form { observable, order, components, positive: vec![Vec::new(); 3] })
+}
+
 /// What the errors would add to another reading of the same vector.
 pub(crate) fn derive_reading(
     chain: &Chain,

@@ -6,7 +6,7 @@ use super::interval::Interval;
 use super::sight::Sight;
 use crate::algebra::Poly;
 use crate::chain::reading::Measures;
-use crate::chain::{Chain, Motion, ObservableId, ObservableKind};
+use crate::chain::{Chain, ObservableId, ObservableKind, TransformKind};
 use crate::symbol::{Quantity, SymbolId, SymbolKind};
 
 /// What a set of poses is spanned by.
@@ -81,8 +81,8 @@ pub(crate) fn keep_away(
 fn denominators(chain: &Chain, id: ObservableId, domain: &Domain) -> Vec<(SymbolId, bool)> {
     let observable = chain.observable(id);
     let way = chain.way(id);
-    let moves = |motion| motion == Motion::Rotation || observable.kind == ObservableKind::Point;
-    let amounts = way.iter().filter(|passed| moves(passed.factor.motion)).map(|passed| &passed.factor.amount);
+    let moves = |kind| kind == TransformKind::Rotation || observable.kind == ObservableKind::Point;
+    let amounts = way.iter().filter(|passed| moves(passed.factor.kind)).map(|passed| &passed.factor.amount);
     let is_there = |symbol: SymbolId| {
         chain.symbol(symbol).kind != SymbolKind::Error || domain.range(symbol) != Some([0.0, 0.0])
     };

@@ -10,7 +10,7 @@ use super::upper::Upper;
 use super::vector::{self, Whole};
 use crate::algebra::{Poly, Term};
 use crate::chain::reading::{Measures, Reading};
-use crate::chain::{Chain, Motion, ObservableId, ObservableKind};
+use crate::chain::{Chain, ObservableId, ObservableKind, TransformKind};
 use crate::forms;
 use crate::symbol::{SymbolId, SymbolKind};
 
@@ -40,13 +40,13 @@ impl<'a> Sight<'a> {
         let is_point = chain.observable(observable).kind == ObservableKind::Point;
         let way = chain.way(observable);
         // Turns without errors keep lengths, and shifts move no direction: they bound nothing.
-        let counts = |motion: Motion, term: &Term| {
-            (motion == Motion::Translation && is_point)
+        let counts = |kind: TransformKind, term: &Term| {
+            (kind == TransformKind::Translation && is_point)
                 || term.powers.iter().any(|&(symbol, _)| is_error(symbol))
         };
         let amounts = way.iter().flat_map(|passed| {
             let factor = &passed.factor;
-            factor.amount.terms().filter(move |term| counts(factor.motion, term))
+            factor.amount.terms().filter(move |term| counts(factor.kind, term))
         });
         let components = chain.observable(observable).components.iter().flat_map(Poly::terms);
         let mut bounding: Vec<SymbolId> = amounts

@@ -197,7 +197,9 @@ impl PrintedVector {
         expressions: [Expr<Range<usize>>; 3],
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
         let (mut components, mut mistakes) = (Vec::new(), Vec::new());
-        let whole = expressions[0].place.start..expressions[2].place.end;
+        let starts = expressions.iter().map(|expression| expression.place.start);
+        let ends = expressions.iter().map(|expression| expression.place.end);
+        let whole = starts.min().unwrap_or_default()..ends.max().unwrap_or_default();
         for expression in expressions {
             match lowering::fraction(chain, &expression, Sines::OfAngles) {
                 Ok(value) => components.push(PrintedComponent { text_index: 0, expression, value }),

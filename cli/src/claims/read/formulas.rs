@@ -49,7 +49,7 @@ impl Reader<'_> {
     }
 
     /// Notes what cannot be read in formulas of the file.
-    fn unreadable(&mut self, formulas: &Spanned<Texts>, mistakes: Vec<Mistake<TextPlace>>) {
+    pub(super) fn unreadable(&mut self, formulas: &Spanned<Texts>, mistakes: Vec<Mistake<TextPlace>>) {
         let texts = each(formulas);
         for mistake in mistakes {
             // A symbol that is unknown in one formula is unknown in all.
@@ -84,7 +84,7 @@ impl Reader<'_> {
         }
     }
 
-    fn order(&mut self, claim: &ClaimTable) -> Option<Order> {
+    pub(super) fn order(&mut self, claim: &ClaimTable) -> Option<Order> {
         let Some(order) = &claim.order else { return Some(Order::UpTo(1)) };
         match order.get_ref() {
             Value::Integer(1) => Some(Order::UpTo(1)),

@@ -7,7 +7,7 @@ use model_core::certificate::{Certificate, Refusal};
 use model_core::checker::{Checker, Claim as Checked, Equality, Verdict};
 use model_core::latex::PrintedSymbols;
 
-use crate::support::{Claim, add, declared, of_chain, of_claim};
+use crate::support::{Claim, MOBILE_LIDAR, add, declared, of_chain, of_claim};
 use crate::{coq, statements::accepted};
 
 /// Words of Coq's language, of its tactics, of its library and of ours, as names of everything that has a name.

@@ -74,15 +74,21 @@ impl<'a> SearchProblem<'a> {
             let by_cell = of_groups.sorted(folds.groups_of(components.clone()));
             (row_set.whitened_in(&by_cell.order), by_cell, row_set.seen)
         };
-        each_chunk(whole, fitted, |_| true, columns, |components, (whitened, by_cell, of_chunk)| {
-            let rows = fitted.layout.row[components.start] as usize;
-            (whole.tell)(Stage::Columns { rows, of: observations.rows() });
-            cells.add(whitened.as_ref(), &by_cell);
-            match &mut seen {
-                None => seen = Some(of_chunk),
-                Some(seen) => seen.merge(&of_chunk),
-            }
-        })?;
+        each_chunk(
+            whole,
+            fitted,
+            |_| true,
+            columns,
+            |components, (whitened, by_cell, of_chunk)| {
+                let rows = fitted.layout.row[components.start] as usize;
+                (whole.tell)(Stage::Columns { rows, of: observations.rows() });
+                cells.add(whitened.as_ref(), &by_cell);
+                match &mut seen {
+                    None => seen = Some(of_chunk),
+                    Some(seen) => seen.merge(&of_chunk),
+                }
+            },
+        )?;
         let usable = seen.map_or_else(Vec::new, |seen| seen.usable(&whole.catalogue));
         let functions = whole
             .catalogue
@@ -128,9 +134,12 @@ impl<'a> SearchProblem<'a> {
 
     /// The effect, by its number in the catalogue, and its function that each candidate column of the problem is of.
     pub fn candidates(&self, whole: &Context<'_>) -> Vec<(usize, usize)> {
-        let effects = whole.catalogue.iter().zip(&self.usable).enumerate().filter(|(_, (_, usable))| **usable);
+        let effects =
+            whole.catalogue.iter().zip(&self.usable).enumerate().filter(|(_, (_, usable))| **usable);
         effects
-            .flat_map(|(number, (effect, _))| (0..effect.functions.len()).map(move |function| (number, function)))
+            .flat_map(|(number, (effect, _))| {
+                (0..effect.functions.len()).map(move |function| (number, function))
+            })
             .collect()
     }
 
@@ -218,7 +227,8 @@ fn reach(
     let poses = further_out(&fitted.chain, &all.poses, limits, FURTHER_OUT, plan.hold_out.seed);
     let mut columns = fitted.probed.columns_at(&poses)?;
     columns.declared = &columns.declared * fitted.of_errors(&columns);
-    let (mut effects, _) = columns.of_part(&fitted.chain, &whole.catalogue, &poses, &fitted.fit.values, |_| true);
+    let (mut effects, _) =
+        columns.of_part(&fitted.chain, &whole.catalogue, &poses, &fitted.fit.values, |_| true);
     keep(&mut effects, usable);
     let scales: Vec<f64> = all
         .poses
@@ -270,7 +280,8 @@ fn reach(
         let bare = rows.observations.poses.bare();
         let mut columns = fitted.probed.columns_at(&bare)?;
         columns.declared = &columns.declared * fitted.of_errors(&columns);
-        let (mut effects, _) = columns.of_part(&fitted.chain, &whole.catalogue, &bare, &fitted.fit.values, |_| true);
+        let (mut effects, _) =
+            columns.of_part(&fitted.chain, &whole.catalogue, &bare, &fitted.fit.values, |_| true);
         keep(&mut effects, usable);
         part(&columns, &effects, &bare)
     } else {

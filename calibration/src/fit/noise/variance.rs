@@ -48,7 +48,8 @@ pub fn fit(
     coefficients[0] = level.ln();
     // A factor of 1e9 between variances is beyond any instrument, and keeps the exponential finite.
     let log_variance = |coefficients: &DVector<f64>, row: usize| {
-        let fitted = columns.iter().zip(coefficients.iter().skip(1)).map(|(column, value)| column[row] * value);
+        let fitted =
+            columns.iter().zip(coefficients.iter().skip(1)).map(|(column, value)| column[row] * value);
         (coefficients[0] + fitted.sum::<f64>()).clamp(level.ln() - 20.0, level.ln() + 20.0)
     };
     for _ in 0..30 {
@@ -156,7 +157,8 @@ struct Solver {
 impl Solver {
     fn of(gram: &DMatrix<f64>) -> Self {
         let lengths = gram.diagonal().map(|square| square.sqrt().max(f64::MIN_POSITIVE));
-        let scaled = DMatrix::from_fn(gram.nrows(), gram.ncols(), |i, j| gram[(i, j)] / lengths[i] / lengths[j]);
+        let scaled =
+            DMatrix::from_fn(gram.nrows(), gram.ncols(), |i, j| gram[(i, j)] / lengths[i] / lengths[j]);
         let eigen = scaled.symmetric_eigen();
         Self { lengths, directions: eigen.eigenvectors, squares: eigen.eigenvalues }
     }

@@ -91,7 +91,8 @@ impl vector::Work for SineCosine<'_> {
         let mut waves = vector::Waves::NEW;
         for (angles, cosines) in self.angles.chunks_mut(ROWS).zip(self.cosines.chunks_mut(ROWS)) {
             let mut space = None;
-            let (sine, cosine) = vector::sin_cos_rows(arithmetic, vector::whole(angles, &mut space), &mut waves);
+            let (sine, cosine) =
+                vector::sin_cos_rows(arithmetic, vector::whole(angles, &mut space), &mut waves);
             let count = angles.len();
             angles.copy_from_slice(&sine[..count]);
             cosines.copy_from_slice(&cosine[..count]);

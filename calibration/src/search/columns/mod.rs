@@ -232,7 +232,8 @@ impl Columns {
                             let of_joints =
                                 symbols.iter().all(|&id| chain.symbol(id).kind != SymbolKind::Input);
                             let extent = Extent::of(by_row.as_deref_mut(), of_joints);
-                            let spread = |by_row: Vec<f64>| self.row.iter().map(|&row| by_row[row as usize]).collect();
+                            let spread =
+                                |by_row: Vec<f64>| self.row.iter().map(|&row| by_row[row as usize]).collect();
                             known.push((amount, by_row.map(spread), extent));
                             known.len() - 1
                         });

@@ -18,7 +18,8 @@ fn prepared(text: &str, station: &str, is_second: bool) -> String {
         rounds.entry(row[8]).or_default().push((ha(row) + 180.0).rem_euclid(360.0) - 180.0);
     }
     let mut table =
-        "target,ha [deg],zd [deg],range [m],azimuth [deg],elevation [deg],second,aside [m],along [m]\n".to_owned();
+        "target,ha [deg],zd [deg],range [m],azimuth [deg],elevation [deg],second,aside [m],along [m]\n"
+            .to_owned();
     for row in rows.iter().filter(|row| row[1] == station && !row[6].is_empty()) {
         let (arc, label) = (row[6], row[5].parse::<i32>().expect("a label"));
         let turns = ["A", "B"].contains(&arc);

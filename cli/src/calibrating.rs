@@ -1,6 +1,7 @@
 //! A calibration from a study to what is reported of it: what `calibrate` does, whoever asks for it.
 
 use std::fs;
+use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
 
 use calibration::calibrate::{Calibration, Request, Stage, calibrate_telling};
@@ -101,8 +102,9 @@ impl Studied {
             if !fs::metadata(&place).is_ok_and(|metadata| metadata.is_file()) {
                 return Ok(FileRead { path, sha256: None });
             }
-            let bytes = fs::read(&place).map_err(|error| source::not_readable(&place, &error))?;
-            Ok(FileRead { path, sha256: Some(sha256::hex(&bytes)) })
+            let digest = fs::File::open(&place).and_then(sha256::hex);
+            let digest = digest.map_err(|error| source::not_readable(&place, &error))?;
+            Ok(FileRead { path, sha256: Some(digest) })
         };
         [study, chain].into_iter().chain(tables).map(read).collect()
     }
@@ -123,14 +125,19 @@ impl Measured {
             second: held_out.as_ref(),
             when: &date,
         };
-        let calibration =
-            calibrate_telling(request, tell).map_err(|error| Failure::Input(error.to_string()))?;
+        let (calibration, files) = std::thread::scope(|scope| {
+            // Checksums of large files take as long as some of the loop, which does not use every processor all the time.
+            let files = scope.spawn(|| studied.files_read());
+            let calibration = calibrate_telling(request, tell);
+            (calibration, files.join().unwrap_or_else(|panic| resume_unwind(panic)))
+        });
+        let calibration = calibration.map_err(|error| Failure::Input(error.to_string()))?;
         let provenance = Provenance {
             version: env!("CARGO_PKG_VERSION"),
             command,
             date,
             study: studied.study.text.clone(),
-            files: studied.files_read()?,
+            files: files?,
         };
         Ok(Calibrated { calibration, studied, observations, provenance })
     }

@@ -1,6 +1,7 @@
 //! Readings in, more columns out: what `eval` and `apply` both do with a table.
 
 use std::path::PathBuf;
+use std::time::{Duration, Instant};
 
 use model_core::Chain;
 
@@ -106,6 +107,8 @@ impl OverTable {
         let replaced: Vec<String> = names(true).collect();
         let header: Vec<String> = names(false).chain(added.iter().cloned()).collect();
         let mut not_finite = 0;
+        let mut done = 0;
+        let (progress, began) = (terminal::progress(), Instant::now());
         tables::write(&self.out, |writer| {
             writer.header(&header)?;
             while let Some(rows) = table.next()? {
@@ -116,13 +119,40 @@ impl OverTable {
                 let kept = kept.map(|(kept, _)| Column::Kept(kept));
                 let computed = computed.iter().map(|column| Column::Numbers(column));
                 writer.rows(&kept.chain(computed).collect::<Vec<_>>(), rows.count)?;
+                done += rows.count;
+                progress.set_message(so_far(done, table.share_read(), began.elapsed()));
             }
             Ok(())
         })?;
+        progress.finish_and_clear();
         table.doubtful().for_each(terminal::warn);
         if not_finite > 0 {
             terminal::warn(format_args!("{not_finite} rows are not finite: the chain has a pole there"));
         }
         Ok(replaced)
+    }
+}
+
+/// What is done, and how long the rest takes, as far as that is known.
+fn so_far(rows: usize, share: Option<f64>, elapsed: Duration) -> String {
+    match share.filter(|&share| share > 0.0) {
+        Some(share) => {
+            let left = elapsed.as_secs_f64() * (1.0 / share - 1.0).max(0.0);
+            format!("{rows} rows, {:.0} % of the file, about {left:.0} s left", 100.0 * share.min(1.0))
+        }
+        None => format!("{rows} rows"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn progress_tells_what_is_left() {
+        let told = so_far(65_536, Some(0.25), Duration::from_secs(10));
+        assert_eq!(told, "65536 rows, 25 % of the file, about 30 s left");
+        assert_eq!(so_far(7, None, Duration::from_secs(1)), "7 rows");
+        assert_eq!(so_far(7, Some(0.0), Duration::ZERO), "7 rows");
     }
 }

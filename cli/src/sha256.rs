@@ -2,22 +2,44 @@
 //!
 //! Source: NIST, FIPS PUB 180-4, "Secure Hash Standard" (2015), sections 4.1.2, 5 and 6.2.
 
-/// The digest of some bytes, as 64 hexadecimal digits.
-#[must_use]
-pub fn hex(bytes: &[u8]) -> String {
+use std::io::{self, Read};
+
+/// Bytes read at a time: a multiple of a block's 64.
+const AT_ONCE: usize = 1 << 16;
+
+/// The digest of everything that is to be read, as 64 hexadecimal digits.
+///
+/// # Errors
+/// It cannot be read.
+pub fn hex(mut from: impl Read) -> io::Result<String> {
     let mut state = FIRST;
-    let mut blocks = bytes.chunks_exact(64);
-    for block in blocks.by_ref() {
-        compress(&mut state, block);
+    let mut read = vec![0; AT_ONCE];
+    let mut length = 0_u64;
+    loop {
+        let mut filled = 0;
+        while filled < read.len() {
+            match from.read(&mut read[filled..]) {
+                Ok(0) => break,
+                Ok(count) => filled += count,
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+            }
+        }
+        length += filled as u64;
+        let mut blocks = read[..filled].chunks_exact(64);
+        blocks.by_ref().for_each(|block| compress(&mut state, block));
+        if filled == read.len() {
+            continue;
+        }
+        let mut last = blocks.remainder().to_vec();
+        last.push(0x80);
+        while last.len() % 64 != 56 {
+            last.push(0);
+        }
+        last.extend((length * 8).to_be_bytes());
+        last.chunks_exact(64).for_each(|block| compress(&mut state, block));
+        return Ok(state.iter().map(|word| format!("{word:08x}")).collect());
     }
-    let mut last = blocks.remainder().to_vec();
-    last.push(0x80);
-    while last.len() % 64 != 56 {
-        last.push(0);
-    }
-    last.extend((bytes.len() as u64 * 8).to_be_bytes());
-    last.chunks_exact(64).for_each(|block| compress(&mut state, block));
-    state.iter().map(|word| format!("{word:08x}")).collect()
 }
 
 /// The first 32 bits of the fractional parts of the square roots of the first eight primes.
@@ -62,6 +84,7 @@ fn compress(state: &mut [u32; 8], block: &[u8]) {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::hex;
 
@@ -77,7 +100,7 @@ mod tests {
             ),
             ("a".repeat(1_000_000), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0"),
         ] {
-            assert_eq!(hex(text.as_bytes()), digest);
+            assert_eq!(hex(text.as_bytes()).unwrap(), digest);
         }
     }
 }

@@ -2,7 +2,7 @@
 """Make the tables and the declaration of this example from a table of the survey's observations.
 
 Data: linz/python-linz-pyaxis (BSD-3), the example of 2015, as one table with the columns from, to, orientation, arc, target, set,
-ha [deg], zd [deg], sd [m]. Arcs A and B turn the telescope by steps of 10 degrees of azimuth, arcs C and D of elevation: the labels of the
+ha [deg], zd [deg], sd [m], and their standard deviations. Arcs A and B turn the telescope by steps of 10 degrees of azimuth, arcs C and D of elevation: the labels of the
 orientations say roughly by how much. What the telescope's own circles read nobody wrote down, so that each arc has an error of
 its own at each orientation.
 
@@ -11,6 +11,7 @@ its own at each orientation.
 """
 
 import csv
+import math
 import pathlib
 import sys
 
@@ -64,7 +65,7 @@ def tables(source):
     rows = [row for row in everything if row["arc"]]
     for number, station, arcs in ((0, "WAS3", "AD"), (1, "WAN3", "BC")):
         with open(HERE / ("second.csv" if number else "first.csv"), "w") as out:
-            out.write("target,ha [deg],zd [deg],range [m],azimuth [deg],elevation [deg],second\n")
+            out.write("target,ha [deg],zd [deg],range [m],azimuth [deg],elevation [deg],second,aside [m],along [m]\n")
             for row in rows:
                 if row["from"] != station:
                     continue
@@ -76,7 +77,10 @@ def tables(source):
                 back = rounds[row["from"], row["set"]]
                 ha = float(row["ha [deg]"]) - sum(back) / len(back)
                 angles = f"{ha:.6f},{row['zd [deg]']},{row['sd [m]']}"
-                out.write(f"{arc}{row['target']},{angles},{azimuth},{elevation},{number}\n")
+                # The standard deviation of a direction (both circles state the same), as a length at the target.
+                aside = math.radians(float(row["zd_sd [deg]"])) * float(row["sd [m]"])
+                sigma = f"{aside:.7f},{row['sd_sd [m]']}"
+                out.write(f"{arc}{row['target']},{angles},{azimuth},{elevation},{number},{sigma}\n")
 
 
 if __name__ == "__main__":

@@ -125,8 +125,15 @@ pub(crate) fn predicted<const N: usize>(
     last: &Round<'_>,
     coefficients: [&Coefficients; N],
 ) -> Result<[Vec<f64>; N], SearchError> {
-    let row_sets = last.search.each_row_set(whole, &last.fitted, |components, row_set| {
-        coefficients.map(|coefficients| predicted_of(last, coefficients, components.start, row_set))
+    let candidates = last.search.candidates(whole);
+    let used = coefficients.iter().flat_map(|of_folds| of_folds.iter().flatten());
+    let used = used.filter_map(|&(column, _)| column.checked_sub(last.search.problem.declared()));
+    let mut wanted: Vec<usize> = used.map(|candidate| candidates[candidate].0).collect();
+    wanted.sort_unstable();
+    let wanted = |effect: usize| wanted.binary_search(&effect).is_ok();
+    let row_sets = last.search.each_row_set(whole, &last.fitted, wanted, |components, row_set| {
+        coefficients
+            .map(|coefficients| predicted_of(last, &candidates, coefficients, components.start, row_set))
     })?;
     let mut left = [const { Vec::new() }; N];
     for row_set in row_sets {
@@ -138,13 +145,13 @@ pub(crate) fn predicted<const N: usize>(
 /// The same for some of the rows, whose components start at one of all.
 fn predicted_of(
     last: &Round<'_>,
+    candidates: &[(usize, usize)],
     coefficients: &Coefficients,
     start: usize,
     row_set: &RowSet<'_>,
 ) -> Vec<f64> {
     let problem = &last.search.problem;
     let declared = row_set.columns.declared.as_ref();
-    let own: Vec<&Vec<f64>> = row_set.effects.iter().flatten().collect();
     let mut left = problem.before_whitening(problem.residual(), declared, &row_set.without);
     let mut columns: Vec<usize> = coefficients.iter().flatten().map(|&(column, _)| column).collect();
     columns.sort_unstable();
@@ -152,7 +159,10 @@ fn predicted_of(
     for column in columns {
         let values = match column.checked_sub(problem.declared()) {
             None => problem.basis_before_whitening(column, declared),
-            Some(candidate) => problem.before_whitening(column, declared, own[candidate]),
+            Some(candidate) => {
+                let (effect, function) = candidates[candidate];
+                problem.before_whitening(column, declared, &row_set.effects[effect][function])
+            }
         };
         let by_fold: Vec<f64> = coefficients
             .iter()

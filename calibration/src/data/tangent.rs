@@ -19,7 +19,7 @@ pub fn direction_from_spherical(azimuth_rad: f64, elevation_rad: f64) -> Vector3
 /// On the z axis itself, where azimuth means nothing, azimuth 0 is taken.
 #[must_use]
 pub fn tangent_frame(direction: &Vector3<f64>) -> [Vector3<f64>; 2] {
-    let horizontal = direction.x.hypot(direction.y);
+    let horizontal = (direction.x * direction.x + direction.y * direction.y).sqrt();
     let (sin_a, cos_a) =
         if horizontal > 0.0 { (direction.x / horizontal, direction.y / horizontal) } else { (0.0, 1.0) };
     let sin_e = direction.z;

@@ -1,14 +1,23 @@
 //! Harmonics of each joint in what is left: how large, and how large noise alone would make them.
 
+use faer::Mat;
 use model_core::{Chain, Quantity, SymbolKind};
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::data::Observations;
 use crate::fit::FitResult;
+use crate::search::products::add_products;
 
 /// Harmonics that are told.
 const ORDERS: usize = 12;
+
+/// The constant, and a cosine and a sine an order.
+const WIDTH: usize = 2 * ORDERS + 1;
+
+/// Rows taken at a time.
+const CHUNK: usize = 2048;
 
 /// √(−2 ln 0.05): noise alone gives a harmonic more than so many standard uncertainties once in twenty.
 const LIMIT: f64 = 2.447_746_830_680_816;
@@ -37,71 +46,99 @@ pub(super) fn harmonics(
 ) -> Vec<Harmonics> {
     let Some(series) = observations.poses.series.first() else { return Vec::new() };
     let names = series.measure.component_names();
+    let rows: Vec<usize> = series
+        .rows
+        .clone()
+        .filter(|&row| after.residuals.weight.get(row).is_some_and(|&weight| weight > 0.0))
+        .collect();
     let mut all = Vec::new();
     for (id, readings) in &observations.poses.columns {
         let symbol = chain.symbol(*id);
         if symbol.kind != SymbolKind::Joint || symbol.quantity != Quantity::Angle {
             continue;
         }
-        for (component, &name) in names.iter().enumerate() {
-            let rows: Vec<usize> = series
-                .rows
-                .clone()
-                .filter(|&row| after.residuals.weight.get(row).is_some_and(|&weight| weight > 0.0))
-                .collect();
-            let residual = |fit: &FitResult, row: usize| {
-                fit.residuals.raw[(row - series.rows.start) * names.len() + component]
-            };
-            let fitted = joint_fit(&rows, readings, |row| [residual(before, row), residual(after, row)]);
-            if let Some([before, after, limit]) = fitted {
-                all.push(Harmonics { joint: symbol.name.clone(), component: name, before, after, limit });
-            }
-        }
+        let residuals = |row: usize| {
+            let own = (row - series.rows.start) * names.len()..(row - series.rows.start + 1) * names.len();
+            [&before.residuals.raw[own.clone()], &after.residuals.raw[own]]
+        };
+        let fitted = joint_fit(&rows, readings, names.len(), residuals);
+        all.extend(fitted.into_iter().zip(names).map(|([before, after, limit], &component)| Harmonics {
+            joint: symbol.name.clone(),
+            component,
+            before,
+            after,
+            limit,
+        }));
     }
     all
 }
 
-/// Amplitudes of two residuals, and the limit of the second; `None` where the readings do not tell the orders apart.
-fn joint_fit(
+/// Per component the amplitudes of two residuals, and the limit of the second; none where the readings do not tell the orders
+/// apart.
+fn joint_fit<'a>(
     rows: &[usize],
     readings: &[f64],
-    residuals: impl Fn(usize) -> [f64; 2],
-) -> Option<[Vec<f64>; 3]> {
-    let width = 2 * ORDERS + 1;
-    if rows.len() <= 2 * width {
-        return None;
+    components: usize,
+    residuals: impl Fn(usize) -> [&'a [f64]; 2] + Sync,
+) -> Vec<[Vec<f64>; 3]> {
+    if rows.len() <= 2 * WIDTH {
+        return Vec::new();
     }
-    let mut normal = DMatrix::<f64>::zeros(width, width);
-    let mut right = [DVector::<f64>::zeros(width), DVector::<f64>::zeros(width)];
-    let mut square = 0.0;
-    for &row in rows {
-        let mut wave = DVector::from_element(width, 1.0);
-        for order in 1..=ORDERS {
-            let (sin, cos) = (order as f64 * readings[row]).sin_cos();
-            (wave[2 * order - 1], wave[2 * order]) = (cos, sin);
-        }
-        normal.ger(1.0, &wave, &wave, 1.0);
-        let values = residuals(row);
-        right.iter_mut().zip(values).for_each(|(right, value)| right.axpy(value, &wave, 1.0));
-        square += values[1] * values[1];
-    }
+    let products = products(rows, readings, WIDTH + 2 * components, residuals);
+    let at = |i: usize, j: usize| products[(i.max(j), i.min(j))];
+    let normal = DMatrix::from_fn(WIDTH, WIDTH, at);
     let largest = normal.diagonal().max();
     let eigen = normal.clone().symmetric_eigenvalues();
     if eigen.min() < 1e-3 * largest {
-        return None;
+        return Vec::new();
     }
-    let inverse = normal.cholesky()?.inverse();
-    let [of_before, of_after] = right.each_ref().map(|right| &inverse * right);
-    let left = (square - of_after.dot(&right[1])).max(0.0) / (rows.len() - width) as f64;
-    let amplitude = |x: &DVector<f64>| -> Vec<f64> {
-        (1..=ORDERS).map(|order| x[2 * order - 1].hypot(x[2 * order])).collect()
+    let Some(inverse) = normal.cholesky().map(|factor| factor.inverse()) else { return Vec::new() };
+    (0..components)
+        .map(|component| {
+            let [before, after] = [component, components + component].map(|column| WIDTH + column);
+            let right = [before, after].map(|column| DVector::from_fn(WIDTH, |i, _| at(i, column)));
+            let [of_before, of_after] = right.each_ref().map(|right| &inverse * right);
+            let left = (at(after, after) - of_after.dot(&right[1])).max(0.0) / (rows.len() - WIDTH) as f64;
+            let amplitude = |x: &DVector<f64>| -> Vec<f64> {
+                (1..=ORDERS).map(|order| x[2 * order - 1].hypot(x[2 * order])).collect()
+            };
+            let limit = (1..=ORDERS).map(|order| {
+                let variance =
+                    f64::midpoint(inverse[(2 * order - 1, 2 * order - 1)], inverse[(2 * order, 2 * order)]);
+                LIMIT * (left * variance).sqrt()
+            });
+            [amplitude(&of_before), amplitude(&of_after), limit.collect()]
+        })
+        .collect()
+}
+
+/// The lower half of the inner products of 1, cos q, sin q, cos 2q, …, and both residuals, component by component. Chunks are
+/// added up in order, so that the number of processors changes no bit.
+fn products<'a>(
+    rows: &[usize],
+    readings: &[f64],
+    width: usize,
+    residuals: impl Fn(usize) -> [&'a [f64]; 2] + Sync,
+) -> Mat<f64> {
+    let of_chunk = |rows: &[usize]| {
+        let mut columns = Mat::zeros(rows.len(), width);
+        for (at, &row) in rows.iter().enumerate() {
+            columns[(at, 0)] = 1.0;
+            let (sin, cos) = readings[row].sin_cos();
+            let (mut s, mut c) = (0.0, 1.0);
+            for order in 1..=ORDERS {
+                (s, c) = (s * cos + c * sin, c * cos - s * sin);
+                (columns[(at, 2 * order - 1)], columns[(at, 2 * order)]) = (c, s);
+            }
+            let values = residuals(row).into_iter().flatten();
+            values.enumerate().for_each(|(number, &value)| columns[(at, WIDTH + number)] = value);
+        }
+        let mut products = Mat::zeros(width, width);
+        add_products(&mut products, columns.as_ref());
+        products
     };
-    let limit = (1..=ORDERS).map(|order| {
-        let variance =
-            f64::midpoint(inverse[(2 * order - 1, 2 * order - 1)], inverse[(2 * order, 2 * order)]);
-        LIMIT * (left * variance).sqrt()
-    });
-    Some([amplitude(&of_before), amplitude(&of_after), limit.collect()])
+    let chunks: Vec<Mat<f64>> = rows.par_chunks(CHUNK).map(of_chunk).collect();
+    chunks.into_iter().fold(Mat::zeros(width, width), |whole, part| whole + part)
 }
 
 #[cfg(test)]
@@ -114,13 +151,15 @@ mod tests {
         let rows: Vec<usize> = (0..500).collect();
         let noise = |row: usize| if row.is_multiple_of(2) { 0.1 } else { -0.1 };
         let wave = |row: usize| 3.0 * readings[row].cos() - 4.0 * readings[row].sin();
-        let [before, after, limit] =
-            joint_fit(&rows, &readings, |row| [wave(row), noise(row)]).expect("orders are told apart");
+        let values: Vec<[f64; 2]> = (0..500).map(|row| [wave(row), noise(row)]).collect();
+        let residuals = |row: usize| [&values[row][..1], &values[row][1..]];
+        let [[before, after, limit]] =
+            <[_; 1]>::try_from(joint_fit(&rows, &readings, 1, residuals)).expect("orders are told apart");
         assert!((before[0] - 5.0).abs() < 1e-9 && before[1..].iter().all(|&a| a < 1e-9), "{before:?}");
         assert!(after.iter().zip(&limit).filter(|(after, limit)| after > limit).count() <= 2, "{after:?}");
         // 0.1 √(2/500) standard uncertainty of each coefficient.
         assert!((limit[0] / (2.4477 * 0.1 * (2.0_f64 / 500.0).sqrt()) - 1.0).abs() < 0.1, "{limit:?}");
         assert_eq!(limit.len(), ORDERS);
-        assert!(joint_fit(&rows[..20], &readings, |_| [0.0, 0.0]).is_none());
+        assert!(joint_fit(&rows[..20], &readings, 1, residuals).is_empty());
     }
 }

@@ -197,7 +197,8 @@ fn leverages(chain: &Chain, observations: &Observations, fit: &FitResult) -> Res
             shares.iter_mut().zip(share).for_each(|(sum, share)| *sum += share * share);
         }
         let sigma = &sigma[layout.first[rows.start]..layout.first[rows.end]];
-        let whitened = block.by_row(&shares).zip(sigma).map(|(share, sigma)| share / (sigma * sigma));
+        let whitened =
+            block.by_row(&shares).into_iter().zip(sigma).map(|(share, sigma)| share / (sigma * sigma));
         let whitened: Vec<f64> = whitened.collect();
         let by_row = whitened.chunks_exact(block.components).zip(rows);
         by_row.map(|(shares, row)| shares.iter().sum::<f64>() * fit.residuals.weight[row]).collect::<Vec<_>>()

@@ -85,7 +85,7 @@ pub(crate) fn traces(
     let values = &fitted.fit.values;
     let effects: Vec<Effect> =
         fitted.found.iter().map(|found| whole.catalogue[found.effect].clone()).collect();
-    let (of_effects, _) = columns.of_part(&fitted.chain, &effects, &observations.poses, values);
+    let (of_effects, _) = columns.of_part(&fitted.chain, &effects, &observations.poses, values, |_| true);
     let mut traces = Vec::new();
     for ((effect, own), errors) in effects.iter().zip(&of_effects).zip(&fitted.errors) {
         let mut trace = Trace {

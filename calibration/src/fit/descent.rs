@@ -33,11 +33,11 @@ impl Solver<'_> {
     /// the medians to Tukey's at that of the noise.
     pub(super) fn course(&mut self, start: &[f64], weighting: Weighting) -> Result<Course, FitError> {
         let noise = self.first_noise(start)?;
-        let mut subspace = self.determined(start, &noise)?;
+        let subspace = self.determined(start, &noise)?;
         let values = self.with_smallest(start, &subspace);
         let first = if weighting == Weighting::Full { Weighting::Full } else { Weighting::Huber };
         let point = self.point(values, &noise, first, Rest::Still)?;
-        let mut course = Course { point, noise, subspace: subspace.clone(), weighting: first, stopped: None };
+        let mut course = Course { point, noise, subspace, weighting: first, stopped: None };
         if weighting == Weighting::Biweight {
             self.approach(&mut course)?;
             course.weighting = weighting;
@@ -48,10 +48,24 @@ impl Solver<'_> {
             }
             course.point = self.point(course.point.values, &course.noise, weighting, Rest::Still)?;
         }
+        self.settled(course)
+    }
+
+    /// The same from values that are near the bottom already.
+    pub(super) fn course_from(&mut self, near: &[f64], weighting: Weighting) -> Result<Course, FitError> {
+        let noise = self.first_noise(near)?;
+        let subspace = self.determined(near, &noise)?;
+        let values = self.with_smallest(near, &subspace);
+        let point = self.point(values, &noise, weighting, Rest::Still)?;
+        self.settled(Course { point, noise, subspace, weighting, stopped: None })
+    }
+
+    /// A course to the bottom, of what is determined there.
+    fn settled(&mut self, mut course: Course) -> Result<Course, FitError> {
         self.settle(&mut course)?;
         // What is determined is asked where constants that are estimated came to stand.
         for _ in 0..3 {
-            subspace = self.determined(&course.point.values, &course.noise)?;
+            let subspace = self.determined(&course.point.values, &course.noise)?;
             if subspace.rank() == course.subspace.rank() {
                 break;
             }

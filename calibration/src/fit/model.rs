@@ -71,9 +71,15 @@ impl Block {
     }
 
     /// An array of this block row by row, component by component.
-    pub fn by_row<'a>(&self, values: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
-        let (rows, components) = (self.rows, self.components);
-        (0..rows).flat_map(move |row| (0..components).map(move |component| values[component * rows + row]))
+    pub fn by_row(&self, values: &[f64]) -> Vec<f64> {
+        let mut by_row = vec![0.0; values.len()];
+        if self.rows > 0 {
+            for (component, values) in values.chunks_exact(self.rows).enumerate() {
+                let places = by_row[component..].iter_mut().step_by(self.components);
+                places.zip(values).for_each(|(to, from)| *to = *from);
+            }
+        }
+        by_row
     }
 }
 

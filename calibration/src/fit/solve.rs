@@ -11,7 +11,13 @@ use super::sweep::{Weighting, residuals};
 use super::{FitError, FitOptions, FitResult, Model, Outcome, Residuals, SetAside, Why};
 use crate::data::Observations;
 use crate::data::unknowns::Unknowns;
-use crate::fit::noise::Layout;
+use crate::fit::noise::{Layout, NoiseOptions};
+
+/// Rows from which on a robust fit comes near on a sample of them first.
+const MANY: usize = 200_000;
+
+/// Rows of such a sample, about.
+const SAMPLE: usize = 20_000;
 
 /// When more than this share of the rows has lost all weight, other starts are tried.
 const DOUBTFUL: f64 = 0.25;
@@ -45,9 +51,14 @@ pub fn fit(chain: &Chain, observations: &Observations, options: &FitOptions) -> 
 
 impl Solver<'_> {
     fn run(mut self) -> Result<FitResult, FitError> {
-        let start = self.with_state(starting_values(self.chain, self.observations, self.options)?);
         let weighting = self.options.weighting();
-        let mut course = self.course(&start, weighting)?;
+        let mut course = match self.of_sample()? {
+            Some(near) => self.course_from(&near, weighting)?,
+            None => {
+                let start = self.with_state(starting_values(self.chain, self.observations, self.options)?);
+                self.course(&start, weighting)?
+            }
+        };
         if self.doubtful(&course)? {
             course = self.elsewhere(course)?;
         }
@@ -56,6 +67,23 @@ impl Solver<'_> {
         }
         self.release(&mut course)?;
         self.result(course)
+    }
+
+    /// Where a fit of some of very many rows ends, evenly spread; none where they are not many, or that fit does not end well.
+    fn of_sample(&self) -> Result<Option<Vec<f64>>, FitError> {
+        let rows = self.observations.rows();
+        if rows < MANY || !self.options.robust || self.observations.unknowns.is_some() {
+            return Ok(None);
+        }
+        // Steps of an irrational length meet no period of the data.
+        let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
+        let share = SAMPLE as f64 / rows as f64;
+        let chosen = (0..rows).filter(|&row| (row as f64 * golden).fract() < share);
+        let sample = self.observations.select(&chosen.collect::<Vec<_>>());
+        let noise = NoiseOptions { variance: false, serial: false, ..self.options.noise.clone() };
+        let of_sample = fit(self.chain, &sample, &FitOptions { noise, ..self.options.clone() })?;
+        let has_converged = matches!(of_sample.outcome, Outcome::Converged { .. });
+        Ok(has_converged.then_some(of_sample.values))
     }
 
     /// Whether a course failed, or ended where much of the data does not count or where no errors at all would do better.

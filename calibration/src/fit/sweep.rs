@@ -262,7 +262,7 @@ pub fn sweep(
     weighting: Weighting,
     aside: &[bool],
 ) -> Result<Sweep, FitError> {
-    let keep = |block: &Block| (block.by_row(&block.residual).collect::<Vec<_>>(), block.defined.clone());
+    let keep = |block: &Block| (block.by_row(&block.residual), block.defined.clone());
     let (tally, kept, eliminated) =
         sweep_with(model, observations, layout, values, sigma, weighting, aside, keep)?;
     let (residual, defined): (Vec<_>, Vec<_>) = kept.into_iter().unzip();
@@ -282,7 +282,7 @@ pub fn design(model: &Model, poses: &Poses, values: &[f64]) -> Result<Partial, F
 
 /// Residuals alone.
 pub fn residuals(model: &Model, observations: &Observations, values: &[f64]) -> Result<Vec<f64>, FitError> {
-    let keep = |block: &Block| block.by_row(&block.residual).collect::<Vec<_>>();
+    let keep = |block: &Block| block.by_row(&block.residual);
     Ok(model.map_blocks(observations, values, |_, _, block| keep(block))?.concat())
 }
 

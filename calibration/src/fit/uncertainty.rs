@@ -263,7 +263,7 @@ impl Solver<'_> {
         let parts = self.model.map_blocks(self.observations, &course.point.values, |_, rows, block| {
             let whitened = |values: &[f64]| -> Vec<f64> {
                 let from = first[rows.start];
-                let by_row = block.by_row(values).enumerate();
+                let by_row = block.by_row(values).into_iter().enumerate();
                 let scaled = by_row.map(|(at, value)| {
                     value * weight[rows.start + at / block.components].sqrt() / sigma[from + at]
                 });

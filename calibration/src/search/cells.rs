@@ -3,11 +3,13 @@
 //! All that the search asks of rows is inner products of columns, over a fold or over what a sign flip turns; so rows
 //! come chunk by chunk and are forgotten, and a search costs the same however many they were.
 
+use std::ops::Range;
+
 use faer::{Mat, MatRef};
 use rayon::prelude::*;
 
 use super::folds::Folds;
-use super::products::{add_products, mirrored, picked};
+use super::products::{add_products, mirrored};
 
 /// What is left of a column, as a share of its sum of squares, below which it counts as explained by those before it.
 const NOTHING: f64 = 1e-13;
@@ -15,18 +17,48 @@ const NOTHING: f64 = 1e-13;
 /// Inner products of the rows seen so far, cell by cell.
 #[derive(Debug, Clone)]
 pub struct Cells {
-    cell_of_group: Vec<usize>,
     fold_of_cell: Vec<usize>,
     rows_of_fold: Vec<usize>,
     /// The lower half.
     grams: Vec<Mat<f64>>,
 }
 
-impl Cells {
-    /// No rows yet, of `width` columns: about `most` cells, at least one for each fold that has rows. Groups of a fold that
-    /// follow each other share a cell.
+/// Which cell each group belongs to.
+#[derive(Debug, Clone)]
+pub struct CellsOfGroups(Vec<usize>);
+
+/// Rows put in an order in which those of one cell follow each other.
+#[derive(Debug, Clone)]
+pub struct ByCell {
+    /// The rows in that order.
+    pub order: Vec<usize>,
+    /// Cells that have some of them, with their places in that order.
+    cells: Vec<(usize, Range<usize>)>,
+}
+
+impl CellsOfGroups {
+    /// The order of some rows, whose groups are given as the folds number them.
     #[must_use]
-    pub fn new(folds: &Folds, most: usize, width: usize) -> Self {
+    pub fn sorted(&self, group_of_row: &[usize]) -> ByCell {
+        let cell = |row: usize| self.0[group_of_row[row]];
+        let mut order: Vec<usize> = (0..group_of_row.len()).collect();
+        order.sort_by_key(|&row| cell(row));
+        let mut cells: Vec<(usize, Range<usize>)> = Vec::new();
+        for (at, &row) in order.iter().enumerate() {
+            match cells.last_mut() {
+                Some((last, places)) if *last == cell(row) => places.end = at + 1,
+                _ => cells.push((cell(row), at..at + 1)),
+            }
+        }
+        ByCell { order, cells }
+    }
+}
+
+impl Cells {
+    /// No rows yet, of `width` columns: about `most` cells, at least one for each fold that has rows; and the cell of each
+    /// group. Groups of a fold that follow each other share a cell.
+    #[must_use]
+    pub fn new(folds: &Folds, most: usize, width: usize) -> (Self, CellsOfGroups) {
         let in_fold = (most / folds.count().max(1)).max(1);
         let mut size = vec![0_usize; folds.count()];
         folds.fold_of_group.iter().for_each(|&fold| size[fold] += 1);
@@ -41,25 +73,26 @@ impl Cells {
             seen[fold] += 1;
             first[fold] + (seen[fold] - 1) * size[fold].min(in_fold) / size[fold]
         });
-        Self {
-            cell_of_group: cell_of_group.collect(),
+        let cell_of_group = CellsOfGroups(cell_of_group.collect());
+        let cells = Self {
             rows_of_fold: folds.rows_of_fold.clone(),
             grams: vec![Mat::zeros(width, width); fold_of_cell.len()],
             fold_of_cell,
-        }
+        };
+        (cells, cell_of_group)
     }
 
-    /// Takes in rows, whose groups are given as the folds number them.
-    pub fn add(&mut self, rows: MatRef<'_, f64>, group_of_row: &[usize]) {
-        let mut members = vec![Vec::new(); self.grams.len()];
-        for (row, &group) in group_of_row.iter().enumerate() {
-            members[self.cell_of_group[group]].push(row);
+    /// Takes in rows, put in the order of their cells.
+    pub fn add(&mut self, rows: MatRef<'_, f64>, by_cell: &ByCell) {
+        let mut own = vec![0..0; self.grams.len()];
+        for (cell, places) in &by_cell.cells {
+            own[*cell] = places.clone();
         }
         self.grams
             .par_iter_mut()
-            .zip(members)
-            .filter(|(_, members)| !members.is_empty())
-            .for_each(|(gram, members)| add_products(gram, picked(rows, &members).as_ref()));
+            .zip(own)
+            .filter(|(_, own)| !own.is_empty())
+            .for_each(|(gram, own)| add_products(gram, rows.subrows(own.start, own.len())));
     }
 
     /// The rows that stand for all, with the columns `kept` alone, and the folds that they lie in.
@@ -112,6 +145,7 @@ fn root(gram: &Mat<f64>) -> Vec<Vec<f64>> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::products::picked;
     use super::*;
     use proptest::prelude::*;
 
@@ -137,10 +171,11 @@ mod tests {
             }
             let numbers: Vec<usize> = (0..60).map(|row| row * 7 % groups).collect();
             let folds = Folds::deal(&numbers, 3, 1);
-            let mut cells = Cells::new(&folds, most, 5);
+            let (mut cells, of_groups) = Cells::new(&folds, most, 5);
             for start in (0..60).step_by(chunk) {
                 let end = (start + chunk).min(60);
-                cells.add(rows.subrows(start, end - start), &folds.group_of_row[start..end]);
+                let by_cell = of_groups.sorted(&folds.group_of_row[start..end]);
+                cells.add(picked(rows.subrows(start, end - start), &by_cell.order).as_ref(), &by_cell);
             }
             let (merged, of_merged) = cells.merged(&[0, 1, 2, 3, 4]);
             prop_assert!(merged.nrows() <= 4 * of_merged.groups());

@@ -27,7 +27,7 @@ pub(crate) mod library;
 pub(crate) mod memory;
 pub mod nested;
 pub mod problem;
-mod products;
+pub(crate) mod products;
 pub mod reach;
 pub mod remains;
 pub(crate) mod round;

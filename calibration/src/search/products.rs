@@ -15,7 +15,7 @@ pub(super) fn picked(rows: MatRef<'_, f64>, members: &[usize]) -> Mat<f64> {
 }
 
 /// Adds the inner products of columns to the lower half of a matrix.
-pub(super) fn add_products(gram: &mut Mat<f64>, rows: MatRef<'_, f64>) {
+pub(crate) fn add_products(gram: &mut Mat<f64>, rows: MatRef<'_, f64>) {
     let (half, whole) = (BlockStructure::TriangularLower, BlockStructure::Rectangular);
     matmul(gram, half, Accum::Add, rows.transpose(), whole, rows, whole, 1.0, Par::Seq);
 }

@@ -18,7 +18,7 @@ use crate::search::fitted::Fitted;
 use crate::search::{Folds, SearchError};
 
 /// Rows of a chunk.
-const CHUNK: usize = 4096;
+const CHUNK: usize = 2048;
 
 /// Consecutive rows of a sample that stay together, so that what follows each other can still be compared.
 const STRETCH: usize = 64;
@@ -44,8 +44,14 @@ pub(crate) struct RowSet<'a> {
 }
 
 impl<'a> RowSet<'a> {
-    /// Of rows that follow each other stretch by stretch, each within one series, in order.
-    pub fn of(whole: &Context<'a>, fitted: &Fitted, stretches: &[Range<usize>]) -> Result<Self, SearchError> {
+    /// Of rows that follow each other stretch by stretch, each within one series, in order; with the columns of the effects that
+    /// are wanted, by their number in the catalogue, and of those that were accepted.
+    pub fn of(
+        whole: &Context<'a>,
+        fitted: &Fitted,
+        stretches: &[Range<usize>],
+        wanted: impl Fn(usize) -> bool,
+    ) -> Result<Self, SearchError> {
         let all = whole.request.observations;
         let rows: usize = stretches.iter().map(ExactSizeIterator::len).sum();
         let observations = if rows == all.rows() {
@@ -56,7 +62,9 @@ impl<'a> RowSet<'a> {
         let mut columns = fitted.probed.columns(&observations)?;
         columns.declared = &columns.declared * &fitted.combinations;
         let values = &fitted.fit.values;
-        let (effects, seen) = columns.of_part(&fitted.chain, &whole.catalogue, &observations.poses, values);
+        let wanted = |effect| wanted(effect) || fitted.found.iter().any(|found| found.effect.0 == effect);
+        let (effects, seen) =
+            columns.of_part(&fitted.chain, &whole.catalogue, &observations.poses, values, wanted);
         let mut without = columns.residual.clone();
         for (found, new) in fitted.found.iter().zip(&fitted.errors) {
             for (column, error) in effects[found.effect.0].iter().zip(new) {
@@ -139,12 +147,18 @@ impl<'a> RowSet<'a> {
 
     /// Declared combinations, the columns of each effect, and the residual, whitened.
     pub fn whitened(&self) -> Mat<f64> {
+        self.whitened_in(&(0..self.without.len()).collect::<Vec<_>>())
+    }
+
+    /// The same with the components in another order.
+    pub fn whitened_in(&self, order: &[usize]) -> Mat<f64> {
         let declared = (0..self.columns.declared.ncols()).map(|j| self.columns.declared.col_as_slice(j));
         let effects = self.effects.iter().flatten().map(Vec::as_slice);
         let columns: Vec<&[f64]> = declared.chain(effects).chain([self.without.as_slice()]).collect();
         let mut rows = Mat::zeros(self.without.len(), columns.len());
         for (j, column) in columns.into_iter().enumerate() {
-            rows.col_as_slice_mut(j).copy_from_slice(&self.whiten(column));
+            let white = self.whiten(column);
+            rows.col_as_slice_mut(j).iter_mut().zip(order).for_each(|(to, &from)| *to = white[from]);
         }
         rows
     }

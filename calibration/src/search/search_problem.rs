@@ -57,7 +57,7 @@ impl<'a> SearchProblem<'a> {
 
     /// With every row in memory.
     fn held(whole: &Context<'a>, fitted: &Fitted, folds: Folds) -> Result<Self, SearchError> {
-        let mut rows = RowSet::of(whole, fitted, &all_rows(whole.request.observations))?;
+        let mut rows = RowSet::of(whole, fitted, &all_rows(whole.request.observations), |_| true)?;
         let usable = rows.seen.usable(&whole.catalogue);
         rows.keep(&usable);
         let problem = problem(whole, fitted, &usable, &rows.whitened(), folds.clone())?;
@@ -68,18 +68,27 @@ impl<'a> SearchProblem<'a> {
     /// With chunk after chunk merged into what is left of those before, and a sample in memory.
     fn merged(whole: &Context<'a>, fitted: &Fitted, folds: Folds, width: usize) -> Result<Self, SearchError> {
         let observations = whole.request.observations;
-        let mut cells = Cells::new(&folds, CELLS.min(whole.held / (2 * width * width)), width);
+        let (mut cells, of_groups) = Cells::new(&folds, CELLS.min(whole.held / (2 * width * width)), width);
         let mut seen: Option<Seen> = None;
-        let columns = |_: &Range<usize>, row_set: RowSet<'a>| (row_set.whitened(), row_set.seen);
-        each_chunk(whole, fitted, columns, |components, (whitened, of_chunk)| {
-            let rows = fitted.layout.row[components.start] as usize;
-            (whole.tell)(Stage::Columns { rows, of: observations.rows() });
-            cells.add(whitened.as_ref(), folds.groups_of(components));
-            match &mut seen {
-                None => seen = Some(of_chunk),
-                Some(seen) => seen.merge(&of_chunk),
-            }
-        })?;
+        let columns = |components: &Range<usize>, row_set: RowSet<'a>| {
+            let by_cell = of_groups.sorted(folds.groups_of(components.clone()));
+            (row_set.whitened_in(&by_cell.order), by_cell, row_set.seen)
+        };
+        each_chunk(
+            whole,
+            fitted,
+            |_| true,
+            columns,
+            |components, (whitened, by_cell, of_chunk)| {
+                let rows = fitted.layout.row[components.start] as usize;
+                (whole.tell)(Stage::Columns { rows, of: observations.rows() });
+                cells.add(whitened.as_ref(), &by_cell);
+                match &mut seen {
+                    None => seen = Some(of_chunk),
+                    Some(seen) => seen.merge(&of_chunk),
+                }
+            },
+        )?;
         let usable = seen.map_or_else(Vec::new, |seen| seen.usable(&whole.catalogue));
         let functions = whole
             .catalogue
@@ -96,8 +105,8 @@ impl<'a> SearchProblem<'a> {
         let problem_of_all = problem(whole, fitted, &usable, &merged, of_merged)?;
 
         let few = whole.held / 4 / width * observations.rows() / folds.rows();
-        let mut rows =
-            RowSet::of(whole, fitted, &sample(observations, few, whole.request.plan.hold_out.seed))?;
+        let sample = sample(observations, few, whole.request.plan.hold_out.seed);
+        let mut rows = RowSet::of(whole, fitted, &sample, |_| true)?;
         rows.keep(&usable);
         let hold_out = &whole.request.plan.hold_out;
         let of_rows = dealt(&rows.observations, &rows.columns.row, hold_out.folds, hold_out.seed);
@@ -123,11 +132,24 @@ impl<'a> SearchProblem<'a> {
         self.folds.of_row(component)
     }
 
-    /// What `f` makes of all rows, one set of rows after another, each with its components.
+    /// The effect, by its number in the catalogue, and its function that each candidate column of the problem is of.
+    pub fn candidates(&self, whole: &Context<'_>) -> Vec<(usize, usize)> {
+        let effects =
+            whole.catalogue.iter().zip(&self.usable).enumerate().filter(|(_, (_, usable))| **usable);
+        effects
+            .flat_map(|(number, (effect, _))| {
+                (0..effect.functions.len()).map(move |function| (number, function))
+            })
+            .collect()
+    }
+
+    /// What `f` makes of all rows, one set of rows after another, each with its components; with the columns of the effects
+    /// that are wanted, by their number in the catalogue.
     pub fn each_row_set<T: Send>(
         &self,
         whole: &Context<'a>,
         fitted: &Fitted,
+        wanted: impl Fn(usize) -> bool + Sync,
         f: impl Fn(&Range<usize>, &RowSet<'_>) -> T + Sync,
     ) -> Result<Vec<T>, SearchError> {
         if self.sampled.is_none() {
@@ -138,7 +160,7 @@ impl<'a> SearchProblem<'a> {
             row_set.keep(&self.usable);
             f(components, &row_set)
         };
-        each_chunk(whole, fitted, made, |_, made| all.push(made))?;
+        each_chunk(whole, fitted, wanted, made, |_, made| all.push(made))?;
         Ok(all)
     }
 }
@@ -148,6 +170,7 @@ impl<'a> SearchProblem<'a> {
 fn each_chunk<'a, T: Send>(
     whole: &Context<'a>,
     fitted: &Fitted,
+    wanted: impl Fn(usize) -> bool + Sync,
     make: impl Fn(&Range<usize>, RowSet<'a>) -> T + Sync,
     mut take: impl FnMut(Range<usize>, T),
 ) -> Result<(), SearchError> {
@@ -157,7 +180,7 @@ fn each_chunk<'a, T: Send>(
             .par_iter()
             .map(|chunk| {
                 let components = first[chunk.start]..first[chunk.end];
-                let row_set = RowSet::of(whole, fitted, std::slice::from_ref(chunk))?;
+                let row_set = RowSet::of(whole, fitted, std::slice::from_ref(chunk), &wanted)?;
                 let made = make(&components, row_set);
                 Ok((components, made))
             })
@@ -204,7 +227,8 @@ fn reach(
     let poses = further_out(&fitted.chain, &all.poses, limits, FURTHER_OUT, plan.hold_out.seed);
     let mut columns = fitted.probed.columns_at(&poses)?;
     columns.declared = &columns.declared * fitted.of_errors(&columns);
-    let (mut effects, _) = columns.of_part(&fitted.chain, &whole.catalogue, &poses, &fitted.fit.values);
+    let (mut effects, _) =
+        columns.of_part(&fitted.chain, &whole.catalogue, &poses, &fitted.fit.values, |_| true);
     keep(&mut effects, usable);
     let scales: Vec<f64> = all
         .poses
@@ -256,7 +280,8 @@ fn reach(
         let bare = rows.observations.poses.bare();
         let mut columns = fitted.probed.columns_at(&bare)?;
         columns.declared = &columns.declared * fitted.of_errors(&columns);
-        let (mut effects, _) = columns.of_part(&fitted.chain, &whole.catalogue, &bare, &fitted.fit.values);
+        let (mut effects, _) =
+            columns.of_part(&fitted.chain, &whole.catalogue, &bare, &fitted.fit.values, |_| true);
         keep(&mut effects, usable);
         part(&columns, &effects, &bare)
     } else {

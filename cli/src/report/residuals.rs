@@ -24,38 +24,35 @@ pub struct Component {
 /// Every component that the observations have, in order of first appearance.
 #[must_use]
 pub fn components(reported: &Reported<'_>) -> Vec<Component> {
-    let rows = reported.observations.rows();
-    let before = by_row(&reported.calibration.before, rows);
-    let after = by_row(&reported.calibration.after, rows);
+    let (poses, rows) = (&reported.observations.poses, reported.observations.rows());
     let mut components: Vec<Component> = Vec::new();
-    for (row, measure) in reported.observations.poses.measures().enumerate() {
-        for (index, &name) in measure.component_names().iter().enumerate() {
-            let at = components.iter().position(|component| component.name == name).unwrap_or_else(|| {
+    for series in &poses.series {
+        for &name in series.measure.component_names() {
+            if components.iter().all(|component| component.name != name) {
                 let absent = vec![None; rows];
-                components.push(Component {
-                    name,
-                    unit: measure.unit(),
-                    before: absent.clone(),
-                    after: absent,
-                });
-                components.len() - 1
-            });
-            components[at].before[row] = before[row].get(index).copied();
-            components[at].after[row] = after[row].get(index).copied();
+                let unit = series.measure.unit();
+                components.push(Component { name, unit, before: absent.clone(), after: absent });
+            }
         }
     }
+    let mut fill = |fit: &FitResult, of: fn(&mut Component) -> &mut Vec<Option<f64>>| {
+        let mut residuals = fit.residuals.row.iter().zip(&fit.residuals.raw).peekable();
+        for series in &poses.series {
+            let names = series.measure.component_names();
+            let places: Vec<Option<usize>> =
+                names.iter().map(|&name| components.iter().position(|known| known.name == name)).collect();
+            for row in series.rows.clone() {
+                let mut places = places.iter().flatten();
+                while let Some((_, &residual)) = residuals.next_if(|&(&of, _)| of as usize == row) {
+                    let Some(&place) = places.next() else { break };
+                    of(&mut components[place])[row] = Some(residual);
+                }
+            }
+        }
+    };
+    fill(&reported.calibration.before, |component| &mut component.before);
+    fill(&reported.calibration.after, |component| &mut component.after);
     components
-}
-
-/// The raw residual components of each row.
-fn by_row(fit: &FitResult, rows: usize) -> Vec<Vec<f64>> {
-    let mut by_row = vec![Vec::new(); rows];
-    for (&row, &residual) in fit.residuals.row.iter().zip(&fit.residuals.raw) {
-        if let Some(components) = by_row.get_mut(row as usize) {
-            components.push(residual);
-        }
-    }
-    by_row
 }
 
 /// The joints and inputs that were read, with their names and units.

@@ -1,8 +1,10 @@
 //! Tables that commands read: the readings of joints and inputs as numbers, and every column as it came.
 
 use std::fs::File;
-use std::io::{self, BufReader};
+use std::io::{self, BufReader, Read};
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use calibration::data::units::{BareColumn, Plausible};
 use calibration::formats::{
@@ -26,6 +28,28 @@ pub struct ReadingsTable<'t> {
     wanted: Vec<Wanted>,
     /// Whether a row has been read.
     started: bool,
+    /// How far a file has been read; none of what is no file, or is read as a whole before its first row.
+    extent: Option<Extent>,
+}
+
+/// How much of a file has been read.
+struct Extent {
+    read: Arc<AtomicU64>,
+    of: u64,
+}
+
+/// A file that tells how much of it has been read.
+struct Counted {
+    file: File,
+    read: Arc<AtomicU64>,
+}
+
+impl Read for Counted {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        let count = self.file.read(into)?;
+        self.read.fetch_add(count as u64, Ordering::Relaxed);
+        Ok(count)
+    }
 }
 
 /// Where the readings of a joint or input come from.
@@ -49,6 +73,12 @@ pub struct Rows {
     pub count: usize,
 }
 
+impl Extent {
+    fn share(&self) -> f64 {
+        self.read.load(Ordering::Relaxed) as f64 / self.of.max(1) as f64
+    }
+}
+
 impl<'t> ReadingsTable<'t> {
     /// Opens a file with the readings of a chain; `-` is standard input.
     ///
@@ -57,16 +87,22 @@ impl<'t> ReadingsTable<'t> {
     pub fn open(path: &Path, chain: &Chain, comment: Option<u8>) -> Result<Self, Failure> {
         known_format(path)?;
         let options = Options { comment, ..Options::default() };
+        let mut extent = None;
         let reader = if path == Path::new("-") {
             formats::open(io::stdin().lock(), "standard input", &options)
         } else {
             let file = File::open(path).map_err(|error| source::not_readable(path, &error))?;
-            if file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
+            let metadata = file.metadata();
+            if metadata.as_ref().is_ok_and(|metadata| metadata.is_dir()) {
                 return Err(Failure::read(path, &io::ErrorKind::IsADirectory.into()));
             }
-            formats::open(BufReader::new(file), &path.display().to_string(), &options)
+            let read = Arc::new(AtomicU64::new(0));
+            let length = metadata.ok().filter(|metadata| metadata.is_file()).map(|metadata| metadata.len());
+            extent = length.map(|of| Extent { read: Arc::clone(&read), of });
+            formats::open(BufReader::new(Counted { file, read }), &path.display().to_string(), &options)
         };
         let mut table = Self::of(reader.map_err(failure)?, chain);
+        table.extent = extent.filter(|extent| extent.share() < 1.0);
         let all = 0..table.header().len();
         table.wanted = all.map(|column| Wanted { column, form: Form::Kept }).collect();
         Ok(table)
@@ -75,7 +111,13 @@ impl<'t> ReadingsTable<'t> {
     /// The readings of a chain in an open table, of which nothing else is wanted.
     pub fn of(reader: Box<dyn TableReader + 't>, chain: &Chain) -> Self {
         let declared = declared_columns(chain);
-        Self { reader, declared, readings: Vec::new(), wanted: Vec::new(), started: false }
+        Self { reader, declared, readings: Vec::new(), wanted: Vec::new(), started: false, extent: None }
+    }
+
+    /// The share of the file that has been read, where that is known.
+    #[must_use]
+    pub fn share_read(&self) -> Option<f64> {
+        self.extent.as_ref().map(Extent::share)
     }
 
     /// The columns, as they stand in the header.

@@ -164,11 +164,14 @@ impl Noise {
     #[must_use]
     pub fn without_memory(&self) -> Self {
         Self {
-            sigma: self.sigma_without_memory().into_owned(),
+            floor: self.floor.clone(),
+            variance: self.variance.clone(),
             serial: None,
             in_space: None,
+            undeclared_order: self.undeclared_order,
             offsets: None,
-            ..self.clone()
+            sigma: self.sigma_without_memory().into_owned(),
+            runs: self.runs.clone(),
         }
     }
 
@@ -192,11 +195,14 @@ impl Noise {
         let own: Vec<Run> = own.collect();
         let parts = runs.iter().map(|run| run.start..run.end);
         Self {
+            floor: self.floor.clone(),
+            variance: self.variance.clone(),
+            serial: self.serial,
             in_space: self.in_space.as_ref().and_then(|filter| filter.of_runs(runs, &own)),
-            runs: own,
-            sigma: sigma.copied().collect(),
+            undeclared_order: self.undeclared_order,
             offsets: self.offsets.as_ref().map(|offsets| offsets.of_parts(parts)),
-            ..self.clone()
+            sigma: sigma.copied().collect(),
+            runs: own,
         }
     }
 

@@ -61,7 +61,7 @@ struct Evaluated {
 
 impl Evaluated {
     fn of(_series: usize, rows: Range<usize>, block: &Block) -> Self {
-        let by_row = |values| block.by_row(values).collect::<Vec<_>>();
+        let by_row = |values| block.by_row(values);
         Self {
             rows,
             residual: by_row(&block.residual),
@@ -191,13 +191,13 @@ impl Columns {
         poses: &Poses,
         values: &[f64],
     ) -> Vec<Vec<Vec<f64>>> {
-        let (mut columns, seen) = self.of_part(chain, effects, poses, values);
+        let (mut columns, seen) = self.of_part(chain, effects, poses, values, |_| true);
         keep(&mut columns, &seen.usable(effects));
         columns
     }
 
-    /// The columns of each effect over a part of the rows, zero where there is no finite value; and what the part shows of
-    /// which effects are usable, which all parts together decide.
+    /// The columns of each effect that is wanted, by its number, over a part of the rows, zero where there is no finite value; and
+    /// what the part shows of which of them are usable, which all parts together decide.
     #[must_use]
     pub fn of_part<'e>(
         &self,
@@ -205,13 +205,19 @@ impl Columns {
         effects: &'e [Effect],
         poses: &Poses,
         values: &[f64],
+        wanted: impl Fn(usize) -> bool,
     ) -> (Vec<Vec<Vec<f64>>>, Seen) {
         let mut readings = Functions::new(chain, poses, values);
         let mut seen = Seen::of_probes(&self.places, &self.probes);
         let mut columns = Vec::with_capacity(effects.len());
-        // Many effects have the same functions at other places.
+        // Many effects have the same functions at other places; each is spread over the components of its rows once.
         let mut known: Vec<(&Poly, Option<Vec<f64>>, Extent)> = Vec::new();
-        for effect in effects {
+        for (number, effect) in effects.iter().enumerate() {
+            if !wanted(number) {
+                columns.push(Vec::new());
+                seen.effects.push(Vec::new());
+                continue;
+            }
             let places = effect.places();
             let mut extents = Vec::new();
             let column = |function: &'e Function| {
@@ -226,14 +232,16 @@ impl Columns {
                             let of_joints =
                                 symbols.iter().all(|&id| chain.symbol(id).kind != SymbolKind::Input);
                             let extent = Extent::of(by_row.as_deref_mut(), of_joints);
-                            known.push((amount, by_row, extent));
+                            let spread =
+                                |by_row: Vec<f64>| self.row.iter().map(|&row| by_row[row as usize]).collect();
+                            known.push((amount, by_row.map(spread), extent));
                             known.len() - 1
                         });
-                        let (_, by_row, extent) = &known[at];
+                        let (_, function, extent) = &known[at];
                         extents.push(extent.clone());
-                        let Some(by_row) = by_row else { continue };
-                        let moved = probe.iter().zip(&self.row);
-                        sum.iter_mut().zip(moved).for_each(|(s, (p, &row))| *s += p * by_row[row as usize]);
+                        let Some(function) = function else { continue };
+                        let moved = probe.iter().zip(function);
+                        sum.iter_mut().zip(moved).for_each(|(sum, (probe, value))| *sum += probe * value);
                     }
                 }
                 sum

@@ -15,21 +15,19 @@ const BARS: usize = 24;
 /// Marks of a picture of quantiles at most: more would lie on each other.
 const QUANTILES: usize = 240;
 
-/// The values of every row, before and after, sorted, in the unit of the axis.
-fn sorted(component: &Component) -> [Vec<f64>; 2] {
+/// The values of every row, before and after, in the unit of the axis.
+fn values(component: &Component) -> [Vec<f64>; 2] {
     let in_unit = |values: &[Option<f64>], column: &Column| -> Vec<f64> {
         let finite = values.iter().flatten().filter(|value| value.is_finite());
-        let mut values: Vec<f64> = finite.map(|si| si / column.in_si).collect();
-        values.sort_by(f64::total_cmp);
-        values
+        finite.map(|si| si / column.in_si).collect()
     };
     [in_unit(&component.every.before, &component.before), in_unit(&component.every.after, &component.after)]
 }
 
 /// How often a residual has which size, of every row; the normal distribution of what is left beside it.
 pub fn histogram(component: &Component, changed: bool) -> Markup {
-    let [before, after] = sorted(component);
-    let reach = middle(&before).max(middle(&after)) * 1.05 + f64::MIN_POSITIVE;
+    let [before, after] = values(component);
+    let reach = size(&before, 99).max(size(&after, 99)) * 1.05 + f64::MIN_POSITIVE;
     let width = 2.0 * reach / BARS as f64;
     let count = |values: &[f64]| {
         let mut bins = [0.0; BARS];
@@ -67,29 +65,31 @@ pub fn histogram(component: &Component, changed: bool) -> Markup {
     card(&title, note, &picture.finish(&format!("Histogram of {}", component.name)))
 }
 
-/// The size that 99 of 100 values stay below.
-fn middle(values: &[f64]) -> f64 {
+/// The size that so many of a hundred values stay below.
+fn size(values: &[f64], of_hundred: usize) -> f64 {
     let mut sizes: Vec<f64> = values.iter().map(|value| value.abs()).collect();
-    sizes.sort_by(f64::total_cmp);
-    sizes.get(sizes.len() * 99 / 100).copied().unwrap_or(1.0)
+    let at = sizes.len() * of_hundred / 100;
+    if sizes.is_empty() { 1.0 } else { *sizes.select_nth_unstable_by(at, f64::total_cmp).1 }
 }
 
 /// 1.4826 times the median size: the standard deviation of normal values.
 fn robust_spread(values: &[f64]) -> f64 {
-    let mut sizes: Vec<f64> = values.iter().map(|value| value.abs()).collect();
-    sizes.sort_by(f64::total_cmp);
-    1.4826 * sizes.get(sizes.len() / 2).copied().unwrap_or(1.0)
+    1.4826 * size(values, 50)
 }
 
 /// Sorted residuals over the quantiles of a normal distribution: a straight line if the noise is normal.
 pub fn quantiles(component: &Component, changed: bool) -> Markup {
-    let [before, after] = sorted(component).map(|values| over_normal(&values));
+    let [before, after] = values(component);
+    let spread = robust_spread(&after);
+    let [before, after] = [before, after].map(|mut values| {
+        values.sort_unstable_by(f64::total_cmp);
+        over_normal(&values)
+    });
     let both = || before.iter().chain(&after);
     let x = Axis::around("quantile of the normal distribution", both().map(|p| p.0), false);
     let y = Axis::around(&component.label, both().map(|p| p.1), true);
     let (low, high) = (x.low, x.high);
     let mut picture = Picture::new(CARD.0, CARD.1, x, y);
-    let spread = robust_spread(&sorted(component)[1]);
     picture.line("after normal", [(low, low * spread), (high, high * spread)].into_iter());
     if changed {
         picture.marks("before", Mark::Triangle, before.iter().copied());

@@ -20,11 +20,11 @@ use self::refine::{Gain, orthonormal, refined};
 pub(crate) use self::shape::{Shape, ShapeKind};
 use super::competing::AS_GOOD;
 use super::confounded::{SetColumns, SetId};
-use super::contest::{Contender, Price, contender, criterion, predicts};
+use super::contest::{Contender, Price, contender, criterion, likelihood, predicts};
 use super::flips::familywise;
 use super::scan::{Left, Sheet};
 use super::signs::Signs;
-use crate::candidate::{Dependence, Function, Place};
+use crate::candidate::{Dependence, EffectId, Function, Place};
 use crate::effects::{SmoothPlace, smooth};
 use crate::search::SearchError;
 use crate::search::columns::Columns;
@@ -42,6 +42,9 @@ const CONFIRMED: usize = 8;
 
 /// Shapes of one place whose thresholds are refined.
 const REFINED: usize = 4;
+
+/// A function that follows the accepted effects more closely than so, as a share of what they do, is theirs by another name.
+const SAME_FORM: f64 = 0.15;
 
 /// Bumps of the scan, by their widths as shares of the range, steps, and the stretches of its tables.
 const SCANNED_BUMPS: [(usize, f64); 2] = [(60, 0.012), (24, 0.05)];
@@ -68,6 +71,8 @@ pub(crate) struct AsGood {
     pub kind: ShapeKind,
     /// The accepted effects that it would replace, by their number among those found.
     pub instead_of: Vec<usize>,
+    /// Whether it is another function over these data, so that they do not determine the form.
+    pub differs: bool,
 }
 
 impl AsGood {
@@ -92,8 +97,13 @@ struct Judged {
     fitted: Contender,
 }
 
-/// Lets the library compete with what was accepted, and with nothing at the most conspicuous place of what is left.
-pub(crate) fn contest(whole: &Context<'_>, last: &Round<'_>) -> Result<Contest, SearchError> {
+/// Lets the library compete with what was accepted, and with nothing at the most conspicuous place of what is left; `thresholds`
+/// says of an effect how many the data chose for it.
+pub(crate) fn contest(
+    whole: &Context<'_>,
+    last: &Round<'_>,
+    thresholds: impl Fn(EffectId) -> usize,
+) -> Result<Contest, SearchError> {
     let observations = &*last.search.rows.observations;
     let chain = &last.fitted.chain;
     let mut smooths = smooth(&whole.setting);
@@ -120,7 +130,8 @@ pub(crate) fn contest(whole: &Context<'_>, last: &Round<'_>) -> Result<Contest, 
     let accepted: Vec<Vec<usize>> = shown.iter().map(|&(_, set)| blocks[set].to_vec()).collect();
     let signs =
         Signs::scattered(last.search.of_rows().group_of_row(), whole.options.flips, whole.options.seed);
-    let left = Left::new(last.search.of_rows(), &accepted, &signs);
+    let mut left = Left::new(last.search.of_rows(), &accepted, &signs);
+    left.thresholds = shown.iter().map(|&(number, _)| thresholds(last.fitted.found[number].effect)).collect();
     let library = Library { whole, last, columns, drivers, left, shown };
 
     let scan = library.left.scan(smooths.len(), |number| library.sheet_of_scan(smooths[number]));
@@ -246,6 +257,7 @@ impl Library<'_, '_> {
         let mut starts: Vec<(f64, Shape)> = driver
             .single()
             .into_iter()
+            .filter(|shape| shape.is_seen_between(driver.low, driver.high))
             .map(|shape| (gain.of(column(&shape).col_as_slice(0)), shape))
             .collect();
         starts.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -260,7 +272,7 @@ impl Library<'_, '_> {
         let step = driver.span() / 36.0;
         let single = starts
             .into_iter()
-            .map(|(_, shape)| refined(shape, driver.span(), step, &gain, column).0.rounded(driver.span()));
+            .map(|(_, shape)| refined(shape, driver, step, &gain, column).0.rounded(driver.span()));
         // Of the harmonics the one that explains most.
         let harmonic = driver
             .harmonics(self.whole.setting.harmonics)
@@ -301,6 +313,7 @@ impl Library<'_, '_> {
     fn verdict(&self, judged: Vec<Judged>, most: Option<SmoothPlace>, p_value: f64) -> Contest {
         let price = Price { sets: self.last.sets.len(), functions: 1, parameters: 0 };
         let present = criterion(&self.left, price);
+        let expected = likelihood(&self.left).expected();
         let numbers = |of: &[usize]| -> Vec<usize> { of.iter().map(|&at| self.shown[at].0).collect() };
         let replaced = |judged: &Judged| -> Vec<usize> {
             (0..self.shown.len()).filter(|at| !judged.fitted.kept.contains(at)).collect()
@@ -335,13 +348,22 @@ impl Library<'_, '_> {
                 (effect.place, &effect.form) == (one.smooth.place, &Dependence::from(kind.words()))
                     && effect.driver == self.whole.setting.name(one.smooth.driver)
             };
-            if !instead_of.is_empty()
-                && !instead_of.iter().any(of_its_own)
-                && one.fitted.criterion >= present - AS_GOOD
-                && !contest.as_good.iter().any(known)
+            // Another function is held to what it is expected to make of new data: a price for every threshold would hide
+            // whatever takes more of them than a name of the catalogue does.
+            let differs = one.fitted.differs.is_some_and(|share| share > SAME_FORM)
+                && one.fitted.likelihood.expected() >= expected - AS_GOOD;
+            if instead_of.is_empty()
+                || instead_of.iter().any(of_its_own)
+                || !(differs || one.fitted.criterion >= present - AS_GOOD)
             {
-                let SmoothPlace { place, driver } = one.smooth;
-                contest.as_good.push(AsGood { place, driver, kind, instead_of });
+                continue;
+            }
+            match contest.as_good.iter_mut().find(|other| known(other)) {
+                Some(other) => other.differs |= differs,
+                None => {
+                    let SmoothPlace { place, driver } = one.smooth;
+                    contest.as_good.push(AsGood { place, driver, kind, instead_of, differs });
+                }
             }
         }
         contest

@@ -1,0 +1,28 @@
+//! Rows in the order in which they were taken, of which nothing says when: a drift with time is not looked for.
+
+use std::fmt;
+
+use model_core::{Chain, Meaning};
+
+use super::plan::Search;
+
+/// Rows in sequence without a time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Timeless;
+
+impl fmt::Display for Timeless {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "the rows are in sequence, but nothing says when they were taken: a drift with time is not looked for; if a column \
+             holds the time, write order = \"COLUMN\" under [noise]"
+        )
+    }
+}
+
+/// Whether a search has rows in sequence, and neither a column of their order nor an input that measures time.
+pub(super) fn timeless(chain: &Chain, search: &Search, order: Option<&str>) -> Option<Timeless> {
+    let times = |meaning: Option<Meaning>| matches!(meaning, Some(Meaning::Time | Meaning::Session));
+    let timed = search.inputs.iter().any(|&input| times(chain.symbol(input).meaning));
+    (search.sequence && order.is_none() && !timed).then_some(Timeless)
+}

@@ -2,7 +2,6 @@
 //! go on with it. Nothing is left for the user to paste.
 
 use std::cell::OnceCell;
-use std::collections::BTreeMap;
 
 use super::rounds::rounds;
 use crate::candidate::{Effect, EffectId, Function};
@@ -39,20 +38,14 @@ pub(super) fn settled<'a>(
     if !search.functions || !search.only.is_empty() {
         return Ok(settled);
     }
-    // Thresholds of the functions that were taken up.
-    let mut thresholds: BTreeMap<String, usize> = BTreeMap::new();
     for place in plans {
         if !settled.round.tells_structure() {
             break;
         }
-        let of = |effect: EffectId| -> usize {
-            thresholds.get(&settled.whole.catalogue[effect].name).copied().unwrap_or_default()
-        };
-        let contest = contest(&settled.whole, &settled.round, of)?;
+        let contest = contest(&settled.whole, &settled.round)?;
         settled.as_good = contest.as_good;
         let Some(taken) = contest.taken else { break };
         let Some((plan, name)) = with_function(settled.whole.request.plan, &taken) else { break };
-        thresholds.insert(name.clone(), taken.shape.parameters());
         let plan = place.get_or_init(|| plan);
         let last = &settled.whole;
         let request = Request { plan, ..last.request };

@@ -9,7 +9,7 @@
 use faer::{Mat, MatRef};
 use statrs::function::factorial::ln_binomial;
 
-use super::problem::{Problem, VISIBLE};
+use super::problem::VISIBLE;
 use super::scan::Left;
 use super::select::held_out_rss;
 use super::sweep::Sweep;
@@ -145,18 +145,18 @@ pub fn contender(left: &Left<'_>, columns: MatRef<'_, f64>, price: Price) -> Con
     Contender { criterion, likelihood, kept, differs, coefficients, covariance: covariance.collect() }
 }
 
-/// Whether a model with a function's columns, beside the accepted effects that it keeps, predicts held-out folds better than
+/// Whether a model with a function's columns, beside the accepted effects that it keeps, predicts held-out folds (rows of each) better than
 /// the accepted model does. A likelihood takes every row for one of its own; where rows come in groups, only folds of whole groups
 /// tell a function from what the groups happen to share.
 #[must_use]
-pub fn predicts(left: &Left<'_>, columns: MatRef<'_, f64>, kept: &[usize], problem: &Problem) -> bool {
-    if problem.folds() < 2 {
+pub fn predicts(left: &Left<'_>, columns: MatRef<'_, f64>, kept: &[usize], folds: &[Vec<usize>]) -> bool {
+    if folds.len() < 2 {
         return true;
     }
     let (known, own) = (left.known.ncols() - 1, columns.ncols());
-    let grams: Vec<Mat<f64>> = (0..problem.folds())
-        .map(|fold| {
-            let rows = problem.rows_of_folds(|other| other == fold);
+    let grams: Vec<Mat<f64>> = folds
+        .iter()
+        .map(|rows| {
             let all = Mat::from_fn(rows.len(), known + own + 1, |i, j| match j.checked_sub(known) {
                 None => left.known[(rows[i], j)],
                 Some(at) if at < own => columns[(rows[i], at)],

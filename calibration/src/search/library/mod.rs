@@ -11,8 +11,10 @@ mod grid;
 mod refine;
 mod shape;
 
+use std::collections::BTreeMap;
+
 use faer::Mat;
-use model_core::{Chain, SymbolId};
+use model_core::{Chain, SymbolId, SymbolKind};
 use rayon::prelude::*;
 
 use self::grid::Driver;
@@ -24,8 +26,8 @@ use super::contest::{Contender, Price, contender, criterion, likelihood, predict
 use super::flips::familywise;
 use super::scan::{Left, Sheet};
 use super::signs::Signs;
-use crate::candidate::{Dependence, EffectId, Function, Place};
-use crate::effects::{SmoothPlace, smooth};
+use crate::candidate::{Dependence, Effect, Function, Place};
+use crate::effects::{SHAPE, SmoothPlace, smooth};
 use crate::search::SearchError;
 use crate::search::columns::Columns;
 use crate::search::context::{Context, declared};
@@ -39,6 +41,12 @@ const OWN_SHARE: f64 = 0.2;
 
 /// Functions that are held to rows that were held out, the likeliest first.
 const CONFIRMED: usize = 8;
+
+/// Stretches of rows in their order that a function of an input must predict, each from the others.
+const STRETCHES: usize = 10;
+
+/// Rows that a function hangs on at least, as an effective number.
+const FEWEST_BEHIND: f64 = 8.0;
 
 /// Shapes of one place whose thresholds are refined.
 const REFINED: usize = 4;
@@ -97,13 +105,8 @@ struct Judged {
     fitted: Contender,
 }
 
-/// Lets the library compete with what was accepted, and with nothing at the most conspicuous place of what is left; `thresholds`
-/// says of an effect how many the data chose for it.
-pub(crate) fn contest(
-    whole: &Context<'_>,
-    last: &Round<'_>,
-    thresholds: impl Fn(EffectId) -> usize,
-) -> Result<Contest, SearchError> {
+/// Lets the library compete with what was accepted, and with nothing at the most conspicuous place of what is left.
+pub(crate) fn contest(whole: &Context<'_>, last: &Round<'_>) -> Result<Contest, SearchError> {
     let observations = &*last.search.rows.observations;
     let chain = &last.fitted.chain;
     let mut smooths = smooth(&whole.setting);
@@ -131,7 +134,8 @@ pub(crate) fn contest(
     let signs =
         Signs::scattered(last.search.of_rows().group_of_row(), whole.options.flips, whole.options.seed);
     let mut left = Left::new(last.search.of_rows(), &accepted, &signs);
-    left.thresholds = shown.iter().map(|&(number, _)| thresholds(last.fitted.found[number].effect)).collect();
+    let of = |number: usize| &whole.catalogue[last.fitted.found[number].effect];
+    left.thresholds = shown.iter().map(|&(number, _)| thresholds(of(number))).collect();
     let library = Library { whole, last, columns, drivers, left, shown };
 
     let scan = library.left.scan(smooths.len(), |number| library.sheet_of_scan(smooths[number]));
@@ -144,6 +148,18 @@ pub(crate) fn contest(
     let judged: Vec<Judged> =
         smooths.par_iter().flat_map_iter(|smooth| library.judged(*smooth, places)).collect();
     Ok(library.verdict(judged, most, p_value))
+}
+
+/// Thresholds that the data chose for an effect, beside its coefficients.
+fn thresholds(effect: &Effect) -> usize {
+    let is = |kind: &ShapeKind| effect.form == Dependence::from(kind.words());
+    match effect.family {
+        SHAPE if [ShapeKind::Ramp, ShapeKind::Bump, ShapeKind::Plateau].iter().any(is) => 2,
+        SHAPE if [ShapeKind::Powers, ShapeKind::Table].iter().any(is) => 0,
+        // A step, or where a wave starts.
+        SHAPE => 1,
+        _ => 0,
+    }
 }
 
 /// Everything that the contest reads.
@@ -306,7 +322,31 @@ impl Library<'_, '_> {
     fn is_confirmed(&self, judged: &Judged) -> bool {
         let Some((_, readings)) = self.driver(judged.smooth) else { return false };
         let columns = self.sheet(judged.smooth.place, &judged.shape.values(readings));
-        predicts(&self.left, columns.as_ref(), &judged.fitted.kept, self.last.search.of_rows())
+        let problem = self.last.search.of_rows();
+        let rows = problem.rows().nrows();
+        let folds: Vec<Vec<usize>> = match self.whole.setting.chain.symbol(judged.smooth.driver).kind {
+            SymbolKind::Joint => {
+                (0..problem.folds()).map(|fold| problem.rows_of_folds(|other| other == fold)).collect()
+            }
+            // Whatever drifts with time is a function of a temperature that does, too, but none that returns with it.
+            _ => (0..STRETCHES).map(|i| (i * rows / STRETCHES..(i + 1) * rows / STRETCHES).collect()).collect(),
+        };
+        self.rows_behind(&columns) >= FEWEST_BEHIND
+            && predicts(&self.left, columns.as_ref(), &judged.fitted.kept, &folds)
+    }
+
+    /// How many rows a function hangs on, as an effective number: of their shares of what is left of its columns.
+    fn rows_behind(&self, columns: &Mat<f64>) -> f64 {
+        let basis = &self.left.basis;
+        let left = columns - basis * (basis.transpose() * columns);
+        let mut by_row: BTreeMap<u32, f64> = BTreeMap::new();
+        for (component, &row) in self.last.search.rows.columns.row.iter().enumerate() {
+            let share: f64 = left.row(component).iter().map(|value| value * value).sum();
+            *by_row.entry(row).or_insert(0.0) += share;
+        }
+        let (sum, squares) =
+            by_row.values().fold((0.0, 0.0), |(sum, squares), share| (sum + share, squares + share * share));
+        if squares > 0.0 { sum * sum / squares } else { 0.0 }
     }
 
     /// The function that is taken up, and those that are about as good as what they would replace.

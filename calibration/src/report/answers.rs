@@ -154,7 +154,8 @@ fn happened(diagnosis: &Diagnosis) -> String {
             )
         }
         Verdict::FormNotDetermined if count == 1 => {
-            "Something moves at one place; these data do not tell which function of its driver it is.".to_owned()
+            "Something moves at one place; these data do not tell which function of its driver it is."
+                .to_owned()
         }
         Verdict::FormNotDetermined => {
             let open = diagnosis.effects.iter().filter(|effect| !effect.form_determined).count();

@@ -31,8 +31,12 @@ impl<'a> Round<'a> {
     pub fn tells_structure(&self) -> bool {
         let problem = self.search.of_rows();
         let first = |set: SetId| self.sets[set.0].members.first();
-        let columns: usize =
-            self.accepted_sets().into_iter().filter_map(first).map(|&first| problem.columns(first).len()).sum();
+        let columns: usize = self
+            .accepted_sets()
+            .into_iter()
+            .filter_map(first)
+            .map(|&first| problem.columns(first).len())
+            .sum();
         problem.groups() >= FEWEST && problem.rows().nrows() >= problem.declared() + columns + FEWEST
     }
 

@@ -228,7 +228,8 @@ fn names_of_a_study_are_names_of_the_language() {
 #[test]
 fn rows_in_sequence_without_a_time_are_remarked() {
     let remarked = |search: &str, order: &str| {
-        let study = STUDY.replace("order = \"time\"\n", order).replace("[search]", &format!("[search]\n{search}"));
+        let study =
+            STUDY.replace("order = \"time\"\n", order).replace("[search]", &format!("[search]\n{search}"));
         Study::from_text(&study).unwrap().plan(&Chain::from_text(MOUNT).unwrap()).unwrap().timeless.is_some()
     };
     assert!(remarked("sequence = true", ""));

@@ -329,7 +329,9 @@ impl Library<'_, '_> {
                 (0..problem.folds()).map(|fold| problem.rows_of_folds(|other| other == fold)).collect()
             }
             // Whatever drifts with time is a function of a temperature that does, too, but none that returns with it.
-            _ => (0..STRETCHES).map(|i| (i * rows / STRETCHES..(i + 1) * rows / STRETCHES).collect()).collect(),
+            _ => {
+                (0..STRETCHES).map(|i| (i * rows / STRETCHES..(i + 1) * rows / STRETCHES).collect()).collect()
+            }
         };
         self.rows_behind(&columns) >= FEWEST_BEHIND
             && predicts(&self.left, columns.as_ref(), &judged.fitted.kept, &folds)

@@ -47,7 +47,8 @@ pub(super) fn refined(
                 let mut to = best.1.thresholds();
                 to[at] += sign * step;
                 let moved_to = best.1.moved(&to);
-                let Some(other) = moved_to.filter(|shape| shape.is_seen_between(driver.low, driver.high)) else {
+                let Some(other) = moved_to.filter(|shape| shape.is_seen_between(driver.low, driver.high))
+                else {
                     continue;
                 };
                 let explains = of(&other);

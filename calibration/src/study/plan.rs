@@ -175,7 +175,8 @@ impl Study {
         let (data_from, doubts) = (self.data_from.clone(), self.doubts(&chain, &sources));
         let chain = shown::vectors(chain);
         let unstated = unstated(&chain, &search.inputs);
-        let timeless = timeless(&chain, &search, order.as_deref());
+        let timeless =
+            if search.sequence { timeless(&chain, &search.inputs, order.as_deref()) } else { None };
         Ok(Plan {
             sources,
             fit,

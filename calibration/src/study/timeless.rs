@@ -2,9 +2,7 @@
 
 use std::fmt;
 
-use model_core::{Chain, Meaning};
-
-use super::plan::Search;
+use model_core::{Chain, Meaning, SymbolId};
 
 /// Rows in sequence without a time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,9 +18,9 @@ impl fmt::Display for Timeless {
     }
 }
 
-/// Whether a search has rows in sequence, and neither a column of their order nor an input that measures time.
-pub(super) fn timeless(chain: &Chain, search: &Search, order: Option<&str>) -> Option<Timeless> {
+/// Whether neither a column of the order nor one of the inputs that effects may use says when rows in sequence were taken.
+pub(super) fn timeless(chain: &Chain, inputs: &[SymbolId], order: Option<&str>) -> Option<Timeless> {
     let times = |meaning: Option<Meaning>| matches!(meaning, Some(Meaning::Time | Meaning::Session));
-    let timed = search.inputs.iter().any(|&input| times(chain.symbol(input).meaning));
-    (search.sequence && order.is_none() && !timed).then_some(Timeless)
+    let timed = inputs.iter().any(|&input| times(chain.symbol(input).meaning));
+    (order.is_none() && !timed).then_some(Timeless)
 }

@@ -248,7 +248,7 @@ impl Default for SearchTable {
         Self {
             false_alarm: Spanned::new(0..0, 0.05),
             most: Spanned::new(0..0, 20),
-            functions: true,
+            functions: false,
             inputs: Vec::new(),
             sequence: false,
             harmonics: Spanned::new(0..0, 8),

@@ -15,7 +15,7 @@ fn plan(chain: &Chain, more: &str) -> Plan {
          [columns]\ntemperature = {{ column = \"t\", meaning = \"temperature\" }}\n\
          beta_direction = {{ column = \"b\", meaning = \"direction of beta\" }}\n\
          [observed]\nkind = \"direction\"\n\
-         [search]\nfunctions = false\ninputs = [\"temperature\", \"beta_direction\"]\n{more}"
+         [search]\ninputs = [\"temperature\", \"beta_direction\"]\n{more}"
     );
     Study::from_text(&study).unwrap().plan(chain).unwrap()
 }

@@ -18,7 +18,7 @@ fn plan(chain: &Chain) -> Plan {
          [columns]\ntemperature = { column = \"t\", meaning = \"temperature\" }\n\
                  beta_direction = { column = \"b\", meaning = \"direction of beta\" }\n\
          [observed]\nkind = \"direction\"\n\
-         [search]\ninputs = [\"temperature\", \"beta_direction\"]\n";
+         [search]\nfunctions = true\ninputs = [\"temperature\", \"beta_direction\"]\n";
     Study::from_text(study).unwrap().plan(chain).unwrap()
 }
 

@@ -97,6 +97,7 @@ const SIGNATURES: [Signature; 13] = [
         name: "step",
         real: &[(ELEVATION, "Rx(elevation_index), Rx(jump*ramp(azimuth, 200 deg, 200 deg))")],
         errors: "jump = \"15 arcsec\"\n",
+        search: "[search]\nfunctions = true\n",
         ..NONE
     },
     Signature {

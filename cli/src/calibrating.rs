@@ -87,6 +87,7 @@ impl Studied {
         let loaded = self.plan.load_tables(open).map_err(tables::failure)?;
         self.plan.doubts.iter().for_each(terminal::warn);
         self.plan.unstated.iter().for_each(terminal::warn);
+        self.plan.timeless.iter().for_each(terminal::warn);
         loaded.doubtful.iter().for_each(terminal::warn);
         loaded.remarks.iter().for_each(terminal::warn);
         Ok(Measured { studied: self, loaded })

@@ -35,13 +35,17 @@ pub(super) fn settled<'a>(
     let mut settled = Settled { whole: whole.clone(), round, as_good: Vec::new() };
     // A study that allows certain effects alone allows no others.
     let search = &whole.request.plan.search;
-    if !search.functions || !search.only.is_empty() {
+    if !search.only.is_empty() {
         return Ok(settled);
     }
     for place in plans {
+        if !settled.round.tells_structure() {
+            break;
+        }
         let contest = contest(&settled.whole, &settled.round)?;
         settled.as_good = contest.as_good;
-        let Some(taken) = contest.taken else { break };
+        // Functions compete for the name of what was found in every study; some want them in the declaration.
+        let Some(taken) = contest.taken.filter(|_| search.functions) else { break };
         let Some((plan, name)) = with_function(settled.whole.request.plan, &taken) else { break };
         let plan = place.get_or_init(|| plan);
         let last = &settled.whole;

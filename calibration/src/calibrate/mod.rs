@@ -6,6 +6,7 @@
 //! the search is repeated without each fold (`held_out`). [`crate::diagnose`] says what it means, [`crate::report`] in words.
 
 mod functions;
+mod heard;
 pub(crate) mod held_out;
 mod memory;
 mod outliers;
@@ -144,7 +145,9 @@ pub fn calibrate_telling(
         memory::settled(whole, &remembering, round)?
     };
     let plans = if is_rounding { &plans[..0] } else { &plans[..] };
-    let Settled { whole, round, as_good } = settled(&whole, plans, round)?;
+    let last = settled(&whole, plans, round)?;
+    let places = heard::Places::default();
+    let Settled { whole, round, as_good } = if is_rounding { last } else { heard::heard(last, &places)? };
     tell(Stage::HeldOut);
     let held_out = nested(&round.search.problem, &round.sets, &whole.options);
     let rms = held_out::rms(&whole, &before, &round, &held_out)?;

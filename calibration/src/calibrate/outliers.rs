@@ -17,6 +17,7 @@ use crate::search::contest::ln_choices;
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
+use crate::study::Plan;
 
 /// How many rows must be set aside before they are looked at together: two, or one in a thousand of many rows, of which
 /// some are set aside by chance.
@@ -30,9 +31,7 @@ pub(super) fn reconsidered<'a>(whole: &Context<'a>, last: Round<'a>) -> Result<R
     if !plan.fit.robust || doubts(&last) < fewest(&last) {
         return Ok(last);
     }
-    let mut trusting = plan.clone();
-    trusting.fit.robust = false;
-    trusting.fit.noise.variance = false;
+    let trusting = trusting(plan);
     let request = Request { plan: &trusting, ..whole.request };
     let trusting = Context { request, ..whole.clone() };
     let first = Fitted::first(&trusting)?;
@@ -52,14 +51,22 @@ pub(super) fn reconsidered<'a>(whole: &Context<'a>, last: Round<'a>) -> Result<R
     Ok(if explains { other } else { last })
 }
 
+/// The study with every row at its full weight and even noise.
+pub(super) fn trusting(plan: &Plan) -> Plan {
+    let mut trusting = plan.clone();
+    trusting.fit.robust = false;
+    trusting.fit.noise.variance = false;
+    trusting
+}
+
 /// Rows that a round's model does not explain: those set aside, and as many as uneven noise could hide.
-fn doubts(round: &Round<'_>) -> usize {
+pub(super) fn doubts(round: &Round<'_>) -> usize {
     let fit = &round.fitted.fit;
     fit.set_aside.len() + if fit.noise.variance.is_some() { fewest(round) } else { 0 }
 }
 
 /// Penalised log-likelihood of a round's model at its noise, where the robust loss bounds what a row far from the rest costs.
-fn criterion(whole: &Context<'_>, round: &Round<'_>) -> f64 {
+pub(super) fn criterion(whole: &Context<'_>, round: &Round<'_>) -> f64 {
     let observations = whole.request.observations;
     let noise = round.fitted.fit.noise.without_memory();
     let mut white = round.fitted.fit.residuals.raw.clone();

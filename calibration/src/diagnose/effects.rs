@@ -39,6 +39,8 @@ pub struct EffectFound {
     pub confounded_with: Vec<String>,
     /// Effects that explain these data about as well.
     pub competing_with: Vec<String>,
+    /// Whether these data determine how it follows its driver: no other function of the library explains them about as well.
+    pub form_determined: bool,
     /// The physical causes that it may have, in the order in which to check them: its own, those confounded with it, those of competing models.
     pub causes: Vec<Cause>,
     /// The new errors and their estimates, SI.
@@ -177,6 +179,7 @@ pub(super) fn effects(
                     .iter()
                     .map(|&other| whole.catalogue[other].name.clone())
                     .collect(),
+                form_determined: true,
                 causes: causes(whole, found.effect, others),
                 coefficients: errors
                     .iter()

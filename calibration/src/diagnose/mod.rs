@@ -214,6 +214,7 @@ pub(crate) fn diagnose(
         structure: remaining.is_some_and(|remaining| remaining.p_value <= whole.options.false_alarm),
         effects: !found.effects.is_empty(),
         alone,
+        form_open: found.effects.iter().any(|effect| !effect.form_determined),
         cautions: &cautions,
     });
     Ok(Diagnosis {
@@ -270,6 +271,7 @@ impl Found {
             let name = other.name(&last.fitted.chain);
             for &number in &other.instead_of {
                 effects[number].competing_with.push(name.clone());
+                effects[number].form_determined &= !other.differs;
             }
         }
         let separating = |(at, others): (usize, &Others)| {

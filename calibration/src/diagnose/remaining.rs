@@ -35,9 +35,6 @@ const LAGS: std::ops::RangeInclusive<usize> = 1..=3;
 /// criterion.
 const BETTER: f64 = 3.0;
 
-/// Degrees of freedom of the residual, and groups of its rows, below which nothing can be told of its structure.
-const FEWEST: usize = 20;
-
 /// What is left of structure in the residual.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Remaining {
@@ -52,8 +49,8 @@ pub struct Remaining {
     pub place: Option<Where>,
     /// The smooth function there, whole: driver, value and two standard uncertainties, SI.
     pub shape: Vec<Vec<f64>>,
-    /// Lines for the study that make the function there an effect of its own; absent for a bump, which no amount of a
-    /// declaration can follow.
+    /// Lines for the study that make the function there an effect of its own, where functions were not to be taken up
+    /// (`functions = false`); absent for a bump.
     pub offer: Option<String>,
 }
 
@@ -150,8 +147,7 @@ pub(crate) fn remaining(whole: &Context<'_>, last: &Round<'_>) -> Result<Remaini
     let signs = Signs::scattered(last.search.of_rows().group_of_row(), options.flips, options.seed);
     let left = Left::new(last.search.of_rows(), &accepted, &signs);
 
-    let groups = last.search.of_rows().groups();
-    if groups < FEWEST || left.residual.len() < left.basis.ncols() + FEWEST {
+    if !last.tells_structure() {
         let (looked, shape) = (Vec::new(), Vec::new());
         return Ok(Remaining {
             p_value: 1.0,
@@ -185,7 +181,9 @@ pub(crate) fn remaining(whole: &Context<'_>, last: &Round<'_>) -> Result<Remaini
         driver: function.driver.clone(),
         form: function.form(),
     });
-    let offer = best.as_ref().and_then(|function| function.offer(chain));
+    // Where the library competes, it has taken up what it could.
+    let offered = best.as_ref().filter(|_| !whole.request.plan.search.functions);
+    let offer = offered.and_then(|function| function.offer(chain));
     let shape = best.as_ref().map_or_else(Vec::new, Function::shape);
     Ok(Remaining { p_value, rows: observations.rows(), looked, place, shape, offer })
 }

@@ -14,6 +14,9 @@ pub enum Verdict {
     /// Nothing is left, but some effects have others that explain these data as well.
     #[serde(rename = "confounded")]
     Confounded,
+    /// Effects at their places, but these data do not determine of which form: another function explains them as well.
+    #[serde(rename = "form not determined")]
+    FormNotDetermined,
     /// One function at one place, which no effect of the catalogue is, explains the data better than the catalogue.
     #[serde(rename = "unnamed function")]
     UnnamedFunction,
@@ -41,6 +44,7 @@ impl Verdict {
         match self {
             Self::Explained => "explained",
             Self::Confounded => "confounded",
+            Self::FormNotDetermined => "form not determined",
             Self::UnnamedFunction => "unnamed function",
             Self::StructureRemains => "structure remains",
             Self::NoiseExceedsStated => "noise exceeds stated",
@@ -70,6 +74,8 @@ pub(super) struct Evidence<'a> {
     pub effects: bool,
     /// Whether each accepted effect is alone.
     pub alone: bool,
+    /// Whether some effect could be another function.
+    pub form_open: bool,
     /// What else was noticed.
     pub cautions: &'a [Caution],
 }
@@ -91,6 +97,8 @@ pub(super) fn verdict(evidence: Evidence<'_>) -> Verdict {
         Verdict::UnnamedFunction
     } else if evidence.structure {
         Verdict::StructureRemains
+    } else if evidence.effects && evidence.form_open {
+        Verdict::FormNotDetermined
     } else if evidence.effects && evidence.alone {
         Verdict::Explained
     } else if evidence.effects {
@@ -119,12 +127,15 @@ mod tests {
             structure: false,
             effects: true,
             alone: true,
+            form_open: false,
             cautions: &[],
         };
         let none = Evidence { effects: false, ..whole };
         for (evidence, expected) in [
             (whole, Verdict::Explained),
             (Evidence { alone: false, ..whole }, Verdict::Confounded),
+            (Evidence { form_open: true, alone: false, ..whole }, Verdict::FormNotDetermined),
+            (Evidence { form_open: true, structure: true, ..whole }, Verdict::StructureRemains),
             (Evidence { structure: true, ..whole }, Verdict::StructureRemains),
             (Evidence { structure: true, unnamed: true, ..whole }, Verdict::UnnamedFunction),
             (Evidence { cautions: &thin, structure: true, ..whole }, Verdict::TooFewObservations),

@@ -111,7 +111,7 @@ fn tone(diagnosis: &Diagnosis) -> Tone {
         _ if is_worse(diagnosis) => Tone::Bad,
         _ if is_worse_elsewhere(diagnosis) => Tone::Careful,
         Verdict::Explained | Verdict::NothingDetectable => Tone::Good,
-        Verdict::Confounded => Tone::Ambiguous,
+        Verdict::Confounded | Verdict::FormNotDetermined => Tone::Ambiguous,
         Verdict::UnnamedFunction | Verdict::StructureRemains | Verdict::NoiseExceedsStated => Tone::Careful,
     }
 }
@@ -123,6 +123,7 @@ fn badge(diagnosis: &Diagnosis) -> String {
         Verdict::Explained if count > 1 => format!("{count} causes found"),
         Verdict::Confounded if count > 1 => format!("{count} effects found"),
         Verdict::Explained | Verdict::Confounded => "Cause found".to_owned(),
+        Verdict::FormNotDetermined => "Place found, form open".to_owned(),
         Verdict::UnnamedFunction => "Place found, cause unknown".to_owned(),
         Verdict::StructureRemains => "Something is left".to_owned(),
         Verdict::NoiseExceedsStated => "Noisier than stated".to_owned(),
@@ -150,6 +151,16 @@ fn happened(diagnosis: &Diagnosis) -> String {
             let several = diagnosis.effects.iter().filter(|effect| effect.causes.len() > 1).count();
             format!(
                 "{count} effects found; for {several} of them these data fit several physical causes equally well."
+            )
+        }
+        Verdict::FormNotDetermined if count == 1 => {
+            "Something moves at one place; these data do not tell which function of its driver it is."
+                .to_owned()
+        }
+        Verdict::FormNotDetermined => {
+            let open = diagnosis.effects.iter().filter(|effect| !effect.form_determined).count();
+            format!(
+                "{count} effects found; for {open} of them these data do not tell which function of its driver it is."
             )
         }
         Verdict::UnnamedFunction if count > 0 => format!(

@@ -9,7 +9,7 @@
 use faer::{Mat, MatRef};
 use statrs::function::factorial::ln_binomial;
 
-use super::problem::{Problem, VISIBLE};
+use super::problem::VISIBLE;
 use super::scan::Left;
 use super::select::held_out_rss;
 use super::sweep::Sweep;
@@ -30,19 +30,55 @@ pub struct Price {
 pub struct Contender {
     /// Its penalised log-likelihood.
     pub criterion: f64,
+    /// How likely it makes the data, and what it has for that.
+    pub likelihood: Likelihood,
     /// The accepted effects that stay beside it, by their number.
     pub kept: Vec<usize>,
+    /// How far what it predicts is from what the accepted model does, as a share (RMS) of what the effects do that it
+    /// replaces; none where it replaces none.
+    pub differs: Option<f64>,
     /// Coefficients of the function's columns; zero for columns that are not seen.
     pub coefficients: Vec<f64>,
     /// Their covariance, row by row.
     pub covariance: Vec<f64>,
 }
 
+/// How likely a model makes the data.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Likelihood {
+    /// The largest log-likelihood, up to a constant of the data.
+    pub log: f64,
+    /// Coefficients and thresholds that were fitted for it.
+    pub parameters: usize,
+}
+
+impl Likelihood {
+    fn of(rss: f64, rows: usize, parameters: usize) -> Self {
+        Self { log: -(rows as f64) / 2.0 * rss.max(f64::MIN_POSITIVE).ln(), parameters }
+    }
+
+    /// What the model is expected to make of data like these: the log-likelihood less its parameters.
+    ///
+    /// Source: H. Akaike, "A new look at the statistical model identification", IEEE Transactions on Automatic Control 19 (1974).
+    #[must_use]
+    pub fn expected(self) -> f64 {
+        self.log - self.parameters as f64
+    }
+}
+
+/// How likely the accepted model makes the data.
+#[must_use]
+pub fn likelihood(left: &Left<'_>) -> Likelihood {
+    let rss = left.residual.iter().map(|r| r * r).sum();
+    Likelihood::of(rss, left.residual.len(), left.basis.ncols() + left.thresholds.iter().sum::<usize>())
+}
+
 /// Penalised log-likelihood of the accepted model itself.
 #[must_use]
 pub fn criterion(left: &Left<'_>, price: Price) -> f64 {
     let rss = left.residual.iter().map(|r| r * r).sum();
-    penalised(rss, left.residual.len(), left.basis.ncols()) - ln_choices(price.sets, left.accepted.len())
+    let parameters = left.basis.ncols() + left.thresholds.iter().sum::<usize>();
+    penalised(rss, left.residual.len(), parameters) - ln_choices(price.sets, left.accepted.len())
 }
 
 /// The model with a function's columns in it, without those accepted effects that it makes idle.
@@ -70,7 +106,10 @@ pub fn contender(left: &Left<'_>, columns: MatRef<'_, f64>, price: Price) -> Con
         let mut sweep = Sweep::scaled(small.clone(), open.iter().map(|&column| before[column]).collect());
         let added = effects.iter().flat_map(|(_, own)| own).filter(|&&column| sweep.add(column)).count();
         let rss = sweep.entry(open.len() - 1, open.len() - 1);
-        penalised(rss, rows, count + added + price.parameters) - own - ln_choices(price.sets, effects.len())
+        let thresholds: usize = effects.iter().map(|&(number, _)| left.thresholds[number]).sum();
+        penalised(rss, rows, count + added + thresholds + price.parameters)
+            - own
+            - ln_choices(price.sets, effects.len())
     };
     let mut criterion = judged(&kept);
     loop {
@@ -85,28 +124,39 @@ pub fn contender(left: &Left<'_>, columns: MatRef<'_, f64>, price: Price) -> Con
         criterion = better;
     }
     count += kept.iter().flat_map(|(_, own)| own).filter(|&&column| sweep.add(open[column])).count();
-    let variance = sweep.entry(residual, residual) / (rows as f64 - count as f64).max(1.0);
+    let rss = sweep.entry(residual, residual);
+    let thresholds: usize = kept.iter().map(|&(number, _)| left.thresholds[number]).sum();
+    let likelihood = Likelihood::of(rss, rows, count + thresholds + price.parameters);
+    let variance = rss / (rows as f64 - count as f64).max(1.0);
     let seen = |j: usize| sweep.contains(j);
     let own: Vec<usize> = (first..residual).collect();
-    let coefficients = own.iter().map(|&j| if seen(j) { sweep.entry(j, residual) } else { 0.0 }).collect();
+    let coefficients: Vec<f64> =
+        own.iter().map(|&j| if seen(j) { sweep.entry(j, residual) } else { 0.0 }).collect();
     let pairs = own.iter().flat_map(|&i| own.iter().map(move |&j| (i, j)));
     let covariance = pairs.map(|(i, j)| if seen(i) && seen(j) { -variance * sweep.entry(i, j) } else { 0.0 });
-    let kept = kept.into_iter().map(|(number, _)| number).collect();
-    Contender { criterion, kept, coefficients, covariance: covariance.collect() }
+    let kept: Vec<usize> = kept.into_iter().map(|(number, _)| number).collect();
+    let accepted: f64 = left.residual.iter().map(|r| r * r).sum();
+    // The accepted model's residual is orthogonal to all that it knows.
+    let across = columns.transpose() * faer::ColRef::from_slice(&left.residual);
+    let shared: f64 = coefficients.iter().zip(across.iter()).map(|(b, a)| b * a).sum();
+    let apart = (rss - accepted + 2.0 * shared).max(0.0);
+    let done = left.rss_beside(&kept) - accepted;
+    let differs = (kept.len() < left.accepted.len()).then(|| (apart / done.max(f64::MIN_POSITIVE)).sqrt());
+    Contender { criterion, likelihood, kept, differs, coefficients, covariance: covariance.collect() }
 }
 
-/// Whether a model with a function's columns, beside the accepted effects that it keeps, predicts held-out folds better than
+/// Whether a model with a function's columns, beside the accepted effects that it keeps, predicts held-out folds (rows of each) better than
 /// the accepted model does. A likelihood takes every row for one of its own; where rows come in groups, only folds of whole groups
 /// tell a function from what the groups happen to share.
 #[must_use]
-pub fn predicts(left: &Left<'_>, columns: MatRef<'_, f64>, kept: &[usize], problem: &Problem) -> bool {
-    if problem.folds() < 2 {
+pub fn predicts(left: &Left<'_>, columns: MatRef<'_, f64>, kept: &[usize], folds: &[Vec<usize>]) -> bool {
+    if folds.len() < 2 {
         return true;
     }
     let (known, own) = (left.known.ncols() - 1, columns.ncols());
-    let grams: Vec<Mat<f64>> = (0..problem.folds())
-        .map(|fold| {
-            let rows = problem.rows_of_folds(|other| other == fold);
+    let grams: Vec<Mat<f64>> = folds
+        .iter()
+        .map(|rows| {
             let all = Mat::from_fn(rows.len(), known + own + 1, |i, j| match j.checked_sub(known) {
                 None => left.known[(rows[i], j)],
                 Some(at) if at < own => columns[(rows[i], at)],

@@ -8,6 +8,9 @@ use crate::candidate::EffectId;
 use crate::search::search_problem::SearchProblem;
 use crate::search::{Accepted, ConfoundedSet, Selection, confounded_sets, select};
 
+/// Degrees of freedom of a residual, and groups of its rows, below which nothing can be told of its structure.
+const FEWEST: usize = 20;
+
 /// A fit, and the search that starts from it.
 pub(crate) struct Round<'a> {
     pub fitted: Fitted,
@@ -22,6 +25,19 @@ impl<'a> Round<'a> {
         let search = SearchProblem::at(whole, &fitted)?;
         let sets = confounded_sets(&search.problem);
         Ok(Self { fitted, search, sets })
+    }
+
+    /// Whether there are rows enough to tell structure of what is left from noise.
+    pub fn tells_structure(&self) -> bool {
+        let problem = self.search.of_rows();
+        let first = |set: SetId| self.sets[set.0].members.first();
+        let columns: usize = self
+            .accepted_sets()
+            .into_iter()
+            .filter_map(first)
+            .map(|&first| problem.columns(first).len())
+            .sum();
+        problem.groups() >= FEWEST && problem.rows().nrows() >= problem.declared() + columns + FEWEST
     }
 
     /// The confounded set that an effect belongs to.

@@ -38,6 +38,8 @@ pub struct Left<'a> {
     pub declared: usize,
     /// The columns of each accepted effect, as `known` numbers them.
     pub accepted: Vec<Vec<usize>>,
+    /// Thresholds of each that the data chose, beside its coefficients.
+    pub thresholds: Vec<usize>,
     /// Declared and accepted columns, the residual last.
     pub known: Mat<f64>,
     /// Their Gram matrix.
@@ -116,9 +118,10 @@ impl<'a> Left<'a> {
                 start += block.len();
                 (start - block.len()..start).collect()
             })
-            .collect();
+            .collect::<Vec<_>>();
         let mut left = Self {
             declared,
+            thresholds: vec![0; accepted.len()],
             accepted,
             known,
             known_gram,
@@ -160,6 +163,17 @@ impl<'a> Left<'a> {
             ((true, a), (false, b)) | ((false, b), (true, a)) => cross[(a, b)],
             ((false, a), (false, b)) => own[(a, b)],
         })
+    }
+
+    /// The sum of squares that the declared columns leave, with some of the accepted effects.
+    #[must_use]
+    pub fn rss_beside(&self, kept: &[usize]) -> f64 {
+        let mut sweep = Sweep::new(self.known_gram.clone());
+        let residual = self.known.ncols() - 1;
+        (0..self.declared).chain(kept.iter().flat_map(|&at| self.accepted[at].clone())).for_each(|column| {
+            sweep.add(column);
+        });
+        sweep.entry(residual, residual)
     }
 
     /// Scans sheets, made one after another by `sheet`.

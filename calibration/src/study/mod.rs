@@ -20,10 +20,12 @@ mod plan;
 mod shown;
 mod sigma;
 mod syntax;
+mod timeless;
 mod unstated;
 mod written;
 
 pub use load::{Loaded, Open, OpenTable};
 pub use plan::{HoldOut, NextPoses, Plan, Search, SourcePlan};
+pub use timeless::Timeless;
 pub use unstated::Unstated;
 pub use written::Study;

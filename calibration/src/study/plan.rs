@@ -9,6 +9,7 @@ use super::column_plan::{ColumnPlan, column_plan};
 use super::estimated::{estimable, matching};
 use super::mistakes::{Gathered, Outcome, Several, every, mistake, plain, unknown, within};
 use super::shown::{self, Convention};
+use super::timeless::{Timeless, timeless};
 use super::unstated::{Unstated, unstated};
 use super::written::{Column, Kind, Observed, Study, Table};
 use crate::candidate::Effect;
@@ -40,6 +41,8 @@ pub struct Plan {
     pub doubts: Vec<Doubt>,
     /// Inputs whose names sound like what they do not state.
     pub unstated: Vec<Unstated>,
+    /// Whether the rows are in sequence while nothing says when they were taken.
+    pub timeless: Option<Timeless>,
     pub(super) id: Option<String>,
     /// Where objects and stations are as far as the study says.
     pub places: Places,
@@ -172,6 +175,8 @@ impl Study {
         let (data_from, doubts) = (self.data_from.clone(), self.doubts(&chain, &sources));
         let chain = shown::vectors(chain);
         let unstated = unstated(&chain, &search.inputs);
+        let timeless =
+            if search.sequence { timeless(&chain, &search.inputs, order.as_deref()) } else { None };
         Ok(Plan {
             sources,
             fit,
@@ -182,6 +187,7 @@ impl Study {
             data_from,
             doubts,
             unstated,
+            timeless,
             id,
             group,
             order,

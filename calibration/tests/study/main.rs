@@ -224,6 +224,19 @@ fn names_of_a_study_are_names_of_the_language() {
     }
 }
 
+/// A drift is one of the time since the first row, which nothing says here.
+#[test]
+fn rows_in_sequence_without_a_time_are_remarked() {
+    let remarked = |search: &str, order: &str| {
+        let study =
+            STUDY.replace("order = \"time\"\n", order).replace("[search]", &format!("[search]\n{search}"));
+        Study::from_text(&study).unwrap().plan(&Chain::from_text(MOUNT).unwrap()).unwrap().timeless.is_some()
+    };
+    assert!(remarked("sequence = true", ""));
+    assert!(!remarked("", ""));
+    assert!(!remarked("sequence = true", "order = \"time\"\n"));
+}
+
 #[test]
 fn a_search_that_would_not_fit_into_the_memory_is_refused_before_it_begins() {
     let asked = |text: &str, search: &str, folds: &str| {

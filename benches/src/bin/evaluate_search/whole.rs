@@ -202,9 +202,17 @@ pub fn local_defect(count: usize) -> Result<Vec<Line>, Failure> {
             )?;
             let alarm = report.verdict != Verdict::NothingDetectable;
             let place = report.remaining.as_ref().and_then(|left| left.place.as_ref());
-            let right = place.is_some_and(|place| (&place.driver, &place.dof) == (&bump.driver, &bump.dof));
+            let here = |driver: &str, dof: &str| (driver, dof) == (bump.driver.as_str(), bump.dof.as_str());
+            let right = place.is_some_and(|place| here(&place.driver, &place.dof))
+                || report.effects.iter().any(|effect| here(&effect.driver, &effect.dof));
             let explained = matches!(report.verdict, Verdict::Explained | Verdict::Confounded);
-            Ok((alarm, right, explained))
+            // A bell is told as a bump, by name or among what competes with the name.
+            let told = |name: &String| name.starts_with("bump ");
+            let named = report.effects.iter().any(|effect| {
+                here(&effect.driver, &effect.dof)
+                    && effect.names.iter().chain(&effect.competing_with).any(told)
+            });
+            Ok((alarm, right, explained && !named))
         })?;
         let local = format!("local defect in a joint, N = 1000, SNR {snr}");
         let alarm = Rate::of(outcomes.iter().map(|o| o.0));

@@ -49,13 +49,18 @@ pub(crate) struct Driver {
 impl Driver {
     /// `None` without readings, or where there are too few different ones to be a function of.
     pub fn of(chain: &Chain, poses: &Poses, symbol: SymbolId) -> Option<Self> {
-        let mut sorted = poses.column(symbol)?.to_vec();
+        let own = chain.symbol(symbol);
+        let turns = own.kind == SymbolKind::Joint && own.quantity == Quantity::Angle;
+        Self::of_readings(symbol, poses.column(symbol)?, turns)
+    }
+
+    /// Of these readings.
+    pub fn of_readings(symbol: SymbolId, readings: &[f64], turns: bool) -> Option<Self> {
+        let mut sorted = readings.to_vec();
         sorted.retain(|reading| reading.is_finite());
         sorted.sort_by(f64::total_cmp);
         sorted.dedup();
         let (&low, &high) = (sorted.first()?, sorted.last()?);
-        let own = chain.symbol(symbol);
-        let turns = own.kind == SymbolKind::Joint && own.quantity == Quantity::Angle;
         (sorted.len() >= DIFFERENT).then_some(Self { symbol, low, high, different: sorted.len(), turns })
     }
 

@@ -11,8 +11,10 @@ mod grid;
 mod refine;
 mod shape;
 
+use std::collections::BTreeMap;
+
 use faer::Mat;
-use model_core::{Chain, SymbolId};
+use model_core::{Chain, SymbolId, SymbolKind};
 use rayon::prelude::*;
 
 use self::grid::Driver;
@@ -20,12 +22,12 @@ use self::refine::{Gain, orthonormal, refined};
 pub(crate) use self::shape::{Shape, ShapeKind};
 use super::competing::AS_GOOD;
 use super::confounded::{SetColumns, SetId};
-use super::contest::{Contender, Price, contender, criterion, predicts};
+use super::contest::{Contender, Price, contender, criterion, likelihood, predicts};
 use super::flips::familywise;
 use super::scan::{Left, Sheet};
 use super::signs::Signs;
-use crate::candidate::{Dependence, Function, Place};
-use crate::effects::{SmoothPlace, smooth};
+use crate::candidate::{Dependence, Effect, Function, Place};
+use crate::effects::{SHAPE, SmoothPlace, smooth};
 use crate::search::SearchError;
 use crate::search::columns::Columns;
 use crate::search::context::{Context, declared};
@@ -40,8 +42,17 @@ const OWN_SHARE: f64 = 0.2;
 /// Functions that are held to rows that were held out, the likeliest first.
 const CONFIRMED: usize = 8;
 
+/// Stretches of rows in their order that a function of an input must predict, each from the others.
+const STRETCHES: usize = 10;
+
+/// Rows that a function hangs on at least, as an effective number.
+const FEWEST_BEHIND: f64 = 8.0;
+
 /// Shapes of one place whose thresholds are refined.
 const REFINED: usize = 4;
+
+/// A function that follows the accepted effects more closely than so, as a share of what they do, is theirs by another name.
+const SAME_FORM: f64 = 0.15;
 
 /// Bumps of the scan, by their widths as shares of the range, steps, and the stretches of its tables.
 const SCANNED_BUMPS: [(usize, f64); 2] = [(60, 0.012), (24, 0.05)];
@@ -68,6 +79,8 @@ pub(crate) struct AsGood {
     pub kind: ShapeKind,
     /// The accepted effects that it would replace, by their number among those found.
     pub instead_of: Vec<usize>,
+    /// Whether it is another function over these data, so that they do not determine the form.
+    pub differs: bool,
 }
 
 impl AsGood {
@@ -120,7 +133,9 @@ pub(crate) fn contest(whole: &Context<'_>, last: &Round<'_>) -> Result<Contest, 
     let accepted: Vec<Vec<usize>> = shown.iter().map(|&(_, set)| blocks[set].to_vec()).collect();
     let signs =
         Signs::scattered(last.search.of_rows().group_of_row(), whole.options.flips, whole.options.seed);
-    let left = Left::new(last.search.of_rows(), &accepted, &signs);
+    let mut left = Left::new(last.search.of_rows(), &accepted, &signs);
+    let of = |number: usize| &whole.catalogue[last.fitted.found[number].effect];
+    left.thresholds = shown.iter().map(|&(number, _)| thresholds(of(number))).collect();
     let library = Library { whole, last, columns, drivers, left, shown };
 
     let scan = library.left.scan(smooths.len(), |number| library.sheet_of_scan(smooths[number]));
@@ -133,6 +148,18 @@ pub(crate) fn contest(whole: &Context<'_>, last: &Round<'_>) -> Result<Contest, 
     let judged: Vec<Judged> =
         smooths.par_iter().flat_map_iter(|smooth| library.judged(*smooth, places)).collect();
     Ok(library.verdict(judged, most, p_value))
+}
+
+/// Thresholds that the data chose for an effect, beside its coefficients.
+fn thresholds(effect: &Effect) -> usize {
+    let is = |kind: &ShapeKind| effect.form == Dependence::from(kind.words());
+    match effect.family {
+        SHAPE if [ShapeKind::Ramp, ShapeKind::Bump, ShapeKind::Plateau].iter().any(is) => 2,
+        SHAPE if [ShapeKind::Powers, ShapeKind::Table].iter().any(is) => 0,
+        // A step, or where a wave starts.
+        SHAPE => 1,
+        _ => 0,
+    }
 }
 
 /// Everything that the contest reads.
@@ -246,6 +273,7 @@ impl Library<'_, '_> {
         let mut starts: Vec<(f64, Shape)> = driver
             .single()
             .into_iter()
+            .filter(|shape| shape.is_seen_between(driver.low, driver.high))
             .map(|shape| (gain.of(column(&shape).col_as_slice(0)), shape))
             .collect();
         starts.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -260,7 +288,7 @@ impl Library<'_, '_> {
         let step = driver.span() / 36.0;
         let single = starts
             .into_iter()
-            .map(|(_, shape)| refined(shape, driver.span(), step, &gain, column).0.rounded(driver.span()));
+            .map(|(_, shape)| refined(shape, driver, step, &gain, column).0.rounded(driver.span()));
         // Of the harmonics the one that explains most.
         let harmonic = driver
             .harmonics(self.whole.setting.harmonics)
@@ -294,13 +322,40 @@ impl Library<'_, '_> {
     fn is_confirmed(&self, judged: &Judged) -> bool {
         let Some((_, readings)) = self.driver(judged.smooth) else { return false };
         let columns = self.sheet(judged.smooth.place, &judged.shape.values(readings));
-        predicts(&self.left, columns.as_ref(), &judged.fitted.kept, self.last.search.of_rows())
+        let problem = self.last.search.of_rows();
+        let rows = problem.rows().nrows();
+        let folds: Vec<Vec<usize>> = match self.whole.setting.chain.symbol(judged.smooth.driver).kind {
+            SymbolKind::Joint => {
+                (0..problem.folds()).map(|fold| problem.rows_of_folds(|other| other == fold)).collect()
+            }
+            // Whatever drifts with time is a function of a temperature that does, too, but none that returns with it.
+            _ => {
+                (0..STRETCHES).map(|i| (i * rows / STRETCHES..(i + 1) * rows / STRETCHES).collect()).collect()
+            }
+        };
+        self.rows_behind(&columns) >= FEWEST_BEHIND
+            && predicts(&self.left, columns.as_ref(), &judged.fitted.kept, &folds)
+    }
+
+    /// How many rows a function hangs on, as an effective number: of their shares of what is left of its columns.
+    fn rows_behind(&self, columns: &Mat<f64>) -> f64 {
+        let basis = &self.left.basis;
+        let left = columns - basis * (basis.transpose() * columns);
+        let mut by_row: BTreeMap<u32, f64> = BTreeMap::new();
+        for (component, &row) in self.last.search.rows.columns.row.iter().enumerate() {
+            let share: f64 = left.row(component).iter().map(|value| value * value).sum();
+            *by_row.entry(row).or_insert(0.0) += share;
+        }
+        let (sum, squares) =
+            by_row.values().fold((0.0, 0.0), |(sum, squares), share| (sum + share, squares + share * share));
+        if squares > 0.0 { sum * sum / squares } else { 0.0 }
     }
 
     /// The function that is taken up, and those that are about as good as what they would replace.
     fn verdict(&self, judged: Vec<Judged>, most: Option<SmoothPlace>, p_value: f64) -> Contest {
         let price = Price { sets: self.last.sets.len(), functions: 1, parameters: 0 };
         let present = criterion(&self.left, price);
+        let expected = likelihood(&self.left).expected();
         let numbers = |of: &[usize]| -> Vec<usize> { of.iter().map(|&at| self.shown[at].0).collect() };
         let replaced = |judged: &Judged| -> Vec<usize> {
             (0..self.shown.len()).filter(|at| !judged.fitted.kept.contains(at)).collect()
@@ -335,13 +390,22 @@ impl Library<'_, '_> {
                 (effect.place, &effect.form) == (one.smooth.place, &Dependence::from(kind.words()))
                     && effect.driver == self.whole.setting.name(one.smooth.driver)
             };
-            if !instead_of.is_empty()
-                && !instead_of.iter().any(of_its_own)
-                && one.fitted.criterion >= present - AS_GOOD
-                && !contest.as_good.iter().any(known)
+            // Another function is held to what it is expected to make of new data: a price for every threshold would hide
+            // whatever takes more of them than a name of the catalogue does.
+            let differs = one.fitted.differs.is_some_and(|share| share > SAME_FORM)
+                && one.fitted.likelihood.expected() >= expected - AS_GOOD;
+            if instead_of.is_empty()
+                || instead_of.iter().any(of_its_own)
+                || !(differs || one.fitted.criterion >= present - AS_GOOD)
             {
-                let SmoothPlace { place, driver } = one.smooth;
-                contest.as_good.push(AsGood { place, driver, kind, instead_of });
+                continue;
+            }
+            match contest.as_good.iter_mut().find(|other| known(other)) {
+                Some(other) => other.differs |= differs,
+                None => {
+                    let SmoothPlace { place, driver } = one.smooth;
+                    contest.as_good.push(AsGood { place, driver, kind, instead_of, differs });
+                }
             }
         }
         contest

@@ -2,6 +2,7 @@
 
 use faer::Mat;
 
+use super::grid::Driver;
 use super::shape::Shape;
 
 /// How far thresholds are refined, as a share of the readings' range.
@@ -32,20 +33,24 @@ impl Gain<'_> {
 /// The shape with its thresholds moved to where it explains most, one after the other at ever smaller steps from `step` on.
 pub(super) fn refined(
     shape: Shape,
-    span: f64,
+    driver: &Driver,
     mut step: f64,
     gain: &Gain<'_>,
     column: impl Fn(&Shape) -> Mat<f64>,
 ) -> (Shape, f64) {
     let of = |shape: &Shape| gain.of(column(shape).col_as_slice(0));
     let mut best = (of(&shape), shape);
-    while step > FINEST * span {
+    while step > FINEST * driver.span() {
         let mut moved = false;
         for at in 0..best.1.parameters() {
             for sign in [-1.0, 1.0] {
                 let mut to = best.1.thresholds();
                 to[at] += sign * step;
-                let Some(other) = best.1.moved(&to) else { continue };
+                let moved_to = best.1.moved(&to);
+                let Some(other) = moved_to.filter(|shape| shape.is_seen_between(driver.low, driver.high))
+                else {
+                    continue;
+                };
                 let explains = of(&other);
                 if explains > best.0 {
                     best = (explains, other);
@@ -83,6 +88,8 @@ pub(super) fn orthonormal(columns: impl Iterator<Item = Vec<f64>>, rows: usize) 
 
 #[cfg(test)]
 mod tests {
+    use model_core::SymbolId;
+
     use super::*;
 
     #[test]
@@ -93,7 +100,8 @@ mod tests {
         let basis = orthonormal(std::iter::once(vec![1.0; 2000]), 2000);
         let gain = Gain { basis: &basis, residual: &target };
         let column = |shape: &Shape| shape.values(&readings);
-        let (shape, _) = refined(Shape::Step { at: 0.6 }, 1.0, 1.0 / 36.0, &gain, column);
+        let driver = Driver::of_readings(SymbolId(0), &readings, false).unwrap();
+        let (shape, _) = refined(Shape::Step { at: 0.6 }, &driver, 1.0 / 36.0, &gain, column);
         assert!((shape.thresholds()[0] - 0.6173).abs() < 1e-3, "{shape:?}");
     }
 }

@@ -9,6 +9,12 @@ use model_core::{Chain, Quantity, SymbolId};
 /// Digits of a threshold, relative to the range of the readings.
 const DIGITS: f64 = 4.0;
 
+/// The share of either flank of a bump that must lie within the readings.
+const FLANK: f64 = 0.25;
+
+/// The share of the readings' range that must lie beyond either end of a plateau.
+const END: f64 = 0.05;
+
 /// A wave that repeats a whole number of times a turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Wave {
@@ -76,6 +82,16 @@ impl Shape {
             _ => return None,
         };
         Some(moved)
+    }
+
+    /// Whether readings between two show all of it: a bump of one side is a ramp, a plateau with one end a step.
+    pub fn is_seen_between(&self, low: f64, high: f64) -> bool {
+        let inside = |x: f64| (x - low).min(high - x);
+        match *self {
+            Self::Bump { middle, width } => inside(middle) >= FLANK * width,
+            Self::Plateau { from, to } => inside(from).min(inside(to)) >= END * (high - low),
+            _ => true,
+        }
     }
 
     /// The sums of ramps that it is made of, one sum a function: sign, from, to. Nothing for powers and harmonics.

@@ -1,0 +1,61 @@
+//! Rows that were set aside and share a stretch of a reading are heard once more: a defect of a few degrees lies far from
+//! what all other rows say, and to a robust fit it is nothing but outliers.
+//!
+//! Every row at its full weight, functions outside the catalogue compete for what those rows have in common. What they find
+//! is fitted robustly again, and stays if fewer rows are set aside then and the model is the likelier one.
+
+use std::cell::OnceCell;
+
+use super::functions::{MOST, Settled, settled};
+use super::outliers::{criterion, doubts, trusting};
+use super::rounds::rounds;
+use crate::search::aside::shared;
+use crate::search::context::Context;
+use crate::search::fitted::Fitted;
+use crate::search::round::Round;
+use crate::search::{Request, SearchError};
+use crate::study::Plan;
+
+/// Where the studies live that these loops read.
+#[derive(Default)]
+pub(super) struct Places {
+    trusting: OnceCell<Plan>,
+    of_functions: [OnceCell<Plan>; MOST],
+    robust: OnceCell<Plan>,
+    of_more: [OnceCell<Plan>; MOST],
+}
+
+/// What the library has settled on, or what it makes of the rows that were set aside.
+pub(super) fn heard<'a>(last: Settled<'a>, places: &'a Places) -> Result<Settled<'a>, SearchError> {
+    let (whole, fit) = (&last.whole, &last.round.fitted.fit);
+    let plan = whole.request.plan;
+    let aside: Vec<usize> = fit.set_aside.iter().map(|aside| aside.row).collect();
+    let poses = &whole.request.observations.poses;
+    let compete = plan.search.functions && plan.search.only.is_empty();
+    if !plan.fit.robust || !compete || shared(poses, &aside, whole.options.seed).is_none() {
+        return Ok(last);
+    }
+    let every = places.trusting.get_or_init(|| trusting(plan));
+    let every = Context { request: Request { plan: every, ..whole.request }, ..whole.clone() };
+    let first = Fitted::with(&every, last.round.fitted.found.clone(), &last.round.fitted)?;
+    if !first.fit.outcome.is_usable() {
+        return Ok(last);
+    }
+    let found = settled(&every, &places.of_functions, rounds(&every, Round::at(&every, first)?)?)?;
+    let robust = places.robust.get_or_init(|| {
+        let mut robust = found.whole.request.plan.clone();
+        robust.fit.robust = true;
+        robust.fit.noise.variance = plan.fit.noise.variance;
+        robust
+    });
+    let again = Context { request: Request { plan: robust, ..whole.request }, ..found.whole.clone() };
+    let other = Fitted::with(&again, found.round.fitted.found.clone(), &found.round.fitted)?;
+    if !other.fit.outcome.is_usable() {
+        return Ok(last);
+    }
+    let other = rounds(&again, Round::at(&again, other)?)?;
+    let explains = other.fitted.fit.outcome.is_usable()
+        && doubts(&other) < doubts(&last.round)
+        && criterion(&again, &other) > criterion(whole, &last.round);
+    if explains { settled(&again, &places.of_more, other) } else { Ok(last) }
+}

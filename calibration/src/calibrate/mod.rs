@@ -3,8 +3,9 @@
 //! One round (`round` of [`crate::search`]) fits the declaration with the effects accepted so far and searches from there.
 //! Rounds go on until one changes nothing (`rounds`). Then rows that were set aside together are reconsidered (`outliers`),
 //! a memory of the noise competes with the effects (`memory`), shapes of the library compete with them (`functions`), and
-//! the search is repeated without each fold (`held_out`). [`crate::diagnose`] says what it means, [`crate::report`] in words.
+//! the search is repeated without each fold (`held_out`), and effects that do not help there are left out (`confirm`). [`crate::diagnose`] says what it means, [`crate::report`] in words.
 
+mod confirm;
 mod functions;
 mod heard;
 pub(crate) mod held_out;
@@ -22,11 +23,12 @@ use crate::diagnose::{Confirmed, Diagnosis, Trace, diagnose, rounding, trace};
 use crate::fit::{FitResult, Outcome};
 use crate::formats::DataError;
 use crate::report::amendment;
+use crate::search::SearchError;
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
-use crate::search::{SearchError, nested};
 use crate::study::{Loaded, Open, Plan, Study};
+use confirm::{Judged, judged};
 use functions::{Settled, settled};
 use rounds::rounds;
 
@@ -149,9 +151,9 @@ pub fn calibrate_telling(
     let places = heard::Places::default();
     let Settled { whole, round, as_good } = if is_rounding { last } else { heard::heard(last, &places)? };
     tell(Stage::HeldOut);
-    let held_out = nested(&round.search.problem, &round.sets, &whole.options);
-    let rms = held_out::rms(&whole, &before, &round, &held_out)?;
-    let confirmed = Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good };
+    let Judged { round, held_out, rms, refused } = judged(&whole, &before, round)?;
+    let as_good = if refused.is_none() { as_good } else { Vec::new() };
+    let confirmed = Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good, refused };
     let diagnosis = diagnose(&whole, &before, &round.fitted, Ok(confirmed))?;
     let drawn = trace::drawn(request.observations, &round.fitted.fit);
     let traces = trace::traces(&whole, &round, &drawn)?;

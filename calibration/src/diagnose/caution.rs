@@ -42,6 +42,18 @@ pub enum Caution {
         /// RMS after, SI.
         after: f64,
     },
+    /// Effects passed the test, but made it worse on rows that their search did not see: they were left out again.
+    #[serde(rename = "not confirmed on held-out data")]
+    NotConfirmed {
+        /// Their names.
+        effects: Vec<String>,
+        /// The smallest familywise p among them.
+        p_value: f64,
+        /// RMS without them, SI.
+        before: f64,
+        /// RMS with them, SI.
+        after: f64,
+    },
     /// Effects make it worse in regions of the joints that no stage saw.
     #[serde(rename = "worse elsewhere")]
     WorseElsewhere {

@@ -171,6 +171,8 @@ pub(crate) struct Confirmed<'a> {
     pub rms: BeforeAfter,
     /// Functions that explain the data about as well as accepted effects.
     pub as_good: &'a [AsGood],
+    /// Effects that were left out again, since held-out rows speak against them.
+    pub refused: Option<Caution>,
 }
 
 /// What fits and search come to. Without a search the fit alone is told: it failed, or had too few observations.
@@ -195,6 +197,7 @@ pub(crate) fn diagnose(
     if let (Ended::NotConverged { steps }, true) = (Ended::from(&before.outcome), !found.effects.is_empty()) {
         cautions.push(Caution::DeclarationNotFitted { steps });
     }
+    cautions.extend(confirmed.as_ref().ok().and_then(|confirmed| confirmed.refused.clone()));
     cautions.extend(caution::of_noise(&noise, fit.degrees_of_freedom));
     cautions.extend(of_data(&last.chain, observations, fit));
     let aside: Vec<usize> = fit.set_aside.iter().map(|aside| aside.row).collect();

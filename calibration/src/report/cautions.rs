@@ -14,6 +14,13 @@ pub fn caution(caution: &Caution, diagnosis: &Diagnosis) -> String {
             residual(*before),
             residual(*after)
         ),
+        Caution::NotConfirmed { effects, p_value, before, after } => format!(
+            "{} stood out (p = {p_value:.3}), but data that nobody fitted do not confirm it: {} without, {} with. It was \
+             left out; measure more to decide.",
+            effects.join("; "),
+            residual(*before),
+            residual(*after)
+        ),
         Caution::WorseElsewhere { before, after } => format!(
             "In regions of the joints that were left out it is worse with the effects: {} before, {} after. Correct only \
              where these data lie.",

@@ -5,7 +5,6 @@ use std::cell::OnceCell;
 use model_core::{Chain, SymbolKind};
 
 use super::normal::Rest;
-use super::objects::Eliminated;
 use super::size::Size;
 use super::sweep::{Sweep, Weighting, residuals, sweep};
 use super::{FitError, FitOptions, Model, Partial, Reason, Subspace};
@@ -114,12 +113,6 @@ impl Solver<'_> {
         values
     }
 
-    /// The factor of what the rows tell of the parameters, whatever objects and stations are.
-    fn told(&self, sweep: &Sweep) -> Partial {
-        let partial = sweep.eliminated.as_ref().map(Eliminated::beyond_noise);
-        partial.as_ref().unwrap_or(&sweep.tally.partial).spread(self.model.column_of())
-    }
-
     pub(super) fn partial(&self, sweep: &Sweep) -> Partial {
         sweep.tally.partial.spread(self.model.column_of())
     }
@@ -128,7 +121,7 @@ impl Solver<'_> {
     /// than the sizes do, where the errors are: only there are residuals no larger than the noise.
     pub(super) fn determined(&self, values: &[f64], noise: &Noise) -> Result<Subspace, FitError> {
         if self.options.anchored {
-            let partial = self.told(&self.sweep(values, noise, Weighting::Full)?);
+            let partial = self.partial(&self.sweep(values, noise, Weighting::Full)?);
             return Ok(Subspace::beyond(&partial, self.first_sizes()));
         }
         let mut values = values.to_vec();
@@ -137,7 +130,7 @@ impl Solver<'_> {
                 values[parameter.index()] = 0.0;
             }
         }
-        let partial = self.told(&self.sweep(&values, noise, Weighting::Full)?);
+        let partial = self.partial(&self.sweep(&values, noise, Weighting::Full)?);
         Ok(Subspace::determined(&partial, self.first_sizes()))
     }
 

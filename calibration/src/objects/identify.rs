@@ -6,8 +6,7 @@ use model_core::{Chain, SymbolId, SymbolKind};
 use crate::data::Observations;
 use crate::data::unknowns::{Freedom, Shape, Station, Unknowns};
 use crate::fit::noise::Layout;
-use crate::fit::objects::Eliminated;
-use crate::fit::sweep::{Weighting, sweep};
+use crate::fit::sweep::{Weighting, tally};
 use crate::fit::{FitError, FitOptions, Model, Subspace};
 
 /// What can be seen of the errors.
@@ -137,9 +136,8 @@ fn visible(
     }
     values.resize(chain.symbols.len() + observations.unknowns.as_ref().map_or(0, Unknowns::numbers), 0.0);
     let sigma = vec![1.0; layout.components()];
-    let sweep = sweep(model, observations, &layout, &values, &sigma, Weighting::Full, &[])?;
-    let partial = sweep.eliminated.as_ref().map(Eliminated::beyond_noise);
-    let partial = partial.as_ref().unwrap_or(&sweep.tally.partial).spread(model.column_of());
+    let tally = tally(model, observations, &layout, &values, &sigma, Weighting::Full)?;
+    let partial = tally.partial.spread(model.column_of());
     let parameters = model.parameters();
     let subspace = Subspace::determined(&partial, vec![1.0; parameters.len()]);
     let pick = |chosen: &[bool]| {

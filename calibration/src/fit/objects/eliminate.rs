@@ -20,16 +20,6 @@ const HOLD: f64 = 1e-6;
 /// A column of which less than this share is left, objects and stations aside, moved nothing else.
 const NOTHING: f64 = 3e-5;
 
-/// A combination of columns of which no more is left than so many times the share of the noise in what is observed is told by that
-/// noise alone.
-const BY_NOISE: f64 = 4.0;
-
-/// A share of the noise above this is none: the fit has not come near yet.
-const MOST_BY_NOISE: f64 = 0.03;
-
-/// Of a column, this share is rounding.
-const ROUNDING: f64 = 1e-10;
-
 /// Whitened and weighted rows of one component each: the derivatives by object and station, those by the chain's columns,
 /// and the residual.
 #[derive(Debug, Clone, Default)]
@@ -62,10 +52,6 @@ pub(crate) struct Eliminated {
     pub objective: f64,
     /// First the stations', then the objects'.
     triangles: Vec<Triangle>,
-    /// Length of each of the chain's columns before anything was eliminated.
-    lengths: Vec<f64>,
-    /// Sum of squares of the derivatives by a turn of each row's station: how far away objects are, in units of the noise.
-    turns: f64,
 }
 
 impl Eliminated {
@@ -82,11 +68,9 @@ impl Eliminated {
         let mut rows_of_object: Vec<Vec<(usize, &[f64])>> = vec![Vec::new(); unknowns.objects.len()];
         let mut others: Vec<&[f64]> = Vec::new();
         let mut lengths = vec![0.0; columns];
-        let mut turns = 0.0;
         for part in parts {
             for (&row, values) in part.row.iter().zip(part.values.chunks_exact(width)) {
                 lengths.iter_mut().zip(&values[WIDTH..]).for_each(|(sum, value)| *sum += value * value);
-                turns += values[WIDTH - 3..WIDTH].iter().map(|value| value * value).sum::<f64>();
                 match unknowns.object[row as usize] {
                     Some(object) => rows_of_object[object as usize].push((row as usize, values)),
                     None => others.push(values),
@@ -153,40 +137,7 @@ impl Eliminated {
         }
         let mut partial = Partial::new(columns).with_rows(rest.as_ref());
         partial.components = components;
-        lengths.iter_mut().for_each(|square| *square = square.sqrt());
-        Self { partial, taken, objective, triangles, lengths, turns }
-    }
-
-    /// The factor of the chain's columns without the combinations that noise alone tells.
-    ///
-    /// Where stations and objects can follow a change of the errors, to a smaller copy of everything, say, they follow it at the
-    /// points that are observed but for the noise of these: of the columns so much is left as the noise is of the distances,
-    /// however many rows there are, and means nothing.
-    pub fn beyond_noise(&self) -> Partial {
-        let p = self.partial.parameters;
-        let factor = self.partial.factor();
-        let misfit = factor[(p, p)].powi(2).min(self.partial.components as f64);
-        let share = (BY_NOISE * (misfit / self.turns).sqrt()).min(MOST_BY_NOISE);
-        let unit = |column: usize| if self.lengths[column] > 0.0 { 1.0 / self.lengths[column] } else { 0.0 };
-        let scaled = Mat::from_fn(p, p, |row, column| factor[(row, column)] * unit(column));
-        // Numbers that are none do not factor: nothing is taken out of them.
-        let (true, Ok(svd)) = (self.turns > 0.0, scaled.svd()) else { return self.partial.clone() };
-        let told = svd.S().column_vector().iter().filter(|value| **value > share).count();
-        if told == p {
-            return self.partial.clone();
-        }
-        let seen = svd.V().subcols(0, told);
-        let left = (&scaled * seen) * seen.transpose();
-        let mut rest = factor.clone();
-        for (column, length) in self.lengths.iter().enumerate() {
-            let is_left = left.col(column).norm_l2() > ROUNDING;
-            for row in 0..p {
-                rest[(row, column)] = if is_left { left[(row, column)] * length } else { 0.0 };
-            }
-        }
-        let mut partial = Partial::new(p).with_rows(rest.as_ref());
-        partial.components = self.partial.components;
-        partial
+        Self { partial, taken, objective, triangles }
     }
 
     /// Where objects and stations come to stand when the chain's columns change so, and all goes `stride` times as far as

@@ -1,5 +1,5 @@
-//! What the chain implies, stated and proved: of a whole vector, all errors at once, or each alone where that is too much for
-//! Coq.
+//! What the chain implies, stated and proved: of a whole vector, wherever it is placed, or as it is placed where that is too
+//! much for Coq.
 
 use super::section::{Question, Section};
 use super::{Certificate, Refusal, ordinal, vector_to_order};
@@ -33,8 +33,7 @@ impl Certificate<'_> {
         }
     }
 
-    /// What is too much for Coq at once: with the constants at zero that are declared so, and if that is still too much, to first
-    /// order, by each error alone.
+    /// What is too much for Coq at once, with the constants at zero that are declared so.
     fn smaller(&mut self, question: Question, title: &str) -> Result<(), Refusal> {
         let chain = self.declared.chain();
         let (observable, order) = (question.observable(), question.order);
@@ -46,15 +45,7 @@ impl Certificate<'_> {
         let derived = self.printed(&[x?, y?, z?])?;
         let name = self.names.give(&format!("{}_as_placed", chain.observable(observable).name));
         let title = format!("{title}, with the constants at zero that are declared so");
-        match self.whole_vector(&Question { zeros, ..question }, &name, &title, &derived) {
-            Err(Refusal::TooLarge { .. }) if order == 1 => {
-                let errors = chain.symbols_of_way(observable).into_iter();
-                errors
-                    .filter(|symbol| chain.symbol(*symbol).kind == SymbolKind::Error)
-                    .try_for_each(|error| self.influence(observable, error).map(|_| ()))
-            }
-            other => other,
-        }
+        self.whole_vector(&Question { zeros, ..question }, &name, &title, &derived)
     }
 
     /// States that a formula is the error of a vector, and proves it.

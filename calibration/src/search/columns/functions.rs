@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use codegen::vector::{self, Arithmetic, ROWS};
 use model_core::algebra::{Poly, Wave};
 use model_core::{Chain, SymbolId};
 
@@ -68,34 +67,16 @@ impl<'a> Functions<'a> {
     fn wave(&mut self, symbol: SymbolId, harmonic: u32, wave: Wave) -> Option<&[f64]> {
         let key = (symbol, harmonic, wave);
         if !self.waves.contains_key(&key) {
-            let mut angles = self.reading(symbol)?;
-            angles.iter_mut().for_each(|angle| *angle *= f64::from(harmonic));
-            let mut cosines = vec![0.0; angles.len()];
-            vector::run(vector::path(), SineCosine { angles: &mut angles, cosines: &mut cosines });
-            self.waves.insert((symbol, harmonic, Wave::Sin), angles);
-            self.waves.insert((symbol, harmonic, Wave::Cos), cosines);
+            let mut column = self.reading(symbol)?;
+            for value in &mut column {
+                let angle = f64::from(harmonic) * *value;
+                *value = match wave {
+                    Wave::Sin => angle.sin(),
+                    Wave::Cos => angle.cos(),
+                };
+            }
+            self.waves.insert(key, column);
         }
         self.waves.get(&key).map(Vec::as_slice)
-    }
-}
-
-/// Puts sines in the place of angles, and cosines beside them.
-struct SineCosine<'a> {
-    angles: &'a mut [f64],
-    cosines: &'a mut [f64],
-}
-
-impl vector::Work for SineCosine<'_> {
-    #[inline(always)]
-    fn run<A: Arithmetic>(self, arithmetic: A) {
-        let mut waves = vector::Waves::NEW;
-        for (angles, cosines) in self.angles.chunks_mut(ROWS).zip(self.cosines.chunks_mut(ROWS)) {
-            let mut space = None;
-            let (sine, cosine) =
-                vector::sin_cos_rows(arithmetic, vector::whole(angles, &mut space), &mut waves);
-            let count = angles.len();
-            angles.copy_from_slice(&sine[..count]);
-            cosines.copy_from_slice(&cosine[..count]);
-        }
     }
 }

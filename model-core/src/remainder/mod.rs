@@ -12,6 +12,7 @@ mod domain;
 mod enclose;
 mod interval;
 mod majorant;
+mod parameter;
 mod poles;
 mod quadratic;
 mod search;
@@ -27,7 +28,8 @@ use crate::symbol::SymbolId;
 use sight::Sight;
 use upper::Upper;
 
-pub(crate) use poles::{Parameter, along_path, keep_away};
+pub(crate) use parameter::Parameter;
+pub(crate) use poles::{along_path, keep_away};
 
 pub use domain::{Domain, DomainError};
 pub use search::{Found, search};

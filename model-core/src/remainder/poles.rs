@@ -3,20 +3,12 @@
 use super::cells;
 use super::domain::{Domain, DomainError};
 use super::interval::Interval;
+use super::parameter::{Parameter, place};
 use super::sight::Sight;
 use crate::algebra::Poly;
 use crate::chain::reading::Measures;
 use crate::chain::{Chain, ObservableId, ObservableKind, TransformKind};
-use crate::symbol::{Quantity, SymbolId, SymbolKind};
-
-/// What a set of poses is spanned by.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Parameter {
-    /// A joint or input itself.
-    Symbol(SymbolId),
-    /// The parameter `t` of a path.
-    Path,
-}
+use crate::symbol::{SymbolId, SymbolKind};
 
 /// Refuses poses at which a denominator on the way to an observable vanishes, and those at which the vector of an azimuth or
 /// of an angle off the axis may come as near to its axis as the errors reach. `domain_of` says where everything lies in a
@@ -96,32 +88,6 @@ fn denominators(chain: &Chain, id: ObservableId, domain: &Domain) -> Vec<(Symbol
     found.sort_unstable();
     found.dedup();
     found
-}
-
-/// A place in words: `elevation = 90 deg, range = 1 m`.
-pub(super) fn place(chain: &Chain, parameters: &[Parameter], at: &[f64]) -> String {
-    let shown = |(parameter, &value): (&Parameter, &f64)| match parameter {
-        Parameter::Path => format!("t = {}", short(value)),
-        Parameter::Symbol(id) => {
-            let symbol = chain.symbol(*id);
-            let (value, unit) = match symbol.quantity {
-                Quantity::Angle => (value.to_degrees(), "deg"),
-                other => (value, other.unit()),
-            };
-            format!("{} = {} {unit}", symbol.name, short(value)).trim_end().to_owned()
-        }
-    };
-    let words: Vec<String> = parameters.iter().zip(at).map(shown).collect();
-    if words.is_empty() { "every pose".to_owned() } else { words.join(", ") }
-}
-
-/// Four digits behind the point at most.
-fn short(value: f64) -> String {
-    let text = format!("{value:.4}");
-    match text.trim_end_matches('0').trim_end_matches('.') {
-        "-0" => "0".to_owned(),
-        text => text.to_owned(),
-    }
 }
 
 /// Between what an amount in `t` lies while `t` runs through a range; `None` where that is not known.

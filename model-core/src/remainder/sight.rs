@@ -5,7 +5,7 @@ use super::angles::Seen;
 use super::cells;
 use super::domain::{Domain, DomainError};
 use super::interval::Interval;
-use super::poles::{Parameter, place};
+use super::parameter::{Parameter, place};
 use super::upper::Upper;
 use super::vector::{self, Whole};
 use crate::algebra::{Poly, Term};

@@ -132,8 +132,10 @@ fn verify_the_remainder_of_readings_is_exact_minus_first_order() {
     assert!(compared > 100, "{compared}");
 }
 
+/// A bound that is many times too large would be proven as well, and of no use. Vectors come within two of the largest found;
+/// angles pay for the nearest that the vector may come to the axis.
 #[test]
-fn bounds_of_angles_are_sharp() {
+fn bounds_of_angles_are_within_ten_times_the_largest_found() {
     let chain = chain();
     let mut domain = domain(&chain, 0.0, [-0.2, 0.5], [2.0, 2.0]);
     for (name, size) in [("an", 5e-5), ("col", 1e-4), ("npae", 5e-5)] {

@@ -100,7 +100,8 @@ mod tests {
         let basis = orthonormal(std::iter::once(vec![1.0; 2000]), 2000);
         let gain = Gain { basis: &basis, residual: &target };
         let column = |shape: &Shape| shape.values(&readings);
-        let driver = Driver::of_readings(SymbolId(0), &readings, false).unwrap();
+        let driver =
+            Driver::of_readings(SymbolId(0), &readings, false).expect("readings to be a function of");
         let (shape, _) = refined(Shape::Step { at: 0.6 }, &driver, 1.0 / 36.0, &gain, column);
         assert!((shape.thresholds()[0] - 0.6173).abs() < 1e-3, "{shape:?}");
     }

@@ -22,6 +22,7 @@ use crate::data::units::BareColumn;
 use crate::diagnose::{Confirmed, Diagnosis, Trace, diagnose, rounding, trace};
 use crate::fit::{FitResult, Outcome};
 use crate::formats::DataError;
+use crate::objects::{StartError, check_scale_of_ranges};
 use crate::report::amendment;
 use crate::search::SearchError;
 use crate::search::context::Context;
@@ -62,6 +63,9 @@ pub enum CalibrateError {
     /// The data cannot be fitted or searched as the study asks.
     #[error(transparent)]
     Search(#[from] SearchError),
+    /// Nothing holds the scale of what is to be estimated.
+    #[error(transparent)]
+    Scale(#[from] StartError),
     /// The amended text cannot be read, though the text can.
     #[error("internal error: the amended declaration cannot be read: {0}")]
     Amended(Mistakes),
@@ -126,6 +130,7 @@ pub fn calibrate_telling(
 ) -> Result<Calibration, CalibrateError> {
     let observables: Vec<_> =
         request.observations.poses.series.iter().map(|series| series.observable).collect();
+    check_scale_of_ranges(&request.plan.chain, request.observations, &request.plan.fit)?;
     // Studies with functions that the library found live as long as the loops that read them.
     let plans: [OnceCell<Plan>; functions::MOST] = Default::default();
     let remembering = OnceCell::new();

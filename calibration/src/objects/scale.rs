@@ -4,7 +4,7 @@
 //! A point is linear in the lengths of its chain. If it is a sum of the columns of those that are estimated at every pose, not
 //! at the measured ones alone, they can take it to nothing.
 
-use model_core::{Chain, Quantity, SymbolId, SymbolKind, exact};
+use model_core::{Chain, Quantity, Symbol, SymbolId, SymbolKind, exact};
 use nalgebra::{DMatrix, DVector};
 
 use super::start::StartError;
@@ -15,11 +15,44 @@ use crate::fit::FitOptions;
 /// A part of the points this small is rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Refuses a fit in which everything could shrink to nothing.
+/// Refuses a fit in which everything could shrink to nothing by its lengths.
 ///
 /// # Errors
 /// The lengths that could.
 pub fn check_scale(chain: &Chain, observations: &Observations, fit: &FitOptions) -> Result<(), StartError> {
+    could_shrink(chain, observations, fit, is_length, is_length)
+}
+
+/// Refuses a fit in which everything could shrink to nothing by a scale of measured lengths, as of ranges. What noise tells
+/// of such a scale, or of a column that shrinks with it, is no number of the instrument.
+///
+/// # Errors
+/// The scales that could.
+pub fn check_scale_of_ranges(
+    chain: &Chain,
+    observations: &Observations,
+    fit: &FitOptions,
+) -> Result<(), StartError> {
+    could_shrink(chain, observations, fit, |symbol| is_length(symbol) || is_factor(symbol), is_factor)
+}
+
+fn is_length(symbol: &Symbol) -> bool {
+    symbol.quantity == Quantity::Length && matches!(symbol.kind, SymbolKind::Error | SymbolKind::Constant)
+}
+
+/// Whether a symbol is an error that multiplies something measured.
+fn is_factor(symbol: &Symbol) -> bool {
+    symbol.quantity == Quantity::Number && symbol.kind == SymbolKind::Error
+}
+
+/// Refuses a fit in which what it estimates could take every point to nothing; `named` are those that the message names.
+fn could_shrink(
+    chain: &Chain,
+    observations: &Observations,
+    fit: &FitOptions,
+    may_shrink: impl Fn(&Symbol) -> bool,
+    named: impl Fn(&Symbol) -> bool,
+) -> Result<(), StartError> {
     let Some(unknowns) = &observations.unknowns else { return Ok(()) };
     let of_points =
         |series: &&Series| matches!(series.measure, Measure::Plane | Measure::Target | Measure::Fixed);
@@ -31,15 +64,12 @@ pub fn check_scale(chain: &Chain, observations: &Observations, fit: &FitOptions)
     {
         return Ok(());
     }
-    let is_length = |id: &&SymbolId| {
-        let symbol = chain.symbol(**id);
-        symbol.quantity == Quantity::Length && matches!(symbol.kind, SymbolKind::Error | SymbolKind::Constant)
-    };
-    let lengths: Vec<SymbolId> = fit.estimate.iter().filter(is_length).copied().collect();
-    let shrinks = points.all(|series| is_sum_of(chain, observations, series, &lengths, &fit.start));
-    let names: Vec<&str> = lengths.iter().map(|id| chain.symbol(*id).name.as_str()).collect();
+    let lengths: Vec<SymbolId> =
+        fit.estimate.iter().filter(|id| may_shrink(chain.symbol(**id))).copied().collect();
+    let symbols = lengths.iter().map(|id| chain.symbol(*id)).filter(|symbol| named(symbol));
+    let names: Vec<&str> = symbols.map(|symbol| symbol.name.as_str()).collect();
     match names.first() {
-        Some(first) if shrinks => {
+        Some(first) if points.all(|series| is_sum_of(chain, observations, series, &lengths, &fit.start)) => {
             Err(StartError::NoScale { lengths: names.join("`, `"), first: (*first).to_owned() })
         }
         _ => Ok(()),

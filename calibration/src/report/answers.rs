@@ -154,13 +154,19 @@ fn happened(diagnosis: &Diagnosis) -> String {
             )
         }
         Verdict::FormNotDetermined if count == 1 => {
-            "Something moves at one place; these data do not tell which function of its driver it is."
-                .to_owned()
+            let effect = &diagnosis.effects[0];
+            let others: Vec<&str> = effect.competing_with.iter().take(2).map(String::as_str).collect();
+            format!(
+                "Something moves at one place; these data fit several functions of {} about as well: {}, or {}.",
+                effect.driver,
+                effect.names[0],
+                others.join(", or ")
+            )
         }
         Verdict::FormNotDetermined => {
             let open = diagnosis.effects.iter().filter(|effect| !effect.form_determined).count();
             format!(
-                "{count} effects found; for {open} of them these data do not tell which function of its driver it is."
+                "{count} effects found; for {open} of them these data fit several functions of a reading about as well."
             )
         }
         Verdict::UnnamedFunction if count > 0 => format!(

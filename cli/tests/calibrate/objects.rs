@@ -196,6 +196,26 @@ fn an_arm_that_could_shrink_to_nothing_is_refused() {
     assert_eq!(run.code, 0, "{run}");
 }
 
+/// Ranges that are all so much too long make a room that is so much too large: only noise would tell of such a scale.
+#[test]
+fn a_scale_of_the_ranges_that_nothing_holds_is_refused() {
+    let chain = std::fs::read_to_string(root().join("examples/objects/scanner.chain")).expect("it is there");
+    let scaled = chain.replace("Ty(range_zero)", "Ty(range_zero), Ty(stretch*range)");
+    assert_ne!(scaled, chain);
+    let folder = changed("objects-stretch", "targets.toml", &["targets.csv"], |text| text);
+    folder.write("scanner.chain", &scaled);
+    let refused = run(&folder, &["calibrate", "targets.toml"]);
+    assert_eq!(refused.code, 2, "{refused}");
+    assert!(refused.stderr.contains("nothing holds the scale: `stretch` could"), "{refused}");
+    assert!(refused.stderr.contains("fix = { stretch = 0 }"), "{refused}");
+    // What the message says to write is enough; and what these rows see of the errors is asked all the same.
+    let asked = run(&folder, &["identify", "targets.toml"]);
+    assert_eq!(asked.code, 0, "{asked}");
+    folder.write("held.toml", folder.read("targets.toml") + "[fit]\nfix = { stretch = 0 }\n");
+    let held = run(&folder, &["calibrate", "held.toml"]);
+    assert_eq!(held.code, 0, "{held}");
+}
+
 #[test]
 fn a_length_says_its_unit_and_is_not_negative() {
     let table = std::fs::read_to_string(root().join("examples/objects/bars.csv")).expect("it is there");

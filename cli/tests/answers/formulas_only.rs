@@ -41,7 +41,7 @@ fn an_orientation_goes_through_every_command_or_is_refused_in_words() {
     let run = folder.trueaxis(&["identify", "g.chain", "--observable", "turned"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     assert!(run.stdout.contains("3"), "{}", run.stdout);
-    let run = folder.trueaxis(&["bound", "g.chain", "--errors", "e.toml", "--observable", "turned"]);
+    let run = folder.trueaxis(&["bound", "g.chain", "--sizes", "e.toml", "--observable", "turned"]);
     // The two turns do not commute: exp(e z) exp(f y) has -ef/2 about x, and so has the search found.
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
     for said in ["rotation x: 1.00", "largest found by search 1.0000e-6 rad"] {

@@ -7,7 +7,7 @@
 use std::cell::OnceCell;
 
 use super::functions::{MOST, Settled, settled};
-use super::outliers::{criterion, doubts, trusting};
+use super::outliers::{explains, trusting};
 use super::rounds::rounds;
 use crate::search::aside::shared;
 use crate::search::context::Context;
@@ -54,8 +54,6 @@ pub(super) fn heard<'a>(last: Settled<'a>, places: &'a Places) -> Result<Settled
         return Ok(last);
     }
     let other = rounds(&again, Round::at(&again, other)?)?;
-    let explains = other.fitted.fit.outcome.is_usable()
-        && doubts(&other) < doubts(&last.round)
-        && criterion(&again, &other) > criterion(whole, &last.round);
+    let explains = explains((&again, &other), (whole, &last.round));
     if explains { settled(&again, &places.of_more, other) } else { Ok(last) }
 }

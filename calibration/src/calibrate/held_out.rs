@@ -4,6 +4,7 @@
 //! Which held-out rows are gross outliers is for the searches that did not see them to say: a row is kept if what its
 //! fold's search predicts of it lies nearer than where the robust weights end. The same rows are kept before and after.
 
+use crate::candidate::EffectId;
 use crate::diagnose::Rms;
 use crate::diagnose::rms::BeforeAfter;
 use crate::fit::{FitResult, robust};
@@ -128,9 +129,9 @@ pub(crate) fn predicted<const N: usize>(
     let candidates = last.search.candidates(whole);
     let used = coefficients.iter().flat_map(|of_folds| of_folds.iter().flatten());
     let used = used.filter_map(|&(column, _)| column.checked_sub(last.search.problem.declared()));
-    let mut wanted: Vec<usize> = used.map(|candidate| candidates[candidate].0).collect();
+    let mut wanted: Vec<EffectId> = used.map(|candidate| candidates[candidate].0).collect();
     wanted.sort_unstable();
-    let wanted = |effect: usize| wanted.binary_search(&effect).is_ok();
+    let wanted = |effect: EffectId| wanted.binary_search(&effect).is_ok();
     let row_sets = last.search.each_row_set(whole, &last.fitted, wanted, |components, row_set| {
         coefficients
             .map(|coefficients| predicted_of(last, &candidates, coefficients, components.start, row_set))
@@ -145,7 +146,7 @@ pub(crate) fn predicted<const N: usize>(
 /// The same for some of the rows, whose components start at one of all.
 fn predicted_of(
     last: &Round<'_>,
-    candidates: &[(usize, usize)],
+    candidates: &[(EffectId, usize)],
     coefficients: &Coefficients,
     start: usize,
     row_set: &RowSet<'_>,
@@ -161,7 +162,7 @@ fn predicted_of(
             None => problem.basis_before_whitening(column, declared),
             Some(candidate) => {
                 let (effect, function) = candidates[candidate];
-                problem.before_whitening(column, declared, &row_set.effects[effect][function])
+                problem.before_whitening(column, declared, &row_set.effects[effect.0][function])
             }
         };
         let by_fold: Vec<f64> = coefficients

@@ -145,16 +145,14 @@ pub fn calibrate_telling(
     let round = Round::at(&whole, first)?;
     // What rounding leaves has a structure of its own; there is nothing to search in it.
     let is_rounding = rounding(request.observations, &before).is_some();
-    let (whole, round) = if is_rounding {
-        (whole, round)
+    let places = heard::Places::default();
+    let Settled { whole, round, as_good } = if is_rounding {
+        Settled { whole, round, as_good: Vec::new() }
     } else {
         let round = outliers::reconsidered(&whole, rounds(&whole, round)?)?;
-        memory::settled(whole, &remembering, round)?
+        let (whole, round) = memory::settled(whole, &remembering, round)?;
+        heard::heard(settled(&whole, &plans, round)?, &places)?
     };
-    let plans = if is_rounding { &plans[..0] } else { &plans[..] };
-    let last = settled(&whole, plans, round)?;
-    let places = heard::Places::default();
-    let Settled { whole, round, as_good } = if is_rounding { last } else { heard::heard(last, &places)? };
     tell(Stage::HeldOut);
     let Judged { round, held_out, rms, refused } = judged(&whole, &before, round)?;
     let as_good = if refused.is_none() { as_good } else { Vec::new() };

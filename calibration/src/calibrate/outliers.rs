@@ -44,11 +44,17 @@ pub(super) fn reconsidered<'a>(whole: &Context<'a>, last: Round<'a>) -> Result<R
     }
     let other = Fitted::with(whole, found.found.clone(), &found)?;
     let other = rounds(whole, Round::at(whole, other)?)?;
-    if !other.fitted.fit.outcome.is_usable() {
-        return Ok(last);
-    }
-    let explains = doubts(&other) < doubts(&last) && criterion(whole, &other) > criterion(whole, &last);
-    Ok(if explains { other } else { last })
+    Ok(if explains((whole, &other), (whole, &last)) { other } else { last })
+}
+
+/// Whether a round with its study leaves fewer rows unexplained than another one, and is the likelier model.
+pub(super) fn explains(
+    (study, round): (&Context<'_>, &Round<'_>),
+    (of_last, last): (&Context<'_>, &Round<'_>),
+) -> bool {
+    round.fitted.fit.outcome.is_usable()
+        && doubts(round) < doubts(last)
+        && criterion(study, round) > criterion(of_last, last)
 }
 
 /// The study with every row at its full weight and even noise.
@@ -60,13 +66,13 @@ pub(super) fn trusting(plan: &Plan) -> Plan {
 }
 
 /// Rows that a round's model does not explain: those set aside, and as many as uneven noise could hide.
-pub(super) fn doubts(round: &Round<'_>) -> usize {
+fn doubts(round: &Round<'_>) -> usize {
     let fit = &round.fitted.fit;
     fit.set_aside.len() + if fit.noise.variance.is_some() { fewest(round) } else { 0 }
 }
 
 /// Penalised log-likelihood of a round's model at its noise, where the robust loss bounds what a row far from the rest costs.
-pub(super) fn criterion(whole: &Context<'_>, round: &Round<'_>) -> f64 {
+fn criterion(whole: &Context<'_>, round: &Round<'_>) -> f64 {
     let observations = whole.request.observations;
     let noise = round.fitted.fit.noise.without_memory();
     let mut white = round.fitted.fit.residuals.raw.clone();

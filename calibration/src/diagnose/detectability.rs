@@ -107,8 +107,8 @@ pub(crate) fn not_shown(whole: &Context<'_>, last: &Round<'_>, rms: &BeforeAfter
         let shortest = columns.iter().map(|&column| problem.length(column)).fold(f64::INFINITY, f64::min);
         let smallest = (!columns.is_empty()).then(|| FOUND / shortest);
         // Where nothing is left to compare with, no size is small enough to be seen.
-        let left = rms.after.rms_kept.unwrap_or(0.0);
-        if smallest.is_none_or(|smallest| smallest > left) {
+        let hides = |smallest: f64| rms.after.rms_kept.is_none_or(|left| smallest > left);
+        if smallest.is_none_or(hides) {
             let absorbed = 1.0 - problem.visible(number);
             let mistaken_for = mistaken_for(whole, last, number);
             list.push(NotShown { smallest, absorbed, mistaken_for, ..unseen });

@@ -17,7 +17,7 @@ use super::sweep::Sweep;
 /// What a model pays, beside its columns.
 #[derive(Debug, Clone, Copy)]
 pub struct Price {
-    /// Classes that accepted effects were chosen from.
+    /// Confounded sets that accepted effects were chosen from.
     pub sets: usize,
     /// Functions (places and shapes) that a smooth one was chosen from.
     pub functions: usize,

@@ -30,13 +30,8 @@ impl<'a> Round<'a> {
     /// Whether there are rows enough to tell structure of what is left from noise.
     pub fn tells_structure(&self) -> bool {
         let problem = self.search.of_rows();
-        let first = |set: SetId| self.sets[set.0].members.first();
-        let columns: usize = self
-            .accepted_sets()
-            .into_iter()
-            .filter_map(first)
-            .map(|&first| problem.columns(first).len())
-            .sum();
+        let of_set = |set: SetId| problem.columns(self.sets[set].members[0]).len();
+        let columns: usize = self.accepted_sets().into_iter().map(of_set).sum();
         problem.groups() >= FEWEST && problem.rows().nrows() >= problem.declared() + columns + FEWEST
     }
 

@@ -1,6 +1,7 @@
 //! Some rows of the data with everything that the search reads of them: all rows, a chunk of them, or a sample.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use faer::Mat;
@@ -8,6 +9,7 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
+use crate::candidate::EffectId;
 use crate::data::Observations;
 use crate::data::unknowns::Object;
 use crate::fit::noise::{Layout, Noise, Run};
@@ -45,12 +47,12 @@ pub(crate) struct RowSet<'a> {
 
 impl<'a> RowSet<'a> {
     /// Of rows that follow each other stretch by stretch, each within one series, in order; with the columns of the effects that
-    /// are wanted, by their number in the catalogue, and of those that were accepted.
+    /// are wanted, and of those that were accepted.
     pub fn of(
         whole: &Context<'a>,
         fitted: &Fitted,
         stretches: &[Range<usize>],
-        wanted: impl Fn(usize) -> bool,
+        wanted: impl Fn(EffectId) -> bool,
     ) -> Result<Self, SearchError> {
         let all = whole.request.observations;
         let rows: usize = stretches.iter().map(ExactSizeIterator::len).sum();
@@ -62,7 +64,7 @@ impl<'a> RowSet<'a> {
         let mut columns = fitted.probed.columns(&observations)?;
         columns.declared = &columns.declared * &fitted.combinations;
         let values = &fitted.fit.values;
-        let wanted = |effect| wanted(effect) || fitted.found.iter().any(|found| found.effect.0 == effect);
+        let wanted = |effect| wanted(effect) || fitted.found.iter().any(|found| found.effect == effect);
         let (effects, seen) =
             columns.of_part(&fitted.chain, &whole.catalogue, &observations.poses, values, wanted);
         let mut without = columns.residual.clone();
@@ -143,6 +145,18 @@ impl<'a> RowSet<'a> {
     /// Whether the last fit gave a component any weight.
     pub fn counts(&self, component: usize) -> bool {
         self.root_weight[component] > 0.0
+    }
+
+    /// How many rows something hangs on, as an effective number: (Σ share)² / Σ share² over rows, whose shares are told
+    /// component by component.
+    pub fn rows_behind(&self, shares: impl Iterator<Item = (usize, f64)>) -> f64 {
+        let mut by_row: BTreeMap<u32, f64> = BTreeMap::new();
+        for (component, share) in shares {
+            *by_row.entry(self.columns.row[component]).or_insert(0.0) += share;
+        }
+        let sum: f64 = by_row.values().sum();
+        let squares: f64 = by_row.values().map(|share| share * share).sum();
+        if squares > 0.0 { sum * sum / squares } else { 0.0 }
     }
 
     /// Declared combinations, the columns of each effect, and the residual, whitened.

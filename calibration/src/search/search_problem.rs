@@ -7,6 +7,7 @@ use model_core::SymbolKind;
 use rayon::prelude::*;
 
 use super::row_set::{RowSet, all_rows, chunks, dealt, sample};
+use crate::candidate::EffectId;
 use crate::data::Poses;
 use crate::search::columns::{Columns, Seen, keep};
 use crate::search::context::Context;
@@ -132,24 +133,24 @@ impl<'a> SearchProblem<'a> {
         self.folds.of_row(component)
     }
 
-    /// The effect, by its number in the catalogue, and its function that each candidate column of the problem is of.
-    pub fn candidates(&self, whole: &Context<'_>) -> Vec<(usize, usize)> {
+    /// The effect and its function that each candidate column of the problem is of.
+    pub fn candidates(&self, whole: &Context<'_>) -> Vec<(EffectId, usize)> {
         let effects =
             whole.catalogue.iter().zip(&self.usable).enumerate().filter(|(_, (_, usable))| **usable);
         effects
             .flat_map(|(number, (effect, _))| {
-                (0..effect.functions.len()).map(move |function| (number, function))
+                (0..effect.functions.len()).map(move |function| (EffectId(number), function))
             })
             .collect()
     }
 
     /// What `f` makes of all rows, one set of rows after another, each with its components; with the columns of the effects
-    /// that are wanted, by their number in the catalogue.
+    /// that are wanted.
     pub fn each_row_set<T: Send>(
         &self,
         whole: &Context<'a>,
         fitted: &Fitted,
-        wanted: impl Fn(usize) -> bool + Sync,
+        wanted: impl Fn(EffectId) -> bool + Sync,
         f: impl Fn(&Range<usize>, &RowSet<'_>) -> T + Sync,
     ) -> Result<Vec<T>, SearchError> {
         if self.sampled.is_none() {
@@ -170,7 +171,7 @@ impl<'a> SearchProblem<'a> {
 fn each_chunk<'a, T: Send>(
     whole: &Context<'a>,
     fitted: &Fitted,
-    wanted: impl Fn(usize) -> bool + Sync,
+    wanted: impl Fn(EffectId) -> bool + Sync,
     make: impl Fn(&Range<usize>, RowSet<'a>) -> T + Sync,
     mut take: impl FnMut(Range<usize>, T),
 ) -> Result<(), SearchError> {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use model_core::algebra::{Fraction, Poly};
 use model_core::certificate::{Certificate, Declared};
-use model_core::forms::{self, Form, FormError};
+use model_core::forms::{self, Form};
 use model_core::{Chain, ObservableId, ObservableKind, print};
 use serde_json::json;
 
@@ -64,8 +64,8 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         match forms::derive(&chain, observable, arguments.order) {
             Ok(form) => forms.push(form),
             // Nobody asked for this observable in particular; the others still have an answer.
-            Err(error @ (FormError::Root { .. } | FormError::NotSmooth { .. }))
-                if arguments.observable.is_empty() && chosen.len() > 1 =>
+            Err(error)
+                if error.is_of_no_closed_form() && arguments.observable.is_empty() && chosen.len() > 1 =>
             {
                 let name = &chain.observable(observable).name;
                 terminal::warn(format_args!("{name} is left out: {error}"));

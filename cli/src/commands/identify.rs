@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use model_core::certificate::{Certificate, Declared, Refusal};
-use model_core::forms::{self, FormError};
+use model_core::forms;
 use model_core::identify::{self, Candidate, Identifiability, Mistaken, Ratio, Verdict};
 use model_core::{BodyId, Chain, Mistakes, ObservableId, Role, names, print};
 use serde_json::{Value, json};
@@ -94,7 +94,7 @@ pub fn identified(
     if names.is_empty() && chosen.len() > 1 {
         // Nobody asked for these in particular; the others still have an answer.
         chosen.retain(|&observable| match forms::derive(chain, observable, 1) {
-            Err(error @ (FormError::Root { .. } | FormError::NotSmooth { .. })) => {
+            Err(error) if error.is_of_no_closed_form() => {
                 let name = &chain.observable(observable).name;
                 terminal::warn(format_args!("{name} is left out: {error}"));
                 false

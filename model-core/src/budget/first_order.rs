@@ -26,7 +26,7 @@ impl FirstOrder {
     ) -> Result<Self, FormError> {
         let (form, is_closed) = match forms::derive(chain, observable, 1) {
             // What has no closed form has the waves of its vector, and is measured at nodes.
-            Err(FormError::Root { .. } | FormError::NotSmooth { .. }) => {
+            Err(error) if error.is_of_no_closed_form() => {
                 (forms::derive_vector(chain, observable, 1)?, false)
             }
             form => (form?, true),

@@ -9,7 +9,7 @@ use crate::algebra::Poly;
 use crate::amount::LowerError;
 use crate::chain::{Chain, ObservableId};
 use crate::expr::Expr;
-use crate::remainder::{Domain, Parameter, along_path, keep_away};
+use crate::remainder::{Domain, DomainError, Parameter, along_path, keep_away};
 use crate::symbol::{Quantity, SymbolId, SymbolKind};
 
 /// The poses that a budget goes over.
@@ -109,6 +109,15 @@ impl Path {
     fn symbols(&self) -> impl Iterator<Item = SymbolId> + '_ {
         self.assignments.iter().map(|(symbol, _)| *symbol)
     }
+}
+
+/// The domain of errors of these sizes, everything else anywhere.
+pub(super) fn domain_of(chain: &Chain, sizes: &[(SymbolId, f64)]) -> Result<Domain, DomainError> {
+    let mut domain = Domain::new(chain);
+    for &(error, size) in sizes {
+        domain.set_size(chain, error, size.abs())?;
+    }
+    Ok(domain)
 }
 
 /// Joints and inputs: what has a value at each pose.
@@ -273,10 +282,7 @@ impl<'a> Space<'a> {
         observable: ObservableId,
         sizes: &[(SymbolId, f64)],
     ) -> Result<(), BudgetError> {
-        let mut errors = Domain::new(chain);
-        for &(error, size) in sizes {
-            errors.set_size(chain, error, size.abs())?;
-        }
+        let errors = domain_of(chain, sizes)?;
         let start: Vec<[f64; 2]> = self.bounds.iter().map(|&(low, high)| [low, high]).collect();
         match &self.kind {
             Kind::Ranges(symbols) => {

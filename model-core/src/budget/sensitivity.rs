@@ -1,7 +1,7 @@
 //! What a unit of each error does to an observable at poses, to first order: the columns that tolerances are summed with.
 
 use super::first_order::FirstOrder;
-use super::poses::{Path, Poses, Space, movable, spread};
+use super::poses::{Path, Poses, Space, domain_of, movable, spread};
 use super::probe::Probe;
 use super::{BudgetError, sized};
 use crate::chain::{Chain, ObservableId, ObservableKind};
@@ -73,6 +73,7 @@ impl Sensitivity {
     ) -> Result<Self, BudgetError> {
         whole_vector(chain, observable)?;
         let first_order = FirstOrder::new(chain, observable, &sized(chain, sizes))?;
+        let errors = domain_of(chain, &sized(chain, sizes))?;
         let probe = Probe::new(chain, observable);
         let mut found = Self::empty(chain, observable, sizes);
         let mut values = chain.nominal_values();
@@ -81,7 +82,7 @@ impl Sensitivity {
             for (symbol, column) in readings {
                 values[symbol.index()] = column[row];
             }
-            at_pose(chain, observable, &sized(chain, sizes), &values)
+            at_pose(chain, observable, &errors, &values)
                 .map_err(|why| BudgetError::AtPose { row: row + 1, why })?;
             found.add(chain, (&first_order, &probe), &values, || format!("pose {}", row + 1))?;
         }
@@ -145,16 +146,12 @@ impl Sensitivity {
 fn at_pose(
     chain: &Chain,
     observable: ObservableId,
-    sizes: &[(SymbolId, f64)],
+    errors: &Domain,
     values: &[f64],
 ) -> Result<(), DomainError> {
-    let mut domain = Domain::new(chain);
-    for &(error, size) in sizes {
-        domain.set_size(chain, error, size.abs())?;
-    }
     let moved: Vec<SymbolId> = movable(chain).collect();
     let there: Vec<[f64; 2]> = moved.iter().map(|id| [values[id.index()]; 2]).collect();
-    let domain = domain.with(&moved, &there);
+    let domain = errors.with(&moved, &there);
     keep_away(chain, observable, (&[], &[]), |_| Some(domain.clone()))
 }
 

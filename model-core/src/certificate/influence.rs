@@ -99,11 +99,7 @@ impl Certificate<'_> {
     }
 
     /// The theorem on what one error does, which is stated and proved if it is not there yet.
-    pub(super) fn influence(
-        &mut self,
-        observable: ObservableId,
-        error: SymbolId,
-    ) -> Result<Influence, Refusal> {
+    fn influence(&mut self, observable: ObservableId, error: SymbolId) -> Result<Influence, Refusal> {
         let same = |influence: &&Influence| influence.observable == observable && influence.error == error;
         if let Some(found) = self.influences.iter().find(same) {
             return Ok(found.clone());

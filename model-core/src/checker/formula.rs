@@ -197,9 +197,8 @@ impl PrintedVector {
         expressions: [Expr<Range<usize>>; 3],
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
         let (mut components, mut mistakes) = (Vec::new(), Vec::new());
-        let starts = expressions.iter().map(|expression| expression.place.start);
-        let ends = expressions.iter().map(|expression| expression.place.end);
-        let whole = starts.min().unwrap_or_default()..ends.max().unwrap_or_default();
+        let [x, y, z] = expressions.each_ref().map(|expression| expression.place.clone());
+        let whole = x.start.min(y.start).min(z.start)..x.end.max(y.end).max(z.end);
         for expression in expressions {
             match lowering::fraction(chain, &expression, Sines::OfAngles) {
                 Ok(value) => components.push(PrintedComponent { text_index: 0, expression, value }),

@@ -79,6 +79,12 @@ pub enum FormError {
 }
 
 impl FormError {
+    /// Whether it says that a reading has no closed form, while the chain it is of is as it should be.
+    #[must_use]
+    pub fn is_of_no_closed_form(&self) -> bool {
+        matches!(self, Self::Root { .. } | Self::NotSmooth { .. })
+    }
+
     fn new(body: &str, axis: Axis, error: AlgebraError) -> Self {
         Self::Factor { body: body.to_owned(), axis, error }
     }

@@ -13,7 +13,7 @@ use faer::Mat;
 use model_core::algebra::Poly;
 use model_core::{Chain, SymbolId, SymbolKind};
 
-use crate::candidate::{Effect, Function, Place, add_error, insert};
+use crate::candidate::{Effect, EffectId, Function, Place, add_error, insert};
 use crate::data::unknowns::{Unknowns, WIDTH};
 use crate::data::{Observations, Poses};
 use crate::fit::{Block, FitError, Model};
@@ -61,11 +61,10 @@ struct Evaluated {
 
 impl Evaluated {
     fn of(_series: usize, rows: Range<usize>, block: &Block) -> Self {
-        let by_row = |values| block.by_row(values);
         Self {
             rows,
-            residual: by_row(&block.residual),
-            derivatives: block.columns().map(by_row).collect(),
+            residual: block.by_row(&block.residual),
+            derivatives: block.columns().map(|values| block.by_row(values)).collect(),
             unknown: block.unknown.clone(),
         }
     }
@@ -196,7 +195,7 @@ impl Columns {
         columns
     }
 
-    /// The columns of each effect that is wanted, by its number, over a part of the rows, zero where there is no finite value; and
+    /// The columns of each effect that is wanted over a part of the rows, zero where there is no finite value; and
     /// what the part shows of which of them are usable, which all parts together decide.
     #[must_use]
     pub fn of_part<'e>(
@@ -205,7 +204,7 @@ impl Columns {
         effects: &'e [Effect],
         poses: &Poses,
         values: &[f64],
-        wanted: impl Fn(usize) -> bool,
+        wanted: impl Fn(EffectId) -> bool,
     ) -> (Vec<Vec<Vec<f64>>>, Seen) {
         let mut readings = Functions::new(chain, poses, values);
         let mut seen = Seen::of_probes(&self.places, &self.probes);
@@ -213,7 +212,7 @@ impl Columns {
         // Many effects have the same functions at other places; each is spread over the components of its rows once.
         let mut known: Vec<(&Poly, Option<Vec<f64>>, Extent)> = Vec::new();
         for (number, effect) in effects.iter().enumerate() {
-            if !wanted(number) {
+            if !wanted(EffectId(number)) {
                 columns.push(Vec::new());
                 seen.effects.push(Vec::new());
                 continue;

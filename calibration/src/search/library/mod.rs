@@ -11,8 +11,6 @@ mod grid;
 mod refine;
 mod shape;
 
-use std::collections::BTreeMap;
-
 use faer::Mat;
 use model_core::{Chain, SymbolId, SymbolKind};
 use rayon::prelude::*;
@@ -341,14 +339,9 @@ impl Library<'_, '_> {
     fn rows_behind(&self, columns: &Mat<f64>) -> f64 {
         let basis = &self.left.basis;
         let left = columns - basis * (basis.transpose() * columns);
-        let mut by_row: BTreeMap<u32, f64> = BTreeMap::new();
-        for (component, &row) in self.last.search.rows.columns.row.iter().enumerate() {
-            let share: f64 = left.row(component).iter().map(|value| value * value).sum();
-            *by_row.entry(row).or_insert(0.0) += share;
-        }
-        let (sum, squares) =
-            by_row.values().fold((0.0, 0.0), |(sum, squares), share| (sum + share, squares + share * share));
-        if squares > 0.0 { sum * sum / squares } else { 0.0 }
+        let share = |component: usize| left.row(component).iter().map(|value| value * value).sum();
+        let shares = (0..left.nrows()).map(|component| (component, share(component)));
+        self.last.search.rows.rows_behind(shares)
     }
 
     /// The function that is taken up, and those that are about as good as what they would replace.

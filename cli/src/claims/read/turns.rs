@@ -36,12 +36,10 @@ impl Reader<'_> {
                 Some("leave it out, or claim the three components of the small rotation vector".to_owned());
         }
         let order = self.order(claim);
-        if order.is_some_and(|order| order != Order::UpTo(1)) {
-            self.mistake(
-                span(&claim.order).unwrap_or_default(),
-                "a matrix of a small rotation is read to first order",
-            )
-            .help = Some("claim the three components of the small rotation vector".to_owned());
+        let higher = order.is_some_and(|order| order != Order::UpTo(1));
+        if let Some(place) = span(&claim.order).filter(|_| higher) {
+            self.mistake(place, "a matrix of a small rotation is read to first order").help =
+                Some("claim the three components of the small rotation vector".to_owned());
         }
         let kept = self.kept(claim);
         let turn = match turn {

@@ -9,6 +9,7 @@ compares what the report says with the truth. Intervals are of 95 % (Wilson).
 """
 import argparse
 import concurrent.futures
+import csv
 import json
 import math
 import pathlib
@@ -18,6 +19,8 @@ import tempfile
 
 from simulate import AltAzimuth, Arm, Scanner, measured, poses, serial
 
+# Rows of the same instrument that no calibration sees.
+NEW = 1000
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
@@ -54,17 +57,22 @@ def student(p, dof):
     return low
 
 
-def calibrated(cell, where, data, session, noise=()):
-    """What the command reports of these data."""
+def written(path, names, where, data, session):
+    """A table of joints, the observable's components and the session."""
+    with open(path, "w") as file:
+        file.write(",".join(names + ["x", "y", "z", "night"]) + "\n")
+        for q, v, s in zip(where, data, session):
+            file.write(",".join([repr(q[j]) for j in names] + [repr(c) for c in v] + [f"n{s}"]) + "\n")
+
+
+def calibrated(cell, where, data, session, noise=(), new=None):
+    """What the command reports of these data; with new ones, also the RMS that its amended chain leaves in them."""
     instrument = cell["instrument"]
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         (folder / "i.chain").write_text(instrument.chain)
         names = [f"{j}" for j in instrument.joints]
-        with open(folder / "d.csv", "w") as file:
-            file.write(",".join(names + ["x", "y", "z", "night"]) + "\n")
-            for q, v, s in zip(where, data, session):
-                file.write(",".join([repr(q[j]) for j in names] + [repr(c) for c in v] + [f"n{s}"]) + "\n")
+        written(folder / "d.csv", names, where, data, session)
         kind = "point" if instrument.point else "direction"
         unit_of = lambda j: "m" if j == "range" else "rad"
         study = ['chain = "i.chain"', 'observable = "observed"', 'data = "d.csv"', "[columns]"]
@@ -76,13 +84,29 @@ def calibrated(cell, where, data, session, noise=()):
         if cell.get("functions") is not None:
             study += ["[search]", f"functions = {str(cell['functions']).lower()}"]
         (folder / "s.toml").write_text("\n".join(study) + "\n")
-        run = subprocess.run([cell["command"], "calibrate", "s.toml", "--format", "json"], cwd=folder, capture_output=True, text=True)
+        run = subprocess.run([cell["command"], "calibrate", "s.toml", "--out", "result", "--format", "json"], cwd=folder, capture_output=True, text=True)
         if run.returncode not in (0, 1):
             return {"failed": run.stderr.strip()[-300:]}
         try:
-            return json.loads(run.stdout)
+            report = json.loads(run.stdout)
         except json.JSONDecodeError:
             return {"failed": run.stdout[:200] + run.stderr[-200:]}
+        if new and run.returncode == 0:
+            report["new_rms"] = left_in(cell["command"], folder, names, *new)
+        return report
+
+
+def left_in(command, folder, names, where, data):
+    """The RMS over rows of what the amended chain leaves, length of the difference of vectors."""
+    written(folder / "new.csv", names, where, data, [0] * len(where))
+    run = subprocess.run([command, "eval", "result/amended.chain", "--errors", "result/errors.toml", "--observable", "observed",
+                          "--quantity", "value", "--data", "new.csv", "--out", "told.csv"], cwd=folder, capture_output=True, text=True)
+    if run.returncode != 0:
+        raise RuntimeError(run.stderr)
+    with open(folder / "told.csv") as file:
+        rows = list(csv.DictReader(file))
+    square = sum((float(row[f"observed_{c}"]) - v) ** 2 for row, value in zip(rows, data) for c, v in zip("xyz", value))
+    return math.sqrt(square / len(data))
 
 
 def trial(cell, seed):
@@ -107,12 +131,22 @@ def trial(cell, seed):
         noise.append('group = ["night"]')
     if cell.get("stated"):
         noise.append(f'sigma = "{instrument.noise!r} {"m" if instrument.point else "rad"}"')
-    report = calibrated(cell, where, data, session, noise)
+    def as_new():
+        """Other rows of the same instrument, with noise of the same kind."""
+        poses_of_new = poses(instrument, NEW, cell.get("trajectory", False), rng)
+        noise_of_new = [serial(cell["noise"], NEW, rng) for _ in range(3)]
+        unit = [[instrument.noise * column[row] for column in noise_of_new] for row in range(NEW)]
+        return poses_of_new, [measured(instrument, e, q, n, cell.get("in_space", False)) for q, n in zip(poses_of_new, unit)]
+    # Sessions have offsets of their own: what is new there is a question by itself.
+    report = calibrated(cell, where, data, session, noise, None if sessions else as_new())
     if "failed" in report:
         return report
     noise = report["noise"]
     result = {"verdict": report["verdict"], "found": len(report["effects"]), "inside": 0, "of": 0,
-              "remembers": noise["serial"] is not None or noise["undeclared_order"]}
+              "remembers": noise["serial"] is not None or noise["undeclared_order"], "ratio": None}
+    held_out = (report["after"] or {}).get("held_out_rms")
+    if held_out and report.get("new_rms"):
+        result["ratio"] = held_out / report["new_rms"]
     for entry in report["errors"]:
         sigma = entry.get("standard_uncertainty")
         if not entry.get("separable") or entry.get("shown") is False or entry["name"] not in e or not sigma:
@@ -130,6 +164,14 @@ def wilson(k, n):
     middle = (p + z * z / 2 / n) / (1 + z * z / n)
     half = z * math.sqrt(p * (1 - p) / n + z * z / 4 / n / n) / (1 + z * z / n)
     return f"{p:.3f} ({max(0.0, middle - half):.3f} to {min(1.0, middle + half):.3f})"
+
+
+def middle(ratios):
+    if not ratios:
+        return "–"
+    ratios = sorted(ratios)
+    at = lambda share: ratios[min(int(share * len(ratios)), len(ratios) - 1)]
+    return f"{at(0.5):.3f}, {at(0.05):.2f} to {at(0.95):.2f}"
 
 
 def cells(command):
@@ -168,7 +210,7 @@ def main():
     parser.add_argument("--functions", choices=["true", "false"])
     parser.add_argument("--command", default=str(ROOT / "target/release/trueaxis"))
     arguments = parser.parse_args()
-    print("| design | 95 % intervals that hold the truth | an effect accepted, none there | verdicts |\n|---|---|---|---|")
+    print("| design | 95 % intervals that hold the truth | an effect accepted, none there | held-out figure over that of new rows: median, middle 90 % | verdicts |\n|---|---|---|---|---|")
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         for cell in cells(arguments.command):
             if arguments.only not in cell["name"]:
@@ -186,6 +228,7 @@ def main():
                 verdicts["(memory told)"] = remembers
             print(f"| {cell['name']} | {wilson(sum(r['inside'] for r in good), sum(r['of'] for r in good))} | "
                   f"{wilson(sum(r['found'] > 0 for r in good), len(good))} | "
+                  f"{middle([r['ratio'] for r in good if r['ratio']])} | "
                   f"{', '.join(f'{k} {v}' for k, v in sorted(verdicts.items(), key=lambda p: -p[1]))} |", flush=True)
 
 

@@ -102,7 +102,7 @@ def trial(command, place, function, snr, seed):
     left = report["remaining"]["where"] if report["remaining"] else None
     if left:
         told.append((left["driver"], left["body"]))
-    names = [text for effect in found for text in [effect["form"], *effect["names"], *effect["confounded_with"], *effect["competing_with"]]]
+    names = [text for effect in found for text in [effect["form"], *effect["names"], *effect["confounded_with"], *sum(effect["competing_with"], [])]]
     form = any(word in text for word in words for text in names)
     explained = report["verdict"] in ("explained", "confounded")
     return {"verdict": report["verdict"], "place": (joint, body) in told, "form": form,

@@ -12,7 +12,7 @@ use crate::data::SiUnit;
 use crate::effects::FAMILIES;
 use crate::search::context::Context;
 use crate::search::round::Round;
-use crate::search::select::State;
+use crate::search::state::State;
 use crate::search::{AS_GOOD, CompetingModel, HeldOut, SetColumns, competing_models};
 
 /// Units of log-likelihood behind the best within which an explanation is kept in view when poses are chosen.
@@ -37,8 +37,9 @@ pub struct EffectFound {
     pub names: Vec<String>,
     /// Effects that no data at these poses could tell from it.
     pub confounded_with: Vec<String>,
-    /// Effects that explain these data about as well.
-    pub competing_with: Vec<String>,
+    /// Models that explain these data about as well, best first: each as the effects that no data at these poses could tell
+    /// apart.
+    pub competing_with: Vec<Vec<String>>,
     /// Whether these data determine how it follows its driver: no other function of the library explains them about as well.
     pub form_determined: bool,
     /// The physical causes that it may have, in the order in which to check them: its own, those confounded with it, those of competing models.
@@ -59,6 +60,14 @@ pub struct EffectFound {
     pub observations: f64,
     /// How far one standard uncertainty of it, left out, would move each declared error, SI.
     pub bias: BTreeMap<String, f64>,
+}
+
+impl EffectFound {
+    /// Every name that is told for it: its own, those that these data cannot tell from it, and those that fit about as well.
+    pub fn told(&self) -> impl Iterator<Item = &str> {
+        let competing = self.competing_with.iter().flatten();
+        self.names.iter().chain(&self.confounded_with).chain(competing).map(String::as_str)
+    }
 }
 
 /// On which side of the joint an effect sits in its body.
@@ -108,8 +117,8 @@ pub enum Relation {
 pub(super) struct Others {
     /// Effects of its confounded set, as it was when it came in or as it is at the last fit.
     pub alike: Vec<EffectId>,
-    /// The first of each confounded set that explains these data about as well.
-    pub competing: Vec<EffectId>,
+    /// The members of each confounded set that explains these data about as well.
+    pub competing: Vec<Vec<EffectId>>,
     /// The first of each confounded set that explains them somewhat worse.
     pub behind: Vec<EffectId>,
 }
@@ -136,11 +145,12 @@ pub(super) fn others(last: &Round<'_>) -> Vec<Others> {
             let competing = set.and_then(|_| competing.next()).unwrap_or_default();
             let (competing, behind): (Vec<CompetingModel>, Vec<CompetingModel>) =
                 competing.into_iter().partition(|other| other.behind <= AS_GOOD);
-            let first = |competing: Vec<CompetingModel>| -> Vec<EffectId> {
-                let effects = competing.iter().map(|other| last.sets[other.set].members[0]);
-                effects.filter(|effect| !alike.contains(effect)).collect()
+            let others = |models: Vec<CompetingModel>| -> Vec<Vec<EffectId>> {
+                let members = models.iter().map(|other| last.sets[other.set].members.clone());
+                members.filter(|members| !alike.contains(&members[0])).collect()
             };
-            let (competing, behind) = (first(competing), first(behind));
+            let behind = others(behind).iter().map(|members| members[0]).collect();
+            let competing = others(competing);
             Others { alike, competing, behind }
         })
         .collect()
@@ -177,7 +187,7 @@ pub(super) fn effects(
                 competing_with: others
                     .competing
                     .iter()
-                    .map(|&other| whole.catalogue[other].name.clone())
+                    .map(|members| members.iter().map(|&other| whole.catalogue[other].name.clone()).collect())
                     .collect(),
                 form_determined: true,
                 causes: causes(whole, found.effect, others),
@@ -214,10 +224,11 @@ fn names(whole: &Context<'_>, effect: &Effect, number: EffectId, alike: &[Effect
 /// Every cause once.
 fn causes(whole: &Context<'_>, own: EffectId, others: &Others) -> Vec<Cause> {
     let mut causes: Vec<Cause> = Vec::new();
+    let competing = others.competing.concat();
     let all = [
         (Relation::Accepted, &[own][..]),
         (Relation::Same, &others.alike),
-        (Relation::Competing, &others.competing),
+        (Relation::Competing, &competing),
     ];
     for (relation, effects) in all {
         for &number in effects {
@@ -265,13 +276,8 @@ fn amplitude(last: &Round<'_>, effect: EffectId, errors: &[SymbolId]) -> (f64, f
 fn observations_behind(last: &Round<'_>, effect: EffectId) -> f64 {
     let problem = last.search.of_rows();
     let rows = problem.rows();
-    let mut by_row = BTreeMap::new();
-    for column in problem.columns(effect) {
-        for (i, &row) in last.search.rows.columns.row.iter().enumerate() {
-            *by_row.entry(row).or_insert(0.0) += rows[(i, column)] * rows[(i, column)];
-        }
-    }
-    let sum: f64 = by_row.values().sum();
-    let squares: f64 = by_row.values().map(|share| share * share).sum();
-    if squares > 0.0 { last.search.share() * sum * sum / squares } else { 0.0 }
+    let shares = problem.columns(effect).into_iter().flat_map(|column| {
+        (0..rows.nrows()).map(move |component| (component, rows[(component, column)].powi(2)))
+    });
+    last.search.share() * last.search.rows.rows_behind(shares)
 }

@@ -152,7 +152,7 @@ pub struct SetAsideRow {
 pub struct Searching {
     /// Candidate effects.
     pub candidates: usize,
-    /// Classes of them that these data could tell apart.
+    /// Confounded sets of them, which these data could tell apart.
     pub sets: usize,
     /// Folds that the search was repeated without.
     pub folds: usize,
@@ -273,12 +273,13 @@ impl Found {
         for other in confirmed.as_good {
             let name = other.name(&last.fitted.chain);
             for &number in &other.instead_of {
-                effects[number].competing_with.push(name.clone());
+                effects[number].competing_with.push(vec![name.clone()]);
                 effects[number].form_determined &= !other.differs;
             }
         }
         let separating = |(at, others): (usize, &Others)| {
-            let all: Vec<EffectId> = others.alike.iter().chain(&others.competing).copied().collect();
+            let firsts = others.competing.iter().map(|members| &members[0]);
+            let all: Vec<EffectId> = others.alike.iter().chain(firsts).copied().collect();
             separation(whole, last, at, &all, &others.behind)
         };
         (whole.tell)(Stage::Remaining);

@@ -107,7 +107,8 @@ pub fn evidence(effect: &EffectFound, diagnosis: &Diagnosis) -> Vec<String> {
         lines.push(format!("these data cannot tell it from: {}", effect.confounded_with.join("; ")));
     }
     if !effect.competing_with.is_empty() {
-        lines.push(format!("explains these data about as well: {}", effect.competing_with.join("; ")));
+        let others: Vec<String> = effect.competing_with.iter().map(|names| names.join(" or ")).collect();
+        lines.push(format!("explains these data about as well: {}", others.join("; ")));
     }
     lines
 }

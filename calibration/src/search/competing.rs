@@ -2,7 +2,7 @@
 
 use super::confounded::{ConfoundedSet, SetColumns, SetId};
 use super::problem::Problem;
-use super::select::State;
+use super::state::State;
 
 /// Units of log-likelihood within which two explanations are as good as each other.
 pub const AS_GOOD: f64 = 2.0;
@@ -12,7 +12,9 @@ pub const AS_GOOD: f64 = 2.0;
 pub struct CompetingModel {
     /// Which.
     pub set: SetId,
-    /// Penalised log-likelihood of the accepted set minus this one's.
+    /// Penalised log-likelihood of the accepted set minus this one's: by Schwarz's price for what is believed, or by
+    /// Akaike's for what is expected of new data, whichever is less. The dearer price alone would hide a cause with one number
+    /// more than the accepted one that these data fit as well.
     pub behind: f64,
 }
 
@@ -33,13 +35,14 @@ pub fn competing_models(
             let mut without = state.clone();
             without.remove_among(own, accepted.iter().copied(), &blocks);
             let (gain, rank) = without.gain(&blocks[own]);
-            let best = without.criterion(gain, rank);
+            let best = [without.criterion(gain, rank), without.expected(gain, rank)];
             let mut competing: Vec<CompetingModel> = blocks
                 .ids()
                 .filter(|set| !accepted.contains(set))
                 .filter_map(|set| {
                     let (gain, rank) = without.gain(&blocks[set]);
-                    let behind = best - without.criterion(gain, rank);
+                    let of_set = [without.criterion(gain, rank), without.expected(gain, rank)];
+                    let behind = (best[0] - of_set[0]).min(best[1] - of_set[1]);
                     (rank > 0 && behind <= within).then_some(CompetingModel { set, behind })
                 })
                 .collect();

@@ -9,7 +9,8 @@ use rayon::prelude::*;
 
 use super::folds::Folds;
 use super::problem::Problem;
-use super::select::{State, select};
+use super::select::select;
+use super::state::State;
 use crate::search::context::Context;
 use crate::search::round::Round;
 

@@ -49,10 +49,21 @@ impl Guards<'_> {
             start = end;
         }
         self.reach.is_none_or(|reach| {
-            let of: Vec<(usize, f64)> =
-                own.iter().zip(&coefficients).map(|(column, &a)| (column - self.declared, a)).collect();
+            let of = self.of_candidates(&own, &coefficients);
             reach.outside(&of) <= FURTHER_OUT * reach.inside(&of)
         })
+    }
+
+    /// What these sets, fitted together, do at poses further out, root mean square; `None` where nobody knows.
+    pub fn further_out(&self, sets: &[SetId]) -> Option<f64> {
+        let own: Vec<usize> = sets.iter().flat_map(|&set| &self.blocks[set]).copied().collect();
+        let (coefficients, _) = self.fitted(&own);
+        self.reach.map(|reach| reach.outside(&self.of_candidates(&own, &coefficients)))
+    }
+
+    /// Coefficients of columns, numbered from the first candidate's.
+    fn of_candidates(&self, columns: &[usize], coefficients: &[f64]) -> Vec<(usize, f64)> {
+        columns.iter().zip(coefficients).map(|(column, &a)| (column - self.declared, a)).collect()
     }
 
     /// The coefficients of some columns fitted together (zero for those that the others leave nothing of), and their Gram

@@ -25,6 +25,7 @@ pub mod folds;
 mod guards;
 pub(crate) mod library;
 pub(crate) mod memory;
+mod modest;
 pub mod nested;
 pub mod problem;
 pub(crate) mod products;
@@ -38,6 +39,7 @@ pub mod select;
 pub mod signs;
 mod stage;
 mod standardised;
+pub mod state;
 pub mod sweep;
 pub mod tail;
 

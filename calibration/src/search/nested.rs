@@ -4,7 +4,8 @@ use rayon::prelude::*;
 
 use super::confounded::{ConfoundedSet, SetId};
 use super::problem::Problem;
-use super::select::{Options, State, select};
+use super::select::{Options, select};
+use super::state::State;
 
 /// What the searches without each fold found, and the regressions that predict it.
 #[derive(Debug, Clone)]

@@ -29,12 +29,7 @@ enum Said {
 
 /// What a report says of an effect of this name and size; `None` if nothing.
 fn said(report: &Diagnosis, wanted: &str, size: f64) -> Option<Said> {
-    let named = report.effects.iter().any(|effect| {
-        [&effect.names, &effect.confounded_with, &effect.competing_with]
-            .into_iter()
-            .flatten()
-            .any(|name| name == wanted)
-    });
+    let named = report.effects.iter().any(|effect| effect.told().any(|name| name == wanted));
     let too_small = |smallest: Option<f64>| smallest.is_none_or(|smallest| smallest > size);
     let hidden = || report.not_shown.iter().any(|effect| effect.name == wanted && too_small(effect.smallest));
     if named { Some(Said::Named) } else { hidden().then_some(Said::Hidden) }

@@ -133,7 +133,7 @@ fn case(
     let right = found.effects.iter().any(|effect| {
         here(effect)
             && (of_library(effect)
-                || effect.competing_with.iter().any(|other| other.contains(&format!("of {joint} in {body}"))))
+                || effect.told().any(|other| other.contains(&format!("of {joint} in {body}"))))
     });
     Ok(Outcome {
         function,

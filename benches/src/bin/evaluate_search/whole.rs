@@ -207,10 +207,8 @@ pub fn local_defect(count: usize) -> Result<Vec<Line>, Failure> {
                 || report.effects.iter().any(|effect| here(&effect.driver, &effect.dof));
             let explained = matches!(report.verdict, Verdict::Explained | Verdict::Confounded);
             // A bell is told as a bump, by name or among what competes with the name.
-            let told = |name: &String| name.starts_with("bump ");
             let named = report.effects.iter().any(|effect| {
-                here(&effect.driver, &effect.dof)
-                    && effect.names.iter().chain(&effect.competing_with).any(told)
+                here(&effect.driver, &effect.dof) && effect.told().any(|name| name.starts_with("bump "))
             });
             Ok((alarm, right, explained && !named))
         })?;

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::fit::Outcome;
+use crate::fit::{Outcome, Reason};
 
 /// How a fit ended.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -20,6 +20,12 @@ pub enum Ended {
         /// Steps taken.
         steps: usize,
     },
+    /// At a minimum from which directions are nowhere near those that were measured.
+    #[serde(rename = "far off")]
+    FarOff {
+        /// Steps taken.
+        steps: usize,
+    },
     /// With fewer residual components than it takes to determine what was asked for.
     #[serde(rename = "too few observations")]
     TooFewObservations {
@@ -34,6 +40,9 @@ impl From<&Outcome> for Ended {
     fn from(outcome: &Outcome) -> Self {
         match *outcome {
             Outcome::Converged { iterations } => Self::Converged { steps: iterations },
+            Outcome::NotConverged { iterations, reason: Reason::FarOff } => {
+                Self::FarOff { steps: iterations }
+            }
             Outcome::NotConverged { iterations, .. } => Self::NotConverged { steps: iterations },
             Outcome::TooFewObservations { components, parameters, .. } => {
                 Self::TooFewObservations { components, parameters }

@@ -85,7 +85,7 @@ pub(super) fn verdict(evidence: Evidence<'_>) -> Verdict {
     let any = |is: fn(&Caution) -> bool| evidence.cautions.iter().any(is);
     match evidence.ended {
         Ended::TooFewObservations { .. } => return Verdict::TooFewObservations,
-        Ended::NotConverged { .. } => return Verdict::FitFailed,
+        Ended::NotConverged { .. } | Ended::FarOff { .. } => return Verdict::FitFailed,
         Ended::Converged { .. } => {}
     }
     if any(|caution| matches!(caution, Caution::FewBehindAnEffect { .. })) {

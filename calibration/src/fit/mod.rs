@@ -21,6 +21,7 @@ mod shared;
 mod size;
 mod solve;
 mod solver;
+mod starts;
 mod stated;
 mod stream;
 mod subspace;

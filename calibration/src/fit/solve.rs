@@ -8,7 +8,7 @@ use model_core::Chain;
 use super::align::starting_values;
 use super::solver::{Course, Solver};
 use super::sweep::{Weighting, residuals};
-use super::{FitError, FitOptions, FitResult, Model, Outcome, Residuals, SetAside, Why};
+use super::{FitError, FitOptions, FitResult, Model, Outcome, Reason, Residuals, SetAside, Why};
 use crate::data::Observations;
 use crate::data::unknowns::Unknowns;
 use crate::fit::noise::{Layout, NoiseOptions};
@@ -61,6 +61,9 @@ impl Solver<'_> {
         };
         if self.doubtful(&course)? {
             course = self.elsewhere(course)?;
+        }
+        if self.is_far_off(&course) {
+            course = self.from_drawn_starts(course)?;
         }
         if weighting == Weighting::Biweight && self.are_few(course.subspace.rank()) {
             course = self.of_few(course)?;
@@ -118,6 +121,7 @@ impl Solver<'_> {
         let (norms, weight) = self.norms_and_weights(&course);
         let kept = self.layout.row.iter().filter(|&&row| weight[row as usize] > 0.0).count();
         let (uncertainty, shared) = self.uncertainty(&course, &weight)?;
+        let far_off = self.is_far_off(&course).then_some(Reason::FarOff);
         let Course { point, noise, subspace, stopped, .. } = course;
         let noise = shared.in_noise(noise);
         let mut whitened = point.sweep.residual.clone();
@@ -126,7 +130,7 @@ impl Solver<'_> {
             *value *= weight[row as usize].sqrt();
         }
         let parameters = self.model.parameters().to_vec();
-        let outcome = match stopped {
+        let outcome = match stopped.or(far_off) {
             _ if kept <= rank + of_objects => {
                 Outcome::TooFewObservations { components: kept, parameters: parameters.len(), rank }
             }

@@ -155,7 +155,8 @@ fn happened(diagnosis: &Diagnosis) -> String {
         }
         Verdict::FormNotDetermined if count == 1 => {
             let effect = &diagnosis.effects[0];
-            let others: Vec<&str> = effect.competing_with.iter().take(2).map(String::as_str).collect();
+            let others: Vec<&str> =
+                effect.competing_with.iter().take(2).map(|names| names[0].as_str()).collect();
             format!(
                 "Something moves at one place; these data fit several functions of {} about as well: {}, or {}.",
                 effect.driver,
@@ -204,11 +205,15 @@ fn happened(diagnosis: &Diagnosis) -> String {
         }
         Verdict::TooFewObservations => too_few(diagnosis),
         Verdict::FitFailed => {
-            let steps = match diagnosis.fit.amended {
-                Ended::NotConverged { steps } => format!(" in {steps} steps"),
-                Ended::Converged { .. } | Ended::TooFewObservations { .. } => String::new(),
+            let why = match diagnosis.fit.amended {
+                Ended::NotConverged { steps } => format!("reached no minimum in {steps} steps"),
+                Ended::FarOff { .. } => {
+                    "ended with half of the directions more than 11° off: look at columns, signs, units and frame"
+                        .to_owned()
+                }
+                Ended::Converged { .. } | Ended::TooFewObservations { .. } => "reached no minimum".to_owned(),
             };
-            format!("The fit reached no minimum{steps}: its numbers mean nothing, and no search was made.")
+            format!("The fit {why}. Its numbers mean nothing, and no search was made.")
         }
     }
 }
@@ -220,7 +225,7 @@ fn too_few(diagnosis: &Diagnosis) -> String {
              errors: nothing is left to judge them by.",
             diagnosis.observations.rows, diagnosis.fit.rank[0], diagnosis.fit.rank[1]
         ),
-        Ended::Converged { .. } | Ended::NotConverged { .. } => {
+        Ended::Converged { .. } | Ended::NotConverged { .. } | Ended::FarOff { .. } => {
             "An effect stands out, but it rests on fewer than five observations.".to_owned()
         }
     }

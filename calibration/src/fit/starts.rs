@@ -1,0 +1,53 @@
+//! Other starts, for a fit that ends where directions are nowhere near those that were measured.
+//!
+//! Errors of a radian may lie behind a ridge, seen from zero. A bottom beyond it is told by what is left there.
+
+use model_core::{Quantity, SymbolId};
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+
+use super::FitError;
+use super::solver::{Course, Solver};
+use crate::data::Measure;
+
+/// How far off half of the directions are where something else than noise is the matter, rad: 11 degrees.
+const FAR_OFF_RAD: f64 = 0.2;
+
+/// Angles are drawn up to this size, rad.
+const DRAWN_RAD: f64 = 1.0;
+
+/// Starts that are drawn, at most.
+const STARTS: u64 = 12;
+
+impl Solver<'_> {
+    /// Whether half of the directions are so far off that no noise explains it. Of other kinds nobody knows how large they are.
+    pub(super) fn is_far_off(&self, course: &Course) -> bool {
+        let series = &self.observations.poses.series;
+        if series.iter().any(|series| series.measure != Measure::Direction) {
+            return false;
+        }
+        let mut norms: Vec<f64> = self.layout.norms(&course.point.sweep.residual).collect();
+        norms.retain(|norm| norm.is_finite());
+        norms.sort_unstable_by(f64::total_cmp);
+        norms.get(norms.len() / 2).is_some_and(|&median| median > FAR_OFF_RAD)
+    }
+
+    /// The first course from drawn starts that is not far off, or the one given.
+    pub(super) fn from_drawn_starts(&mut self, course: Course) -> Result<Course, FitError> {
+        let is_angle = |&id: &SymbolId| self.chain.symbol(id).quantity == Quantity::Angle;
+        let angles: Vec<SymbolId> = self.model.parameters().iter().copied().filter(is_angle).collect();
+        for seed in 0..STARTS {
+            let mut rng = ChaCha8Rng::seed_from_u64(seed);
+            let mut start = self.nominal();
+            for id in &angles {
+                start[id.index()] += rng.random_range(-DRAWN_RAD..DRAWN_RAD);
+            }
+            let other = self.course(&start, self.options.weighting())?;
+            if other.stopped.is_none() && !self.is_far_off(&other) {
+                return Ok(other);
+            }
+        }
+        Ok(course)
+    }
+}

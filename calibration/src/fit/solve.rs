@@ -62,9 +62,7 @@ impl Solver<'_> {
         if self.doubtful(&course)? {
             course = self.elsewhere(course)?;
         }
-        if self.is_far_off(&course) {
-            course = self.from_drawn_starts(course)?;
-        }
+        course = self.nearest(course)?;
         if weighting == Weighting::Biweight && self.are_few(course.subspace.rank()) {
             course = self.of_few(course)?;
         }

@@ -2,7 +2,7 @@
 
 use calibration::data::{Measured, Observations};
 use calibration::diagnose::{Caution, of_data, precision};
-use calibration::fit::{FitOptions, FitResult, Outcome, Why, fit};
+use calibration::fit::{FitOptions, FitResult, Outcome, Reason, Why, fit};
 use rand::RngExt;
 
 use crate::simulated::{Simulation, swapped};
@@ -94,6 +94,30 @@ fn errors_of_degrees_converge() {
     let result = fitted(&simulation, &observations);
     assert!(matches!(result.outcome, Outcome::Converged { .. }), "{:?}", result.outcome);
     assert!(worst(&simulation, &result) < 4.0, "{}", worst(&simulation, &result));
+}
+
+/// Other starts help; an angle may still come back as another one that turns the beam alike (half a turn further, say).
+#[test]
+fn errors_of_half_a_radian_converge_from_zero() {
+    for seed in 0..8 {
+        let mut simulation = mount(200, seed);
+        simulation.draw_errors("*", 0.5);
+        let observations = simulation.directions("sight", 2.0 * ARCSEC);
+        let result = fitted(&simulation, &observations);
+        assert!(matches!(result.outcome, Outcome::Converged { .. }), "{seed}: {:?}", result.outcome);
+        assert!((2.0..4.0).contains(&(result.rms / ARCSEC)), "{seed}: {}", result.rms / ARCSEC);
+    }
+}
+
+/// Each row measured where another one was pointing: no start explains that.
+#[test]
+fn directions_of_other_rows_are_no_fit() {
+    let mut simulation = mount(60, 3);
+    let mut observations = simulation.directions("sight", 2.0 * ARCSEC);
+    observations.measured.rotate_left(17);
+    let result = fitted(&simulation, &observations);
+    let Outcome::NotConverged { reason, .. } = result.outcome else { panic!("{:?}", result.outcome) };
+    assert_eq!(reason, Reason::FarOff);
 }
 
 #[test]

@@ -10,7 +10,7 @@ use crate::fit::FitResult;
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
-use crate::search::{HeldOut, SearchError, nested};
+use crate::search::{HeldOut, SearchError, Stage, nested};
 
 /// The round that the report is about, judged on held-out rows.
 pub(super) struct Judged<'a> {
@@ -28,6 +28,7 @@ pub(super) fn judged<'a>(
     before: &FitResult,
     round: Round<'a>,
 ) -> Result<Judged<'a>, SearchError> {
+    (whole.tell)(Stage::HeldOut);
     let of = |round: &Round<'a>| {
         let held_out = nested(&round.search.problem, &round.sets, &whole.options);
         held_out::rms(whole, before, round, &held_out).map(|rms| (held_out, rms))

@@ -18,12 +18,30 @@ use crate::study::Plan;
 /// Functions that one calibration takes up at most.
 pub(super) const MOST: usize = 4;
 
+/// What becomes of a function that wins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Winner {
+    /// It is taken up as an effect.
+    TakenUp,
+    /// It is told.
+    Told,
+}
+
 /// What the rounds end with once the library has spoken.
 pub(super) struct Settled<'a> {
     pub whole: Context<'a>,
     pub round: Round<'a>,
     /// Functions that explain the data about as well as accepted effects.
     pub as_good: Vec<AsGood>,
+    /// What the function that won, and was not taken up, leaves of these data over what was accepted, root mean square.
+    pub winner_leaves: Option<f64>,
+}
+
+impl<'a> Settled<'a> {
+    /// Where the library was not asked.
+    pub fn unasked(whole: Context<'a>, round: Round<'a>) -> Self {
+        Self { whole, round, as_good: Vec::new(), winner_leaves: None }
+    }
 }
 
 /// Lets the library compete with the last round until it has nothing to add; `plans` is where studies with such effects live.
@@ -31,21 +49,26 @@ pub(super) fn settled<'a>(
     whole: &Context<'a>,
     plans: &'a [OnceCell<Plan>],
     round: Round<'a>,
+    winner: Winner,
 ) -> Result<Settled<'a>, SearchError> {
-    let mut settled = Settled { whole: whole.clone(), round, as_good: Vec::new() };
+    let mut settled = Settled::unasked(whole.clone(), round);
     // A study that allows certain effects alone allows no others.
     let search = &whole.request.plan.search;
     if !search.only.is_empty() {
         return Ok(settled);
     }
-    for place in plans {
+    // Once no more may be taken up, the library still says what else would explain the data as well.
+    for place in plans.iter().map(Some).chain([None]) {
         if !settled.round.tells_structure() {
             break;
         }
         let contest = contest(&settled.whole, &settled.round)?;
         settled.as_good = contest.as_good;
-        // Functions compete for the name of what was found in every study; some want them in the declaration.
-        let Some(taken) = contest.taken.filter(|_| search.functions) else { break };
+        let Some(taken) = contest.taken else { break };
+        let Some(place) = place.filter(|_| winner == Winner::TakenUp) else {
+            settled.winner_leaves = Some(taken.leaves);
+            break;
+        };
         let Some((plan, name)) = with_function(settled.whole.request.plan, &taken) else { break };
         let plan = place.get_or_init(|| plan);
         let last = &settled.whole;
@@ -71,7 +94,7 @@ pub(super) fn settled<'a>(
             break;
         }
         let round = rounds(&next, Round::at(&next, fitted)?)?;
-        settled = Settled { whole: next, round, as_good: Vec::new() };
+        settled = Settled::unasked(next, round);
     }
     Ok(settled)
 }

@@ -6,7 +6,7 @@
 
 use std::cell::OnceCell;
 
-use super::functions::{MOST, Settled, settled};
+use super::functions::{MOST, Settled, Winner, settled};
 use super::outliers::{explains, trusting};
 use super::rounds::rounds;
 use crate::search::aside::shared;
@@ -25,23 +25,38 @@ pub(super) struct Places {
     of_more: [OnceCell<Plan>; MOST],
 }
 
-/// What the library has settled on, or what it makes of the rows that were set aside.
-pub(super) fn heard<'a>(last: Settled<'a>, places: &'a Places) -> Result<Settled<'a>, SearchError> {
+/// Whether there are rows to be heard.
+pub(super) fn are_any(last: &Settled<'_>) -> bool {
     let (whole, fit) = (&last.whole, &last.round.fitted.fit);
     let plan = whole.request.plan;
     let aside: Vec<usize> = fit.set_aside.iter().map(|aside| aside.row).collect();
     let poses = &whole.request.observations.poses;
-    let compete = plan.search.functions && plan.search.only.is_empty();
-    if !plan.fit.robust || !compete || shared(poses, &aside, whole.options.seed).is_none() {
+    plan.fit.robust && plan.search.only.is_empty() && shared(poses, &aside, whole.options.seed).is_some()
+}
+
+/// What the library has settled on, or what at most so many of its functions make of the rows that were set aside.
+pub(super) fn heard<'a>(
+    last: Settled<'a>,
+    places: &'a Places,
+    most: usize,
+) -> Result<Settled<'a>, SearchError> {
+    if !are_any(&last) {
         return Ok(last);
     }
+    let whole = &last.whole;
+    let plan = whole.request.plan;
     let every = places.trusting.get_or_init(|| trusting(plan));
     let every = Context { request: Request { plan: every, ..whole.request }, ..whole.clone() };
     let first = Fitted::with(&every, last.round.fitted.found.clone(), &last.round.fitted)?;
     if !first.fit.outcome.is_usable() {
         return Ok(last);
     }
-    let found = settled(&every, &places.of_functions, rounds(&every, Round::at(&every, first)?)?)?;
+    let found = settled(
+        &every,
+        &places.of_functions[..most],
+        rounds(&every, Round::at(&every, first)?)?,
+        Winner::TakenUp,
+    )?;
     let robust = places.robust.get_or_init(|| {
         let mut robust = found.whole.request.plan.clone();
         robust.fit.robust = true;
@@ -55,5 +70,5 @@ pub(super) fn heard<'a>(last: Settled<'a>, places: &'a Places) -> Result<Settled
     }
     let other = rounds(&again, Round::at(&again, other)?)?;
     let explains = explains((&again, &other), (whole, &last.round));
-    if explains { settled(&again, &places.of_more, other) } else { Ok(last) }
+    if explains { settled(&again, &places.of_more[..most], other, Winner::TakenUp) } else { Ok(last) }
 }

@@ -2,9 +2,11 @@
 //!
 //! One round (`round` of [`crate::search`]) fits the declaration with the effects accepted so far and searches from there.
 //! Rounds go on until one changes nothing (`rounds`). Then rows that were set aside together are reconsidered (`outliers`),
-//! a memory of the noise competes with the effects (`memory`), shapes of the library compete with them (`functions`), and
-//! the search is repeated without each fold (`held_out`), and effects that do not help there are left out (`confirm`). [`crate::diagnose`] says what it means, [`crate::report`] in words.
+//! a memory of the noise competes with the effects (`memory`), shapes of the library compete with them (`functions`), the
+//! search is repeated without each fold (`held_out`), effects that do not help there are left out (`confirm`), and shapes are taken
+//! up where they help (`choice`). [`crate::diagnose`] says what it means, [`crate::report`] in words.
 
+mod choice;
 mod confirm;
 mod functions;
 mod heard;
@@ -28,9 +30,9 @@ use crate::search::SearchError;
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
-use crate::study::{Loaded, Open, Plan, Study};
+use crate::study::{Loaded, Open, Study};
+use choice::{Chosen, chosen};
 use confirm::{Judged, judged};
-use functions::{Settled, settled};
 use rounds::rounds;
 
 pub use crate::search::{Request, Stage};
@@ -132,7 +134,7 @@ pub fn calibrate_telling(
         request.observations.poses.series.iter().map(|series| series.observable).collect();
     check_scale_of_ranges(&request.plan.chain, request.observations, &request.plan.fit)?;
     // Studies with functions that the library found live as long as the loops that read them.
-    let plans: [OnceCell<Plan>; functions::MOST] = Default::default();
+    let studies = choice::Studies::default();
     let remembering = OnceCell::new();
     let whole = Context { tell, ..Context::new(request, &observables, HELD)? };
 
@@ -145,17 +147,14 @@ pub fn calibrate_telling(
     let round = Round::at(&whole, first)?;
     // What rounding leaves has a structure of its own; there is nothing to search in it.
     let is_rounding = rounding(request.observations, &before).is_some();
-    let places = heard::Places::default();
-    let Settled { whole, round, as_good } = if is_rounding {
-        Settled { whole, round, as_good: Vec::new() }
+    let Chosen { whole, judged, as_good } = if is_rounding {
+        Chosen { judged: judged(&whole, &before, round)?, whole, as_good: Vec::new() }
     } else {
         let round = outliers::reconsidered(&whole, rounds(&whole, round)?)?;
         let (whole, round) = memory::settled(whole, &remembering, round)?;
-        heard::heard(settled(&whole, &plans, round)?, &places)?
+        chosen(&whole, &before, round, &studies)?
     };
-    tell(Stage::HeldOut);
-    let Judged { round, held_out, rms, refused } = judged(&whole, &before, round)?;
-    let as_good = if refused.is_none() { as_good } else { Vec::new() };
+    let Judged { round, held_out, rms, refused } = judged;
     let confirmed = Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good, refused };
     let diagnosis = diagnose(&whole, &before, &round.fitted, Ok(confirmed))?;
     let drawn = trace::drawn(request.observations, &round.fitted.fit);

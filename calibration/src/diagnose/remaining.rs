@@ -181,8 +181,8 @@ pub(crate) fn remaining(whole: &Context<'_>, last: &Round<'_>) -> Result<Remaini
         driver: function.driver.clone(),
         form: function.form(),
     });
-    // Where the library competes, it has taken up what it could.
-    let offered = best.as_ref().filter(|_| !whole.request.plan.search.functions);
+    // Elsewhere it was taken up, or it was tried and did not predict what it was not fitted to.
+    let offered = best.as_ref().filter(|_| whole.request.plan.search.functions == Some(false));
     let offer = offered.and_then(|function| function.offer(chain));
     let shape = best.as_ref().map_or_else(Vec::new, Function::shape);
     Ok(Remaining { p_value, rows: observations.rows(), looked, place, shape, offer })

@@ -37,6 +37,8 @@ pub struct Contender {
     /// How far what it predicts is from what the accepted model does, as a share (RMS) of what the effects do that it
     /// replaces; none where it replaces none.
     pub differs: Option<f64>,
+    /// What it leaves of these data over what the accepted model leaves, root mean square.
+    pub leaves: f64,
     /// Coefficients of the function's columns; zero for columns that are not seen.
     pub coefficients: Vec<f64>,
     /// Their covariance, row by row.
@@ -142,7 +144,8 @@ pub fn contender(left: &Left<'_>, columns: MatRef<'_, f64>, price: Price) -> Con
     let apart = (rss - accepted + 2.0 * shared).max(0.0);
     let done = left.rss_beside(&kept) - accepted;
     let differs = (kept.len() < left.accepted.len()).then(|| (apart / done.max(f64::MIN_POSITIVE)).sqrt());
-    Contender { criterion, likelihood, kept, differs, coefficients, covariance: covariance.collect() }
+    let leaves = (rss / accepted.max(f64::MIN_POSITIVE)).sqrt();
+    Contender { criterion, likelihood, kept, differs, leaves, coefficients, covariance: covariance.collect() }
 }
 
 /// Whether a model with a function's columns, beside the accepted effects that it keeps, predicts held-out folds (rows of each) better than

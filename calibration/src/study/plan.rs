@@ -98,8 +98,8 @@ pub struct Search {
     pub false_alarm: f64,
     /// Effects that are accepted at most.
     pub most: usize,
-    /// Whether functions that no family spells out are taken up as effects.
-    pub functions: bool,
+    /// Whether functions that no family spells out are taken up as effects; by default where they are confirmed.
+    pub functions: Option<bool>,
     /// Side quantities that effects may use.
     pub inputs: Vec<SymbolId>,
     /// Whether rows are in order of acquisition, so that direction of motion and drift may be used.

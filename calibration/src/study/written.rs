@@ -235,7 +235,7 @@ impl Default for FitTable {
 pub(super) struct SearchTable {
     pub false_alarm: Spanned<f64>,
     pub most: Spanned<u64>,
-    pub functions: bool,
+    pub functions: Option<bool>,
     pub inputs: Vec<Spanned<String>>,
     pub sequence: bool,
     pub harmonics: Spanned<u64>,
@@ -248,7 +248,7 @@ impl Default for SearchTable {
         Self {
             false_alarm: Spanned::new(0..0, 0.05),
             most: Spanned::new(0..0, 20),
-            functions: false,
+            functions: None,
             inputs: Vec::new(),
             sequence: false,
             harmonics: Spanned::new(0..0, 8),

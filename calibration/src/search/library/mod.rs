@@ -67,6 +67,8 @@ pub(crate) struct Taken {
     pub kept: Vec<usize>,
     /// Familywise p of the scan of what was left, or the smallest of the effects that it replaces.
     pub p_value: f64,
+    /// What it leaves of these data over what the accepted model leaves, root mean square.
+    pub leaves: f64,
 }
 
 /// A function that explains the data about as well as accepted effects that it would replace.
@@ -369,6 +371,7 @@ impl Library<'_, '_> {
                 shape: best.shape.clone(),
                 kept: numbers(&best.fitted.kept),
                 p_value: of_replaced.reduce(f64::min).unwrap_or(p_value),
+                leaves: best.fitted.leaves,
             });
         }
         for one in &judged {

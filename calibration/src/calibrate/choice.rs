@@ -1,0 +1,87 @@
+//! Whether a function of the library becomes an effect: it has to predict better what it was not fitted to.
+//!
+//! A table follows anything where the data are dense, and is worth nothing where they are not: on several instruments it
+//! took the place of a physical effect, and was worse in regions that nobody had measured.
+
+use std::cell::OnceCell;
+
+use super::confirm::{Judged, judged};
+use super::functions::{MOST, Settled, Winner, settled};
+use super::heard::{Places, are_any, heard};
+use crate::diagnose::Rms;
+use crate::fit::FitResult;
+use crate::search::SearchError;
+use crate::search::context::Context;
+use crate::search::fitted::Fitted;
+use crate::search::library::AsGood;
+use crate::search::round::Round;
+use crate::study::Plan;
+
+/// By how much a function has to gain where it was not fitted: its thresholds, not its coefficients, saw every row.
+const GAINS: f64 = 0.95;
+
+/// Functions that are tried at most where the study does not ask for them: each costs as much time as the search before it.
+const TRIED: usize = 2;
+
+/// Where the studies live that these loops read.
+#[derive(Default)]
+pub(super) struct Studies {
+    plans: [OnceCell<Plan>; MOST],
+    places: Places,
+}
+
+/// The round that the report is about, and what judged it.
+pub(super) struct Chosen<'a> {
+    pub whole: Context<'a>,
+    pub judged: Judged<'a>,
+    /// Functions that explain the data about as well as accepted effects.
+    pub as_good: Vec<AsGood>,
+}
+
+/// Lets the library compete, and takes up what wins as the study says; by default if it is confirmed.
+pub(super) fn chosen<'a>(
+    whole: &Context<'a>,
+    before: &FitResult,
+    round: Round<'a>,
+    studies: &'a Studies,
+) -> Result<Chosen<'a>, SearchError> {
+    let functions = whole.request.plan.search.functions;
+    let with_functions = |round, most: usize| {
+        heard(settled(whole, &studies.plans[..most], round, Winner::TakenUp)?, &studies.places, most)
+    };
+    if functions == Some(true) {
+        return judge(with_functions(round, MOST)?, before);
+    }
+    let told = settled(whole, &studies.plans, round, Winner::Told)?;
+    // What gains less on the rows that it was fitted to gains no more on others.
+    eprintln!("DBG leaves {:?} any {}", told.winner_leaves, are_any(&told));
+    let may_gain = told.winner_leaves.is_some_and(|share| share < GAINS);
+    if functions == Some(false) || !(may_gain || are_any(&told)) {
+        return judge(told, before);
+    }
+    let fitted = Fitted::with(whole, told.round.fitted.found.clone(), &told.round.fitted)?;
+    let told = judge(told, before)?;
+    let taken_up = judge(with_functions(Round::at(whole, fitted)?, TRIED)?, before)?;
+    Ok(if is_confirmed(whole, &told.judged, &taken_up.judged) { taken_up } else { told })
+}
+
+fn judge<'a>(settled: Settled<'a>, before: &FitResult) -> Result<Chosen<'a>, SearchError> {
+    let Settled { whole, round, as_good, .. } = settled;
+    let judged = judged(&whole, before, round)?;
+    let as_good = if judged.refused.is_none() { as_good } else { Vec::new() };
+    Ok(Chosen { whole, judged, as_good })
+}
+
+/// Whether the model with functions predicts better: in random folds by a margin, and no worse in regions that its search did
+/// not see. A second file of the study judges and does not choose; regions alone choose then, by the margin.
+fn is_confirmed(whole: &Context<'_>, told: &Judged<'_>, taken_up: &Judged<'_>) -> bool {
+    let ratio = |of: fn(&Rms) -> Option<f64>| Some(of(&taken_up.rms.after)? / of(&told.rms.after)?);
+    let elsewhere = ratio(|rms| rms.elsewhere_rms_kept);
+    let gains = match whole.request.second {
+        None => ratio(|rms| rms.held_out_rms_kept),
+        Some(_) => elsewhere,
+    };
+    taken_up.refused.is_none()
+        && gains.is_some_and(|ratio| ratio < GAINS)
+        && elsewhere.is_none_or(|ratio| ratio <= 1.0)
+}

@@ -153,7 +153,9 @@ impl Chunks {
                 format!("points {first} to {last} cannot be decompressed, the file is spoiled: {why}")
             })
         };
-        parts.into_par_iter().map(decode).collect::<Result<(), String>>()?;
+        // Of several, the first chunk that cannot be read is told, whoever came to it first.
+        let decoded: Vec<Result<(), String>> = parts.into_par_iter().map(decode).collect();
+        decoded.into_iter().collect::<Result<(), String>>()?;
         self.points = first - 1;
         self.taken += chunks.len();
         self.at += chunks.iter().map(|chunk| chunk.byte_count).sum::<u64>();

@@ -18,6 +18,9 @@ const PIECE: usize = 1 << 13;
 /// Steps that rounding to whole ones takes away at most, with a little for the rounding of what is compared.
 const ROUNDING: f64 = 0.501;
 
+/// Points that are farther apart are other points, and no coarse readings, m.
+const NEAR_M: f64 = 0.1;
+
 /// What corrects the points of a cloud.
 pub struct Corrector<'c> {
     chain: &'c Chain,
@@ -41,14 +44,14 @@ impl<'c> Corrector<'c> {
         chain: &'c Chain,
         observable: ObservableId,
         values: &[f64],
-        readings: impl FnOnce(&Evaluator) -> Result<Readings, Failure>,
+        readings: Readings,
         tolerance_m: Option<f64>,
-    ) -> Result<Self, Failure> {
+    ) -> Self {
         let evaluator = |values: &[f64]| {
             Evaluator::new(chain, vec![observable], Exactness::Exact, Quantity::Value, values)
         };
         let (amended, nominal) = (evaluator(values), evaluator(&chain.nominal_values()));
-        Ok(Self { chain, readings: readings(&amended)?, amended, nominal, tolerance_m, bounds: None })
+        Self { chain, readings, amended, nominal, tolerance_m, bounds: None }
     }
 
     /// Moves some points.
@@ -107,12 +110,11 @@ impl<'c> Corrector<'c> {
         amended: &Coordinates,
     ) -> Result<(), Failure> {
         let (header, long) = (&cloud.header, cloud.header.record_length);
+        let of_axis = |point, axis| coordinate(header, axis, i32::from_le_bytes(field(point, 4 * axis)));
         let stored: Vec<[f64; 3]> = points
             .bytes
             .par_chunks_exact(long)
-            .map(|point| {
-                [0, 1, 2].map(|axis| coordinate(header, axis, i32::from_le_bytes(field(point, 4 * axis))))
-            })
+            .map(|point| [0, 1, 2].map(|axis| of_axis(point, axis)))
             .collect();
         let first_apart = |reach: &(dyn Fn(usize) -> [f64; 3] + Sync)| {
             (0..stored.len())
@@ -120,62 +122,79 @@ impl<'c> Corrector<'c> {
                 .find_first(|&row| !self.is_near(stored[row], at(nominal, row), reach(row)))
         };
         if first_apart(&|_| header.scale).is_none() {
-            return Ok(());
+            return if self.tolerance_m.is_some() && is_corrected(header, &stored, nominal, amended) {
+                Err(cloud.wrong(
+                    "its points are much nearer to where the chain has them with the errors than without: it is corrected already",
+                ))
+            } else {
+                Ok(())
+            };
         }
         // What coarse readings explain is worked out only where something is to be explained.
-        let mut reach = vec![header.scale; stored.len()];
-        for (symbol, steps) in self.readings.steps(points) {
-            let mut moved = columns.clone();
-            for (_, column) in moved.iter_mut().filter(|(id, _)| *id == symbol) {
-                column.iter_mut().zip(&steps).for_each(|(value, step)| *value += step);
-            }
-            let moved = evaluate(&self.nominal, &moved, stored.len())?;
-            for (row, reach) in reach.iter_mut().enumerate() {
-                let (there, here) = (at(&moved, row), at(nominal, row));
-                (0..3).for_each(|axis| reach[axis] += (there[axis] - here[axis]).abs());
-            }
-        }
+        let reach = self.reach(header, points, columns, nominal)?;
         let Some(row) = first_apart(&|row| reach[row]) else { return Ok(()) };
-        let (file, chain) = (stored[row], at(nominal, row));
-        let number = points.first + row as u64;
+        let (file, chain, number) = (stored[row], at(nominal, row), points.first + row as u64);
         if chain.iter().any(|part| !part.is_finite()) {
             return Err(cloud.wrong(format_args!(
                 "point {number}: the chain without errors has no place for it: it has a pole at these readings"
             )));
         }
-        let apart = distance(file, chain);
         let mut why = format!(
             "point {number}: it is at {}, and the chain without errors has it at {}, {} away",
             place(file),
             place(chain),
-            length(apart)
+            length(distance(file, chain))
         );
         if (0..3).all(|axis| (file[axis] - amended[axis][row]).abs() <= reach[row][axis]) {
             why += ": the file is corrected already, with this model";
             return Err(cloud.wrong(why));
         }
-        let farthest =
-            (0..stored.len()).map(|row| distance(stored[row], at(nominal, row))).fold(0.0, f64::max);
-        let apart_too =
-            (0..stored.len()).filter(|&row| !self.is_near(stored[row], at(nominal, row), reach[row])).count();
-        why += &format!(
-            ", more than {}: the coordinates are in another frame or unit, or these are not the readings of these points",
-            match self.tolerance_m {
-                Some(tolerance) => format!("the {} that were allowed", length(tolerance)),
-                None => "rounding explains".to_owned(),
-            }
-        );
+        why += &match self.tolerance_m {
+            Some(tolerance) => format!(", more than the {} that were allowed", length(tolerance)),
+            None => ", more than rounding explains".to_owned(),
+        };
+        why +=
+            ": the coordinates are in another frame or unit, or these are not the readings of these points";
         for doubt in self.readings.doubts(self.chain, columns) {
             why += &format!("; {doubt}");
         }
+        let is_apart = |row: &usize| !self.is_near(stored[*row], at(nominal, *row), reach[*row]);
+        let farthest =
+            (0..stored.len()).map(|row| distance(stored[row], at(nominal, row))).fold(0.0, f64::max);
         why += &format!(
-            ". Of the points {} to {}, {apart_too} are that far apart, up to {}. If the readings are no better than that, say so with \
-             --tolerance",
+            ". Of the points {} to {}, {} are that far apart, up to {}",
             points.first,
             points.first + stored.len() as u64 - 1,
+            (0..stored.len()).filter(is_apart).count(),
             length(farthest)
         );
+        if farthest < NEAR_M {
+            why += ". If the readings are no better than that, say so with --tolerance";
+        }
         Err(cloud.wrong(why))
+    }
+
+    /// How far each point may be from the chain's: one step of its own, and what a step of each reading moves.
+    fn reach(
+        &self,
+        header: &Header,
+        points: &Points,
+        columns: &Columns,
+        nominal: &Coordinates,
+    ) -> Result<Vec<[f64; 3]>, Failure> {
+        let mut reach = vec![header.scale; nominal[0].len()];
+        for (symbol, steps) in self.readings.steps(points) {
+            let mut moved = columns.clone();
+            for (_, column) in moved.iter_mut().filter(|(id, _)| *id == symbol) {
+                column.iter_mut().zip(&steps).for_each(|(value, step)| *value += step);
+            }
+            let moved = evaluate(&self.nominal, &moved, reach.len())?;
+            for (row, reach) in reach.iter_mut().enumerate() {
+                let (there, here) = (at(&moved, row), at(nominal, row));
+                (0..3).for_each(|axis| reach[axis] += (there[axis] - here[axis]).abs());
+            }
+        }
+        Ok(reach)
     }
 
     fn is_near(&self, file: [f64; 3], chain: [f64; 3], reach: [f64; 3]) -> bool {
@@ -184,6 +203,17 @@ impl<'c> Corrector<'c> {
             None => (0..3).all(|axis| (file[axis] - chain[axis]).abs() <= reach[axis]),
         }
     }
+}
+
+/// Whether points lie where the chain has them with its errors, and not where it has them without: by squared distances, a quarter
+/// at most, where without errors they are more than a step away.
+fn is_corrected(header: &Header, stored: &[[f64; 3]], nominal: &Coordinates, amended: &Coordinates) -> bool {
+    let sum = |chain: &Coordinates| -> f64 {
+        stored.iter().enumerate().map(|(row, file)| distance(*file, at(chain, row)).powi(2)).sum()
+    };
+    let (without, with) = (sum(nominal), sum(amended));
+    let step: f64 = header.scale.iter().map(|scale| scale * scale).sum();
+    4.0 * with < without && without > step * stored.len() as f64
 }
 
 fn evaluate(evaluator: &Evaluator, columns: &Columns, count: usize) -> Result<Coordinates, Failure> {

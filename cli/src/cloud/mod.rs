@@ -20,7 +20,9 @@ use model_core::{Chain, ObservableId, ObservableKind};
 
 use crate::apply::Outside;
 use crate::errors_file::FoundOver;
+use crate::evaluation::readings_of;
 use crate::failure::Failure;
+use crate::over_table::so_far;
 use crate::source::{listed, observable};
 use crate::{output, tables, terminal};
 use by_time::Opened;
@@ -70,9 +72,8 @@ pub fn correct(correction: Correction<'_>) -> Result<(), Failure> {
     let observable = point_of(chain, named)?;
     let mut cloud = Cloud::open(data)?;
     let table = readings.map(|path| Opened::open(path, chain, time, comment)).transpose()?;
-    let found_readings =
-        |amended: &crate::evaluation::Evaluator| Readings::of(&cloud, table, chain, &amended.readings);
-    let mut corrector = Corrector::new(chain, observable, values, found_readings, tolerance_m)?;
+    let readings = Readings::of(&cloud, table, chain, &readings_of(chain, observable))?;
+    let mut corrector = Corrector::new(chain, observable, values, readings, tolerance_m);
     let mut outside = Outside::new(found);
     let (progress, began) = (terminal::progress(), Instant::now());
     output::write_file_with(out, |file| {
@@ -83,7 +84,7 @@ pub fn correct(correction: Correction<'_>) -> Result<(), Failure> {
             outside.see(chain, &slices, &corrector.amended)?;
             corrector.correct(&cloud, &mut points, &columns)?;
             writer.points(&points)?;
-            progress.set_message(crate::over_table::so_far(
+            progress.set_message(so_far(
                 points.first + points.counts.iter().sum::<usize>() as u64 - 1,
                 Some(cloud.share_read()),
                 began.elapsed(),

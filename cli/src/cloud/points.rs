@@ -33,7 +33,7 @@ pub struct Cloud {
     pub dimensions: Dimensions,
     /// Where the last record before the points ends.
     pub records_end: u64,
-    /// The record that says how points are compressed, where they are.
+    /// The record that says how points are compressed.
     pub laszip: Option<Record>,
     /// The chunks, where points are compressed.
     pub chunks: Option<Chunks>,
@@ -82,7 +82,8 @@ impl Cloud {
         let mut content = |record: &Record| record.read(&mut file).map_err(|error| wrong(error.to_string()));
         let described = find(EXTRA_BYTES).map(&mut content).transpose()?;
         let dimensions = Dimensions::of(&header, described.as_deref()).map_err(wrong)?;
-        let laszip = find(LASZIP).cloned();
+        let before_points = records.iter().filter(|record| record.place.end <= header.points_at);
+        let laszip = before_points.clone().find(|record| record.is(LASZIP.0, LASZIP.1)).cloned();
         let how = laszip.as_ref().map(&mut content).transpose()?;
         let end = length(&mut file).map_err(|error| Failure::read(path, &error))?;
         let (chunks, points_end) = match (header.is_compressed, how) {
@@ -123,7 +124,6 @@ impl Cloud {
                 path.display()
             ));
         }
-        let laszip = laszip.filter(|_| header.is_compressed);
         let behind = points_end..end;
         let path = path.to_owned();
         Ok(Self { path, file, header, dimensions, records_end, laszip, chunks, behind, taken: 0 })

@@ -48,14 +48,22 @@ impl<'f> Writer<'f> {
             (_, false) => None,
         };
         let too_large = || cloud.wrong("there is no room for more records before its points");
-        if let Some(record) = cloud.laszip.as_ref().filter(|_| how.is_none()) {
+        let is_compressed = header.is_compressed;
+        if is_compressed != compressed
+            && let Some(record) = &cloud.laszip
+        {
+            if !is_compressed {
+                return Err(cloud.wrong(
+                    "a record says how its points are compressed, and they are not: take the record away, or write a .las file",
+                ));
+            }
             let inside = |at: u64| usize::try_from(at - header_end).map_err(|_| too_large());
             let place = inside(record.place.start)?..inside(record.place.end)?;
             let length = i64::try_from(place.len()).map_err(|_| too_large())?;
             records.drain(place);
             header.set_compressed(false, -1, -length).ok_or_else(too_large)?;
         }
-        if let Some(how) = how.as_ref().filter(|_| !header.is_compressed) {
+        if let Some(how) = how.as_ref().filter(|_| !is_compressed) {
             let mut content = Vec::new();
             how.write_to(&mut content).map_err(|error| Failure::write(path, &error))?;
             let record =

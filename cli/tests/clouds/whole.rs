@@ -64,13 +64,17 @@ impl Whole {
             points.copy_from_slice(&file[points_at..end]);
         }
         let mut behind = Vec::new();
+        let waveforms = if file[25] >= 3 { long(file, 227) } else { 0 };
         if is_1_4 && middle(file, 243) > 0 {
             behind = file[long(file, 235)..].to_vec();
+        } else if waveforms > 0 {
+            behind = file[waveforms..].to_vec();
         } else {
             assert_eq!(end, file.len(), "nothing stands behind the points");
         }
         let mut header = file[..size].to_vec();
-        let places = [96..104, 179..227].into_iter().chain(is_1_4.then_some(235..243));
+        let later = [(3, 227..235), (4, 235..243)].into_iter().filter(|(since, _)| file[25] >= *since);
+        let places = [96..104, 179..227].into_iter().chain(later.map(|(_, place)| place));
         places.for_each(|place| header[place].fill(0));
         header[104] &= 0x3f;
         let points = points.chunks(length).map(<[u8]>::to_vec).collect();

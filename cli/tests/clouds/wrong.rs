@@ -16,6 +16,13 @@ fn find(file: &[u8], text: &[u8]) -> usize {
     file.windows(text.len()).position(|window| window == text).expect("there")
 }
 
+/// The user and the number of the record that says how points are compressed.
+fn laszip_head() -> [u8; 18] {
+    let mut head = *b"laszip encoded\0\0\0\0";
+    head[16..].copy_from_slice(&22204_u16.to_le_bytes());
+    head
+}
+
 #[test]
 fn a_file_that_is_spoiled_or_cut_off_is_told_as_such() {
     let folder = folder("cloud_spoiled_words", &[]);
@@ -25,6 +32,11 @@ fn a_file_that_is_spoiled_or_cut_off_is_told_as_such() {
     let length = usize::from(u16::from_le_bytes([plain[105], plain[106]]));
     let extra = find(&plain, b"LASF_Spec") - 2 + 54;
     let copc = find(&plain, b"somebody");
+    let stale = with("v14f6.las", copc, &laszip_head());
+    // The record that says how points are compressed is one of those before the points.
+    let mut late = with("v14f6.laz", find(&packed, b"laszip encoded"), b"x");
+    let behind = late.len() - 9 * 18 - 60;
+    late[behind + 2..behind + 20].copy_from_slice(&laszip_head());
     let items = find(&packed, b"laszip encoded") - 2 + 54 + 34;
     for (name, file, wanted) in [
         ("empty.las", Vec::new(), "it is no LAS file"),
@@ -64,12 +76,14 @@ fn a_file_that_is_spoiled_or_cut_off_is_told_as_such() {
         ),
         ("scale.las", with("v14f6.las", 131, &[0; 8]), "which must be positive"),
         ("offset.las", with("v14f6.las", 155, &f64::NAN.to_le_bytes()), "offsets of x, y and z"),
-        ("bits.las", with("v14f6.las", 104, &[0x86]), "no record says how"),
         (
             "other.laz",
             with("v14f6.laz", items, &[6]),
             "compressed as something else than format 6 with 17 extra bytes",
         ),
+        ("record.las", with("v14f6.las", 104, &[0x86]), "no record says how"),
+        ("stale.las", stale, "a record says how its points are compressed, and they are not"),
+        ("late.laz", late, "no record says how"),
         ("type.las", with("v14f6.las", extra + 2, &[31]), "has a type 31"),
         ("more.las", with("v14f6.las", extra + 2, &[10]), "extra bytes of each point, and a point has"),
         ("copc.laz", with("v14f6.las", copc, b"copc\0\0\0\0\0\0\0\0\0\0\0\0\x01\0"), "it is a COPC file"),
@@ -190,6 +204,9 @@ fn coordinates_of_another_frame_or_already_corrected_ones_are_refused() {
     applied(&folder, "v12f1.las", "once.las", &[]);
     let said = refused(&folder, "once.las", "twice.las", &[]);
     assert!(said.contains("the file is corrected already, with this model"), "{said}");
+    // However much is allowed.
+    let said = refused(&folder, "once.las", "twice.las", &["--tolerance", "10 cm"]);
+    assert!(said.contains("it is corrected already"), "{said}");
 }
 
 #[test]

@@ -225,7 +225,8 @@ fn table(
     } else {
         chunks == header.count.div_ceil(size)
     };
-    if !is_right {
+    // Each chunk begins with a point as it is; room is made for as many chunks as are claimed.
+    if !is_right || chunks > (at - first) / header.record_length as u64 {
         return Err(spoiled(&format!("it has {chunks} chunks, and the file {} points", header.count)));
     }
     file.seek(SeekFrom::Start(at)).map_err(unreadable)?;

@@ -30,6 +30,9 @@ struct InPoint {
 /// Readings of joints and inputs, a column each.
 pub type Columns = Vec<(SymbolId, Vec<f64>)>;
 
+/// Columns of the readings of consecutive points; or which point has not all, and why.
+type Piece = Result<Vec<Vec<f64>>, (usize, String)>;
+
 /// Where the readings of a chain come from.
 pub struct Readings {
     in_points: Vec<InPoint>,
@@ -114,7 +117,7 @@ impl Readings {
     /// A point without a reading, or with one that is not finite; a time that the table cannot serve.
     pub fn columns(&self, cloud: &Cloud, points: &Points) -> Result<Columns, Failure> {
         let long = self.record_length;
-        let pieces: Vec<Result<Vec<Vec<f64>>, (usize, String)>> = points
+        let pieces: Vec<Piece> = points
             .bytes
             .par_chunks(PIECE * long)
             .enumerate()
@@ -135,8 +138,8 @@ impl Readings {
         Ok(columns)
     }
 
-    /// Columns of the readings of consecutive points; or the first point that has not all, and why.
-    fn piece(&self, bytes: &[u8]) -> Result<Vec<Vec<f64>>, (usize, String)> {
+    /// The readings of these points; or the first one that has not all.
+    fn piece(&self, bytes: &[u8]) -> Piece {
         let mut columns = Vec::new();
         let points = || bytes.chunks_exact(self.record_length).enumerate();
         for InPoint { dimension, factor, name, .. } in &self.in_points {

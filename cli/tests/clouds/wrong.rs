@@ -32,6 +32,17 @@ fn a_file_that_is_spoiled_or_cut_off_is_told_as_such() {
     let length = usize::from(u16::from_le_bytes([plain[105], plain[106]]));
     let extra = find(&plain, b"LASF_Spec") - 2 + 54;
     let copc = find(&plain, b"somebody");
+    // Four thousand million chunks of a file of five kilobytes.
+    let claims = {
+        let mut file = packed.clone();
+        let table = u64::from_le_bytes(file[packed_at..packed_at + 8].try_into().expect("eight"));
+        let table = usize::try_from(table).expect("small");
+        let laszip = find(&packed, b"laszip encoded") - 2 + 54;
+        file[laszip + 12..laszip + 16].fill(0xff);
+        file[table + 4..table + 8].fill(0xff);
+        file[247..255].copy_from_slice(&(1_u64 << 40).to_le_bytes());
+        file
+    };
     let stale = with("v14f6.las", copc, &laszip_head());
     // The record that says how points are compressed is one of those before the points.
     let mut late = with("v14f6.laz", find(&packed, b"laszip encoded"), b"x");
@@ -82,6 +93,7 @@ fn a_file_that_is_spoiled_or_cut_off_is_told_as_such() {
             "compressed as something else than format 6 with 17 extra bytes",
         ),
         ("record.las", with("v14f6.las", 104, &[0x86]), "no record says how"),
+        ("claims.laz", claims, "the table of its chunks is spoiled: it has 4294967295 chunks"),
         ("stale.las", stale, "a record says how its points are compressed, and they are not"),
         ("late.laz", late, "no record says how"),
         ("type.las", with("v14f6.las", extra + 2, &[31]), "has a type 31"),

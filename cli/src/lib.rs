@@ -5,6 +5,8 @@ mod budget;
 mod calibrating;
 mod certificates;
 mod claims;
+#[cfg(feature = "point-clouds")]
+mod cloud;
 mod commands;
 mod curves;
 mod date;
@@ -45,12 +47,24 @@ struct Arguments {
     quiet: bool,
 }
 
-/// A spoiled Parquet file makes the crate that reads it panic; that becomes an error like any other, and is told as one.
-#[cfg(feature = "parquet")]
+/// A spoiled Parquet or LAZ file makes the crate that reads it panic; that becomes an error like any other, and is told as one.
+#[cfg(any(feature = "parquet", feature = "point-clouds"))]
 fn tell_panics_of_readers_as_errors() {
+    let is_of_a_reader = || {
+        let mut is = false;
+        #[cfg(feature = "parquet")]
+        {
+            is |= calibration::formats::parquet::is_reading();
+        }
+        #[cfg(feature = "point-clouds")]
+        {
+            is |= cloud::is_decoding();
+        }
+        is
+    };
     let told = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
-        if !calibration::formats::parquet::is_reading() {
+        if !is_of_a_reader() {
             told(panic);
         }
     }));
@@ -59,7 +73,7 @@ fn tell_panics_of_readers_as_errors() {
 /// Runs the command that the process was started with.
 #[must_use]
 pub fn main() -> ExitCode {
-    #[cfg(feature = "parquet")]
+    #[cfg(any(feature = "parquet", feature = "point-clouds"))]
     tell_panics_of_readers_as_errors();
     let arguments = Arguments::parse();
     if arguments.quiet {

@@ -19,7 +19,7 @@ pub struct OverTable {
     chain: PathBuf,
     /// Readings of joints and inputs: a .csv or .parquet file, or - for standard input
     #[arg(long, value_name = "IN")]
-    data: PathBuf,
+    pub data: PathBuf,
     /// Values of the errors, as `calibrate` writes them too
     #[arg(long, value_name = "E.toml")]
     errors: PathBuf,
@@ -28,10 +28,10 @@ pub struct OverTable {
     pub observable: Vec<String>,
     /// What lines of the data begin with that are comments, where there are any below the header
     #[arg(long, value_name = "LETTER", value_parser = comment_mark)]
-    comment: Option<u8>,
+    pub comment: Option<u8>,
     /// Where to write: a .csv or .parquet file, or - for standard output
     #[arg(long, value_name = "OUT")]
-    out: PathBuf,
+    pub out: PathBuf,
 }
 
 fn comment_mark(text: &str) -> Result<u8, &'static str> {
@@ -39,6 +39,16 @@ fn comment_mark(text: &str) -> Result<u8, &'static str> {
         [mark] if mark.is_ascii_punctuation() && !b"\"+-.".contains(mark) => Ok(*mark),
         _ => Err("write one mark, such as #"),
     }
+}
+
+/// A declaration with the values of its errors.
+pub struct Model {
+    /// The declaration.
+    pub chain: Chain,
+    /// The value of every symbol, SI.
+    pub values: Vec<f64>,
+    /// The ranges that the errors were found over, if the file says so.
+    pub found: Vec<FoundOver>,
 }
 
 /// What was read before any row.
@@ -59,13 +69,22 @@ impl OverTable {
     /// # Errors
     /// One of them has a mistake, or the output would replace one.
     pub fn open(&self) -> Result<Opened, Failure> {
+        let Model { chain, values, found } = self.model()?;
+        let table = ReadingsTable::open(&self.data, &chain, self.comment)?;
+        Ok(Opened { chain, values, found, table })
+    }
+
+    /// Reads the declaration and the errors.
+    ///
+    /// # Errors
+    /// One of them has a mistake, or the output would replace one.
+    pub fn model(&self) -> Result<Model, Failure> {
         output::refuse_to_replace(&self.out, [self.chain.as_path(), &self.errors])?;
         let chain = Source::read(&self.chain)?.chain()?;
         let errors = Source::read(&self.errors)?;
         let values = errors_file::values(&errors, &chain)?;
         let found = errors_file::found_over(&errors, &chain)?;
-        let table = ReadingsTable::open(&self.data, &chain, self.comment)?;
-        Ok(Opened { chain, values, found, table })
+        Ok(Model { chain, values, found })
     }
 
     /// Writes the table with a quantity of each observable; returns which columns of the input these replace.
@@ -107,7 +126,7 @@ impl OverTable {
         let replaced: Vec<String> = names(true).collect();
         let header: Vec<String> = names(false).chain(added.iter().cloned()).collect();
         let mut not_finite = 0;
-        let mut done = 0;
+        let mut done = 0_usize;
         let (progress, began) = (terminal::progress(), Instant::now());
         tables::write(&self.out, |writer| {
             writer.header(&header)?;
@@ -120,7 +139,7 @@ impl OverTable {
                 let computed = computed.iter().map(|column| Column::Numbers(column));
                 writer.rows(&kept.chain(computed).collect::<Vec<_>>(), rows.count)?;
                 done += rows.count;
-                progress.set_message(so_far(done, table.share_read(), began.elapsed()));
+                progress.set_message(so_far(done as u64, table.share_read(), began.elapsed()));
             }
             Ok(())
         })?;
@@ -134,7 +153,7 @@ impl OverTable {
 }
 
 /// What is done, and how long the rest takes, as far as that is known.
-fn so_far(rows: usize, share: Option<f64>, elapsed: Duration) -> String {
+pub fn so_far(rows: u64, share: Option<f64>, elapsed: Duration) -> String {
     match share.filter(|&share| share > 0.0) {
         Some(share) => {
             let left = elapsed.as_secs_f64() * (1.0 / share - 1.0).max(0.0);

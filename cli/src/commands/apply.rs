@@ -1,14 +1,23 @@
 //! `trueaxis apply`: new data corrected with a calibrated model, and readings that point where somebody wants.
 
+use std::path::PathBuf;
+
+use calibration::data::units;
 use model_core::{ObservableId, Quantity as Measures, SymbolId, SymbolKind};
 
 use super::Answer;
 use crate::apply::{As, Outside, Seen, Solver};
+#[cfg(feature = "point-clouds")]
+use crate::cloud;
 use crate::evaluation::{Evaluator, Exactness, Quantity, column_names};
 use crate::failure::Failure;
+#[cfg(feature = "point-clouds")]
+use crate::output;
+#[cfg(feature = "point-clouds")]
+use crate::over_table::Model;
 use crate::over_table::{Opened, OverTable};
 use crate::source::{listed, observables};
-use crate::terminal;
+use crate::{tables, terminal};
 
 /// Correct new data with a calibrated model.
 ///
@@ -20,6 +29,9 @@ use crate::terminal;
 /// without, and writes the readings of the joints that do so, with the angle or distance that remains. Columns of the
 /// joints in the input are where the search starts; without any it starts from the nearest of poses spread over the ranges
 /// that the model was found over.
+///
+/// With a point cloud, a .las or .laz file whose coordinates were computed without the errors, it moves every point to where the
+/// errors have it and keeps every other byte. Readings stand in extra dimensions of the points, or in a table by GPS time.
 ///
 /// Example: trueaxis apply result/amended.chain --errors result/errors.toml --data new.csv --out corrected.csv
 #[derive(Debug, clap::Args)]
@@ -35,6 +47,25 @@ pub struct Arguments {
     /// Find the readings of the joints that point at what the table wants
     #[arg(long)]
     solve: bool,
+    /// Of a point cloud: the readings that its points have not, in a .csv or .parquet file by GPS time
+    #[arg(long, value_name = "TABLE")]
+    readings: Option<PathBuf>,
+    /// The column of that table that has the times, s; default: `gps_time` or `time`
+    #[arg(long, value_name = "COLUMN", requires = "readings")]
+    time: Option<String>,
+    /// Of a point cloud: how far its points may be from where the chain has them without errors, as "2 mm"; default: a step of the
+    /// coordinates, and what a step of the readings moves
+    #[arg(long, value_name = "LENGTH", value_parser = distance)]
+    tolerance: Option<f64>,
+}
+
+/// A distance above zero, in m.
+fn distance(text: &str) -> Result<f64, String> {
+    match units::parse(text, Measures::Length) {
+        Ok(metres) if metres > 0.0 => Ok(metres),
+        Ok(_) => Err("write a distance above zero, as \"2 mm\"".to_owned()),
+        Err(error) => Err(error.to_string()),
+    }
 }
 
 /// What remains of a target is rounding below this, in rad, or in m.
@@ -42,12 +73,58 @@ const REACHED: f64 = 1e-9;
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
+    #[cfg(feature = "point-clouds")]
+    if tables::is_point_cloud(&arguments.table.data) {
+        correct_cloud(arguments)?;
+        return Ok(Answer::Done);
+    }
+    let of_clouds =
+        [("--readings", arguments.readings.is_some()), ("--tolerance", arguments.tolerance.is_some())];
+    if let Some((option, _)) = of_clouds.iter().find(|(_, is_given)| *is_given)
+        && !tables::is_point_cloud(&arguments.table.data)
+    {
+        return Err(Failure::Input(format!(
+            "{option} is for point clouds, and `{}` is a table: leave it out, or name a .las or .laz file with --data",
+            arguments.table.data.display()
+        )));
+    }
     if arguments.solve {
         solve(arguments)?
     } else {
         correct(arguments)?
     }
     Ok(Answer::Done)
+}
+
+#[cfg(feature = "point-clouds")]
+fn correct_cloud(arguments: &Arguments) -> Result<(), Failure> {
+    let table = &arguments.table;
+    let of_tables = [
+        ("--as", arguments.form != As::Vector),
+        ("--correction", arguments.correction),
+        ("--solve", arguments.solve),
+    ];
+    if let Some((option, _)) = of_tables.iter().find(|(_, is_given)| *is_given) {
+        return Err(Failure::Input(format!(
+            "{option} is for tables, and the points of a cloud keep the dimensions that they have: leave it out"
+        )));
+    }
+    if let Some(readings) = &arguments.readings {
+        output::refuse_to_replace(&table.out, [readings.as_path()])?;
+    }
+    let Model { chain, values, found } = table.model()?;
+    cloud::correct(cloud::Correction {
+        chain: &chain,
+        values: &values,
+        found,
+        named: &table.observable,
+        data: &table.data,
+        readings: arguments.readings.as_deref(),
+        time: arguments.time.as_deref(),
+        comment: table.comment,
+        tolerance_m: arguments.tolerance,
+        out: &table.out,
+    })
 }
 
 fn correct(arguments: &Arguments) -> Result<(), Failure> {

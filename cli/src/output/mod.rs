@@ -37,6 +37,26 @@ pub fn write_with(
     batch.finish()
 }
 
+/// Writes a file as [`write_with`] does, whose beginning is known last: what `write` gets can go back, as no stream can.
+///
+/// # Errors
+/// The place cannot be written or is no file, or `write` failed; nothing has changed there then.
+#[cfg(feature = "point-clouds")]
+pub fn write_file_with(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<File>) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let mut batch = Batch::default();
+    match Place::of(path).map_err(|error| Failure::write(path, &error))? {
+        Place::File(target) => batch.write_file(path, target, write)?,
+        Place::StandardOutput | Place::Stream(_) => {
+            let why = "its beginning is written last, which a stream does not allow: write a file".to_owned();
+            return Err(Failure::Write { path: path.to_owned(), why });
+        }
+    }
+    batch.finish()
+}
+
 /// Files that appear together: all of them, or none.
 #[derive(Default)]
 pub struct Batch {
@@ -78,15 +98,23 @@ impl Batch {
                 write(&mut file)?;
                 file.flush().map_err(fail)
             }
-            Place::File(target) => {
-                let (partial, file) = Partial::file(&target).map_err(fail)?;
-                let mut file = BufWriter::new(file);
-                write(&mut file)?;
-                file.into_inner().map_err(|error| fail(error.into_error()))?.sync_all().map_err(fail)?;
-                self.staged.push(Staged { named: path.to_owned(), target, new: Some(partial), old: None });
-                Ok(())
-            }
+            Place::File(target) => self.write_file(path, target, |file| write(file)),
         }
+    }
+
+    fn write_file(
+        &mut self,
+        path: &Path,
+        target: PathBuf,
+        write: impl FnOnce(&mut BufWriter<File>) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let fail = |error: io::Error| Failure::write(path, &error);
+        let (partial, file) = Partial::file(&target).map_err(fail)?;
+        let mut file = BufWriter::new(file);
+        write(&mut file)?;
+        file.into_inner().map_err(|error| fail(error.into_error()))?.sync_all().map_err(fail)?;
+        self.staged.push(Staged { named: path.to_owned(), target, new: Some(partial), old: None });
+        Ok(())
     }
 
     /// Writes a text, as [`Batch::write`] does.

@@ -8,11 +8,26 @@ use std::path::Path;
 use calibration::formats::DataError;
 
 use crate::failure::Failure;
+#[cfg(feature = "point-clouds")]
+pub use readings::factor_of;
 pub use readings::{ReadingsTable, Rows};
 pub use write::{Column, csv_row, csv_rows, write};
 
 /// Rows that are read, computed and written at a time.
 pub const CHUNK: usize = 1 << 16;
+
+/// Whether the name of a file is that of a point cloud.
+#[must_use]
+pub fn is_point_cloud(path: &Path) -> bool {
+    ["las", "laz"].contains(&ending(path).as_str())
+}
+
+/// Whether the points of a cloud of this name are compressed.
+#[cfg(feature = "point-clouds")]
+#[must_use]
+pub fn is_compressed_cloud(path: &Path) -> bool {
+    ending(path) == "laz"
+}
 
 fn ending(path: &Path) -> String {
     path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase()
@@ -22,6 +37,14 @@ fn ending(path: &Path) -> String {
 fn known_format(path: &Path) -> Result<(), Failure> {
     if cfg!(not(feature = "parquet")) && ending(path) == "parquet" {
         return Err(failure(DataError::NoParquet { file: path.display().to_string() }));
+    }
+    if is_point_cloud(path) {
+        let why = if cfg!(feature = "point-clouds") {
+            "this is a point cloud, which `trueaxis apply` corrects; tables are .csv or .parquet"
+        } else {
+            "this build does not read or write point clouds: build the command with `--features point-clouds`"
+        };
+        return Err(Failure::Input(format!("{}: {why}", path.display())));
     }
     if ["xlsx", "xls", "ods", "arrow", "feather"].contains(&ending(path).as_str()) {
         let message = format!(

@@ -11,7 +11,7 @@ use calibration::formats::{
     self, Cells, ColumnName, DataError, Form, Kept, Options, ReadAs, TableReader, Wanted, declared_columns,
     find_reading,
 };
-use model_core::{Chain, ObservableId, Quantity, SymbolId};
+use model_core::{Chain, ObservableId, Quantity, Symbol, SymbolId};
 
 use super::{CHUNK, failure, known_format};
 use crate::evaluation::readings_of;
@@ -79,12 +79,32 @@ impl Extent {
     }
 }
 
+/// The factor that takes the numbers of a column, found by the name of a joint or input, to SI; and whether nothing says their unit.
+///
+/// # Errors
+/// A unit that is none, or that measures something else.
+pub fn factor_of(column: &ColumnName, reading: &Symbol, source: &str) -> Result<(f64, bool), DataError> {
+    let read = ReadAs { quantity: reading.quantity, stated: None, declared: Some(&reading.name) };
+    Ok((column.factor(read, source)?, column.is_bare(read)))
+}
+
 impl<'t> ReadingsTable<'t> {
     /// Opens a file with the readings of a chain; `-` is standard input.
     ///
     /// # Errors
     /// The file cannot be read.
     pub fn open(path: &Path, chain: &Chain, comment: Option<u8>) -> Result<Self, Failure> {
+        let mut table = Self::open_readings(path, chain, comment)?;
+        let all = 0..table.header().len();
+        table.wanted = all.map(|column| Wanted { column, form: Form::Kept }).collect();
+        Ok(table)
+    }
+
+    /// The same for a file of which nothing but readings is wanted.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub fn open_readings(path: &Path, chain: &Chain, comment: Option<u8>) -> Result<Self, Failure> {
         known_format(path)?;
         let options = Options { comment, ..Options::default() };
         let mut extent = None;
@@ -103,8 +123,6 @@ impl<'t> ReadingsTable<'t> {
         };
         let mut table = Self::of(reader.map_err(failure)?, chain);
         table.extent = extent.filter(|extent| extent.share() < 1.0);
-        let all = 0..table.header().len();
-        table.wanted = all.map(|column| Wanted { column, form: Form::Kept }).collect();
         Ok(table)
     }
 
@@ -118,6 +136,12 @@ impl<'t> ReadingsTable<'t> {
     #[must_use]
     pub fn share_read(&self) -> Option<f64> {
         self.extent.as_ref().map(Extent::share)
+    }
+
+    /// The name of the file, for messages.
+    #[cfg(feature = "point-clouds")]
+    pub fn source(&self) -> &str {
+        self.reader.source()
     }
 
     /// The columns, as they stand in the header.
@@ -169,14 +193,12 @@ impl<'t> ReadingsTable<'t> {
     /// A column that is not there or is there twice, or whose unit is none or measures something else.
     pub fn want(&mut self, chain: &Chain, readings: &[SymbolId]) -> Result<(), Failure> {
         for &id in readings {
-            let column = self.find(chain, id).map_err(failure)?;
-            let (name, source) = (&self.reader.header()[column], self.reader.source());
-            let symbol = chain.symbol(id);
-            let read = ReadAs { quantity: symbol.quantity, stated: None, declared: Some(&symbol.name) };
-            let factor = name.factor(read, source).map_err(failure)?;
+            let (column, source) = (self.find(chain, id).map_err(failure)?, self.reader.source());
+            let (name, symbol) = (&self.reader.header()[column], chain.symbol(id));
+            let (factor, is_bare) = factor_of(name, symbol, source).map_err(failure)?;
             let plausible = Plausible::readings(chain, id);
             let bare = || BareColumn::new(plausible, symbol.quantity, &name.full, source);
-            let bare = name.is_bare(read).then(bare);
+            let bare = is_bare.then(bare);
             self.readings.push(Reading { symbol: id, column, bare });
             self.wanted.push(Wanted { column, form: Form::Number(factor) });
         }

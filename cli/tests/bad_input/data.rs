@@ -82,3 +82,30 @@ fn format_that_is_not_built_in() {
         ["eval", "mount.chain", "--errors", "e.toml", "--data", "poses.parquet", "--out", "out.csv"];
     assert_snapshot!(refused(&folder.trueaxis(&arguments)));
 }
+
+#[cfg(not(feature = "point-clouds"))]
+#[test]
+fn point_clouds_that_are_not_built_in() {
+    let folder = mount("d-cloud");
+    folder.write("cloud.laz", b"LASF");
+    let arguments = ["apply", "mount.chain", "--errors", "e.toml", "--data", "cloud.laz", "--out", "out.laz"];
+    assert_snapshot!(refused(&folder.trueaxis(&arguments)));
+}
+
+#[test]
+fn an_option_of_point_clouds_with_a_table() {
+    let folder = mount("d-cloud-option");
+    let arguments = [
+        "apply",
+        "mount.chain",
+        "--errors",
+        "e.toml",
+        "--data",
+        "poses.csv",
+        "--readings",
+        "r.csv",
+        "--out",
+        "-",
+    ];
+    assert_snapshot!(refused(&folder.trueaxis(&arguments)));
+}

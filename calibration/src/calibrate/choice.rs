@@ -20,6 +20,13 @@ use crate::study::Plan;
 /// By how much a function has to gain where it was not fitted: its thresholds, not its coefficients, saw every row.
 const GAINS: f64 = 0.95;
 
+/// What a function may leave at most of the rows that it was fitted to for the time that the trial takes.
+const WORTH_TRYING: f64 = 0.98;
+
+/// Effects beyond which the catalogue has named nothing: it follows the data with whatever it has, and a function more is one of
+/// many.
+const NAMED: usize = 10;
+
 /// Functions that are tried at most where the study does not ask for them: each costs as much time as the search before it.
 const TRIED: usize = 2;
 
@@ -53,10 +60,8 @@ pub(super) fn chosen<'a>(
         return judge(with_functions(round, MOST)?, before);
     }
     let told = settled(whole, &studies.plans, round, Winner::Told)?;
-    // What gains less on the rows that it was fitted to gains no more on others.
-    eprintln!("DBG leaves {:?} any {}", told.winner_leaves, are_any(&told));
-    let may_gain = told.winner_leaves.is_some_and(|share| share < GAINS);
-    if functions == Some(false) || !(may_gain || are_any(&told)) {
+    let may_gain = told.winner_leaves.is_some_and(|share| share < WORTH_TRYING) || are_any(&told);
+    if functions == Some(false) || !may_gain || told.round.fitted.found.len() > NAMED {
         return judge(told, before);
     }
     let fitted = Fitted::with(whole, told.round.fitted.found.clone(), &told.round.fitted)?;

@@ -7,7 +7,7 @@
 A run is wrong if its verdict is "explained" or "confounded" and neither an accepted effect, nor what is told to explain the data
 as well, has the shape that was planted; or if its verdict names a place and an accepted effect follows another joint (gravity in the
 body that the joint turns follows the joint). SNR is the planted effect's RMS a component, after what the declared errors can take of
-it, over the noise. The studies say `functions = true`.
+it, over the noise.
 """
 import argparse
 import math
@@ -91,7 +91,7 @@ def trial(command, place, function, snr, seed):
     planted = (body, kind, lambda e, q: size * of(q))
     noise = [[rng.gauss(0, instrument.noise) for _ in range(3)] for _ in where]
     data = [measured(instrument, e, q, n, planted=planted) for q, n in zip(where, noise)]
-    report = calibrated({"instrument": instrument, "command": command, "functions": True}, where, data, [0] * len(where))
+    report = calibrated({"instrument": instrument, "command": command}, where, data, [0] * len(where))
     if "failed" in report:
         return None
     found = report["effects"]

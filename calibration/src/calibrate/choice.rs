@@ -86,7 +86,11 @@ fn is_confirmed(whole: &Context<'_>, told: &Judged<'_>, taken_up: &Judged<'_>) -
         None => ratio(|rms| rms.held_out_rms_kept),
         Some(_) => elsewhere,
     };
+    // Which rows are kept is for each model to say: what it makes of all of them may not be worse either.
+    let every = ratio(|rms| rms.held_out_rms);
+    let no_worse = |ratio: Option<f64>| ratio.is_none_or(|ratio| ratio <= 1.0);
     taken_up.refused.is_none()
         && gains.is_some_and(|ratio| ratio < GAINS)
-        && elsewhere.is_none_or(|ratio| ratio <= 1.0)
+        && no_worse(elsewhere)
+        && no_worse(every)
 }

@@ -159,6 +159,22 @@ pub(super) struct Observed {
     #[serde(default)]
     pub station: OneOrMore,
     pub length: Option<Column>,
+    pub rotation_x: Option<Column>,
+    pub rotation_y: Option<Column>,
+    pub rotation_z: Option<Column>,
+    pub w: Option<Column>,
+    pub rx: Option<Column>,
+    pub ry: Option<Column>,
+    pub rz: Option<Column>,
+    pub r11: Option<Column>,
+    pub r12: Option<Column>,
+    pub r13: Option<Column>,
+    pub r21: Option<Column>,
+    pub r22: Option<Column>,
+    pub r23: Option<Column>,
+    pub r31: Option<Column>,
+    pub r32: Option<Column>,
+    pub r33: Option<Column>,
 }
 
 /// What the numbers of an observation are.
@@ -176,6 +192,7 @@ pub(super) enum Kind {
     Wire,
     Distance,
     Sight,
+    Orientation,
 }
 
 /// `[noise]`.

@@ -33,7 +33,7 @@ impl Study {
         let of_directions = [Kind::Direction, Kind::Spherical, Kind::Offset, Kind::Sight];
         let (what, kinds, help) = if observable.is_orientation() {
             (
-                "how a body is turned",
+                "an orientation",
                 &[Kind::Orientation][..],
                 "write kind = \"orientation\", or name another observable",
             )

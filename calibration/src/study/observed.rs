@@ -59,6 +59,19 @@ pub(super) fn observed_columns(
             (Measure::Orientation, form.quantity(), keys)
         }
     };
+    let unread = observed
+        .columns()
+        .into_iter()
+        .find(|(key, column)| column.is_some() && keys.iter().all(|(read, _)| read != key));
+    if let Some((key, _)) = unread {
+        let read: Vec<String> = keys.iter().map(|(key, _)| format!("`{key}`")).collect();
+        let help = if read.is_empty() {
+            "leave it out, or write another kind".to_owned()
+        } else {
+            format!("it reads {}: leave the other out, or write another kind", read.join(", "))
+        };
+        return Err(mistake(place, format!("`{key}` is no column of this kind"), help));
+    }
     // What `simulate` and `eval` write needs no naming.
     let of_its_own = |name: String| ColumnPlan { name, unit: None, quantity, declared: true, named: false };
     let plan = |(key, column): (&str, &Option<Column>)| match column {

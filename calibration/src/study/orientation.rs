@@ -33,6 +33,16 @@ pub(super) const FORMS: &str = "a quaternion (`w`, `x`, `y`, `z`), a matrix (`r1
 type Keys<'a> = Vec<(&'static str, &'a Option<Column>)>;
 
 impl Form {
+    /// The keys of its columns, in order.
+    fn keys(self) -> &'static [&'static str] {
+        match self {
+            Self::FromDesign => &["rotation_x", "rotation_y", "rotation_z"],
+            Self::Vector => &["rx", "ry", "rz"],
+            Self::Quaternion => &["w", "x", "y", "z"],
+            Self::Matrix => &["r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"],
+        }
+    }
+
     /// What its numbers are.
     pub fn quantity(self) -> Quantity {
         match self {
@@ -96,37 +106,18 @@ fn of_matrix(matrix: &Matrix3<f64>) -> Result<UnitQuaternion<f64>, String> {
     Ok(of_axes(&nearest))
 }
 
-/// The form that the keys of `[observed]` say, and its keys in order.
+/// The form that the keys of `[observed]` say, and its columns in order.
 pub(super) fn form<'a>(observed: &'a Observed, place: &Range<usize>) -> Outcome<(Form, Keys<'a>)> {
-    let o = observed;
-    let forms: [(Form, Keys<'a>); 4] = [
-        (
-            Form::FromDesign,
-            vec![("rotation_x", &o.rotation_x), ("rotation_y", &o.rotation_y), ("rotation_z", &o.rotation_z)],
-        ),
-        (Form::Vector, vec![("rx", &o.rx), ("ry", &o.ry), ("rz", &o.rz)]),
-        (Form::Quaternion, vec![("w", &o.w), ("x", &o.x), ("y", &o.y), ("z", &o.z)]),
-        (
-            Form::Matrix,
-            vec![
-                ("r11", &o.r11),
-                ("r12", &o.r12),
-                ("r13", &o.r13),
-                ("r21", &o.r21),
-                ("r22", &o.r22),
-                ("r23", &o.r23),
-                ("r31", &o.r31),
-                ("r32", &o.r32),
-                ("r33", &o.r33),
-            ],
-        ),
-    ];
+    let all = observed.columns();
+    let of = |form: Form| -> (Form, Keys<'a>) {
+        let column = |key: &&str| all.iter().copied().find(|(known, _)| known == key);
+        (form, form.keys().iter().filter_map(column).collect())
+    };
+    let forms = [Form::FromDesign, Form::Vector, Form::Quaternion, Form::Matrix];
     let is_named = |(_, keys): &(Form, Keys<'_>)| keys.iter().any(|(_, column)| column.is_some());
-    let [from_design, ..] = &forms;
-    let from_design = from_design.clone();
-    let mut named = forms.into_iter().filter(is_named);
+    let mut named = forms.map(of).into_iter().filter(is_named);
     match (named.next(), named.next()) {
-        (None, _) => Ok(from_design),
+        (None, _) => Ok(of(Form::FromDesign)),
         (Some(one), None) => Ok(one),
         (Some((_, one)), Some((_, other))) => {
             let first =

@@ -177,6 +177,41 @@ pub(super) struct Observed {
     pub r33: Option<Column>,
 }
 
+impl Observed {
+    /// Every column by its key.
+    pub(super) fn columns(&self) -> [(&'static str, &Option<Column>); 27] {
+        [
+            ("x", &self.x),
+            ("y", &self.y),
+            ("z", &self.z),
+            ("azimuth", &self.azimuth),
+            ("elevation", &self.elevation),
+            ("ha", &self.ha),
+            ("dec", &self.dec),
+            ("cross", &self.cross),
+            ("along", &self.along),
+            ("range", &self.range),
+            ("length", &self.length),
+            ("rotation_x", &self.rotation_x),
+            ("rotation_y", &self.rotation_y),
+            ("rotation_z", &self.rotation_z),
+            ("w", &self.w),
+            ("rx", &self.rx),
+            ("ry", &self.ry),
+            ("rz", &self.rz),
+            ("r11", &self.r11),
+            ("r12", &self.r12),
+            ("r13", &self.r13),
+            ("r21", &self.r21),
+            ("r22", &self.r22),
+            ("r23", &self.r23),
+            ("r31", &self.r31),
+            ("r32", &self.r32),
+            ("r33", &self.r33),
+        ]
+    }
+}
+
 /// What the numbers of an observation are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]

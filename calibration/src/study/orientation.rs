@@ -60,16 +60,22 @@ impl Form {
         numbers: impl Fn(usize) -> f64,
         design: impl FnOnce() -> UnitQuaternion<f64>,
     ) -> Result<UnitQuaternion<f64>, String> {
-        let vector = || Vector3::new(numbers(0), numbers(1), numbers(2));
         match self {
-            Self::FromDesign => {
-                let turned = UnitQuaternion::new(vector()) * design();
+            Self::FromDesign | Self::Vector => {
+                let vector = Vector3::new(numbers(0), numbers(1), numbers(2));
+                if !vector.norm().is_finite() {
+                    return Err("the rotation vector is too long to be one".to_owned());
+                }
+                let turn = UnitQuaternion::new(vector);
+                if self == Self::Vector {
+                    return Ok(turn);
+                }
+                let turned = turn * design();
                 let is_number = turned.coords.iter().all(|part| part.is_finite());
                 is_number
                     .then_some(turned)
                     .ok_or_else(|| "the chain has no orientation at these readings".to_owned())
             }
-            Self::Vector => Ok(UnitQuaternion::new(vector())),
             Self::Quaternion => {
                 let quaternion = Quaternion::new(numbers(0), numbers(1), numbers(2), numbers(3));
                 let length = quaternion.norm();
@@ -88,6 +94,10 @@ impl Form {
 /// Source: with M = U S Vᵀ it is U Vᵀ, the nearest in the sum of squares.
 fn of_matrix(matrix: &Matrix3<f64>) -> Result<UnitQuaternion<f64>, String> {
     let none = |why: String| Err(format!("r11 to r33 is no rotation matrix: {why}"));
+    let largest = matrix.amax();
+    if largest > 1.0 + UNIT_TOLERANCE {
+        return none(format!("an entry is {largest:.6} large"));
+    }
     let determinant = matrix.determinant();
     let svd = matrix.svd(true, true);
     let (Some(u), Some(v)) = (svd.u, svd.v_t) else {
@@ -95,7 +105,7 @@ fn of_matrix(matrix: &Matrix3<f64>) -> Result<UnitQuaternion<f64>, String> {
     };
     let nearest = u * v;
     let off = (matrix - nearest).amax();
-    if !(off <= UNIT_TOLERANCE) {
+    if off > UNIT_TOLERANCE {
         return none(format!(
             "an entry is {off:.6} off the nearest one, and its determinant is {determinant:.6}"
         ));
@@ -155,23 +165,28 @@ mod tests {
             (Form::Quaternion, vec![0.707, 0.0, 0.0, 0.707]),
             (Form::Matrix, vec![0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]),
         ] {
-            assert_relative_eq!(read(form, &numbers).unwrap(), quarter, epsilon = 1e-12);
+            assert_relative_eq!(read(form, &numbers).expect("an orientation"), quarter, epsilon = 1e-12);
         }
     }
 
     #[test]
     fn what_is_no_rotation_says_how_far_off_it_is() {
-        let of = |form, numbers: &[f64]| read(form, numbers).unwrap_err();
+        let of = |form, numbers: &[f64]| read(form, numbers).expect_err("no orientation");
         assert_eq!(
             of(Form::Quaternion, &[1.0, 0.0, 0.1, 0.0]),
             "w, x, y, z is no unit quaternion: its length is 1.004988"
         );
         assert!(of(Form::Quaternion, &[0.0; 4]).contains("its length is 0.000000"));
+        assert!(of(Form::Vector, &[1e300, 1e300, 0.0]).contains("too long"));
         let mut matrix = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
         matrix[8] = -1.0;
         assert!(of(Form::Matrix, &matrix).contains("it mirrors"));
         matrix[8] = 1.01;
-        assert!(of(Form::Matrix, &matrix).contains("0.010000 off the nearest one"));
+        assert!(of(Form::Matrix, &matrix).contains("an entry is 1.010000 large"));
+        matrix[8] = 1e300;
+        assert!(of(Form::Matrix, &matrix).contains("no rotation matrix"));
+        matrix[8] = 0.98;
+        assert!(of(Form::Matrix, &matrix).contains("0.020000 off the nearest one"));
         assert!(of(Form::Matrix, &[0.0; 9]).contains("its determinant is 0.000000"));
     }
 }

@@ -254,7 +254,7 @@ fn what_is_no_orientation_is_told() {
     let table =
         |last: &str| format!("c,a,{}\n0,0,1,0,0,0,1,0,0,0,1\n0,0,1,0,0,0,1,0,0,0,{last}\n", cells.join(","));
     says(&refused(kind, &keys(&named), &table("-1")), &["row 2", "it mirrors"]);
-    says(&refused(kind, &keys(&named), &table("1.05")), &["row 2", "0.050000 off the nearest one"]);
+    says(&refused(kind, &keys(&named), &table("0.95")), &["row 2", "0.050000 off the nearest one"]);
     says(
         &refused(kind, &keys("rx = \"rx\"\nry = \"ry\"\nrz = \"rz\""), "c,a,rx,ry,rz\n0,0,0,0,0\n"),
         &["`rx` is an angle without a unit"],

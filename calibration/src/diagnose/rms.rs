@@ -73,3 +73,25 @@ pub(crate) fn worse(all: &[BeforeAfter], figure: impl Fn(&Rms) -> Option<f64>) -
     let most = pairs.into_iter().max_by(|one, other| (one.2 / one.1).total_cmp(&(other.2 / other.1)));
     most.filter(|_| grows).map(|(own, before, after)| Worse { unit: own.unit, before, after })
 }
+
+/// What a figure of one model is as a share of another's, over the same observations: of all units together, each in terms of its
+/// noise.
+pub(crate) fn share(
+    of: &[BeforeAfter],
+    other: &[BeforeAfter],
+    figure: impl Fn(&Rms) -> Option<f64>,
+) -> Option<f64> {
+    let pairs = of.iter().zip(other);
+    let pairs = pairs.filter_map(|(own, other)| Some((other, figure(&own.after)?, figure(&other.after)?)));
+    let pairs: Vec<(&BeforeAfter, f64, f64)> = pairs.collect();
+    if let [(_, own, other)] = pairs[..] {
+        return Some(own / other);
+    }
+    let weighed = |(unit, own, other): &(&BeforeAfter, f64, f64)| {
+        let noise = if unit.expected > 0.0 { unit.expected } else { 1.0 };
+        let rows = unit.after.held_out_rows.max(1) as f64;
+        [own, other].map(|figure| rows * (figure / noise).powi(2))
+    };
+    let sums = pairs.iter().map(weighed).reduce(|[a, b], [c, d]| [a + c, b + d])?;
+    Some((sums[0] / sums[1]).sqrt())
+}

@@ -9,6 +9,7 @@ use super::confirm::{Judged, judged};
 use super::functions::{MOST, Settled, Winner, settled};
 use super::heard::{Places, are_any, heard};
 use crate::diagnose::Rms;
+use crate::diagnose::rms::share;
 use crate::fit::FitResult;
 use crate::search::SearchError;
 use crate::search::context::Context;
@@ -80,7 +81,7 @@ fn judge<'a>(settled: Settled<'a>, before: &FitResult) -> Result<Chosen<'a>, Sea
 /// Whether the model with functions predicts better: in random folds by a margin, and no worse in regions that its search did
 /// not see. A second file of the study judges and does not choose; regions alone choose then, by the margin.
 fn is_confirmed(whole: &Context<'_>, told: &Judged<'_>, taken_up: &Judged<'_>) -> bool {
-    let ratio = |of: fn(&Rms) -> Option<f64>| Some(of(&taken_up.rms.after)? / of(&told.rms.after)?);
+    let ratio = |of: fn(&Rms) -> Option<f64>| share(&taken_up.rms, &told.rms, of);
     let elsewhere = ratio(|rms| rms.elsewhere_rms_kept);
     let gains = match whole.request.second {
         None => ratio(|rms| rms.held_out_rms_kept),

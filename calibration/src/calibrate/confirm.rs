@@ -5,7 +5,7 @@
 
 use super::held_out;
 use crate::diagnose::Caution;
-use crate::diagnose::rms::BeforeAfter;
+use crate::diagnose::rms::{BeforeAfter, Worse, worse};
 use crate::fit::FitResult;
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
@@ -16,7 +16,8 @@ use crate::search::{HeldOut, SearchError, Stage, nested};
 pub(super) struct Judged<'a> {
     pub round: Round<'a>,
     pub held_out: HeldOut,
-    pub rms: BeforeAfter,
+    /// One for each unit of residuals.
+    pub rms: Vec<BeforeAfter>,
     /// The effects that were left out again, if any.
     pub refused: Option<Caution>,
 }
@@ -43,16 +44,17 @@ pub(super) fn judged<'a>(
 }
 
 /// What is told of effects that the held-out rows speak against.
-fn refused(whole: &Context<'_>, round: &Round<'_>, rms: &BeforeAfter) -> Option<Caution> {
+fn refused(whole: &Context<'_>, round: &Round<'_>, rms: &[BeforeAfter]) -> Option<Caution> {
     if round.fitted.found.is_empty() || whole.request.second.is_some() {
         return None;
     }
     // Gross outliers make a figure over every row a matter of chance.
-    let (before, after) = rms.before.held_out_rms_kept.zip(rms.after.held_out_rms_kept)?;
-    (after > before).then(|| Caution::NotConfirmed {
+    let Worse { unit, before, after } = worse(rms, |rms| rms.held_out_rms_kept)?;
+    Some(Caution::NotConfirmed {
         effects: round.fitted.found.iter().map(|found| whole.catalogue[found.effect].name.clone()).collect(),
         p_value: round.fitted.found.iter().map(|found| found.p_value).fold(1.0, f64::min),
         before,
         after,
+        unit,
     })
 }

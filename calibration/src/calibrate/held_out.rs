@@ -4,8 +4,12 @@
 //! Which held-out rows are gross outliers is for the searches that did not see them to say: a row is kept if what its
 //! fold's search predicts of it lies nearer than where the robust weights end. The same rows are kept before and after.
 
+use std::borrow::Cow;
+
 use crate::candidate::EffectId;
+use crate::data::{Observations, SiUnit};
 use crate::diagnose::Rms;
+use crate::diagnose::expected_rms;
 use crate::diagnose::rms::BeforeAfter;
 use crate::fit::{FitResult, robust};
 use crate::search::HeldOut;
@@ -17,57 +21,81 @@ use crate::search::fitted::Fitted;
 use crate::search::round::Round;
 use crate::search::row_set::RowSet;
 
-/// In sample; held out from the study's second file, or else from the nested folds; and in the outer thirds of the joints'
+/// Unit by unit of the residuals: in sample; held out from the study's second file, or else from the nested folds; and in the outer thirds of the joints'
 /// ranges, from searches that did not see them.
 pub(crate) fn rms(
     whole: &Context<'_>,
     before: &FitResult,
     last: &Round<'_>,
     held_out: &HeldOut,
-) -> Result<BeforeAfter, SearchError> {
+) -> Result<Vec<BeforeAfter>, SearchError> {
+    let observations = whole.request.observations;
     let rows = &last.fitted.layout.row;
-    let (held_before, held_after) = match whole.request.second {
+    // What is left of held-out rows before and after, of which rows, and which of them are within reach.
+    let held_out = match whole.request.second {
         Some(second) => {
-            let residual = |chain, values: &[f64]| {
-                Columns::at(chain, second, declared(whole), values, &[])
-                    .map(|columns| Figures::of(&columns.residual, &columns.row, |_| true))
-            };
-            (
-                residual(&whole.request.plan.chain, &before.values)?,
-                residual(&last.fitted.chain, &last.fitted.fit.values)?,
-            )
+            let residual = |chain, values: &[f64]| Columns::at(chain, second, declared(whole), values, &[]);
+            let before = residual(&whole.request.plan.chain, &before.values)?;
+            let after = residual(&last.fitted.chain, &last.fitted.fit.values)?;
+            let within = vec![true; second.rows()];
+            Some(([before.residual, after.residual], Cow::Owned(after.row), within, second))
         }
         None if last.search.problem.folds() > 1 => {
             let [before, after] = predicted(whole, last, [&held_out.before, &held_out.after])?;
             let within = within_reach(whole, last, &after);
-            let of = |residual: &[f64]| Figures::of(residual, rows, |row| within[row as usize]);
-            (of(&before), of(&after))
+            Some(([before, after], Cow::Borrowed(rows), within, observations))
         }
-        None => (Figures::default(), Figures::default()),
+        None => None,
     };
     let weight = &last.fitted.fit.residuals.weight;
     let kept = |row: u32| weight[row as usize] > 0.0;
-    let in_sample = |fit: &FitResult| Figures::of(&fit.residuals.raw, rows, kept);
-    let thirds = elsewhere(whole, last);
-    let [all, kept] = [|third: &Elsewhere| third.all, |third: &Elsewhere| third.kept]
-        .map(|part| thirds.iter().map(part).fold(Judged::default(), std::ops::Add::add).rms());
-    let beside = |rms: Rms, at: usize| Rms {
-        elsewhere_rms: all.map(|rms| rms[at]),
-        elsewhere_rms_kept: kept.map(|rms| rms[at]),
-        ..rms
+    let units = observations.poses.units();
+    let of_row = observations.poses.unit_of_row();
+    let thirds = elsewhere(whole, last, &units);
+    let of_unit = |(place, &unit): (usize, &SiUnit)| {
+        let in_sample =
+            |fit: &FitResult| Figures::of(&fit.residuals.raw, rows, |row| of_row[row as usize] == unit, kept);
+        let [held_before, held_after] = match &held_out {
+            None => [Figures::default(), Figures::default()],
+            Some((left, rows, within, judged)) => {
+                let of_row = judged.poses.unit_of_row();
+                left.each_ref().map(|left| {
+                    let own = |row: u32| of_row[row as usize] == unit;
+                    Figures::of(left, rows, own, |row| within[row as usize])
+                })
+            }
+        };
+        let [all, kept] = [|third: &Elsewhere| third.all, |third: &Elsewhere| third.kept].map(|part| {
+            let own = thirds.iter().map(|third| part(&third[place]));
+            own.fold(Judged::default(), std::ops::Add::add).rms()
+        });
+        let beside = |rms: Rms, at: usize| Rms {
+            elsewhere_rms: all.map(|rms| rms[at]),
+            elsewhere_rms_kept: kept.map(|rms| rms[at]),
+            ..rms
+        };
+        BeforeAfter {
+            unit,
+            expected: expected_rms(observations, &last.fitted.fit, unit),
+            before: beside(held_before.beside(in_sample(before)), 0),
+            after: beside(held_after.beside(in_sample(&last.fitted.fit)), 1),
+        }
     };
-    Ok(BeforeAfter {
-        before: beside(held_before.beside(in_sample(before)), 0),
-        after: beside(held_after.beside(in_sample(&last.fitted.fit)), 1),
-    })
+    Ok(units.iter().enumerate().map(of_unit).collect())
 }
 
 /// In sample alone, where no search was made.
-pub(crate) fn of_fit(fitted: &Fitted) -> BeforeAfter {
+pub(crate) fn of_fit(observations: &Observations, fitted: &Fitted) -> Vec<BeforeAfter> {
     let residuals = &fitted.fit.residuals;
     let kept = |row: u32| residuals.weight.get(row as usize).is_some_and(|&weight| weight > 0.0);
-    let rms = Figures::default().beside(Figures::of(&residuals.raw, &residuals.row, kept));
-    BeforeAfter { before: rms, after: rms }
+    let of_row = observations.poses.unit_of_row();
+    let of_unit = |unit: SiUnit| {
+        let own = |row: u32| of_row[row as usize] == unit;
+        let rms = Figures::default().beside(Figures::of(&residuals.raw, &residuals.row, own, kept));
+        let expected = expected_rms(observations, &fitted.fit, unit);
+        BeforeAfter { unit, expected, before: rms, after: rms }
+    };
+    observations.poses.units().into_iter().map(of_unit).collect()
 }
 
 /// RMS of some residuals, each with how many rows it is over; none without rows.
@@ -80,8 +108,10 @@ struct Figures {
 }
 
 impl Figures {
-    fn of(residual: &[f64], rows: &[u32], kept: impl Fn(u32) -> bool) -> Self {
-        Self { all: length(residual, rows, |_| true), kept: length(residual, rows, kept) }
+    /// Over the rows `own`.
+    fn of(residual: &[f64], rows: &[u32], own: impl Fn(u32) -> bool, kept: impl Fn(u32) -> bool) -> Self {
+        let all = length(residual, rows, &own);
+        Self { all, kept: length(residual, rows, |row| own(row) && kept(row)) }
     }
 
     /// These as held out, beside those in sample.

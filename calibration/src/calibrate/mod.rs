@@ -174,7 +174,7 @@ pub fn calibrate_telling(
 
 /// What a first fit that cannot be gone on with comes to.
 fn unusable(whole: &Context<'_>, first: Fitted) -> Result<Calibration, CalibrateError> {
-    let rms = held_out::of_fit(&first);
+    let rms = held_out::of_fit(whole.request.observations, &first);
     let diagnosis = diagnose(whole, &first.fit, &first, Err(rms))?;
     let Fitted { chain, fit, .. } = first;
     let drawn = trace::drawn(whole.request.observations, &fit);

@@ -78,6 +78,8 @@ pub(crate) fn moves(setting: &Setting<'_>, place: Place) -> bool {
         }
         match place.freedom.kind {
             TransformKind::Translation => observable.kind == ObservableKind::Point,
+            // Whichever way a body is turned further, it is turned.
+            TransformKind::Rotation if observable.is_orientation() => true,
             TransformKind::Rotation => observed(setting, id, place).is_none_or(|seen| {
                 seen.iter().enumerate().any(|(i, s)| i != place.freedom.axis.index() && !s.is_zero())
             }),

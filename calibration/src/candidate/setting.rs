@@ -100,7 +100,10 @@ impl Setting<'_> {
     /// Whether something observed is a direction.
     #[must_use]
     pub fn aims(&self) -> bool {
-        self.observables.iter().any(|&id| self.chain.observable(id).kind == ObservableKind::Direction)
+        self.observables.iter().any(|&id| {
+            let observable = self.chain.observable(id);
+            observable.kind == ObservableKind::Direction && !observable.is_orientation()
+        })
     }
 
     /// Whether a joint moves a body on its lower one.

@@ -1,6 +1,6 @@
 //! What one observation measured, and what the numbers of a series are.
 
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 
 use super::SiUnit;
 
@@ -16,6 +16,9 @@ pub enum Measure {
     Range,
     /// An azimuth alone, from y through x; one residual component, rad.
     Azimuth,
+    /// How a body is turned; three residual components, rad: the vector about which, and by the length of which, the body would
+    /// have to be turned further, along the axes of the frame that it is seen in.
+    Orientation,
     /// A point on an unknown plane; one residual component, in metres: how far off the plane.
     Plane,
     /// A point that is an unknown target's, seen from a station; three residual components across, up and along the beam,
@@ -38,7 +41,7 @@ impl Measure {
     pub fn components(self) -> usize {
         match self {
             Self::Direction | Self::Sight => 2,
-            Self::Point | Self::Target | Self::Fixed => 3,
+            Self::Point | Self::Target | Self::Fixed | Self::Orientation => 3,
             Self::Range | Self::Azimuth | Self::Plane | Self::Wire | Self::Distance => 1,
         }
     }
@@ -47,7 +50,7 @@ impl Measure {
     #[must_use]
     pub fn unit(self) -> SiUnit {
         match self {
-            Self::Direction | Self::Azimuth | Self::Sight => SiUnit::RAD,
+            Self::Direction | Self::Azimuth | Self::Sight | Self::Orientation => SiUnit::RAD,
             Self::Point
             | Self::Range
             | Self::Plane
@@ -66,6 +69,7 @@ impl Measure {
             Self::Point | Self::Fixed => &["x", "y", "z"],
             Self::Range => &["range"],
             Self::Azimuth => &["azimuth"],
+            Self::Orientation => &["rotation_x", "rotation_y", "rotation_z"],
             Self::Plane => &["off_plane"],
             Self::Target => &["across", "up", "along"],
             Self::Wire | Self::Distance => &["length"],
@@ -78,7 +82,7 @@ impl Measure {
         match self {
             Self::Plane | Self::Target | Self::Fixed | Self::Wire | Self::Distance => Self::Point,
             Self::Sight => Self::Direction,
-            Self::Direction | Self::Point | Self::Range | Self::Azimuth => self,
+            Self::Direction | Self::Point | Self::Range | Self::Azimuth | Self::Orientation => self,
         }
     }
 }
@@ -100,6 +104,8 @@ pub enum Measured {
         /// In radians.
         azimuth_rad: f64,
     },
+    /// What takes vectors of the body into the frame that it is seen in.
+    Orientation(UnitQuaternion<f64>),
     /// The length of a wire, or the distance of two points.
     Length {
         /// In metres.
@@ -119,6 +125,7 @@ impl Measured {
             Measure::Point => Self::Point(*predicted),
             Measure::Range => Self::Range { range_m: predicted.norm() },
             Measure::Azimuth => Self::Azimuth { azimuth_rad: predicted.x.atan2(predicted.y) },
+            Measure::Orientation => unreachable!("no single vector says how a body is turned"),
             Measure::Plane
             | Measure::Target
             | Measure::Fixed
@@ -135,7 +142,11 @@ impl Measured {
     pub fn vector(&self) -> Option<&Vector3<f64>> {
         match self {
             Self::Direction(vector) | Self::Point(vector) => Some(vector),
-            Self::Range { .. } | Self::Azimuth { .. } | Self::Length { .. } | Self::Readings => None,
+            Self::Range { .. }
+            | Self::Azimuth { .. }
+            | Self::Orientation(_)
+            | Self::Length { .. }
+            | Self::Readings => None,
         }
     }
 
@@ -146,6 +157,7 @@ impl Measured {
             Self::Range { range_m: number }
             | Self::Azimuth { azimuth_rad: number }
             | Self::Length { length_m: number } => number.abs(),
+            Self::Orientation(_) => 1.0,
             Self::Readings => 0.0,
         }
     }

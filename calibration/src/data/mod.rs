@@ -4,6 +4,7 @@
 
 pub mod derive;
 mod measured;
+pub mod orientation;
 mod origin;
 mod poses;
 mod si_unit;

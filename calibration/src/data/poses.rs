@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use model_core::{ObservableId, SymbolId};
 
-use super::Measure;
+use super::{Measure, SiUnit};
 
 /// Consecutive rows that observe one thing in one way: one file of a study.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -52,6 +52,24 @@ impl Poses {
     /// The measure of each row.
     pub fn measures(&self) -> impl Iterator<Item = Measure> + '_ {
         self.series.iter().flat_map(|series| std::iter::repeat_n(series.measure, series.rows.len()))
+    }
+
+    /// The unit of the residual of each row.
+    #[must_use]
+    pub fn unit_of_row(&self) -> Vec<SiUnit> {
+        self.measures().map(Measure::unit).collect()
+    }
+
+    /// The units of residuals, each once, in the order of the series.
+    #[must_use]
+    pub fn units(&self) -> Vec<SiUnit> {
+        let mut units: Vec<SiUnit> = Vec::new();
+        for unit in self.series.iter().map(|series| series.measure.unit()) {
+            if !units.contains(&unit) {
+                units.push(unit);
+            }
+        }
+        units
     }
 
     /// The same poses with nothing that stands anywhere: the points and directions themselves.

@@ -4,7 +4,7 @@ use model_core::{Chain, Quantity, SymbolKind};
 use serde::Serialize;
 
 use super::noise::NoiseFound;
-use super::rms::BeforeAfter;
+use super::rms::{BeforeAfter, Worse, worse};
 use crate::data::{Measure, Measured, Observations, Series, SiUnit};
 use crate::fit::noise::Layout;
 use crate::fit::{FitResult, robust};
@@ -41,6 +41,8 @@ pub enum Caution {
         before: f64,
         /// RMS after, SI.
         after: f64,
+        /// Their unit.
+        unit: SiUnit,
     },
     /// Effects passed the test, but made it worse on rows that their search did not see: they were left out again.
     #[serde(rename = "not confirmed on held-out data")]
@@ -53,6 +55,8 @@ pub enum Caution {
         before: f64,
         /// RMS with them, SI.
         after: f64,
+        /// Their unit.
+        unit: SiUnit,
     },
     /// Effects make it worse in regions of the joints that no stage saw.
     #[serde(rename = "worse elsewhere")]
@@ -61,6 +65,8 @@ pub enum Caution {
         before: f64,
         /// RMS after, SI.
         after: f64,
+        /// Their unit.
+        unit: SiUnit,
     },
     /// An effect hangs on fewer than five observations.
     #[serde(rename = "few observations behind an effect")]
@@ -170,14 +176,13 @@ pub(super) fn of_noise(noise: &NoiseFound, degrees_of_freedom: f64) -> Option<Ca
 }
 
 /// What effects do to rows that no stage saw.
-pub(super) fn of_rms(rms: &BeforeAfter) -> impl Iterator<Item = Caution> {
-    let worse = |before: Option<f64>, after: Option<f64>| before.zip(after).filter(|(b, a)| a > b);
-    let held_out = worse(rms.before.held_out_rms, rms.after.held_out_rms);
-    let elsewhere = worse(rms.before.elsewhere_rms, rms.after.elsewhere_rms);
+pub(super) fn of_rms(rms: &[BeforeAfter]) -> impl Iterator<Item = Caution> {
+    let held_out = worse(rms, |rms| rms.held_out_rms);
+    let elsewhere = worse(rms, |rms| rms.elsewhere_rms);
     held_out
-        .map(|(before, after)| Caution::WorseHeldOut { before, after })
+        .map(|Worse { before, after, unit }| Caution::WorseHeldOut { before, after, unit })
         .into_iter()
-        .chain(elsewhere.map(|(before, after)| Caution::WorseElsewhere { before, after }))
+        .chain(elsewhere.map(|Worse { before, after, unit }| Caution::WorseElsewhere { before, after, unit }))
 }
 
 /// What the data and the size of the residual suggest: a wrong unit, a sign, swapped axes.
@@ -237,7 +242,7 @@ pub fn rounding(observations: &Observations, fit: &FitResult) -> Option<Caution>
 /// The usual distance that a series measures, m; none for directions.
 fn distance_m(observations: &Observations, series: &Series) -> Option<f64> {
     match series.measure {
-        Measure::Direction | Measure::Azimuth | Measure::Sight => None,
+        Measure::Direction | Measure::Azimuth | Measure::Sight | Measure::Orientation => None,
         // Nobody knows where these are.
         Measure::Plane | Measure::Target | Measure::Fixed | Measure::Wire | Measure::Distance => None,
         Measure::Point | Measure::Range => {

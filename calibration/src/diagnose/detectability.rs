@@ -78,7 +78,7 @@ fn moved(
 }
 
 /// Effects that could be as large as the residual without these data showing them.
-pub(crate) fn not_shown(whole: &Context<'_>, last: &Round<'_>, rms: &BeforeAfter) -> Vec<NotShown> {
+pub(crate) fn not_shown(whole: &Context<'_>, last: &Round<'_>, rms: &[BeforeAfter]) -> Vec<NotShown> {
     let problem = &last.search.problem;
     let accepted: Vec<EffectId> = last.fitted.found.iter().map(|found| found.effect).collect();
     let hidden = |name: String, place: Place| NotShown {
@@ -107,7 +107,9 @@ pub(crate) fn not_shown(whole: &Context<'_>, last: &Round<'_>, rms: &BeforeAfter
         let shortest = columns.iter().map(|&column| problem.length(column)).fold(f64::INFINITY, f64::min);
         let smallest = (!columns.is_empty()).then(|| FOUND / shortest);
         // Where nothing is left to compare with, no size is small enough to be seen.
-        let hides = |smallest: f64| rms.after.rms_kept.is_none_or(|left| smallest > left);
+        let of_unit = rms.iter().find(|own| own.unit == unseen.unit).or(rms.first());
+        let left = of_unit.and_then(|own| own.after.rms_kept);
+        let hides = |smallest: f64| left.is_none_or(|left| smallest > left);
         if smallest.is_none_or(hides) {
             let absorbed = 1.0 - problem.visible(number);
             let mistaken_for = mistaken_for(whole, last, number);

@@ -6,14 +6,16 @@ use model_core::{Role, SymbolId};
 use serde::Serialize;
 
 use super::detectability;
+use super::rms::BeforeAfter;
 use super::units::unit_of;
+use super::{Confirmed, observables_of};
 use crate::candidate::{Dependence, Effect, EffectId};
 use crate::data::SiUnit;
 use crate::effects::FAMILIES;
 use crate::search::context::Context;
 use crate::search::round::Round;
 use crate::search::state::State;
-use crate::search::{AS_GOOD, CompetingModel, HeldOut, SetColumns, competing_models};
+use crate::search::{AS_GOOD, CompetingModel, SetColumns, competing_models};
 
 /// Units of log-likelihood behind the best within which an explanation is kept in view when poses are chosen.
 const IN_VIEW: f64 = 10.0;
@@ -48,10 +50,17 @@ pub struct EffectFound {
     pub coefficients: BTreeMap<String, f64>,
     /// The SI unit of each.
     pub coefficient_units: BTreeMap<String, SiUnit>,
-    /// The most that it moves an observation of these data, rad or m.
+    /// The most that it moves an observation of these data, in the unit of those that show it best.
     pub amplitude: f64,
-    /// Root mean square over observations of what it moves, rad or m.
+    /// Root mean square over these observations of what it moves.
     pub amplitude_rms: f64,
+    /// The unit of both: `rad` or `m`.
+    pub amplitude_unit: SiUnit,
+    /// The first observable of that unit.
+    pub amplitude_of: String,
+    /// The larger of two effects has the larger of these, whatever their units: the most in terms of the noise.
+    #[serde(skip)]
+    pub standing: f64,
     /// Familywise p when it was accepted.
     pub p_value: f64,
     /// The share of the searches without one fold each that chose it too.
@@ -113,6 +122,15 @@ pub enum Relation {
     Competing,
 }
 
+/// How far an effect moves the observations of one unit.
+struct Moved {
+    unit: SiUnit,
+    most: f64,
+    mean: f64,
+    /// The most, in terms of the noise.
+    standing: f64,
+}
+
 /// What an accepted effect could be instead.
 pub(super) struct Others {
     /// Effects of its confounded set, as it was when it came in or as it is at the last fit.
@@ -160,7 +178,7 @@ pub(super) fn others(last: &Round<'_>) -> Vec<Others> {
 pub(super) fn effects(
     whole: &Context<'_>,
     last: &Round<'_>,
-    held_out: &HeldOut,
+    confirmed: &Confirmed<'_>,
     others: &[Others],
 ) -> Vec<EffectFound> {
     let accepted = last.fitted.found.iter().zip(&last.fitted.errors).zip(others);
@@ -169,7 +187,7 @@ pub(super) fn effects(
             let effect = &whole.catalogue[found.effect];
             let chain = &last.fitted.chain;
             let set = last.set_of(found.effect);
-            let (amplitude, amplitude_rms) = amplitude(last, found.effect, errors);
+            let moved = amplitude(last, &confirmed.rms, found.effect, errors);
             let name_of = |&id: &SymbolId| chain.symbol(id).name.clone();
             EffectFound {
                 text: effect.text(chain, errors),
@@ -199,10 +217,13 @@ pub(super) fn effects(
                     .iter()
                     .map(|id| (name_of(id), unit_of(&whole.setting, chain, *id)))
                     .collect(),
-                amplitude,
-                amplitude_rms,
+                amplitude: moved.most,
+                amplitude_rms: moved.mean,
+                amplitude_unit: moved.unit,
+                amplitude_of: observables_of(whole.request.observations, chain, moved.unit).swap_remove(0),
+                standing: moved.standing,
                 p_value: found.p_value,
-                selected_in_folds: set.map_or(0.0, |set| held_out.share(set)),
+                selected_in_folds: set.map_or(0.0, |set| confirmed.held_out.share(set)),
                 observations: observations_behind(last, found.effect),
                 bias: detectability::bias(whole, last, found.effect, errors),
             }
@@ -255,7 +276,7 @@ fn causes(whole: &Context<'_>, own: EffectId, others: &Others) -> Vec<Cause> {
 }
 
 /// The most that an effect moves an observation, and the root mean square over observations.
-fn amplitude(last: &Round<'_>, effect: EffectId, errors: &[SymbolId]) -> (f64, f64) {
+fn amplitude(last: &Round<'_>, rms: &[BeforeAfter], effect: EffectId, errors: &[SymbolId]) -> Moved {
     let rows = &last.search.rows;
     let mut by_row: BTreeMap<u32, f64> = BTreeMap::new();
     let columns: Vec<(&Vec<f64>, f64)> = rows.effects[effect.0]
@@ -267,9 +288,21 @@ fn amplitude(last: &Round<'_>, effect: EffectId, errors: &[SymbolId]) -> (f64, f
         let moved: f64 = columns.iter().map(|(column, value)| column[component] * value).sum();
         *by_row.entry(row).or_insert(0.0) += moved * moved;
     }
-    let most = by_row.values().copied().fold(0.0, f64::max);
-    let mean = by_row.values().sum::<f64>() / (by_row.len() as f64).max(1.0);
-    (most.sqrt(), mean.sqrt())
+    let of_row = rows.observations.poses.unit_of_row();
+    let of_unit = |own: &BeforeAfter| {
+        let squares =
+            by_row.iter().filter(|(row, _)| of_row[**row as usize] == own.unit).map(|(_, square)| *square);
+        let (most, sum, count) = squares.fold((0.0, 0.0, 0.0), |(most, sum, count): (f64, f64, f64), own| {
+            (most.max(own), sum + own, count + 1.0)
+        });
+        let most = most.sqrt();
+        let noise = if own.expected > 0.0 { own.expected } else { 1.0 };
+        Moved { unit: own.unit, most, mean: (sum / count.max(1.0)).sqrt(), standing: most / noise }
+    };
+    // The first of those that show it as well.
+    let best =
+        rms.iter().map(of_unit).reduce(|best, own| if own.standing > best.standing { own } else { best });
+    best.unwrap_or_else(|| unreachable!("an effect was found in observations"))
 }
 
 /// How many observations an effect hangs on: the rows' share of its projected columns, as an effective number.

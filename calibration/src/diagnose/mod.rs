@@ -19,10 +19,11 @@ pub(crate) mod trace;
 mod units;
 mod verdict;
 
+use model_core::Chain;
 use serde::Serialize;
 
 use crate::candidate::EffectId;
-use crate::data::{Origin, SiUnit};
+use crate::data::{Observations, Origin, SiUnit};
 use crate::design::discrimination::separation;
 use crate::design::{Criterion, Proposal, Separation, propose};
 use crate::effects::SHAPE;
@@ -48,10 +49,11 @@ pub use harmonics::Harmonics;
 pub use instrument::{
     BodyShown, ErrorShown, ErrorState, Instrument, JointShown, ObservedShown, ReadingShown,
 };
+pub(crate) use noise::expected_rms;
 pub use noise::{NoiseFound, SerialFound, SeriesNoise, VarianceFound};
 pub use precision::{Determined, NotSeparable, Precision, precision};
 pub use remaining::{Looked, Remaining, Where};
-pub use rms::Rms;
+pub use rms::{Beside, Rms};
 pub use trace::Trace;
 pub use verdict::Verdict;
 
@@ -99,6 +101,9 @@ pub struct Diagnosis {
     pub after: Rms,
     /// Unit of the residuals: `rad` or `m`.
     pub unit: SiUnit,
+    /// Residuals in other units: of directions and orientations beside points.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub beside: Vec<Beside>,
     /// The chain with the effects that were found.
     pub instrument: Instrument,
 }
@@ -168,7 +173,8 @@ pub struct Searching {
 pub(crate) struct Confirmed<'a> {
     pub round: &'a Round<'a>,
     pub held_out: &'a HeldOut,
-    pub rms: BeforeAfter,
+    /// One for each unit of residuals.
+    pub rms: Vec<BeforeAfter>,
     /// Functions that explain the data about as well as accepted effects.
     pub as_good: &'a [AsGood],
     /// Effects that were left out again, since held-out rows speak against them.
@@ -180,7 +186,7 @@ pub(crate) fn diagnose(
     whole: &Context<'_>,
     before: &FitResult,
     last: &Fitted,
-    confirmed: Result<Confirmed<'_>, BeforeAfter>,
+    confirmed: Result<Confirmed<'_>, Vec<BeforeAfter>>,
 ) -> Result<Diagnosis, SearchError> {
     let request = whole.request;
     let (observations, fit) = (request.observations, &last.fit);
@@ -192,8 +198,8 @@ pub(crate) fn diagnose(
         Ok(confirmed) => Found::of(whole, confirmed)?,
         Err(_) => Found::default(),
     };
-    let rms = confirmed.as_ref().map_or_else(|rms| *rms, |confirmed| confirmed.rms);
-    let mut cautions = cautions(&found, whole, &rms);
+    let rms = confirmed.as_ref().map_or_else(|rms| rms.as_slice(), |confirmed| &confirmed.rms);
+    let mut cautions = cautions(&found, whole, rms);
     if let (Ended::NotConverged { steps }, true) = (Ended::from(&before.outcome), !found.effects.is_empty()) {
         cautions.push(Caution::DeclarationNotFitted { steps });
     }
@@ -243,10 +249,33 @@ pub(crate) fn diagnose(
         remaining: found.remaining,
         harmonics: harmonics::harmonics(&last.chain, observations, before, fit),
         not_shown: found.not_shown,
-        before: rms.before,
-        after: rms.after,
-        unit: observations.poses.series.first().map_or(SiUnit::RAD, |series| series.measure.unit()),
+        before: rms.first().map_or_else(Rms::default, |own| own.before),
+        after: rms.first().map_or_else(Rms::default, |own| own.after),
+        unit: rms.first().map_or(SiUnit::RAD, |own| own.unit),
+        beside: rms.iter().skip(1).map(|own| beside(observations, &last.chain, own)).collect(),
     })
+}
+
+fn beside(observations: &Observations, chain: &Chain, own: &BeforeAfter) -> Beside {
+    Beside {
+        observed: observables_of(observations, chain, own.unit),
+        unit: own.unit,
+        expected_rms: own.expected,
+        before: own.before,
+        after: own.after,
+    }
+}
+
+/// The names of the observables whose residuals have a unit, each once.
+fn observables_of(observations: &Observations, chain: &Chain, unit: SiUnit) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for series in observations.poses.series.iter().filter(|series| series.measure.unit() == unit) {
+        let name = &chain.observable(series.observable).name;
+        if !names.contains(name) {
+            names.push(name.clone());
+        }
+    }
+    names
 }
 
 /// Whether a function without a name was taken up: a shape of several coefficients.
@@ -269,7 +298,7 @@ impl Found {
     fn of(whole: &Context<'_>, confirmed: &Confirmed<'_>) -> Result<Self, SearchError> {
         let last = confirmed.round;
         let others = effects::others(last);
-        let mut effects = effects::effects(whole, last, confirmed.held_out, &others);
+        let mut effects = effects::effects(whole, last, confirmed, &others);
         for other in confirmed.as_good {
             let name = other.name(&last.fitted.chain);
             for &number in &other.instead_of {
@@ -304,7 +333,7 @@ impl Found {
 }
 
 /// What was found that casts doubt on itself.
-fn cautions(found: &Found, whole: &Context<'_>, rms: &BeforeAfter) -> Vec<Caution> {
+fn cautions(found: &Found, whole: &Context<'_>, rms: &[BeforeAfter]) -> Vec<Caution> {
     let mut cautions = Vec::new();
     if !found.effects.is_empty() {
         cautions.extend(caution::of_rms(rms));

@@ -90,7 +90,8 @@ pub(super) fn noise(
         })
         .collect();
     let over_stated = over_stated(&series, stated);
-    let expected_rms = expected_rms(observations, fit);
+    let unit = observations.poses.series.first().map_or(SiUnit::RAD, |series| series.measure.unit());
+    let expected_rms = expected_rms(observations, fit, unit);
     let variance = fit.noise.variance.iter().flat_map(|model| &model.terms);
     let variance = variance.map(|&(term, coefficient)| {
         let (function, id, multiple): (_, SymbolId, _) = match term {
@@ -125,10 +126,14 @@ fn over_stated(series: &[SeriesNoise], stated: Option<f64>) -> Option<f64> {
     (count > 0.0).then(|| f64::sqrt(squares / count))
 }
 
-/// RMS over rows of the length that the noise gives a residual.
-fn expected_rms(observations: &Observations, fit: &FitResult) -> f64 {
-    let sigma = fit.noise.sigma_without_memory();
-    let squares: f64 = sigma.iter().map(|sigma| sigma * sigma).sum();
-    let rows = Layout::of(observations).first.len().saturating_sub(1);
-    (squares / (rows as f64).max(1.0)).sqrt()
+/// RMS over rows whose residuals have a unit of the length that the noise gives a residual.
+pub(crate) fn expected_rms(observations: &Observations, fit: &FitResult, unit: SiUnit) -> f64 {
+    let (sigma, layout) = (fit.noise.sigma_without_memory(), Layout::of(observations));
+    let (mut squares, mut rows) = (0.0, 0.0_f64);
+    for series in observations.poses.series.iter().filter(|series| series.measure.unit() == unit) {
+        let own = &sigma[layout.first[series.rows.start]..layout.first[series.rows.end]];
+        squares += own.iter().map(|sigma| sigma * sigma).sum::<f64>();
+        rows += series.rows.len() as f64;
+    }
+    (squares / rows.max(1.0)).sqrt()
 }

@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::data::SiUnit;
+
 /// Root mean square over observations of the length of the residual, SI: over every row, and over the rows kept.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Rms {
@@ -23,9 +25,73 @@ pub struct Rms {
     pub elsewhere_rms_kept: Option<f64>,
 }
 
-/// Of the declaration as it was, and of the amended one.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+/// Of the declaration as it was, and of the amended one, over the observations whose residuals have one unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct BeforeAfter {
+    pub unit: SiUnit,
+    /// RMS over these observations of the length that the noise gives a residual, SI.
+    pub expected: f64,
     pub before: Rms,
     pub after: Rms,
+}
+
+/// Residuals in another unit than those of the first series.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Beside {
+    /// What was observed.
+    pub observed: Vec<String>,
+    /// `rad` or `m`.
+    pub unit: SiUnit,
+    /// RMS over these observations of the length that the noise gives a residual, SI.
+    pub expected_rms: f64,
+    /// Residuals of the declaration as it was.
+    pub before: Rms,
+    /// Residuals of the amended one.
+    pub after: Rms,
+}
+
+/// A figure before and after, SI.
+pub(crate) struct Worse {
+    pub unit: SiUnit,
+    pub before: f64,
+    pub after: f64,
+}
+
+/// The figure that grows most, where figures of all units, each in terms of its noise, grow together.
+pub(crate) fn worse(all: &[BeforeAfter], figure: impl Fn(&Rms) -> Option<f64>) -> Option<Worse> {
+    let pairs = all.iter().filter_map(|own| Some((own, figure(&own.before)?, figure(&own.after)?)));
+    let pairs: Vec<(&BeforeAfter, f64, f64)> = pairs.collect();
+    let sum = |of: fn(&(&BeforeAfter, f64, f64)) -> f64| -> f64 {
+        let each = pairs.iter().map(|pair| {
+            // One unit is compared as it is.
+            let noise = if pairs.len() > 1 && pair.0.expected > 0.0 { pair.0.expected } else { 1.0 };
+            pair.0.after.held_out_rows.max(1) as f64 * (of(pair) / noise).powi(2)
+        });
+        each.sum()
+    };
+    let grows = sum(|pair| pair.2) > sum(|pair| pair.1);
+    let most = pairs.into_iter().max_by(|one, other| (one.2 / one.1).total_cmp(&(other.2 / other.1)));
+    most.filter(|_| grows).map(|(own, before, after)| Worse { unit: own.unit, before, after })
+}
+
+/// What a figure of one model is as a share of another's, over the same observations: of all units together, each in terms of its
+/// noise.
+pub(crate) fn share(
+    of: &[BeforeAfter],
+    other: &[BeforeAfter],
+    figure: impl Fn(&Rms) -> Option<f64>,
+) -> Option<f64> {
+    let pairs = of.iter().zip(other);
+    let pairs = pairs.filter_map(|(own, other)| Some((other, figure(&own.after)?, figure(&other.after)?)));
+    let pairs: Vec<(&BeforeAfter, f64, f64)> = pairs.collect();
+    if let [(_, own, other)] = pairs[..] {
+        return Some(own / other);
+    }
+    let weighed = |(unit, own, other): &(&BeforeAfter, f64, f64)| {
+        let noise = if unit.expected > 0.0 { unit.expected } else { 1.0 };
+        let rows = unit.after.held_out_rows.max(1) as f64;
+        [own, other].map(|figure| rows * (figure / noise).powi(2))
+    };
+    let sums = pairs.iter().map(weighed).reduce(|[a, b], [c, d]| [a + c, b + d])?;
+    Some((sums[0] / sums[1]).sqrt())
 }

@@ -26,7 +26,7 @@ fn effects(setting: &Setting<'_>) -> Vec<Effect> {
         .collect();
     for &id in setting.observables {
         let observable = setting.chain.observable(id);
-        if observable.kind != ObservableKind::Direction {
+        if observable.kind != ObservableKind::Direction || observable.is_orientation() {
             continue;
         }
         for &&input in &inputs {

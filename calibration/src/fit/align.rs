@@ -1,12 +1,14 @@
 //! Where a base stands that nobody measured: the rigid motion that lays the points which the chain predicts over those
-//! that were measured, in closed form, so that a fit starts near however the base is turned.
+//! that were measured, in closed form, so that a fit starts near however the base is turned. Orientations alone turn a base and
+//! do not shift it.
 //!
 //! A base is unknown when the way from the ground to an observed point begins with shifts along and turns about all three
-//! axes by constants that are estimated and start at zero. Only starting values come from here; the fit has the last word.
+//! axes by constants that are estimated and start at zero; of an observed orientation the turns are enough. Only starting
+//! values come from here; the fit has the last word.
 
 use model_core::algebra::Poly;
 use model_core::{Axis, Chain, Factor, ObservableId, SymbolId, TransformKind};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::model::Model;
 use super::sweep::residuals;
@@ -24,8 +26,14 @@ const ROUNDS: usize = 30;
 struct BasePose {
     /// The constant of the shift along x, y, z, with its sign.
     shifts: [(SymbolId, f64); 3],
-    /// Axis and constant of each turn in their order, with its sign.
-    turns: [(Axis, SymbolId, f64); 3],
+    turns: BaseTurn,
+}
+
+/// Turns about all three axes in their order, that are estimated.
+#[derive(Debug, Clone, PartialEq)]
+struct BaseTurn {
+    /// Axis and constant of each turn, with its sign.
+    about: [(Axis, SymbolId, f64); 3],
 }
 
 /// The starting values of a fit: those of the options, and where they leave a base unknown its pose by alignment.
@@ -37,7 +45,7 @@ pub fn starting_values(
     let is_point = |series: &&Series| series.measure == Measure::Point;
     let mut points = observations.poses.series.iter().filter(is_point);
     let pose = points.next().and_then(|series| BasePose::of(chain, series.observable, options));
-    let Some(pose) = pose else { return Ok(options.start.clone()) };
+    let Some(pose) = pose else { return turned_start(chain, observations, options) };
     let plain = Model::without_columns(chain, &observations.poses);
     let residual = residuals(&plain, observations, &options.start)?;
     let layout = Layout::of(observations);
@@ -63,61 +71,123 @@ pub fn starting_values(
     Ok(start)
 }
 
-impl BasePose {
-    /// The unknown pose that the path to an observable begins with, if it does.
+/// The same where orientations alone say how the base is turned.
+fn turned_start(
+    chain: &Chain,
+    observations: &Observations,
+    options: &FitOptions,
+) -> Result<Vec<f64>, FitError> {
+    let is_orientation = |series: &&Series| series.measure == Measure::Orientation;
+    let orientations = || observations.poses.series.iter().filter(is_orientation);
+    let of = |series: &Series| BaseTurn::of(chain, series.observable, options);
+    let mut start = options.start.clone();
+    let Some(base) = orientations().next().and_then(of) else { return Ok(start) };
+    let plain = Model::without_columns(chain, &observations.poses);
+    let residual = residuals(&plain, observations, &options.start)?;
+    let layout = Layout::of(observations);
+    let (mut from, mut to) = (Vec::new(), Vec::new());
+    for row in
+        orientations().filter(|series| of(series).as_ref() == Some(&base)).flat_map(|own| own.rows.clone())
+    {
+        // From a base that is not turned, what is left of a row is the turn of the base.
+        let first = layout.first[row];
+        let turn = Rotation3::new(Vector3::new(residual[first], residual[first + 1], residual[first + 2]));
+        for axis in 0..3 {
+            // Both ends of each axis, so that nothing is shifted.
+            let end: Vector3<f64> = Vector3::ith(axis, 1.0);
+            from.extend([end, -end]);
+            to.extend([turn * end, turn * -end]);
+        }
+    }
+    if let Some((turn, _)) = align_robustly(&from, &to) {
+        base.set(&turn, &mut start);
+    }
+    Ok(start)
+}
+
+/// The constant that alone makes the amount of a factor, and nothing else, if it is estimated from zero.
+fn free(
+    chain: &Chain,
+    observable: ObservableId,
+    options: &FitOptions,
+    factors: &[&Factor],
+    factor: &Factor,
+) -> Option<(SymbolId, f64)> {
+    let [id] = factor.amount.symbols()[..] else { return None };
+    let sign = if factor.amount == Poly::symbol(id) {
+        1.0
+    } else if factor.amount == -&Poly::symbol(id) {
+        -1.0
+    } else {
+        return None;
+    };
+    let uses = factors.iter().filter(|other| other.amount.symbols().contains(&id)).count();
+    let unknown = options.estimate.contains(&id) && options.start.get(id.index()) == Some(&0.0);
+    let once =
+        uses == 1 && !chain.observable(observable).components.iter().any(|own| own.symbols().contains(&id));
+    (unknown && once).then_some((id, sign))
+}
+
+impl BaseTurn {
+    /// The unknown turns that the path to an observable begins with, whatever its shifts, if it does.
     fn of(chain: &Chain, observable: ObservableId, options: &FitOptions) -> Option<Self> {
         let way: Vec<_> = chain.way(observable).into_iter().map(|passed| passed.factor).collect();
         let factors: Vec<&Factor> = way.iter().map(AsRef::as_ref).collect();
-        let (first, rest) = factors.split_at_checked(6)?;
-        let (shifts, turns) = first.split_at(3);
-        let free = |factor: &Factor| {
-            let [id] = factor.amount.symbols()[..] else { return None };
-            let sign = if factor.amount == Poly::symbol(id) {
-                1.0
-            } else if factor.amount == -&Poly::symbol(id) {
-                -1.0
-            } else {
-                return None;
-            };
-            let elsewhere = |factor: &&Factor| factor.amount.symbols().contains(&id);
-            let unknown = options.estimate.contains(&id) && options.start.get(id.index()) == Some(&0.0);
-            let once = first.iter().copied().filter(elsewhere).count() == 1
-                && !rest.iter().any(elsewhere)
-                && !chain.observable(observable).components.iter().any(|own| own.symbols().contains(&id));
-            (unknown && once).then_some((id, sign))
-        };
-        let shift = |axis| {
-            let own = shifts.iter().find(|factor| factor.axis == axis)?;
-            free(own).filter(|_| own.kind == TransformKind::Translation)
-        };
+        let turns = factors.iter().filter(|factor| factor.kind == TransformKind::Rotation).take(3);
+        let turns: Vec<&Factor> = turns.copied().collect();
+        Self::of_factors(&turns, |factor| free(chain, observable, options, &factors, factor))
+    }
+
+    fn of_factors(turns: &[&Factor], free: impl Fn(&Factor) -> Option<(SymbolId, f64)>) -> Option<Self> {
         let turn = |factor: &Factor| {
             let (id, sign) = free(factor).filter(|_| factor.kind == TransformKind::Rotation)?;
             Some((factor.axis, id, sign))
         };
-        let turns = [turn(turns[0])?, turn(turns[1])?, turn(turns[2])?];
-        let every_axis = AXES.iter().all(|axis| turns.iter().any(|(own, ..)| own == axis));
-        let shifts = [shift(Axis::X)?, shift(Axis::Y)?, shift(Axis::Z)?];
-        every_axis.then_some(Self { shifts, turns })
+        let &[first, second, third] = turns else { return None };
+        let about = [turn(first)?, turn(second)?, turn(third)?];
+        AXES.iter().all(|axis| about.iter().any(|(own, ..)| own == axis)).then_some(Self { about })
     }
 
-    /// Sets the constants so that the factors make this turn and shift.
+    /// Sets the constants so that the factors make this turn.
     ///
     /// Source: for R = R_i(a) R_j(b) R_k(c) with three different axes and e = ±1 the sign of their order,
     /// R_ik = e sin b, R_jk = −e sin a cos b, R_kk = cos a cos b, R_ij = −e cos b sin c, R_ii = cos b cos c.
-    fn set(&self, turn: &Matrix3<f64>, shift: &Vector3<f64>, values: &mut [f64]) {
-        for ((id, sign), amount) in self.shifts.iter().zip(shift) {
-            values[id.index()] = sign * amount;
-        }
-        let [i, j, k] = self.turns.map(|(axis, ..)| axis.index());
+    fn set(&self, turn: &Matrix3<f64>, values: &mut [f64]) {
+        let [i, j, k] = self.about.map(|(axis, ..)| axis.index());
         let order = if (i + 1) % 3 == j { 1.0 } else { -1.0 };
         let angles = [
             (-order * turn[(j, k)]).atan2(turn[(k, k)]),
             (order * turn[(i, k)]).clamp(-1.0, 1.0).asin(),
             (-order * turn[(i, j)]).atan2(turn[(i, i)]),
         ];
-        for ((_, id, sign), angle) in self.turns.iter().zip(angles) {
+        for ((_, id, sign), angle) in self.about.iter().zip(angles) {
             values[id.index()] = sign * angle;
         }
+    }
+}
+
+impl BasePose {
+    /// The unknown pose that the path to an observable begins with, if it does.
+    fn of(chain: &Chain, observable: ObservableId, options: &FitOptions) -> Option<Self> {
+        let way: Vec<_> = chain.way(observable).into_iter().map(|passed| passed.factor).collect();
+        let factors: Vec<&Factor> = way.iter().map(AsRef::as_ref).collect();
+        let (first, _) = factors.split_at_checked(6)?;
+        let (shifts, turns) = first.split_at(3);
+        let free = |factor: &Factor| free(chain, observable, options, &factors, factor);
+        let shift = |axis| {
+            let own = shifts.iter().find(|factor| factor.axis == axis)?;
+            free(own).filter(|_| own.kind == TransformKind::Translation)
+        };
+        let shifts = [shift(Axis::X)?, shift(Axis::Y)?, shift(Axis::Z)?];
+        Some(Self { shifts, turns: BaseTurn::of_factors(turns, free)? })
+    }
+
+    /// Sets the constants so that the factors make this turn and shift.
+    fn set(&self, turn: &Matrix3<f64>, shift: &Vector3<f64>, values: &mut [f64]) {
+        for ((id, sign), amount) in self.shifts.iter().zip(shift) {
+            values[id.index()] = sign * amount;
+        }
+        self.turns.set(turn, values);
     }
 }
 
@@ -174,7 +244,7 @@ fn align(from: &[Vector3<f64>], to: &[Vector3<f64>], weight: &[f64]) -> Option<(
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
-    use nalgebra::{Rotation3, Unit};
+    use nalgebra::Unit;
 
     fn points(seed: f64) -> Vec<Vector3<f64>> {
         (0..20)
@@ -204,7 +274,7 @@ mod tests {
             let axes = order.map(|at| AXES[at]);
             let pose = BasePose {
                 shifts: [0u16, 1, 2].map(|at| (SymbolId(at), 1.0)),
-                turns: [0, 1, 2].map(|at| (axes[at], SymbolId(3 + at as u16), -1.0)),
+                turns: BaseTurn { about: [0, 1, 2].map(|at| (axes[at], SymbolId(3 + at as u16), -1.0)) },
             };
             let angles = [0.4, -1.1, 2.5];
             let about = |at: usize| {

@@ -4,6 +4,7 @@
 //! [`Outcome`], never a panic.
 
 mod align;
+mod block;
 mod cluster;
 mod descent;
 mod few;
@@ -12,6 +13,7 @@ mod model;
 pub mod noise;
 mod normal;
 pub(crate) mod objects;
+mod orientation;
 mod outcome;
 mod partial;
 mod prior;
@@ -36,7 +38,8 @@ use crate::fit::noise::{Noise, NoiseOptions};
 use sweep::Weighting;
 
 pub(crate) use align::align_robustly;
-pub use model::{Block, Model};
+pub use block::Block;
+pub use model::Model;
 pub use normal::{Rest, Step};
 pub use outcome::{Outcome, Reason, SetAside, Why};
 pub use partial::{Partial, PartialError, Rows};

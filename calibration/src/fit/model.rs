@@ -2,16 +2,16 @@
 
 use std::ops::Range;
 
-use codegen::vector::{self, Arithmetic};
 use codegen::{Form, Interpreter, NodeId, Op, Program, build_all};
 use model_core::{Chain, Quantity, SymbolId, SymbolKind};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
 use super::FitError;
+use super::block::Block;
 use super::objects;
 use super::residual::components;
-use crate::data::unknowns::WIDTH;
+use crate::data::orientation::{AXES, axes_of};
 use crate::data::{Measure, Measured, Observations, Poses, Series};
 
 /// Rows evaluated at a time: what a block holds stays in the second-level cache.
@@ -41,48 +41,6 @@ struct Rows<'a> {
     observed: Option<&'a Observations>,
 }
 
-/// Residuals of some rows of one series, before whitening. Arrays hold all rows of the first component, then all of the
-/// second.
-#[derive(Debug, Clone, Default)]
-pub struct Block {
-    /// Rows.
-    pub rows: usize,
-    /// Components a row.
-    pub components: usize,
-    /// Measured minus predicted, rad or m; 0 where the chain has no finite value.
-    pub residual: Vec<f64>,
-    /// Per row, whether the chain has a finite value there.
-    pub defined: Vec<bool>,
-    /// Derivatives of the predicted components, column by column.
-    jacobian: Vec<f64>,
-    /// Gradient of each predicted component by x, y, z of the observable: an array of rows for each of the three.
-    gradient: Vec<f64>,
-    /// Per row and component the derivatives of what is predicted by what is unknown of object and station, row by row;
-    /// empty where nothing is.
-    pub(crate) unknown: Vec<[f64; WIDTH]>,
-    /// What the program puts out.
-    outputs: Vec<f64>,
-}
-
-impl Block {
-    /// The derivatives of the predicted components by the parameters of each column, in order.
-    pub fn columns(&self) -> impl ExactSizeIterator<Item = &[f64]> {
-        self.jacobian.chunks_exact(self.residual.len().max(1))
-    }
-
-    /// An array of this block row by row, component by component.
-    pub fn by_row(&self, values: &[f64]) -> Vec<f64> {
-        let mut by_row = vec![0.0; values.len()];
-        if self.rows > 0 {
-            for (component, values) in values.chunks_exact(self.rows).enumerate() {
-                let places = by_row[component..].iter_mut().step_by(self.components);
-                places.zip(values).for_each(|(to, from)| *to = *from);
-            }
-        }
-        by_row
-    }
-}
-
 impl Model {
     /// Builds the programs for the observables of these series.
     ///
@@ -103,10 +61,9 @@ impl Model {
             };
             return Err(FitError::NotEstimable { name: symbol.name.clone(), kind });
         }
+        let forms = [Form::ExactValue, Form::ExactJacobian];
         let build = |wrt: &[SymbolId]| -> Vec<Program> {
-            let forms = [Form::ExactValue, Form::ExactJacobian];
-            let series = poses.series.iter();
-            series.map(|series| build_all(chain, &[series.observable], &forms, wrt)).collect()
+            poses.series.iter().map(|series| program(chain, series, &forms, wrt)).collect()
         };
         let mut programs = build(parameters);
         for (program, series) in programs.iter().zip(&poses.series) {
@@ -139,9 +96,8 @@ impl Model {
     /// The programs of the observables' values alone.
     #[must_use]
     pub fn without_columns(chain: &Chain, poses: &Poses) -> Self {
-        let series = poses.series.iter();
-        let programs: Vec<Program> =
-            series.map(|series| build_all(chain, &[series.observable], &[Form::ExactValue], &[])).collect();
+        let of = |series| program(chain, series, &[Form::ExactValue], &[]);
+        let programs: Vec<Program> = poses.series.iter().map(of).collect();
         let beams = beams(chain, poses, &programs);
         let symbols = chain.symbols.len();
         Self { parameters: Vec::new(), column_of: Vec::new(), columns: 0, programs, beams, symbols }
@@ -258,9 +214,10 @@ impl Model {
             .filter_map(|(id, column)| Some((*id, column.get(rows.clone())?)))
             .collect();
         (block.rows, block.components) = (count, m);
-        block.outputs.resize(3 * (1 + self.columns) * count, 0.0);
+        let width = 3 * vectors(series.measure);
+        block.outputs.resize(width * (1 + self.columns) * count, 0.0);
         block.residual.resize(m * count, 0.0);
-        block.gradient.resize(3 * m * count, 0.0);
+        block.gradient.resize(width * m * count, 0.0);
         block.jacobian.resize(self.columns * m * count, 0.0);
         block.defined.clear();
         block.unknown.clear();
@@ -273,6 +230,15 @@ impl Model {
         interpreter
             .eval_batch(&columns, values, &mut outputs)
             .map_err(|error| FitError::WrongShape { why: error.to_string() })?;
+        if series.measure == Measure::Orientation {
+            drop(outputs);
+            block.compare_orientations(of.observed.map(|observed| &observed.measured[rows]))?;
+            if unknowns.is_some() {
+                block.unknown.resize(m * count, Default::default());
+            }
+            block.project();
+            return Ok(());
+        }
         let predicted = |row: usize| Vector3::new(outputs[0][row], outputs[1][row], outputs[2][row]);
         let mut along = vec![0.0; 3 * count];
         let has_beam = beam.is_some();
@@ -316,8 +282,21 @@ impl Model {
                 }
             }
         }
-        vector::run(vector::path(), Projection { block });
+        block.project();
         Ok(())
+    }
+}
+
+/// How many vectors the chain predicts for one observation: that of the observable, or the axes of a body.
+fn vectors(measure: Measure) -> usize {
+    if measure == Measure::Orientation { AXES.len() } else { 1 }
+}
+
+/// The program of what a series observes.
+fn program(chain: &Chain, series: &Series, forms: &[Form], wrt: &[SymbolId]) -> Program {
+    match series.measure {
+        Measure::Orientation => build_all(&axes_of(chain, series.observable), &AXES, forms, wrt),
+        _ => build_all(chain, &[series.observable], forms, wrt),
     }
 }
 
@@ -340,35 +319,6 @@ fn beams(chain: &Chain, poses: &Poses, programs: &[Program]) -> Vec<Option<Progr
     poses.series.iter().zip(programs).map(of).collect()
 }
 
-/// Turns derivatives of x, y, z into those of the components.
-struct Projection<'a> {
-    block: &'a mut Block,
-}
-
-impl vector::Work for Projection<'_> {
-    #[inline(always)]
-    fn run<A: Arithmetic>(self, _: A) {
-        let Block { rows, components, jacobian, gradient, outputs, .. } = self.block;
-        let (rows, m) = (*rows, *components);
-        if rows == 0 || m == 0 {
-            return;
-        }
-        let width = jacobian.len() / (m * rows);
-        let derivatives = &outputs[3 * rows..];
-        for (column, target) in jacobian.chunks_exact_mut(m * rows).enumerate() {
-            let along = |axis: usize| &derivatives[(axis * width + column) * rows..][..rows];
-            let (dx, dy, dz) = (along(0), along(1), along(2));
-            for (target, gradient) in target.chunks_exact_mut(rows).zip(gradient.chunks_exact(3 * rows)) {
-                let (gx, gy, gz) = (&gradient[..rows], &gradient[rows..2 * rows], &gradient[2 * rows..]);
-                for row in 0..rows {
-                    let change = gx[row] * dx[row] + gy[row] * dy[row] + gz[row] * dz[row];
-                    target[row] = if change.is_finite() { change } else { 0.0 };
-                }
-            }
-        }
-    }
-}
-
 /// Which column each parameter has when equal ones are merged and those that are zero left out, and the first parameter of
 /// each column.
 fn distinct(programs: &[Program], parameters: usize) -> (Vec<Option<usize>>, Vec<usize>) {
@@ -376,8 +326,11 @@ fn distinct(programs: &[Program], parameters: usize) -> (Vec<Option<usize>>, Vec
     let zero = |program: &Program, id: NodeId| matches!(program.nodes().get(id.index()), Some(Op::Constant(literal)) if literal.value() == 0.0);
     let column_of = (0..parameters)
         .map(|parameter| {
-            let own = |program: &Program| {
-                [0, 1, 2].map(|axis| program.outputs()[3 + axis * parameters + parameter])
+            let own = |program: &Program| -> Vec<NodeId> {
+                let numbers = program.outputs().len() / (1 + parameters);
+                (0..numbers)
+                    .map(|place| program.outputs()[numbers + place * parameters + parameter])
+                    .collect()
             };
             let nodes: Vec<NodeId> = programs.iter().flat_map(own).collect();
             if programs.iter().all(|program| own(program).iter().all(|&id| zero(program, id))) {

@@ -8,7 +8,7 @@ use crate::data::{Measured, tangent_frame};
 pub const MOST: usize = 3;
 
 /// Measured minus predicted for each component, and the gradient of each predicted component by the observable's x, y,
-/// z; only the first [`crate::data::Measure::components`] count. `None` for a row that observes an object.
+/// z; only the first [`crate::data::Measure::components`] count. `None` for a row that observes an object, or an orientation.
 pub fn components(measured: &Measured, predicted: &Vector3<f64>) -> Option<[(f64, Vector3<f64>); MOST]> {
     let none = (0.0, Vector3::zeros());
     Some(match measured {
@@ -28,7 +28,7 @@ pub fn components(measured: &Measured, predicted: &Vector3<f64>) -> Option<[(f64
             let gradient = Vector3::new(predicted.y / square, -predicted.x / square, 0.0);
             [(azimuth_rad - azimuth - turns * std::f64::consts::TAU, gradient), none, none]
         }
-        Measured::Length { .. } | Measured::Readings => return None,
+        Measured::Orientation(_) | Measured::Length { .. } | Measured::Readings => return None,
     })
 }
 

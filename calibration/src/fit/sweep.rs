@@ -2,7 +2,8 @@
 //!
 //! Nothing of a row is kept but its residual, and that only for those who ask: derivatives go straight into the factor.
 
-use super::model::{Block, Model};
+use super::block::Block;
+use super::model::Model;
 use super::objects::{Collected, Eliminated};
 use super::partial::{Partial, PartialError, Rows};
 use super::{FitError, robust};

@@ -56,7 +56,8 @@ fn could_shrink(
     let Some(unknowns) = &observations.unknowns else { return Ok(()) };
     let of_points =
         |series: &&Series| matches!(series.measure, Measure::Plane | Measure::Target | Measure::Fixed);
-    let shows_none = |series: &Series| of_points(&series) || series.measure.bare() == Measure::Direction;
+    let turns = |measure: Measure| matches!(measure.bare(), Measure::Direction | Measure::Orientation);
+    let shows_none = |series: &Series| of_points(&series) || turns(series.measure);
     let mut points = observations.poses.series.iter().filter(of_points).peekable();
     if points.peek().is_none()
         || !observations.poses.series.iter().all(shows_none)

@@ -4,7 +4,8 @@ use super::causes::{cause, each_once, sentence_case};
 use super::effects::{chance_of, headline, place};
 use super::left::{function_form, remaining};
 use super::numbers::{short, times};
-use crate::diagnose::{Caution, Diagnosis, Ended, Relation, Verdict};
+use crate::data::SiUnit;
+use crate::diagnose::{Caution, Diagnosis, Ended, Relation, Rms, Verdict};
 
 /// How good the news is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,7 +58,7 @@ pub struct Step {
 #[must_use]
 pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>) -> Answers {
     let mut effects: Vec<_> = diagnosis.effects.iter().collect();
-    effects.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+    effects.sort_by(|a, b| b.standing.total_cmp(&a.standing));
     let causes = each_once(effects.iter().flat_map(|effect| &effect.causes));
     let usable = diagnosis.verdict.is_usable();
     let what = match (usable, &diagnosis.remaining) {
@@ -75,7 +76,7 @@ pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>) -> Answers {
                 )
             })
             .collect(),
-        (true, _) => effects.iter().map(|effect| headline(effect, diagnosis)).collect(),
+        (true, _) => effects.iter().map(|effect| headline(effect)).collect(),
     };
     Answers {
         tone: tone(diagnosis),
@@ -231,10 +232,29 @@ fn too_few(diagnosis: &Diagnosis) -> String {
     }
 }
 
-/// How much better.
+/// How much better, of one unit of residuals after the other.
 fn better(diagnosis: &Diagnosis) -> String {
-    let told = |si: f64| short(si, diagnosis.unit);
     let observed = diagnosis.instrument.observed.first().map_or("residual", |seen| &seen.name);
+    let first = of_unit(diagnosis, observed, diagnosis.unit, [diagnosis.before, diagnosis.after]);
+    let beside = diagnosis.beside.iter().filter_map(|own| {
+        let observed = own.observed.first()?;
+        Some(of_unit(diagnosis, observed, own.unit, [own.before, own.after]))
+    });
+    let mut all: Vec<String> = std::iter::once(first).chain(beside).collect();
+    let is_told = diagnosis.verdict.is_usable() && !diagnosis.effects.is_empty();
+    all.extend(
+        remaining(diagnosis)
+            .into_iter()
+            .next()
+            .filter(|_| is_told)
+            .map(|left| format!("{}.", sentence_case(&left))),
+    );
+    all.join(" ")
+}
+
+/// How much better the residuals of an observable are.
+fn of_unit(diagnosis: &Diagnosis, observed: &str, unit: SiUnit, [before, after]: [Rms; 2]) -> String {
+    let told = |si: f64| short(si, unit);
     let fitted = |rms: Option<f64>| {
         rms.map_or_else(
             || "no number, since the fit left none,".to_owned(),
@@ -242,38 +262,29 @@ fn better(diagnosis: &Diagnosis) -> String {
         )
     };
     if !diagnosis.verdict.is_usable() {
-        return format!("No better: the {observed} error is {} as fitted.", fitted(diagnosis.before.rms));
+        return format!("No better: the {observed} error is {} as fitted.", fitted(before.rms));
     }
     if diagnosis.effects.is_empty() {
-        let held_out = diagnosis
-            .after
+        let held_out = after
             .held_out_rms
             .map_or_else(String::new, |rms| format!("; {} on data that nobody fitted", told(rms)));
-        return format!(
-            "The {observed} error of the fitted declaration is {}{held_out}.",
-            fitted(diagnosis.after.rms)
-        );
+        return format!("The {observed} error of the fitted declaration is {}{held_out}.", fitted(after.rms));
     }
-    let (before, after) = (diagnosis.before, diagnosis.after);
     let pairs = [
         ("on data that nobody fitted", before.held_out_rms.zip(after.held_out_rms)),
         ("on the data that were fitted", before.rms.zip(after.rms)),
     ];
-    let Some((where_, before, after)) =
-        pairs.into_iter().find_map(|(where_, pair)| pair.map(|(before, after)| (where_, before, after)))
+    let Some((where_, from, to)) =
+        pairs.into_iter().find_map(|(where_, pair)| pair.map(|(from, to)| (where_, from, to)))
     else {
         return format!("The {observed} error is {} before.", fitted(before.rms));
     };
-    let ratio = match before / after {
+    let ratio = match from / to {
         ratio if ratio >= 1.05 => format!(", {} smaller", times(ratio)),
         ratio if ratio < 1.0 => ": it gets worse".to_owned(),
         _ => ", hardly smaller".to_owned(),
     };
-    let left = remaining(diagnosis)
-        .into_iter()
-        .next()
-        .map_or_else(String::new, |left| format!(" {}.", sentence_case(&left)));
-    format!("The {observed} error (RMS) {where_} goes from {} to {}{ratio}.{left}", told(before), told(after))
+    format!("The {observed} error (RMS) {where_} goes from {} to {}{ratio}.", told(from), told(to))
 }
 
 /// What to do next.
@@ -314,7 +325,7 @@ fn next(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
     } else {
         steps.push(correct(diagnosis, folder));
     }
-    if let Some(effect) = diagnosis.effects.iter().max_by(|a, b| a.amplitude.total_cmp(&b.amplitude)) {
+    if let Some(effect) = diagnosis.effects.iter().max_by(|a, b| a.standing.total_cmp(&b.standing)) {
         let more = match effect.causes.len() {
             0 | 1 => String::new(),
             2 => " The other cause that fits has a check of its own.".to_owned(),

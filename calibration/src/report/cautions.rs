@@ -2,30 +2,29 @@
 
 use super::numbers::{short, times, told};
 use crate::data::SiUnit;
-use crate::diagnose::{Caution, Diagnosis};
+use crate::diagnose::Caution;
 
 /// A caution in a sentence.
 #[must_use]
-pub fn caution(caution: &Caution, diagnosis: &Diagnosis) -> String {
-    let residual = |si: f64| short(si, diagnosis.unit);
+pub fn caution(caution: &Caution) -> String {
     match caution {
-        Caution::WorseHeldOut { before, after } => format!(
+        Caution::WorseHeldOut { before, after, unit } => format!(
             "On data that nobody fitted it is worse with the effects: {} before, {} after. Do not correct with it.",
-            residual(*before),
-            residual(*after)
+            short(*before, *unit),
+            short(*after, *unit)
         ),
-        Caution::NotConfirmed { effects, p_value, before, after } => format!(
+        Caution::NotConfirmed { effects, p_value, before, after, unit } => format!(
             "{} stood out (p = {p_value:.3}), but data that nobody fitted do not confirm it: {} without, {} with. It was \
              left out; measure more to decide.",
             effects.join("; "),
-            residual(*before),
-            residual(*after)
+            short(*before, *unit),
+            short(*after, *unit)
         ),
-        Caution::WorseElsewhere { before, after } => format!(
+        Caution::WorseElsewhere { before, after, unit } => format!(
             "In regions of the joints that were left out it is worse with the effects: {} before, {} after. Correct only \
              where these data lie.",
-            residual(*before),
-            residual(*after)
+            short(*before, *unit),
+            short(*after, *unit)
         ),
         Caution::FewBehindAnEffect { effect, observations } => {
             format!("{effect}: it rests on about {observations:.1} observations. Measure more there first.")

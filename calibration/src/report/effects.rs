@@ -12,17 +12,16 @@ const NAMED: usize = 3;
 
 /// What an effect does, in one sentence: `The body middle is up to 10.1″ off about x, once per turn of beta.`
 #[must_use]
-pub fn headline(effect: &EffectFound, diagnosis: &Diagnosis) -> String {
-    let amplitude = numbers::short(effect.amplitude, diagnosis.unit);
+pub fn headline(effect: &EffectFound) -> String {
+    let amplitude = numbers::short(effect.amplitude, effect.amplitude_unit);
     let what = sentence_case(&body_in_words(&effect.body));
     let form = form(&effect.form, &effect.driver);
     let turns = effect.dof.starts_with('R');
-    if turns == (diagnosis.unit == SiUnit::RAD) {
+    if turns == (effect.amplitude_unit == SiUnit::RAD) {
         return format!("{what} is up to {amplitude} off {}, {form}.", axis(&effect.dof));
     }
     // A turn that is told by what it moves, or a shift by what it turns.
-    let observed = diagnosis.instrument.observed.first().map_or("the observation", |seen| &seen.name);
-    format!("{what} is off {}, {form}: up to {amplitude} of {observed}.", axis(&effect.dof))
+    format!("{what} is off {}, {form}: up to {amplitude} of {}.", axis(&effect.dof), effect.amplitude_of)
 }
 
 /// `the body middle`; a name of the instrument's own stands as it is.
@@ -95,11 +94,11 @@ pub fn evidence(effect: &EffectFound, diagnosis: &Diagnosis) -> Vec<String> {
         );
         lines.push(format!("{name} = {told}"));
     }
-    let observed = diagnosis.instrument.observed.first().map_or("the observations", |seen| &seen.name);
     lines.push(format!(
-        "at most {} of {observed}, {} on average",
-        numbers::told(effect.amplitude, diagnosis.unit),
-        numbers::told(effect.amplitude_rms, diagnosis.unit)
+        "at most {} of {}, {} on average",
+        numbers::told(effect.amplitude, effect.amplitude_unit),
+        effect.amplitude_of,
+        numbers::told(effect.amplitude_rms, effect.amplitude_unit)
     ));
     lines.push(chance_of(effect, diagnosis));
     lines.extend(bias(effect, diagnosis));

@@ -11,6 +11,7 @@ use super::folds::Folds;
 use super::problem::Problem;
 use super::select::select;
 use super::state::State;
+use crate::data::SiUnit;
 use crate::search::context::Context;
 use crate::search::round::Round;
 
@@ -55,8 +56,8 @@ impl Judged {
     }
 }
 
-/// Both outer thirds of each joint's range where the data are enough for it.
-pub(crate) fn elsewhere(whole: &Context<'_>, last: &Round<'_>) -> Vec<Elsewhere> {
+/// Both outer thirds of each joint's range where the data are enough for it; of each one figure for each unit of residuals.
+pub(crate) fn elsewhere(whole: &Context<'_>, last: &Round<'_>, units: &[SiUnit]) -> Vec<Vec<Elsewhere>> {
     let observations = &*last.search.rows.observations;
     if observations.unknowns.is_some() {
         // A region cuts through objects: what stands inside and outside would be one unknown.
@@ -79,10 +80,20 @@ pub(crate) fn elsewhere(whole: &Context<'_>, last: &Round<'_>) -> Vec<Elsewhere>
             thirds.extend(ends.map(|(from, to)| (*id, from, to)));
         }
     }
-    thirds.into_par_iter().filter_map(|(joint, from, to)| judged(whole, last, joint, from, to)).collect()
+    thirds
+        .into_par_iter()
+        .filter_map(|(joint, from, to)| judged(whole, last, units, joint, from, to))
+        .collect()
 }
 
-fn judged(whole: &Context<'_>, last: &Round<'_>, joint: SymbolId, from: f64, to: f64) -> Option<Elsewhere> {
+fn judged(
+    whole: &Context<'_>,
+    last: &Round<'_>,
+    units: &[SiUnit],
+    joint: SymbolId,
+    from: f64,
+    to: f64,
+) -> Option<Vec<Elsewhere>> {
     let rows = &last.search.rows;
     let problem = last.search.of_rows();
     let readings = rows.observations.poses.column(joint)?;
@@ -109,11 +120,15 @@ fn judged(whole: &Context<'_>, last: &Round<'_>, joint: SymbolId, from: f64, to:
         judged.after += after[component] * after[component];
         *kept &= rows.counts(component);
     }
-    let sum = |some: &dyn Fn(bool) -> bool| {
-        let own = by_row.values().filter(|(_, kept)| some(*kept)).map(|(judged, _)| *judged);
-        own.fold(Judged::default(), std::ops::Add::add)
+    let of_row = rows.observations.poses.unit_of_row();
+    let of_unit = |&unit: &SiUnit| {
+        let sum = |some: &dyn Fn(bool) -> bool| {
+            let own = by_row.iter().filter(|(row, (_, kept))| of_row[**row as usize] == unit && some(*kept));
+            own.map(|(_, (judged, _))| *judged).fold(Judged::default(), std::ops::Add::add)
+        };
+        Elsewhere { all: sum(&|_| true), kept: sum(&|kept| kept) }
     };
-    Some(Elsewhere { all: sum(&|_| true), kept: sum(&|kept| kept) })
+    Some(units.iter().map(of_unit).collect())
 }
 
 /// What coefficients leave of every component, before whitening.

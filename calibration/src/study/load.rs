@@ -7,8 +7,10 @@ use model_core::{SymbolId, exact};
 use nalgebra::Vector3;
 
 use super::columns::Columns;
+use super::orientation::UNIT_TOLERANCE;
 use super::plan::{Plan, Reading, SourcePlan};
 use super::written::Kind;
+use crate::data::orientation::Turned;
 use crate::data::units::BareColumn;
 use crate::data::unknowns::{Shape, Station, Unknowns};
 use crate::data::{Measured, Observations, Series, direction_from_offset, direction_from_spherical};
@@ -21,9 +23,6 @@ pub type Open<'a> = dyn FnMut(&str) -> Result<Box<dyn Read>, DataError> + 'a;
 /// Opens a table of a study by its name, read as the study says.
 pub type OpenTable<'a> =
     dyn FnMut(&str, &formats::Options) -> Result<Box<dyn TableReader + 'a>, DataError> + 'a;
-
-/// How far from one the length of a unit vector may be in a file: written with three digits.
-const UNIT_TOLERANCE: f64 = 2e-3;
 
 /// Rows that are read at a time.
 const CHUNK: usize = 1 << 16;
@@ -271,6 +270,7 @@ impl Plan {
         };
         let mut values = self.chain.nominal_values();
         let path = exact::Path::new(&self.chain, source.observable);
+        let turned = source.orientation.map(|form| (form, Turned::new(&self.chain, source.observable)));
         (0..rows.row_numbers.len())
             .map(|row| match source.kind {
                 Kind::Direction => {
@@ -307,6 +307,14 @@ impl Plan {
                         return Err(impossible(row, "the chain has no direction at these readings".to_string()));
                     }
                     Ok(Measured::Direction(direction_from_offset(&nominal, at(0, row), at(1, row))))
+                }
+                Kind::Orientation => {
+                    let Some((form, turned)) = &turned else { unreachable!("an orientation has a form") };
+                    for (id, readings) in readings {
+                        values[id.index()] = readings[row];
+                    }
+                    let orientation = form.read(|place| at(place, row), || turned.at(&values));
+                    orientation.map(Measured::Orientation).map_err(|why| impossible(row, why))
                 }
                 Kind::Point => Ok(Measured::Point(Vector3::new(at(0, row), at(1, row), at(2, row)))),
                 Kind::Range if at(0, row) < 0.0 => {

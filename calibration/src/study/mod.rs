@@ -15,6 +15,8 @@ mod load;
 mod memory;
 mod mistakes;
 mod next;
+mod observed;
+mod orientation;
 mod places;
 mod plan;
 mod shown;

@@ -28,22 +28,29 @@ impl Study {
     ) -> Outcome<()> {
         let (observed, place) = (written.get_ref(), written.span());
         let observable = chain.observable(id);
-        let is_point = observable.kind == model_core::ObservableKind::Point;
         let of_points =
             [Kind::Point, Kind::Range, Kind::Plane, Kind::Target, Kind::Fixed, Kind::Wire, Kind::Distance];
-        let wants_point = of_points.contains(&observed.kind);
-        if is_point != wants_point {
-            let (what, help) = if is_point {
-                (
-                    "a point",
-                    "write kind = \"point\", \"range\", \"plane\", \"target\", \"fixed\", \"wire\" or \"distance\", or name another observable",
-                )
-            } else {
-                (
-                    "a direction",
-                    "write kind = \"direction\", \"spherical\", \"offset\" or \"sight\", or name another observable",
-                )
-            };
+        let of_directions = [Kind::Direction, Kind::Spherical, Kind::Offset, Kind::Sight];
+        let (what, kinds, help) = if observable.is_orientation() {
+            (
+                "an orientation",
+                &[Kind::Orientation][..],
+                "write kind = \"orientation\", or name another observable",
+            )
+        } else if observable.kind == model_core::ObservableKind::Point {
+            (
+                "a point",
+                &of_points[..],
+                "write kind = \"point\", \"range\", \"plane\", \"target\", \"fixed\", \"wire\" or \"distance\", or name another observable",
+            )
+        } else {
+            (
+                "a direction",
+                &of_directions[..],
+                "write kind = \"direction\", \"spherical\", \"offset\" or \"sight\", or name another observable",
+            )
+        };
+        if !kinds.contains(&observed.kind) {
             let message = format!("`{}` is {what}, which this kind does not measure", observable.name);
             return Err(mistake(place, message, help));
         }

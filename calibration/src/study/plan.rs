@@ -2,16 +2,18 @@
 
 use std::ops::Range;
 
-use model_core::{Axis, Chain, Mistakes, ObservableId, Quantity, SymbolId, SymbolKind};
+use model_core::{Chain, Mistakes, ObservableId, Quantity, SymbolId, SymbolKind};
 use toml::Spanned;
 
 use super::column_plan::{ColumnPlan, column_plan};
 use super::estimated::{estimable, matching};
 use super::mistakes::{Gathered, Outcome, Several, every, mistake, plain, unknown, within};
+use super::observed::{ObservedColumns, observed_columns};
+use super::orientation;
 use super::shown::{self, Convention};
 use super::timeless::{Timeless, timeless};
 use super::unstated::{Unstated, unstated};
-use super::written::{Column, Kind, Observed, Study, Table};
+use super::written::{Column, Kind, Study, Table};
 use crate::candidate::Effect;
 use crate::data::units::{Amount, Doubt};
 use crate::data::unknowns::Places;
@@ -85,6 +87,8 @@ pub struct SourcePlan {
     pub(super) kind: Kind,
     /// What the angles are that are observed, where the declaration says so.
     pub(super) convention: Option<Convention>,
+    /// How an orientation is written, where one is observed.
+    pub(super) orientation: Option<orientation::Form>,
     pub(super) sigma: Vec<ColumnPlan>,
     /// The columns that name what was observed, and where from.
     pub(super) object: Vec<String>,
@@ -230,15 +234,15 @@ impl Study {
             });
             let [object, station] =
                 [&observed.get_ref().object, &observed.get_ref().station].map(|own| own.0.clone());
-            let sigma = shown.as_ref().and_then(|(_, measure, _)| {
-                let first = *first_measure.get_or_insert(*measure);
-                mistakes.take(self.sigma_columns(own.as_ref(), *measure, first))
+            let sigma = shown.as_ref().and_then(|shown| {
+                let first = *first_measure.get_or_insert(shown.measure);
+                mistakes.take(self.sigma_columns(own.as_ref(), shown.measure, first))
             });
             mistakes.none()?;
             let (
                 Some(observable),
                 Some(readings),
-                Some((kind, measure, observed)),
+                Some(ObservedColumns { measure, columns, orientation }),
                 Some(convention),
                 Some(sigma),
             ) = (observable, readings, shown, convention, sigma)
@@ -250,9 +254,10 @@ impl Study {
                 observable,
                 measure,
                 readings,
-                observed,
-                kind,
+                observed: columns,
+                kind: observed.get_ref().kind,
                 convention,
+                orientation,
                 sigma,
                 object,
                 station,
@@ -375,64 +380,6 @@ fn needed(chain: &Chain, observable: ObservableId) -> Vec<SymbolId> {
     let mut symbols = chain.symbols_of_way(observable);
     symbols.retain(|&id| matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input));
     symbols
-}
-
-/// The columns of `[observed]` in their order, and what they measure.
-fn observed_columns(
-    chain: &Chain,
-    id: ObservableId,
-    written: &Spanned<Observed>,
-) -> Outcome<(Kind, Measure, Vec<ColumnPlan>)> {
-    let (observed, place) = (written.get_ref(), written.span());
-    let observable = chain.observable(id);
-    let xyz = [("x", &observed.x), ("y", &observed.y), ("z", &observed.z)];
-    let (azimuth, elevation) = if observed.ha.is_some() || observed.dec.is_some() {
-        (("ha", &observed.ha), ("dec", &observed.dec))
-    } else {
-        (("azimuth", &observed.azimuth), ("elevation", &observed.elevation))
-    };
-    // An observable that shows an azimuth and an elevation has a column of its own name for each.
-    let has_pair = !observable.is_vector() && observable.shown.len() == 2;
-    let only_azimuth = azimuth.1.is_some() && elevation.1.is_none() && !has_pair;
-    let (measure, quantity, keys) = match observed.kind {
-        Kind::Direction => (Measure::Direction, Quantity::Number, xyz.to_vec()),
-        Kind::Point => (Measure::Point, Quantity::Length, xyz.to_vec()),
-        Kind::Spherical if only_azimuth => (Measure::Azimuth, Quantity::Angle, vec![azimuth]),
-        Kind::Spherical => (Measure::Direction, Quantity::Angle, vec![azimuth, elevation]),
-        Kind::Offset => {
-            let keys = vec![("cross", &observed.cross), ("along", &observed.along)];
-            (Measure::Direction, Quantity::Angle, keys)
-        }
-        Kind::Range => (Measure::Range, Quantity::Length, vec![("range", &observed.range)]),
-        Kind::Plane => (Measure::Plane, Quantity::Length, Vec::new()),
-        Kind::Target => (Measure::Target, Quantity::Length, Vec::new()),
-        Kind::Fixed => (Measure::Fixed, Quantity::Length, Vec::new()),
-        Kind::Wire => (Measure::Wire, Quantity::Length, vec![("length", &observed.length)]),
-        Kind::Distance => (Measure::Distance, Quantity::Length, vec![("length", &observed.length)]),
-        Kind::Sight => (Measure::Sight, Quantity::Angle, Vec::new()),
-    };
-    let plan = |(key, column): (&str, &Option<Column>)| match column {
-        Some(column) => column_plan(column, quantity, &place, false),
-        // What `simulate` and `eval` write needs no naming.
-        None if xyz.iter().any(|(name, _)| *name == key) => Ok(ColumnPlan {
-            name: format!("{}_{key}", observable.name),
-            unit: None,
-            quantity,
-            declared: true,
-            named: false,
-        }),
-        None if !observable.is_vector() => {
-            let place = if matches!(key, "elevation" | "dec") { Axis::Y } else { Axis::X };
-            let name = shown::column(observable, place);
-            Ok(ColumnPlan { name, unit: None, quantity, declared: true, named: false })
-        }
-        None => {
-            let help = format!("write `{key} = {{ column = \"…\", unit = \"…\" }}`");
-            Err(mistake(place.clone(), format!("no column is named for `{key}`"), help))
-        }
-    };
-    let columns = every(keys.into_iter().map(plan))?;
-    Ok((observed.kind, measure, columns))
 }
 
 pub(super) fn si(amount: &Amount, quantity: Quantity, place: &Range<usize>) -> Outcome<f64> {

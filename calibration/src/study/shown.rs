@@ -5,17 +5,13 @@
 
 use std::ops::Range;
 
-use model_core::readings::{COMPONENTS, Measures, SignedAxis};
+use model_core::readings::{COMPONENTS, Measures, ROTATION, SignedAxis};
 use model_core::{Axis, Chain, Observable};
 use nalgebra::Vector3;
 
 use super::mistakes::{Outcome, mistake};
 use super::written::Kind;
 use crate::data::direction_from_spherical;
-
-/// What to write for a measured orientation.
-pub(super) const ORIENTATION_HELP: &str = "give the directions of two of the body's axes as two observables: \
-    `observe forward: direction(1, 0, 0) of body;`, each with x, y and z from the measured rotation matrix, the second under [[also]]";
 
 /// Where two measured angles are zero, and which way they turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,10 +51,15 @@ pub(super) fn convention(
         return Ok(None);
     }
     if observable.is_orientation() {
+        if observable.shown == ROTATION {
+            return Ok(None);
+        }
+        let message =
+            format!("`{}` shows a part of how a body is turned, which no kind measures", observable.name);
         return Err(mistake(
             place.clone(),
-            format!("`{}` shows how a body is turned, which no kind measures", observable.name),
-            ORIENTATION_HELP,
+            message,
+            "observe all of it: `orientation of …`, without a reading before it",
         ));
     }
     let shown: Vec<String> = observable.shown.iter().map(|reading| reading.written()).collect();
@@ -102,9 +103,9 @@ pub(super) fn convention(
     }
 }
 
-/// The chain as fits know it: every observable shows its vector.
+/// The chain as fits know it: every observable shows its vector, or how a body is turned.
 pub(super) fn vectors(mut chain: Chain) -> Chain {
-    for observable in &mut chain.observables {
+    for observable in chain.observables.iter_mut().filter(|observable| !observable.is_orientation()) {
         observable.shown = COMPONENTS.to_vec();
     }
     chain

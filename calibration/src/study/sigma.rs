@@ -69,7 +69,7 @@ fn is_amount(sigma: &Spanned<Sigma>) -> bool {
 /// What residuals measure.
 pub(super) fn quantity(measure: Measure) -> Quantity {
     match measure {
-        Measure::Direction | Measure::Azimuth | Measure::Sight => Quantity::Angle,
+        Measure::Direction | Measure::Azimuth | Measure::Sight | Measure::Orientation => Quantity::Angle,
         Measure::Point
         | Measure::Range
         | Measure::Plane

@@ -2,13 +2,12 @@
 
 use std::ops::Range;
 
-use model_core::readings::Reading;
 use model_core::{Mistake, Mistakes, names};
 use serde::Deserialize as _;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue, Deserializer, Error};
 
-use super::shown::ORIENTATION_HELP;
+use super::orientation::FORMS;
 use super::written::Study;
 
 /// Mistakes that are told of one text, at most.
@@ -37,6 +36,12 @@ impl Study {
         read(text)
     }
 }
+
+/// What three angles are called that say how a body is turned.
+const EULER: [&str; 14] = [
+    "roll", "pitch", "yaw", "heading", "omega", "phi", "kappa", "psi", "theta", "alpha", "beta", "gamma",
+    "euler", "rpy",
+];
 
 fn read(text: &str) -> Result<Study, Mistakes> {
     let (mut table, errors) = DeTable::parse_recoverable(text);
@@ -114,9 +119,9 @@ fn mistake(error: &Error) -> Mistake<Range<usize>> {
     match quoted.split_first() {
         Some((found, expected)) if unknown => {
             let key = if message.starts_with("unknown field") { "key" } else { "value" };
-            let is_turn = Reading::of_word(found).is_some_and(|reading| reading.rotation().is_some());
+            let is_euler = expected.contains(&"rotation_x") && EULER.contains(&found.to_lowercase().as_str());
             let help = match names::nearest(found, expected.iter().copied()) {
-                _ if is_turn => ORIENTATION_HELP.to_owned(),
+                _ if is_euler => format!("three angles turn about other axes with every maker: give {FORMS}"),
                 Some(near) => format!("did you mean `{near}`?"),
                 None => format!("write one of {}", expected.join(", ")),
             };

@@ -159,6 +159,57 @@ pub(super) struct Observed {
     #[serde(default)]
     pub station: OneOrMore,
     pub length: Option<Column>,
+    pub rotation_x: Option<Column>,
+    pub rotation_y: Option<Column>,
+    pub rotation_z: Option<Column>,
+    pub w: Option<Column>,
+    pub rx: Option<Column>,
+    pub ry: Option<Column>,
+    pub rz: Option<Column>,
+    pub r11: Option<Column>,
+    pub r12: Option<Column>,
+    pub r13: Option<Column>,
+    pub r21: Option<Column>,
+    pub r22: Option<Column>,
+    pub r23: Option<Column>,
+    pub r31: Option<Column>,
+    pub r32: Option<Column>,
+    pub r33: Option<Column>,
+}
+
+impl Observed {
+    /// Every column by its key.
+    pub(super) fn columns(&self) -> [(&'static str, &Option<Column>); 27] {
+        [
+            ("x", &self.x),
+            ("y", &self.y),
+            ("z", &self.z),
+            ("azimuth", &self.azimuth),
+            ("elevation", &self.elevation),
+            ("ha", &self.ha),
+            ("dec", &self.dec),
+            ("cross", &self.cross),
+            ("along", &self.along),
+            ("range", &self.range),
+            ("length", &self.length),
+            ("rotation_x", &self.rotation_x),
+            ("rotation_y", &self.rotation_y),
+            ("rotation_z", &self.rotation_z),
+            ("w", &self.w),
+            ("rx", &self.rx),
+            ("ry", &self.ry),
+            ("rz", &self.rz),
+            ("r11", &self.r11),
+            ("r12", &self.r12),
+            ("r13", &self.r13),
+            ("r21", &self.r21),
+            ("r22", &self.r22),
+            ("r23", &self.r23),
+            ("r31", &self.r31),
+            ("r32", &self.r32),
+            ("r33", &self.r33),
+        ]
+    }
 }
 
 /// What the numbers of an observation are.
@@ -176,6 +227,7 @@ pub(super) enum Kind {
     Wire,
     Distance,
     Sight,
+    Orientation,
 }
 
 /// `[noise]`.

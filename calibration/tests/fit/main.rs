@@ -5,6 +5,7 @@ mod align;
 mod coverage;
 mod kinds;
 mod nasty;
+mod orientations;
 mod poses;
 mod precision;
 mod simulated;

@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use calibration::diagnose::{Diagnosis, EffectFound};
+use calibration::data::SiUnit;
+use calibration::diagnose::{Diagnosis, EffectFound, Rms};
 use calibration::report::{self as words, Answers, Tone, numbers, sentence_case};
 use similar::TextDiff;
 
@@ -107,7 +108,7 @@ impl Page {
         }
         for caution in &diagnosis.cautions {
             let mut told = String::new();
-            paragraph(&mut told, "Caution: ", &words::caution(caution, diagnosis), self.layout.width);
+            paragraph(&mut told, "Caution: ", &words::caution(caution), self.layout.width);
             let styled = format!("{CAREFUL}Caution{CAREFUL:#}");
             self.text.push_str(&told.replacen("Caution", &styled, 1));
         }
@@ -143,16 +144,21 @@ impl Page {
     }
 
     fn residuals(&mut self, diagnosis: &Diagnosis) {
-        let told = |si: Option<f64>| {
-            si.map_or_else(|| "not measured".to_owned(), |si| numbers::told(si, diagnosis.unit))
-        };
-        let (before, after) = (diagnosis.before, diagnosis.after);
+        let all = "Residual, RMS of its length".to_owned();
+        let of = |observed: &str| format!("Residual of {observed}, RMS of its length");
+        let first = diagnosis.instrument.observed.first().filter(|_| !diagnosis.beside.is_empty());
+        let title = first.map_or(all, |first| of(&first.name));
+        self.residuals_of(diagnosis, &title, diagnosis.unit, [diagnosis.before, diagnosis.after]);
+        for own in &diagnosis.beside {
+            self.residuals_of(diagnosis, &of(&own.observed.join(", ")), own.unit, [own.before, own.after]);
+        }
+    }
+
+    fn residuals_of(&mut self, diagnosis: &Diagnosis, title: &str, unit: SiUnit, [before, after]: [Rms; 2]) {
+        let told =
+            |si: Option<f64>| si.map_or_else(|| "not measured".to_owned(), |si| numbers::told(si, unit));
         self.text.push('\n');
-        let _ = writeln!(
-            self.text,
-            "{HEADING}{:38} {:>12} {:>12}{HEADING:#}",
-            "Residual, RMS of its length", "before", "after"
-        );
+        let _ = writeln!(self.text, "{HEADING}{title:38} {:>12} {:>12}{HEADING:#}", "before", "after");
         let mut row = |name: &str, before: Option<f64>, after: Option<f64>| {
             let _ = writeln!(self.text, "  {name:36} {:>12} {:>12}", told(before), told(after));
         };
@@ -190,7 +196,7 @@ impl Page {
 
     fn effects(&mut self, diagnosis: &Diagnosis) {
         let mut effects: Vec<&EffectFound> = diagnosis.effects.iter().collect();
-        effects.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+        effects.sort_by(|a, b| b.standing.total_cmp(&a.standing));
         for (number, effect) in (1..).zip(effects) {
             self.heading(&format!("effect {number}: {}", effect.names[0]));
             self.say("  ", &format!("{} in body {}", effect.text, effect.body));

@@ -8,6 +8,7 @@ mod instruments;
 mod noiseless;
 mod objects;
 mod observations;
+mod orientations;
 mod ranges;
 mod readings;
 mod sockets;
@@ -142,6 +143,7 @@ fn the_independent_simulators_still_write_the_data() {
     for (example, files) in [
         ("mobile-lidar", &["measured.csv", "second-run.csv"][..]),
         ("turntable", &["measured.csv"][..]),
+        ("probed-arm", &["poses.csv"][..]),
         ("course", &["secret.csv", "secret-2.csv", "secret-3.csv", "secret-4.csv"][..]),
     ] {
         let folder = Folder::new(&format!("simulator-{example}"));

@@ -67,10 +67,11 @@ impl Mount {
 
 /// What is observed, in the ground frame.
 fn observed(setting: &Setting<'_>, observable: ObservableId) -> Option<[Poly; 3]> {
-    if setting.chain.observable(observable).frame.is_some() {
+    let shown = setting.chain.observable(observable);
+    if shown.frame.is_some() || shown.is_orientation() {
         return None;
     }
-    let &body = setting.chain.path(setting.chain.observable(observable).body).first()?;
+    let &body = setting.chain.path(shown.body).first()?;
     let place = Place { body, role: Role::PositionError, freedom: Freedom::ALL[0] };
     let seen = seen::observed(setting, observable, place)?;
     let component = |axis: usize| {

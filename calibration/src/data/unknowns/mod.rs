@@ -36,7 +36,11 @@ impl Shape {
             Measure::Plane => Some(Self::Plane),
             Measure::Target | Measure::Fixed | Measure::Distance | Measure::Sight => Some(Self::Point),
             Measure::Wire => Some(Self::Wire),
-            Measure::Direction | Measure::Point | Measure::Range | Measure::Azimuth => None,
+            Measure::Direction
+            | Measure::Point
+            | Measure::Range
+            | Measure::Azimuth
+            | Measure::Orientation => None,
         }
     }
 

@@ -1,6 +1,7 @@
 //! The first screen: what happened, what it is, where, how much better, what to do next.
 
-use calibration::diagnose::Diagnosis;
+use calibration::data::SiUnit;
+use calibration::diagnose::{Diagnosis, Rms};
 use calibration::report::{self as words, Answers, Tone, numbers};
 use maud::{Markup, PreEscaped, html};
 
@@ -42,7 +43,7 @@ pub fn first_screen(diagnosis: &Diagnosis, answers: &Answers) -> Markup {
                 }
             }
             @for caution in &diagnosis.cautions {
-                p.caution role="note" { b { "Caution. " } (coded(&words::caution(caution, diagnosis))) }
+                p.caution role="note" { b { "Caution. " } (coded(&words::caution(caution))) }
             }
             div.grid {
                 section.card aria-label="Where it sits" {
@@ -83,38 +84,86 @@ fn coded(text: &str) -> Markup {
     }
 }
 
-/// Figures and bars.
+/// Figures and bars, of one unit of residuals after the other.
 fn better(diagnosis: &Diagnosis, answers: &Answers) -> Markup {
-    let told = |si: f64| numbers::short(si, diagnosis.unit);
-    let (before, after) = (diagnosis.before, diagnosis.after);
-    let pairs: Vec<(&str, f64, f64)> = [
-        ("On data that nobody fitted", before.held_out_rms, after.held_out_rms),
-        ("On the data that were fitted", before.rms, after.rms),
-        ("Elsewhere: in regions of the joints left out", before.elsewhere_rms, after.elsewhere_rms),
-    ]
-    .into_iter()
-    .filter_map(|(name, before, after)| Some((name, before?, after?)))
-    .filter(|(_, before, after)| before.is_finite() && after.is_finite())
-    .collect();
-    let noise = diagnosis.noise.expected_rms;
-    let most = pairs.iter().map(|pair| pair.1.max(pair.2)).fold(noise, f64::max).max(f64::MIN_POSITIVE);
-    let changed = !diagnosis.effects.is_empty();
+    let first = Compared {
+        unit: diagnosis.unit,
+        expected: diagnosis.noise.expected_rms,
+        before: diagnosis.before,
+        after: diagnosis.after,
+    };
+    let beside = diagnosis.beside.iter().map(|own| {
+        let compared =
+            Compared { unit: own.unit, expected: own.expected_rms, before: own.before, after: own.after };
+        (own.observed.join(", "), compared)
+    });
+    let main = diagnosis.instrument.observed.first().map_or("", |first| &first.name);
     html! {
-        @if let (Some(&(_, before, after)), true) = (pairs.first(), changed) {
-            p.figure { span.b { (told(before)) } " → " span.a { (told(after)) } }
-        }
+        (first.figure(diagnosis))
         p { (answers.better) }
-        @for &(name, before, after) in &pairs {
-            (bars(name, [before, after].map(|si| (si / most, told(si))), noise / most, changed))
+        @if !diagnosis.beside.is_empty() { h3 { (main) } }
+        (first.bars(diagnosis))
+        @for (observed, compared) in beside {
+            h3 { (observed) }
+            (compared.bars(diagnosis))
         }
-        p.quiet {
-            @if changed { "Hatched: before. Filled: after. " }
-            "Dotted line: the noise, " (told(noise)) " (measured). RMS of the residual's length over every row"
-            @if let (Some(before), Some(after), false) = (before.rms_kept, after.rms_kept, diagnosis.observations.set_aside.is_empty()) {
-                "; without the " (crate::report::counted(diagnosis.observations.set_aside.len())) " set aside "
-                (told(before)) " → " (told(after)) " on the data that were fitted"
+    }
+}
+
+/// Residuals before and after, in one unit.
+struct Compared {
+    unit: SiUnit,
+    /// What the noise makes.
+    expected: f64,
+    before: Rms,
+    after: Rms,
+}
+
+impl Compared {
+    fn told(&self, si: f64) -> String {
+        numbers::short(si, self.unit)
+    }
+
+    /// What there is to compare, by where it was measured.
+    fn pairs(&self) -> Vec<(&'static str, f64, f64)> {
+        let (before, after) = (self.before, self.after);
+        [
+            ("On data that nobody fitted", before.held_out_rms, after.held_out_rms),
+            ("On the data that were fitted", before.rms, after.rms),
+            ("Elsewhere: in regions of the joints left out", before.elsewhere_rms, after.elsewhere_rms),
+        ]
+        .into_iter()
+        .filter_map(|(name, before, after)| Some((name, before?, after?)))
+        .filter(|(_, before, after)| before.is_finite() && after.is_finite())
+        .collect()
+    }
+
+    /// The first pair, large.
+    fn figure(&self, diagnosis: &Diagnosis) -> Markup {
+        html! {
+            @if let (Some(&(_, before, after)), false) = (self.pairs().first(), diagnosis.effects.is_empty()) {
+                p.figure { span.b { (self.told(before)) } " → " span.a { (self.told(after)) } }
             }
-            "."
+        }
+    }
+
+    fn bars(&self, diagnosis: &Diagnosis) -> Markup {
+        let (pairs, noise) = (self.pairs(), self.expected);
+        let most = pairs.iter().map(|pair| pair.1.max(pair.2)).fold(noise, f64::max).max(f64::MIN_POSITIVE);
+        let changed = !diagnosis.effects.is_empty();
+        html! {
+            @for &(name, before, after) in &pairs {
+                (bars(name, [before, after].map(|si| (si / most, self.told(si))), noise / most, changed))
+            }
+            p.quiet {
+                @if changed { "Hatched: before. Filled: after. " }
+                "Dotted line: the noise, " (self.told(noise)) " (measured). RMS of the residual's length over every row"
+                @if let (Some(before), Some(after), false) = (self.before.rms_kept, self.after.rms_kept, diagnosis.observations.set_aside.is_empty()) {
+                    "; without the " (crate::report::counted(diagnosis.observations.set_aside.len())) " set aside "
+                    (self.told(before)) " → " (self.told(after)) " on the data that were fitted"
+                }
+                "."
+            }
         }
     }
 }

@@ -25,7 +25,7 @@ pub fn chain(diagnosis: &Diagnosis) -> Markup {
 fn row(body: &BodyShown, diagnosis: &Diagnosis) -> Markup {
     let mut here: Vec<&EffectFound> =
         diagnosis.effects.iter().filter(|effect| effect.body == body.name).collect();
-    here.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+    here.sort_by(|a, b| b.standing.total_cmp(&a.standing));
     let left =
         diagnosis.remaining.as_ref().and_then(|left| left.place.as_ref()).filter(|p| p.body == body.name);
     let class = if here.is_empty() && left.is_none() { "body" } else { "body here" };
@@ -42,7 +42,7 @@ fn row(body: &BodyShown, diagnosis: &Diagnosis) -> Markup {
                     }
                 }
                 @if !body.documentation.is_empty() { p.quiet { (body.documentation.lines().next().unwrap_or_default()) } }
-                @for effect in here.iter().take(NAMED) { p.tag { "◆ Here: " (tag(effect, diagnosis)) } }
+                @for effect in here.iter().take(NAMED) { p.tag { "◆ Here: " (tag(effect)) } }
                 @if here.len() > NAMED { p.tag { a href="#causes" { "and " (here.len() - NAMED) " more here" } } }
                 @if let Some(place) = left { p.tag { "◇ Left: " (motion(&place.dof)) " with " (place.driver) } }
                 @if !body.errors.is_empty() { (dots(body)) }
@@ -52,9 +52,13 @@ fn row(body: &BodyShown, diagnosis: &Diagnosis) -> Markup {
 }
 
 /// `turns about x, once per turn of β, up to 10.1″`
-fn tag(effect: &EffectFound, diagnosis: &Diagnosis) -> String {
+fn tag(effect: &EffectFound) -> String {
     let form = words::form(&effect.form, &effect.driver);
-    format!("{}, {form}, up to {}", motion(&effect.dof), numbers::short(effect.amplitude, diagnosis.unit))
+    format!(
+        "{}, {form}, up to {}",
+        motion(&effect.dof),
+        numbers::short(effect.amplitude, effect.amplitude_unit)
+    )
 }
 
 fn dots(body: &BodyShown) -> Markup {

@@ -26,8 +26,8 @@ pub fn maps(reported: &Reported<'_>, rows: &Rows) -> Markup {
     let observations = reported.observations;
     let [first, second, ..] = rows.components.as_slice() else { return html! {} };
     let Some(series) = observations.poses.series.first() else { return html! {} };
-    if series.measure != series.measure.bare() {
-        // Nobody knows where these rows pointed to.
+    if series.measure != series.measure.bare() || series.measure == Measure::Orientation {
+        // Nobody knows where these rows pointed to, or it takes more than a map to say.
         return html! {};
     }
     let direction = series.measure == Measure::Direction;

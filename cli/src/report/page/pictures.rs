@@ -24,7 +24,7 @@ pub fn residuals(reported: &Reported<'_>, rows: &Rows) -> Markup {
     let drawn = rows.numbers.len();
     let found = &reported.calibration.diagnosis.effects;
     let mut effects: Vec<usize> = (0..reported.calibration.traces.len()).collect();
-    effects.sort_by(|&a, &b| found[b].amplitude.total_cmp(&found[a].amplitude));
+    effects.sort_by(|&a, &b| found[b].standing.total_cmp(&found[a].standing));
     html! {
         section id="residuals" {
             h2 { "Residuals" }
@@ -157,12 +157,7 @@ fn effect(reported: &Reported<'_>, rows: &Rows, at: usize) -> Markup {
         "Triangles: what each row says of {} of {}, without this effect. Dots: what is left with it.",
         told.dof, told.body
     );
-    let name = format!(
-        "{} against {}: {}",
-        label,
-        shown.name,
-        words::headline(told, &reported.calibration.diagnosis)
-    );
+    let name = format!("{} against {}: {}", label, shown.name, words::headline(told));
     card(&words::sentence_case(&told.names[0]), &note, &picture.finish(&name))
 }
 

@@ -76,13 +76,22 @@ impl Rows {
             bytes_of_a_row(observations.poses.columns.len(), all.len(), calibration.traces.len()),
         );
         let drawn: Vec<usize> = places.iter().map(|&at| calibration.drawn[at]).collect();
-        let largest = all
-            .iter()
-            .flat_map(|component| component.before.iter().chain(&component.after))
-            .flatten()
-            .filter(|value| value.is_finite())
-            .fold(0.0, |a: f64, b| a.max(b.abs()));
-        let unit = numbers::reading(calibration.diagnosis.unit, largest);
+        let largest_in = |unit: SiUnit| {
+            all.iter()
+                .filter(|component| component.unit == unit)
+                .flat_map(|component| component.before.iter().chain(&component.after))
+                .flatten()
+                .filter(|value| value.is_finite())
+                .fold(0.0, |a: f64, b| a.max(b.abs()))
+        };
+        let units: Vec<(SiUnit, Reading)> = observations
+            .poses
+            .units()
+            .into_iter()
+            .map(|unit| (unit, numbers::reading(unit, largest_in(unit))))
+            .collect();
+        let main = calibration.diagnosis.unit;
+        let unit = numbers::reading(main, largest_in(main));
         let column = |key: String, label: &str, values: &[Option<f64>], reading: &Reading| Column {
             key,
             label: label.to_owned(),
@@ -92,11 +101,8 @@ impl Rows {
         let components: Vec<Component> = all
             .into_iter()
             .map(|component| {
-                let reading = if component.unit == calibration.diagnosis.unit {
-                    unit.clone()
-                } else {
-                    numbers::reading(component.unit, largest)
-                };
+                let of_unit = units.iter().find(|(known, _)| *known == component.unit);
+                let reading = of_unit.map_or_else(|| unit.clone(), |(_, reading)| reading.clone());
                 let label = numbers::name_with_unit(component.name, &reading.name);
                 Component {
                     name: component.name,
@@ -132,7 +138,9 @@ impl Rows {
         let length = |which: fn(&Component) -> &Column| -> Vec<Option<f64>> {
             (0..drawn.len())
                 .map(|at| {
-                    let parts = components.iter().filter_map(|component| which(component).values[at]);
+                    // Rows whose residual has another unit have no length on this axis.
+                    let own = components.iter().filter(|component| component.every.unit == main);
+                    let parts = own.filter_map(|component| which(component).values[at]);
                     let (sum, count) = parts.fold((0.0, 0), |(sum, count), v| (sum + v * v, count + 1));
                     (count > 0).then(|| f64::sqrt(sum))
                 })

@@ -24,7 +24,7 @@ fn scrolled(name: &str, table: &Markup) -> Markup {
 pub fn causes(reported: &Reported<'_>) -> Markup {
     let diagnosis = &reported.calibration.diagnosis;
     let mut effects: Vec<&EffectFound> = diagnosis.effects.iter().collect();
-    effects.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+    effects.sort_by(|a, b| b.standing.total_cmp(&a.standing));
     let (first, more) = effects.split_at(effects.len().min(OPEN));
     html! {
         @if !effects.is_empty() {
@@ -55,7 +55,7 @@ fn alike(causes: &[Cause]) -> Vec<Vec<&Cause>> {
 }
 
 fn effect_card(effect: &EffectFound, diagnosis: &Diagnosis) -> Markup {
-    let headline = words::headline(effect, diagnosis);
+    let headline = words::headline(effect);
     html! {
         section.card style="margin-top:14px" {
             h3 { (headline) }

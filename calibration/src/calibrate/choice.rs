@@ -83,12 +83,11 @@ fn judge<'a>(settled: Settled<'a>, before: &FitResult) -> Result<Chosen<'a>, Sea
 fn is_confirmed(whole: &Context<'_>, told: &Judged<'_>, taken_up: &Judged<'_>) -> bool {
     let ratio = |of: fn(&Rms) -> Option<f64>| share(&taken_up.rms, &told.rms, of);
     let elsewhere = ratio(|rms| rms.elsewhere_rms_kept);
-    let gains = match whole.request.second {
-        None => ratio(|rms| rms.held_out_rms_kept),
-        Some(_) => elsewhere,
-    };
     // Which rows are kept is for each model to say: what it makes of all of them may not be worse either.
-    let every = ratio(|rms| rms.held_out_rms);
+    let (gains, every) = match whole.request.second {
+        None => (ratio(|rms| rms.held_out_rms_kept), ratio(|rms| rms.held_out_rms)),
+        Some(_) => (elsewhere, None),
+    };
     let no_worse = |ratio: Option<f64>| ratio.is_none_or(|ratio| ratio <= 1.0);
     taken_up.refused.is_none()
         && gains.is_some_and(|ratio| ratio < GAINS)

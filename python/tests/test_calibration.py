@@ -45,7 +45,7 @@ def test_the_main_job(example):
     # The declared errors, and the coefficients of what was found.
     assert set(example.errors["name"]) == set(example.chain.errors) and len(example.chain.errors) > 30
     assert example.errors["value"].dtype == np.float64 and example.errors.to_pandas().shape[1] == 5
-    assert example.report["schema"] == 3
+    assert example.report["schema"] == 4
     assert set(example.values) >= set(example.chain.errors)
     assert example.residuals.rows == example.report["observations"]["rows"]
     assert "Calibration" not in example.text() and example.text() == repr(example) and "\x1b" not in example.text()

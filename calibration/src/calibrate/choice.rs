@@ -21,6 +21,9 @@ use crate::study::Plan;
 /// By how much a function has to gain where it was not fitted: its thresholds, not its coefficients, saw every row.
 const GAINS: f64 = 0.95;
 
+/// What counts as no worse: figures of a few hundred rows scatter by more.
+const NO_WORSE: f64 = 1.01;
+
 /// What a function may leave at most of the rows that it was fitted to for the time that the trial takes.
 const WORTH_TRYING: f64 = 0.98;
 
@@ -80,17 +83,19 @@ fn judge<'a>(settled: Settled<'a>, before: &FitResult) -> Result<Chosen<'a>, Sea
 
 /// Whether the model with functions predicts better: in random folds by a margin, and no worse in regions that its search did
 /// not see. A second file of the study judges and does not choose; regions alone choose then, by the margin.
+///
+/// Which rows are kept is for each model to say: one that explains rows which the other sets aside keeps more, and gains over
+/// every row.
 fn is_confirmed(whole: &Context<'_>, told: &Judged<'_>, taken_up: &Judged<'_>) -> bool {
     let ratio = |of: fn(&Rms) -> Option<f64>| share(&taken_up.rms, &told.rms, of);
     let elsewhere = ratio(|rms| rms.elsewhere_rms_kept);
-    // Which rows are kept is for each model to say: what it makes of all of them may not be worse either.
-    let (gains, every) = match whole.request.second {
+    let (kept, every) = match whole.request.second {
         None => (ratio(|rms| rms.held_out_rms_kept), ratio(|rms| rms.held_out_rms)),
         Some(_) => (elsewhere, None),
     };
-    let no_worse = |ratio: Option<f64>| ratio.is_none_or(|ratio| ratio <= 1.0);
+    let gains = |ratio: Option<f64>| ratio.is_some_and(|ratio| ratio < GAINS);
+    let no_worse = |ratio: Option<f64>| ratio.is_none_or(|ratio| ratio <= NO_WORSE);
     taken_up.refused.is_none()
-        && gains.is_some_and(|ratio| ratio < GAINS)
-        && no_worse(elsewhere)
-        && no_worse(every)
+        && (gains(kept) || gains(every))
+        && [kept, every, elsewhere].into_iter().all(no_worse)
 }

@@ -17,7 +17,7 @@ use crate::output::Folder;
 use crate::{tables, terminal};
 
 /// The number of the promise that the keys of `report.json` are.
-const SCHEMA: u32 = 3;
+const SCHEMA: u32 = 4;
 
 /// The files of a calibration in its folder.
 pub const NAMES: [&str; 5] = ["report.html", "report.json", "amended.chain", "errors.toml", "residuals.csv"];

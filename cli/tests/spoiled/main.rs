@@ -47,8 +47,6 @@ azimuth = { column = \"azimuth\", unit = \"deg\" }
 kind = \"offset\"
 cross = { column = \"cross\", unit = \"arcsec\" }
 along = { column = \"along\", unit = \"arcsec\" }
-azimuth = \"azimuth\"
-elevation = \"elevation\"
 
 [fit]
 estimate = [\"tilt_*\"]

@@ -114,7 +114,7 @@ fn a_dry_run_tells_programs_the_whole_report_and_writes_nothing() {
     let run = folder.trueaxis(&["calibrate", "study.toml", "--dry-run", "--format", "json"]);
     assert_eq!(run.code, 0, "{run}");
     let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
-    assert!(report["schema"].as_u64() >= Some(3) && report["verdict"].is_string());
+    assert!(report["schema"].as_u64() >= Some(4) && report["verdict"].is_string());
     assert!(
         report["diff"].as_str().is_some_and(|diff| diff.starts_with("--- mount.chain")),
         "{}",

@@ -19,7 +19,7 @@ import tempfile
 
 from simulate import AltAzimuth, Arm, Scanner, measured, poses, serial
 
-# Rows of the same instrument that no calibration sees.
+# Rows of the same instrument that no calibration sees; along a trajectory as many as were calibrated.
 NEW = 1000
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -133,9 +133,10 @@ def trial(cell, seed):
         noise.append(f'sigma = "{instrument.noise!r} {"m" if instrument.point else "rad"}"')
     def as_new():
         """Other rows of the same instrument, with noise of the same kind."""
-        poses_of_new = poses(instrument, NEW, cell.get("trajectory", False), rng)
-        noise_of_new = [serial(cell["noise"], NEW, rng) for _ in range(3)]
-        unit = [[instrument.noise * column[row] for column in noise_of_new] for row in range(NEW)]
+        count = rows if cell.get("trajectory") else NEW
+        poses_of_new = poses(instrument, count, cell.get("trajectory", False), rng)
+        noise_of_new = [serial(cell["noise"], count, rng) for _ in range(3)]
+        unit = [[instrument.noise * column[row] for column in noise_of_new] for row in range(count)]
         return poses_of_new, [measured(instrument, e, q, n, cell.get("in_space", False)) for q, n in zip(poses_of_new, unit)]
     # Sessions have offsets of their own: what is new there is a question by itself.
     report = calibrated(cell, where, data, session, noise, None if sessions else as_new())

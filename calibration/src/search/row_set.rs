@@ -193,10 +193,26 @@ pub(crate) fn groups(observations: &Observations, row: &[u32]) -> Vec<usize> {
     row.iter().map(|&row| observations.groups[row as usize] as usize).collect()
 }
 
-/// The rows in folds: what is declared a group is held out together, and so is what observes one object.
-pub(crate) fn dealt(observations: &Observations, row: &[u32], folds: usize, seed: u64) -> Folds {
+/// The rows in folds: what is declared a group is held out together, and so is what observes one object, and of rows that
+/// remember each other one stretch a fold.
+pub(crate) fn dealt(
+    observations: &Observations,
+    noise: &Noise,
+    row: &[u32],
+    folds: usize,
+    seed: u64,
+) -> Folds {
     let groups = groups(observations, row);
-    let Some(unknowns) = &observations.unknowns else { return Folds::deal(&groups, folds, seed) };
+    let Some(unknowns) = &observations.unknowns else {
+        let are_alone = observations.groups.is_sorted_by(|before, after| before < after);
+        if !(noise.remembers() && are_alone) {
+            return Folds::deal(&groups, folds, seed);
+        }
+        // Neighbours of a row that is held out know what it remembers.
+        let rows = observations.rows().max(1);
+        let units: Vec<usize> = row.iter().map(|&row| row as usize * folds / rows).collect();
+        return Folds::deal_together(&groups, &units, folds, seed);
+    };
     let together = unknowns.together(&observations.groups);
     let units: Vec<usize> = row.iter().map(|&row| together[row as usize]).collect();
     let mut dealt = Folds::deal_together(&groups, &units, folds, seed);

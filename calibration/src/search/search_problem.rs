@@ -46,7 +46,8 @@ impl<'a> SearchProblem<'a> {
     /// At a fit.
     pub fn at(whole: &Context<'a>, fitted: &Fitted) -> Result<Self, SearchError> {
         let hold_out = &whole.request.plan.hold_out;
-        let folds = dealt(whole.request.observations, &fitted.layout.row, hold_out.folds, hold_out.seed);
+        let (all, noise) = (whole.request.observations, &fitted.fit.noise);
+        let folds = dealt(all, noise, &fitted.layout.row, hold_out.folds, hold_out.seed);
         let functions: usize = whole.catalogue.iter().map(|effect| effect.functions.len()).sum();
         let width = fitted.combinations.ncols() + functions + 1;
         if folds.rows() * width <= whole.held {
@@ -110,7 +111,8 @@ impl<'a> SearchProblem<'a> {
         let mut rows = RowSet::of(whole, fitted, &sample, |_| true)?;
         rows.keep(&usable);
         let hold_out = &whole.request.plan.hold_out;
-        let of_rows = dealt(&rows.observations, &rows.columns.row, hold_out.folds, hold_out.seed);
+        let row = &rows.columns.row;
+        let of_rows = dealt(&rows.observations, &fitted.fit.noise, row, hold_out.folds, hold_out.seed);
         let sampled = problem(whole, fitted, &usable, &rows.whitened(), of_rows)?;
         let of_sample = reach(whole, fitted, &sampled, &rows, &usable)?;
         let sampled = sampled.with_reach(of_sample);

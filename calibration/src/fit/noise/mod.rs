@@ -160,6 +160,12 @@ impl Serial {
 }
 
 impl Noise {
+    /// Whether rows were found to remember those before, or may.
+    #[must_use]
+    pub fn remembers(&self) -> bool {
+        self.serial.is_some() || self.undeclared_order
+    }
+
     /// The same noise as if no observation remembered the one before.
     #[must_use]
     pub fn without_memory(&self) -> Self {

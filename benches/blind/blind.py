@@ -57,12 +57,23 @@ def student(p, dof):
     return low
 
 
-def written(path, names, where, data, session):
-    """A table of joints, the observable's components and the session."""
+def written(path, names, where, data, session=None):
+    """A table of joints and the observable's components; with sessions, of those too."""
     with open(path, "w") as file:
-        file.write(",".join(names + ["x", "y", "z", "night"]) + "\n")
-        for q, v, s in zip(where, data, session):
-            file.write(",".join([repr(q[j]) for j in names] + [repr(c) for c in v] + [f"n{s}"]) + "\n")
+        file.write(",".join([*names, "x", "y", "z"] + (["night"] if session else [])) + "\n")
+        for row, (q, v) in enumerate(zip(where, data)):
+            night = [f"n{session[row]}"] if session else []
+            file.write(",".join([repr(q[j]) for j in names] + [repr(c) for c in v] + night) + "\n")
+
+
+def study(instrument, chain="i.chain", more=()):
+    """The text of a study of a table, which says nothing but which column is which, and what `more` says."""
+    unit_of = lambda j: "m" if j == "range" else "rad"
+    told = (lambda c: f'{c} = {{ column = "{c}", unit = "m" }}') if instrument.point else (lambda c: f'{c} = "{c}"')
+    lines = [f'chain = "{chain}"', 'observable = "observed"', 'data = "d.csv"', "[columns]"]
+    lines += [f'{j} = {{ column = "{j}", unit = "{unit_of(j)}" }}' for j in instrument.joints]
+    lines += ["[observed]", f'kind = "{"point" if instrument.point else "direction"}"'] + [told(c) for c in "xyz"]
+    return "\n".join([*lines, *more]) + "\n"
 
 
 def calibrated(cell, where, data, session, noise=(), new=None):
@@ -71,19 +82,12 @@ def calibrated(cell, where, data, session, noise=(), new=None):
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         (folder / "i.chain").write_text(instrument.chain)
-        names = [f"{j}" for j in instrument.joints]
+        names = instrument.joints
         written(folder / "d.csv", names, where, data, session)
-        kind = "point" if instrument.point else "direction"
-        unit_of = lambda j: "m" if j == "range" else "rad"
-        study = ['chain = "i.chain"', 'observable = "observed"', 'data = "d.csv"', "[columns]"]
-        study += [f'{j} = {{ column = "{j}", unit = "{unit_of(j)}" }}' for j in names]
-        told = (lambda c: f'{c} = {{ column = "{c}", unit = "m" }}') if instrument.point else (lambda c: f'{c} = "{c}"')
-        study += ["[observed]", f'kind = "{kind}"'] + [told(c) for c in "xyz"]
-        if noise:
-            study += ["[noise]", *noise]
+        more = ["[noise]", *noise] if noise else []
         if cell.get("functions") is not None:
-            study += ["[search]", f"functions = {str(cell['functions']).lower()}"]
-        (folder / "s.toml").write_text("\n".join(study) + "\n")
+            more += ["[search]", f"functions = {str(cell['functions']).lower()}"]
+        (folder / "s.toml").write_text(study(instrument, more=more))
         run = subprocess.run([cell["command"], "calibrate", "s.toml", "--out", "result", "--format", "json"], cwd=folder, capture_output=True, text=True)
         if run.returncode not in (0, 1):
             return {"failed": run.stderr.strip()[-300:]}
@@ -98,7 +102,7 @@ def calibrated(cell, where, data, session, noise=(), new=None):
 
 def left_in(command, folder, names, where, data):
     """The RMS over rows of what the amended chain leaves, length of the difference of vectors."""
-    written(folder / "new.csv", names, where, data, [0] * len(where))
+    written(folder / "new.csv", names, where, data)
     run = subprocess.run([command, "eval", "result/amended.chain", "--errors", "result/errors.toml", "--observable", "observed",
                           "--quantity", "value", "--data", "new.csv", "--out", "told.csv"], cwd=folder, capture_output=True, text=True)
     if run.returncode != 0:

@@ -18,7 +18,7 @@ import subprocess
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 
-from blind import ROOT, wilson
+from blind import ROOT, study, wilson, written
 from outside import projected_rms
 from simulate import AltAzimuth, Scanner, measured, poses
 
@@ -90,12 +90,6 @@ class Planted:
         return first
 
 
-def written(folder, name, chain, instrument, data):
-    joints = "\n".join(f'{joint} = {{ column = "{joint}", unit = "rad" }}' for joint in instrument.joints)
-    (folder / name).write_text(f'chain = "{chain}"\nobservable = "observed"\ndata = "{data}"\n[columns]\n{joints}\n'
-                               '[observed]\nkind = "direction"\nx = "x"\ny = "y"\nz = "z"\n')
-
-
 def run(command, folder, *words):
     answer = subprocess.run([command, "calibrate", *words, "--format", "json"], cwd=folder, capture_output=True, text=True)
     return json.loads(answer.stdout) if answer.returncode in (0, 1) and answer.stdout else None
@@ -121,11 +115,8 @@ def trial(command, case, snr, seed, narrow):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         (folder / "i.chain").write_text(instrument.chain)
-        with open(folder / "d.csv", "w") as file:
-            file.write(",".join([*instrument.joints, "x", "y", "z"]) + "\n")
-            for q, v in zip(where, data):
-                file.write(",".join([repr(q[joint]) for joint in instrument.joints] + [repr(c) for c in v]) + "\n")
-        written(folder, "s.toml", "i.chain", instrument, "d.csv")
+        written(folder / "d.csv", instrument.joints, where, data)
+        (folder / "s.toml").write_text(study(instrument))
         report = run(command, folder, "s.toml", "--out", "result")
         if report is None:
             return None
@@ -135,7 +126,7 @@ def trial(command, case, snr, seed, narrow):
                   "size": max((1 + len(effect["competing_with"]) for effect in effects), default=0),
                   "told": [effect["names"][:1] for effect in effects]}
         if effects and (folder / "result" / "amended.chain").exists():
-            written(folder, "again.toml", "result/amended.chain", instrument, "d.csv")
+            (folder / "again.toml").write_text(study(instrument, "result/amended.chain"))
             again = run(command, folder, "again.toml", "--out", "again")
             result["more"] = [effect["names"][:1] for effect in again["effects"]] if again else ["failed"]
         return result

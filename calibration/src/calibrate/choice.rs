@@ -6,7 +6,7 @@
 use std::cell::OnceCell;
 
 use super::confirm::{Judged, judged};
-use super::functions::{MOST, Settled, Winner, settled};
+use super::functions::{MOST, Settled, settled};
 use super::heard::{Places, are_any, heard};
 use crate::diagnose::Rms;
 use crate::diagnose::rms::share;
@@ -57,15 +57,14 @@ pub(super) fn chosen<'a>(
     studies: &'a Studies,
 ) -> Result<Chosen<'a>, SearchError> {
     let functions = whole.request.plan.search.functions;
-    let with_functions = |round, most: usize| {
-        heard(settled(whole, &studies.plans[..most], round, Winner::TakenUp)?, &studies.places, most)
-    };
+    let with_functions =
+        |round, most: usize| heard(settled(whole, &studies.plans[..most], round)?, &studies.places, most);
     if functions == Some(true) {
         return judge(with_functions(round, MOST)?, before);
     }
-    let told = settled(whole, &studies.plans, round, Winner::Told)?;
-    let may_gain = told.winner_leaves.is_some_and(|share| share < WORTH_TRYING) || are_any(&told);
-    if functions == Some(false) || !may_gain || told.round.fitted.found.len() > NAMED {
+    let told = settled(whole, &[], round)?;
+    let may_gain = || told.winner_leaves.is_some_and(|share| share < WORTH_TRYING) || are_any(&told);
+    if functions == Some(false) || told.round.fitted.found.len() > NAMED || !may_gain() {
         return judge(told, before);
     }
     let fitted = Fitted::with(whole, told.round.fitted.found.clone(), &told.round.fitted)?;

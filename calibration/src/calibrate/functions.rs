@@ -18,15 +18,6 @@ use crate::study::Plan;
 /// Functions that one calibration takes up at most.
 pub(super) const MOST: usize = 4;
 
-/// What becomes of a function that wins.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Winner {
-    /// It is taken up as an effect.
-    TakenUp,
-    /// It is told.
-    Told,
-}
-
 /// What the rounds end with once the library has spoken.
 pub(super) struct Settled<'a> {
     pub whole: Context<'a>,
@@ -44,12 +35,12 @@ impl<'a> Settled<'a> {
     }
 }
 
-/// Lets the library compete with the last round until it has nothing to add; `plans` is where studies with such effects live.
+/// Lets the library compete with the last round until it has nothing to add; `plans` is where studies with such effects live, one
+/// for each function that may be taken up.
 pub(super) fn settled<'a>(
     whole: &Context<'a>,
     plans: &'a [OnceCell<Plan>],
     round: Round<'a>,
-    winner: Winner,
 ) -> Result<Settled<'a>, SearchError> {
     let mut settled = Settled::unasked(whole.clone(), round);
     // A study that allows certain effects alone allows no others.
@@ -65,7 +56,7 @@ pub(super) fn settled<'a>(
         let contest = contest(&settled.whole, &settled.round)?;
         settled.as_good = contest.as_good;
         let Some(taken) = contest.taken else { break };
-        let Some(place) = place.filter(|_| winner == Winner::TakenUp) else {
+        let Some(place) = place else {
             settled.winner_leaves = Some(taken.leaves);
             break;
         };

@@ -6,7 +6,7 @@
 
 use std::cell::OnceCell;
 
-use super::functions::{MOST, Settled, Winner, settled};
+use super::functions::{MOST, Settled, settled};
 use super::outliers::{explains, trusting};
 use super::rounds::rounds;
 use crate::search::aside::shared;
@@ -51,12 +51,7 @@ pub(super) fn heard<'a>(
     if !first.fit.outcome.is_usable() {
         return Ok(last);
     }
-    let found = settled(
-        &every,
-        &places.of_functions[..most],
-        rounds(&every, Round::at(&every, first)?)?,
-        Winner::TakenUp,
-    )?;
+    let found = settled(&every, &places.of_functions[..most], rounds(&every, Round::at(&every, first)?)?)?;
     let robust = places.robust.get_or_init(|| {
         let mut robust = found.whole.request.plan.clone();
         robust.fit.robust = true;
@@ -70,5 +65,5 @@ pub(super) fn heard<'a>(
     }
     let other = rounds(&again, Round::at(&again, other)?)?;
     let explains = explains((&again, &other), (whole, &last.round));
-    if explains { settled(&again, &places.of_more[..most], other, Winner::TakenUp) } else { Ok(last) }
+    if explains { settled(&again, &places.of_more[..most], other) } else { Ok(last) }
 }

@@ -296,8 +296,7 @@ fn amplitude(last: &Round<'_>, rms: &[BeforeAfter], effect: EffectId, errors: &[
             (most.max(own), sum + own, count + 1.0)
         });
         let most = most.sqrt();
-        let noise = if own.expected > 0.0 { own.expected } else { 1.0 };
-        Moved { unit: own.unit, most, mean: (sum / count.max(1.0)).sqrt(), standing: most / noise }
+        Moved { unit: own.unit, most, mean: (sum / count.max(1.0)).sqrt(), standing: most / own.noise() }
     };
     // The first of those that show it as well.
     let best =

@@ -35,6 +35,13 @@ pub(crate) struct BeforeAfter {
     pub after: Rms,
 }
 
+impl BeforeAfter {
+    /// What figures of several units are told in terms of, SI: the noise, where there is any.
+    pub(crate) fn noise(&self) -> f64 {
+        if self.expected > 0.0 { self.expected } else { 1.0 }
+    }
+}
+
 /// Residuals in another unit than those of the first series.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Beside {
@@ -64,7 +71,7 @@ pub(crate) fn worse(all: &[BeforeAfter], figure: impl Fn(&Rms) -> Option<f64>) -
     let sum = |of: fn(&(&BeforeAfter, f64, f64)) -> f64| -> f64 {
         let each = pairs.iter().map(|pair| {
             // One unit is compared as it is.
-            let noise = if pairs.len() > 1 && pair.0.expected > 0.0 { pair.0.expected } else { 1.0 };
+            let noise = if pairs.len() > 1 { pair.0.noise() } else { 1.0 };
             pair.0.after.held_out_rows.max(1) as f64 * (of(pair) / noise).powi(2)
         });
         each.sum()
@@ -88,9 +95,8 @@ pub(crate) fn share(
         return Some(own / other);
     }
     let weighed = |(unit, own, other): &(&BeforeAfter, f64, f64)| {
-        let noise = if unit.expected > 0.0 { unit.expected } else { 1.0 };
         let rows = unit.after.held_out_rows.max(1) as f64;
-        [own, other].map(|figure| rows * (figure / noise).powi(2))
+        [own, other].map(|figure| rows * (figure / unit.noise()).powi(2))
     };
     let sums = pairs.iter().map(weighed).reduce(|[a, b], [c, d]| [a + c, b + d])?;
     Some((sums[0] / sums[1]).sqrt())

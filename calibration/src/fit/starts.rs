@@ -7,8 +7,8 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-use super::FitError;
 use super::solver::{Course, Solver};
+use super::{FitError, robust};
 use crate::data::Measure;
 
 /// How far off half of the directions are where something else than noise is the matter, rad: 11 degrees.
@@ -58,7 +58,6 @@ impl Solver<'_> {
         }
         let mut norms: Vec<f64> = self.layout.norms(&course.point.sweep.residual).collect();
         norms.retain(|norm| norm.is_finite());
-        norms.sort_unstable_by(f64::total_cmp);
-        norms.get(norms.len() / 2).copied()
+        (!norms.is_empty()).then(|| robust::median(norms))
     }
 }

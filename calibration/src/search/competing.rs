@@ -35,14 +35,15 @@ pub fn competing_models(
             let mut without = state.clone();
             without.remove_among(own, accepted.iter().copied(), &blocks);
             let (gain, rank) = without.gain(&blocks[own]);
-            let best = [without.criterion(gain, rank), without.expected(gain, rank)];
+            let best = without.likelihood(gain, rank);
             let mut competing: Vec<CompetingModel> = blocks
                 .ids()
                 .filter(|set| !accepted.contains(set))
                 .filter_map(|set| {
                     let (gain, rank) = without.gain(&blocks[set]);
-                    let of_set = [without.criterion(gain, rank), without.expected(gain, rank)];
-                    let behind = (best[0] - of_set[0]).min(best[1] - of_set[1]);
+                    let other = without.likelihood(gain, rank);
+                    let believed = best.penalised() - other.penalised();
+                    let behind = believed.min(best.expected() - other.expected());
                     (rank > 0 && behind <= within).then_some(CompetingModel { set, behind })
                 })
                 .collect();

@@ -9,6 +9,7 @@
 use faer::{Mat, MatRef};
 use statrs::function::factorial::ln_binomial;
 
+use super::likelihood::Likelihood;
 use super::problem::VISIBLE;
 use super::scan::Left;
 use super::select::held_out_rss;
@@ -45,29 +46,6 @@ pub struct Contender {
     pub covariance: Vec<f64>,
 }
 
-/// How likely a model makes the data.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Likelihood {
-    /// The largest log-likelihood, up to a constant of the data.
-    pub log: f64,
-    /// Coefficients and thresholds that were fitted for it.
-    pub parameters: usize,
-}
-
-impl Likelihood {
-    fn of(rss: f64, rows: usize, parameters: usize) -> Self {
-        Self { log: -(rows as f64) / 2.0 * rss.max(f64::MIN_POSITIVE).ln(), parameters }
-    }
-
-    /// What the model is expected to make of data like these: the log-likelihood less its parameters.
-    ///
-    /// Source: H. Akaike, "A new look at the statistical model identification", IEEE Transactions on Automatic Control 19 (1974).
-    #[must_use]
-    pub fn expected(self) -> f64 {
-        self.log - self.parameters as f64
-    }
-}
-
 /// How likely the accepted model makes the data.
 #[must_use]
 pub fn likelihood(left: &Left<'_>) -> Likelihood {
@@ -78,9 +56,7 @@ pub fn likelihood(left: &Left<'_>) -> Likelihood {
 /// Penalised log-likelihood of the accepted model itself.
 #[must_use]
 pub fn criterion(left: &Left<'_>, price: Price) -> f64 {
-    let rss = left.residual.iter().map(|r| r * r).sum();
-    let parameters = left.basis.ncols() + left.thresholds.iter().sum::<usize>();
-    penalised(rss, left.residual.len(), parameters) - ln_choices(price.sets, left.accepted.len())
+    likelihood(left).penalised() - ln_choices(price.sets, left.accepted.len())
 }
 
 /// The model with a function's columns in it, without those accepted effects that it makes idle.
@@ -109,7 +85,7 @@ pub fn contender(left: &Left<'_>, columns: MatRef<'_, f64>, price: Price) -> Con
         let added = effects.iter().flat_map(|(_, own)| own).filter(|&&column| sweep.add(column)).count();
         let rss = sweep.entry(open.len() - 1, open.len() - 1);
         let thresholds: usize = effects.iter().map(|&(number, _)| left.thresholds[number]).sum();
-        penalised(rss, rows, count + added + thresholds + price.parameters)
+        Likelihood::of(rss, rows, count + added + thresholds + price.parameters).penalised()
             - own
             - ln_choices(price.sets, effects.len())
     };
@@ -207,12 +183,6 @@ pub fn most_telling(left: &Left<'_>, columns: MatRef<'_, f64>) -> Vec<usize> {
             .collect();
     found.dedup();
     found
-}
-
-/// Half a Schwarz criterion, up to a constant.
-fn penalised(rss: f64, rows: usize, count: usize) -> f64 {
-    let rows = rows as f64;
-    -rows / 2.0 * rss.max(f64::MIN_POSITIVE).ln() - count as f64 / 2.0 * rows.ln()
 }
 
 /// The log of how many ways there are to choose so many of so many.

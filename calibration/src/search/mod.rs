@@ -24,6 +24,7 @@ pub mod flips;
 pub mod folds;
 mod guards;
 pub(crate) mod library;
+pub mod likelihood;
 pub(crate) mod memory;
 mod modest;
 pub mod nested;

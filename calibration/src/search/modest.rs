@@ -40,9 +40,8 @@ impl Modest<'_> {
             let open = self.blocks.ids().filter(|set| !accepted.contains(set) && !self.dropped.contains(set));
             let best = self.guards.further_out(&with(own)).and_then(|present| {
                 open.filter(as_good)
-                    .filter(|&set| self.guards.hold(&with(set)))
                     .filter_map(|set| Some((self.guards.further_out(&with(set))?, set)))
-                    .filter(|&(does, _)| does < LESS * present)
+                    .filter(|&(does, set)| does < LESS * present && self.guards.hold(&with(set)))
                     .min_by(|a, b| a.0.total_cmp(&b.0))
             });
             accepted[at] = best.map_or(own, |(_, set)| set);

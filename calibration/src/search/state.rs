@@ -4,6 +4,7 @@ use faer::Mat;
 use faer::linalg::solvers::Solve;
 
 use super::confounded::{SetColumns, SetId};
+use super::likelihood::Likelihood;
 use super::problem::Problem;
 use super::sweep::Sweep;
 
@@ -91,21 +92,16 @@ impl State {
         self.rows as f64 - self.base.len() as f64
     }
 
+    /// How likely the data are after adding a block.
+    #[must_use]
+    pub fn likelihood(&self, gain: f64, rank: usize) -> Likelihood {
+        let left = (self.rss() - gain).max(1e-12 * self.rss());
+        Likelihood::of(left, self.rows, self.base.len() + rank)
+    }
+
     /// Penalised log-likelihood (half a Schwarz criterion, up to a constant) after adding a block.
     #[must_use]
     pub fn criterion(&self, gain: f64, rank: usize) -> f64 {
-        let n = self.rows as f64;
-        let left = (self.rss() - gain).max(1e-12 * self.rss());
-        -n / 2.0 * left.ln() - (self.base.len() + rank) as f64 / 2.0 * n.ln()
-    }
-
-    /// What the model with a block is expected to make of data like these: the log-likelihood less its parameters, up to the
-    /// constant of [`State::criterion`].
-    ///
-    /// Source: H. Akaike, "A new look at the statistical model identification", IEEE Transactions on Automatic Control 19 (1974).
-    #[must_use]
-    pub fn expected(&self, gain: f64, rank: usize) -> f64 {
-        let parameters = (self.base.len() + rank) as f64;
-        self.criterion(gain, rank) + parameters * ((self.rows as f64).ln() / 2.0 - 1.0)
+        self.likelihood(gain, rank).penalised()
     }
 }

@@ -154,7 +154,8 @@ impl Readings {
             let mut values = vec![0.0; table.readings().count()];
             let mut more = vec![Vec::new(); values.len()];
             for (row, point) in points() {
-                let time = time.value(point).unwrap_or(f64::NAN);
+                let time = time.value(point);
+                let time = time.ok_or_else(|| (row, format!("dimension `{TIME}` has no value there")))?;
                 table.at(time, &mut values).map_err(|why| (row, self.not_served(time, &why)))?;
                 more.iter_mut().zip(&values).for_each(|(column, value)| column.push(*value));
             }
@@ -177,7 +178,9 @@ impl Readings {
     pub fn steps(&self, points: &Points) -> Columns {
         let of = |reading: &InPoint| {
             let step = |point: &[u8]| {
-                let value = reading.dimension.value(point).unwrap_or(0.0);
+                let Some(value) = reading.dimension.value(point) else {
+                    unreachable!("each point has shown its readings")
+                };
                 reading.dimension.step(value) * reading.factor
             };
             let column: Vec<f64> = points.bytes.chunks_exact(self.record_length).map(step).collect();

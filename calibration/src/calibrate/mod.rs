@@ -154,8 +154,8 @@ pub fn calibrate_telling(
         let (whole, round) = memory::settled(whole, &remembering, round)?;
         chosen(&whole, &before, round, &studies)?
     };
-    let Judged { round, held_out, rms, refused } = judged;
-    let confirmed = Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good, refused };
+    let Judged { round, held_out, rms, left_out } = judged;
+    let confirmed = Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good, left_out };
     let diagnosis = diagnose(&whole, &before, &round.fitted, Ok(confirmed))?;
     let drawn = trace::drawn(request.observations, &round.fitted.fit);
     let traces = trace::traces(&whole, &round, &drawn)?;

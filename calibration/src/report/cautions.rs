@@ -27,7 +27,10 @@ pub fn caution(caution: &Caution) -> String {
             short(*after, *unit)
         ),
         Caution::FewBehindAnEffect { effect, observations } => {
-            format!("{effect}: it rests on about {observations:.1} observations. Measure more there first.")
+            format!(
+                "{effect} stood out, but it rests on about {observations:.1} observations. It was left out; repeat them \
+                 first."
+            )
         }
         Caution::LimitOfEffects { effects } => {
             format!("The search stopped at {effects} effects, as many as it may accept; there may be more.")

@@ -163,22 +163,24 @@ pub(crate) fn predicted<const N: usize>(
     wanted.sort_unstable();
     let wanted = |effect: EffectId| wanted.binary_search(&effect).is_ok();
     let row_sets = last.search.each_row_set(whole, &last.fitted, wanted, |components, row_set| {
-        coefficients
-            .map(|coefficients| predicted_of(last, &candidates, coefficients, components.start, row_set))
+        let of = |coefficients| predicted_of(last, &candidates, coefficients, components, row_set);
+        (components.to_vec(), coefficients.map(of))
     })?;
-    let mut left = [const { Vec::new() }; N];
-    for row_set in row_sets {
-        left.iter_mut().zip(row_set).for_each(|(left, part)| left.extend(part));
+    let mut left = [(); N].map(|()| vec![0.0; last.fitted.layout.components()]);
+    for (components, row_set) in row_sets {
+        for (left, part) in left.iter_mut().zip(row_set) {
+            components.iter().zip(part).for_each(|(&component, value)| left[component] = value);
+        }
     }
     Ok(left)
 }
 
-/// The same for some of the rows, whose components start at one of all.
+/// The same for some of the rows, which have these components of all.
 fn predicted_of(
     last: &Round<'_>,
     candidates: &[(EffectId, usize)],
     coefficients: &Coefficients,
-    start: usize,
+    components: &[usize],
     row_set: &RowSet<'_>,
 ) -> Vec<f64> {
     let problem = &last.search.problem;
@@ -199,8 +201,8 @@ fn predicted_of(
             .iter()
             .map(|fold| fold.iter().find(|&&(c, _)| c == column).map_or(0.0, |&(_, b)| b))
             .collect();
-        for (component, (left, value)) in left.iter_mut().zip(&values).enumerate() {
-            *left -= by_fold[last.search.fold_of(start + component)] * value;
+        for (&component, (left, value)) in components.iter().zip(left.iter_mut().zip(&values)) {
+            *left -= by_fold[last.search.fold_of(component)] * value;
         }
     }
     row_set.with_objects_anew(left)

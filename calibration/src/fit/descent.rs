@@ -3,6 +3,7 @@
 //! Source: K. Madsen, H. B. Nielsen, O. Tingleff, Methods for Non-Linear Least Squares Problems (2004), with weights taken
 //! anew at every step.
 
+use super::mixing::Mixing;
 use super::normal::Rest;
 use super::solver::{Course, Solver, same};
 use super::subspace::Subspace;
@@ -13,8 +14,14 @@ use crate::fit::noise::{self, Noise};
 /// A step is negligible when it moves the prediction by this many standard deviations in all.
 const NEGLIGIBLE: f64 = 1e-7;
 
+/// The same where rows observe unknown objects: what nothing holds of their frame moves with the last bits of the rows.
+const NEGLIGIBLE_IN_A_FREE_FRAME: f64 = 1e-5;
+
 /// The same while the noise is still being learned.
 const ROUGHLY: f64 = 1e-2;
+
+/// Steps so short change the objective by no more than this share, of which rounding is no small part.
+const ROUNDING: f64 = 1e-12;
 
 /// How often the noise is learned anew.
 const NOISE_ROUNDS: usize = 8;
@@ -119,7 +126,8 @@ impl Solver<'_> {
             }
         }
         let noise = course.noise.clone();
-        self.descend(course, &noise, NEGLIGIBLE)
+        let is_free = self.observations.unknowns.is_some();
+        self.descend(course, &noise, if is_free { NEGLIGIBLE_IN_A_FREE_FRAME } else { NEGLIGIBLE })
     }
 
     /// Steps with this noise until one is no longer than `negligible`.
@@ -127,6 +135,8 @@ impl Solver<'_> {
         let negligible = negligible.max(self.unresolved(noise));
         let mut damping = 0.0;
         course.stopped = None;
+        // Weights that follow many objects' residuals settle slowly, each object's in its own time.
+        let mut mixing = self.observations.unknowns.is_some().then(Mixing::default);
         for _ in 0..self.options.max_iterations {
             let point = &course.point;
             let tally = &point.sweep.tally;
@@ -137,10 +147,17 @@ impl Solver<'_> {
                 return Ok(());
             }
             self.iterations += 1;
-            let values = self.moved(point, &step.change, stride);
+            let plain = self.moved(point, &step.change, stride);
+            let mixed = mixing.as_mut().filter(|_| damping == 0.0);
+            let mixed = mixed.and_then(|mixing| mixing.next(&point.values, &plain));
+            let is_mixed = mixed.is_some();
+            let values = mixed.unwrap_or(plain);
             let rest = self.rest_at(&values, &course.subspace, &point.rest);
             let next = self.point(values, noise, course.weighting, rest)?;
-            if next.objective() <= point.objective() * (1.0 + 1e-9) {
+            if is_mixed && next.objective() > point.objective() * (1.0 + ROUNDING) {
+                // The plain step is tried next, from the same point.
+                mixing = Some(Mixing::default());
+            } else if next.objective() <= point.objective() * (1.0 + 1e-9) {
                 course.point = next;
                 damping = if damping < 1e-7 { 0.0 } else { damping / 10.0 };
             } else {

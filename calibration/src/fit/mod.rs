@@ -9,6 +9,7 @@ mod cluster;
 mod descent;
 mod few;
 mod fingerprint;
+mod mixing;
 mod model;
 pub mod noise;
 mod normal;

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::FitError;
 use super::block::Block;
-use super::objects;
+use super::objects::{self, TurnsBy};
 use super::residual::components;
 use crate::data::orientation::{AXES, axes_of};
 use crate::data::{Measure, Measured, Observations, Poses, Series};
@@ -32,6 +32,7 @@ pub struct Model {
     beams: Vec<Option<Program>>,
     /// Symbols of the chain; values behind them are those of objects and stations.
     symbols: usize,
+    turns_by: TurnsBy,
 }
 
 /// Rows to evaluate: poses, and what was measured there if anything was.
@@ -90,7 +91,14 @@ impl Model {
             programs,
             beams,
             symbols: chain.symbols.len(),
+            turns_by: TurnsBy::Object,
         })
+    }
+
+    /// The same with derivatives that tell what rows determine, not where a step leads.
+    #[must_use]
+    pub(crate) fn for_determination(&self) -> Self {
+        Self { turns_by: TurnsBy::Prediction, ..self.clone() }
     }
 
     /// The programs of the observables' values alone.
@@ -100,7 +108,8 @@ impl Model {
         let programs: Vec<Program> = poses.series.iter().map(of).collect();
         let beams = beams(chain, poses, &programs);
         let symbols = chain.symbols.len();
-        Self { parameters: Vec::new(), column_of: Vec::new(), columns: 0, programs, beams, symbols }
+        let (parameters, column_of, turns_by) = (Vec::new(), Vec::new(), TurnsBy::Object);
+        Self { parameters, column_of, columns: 0, programs, beams, symbols, turns_by }
     }
 
     /// What is estimated, in the order of the columns.
@@ -257,7 +266,9 @@ impl Model {
                 let beam =
                     if has_beam { [0, 1, 2].map(|axis| along[axis * count + row]).into() } else { predicted };
                 let row = rows.start + row;
-                objects::seen(unknowns, first, state, row, series.measure, &measured, &predicted, &beam)
+                let measure = series.measure;
+                let by = self.turns_by;
+                objects::seen(unknowns, first, state, row, measure, &measured, &predicted, &beam, by)
             });
             let (components, unknown) = match seen {
                 Some(seen) => seen,

@@ -89,6 +89,29 @@ impl Rows {
         Self { values: vec![0.0; stride * columns], count, stride }
     }
 
+    /// Rotates the rows so that the first `k` columns move `k` rows of their own alone: those, k × all columns, and what is left
+    /// of the rows in the other columns.
+    #[must_use]
+    pub fn split(mut self, k: usize) -> (Mat<f64>, Self) {
+        let side = self.values.len().checked_div(self.stride).unwrap_or(0);
+        let mut packed = vec![0.0; side * (side + 1) / 2];
+        let work = Reflections { packed: &mut packed, side, leading: k.min(side), rows: &mut self };
+        vector::run(vector::path(), work);
+        let at = |row: usize, column: usize| {
+            if row > column { 0.0 } else { packed[column * (column + 1) / 2 + row] }
+        };
+        let own = Mat::from_fn(k, side, at);
+        let values = self.values.split_off(k.min(side) * self.stride);
+        (own, Self { values, ..self })
+    }
+
+    /// As a matrix.
+    #[must_use]
+    pub fn to_matrix(mut self) -> Mat<f64> {
+        let columns: Vec<&mut [f64]> = self.columns_mut().collect();
+        Mat::from_fn(columns.first().map_or(0, |column| column.len()), columns.len(), |i, j| columns[j][i])
+    }
+
     /// The columns in order.
     pub fn columns_mut(&mut self) -> impl Iterator<Item = &mut [f64]> {
         let count = self.count;
@@ -106,10 +129,10 @@ impl Partial {
 
     /// Takes in rows of as many columns as there are parameters, and the residual.
     #[must_use]
-    pub fn with(mut self, rows: Rows) -> Self {
+    pub fn with(mut self, mut rows: Rows) -> Self {
         self.components += rows.count as u64;
         let (packed, side) = (&mut self.packed, self.parameters + 1);
-        vector::run(vector::path(), Reflections { packed, side, rows });
+        vector::run(vector::path(), Reflections { packed, side, leading: side, rows: &mut rows });
         self
     }
 
@@ -193,15 +216,17 @@ impl Partial {
 struct Reflections<'a> {
     packed: &'a mut [f64],
     side: usize,
-    rows: Rows,
+    /// So many columns are turned into the triangle; the rows keep what is left of the others.
+    leading: usize,
+    rows: &'a mut Rows,
 }
 
 impl vector::Work for Reflections<'_> {
     #[inline(always)]
     fn run<A: Arithmetic>(self, _: A) {
-        let Self { packed, side, mut rows } = self;
+        let Self { packed, side, leading, rows } = self;
         let stride = rows.stride.max(1);
-        for column in 0..side {
+        for column in 0..leading {
             let end = ((column + 1) * stride).min(rows.values.len());
             let (done, others) = rows.values.split_at_mut(end);
             let below = done.get(column * stride..).unwrap_or_default();
@@ -277,6 +302,28 @@ mod tests {
                 for column in 0..3 {
                     assert_relative_eq!(gram(&whole)[(row, column)], direct[(row, column)], epsilon = 1e-13);
                     assert_relative_eq!(gram(&merged)[(row, column)], direct[(row, column)], epsilon = 1e-13);
+                }
+            }
+        }
+
+        #[test]
+        fn rows_that_are_split_have_the_same_inner_products(values in proptest::collection::vec(-1.0f64..1.0, 50)) {
+            let matrix = Mat::from_fn(10, 5, |row, column| values[5 * row + column]);
+            let mut rows = Rows::zeros(10, 5);
+            for (j, column) in rows.columns_mut().enumerate() {
+                column.iter_mut().enumerate().for_each(|(i, value)| *value = matrix[(i, j)]);
+            }
+            let (own, mut rest) = rows.split(2);
+            let rest: Vec<Vec<f64>> = rest.columns_mut().map(|column| column.to_vec()).collect();
+            for i in 0..5usize {
+                for j in 0..5usize {
+                    let of_rest: f64 = match (i.checked_sub(2), j.checked_sub(2)) {
+                        (Some(i), Some(j)) => rest[i].iter().zip(&rest[j]).map(|(a, b)| a * b).sum(),
+                        _ => 0.0,
+                    };
+                    let product = of_rest + (0..2).map(|row| own[(row, i)] * own[(row, j)]).sum::<f64>();
+                    let direct: f64 = (0..10).map(|row| matrix[(row, i)] * matrix[(row, j)]).sum();
+                    assert_relative_eq!(product, direct, epsilon = 1e-13);
                 }
             }
         }

@@ -120,8 +120,14 @@ impl Solver<'_> {
     /// What the data determine: every error at zero, constants where they are. Of an anchored fit, what they tell more of
     /// than the sizes do, where the errors are: only there are residuals no larger than the noise.
     pub(super) fn determined(&self, values: &[f64], noise: &Noise) -> Result<Subspace, FitError> {
+        let model = self.model.for_determination();
+        let sigma = noise.sigma_without_memory();
+        let swept = |values: &[f64]| {
+            let (observations, layout) = (self.observations, &self.layout);
+            sweep(&model, observations, layout, values, &sigma, Weighting::Full, &self.aside)
+        };
         if self.options.anchored {
-            let partial = self.partial(&self.sweep(values, noise, Weighting::Full)?);
+            let partial = self.partial(&swept(values)?);
             return Ok(Subspace::beyond(&partial, self.first_sizes()));
         }
         let mut values = values.to_vec();
@@ -130,7 +136,7 @@ impl Solver<'_> {
                 values[parameter.index()] = 0.0;
             }
         }
-        let partial = self.partial(&self.sweep(&values, noise, Weighting::Full)?);
+        let partial = self.partial(&swept(&values)?);
         Ok(Subspace::determined(&partial, self.first_sizes()))
     }
 

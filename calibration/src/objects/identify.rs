@@ -55,7 +55,7 @@ pub struct SetUp {
 /// # Errors
 /// As a fit of them would have.
 pub fn identify(chain: &Chain, observations: &Observations, options: &FitOptions) -> Result<SetUp, FitError> {
-    let model = Model::new(chain, &observations.poses, &options.estimate)?;
+    let model = Model::new(chain, &observations.poses, &options.estimate)?.for_determination();
     let now = visible(chain, &model, observations, options)?;
     let mut set_up =
         SetUp { rows: observations.rows(), stations: [0; 2], objects: [0; 2], now, remedies: Vec::new() };

@@ -1,7 +1,6 @@
 //! Groups of rows, dealt to folds: rows of one group are not independent, and are held out together.
 
 use std::collections::BTreeMap;
-use std::ops::Range;
 
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
@@ -97,8 +96,8 @@ impl Folds {
 
     /// The groups of some rows.
     #[must_use]
-    pub fn groups_of(&self, rows: Range<usize>) -> &[usize] {
-        &self.group_of_row[rows]
+    pub fn groups_of(&self, rows: &[usize]) -> Vec<usize> {
+        rows.iter().map(|&row| self.group_of_row[row]).collect()
     }
 
     /// The fold that a row lies in.

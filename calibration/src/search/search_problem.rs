@@ -70,20 +70,21 @@ impl<'a> SearchProblem<'a> {
     /// With chunk after chunk merged into what is left of those before, and a sample in memory.
     fn merged(whole: &Context<'a>, fitted: &Fitted, folds: Folds, width: usize) -> Result<Self, SearchError> {
         let observations = whole.request.observations;
-        let (mut cells, of_groups) = Cells::new(&folds, CELLS.min(whole.held / (2 * width * width)), width);
+        let (mut cells, of_groups) = Cells::new(&folds, CELLS.min(whole.held / (width * width)), width);
         let mut seen: Option<Seen> = None;
-        let columns = |components: &Range<usize>, row_set: RowSet<'a>| {
-            let by_cell = of_groups.sorted(folds.groups_of(components.clone()));
+        let columns = |components: &[usize], row_set: RowSet<'a>| {
+            let by_cell = of_groups.sorted(&folds.groups_of(components));
             (row_set.whitened_in(&by_cell.order), by_cell, row_set.seen)
         };
+        let mut rows = 0;
         each_chunk(
             whole,
             fitted,
             |_| true,
             columns,
             |components, (whitened, by_cell, of_chunk)| {
-                let rows = fitted.layout.row[components.start] as usize;
                 (whole.tell)(Stage::Columns { rows, of: observations.rows() });
+                rows += components.chunk_by(|&a, &b| fitted.layout.row[a] == fitted.layout.row[b]).count();
                 cells.add(whitened.as_ref(), &by_cell);
                 match &mut seen {
                     None => seen = Some(of_chunk),
@@ -153,13 +154,13 @@ impl<'a> SearchProblem<'a> {
         whole: &Context<'a>,
         fitted: &Fitted,
         wanted: impl Fn(EffectId) -> bool + Sync,
-        f: impl Fn(&Range<usize>, &RowSet<'_>) -> T + Sync,
+        f: impl Fn(&[usize], &RowSet<'_>) -> T + Sync,
     ) -> Result<Vec<T>, SearchError> {
         if self.sampled.is_none() {
-            return Ok(vec![f(&(0..self.folds.rows()), &self.rows)]);
+            return Ok(vec![f(&(0..self.folds.rows()).collect::<Vec<_>>(), &self.rows)]);
         }
         let mut all = Vec::new();
-        let made = |components: &Range<usize>, mut row_set: RowSet<'a>| {
+        let made = |components: &[usize], mut row_set: RowSet<'a>| {
             row_set.keep(&self.usable);
             f(components, &row_set)
         };
@@ -174,16 +175,18 @@ fn each_chunk<'a, T: Send>(
     whole: &Context<'a>,
     fitted: &Fitted,
     wanted: impl Fn(EffectId) -> bool + Sync,
-    make: impl Fn(&Range<usize>, RowSet<'a>) -> T + Sync,
-    mut take: impl FnMut(Range<usize>, T),
+    make: impl Fn(&[usize], RowSet<'a>) -> T + Sync,
+    mut take: impl FnMut(Vec<usize>, T),
 ) -> Result<(), SearchError> {
     let first = &fitted.layout.first;
     for some in chunks(whole.request.observations).chunks(AT_ONCE) {
-        let made: Vec<Result<(Range<usize>, T), SearchError>> = some
+        let made: Vec<Result<(Vec<usize>, T), SearchError>> = some
             .par_iter()
             .map(|chunk| {
-                let components = first[chunk.start]..first[chunk.end];
-                let row_set = RowSet::of(whole, fitted, std::slice::from_ref(chunk), &wanted)?;
+                let stretches = chunk.iter();
+                let components: Vec<usize> =
+                    stretches.flat_map(|stretch| first[stretch.start]..first[stretch.end]).collect();
+                let row_set = RowSet::of(whole, fitted, chunk, &wanted)?;
                 let made = make(&components, row_set);
                 Ok((components, made))
             })

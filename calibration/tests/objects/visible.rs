@@ -21,6 +21,25 @@ fn stations(known: bool) -> String {
     text
 }
 
+/// The readings with noise of this size, in m of the range and a tenth of it in rad.
+fn noisy(data: &str, size: f64) -> String {
+    let mut text = String::new();
+    let mut step = 0.0_f64;
+    for (number, line) in data.lines().enumerate() {
+        let cells = line.split(',').enumerate().map(|(column, cell)| match cell.parse::<f64>() {
+            Ok(value) if number > 0 => {
+                step += 1.0;
+                // Uniform, by steps of the golden section; ranges stand in the last column.
+                let noise = 2.0 * (step * 0.618_033_988_75 + (step * step * 0.414_213_562).fract()).fract() - 1.0;
+                (value + noise * if column == 5 { size } else { 0.1 * size }).to_string()
+            }
+            _ => cell.to_owned(),
+        });
+        text += &(cells.collect::<Vec<_>>().join(",") + "\n");
+    }
+    text
+}
+
 /// Source: `tests/reference/objects_rank.py`: 15 combinations with known stations, 11 with unknown ones, of targets as of
 /// planes, whether these are known or not.
 #[test]
@@ -34,6 +53,10 @@ fn the_papers_scanner_shows_fifteen_combinations_and_eleven_from_unknown_station
             );
             let chain = text_of("examples/mobile-lidar/mobile-lidar.chain");
             let data = text_of(&format!("calibration/tests/objects/{data}.csv"));
+            let noisy = noisy(&data, 0.001);
+            let (plan, loaded) = read(&chain, &study, &noisy).unwrap();
+            let of_noisy = identify(&plan.chain, &loaded.observations, &plan.fit).unwrap();
+            assert_eq!(of_noisy.now.combinations.len(), expected, "{kind}, noisy, stations known: {known}");
             let (plan, loaded) = read(&chain, &study, &data).unwrap();
             let set_up = identify(&plan.chain, &loaded.observations, &plan.fit).unwrap();
             assert_eq!(set_up.now.combinations.len(), expected, "{kind}, stations known: {known}");

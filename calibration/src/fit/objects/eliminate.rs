@@ -4,18 +4,25 @@
 //! variable projection. A direction in which no row moves an object or station is held by a row so weak that it takes no
 //! part in anything else.
 //!
+//! A row knows one object and one station. So the rows of one object from one station are rotated among themselves until its
+//! numbers move no more than a few of them: the others go to their station's own sum, and only those few, with the columns of
+//! every station that saw the object, to the sum of all. The cost grows with the rows.
+//!
 //! Source: G. H. Golub, V. Pereyra, Separable nonlinear least squares: the variable projection method and its
 //! applications, Inverse Problems 19 (2003) R1-R26; eliminated block by block as in a bundle adjustment.
 
-use faer::Mat;
+use faer::{Mat, MatRef};
 use rayon::prelude::*;
 
-use crate::data::unknowns::{Freedom, Unknowns, WIDTH};
+use crate::data::unknowns::{Freedom, OF_OBJECT, Unknowns, WIDTH};
 use crate::fit::{Partial, Rows};
 
 /// The weight of the rows that hold what nothing else holds, in units of the column's length. Much less, and rounding would
 /// move a frame that nothing holds further than a step does.
 const HOLD: f64 = 1e-6;
+
+/// Parts that the objects are cut into: as many whatever the number of processors, which changes no bit.
+const PARTS: usize = 16;
 
 /// A column of which less than this share is left, objects and stations aside, moved nothing else.
 const NOTHING: f64 = 3e-5;
@@ -65,58 +72,47 @@ impl Eliminated {
         components: u64,
     ) -> Self {
         let width = WIDTH + columns + 1;
-        let mut rows_of_object: Vec<Vec<(usize, &[f64])>> = vec![Vec::new(); unknowns.objects.len()];
-        let mut others: Vec<&[f64]> = Vec::new();
-        let mut lengths = vec![0.0; columns];
+        // Behind the objects' rows come those that observe none.
+        let mut of_object: Vec<Vec<(u32, &[f64])>> = vec![Vec::new(); unknowns.objects.len() + 1];
         for part in parts {
             for (&row, values) in part.row.iter().zip(part.values.chunks_exact(width)) {
-                lengths.iter_mut().zip(&values[WIDTH..]).for_each(|(sum, value)| *sum += value * value);
-                match unknowns.object[row as usize] {
-                    Some(object) => rows_of_object[object as usize].push((row as usize, values)),
-                    None => others.push(values),
+                let object = unknowns.object[row as usize].map_or(unknowns.objects.len(), |at| at as usize);
+                of_object[object].push((row, values));
+            }
+        }
+        let layout = Layout::new(unknowns, state, columns);
+        let all: Vec<usize> = (0..of_object.len()).collect();
+        let parts: Vec<Sums> = all
+            .par_chunks(of_object.len().div_ceil(PARTS))
+            .map(|objects| {
+                let mut sums = Sums::new(&layout);
+                for &object in objects {
+                    if object == unknowns.objects.len() {
+                        sums.take_bare(&layout, &of_object[object]);
+                    } else {
+                        sums.take(&layout, object, &of_object[object]);
+                    }
                 }
+                sums
+            })
+            .collect();
+        let mut sums = Sums::new(&layout);
+        parts.into_iter().for_each(|part| sums.merge(part));
+        let Sums { mut whole, of_station, bare, mut taken, mut objective, mut triangles, lengths } = sums;
+        let of_stations = layout.of_stations;
+        for (station, own) in of_station.into_iter().enumerate() {
+            if let Some(own) = own {
+                let start = layout.first_of_station[station];
+                let places = (start..start + OF_STATION).chain(of_stations..of_stations + columns + 1);
+                whole = whole.with(spread(own.factor().as_ref(), places, of_stations + columns + 1));
             }
         }
-        let [first_of_station, first_of_object] = [unknowns.first_of_stations(), unknowns.first_of_objects()];
-        let of_stations = unknowns.of_stations();
-        let one = |(at, rows): (usize, &Vec<(usize, &[f64])>)| {
-            let own = first_of_object[at]..first_of_object[at] + unknowns.objects[at].numbers();
-            one_object(
-                unknowns,
-                &first_of_station,
-                rows,
-                own.collect(),
-                unknowns.objects[at].freedom,
-                state,
-                columns,
-            )
-        };
-        let objects: Vec<OneObject> = rows_of_object.par_iter().enumerate().map(one).collect();
-
-        let mut whole = Partial::new(of_stations + columns);
-        let mut taken = 0.0;
-        let mut objective = 0.0;
-        let mut triangles = Vec::with_capacity(objects.len() + 1);
-        for OneObject { triangle, rest, taken: own, objective: prior } in objects {
-            let places: Vec<usize> =
-                triangle.stations.iter().copied().chain(of_stations..of_stations + columns + 1).collect();
-            let mut rows = Rows::zeros(rest.nrows(), of_stations + columns + 1);
-            let mut targets: Vec<&mut [f64]> = rows.columns_mut().collect();
-            for (column, &place) in places.iter().enumerate() {
-                targets[place].iter_mut().zip(rest.col(column).iter()).for_each(|(to, from)| *to = *from);
-            }
-            drop(targets);
-            whole = whole.with(rows);
-            taken += own;
-            objective += prior;
-            triangles.push(triangle);
-        }
-        let mut rows = Rows::zeros(others.len(), of_stations + columns + 1);
-        for (column, target) in rows.columns_mut().skip(of_stations).enumerate() {
-            target.iter_mut().zip(&others).for_each(|(to, from)| *to = from[WIDTH + column]);
-        }
-        whole = whole.with(rows);
-        let free = held(unknowns, &first_of_station, state, &mut whole, &mut objective);
+        whole = whole.with(spread(
+            bare.factor().as_ref(),
+            of_stations..of_stations + columns + 1,
+            of_stations + columns + 1,
+        ));
+        let free = held(&layout, &mut whole, &mut objective);
 
         let factor = whole.factor();
         for (at, free) in free.iter().enumerate() {
@@ -164,84 +160,213 @@ impl Eliminated {
     }
 }
 
-/// What one object leaves of its rows.
-struct OneObject {
-    triangle: Triangle,
-    /// Rows of [its stations | chain | residual].
-    rest: Mat<f64>,
-    taken: f64,
-    objective: f64,
+/// What the elimination reads throughout.
+struct Layout<'a> {
+    unknowns: &'a Unknowns,
+    state: &'a [f64],
+    columns: usize,
+    of_stations: usize,
+    first_of_station: Vec<usize>,
+    first_of_object: Vec<usize>,
 }
 
-/// Eliminates the numbers of one object from its rows.
-fn one_object(
-    unknowns: &Unknowns,
-    first_of_station: &[usize],
-    rows: &[(usize, &[f64])],
-    own: Vec<usize>,
-    freedom: Freedom,
-    state: &[f64],
-    columns: usize,
-) -> OneObject {
-    let station_of = |row: usize| unknowns.station[row] as usize;
-    let mut seen_from: Vec<usize> = rows.iter().map(|&(row, _)| station_of(row)).collect();
-    seen_from.sort_unstable();
-    seen_from.dedup();
-    seen_from.retain(|&station| unknowns.stations[station].numbers() > 0);
-    let k = own.len();
-    let width = k + 6 * seen_from.len() + columns + 1;
-    let object_part = WIDTH - 6;
-    let mut matrix = Rows::zeros(rows.len() + k, width);
-    let mut targets: Vec<&mut [f64]> = matrix.columns_mut().collect();
-    for (at, (row, values)) in rows.iter().enumerate() {
-        (0..k).for_each(|number| targets[number][at] = values[number]);
-        if let Some(place) = seen_from.iter().position(|&station| station == station_of(*row)) {
-            (0..6).for_each(|number| targets[k + 6 * place + number][at] = values[object_part + number]);
+impl<'a> Layout<'a> {
+    fn new(unknowns: &'a Unknowns, state: &'a [f64], columns: usize) -> Self {
+        Self {
+            unknowns,
+            state,
+            columns,
+            of_stations: unknowns.of_stations(),
+            first_of_station: unknowns.first_of_stations(),
+            first_of_object: unknowns.first_of_objects(),
         }
-        let behind = k + 6 * seen_from.len();
-        (0..=columns).for_each(|number| targets[behind + number][at] = values[WIDTH + number]);
     }
-    let mut objective = 0.0;
-    let mut lengths = vec![0.0; k];
-    for number in 0..k {
-        let length = targets[number].iter().map(|value| value * value).sum::<f64>().sqrt();
-        lengths[number] = length;
-        let at = rows.len() + number;
-        if let Freedom::Within { shift_m, .. } = freedom {
-            targets[number][at] = 1.0 / shift_m;
-            targets[width - 1][at] = -state[own[number]] / shift_m;
-            objective += (state[own[number]] / shift_m).powi(2);
-        } else {
-            targets[number][at] = HOLD * if length > 0.0 { length } else { 1.0 };
+
+    /// The station of a row if its numbers are estimated.
+    fn station_of(&self, row: u32) -> Option<usize> {
+        let station = self.unknowns.station[row as usize] as usize;
+        (self.unknowns.stations[station].numbers() > 0).then_some(station)
+    }
+}
+
+/// What some objects leave of their rows.
+struct Sums {
+    /// Over the columns of all stations and the chain.
+    whole: Partial,
+    /// Over the columns of one station and the chain; none where nothing came of it.
+    of_station: Vec<Option<Partial>>,
+    /// Over the chain's columns, of rows that move no station.
+    bare: Partial,
+    taken: f64,
+    objective: f64,
+    triangles: Vec<Triangle>,
+    /// Sum of squares of each of the chain's columns.
+    lengths: Vec<f64>,
+}
+
+impl Sums {
+    fn new(layout: &Layout<'_>) -> Self {
+        Self {
+            whole: Partial::new(layout.of_stations + layout.columns),
+            of_station: vec![None; layout.unknowns.stations.len()],
+            bare: Partial::new(layout.columns),
+            taken: 0.0,
+            objective: 0.0,
+            triangles: Vec::new(),
+            lengths: vec![0.0; layout.columns],
         }
+    }
+
+    fn merge(&mut self, other: Self) {
+        let of_whole = other.whole.factor();
+        self.whole = self.whole.clone().with_rows(of_whole.as_ref());
+        for (own, other) in self.of_station.iter_mut().zip(other.of_station) {
+            *own = match (own.take(), other) {
+                (Some(own), Some(other)) => Some(own.with_rows(other.factor().as_ref())),
+                (own, other) => own.or(other),
+            };
+        }
+        self.bare = self.bare.clone().with_rows(other.bare.factor().as_ref());
+        self.taken += other.taken;
+        self.objective += other.objective;
+        self.triangles.extend(other.triangles);
+        self.lengths.iter_mut().zip(other.lengths).for_each(|(own, other)| *own += other);
+    }
+
+    /// Takes in rows that observe no object.
+    fn take_bare(&mut self, layout: &Layout<'_>, rows: &[(u32, &[f64])]) {
+        self.measure(rows);
+        let mut matrix = Rows::zeros(rows.len(), layout.columns + 1);
+        fill(&mut matrix, rows, WIDTH..WIDTH + layout.columns + 1);
+        self.bare = std::mem::replace(&mut self.bare, Partial::new(0)).with(matrix);
+    }
+
+    fn measure(&mut self, rows: &[(u32, &[f64])]) {
+        for (_, values) in rows {
+            self.lengths.iter_mut().zip(&values[WIDTH..]).for_each(|(sum, value)| *sum += value * value);
+        }
+    }
+
+    /// Eliminates the numbers of one object from its rows.
+    fn take(&mut self, layout: &Layout<'_>, object: usize, rows: &[(u32, &[f64])]) {
+        self.measure(rows);
+        let (columns, thing) = (layout.columns, &layout.unknowns.objects[object]);
+        let k = thing.numbers();
+        let own = layout.first_of_object[object]..layout.first_of_object[object] + k;
+        let mut lengths = vec![0.0_f64; k];
+        for (_, values) in rows {
+            lengths.iter_mut().zip(*values).for_each(|(sum, value)| *sum += value * value);
+        }
+        lengths.iter_mut().for_each(|square| *square = square.sqrt());
+
+        // From each station what moves the object, and the rest to the station's sum.
+        let mut order: Vec<(Option<usize>, u32, &[f64])> =
+            rows.iter().map(|&(row, values)| (layout.station_of(row), row, values)).collect();
+        order.sort_by_key(|&(station, row, _)| (station, row));
+        let mut telling: Vec<(Option<usize>, Mat<f64>)> = Vec::new();
+        for seen in order.chunk_by(|a, b| a.0 == b.0) {
+            let station = seen[0].0;
+            let rows: Vec<(u32, &[f64])> = seen.iter().map(|&(_, row, values)| (row, values)).collect();
+            // The derivatives by the station stand right before those by the chain.
+            let of_station = if station.is_some() { OF_STATION } else { 0 };
+            let behind = WIDTH - of_station..WIDTH + columns + 1;
+            let mut matrix = Rows::zeros(rows.len(), k + behind.len());
+            fill(&mut matrix, &rows, (0..k).chain(behind));
+            if rows.len() <= k {
+                telling.push((station, matrix.to_matrix()));
+                continue;
+            }
+            let (few, rest) = matrix.split(k);
+            telling.push((station, few));
+            match station {
+                None => self.bare = std::mem::replace(&mut self.bare, Partial::new(0)).with(rest),
+                Some(station) => {
+                    let sum = self.of_station[station].take();
+                    let sum = sum.unwrap_or_else(|| Partial::new(OF_STATION + columns));
+                    self.of_station[station] = Some(sum.with(rest));
+                }
+            }
+        }
+
+        let stations: Vec<usize> = telling.iter().filter_map(|(station, _)| *station).collect();
+        let behind = k + OF_STATION * stations.len();
+        let width = behind + columns + 1;
+        let count: usize = telling.iter().map(|(_, few)| few.nrows()).sum();
+        let mut matrix = Rows::zeros(count + k, width);
+        let mut targets: Vec<&mut [f64]> = matrix.columns_mut().collect();
+        let mut at = 0;
+        for (station, few) in &telling {
+            let place = station.and_then(|station| stations.iter().position(|&other| other == station));
+            let of_station = place.map_or(0..0, |place| k + OF_STATION * place..k + OF_STATION * (place + 1));
+            for (from, to) in few.col_iter().zip((0..k).chain(of_station).chain(behind..width)) {
+                targets[to][at..at + few.nrows()]
+                    .iter_mut()
+                    .zip(from.iter())
+                    .for_each(|(to, from)| *to = *from);
+            }
+            at += few.nrows();
+        }
+        for (number, &length) in lengths.iter().enumerate() {
+            if let Freedom::Within { shift_m, .. } = thing.freedom {
+                let state = layout.state[own.start + number];
+                targets[number][count + number] = 1.0 / shift_m;
+                targets[width - 1][count + number] = -state / shift_m;
+                self.objective += (state / shift_m).powi(2);
+            } else {
+                targets[number][count + number] = HOLD * if length > 0.0 { length } else { 1.0 };
+            }
+        }
+        drop(targets);
+        let (factor, mut rest) = matrix.split(k);
+        let determined = |&number: &usize| {
+            factor[(number, number)].abs() > NOTHING * lengths[number] && lengths[number] > 0.0
+        };
+        // Stated places are as many observations as they are numbers.
+        if !matches!(thing.freedom, Freedom::Within { .. }) {
+            self.taken += (0..k).filter(determined).count() as f64;
+        }
+        let of_stations = layout.of_stations;
+        let numbers: Vec<usize> = stations
+            .iter()
+            .map(|&station| layout.first_of_station[station])
+            .flat_map(|start| start..start + OF_STATION)
+            .collect();
+        let places = numbers.iter().copied().chain(of_stations..of_stations + columns + 1);
+        let mut spread = Rows::zeros(count + k, of_stations + columns + 1);
+        let mut targets: Vec<&mut [f64]> = spread.columns_mut().collect();
+        for (from, to) in rest.columns_mut().zip(places) {
+            targets[to].copy_from_slice(from);
+        }
+        drop(targets);
+        self.whole = std::mem::replace(&mut self.whole, Partial::new(0)).with(spread);
+        self.triangles.push(Triangle { own: own.collect(), stations: numbers, factor });
+    }
+}
+
+/// The numbers of a station.
+const OF_STATION: usize = WIDTH - OF_OBJECT;
+
+/// Fills a matrix with some numbers of some rows.
+fn fill(matrix: &mut Rows, rows: &[(u32, &[f64])], chosen: impl Iterator<Item = usize>) {
+    for (target, number) in matrix.columns_mut().zip(chosen) {
+        target.iter_mut().zip(rows).for_each(|(to, (_, values))| *to = values[number]);
+    }
+}
+
+/// Rows whose columns stand at some places among `width`.
+fn spread(rows: MatRef<'_, f64>, places: impl Iterator<Item = usize>, width: usize) -> Rows {
+    let mut spread = Rows::zeros(rows.nrows(), width);
+    let mut targets: Vec<&mut [f64]> = spread.columns_mut().collect();
+    for (from, to) in rows.col_iter().zip(places) {
+        targets[to].iter_mut().zip(from.iter()).for_each(|(to, from)| *to = *from);
     }
     drop(targets);
-    let factor = Partial::new(width - 1).with(matrix).factor();
-    let determined = |number: usize| factor[(number, number)].abs() > NOTHING * lengths[number];
-    let taken = match freedom {
-        // Stated places are as many observations as they are numbers.
-        Freedom::Within { .. } => 0,
-        _ => (0..k).filter(|&number| determined(number) && lengths[number] > 0.0).count(),
-    };
-    let stations =
-        seen_from.iter().flat_map(|&station| first_of_station[station]..first_of_station[station] + 6);
-    OneObject {
-        rest: factor.submatrix(k, k, width - k, width - k).to_owned(),
-        triangle: Triangle { own, stations: stations.collect(), factor: factor.subrows(0, k).to_owned() },
-        taken: taken as f64,
-        objective,
-    }
+    spread
 }
 
 /// Adds what is stated of stations, and rows that hold the others where nothing else does; per number whether it is free.
-fn held(
-    unknowns: &Unknowns,
-    first_of_station: &[usize],
-    state: &[f64],
-    whole: &mut Partial,
-    objective: &mut f64,
-) -> Vec<bool> {
-    let count = unknowns.of_stations();
+fn held(layout: &Layout<'_>, whole: &mut Partial, objective: &mut f64) -> Vec<bool> {
+    let count = layout.of_stations;
     if count == 0 {
         return Vec::new();
     }
@@ -249,15 +374,15 @@ fn held(
     let mut free = vec![false; count];
     let mut columns: Vec<&mut [f64]> = rows.columns_mut().collect();
     let last = columns.len() - 1;
-    for (station, &start) in unknowns.stations.iter().zip(first_of_station) {
+    for (station, &start) in layout.unknowns.stations.iter().zip(&layout.first_of_station) {
         for number in 0..station.numbers() {
             let at = start + number;
             match station.freedom {
                 Freedom::Within { shift_m, turn_rad } => {
                     let sigma = if number < 3 { shift_m } else { turn_rad };
                     columns[at][at] = 1.0 / sigma;
-                    columns[last][at] = -state[at] / sigma;
-                    *objective += (state[at] / sigma).powi(2);
+                    columns[last][at] = -layout.state[at] / sigma;
+                    *objective += (layout.state[at] / sigma).powi(2);
                 }
                 Freedom::Free | Freedom::Given => {
                     let length = whole.length(at);

@@ -12,4 +12,4 @@ mod seen;
 
 pub(crate) use eliminate::{Collected, Eliminated};
 pub(crate) use reduce::Reduction;
-pub(crate) use seen::seen;
+pub(crate) use seen::{TurnsBy, seen};

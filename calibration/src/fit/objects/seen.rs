@@ -34,6 +34,7 @@ pub(crate) fn seen(
     measured: &Measured,
     predicted: &Vector3<f64>,
     beam: &Vector3<f64>,
+    turns_by: TurnsBy,
 ) -> Option<Seen> {
     let at = (*unknowns.object.get(row)?)? as usize;
     let object = unknowns.objects.get(at)?;
@@ -41,6 +42,7 @@ pub(crate) fn seen(
     let station = unknowns.stations.get(place)?;
     let by: [f64; 6] = numbers(state, first[0][place], station.numbers());
     let frame = Frame {
+        by: turns_by,
         pose: station.pose.moved(&by),
         jacobian: right_jacobian(&Vector3::new(by[3], by[4], by[5])).transpose(),
     };
@@ -67,9 +69,23 @@ fn tilted(normal: &Vector3<f64>, tilt: [f64; 2]) -> (Vector3<f64>, [Vector3<f64>
     (n, [first, second].map(|axis| (axis - n * n.dot(&axis)) / length))
 }
 
+/// What turns with a station when the derivative of a target or a sight is taken.
+///
+/// The two differ by the residual. Steps go by the object: a frame that nothing holds, with all in it, then changes no row. What
+/// the data determine is asked by the prediction, which the chain's own turns move: by the object every row would tell the two
+/// apart by its residual, and thousands of rows would determine what none of them shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum TurnsBy {
+    /// The object as the station's numbers have it.
+    Object,
+    /// What the chain predicts.
+    Prediction,
+}
+
 /// Where the station stands, and what its turn does when its numbers change.
 struct Frame {
     pose: Pose,
+    by: TurnsBy,
     /// Transpose of the right Jacobian of the turn.
     jacobian: Matrix3<f64>,
 }
@@ -101,7 +117,8 @@ impl Frame {
         let difference = there - p;
         let component = |axis: Vector3<f64>| {
             let outside = self.pose.turn * axis;
-            let row = self.row([-outside.x, -outside.y, -outside.z, 0.0], outside, there.cross(&axis));
+            let arm = if self.by == TurnsBy::Object { there } else { *p };
+            let row = self.row([-outside.x, -outside.y, -outside.z, 0.0], outside, arm.cross(&axis));
             ((difference.dot(&axis), axis), row)
         };
         let [a, b, c] = [across, up, beam].map(component);
@@ -137,9 +154,10 @@ impl Frame {
         let direction = there / distance;
         let axes = tangent_frame(&direction);
         let components = residual::on_tangent_plane(&direction, beam);
+        let arm = if self.by == TurnsBy::Object { direction } else { beam.normalize() };
         let row = |axis: Vector3<f64>| {
             let outside = self.pose.turn * axis / distance;
-            self.row([-outside.x, -outside.y, -outside.z, 0.0], outside, there.cross(&axis) / distance)
+            self.row([-outside.x, -outside.y, -outside.z, 0.0], outside, arm.cross(&axis))
         };
         (components, [row(axes[0]), row(axes[1]), [0.0; WIDTH]])
     }
@@ -196,7 +214,7 @@ mod tests {
             };
             let at = |state: &[f64], p: &Vector3<f64>| {
                 let length = Measured::Length { length_m: 0.3 };
-                seen(&unknowns, &first, state, 0, measure, &length, p, p).unwrap()
+                seen(&unknowns, &first, state, 0, measure, &length, p, p, TurnsBy::Object).unwrap()
             };
             // The point that the row would have at no residual.
             let p = (0..20).fold(p, |p, _| {

@@ -31,6 +31,8 @@ pub(crate) mod sweep;
 mod uncertainty;
 mod wire;
 
+use std::sync::Arc;
+
 use faer::Mat;
 use model_core::{Chain, SymbolId, SymbolKind};
 
@@ -100,9 +102,6 @@ impl FitOptions {
 pub struct Residuals {
     /// Measured minus predicted before whitening, rad or m, length n.
     pub raw: Vec<f64>,
-    /// Measured minus predicted, whitened: unit variance and independent if the noise model holds, times the
-    /// square root of the robust weight; length n.
-    pub whitened: Vec<f64>,
     /// The row of each component, length n.
     pub row: Vec<u32>,
     /// The robust weight of each row, 0 to 1.
@@ -156,8 +155,8 @@ pub struct FitResult {
     /// The triangular factor of the derivatives by each parameter, whitened but for memory between rows, each row by the
     /// root of its robust weight.
     pub factor: Partial,
-    /// The residuals.
-    pub residuals: Residuals,
+    /// The residuals, which copies share: of many rows they are most of what a fit holds.
+    pub residuals: Arc<Residuals>,
 }
 
 impl FitResult {

@@ -2,6 +2,7 @@
 //! determine, under its prior.
 
 use std::cell::OnceCell;
+use std::sync::Arc;
 
 use model_core::Chain;
 
@@ -156,7 +157,7 @@ impl Solver<'_> {
             subspace,
             parameters,
             values: point.values,
-            residuals: Residuals { raw: point.sweep.residual, whitened, row: self.layout.row, weight },
+            residuals: Arc::new(Residuals { raw: point.sweep.residual, row: self.layout.row, weight }),
         })
     }
 }

@@ -12,6 +12,7 @@
 
 pub(crate) mod aside;
 pub mod cells;
+mod chunk;
 pub mod columns;
 pub mod competing;
 pub mod confounded;

@@ -14,7 +14,7 @@ use crate::data::Observations;
 use crate::data::unknowns::Object;
 use crate::fit::noise::{Layout, Noise, Run};
 use crate::fit::objects::Reduction;
-use crate::search::columns::{Columns, Seen, keep};
+use crate::search::columns::{Columns, Probed, Seen, keep};
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
 use crate::search::{Folds, SearchError};
@@ -54,6 +54,17 @@ impl<'a> RowSet<'a> {
         stretches: &[Range<usize>],
         wanted: impl Fn(EffectId) -> bool,
     ) -> Result<Self, SearchError> {
+        Self::probed(whole, fitted, &fitted.probed, stretches, wanted)
+    }
+
+    /// The same with derivatives at the places of wanted effects, and at any others.
+    pub fn probed(
+        whole: &Context<'a>,
+        fitted: &Fitted,
+        probed: &Probed,
+        stretches: &[Range<usize>],
+        wanted: impl Fn(EffectId) -> bool,
+    ) -> Result<Self, SearchError> {
         let all = whole.request.observations;
         let rows: usize = stretches.iter().map(ExactSizeIterator::len).sum();
         let observations = if rows == all.rows() {
@@ -61,7 +72,7 @@ impl<'a> RowSet<'a> {
         } else {
             Cow::Owned(all.select(&stretches.iter().flat_map(Clone::clone).collect::<Vec<_>>()))
         };
-        let mut columns = fitted.probed.columns(&observations)?;
+        let mut columns = probed.columns(&observations)?;
         columns.declared = &columns.declared * &fitted.combinations;
         let values = &fitted.fit.values;
         let wanted = |effect| wanted(effect) || fitted.found.iter().any(|found| found.effect == effect);

@@ -7,6 +7,7 @@ mod align;
 mod block;
 mod cluster;
 mod descent;
+mod directions;
 mod few;
 mod fingerprint;
 mod model;

@@ -287,6 +287,12 @@ impl Model {
             block.project();
             return Ok(());
         }
+        if series.measure == Measure::Direction && unknowns.is_none() {
+            drop(outputs);
+            block.compare_directions(of.observed.map(|observed| &observed.measured[rows]))?;
+            block.project();
+            return Ok(());
+        }
         let predicted = |row: usize| Vector3::new(outputs[0][row], outputs[1][row], outputs[2][row]);
         let mut along = vec![0.0; 3 * count];
         let has_beam = beam.is_some();

@@ -20,7 +20,7 @@ use crate::search::fitted::Fitted;
 use crate::search::{Folds, SearchError};
 
 /// Rows of a chunk.
-const CHUNK: usize = 2048;
+const CHUNK: usize = 1024;
 
 /// Consecutive rows of a sample that stay together, so that what follows each other can still be compared.
 const STRETCH: usize = 64;

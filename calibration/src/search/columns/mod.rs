@@ -216,10 +216,10 @@ impl Columns {
     }
 
     /// The same column by column: `take` is given, effect by effect, what fills a column of as many components as there are.
-    pub(crate) fn each_column<'e>(
+    pub(crate) fn each_column(
         &self,
         chain: &Chain,
-        effects: &'e [Effect],
+        effects: &[Effect],
         poses: &Poses,
         values: &[f64],
         wanted: impl Fn(EffectId) -> bool,

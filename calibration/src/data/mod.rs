@@ -12,6 +12,7 @@ mod si_unit;
 mod tangent;
 pub mod units;
 pub mod unknowns;
+pub(crate) mod waves;
 
 pub use derive::{DeriveError, Derived, parse_derived};
 pub use measured::{Measure, Measured};

@@ -16,12 +16,6 @@ const NEGLIGIBLE: f64 = 1e-7;
 /// The same while the noise is still being learned.
 const ROUGHLY: f64 = 1e-2;
 
-/// The noise is known when no standard deviation changes by more than this share.
-const NOISE_KNOWN: f64 = 1e-3;
-
-/// What changes by less than this share is the same noise: all rows are asked again for any other.
-const ROUNDING: f64 = 1e-12;
-
 /// How often the noise is learned anew.
 const NOISE_ROUNDS: usize = 8;
 
@@ -113,8 +107,8 @@ impl Solver<'_> {
                 break;
             }
             let learned = self.learn_noise(course);
-            let known = same(&learned, &course.noise, NOISE_KNOWN);
-            if !same(&learned, &course.noise, ROUNDING) {
+            let known = same(&learned, &course.noise);
+            if learned != course.noise {
                 let values = std::mem::take(&mut course.point.values);
                 let rest = course.point.rest.clone();
                 course.point = self.point(values, &learned, course.weighting, rest)?;

@@ -14,7 +14,6 @@ const DEPENDENT: f64 = 1e-7;
 /// A Gram matrix with some of its columns swept.
 #[derive(Debug, Clone)]
 pub struct Sweep {
-    /// It stays symmetric: the lower half alone is read and kept.
     matrix: Mat<f64>,
     /// The diagonal before any sweep: the scale that a pivot is judged by.
     scale: Vec<f64>,
@@ -22,7 +21,7 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Starts from a Gram matrix, of which the lower half is read.
+    /// Starts from a Gram matrix (symmetric, both halves filled).
     #[must_use]
     pub fn new(gram: Mat<f64>) -> Self {
         let scale: Vec<f64> = (0..gram.ncols()).map(|i| gram[(i, i)]).collect();
@@ -61,18 +60,20 @@ impl Sweep {
 
     fn pivot(&mut self, k: usize, sign: f64) {
         let d = self.matrix[(k, k)];
-        let pivot: Vec<f64> = (0..self.scale.len()).map(|i| self.entry(i, k)).collect();
+        let pivot: Vec<f64> = self.matrix.col_as_slice(k).to_vec();
         for j in 0..pivot.len() {
             let factor = pivot[j] / d;
             if j == k || factor == 0.0 {
                 continue;
             }
-            for (target, &p) in self.matrix.col_as_slice_mut(j)[j..].iter_mut().zip(&pivot[j..]) {
+            for (target, &p) in self.matrix.col_as_slice_mut(j).iter_mut().zip(&pivot) {
                 *target -= p * factor;
             }
         }
         for (i, &p) in pivot.iter().enumerate() {
-            self.matrix[(i.max(k), i.min(k))] = if i == k { -1.0 / d } else { sign * p / d };
+            let value = if i == k { -1.0 / d } else { sign * p / d };
+            self.matrix[(i, k)] = value;
+            self.matrix[(k, i)] = value;
         }
     }
 
@@ -87,7 +88,7 @@ impl Sweep {
     /// inverse of their Gram matrix.
     #[must_use]
     pub fn entry(&self, i: usize, j: usize) -> f64 {
-        self.matrix[(i.max(j), i.min(j))]
+        self.matrix[(i, j)]
     }
 
     /// The drop in the residual's sum of squares from adding a block of columns, and the block's rank.
@@ -98,13 +99,13 @@ impl Sweep {
             if self.swept[column] || !self.has_pivot(column) {
                 return (0.0, 0);
             }
-            let score = self.entry(column, residual);
+            let score = self.matrix[(column, residual)];
             return (score * score / self.matrix[(column, column)], 1);
         }
         let whitener = self.whitener(block);
         let gain = (0..whitener.ncols())
             .map(|c| {
-                let score: f64 = (0..k).map(|i| whitener[(i, c)] * self.entry(block[i], residual)).sum();
+                let score: f64 = (0..k).map(|i| whitener[(i, c)] * self.matrix[(block[i], residual)]).sum();
                 score * score
             })
             .sum();
@@ -118,7 +119,7 @@ impl Sweep {
         let product = |a: &[f64], b: &[f64]| -> f64 {
             (0..k)
                 .flat_map(|i| (0..k).map(move |j| (i, j)))
-                .map(|(i, j)| a[i] * b[j] * self.entry(block[i], block[j]))
+                .map(|(i, j)| a[i] * b[j] * self.matrix[(block[i], block[j])])
                 .sum()
         };
         let mut found: Vec<Vec<f64>> = Vec::new();

@@ -6,7 +6,6 @@ use model_core::algebra::{Poly, Wave};
 use model_core::{Chain, SymbolId};
 
 use crate::data::Poses;
-use crate::data::waves::waves;
 
 /// Evaluates functions of joints and inputs over the rows of some poses.
 pub(crate) struct Functions<'a> {
@@ -14,8 +13,7 @@ pub(crate) struct Functions<'a> {
     poses: &'a Poses,
     /// Of every symbol, for those without readings.
     values: &'a [f64],
-    /// Sine and cosine of each joint's harmonics.
-    waves: BTreeMap<(SymbolId, u32), [Vec<f64>; 2]>,
+    waves: BTreeMap<(SymbolId, u32, Wave), Vec<f64>>,
 }
 
 impl<'a> Functions<'a> {
@@ -25,10 +23,9 @@ impl<'a> Functions<'a> {
 
     /// The function's value at each row; `None` if a symbol has neither readings nor a value.
     pub(crate) fn column(&mut self, amount: &Poly) -> Option<Vec<f64>> {
-        let rows = self.poses.rows();
-        let mut sum: Option<Vec<f64>> = None;
+        let mut sum = vec![0.0; self.poses.rows()];
         for term in amount.terms() {
-            let mut product = vec![term.coefficient.to_f64(); rows];
+            let mut product = vec![term.coefficient.to_f64(); sum.len()];
             for &(symbol, power) in &term.powers {
                 let reading = self.reading(symbol)?;
                 let power = i32::try_from(power).ok()?;
@@ -45,12 +42,9 @@ impl<'a> Functions<'a> {
                     product.iter_mut().zip(wave).for_each(|(p, w)| *p /= w.powi(power));
                 }
             }
-            match &mut sum {
-                None => sum = Some(product),
-                Some(sum) => sum.iter_mut().zip(&product).for_each(|(s, p)| *s += p),
-            }
+            sum.iter_mut().zip(&product).for_each(|(s, p)| *s += p);
         }
-        Some(sum.unwrap_or_else(|| vec![0.0; rows]))
+        Some(sum)
     }
 
     fn reading(&self, symbol: SymbolId) -> Option<Vec<f64>> {
@@ -71,15 +65,18 @@ impl<'a> Functions<'a> {
     }
 
     fn wave(&mut self, symbol: SymbolId, harmonic: u32, wave: Wave) -> Option<&[f64]> {
-        let key = (symbol, harmonic);
+        let key = (symbol, harmonic, wave);
         if !self.waves.contains_key(&key) {
-            let both = waves(&self.reading(symbol)?, f64::from(harmonic));
-            self.waves.insert(key, both);
+            let mut column = self.reading(symbol)?;
+            for value in &mut column {
+                let angle = f64::from(harmonic) * *value;
+                *value = match wave {
+                    Wave::Sin => angle.sin(),
+                    Wave::Cos => angle.cos(),
+                };
+            }
+            self.waves.insert(key, column);
         }
-        let [sine, cosine] = self.waves.get(&key)?;
-        Some(match wave {
-            Wave::Sin => sine,
-            Wave::Cos => cosine,
-        })
+        self.waves.get(&key).map(Vec::as_slice)
     }
 }

@@ -2,6 +2,7 @@
 //! determine, under its prior.
 
 use std::cell::OnceCell;
+use std::sync::Arc;
 
 use model_core::Chain;
 
@@ -81,7 +82,8 @@ impl Solver<'_> {
     fn of_sample(&self) -> Result<Option<Vec<f64>>, FitError> {
         let rows = self.observations.rows();
         let unknowns = self.observations.unknowns.as_ref();
-        let (many, few) = if unknowns.is_some() { (MANY_OF_OBJECTS, SAMPLE_OF_OBJECTS) } else { (MANY, SAMPLE) };
+        let (many, few) =
+            if unknowns.is_some() { (MANY_OF_OBJECTS, SAMPLE_OF_OBJECTS) } else { (MANY, SAMPLE) };
         let too_few = unknowns.is_some_and(|unknowns| unknowns.objects.len() < OBJECTS);
         if rows < many || too_few || !self.options.robust {
             return Ok(None);
@@ -170,7 +172,7 @@ impl Solver<'_> {
             subspace,
             parameters,
             values: point.values,
-            residuals: Residuals { raw: point.sweep.residual, whitened, row: self.layout.row, weight },
+            residuals: Arc::new(Residuals { raw: point.sweep.residual, row: self.layout.row, weight }),
         })
     }
 }

@@ -119,16 +119,21 @@ def trial(cell, seed):
     size = cell.get("size", 1.0)
     e = {name: size * rng.gauss(0, scale) for name, scale in instrument.errors.items()}
     where = poses(instrument, rows, cell.get("trajectory", False), rng)
+    # Targets observed in rounds, each aimed at anew, and each off by as much as the noise of a row.
+    places = cell.get("places")
+    if places:
+        aimed = lambda joint, q: q if joint == "range" else q + rng.gauss(0, cell.get("aimed", 0.0))
+        where = [{joint: aimed(joint, q) for joint, q in where[row % places].items()} for row in range(rows)]
     columns = [serial(cell["noise"], rows, rng) for _ in range(3)]
     sessions = cell.get("sessions")
-    shift = [[rng.gauss(0, 1) for _ in range(3)] for _ in range(sessions or 1)]
-    session = [row * (sessions or 1) // rows for row in range(rows)]
+    shift = [[rng.gauss(0, 1) for _ in range(3)] for _ in range(sessions or places or 1)]
+    session = [row % places if places else row * (sessions or 1) // rows for row in range(rows)]
     if sessions:
         for row, q in enumerate(where):
             # Each session in a band of the first joint of its own.
             low, high = instrument.ranges[instrument.joints[0]]
             q[instrument.joints[0]] = low + (high - low) * (session[row] + rng.random()) / sessions
-    unit = [[instrument.noise * (columns[k][row] + (shift[session[row]][k] if sessions else 0)) for k in range(3)] for row in range(rows)]
+    unit = [[instrument.noise * (columns[k][row] + (shift[session[row]][k] if sessions or places else 0)) for k in range(3)] for row in range(rows)]
     data = [measured(instrument, e, q, n, cell.get("in_space", False)) for q, n in zip(where, unit)]
     noise = []
     if sessions and cell.get("declared", True):
@@ -142,8 +147,8 @@ def trial(cell, seed):
         noise_of_new = [serial(cell["noise"], count, rng) for _ in range(3)]
         unit = [[instrument.noise * column[row] for column in noise_of_new] for row in range(count)]
         return poses_of_new, [measured(instrument, e, q, n, cell.get("in_space", False)) for q, n in zip(poses_of_new, unit)]
-    # Sessions have offsets of their own: what is new there is a question by itself.
-    report = calibrated(cell, where, data, session, noise, None if sessions else as_new())
+    # Sessions and targets have offsets of their own: what is new there is a question by itself.
+    report = calibrated(cell, where, data, session, noise, None if sessions or places else as_new())
     if "failed" in report:
         return report
     noise = report["noise"]
@@ -203,6 +208,9 @@ def cells(command):
         add("memory of the ground", directions, 300, noise, trajectory=True, in_space=True)
     for noise in ("t3", "outliers"):
         add("uneven", mount, 200, noise)
+    for instrument in (mount, directions):
+        add("rounds", instrument, 300, "independent", places=60)
+        add("rounds", instrument, 300, "independent", places=60, aimed=0.003)
     for sessions in (6, 12, 60):
         add("sessions", mount, 300, "independent", sessions=sessions)
     return out

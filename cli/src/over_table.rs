@@ -119,6 +119,7 @@ impl OverTable {
         let named: Vec<String> = added.iter().filter_map(|name| bare(name)).collect();
         let is_replaced: Vec<bool> =
             table.header().iter().map(|column| named.iter().any(|name| table.means(column, name))).collect();
+        let is_kept: Vec<bool> = is_replaced.iter().map(|replaced| !replaced).collect();
         let names = |replaced: bool| {
             let header = table.header().iter().zip(&is_replaced);
             header.filter(move |(_, is)| **is == replaced).map(|(column, _)| column.full.clone())
@@ -129,7 +130,7 @@ impl OverTable {
         let mut done = 0_usize;
         let (progress, began) = (terminal::progress(), Instant::now());
         tables::write(&self.out, |writer| {
-            writer.header(&header)?;
+            writer.header_beside(&header, &table, &is_kept)?;
             while let Some(rows) = table.next()? {
                 let computed = compute(&rows)?;
                 let is_finite = |row: &usize| computed.iter().all(|column| column[*row].is_finite());

@@ -59,10 +59,22 @@ const ROUND: [u32; 64] = [
     0x748f_82ee, 0x78a5_636f, 0x84c8_7814, 0x8cc7_0208, 0x90be_fffa, 0xa450_6ceb, 0xbef9_a3f7, 0xc671_78f2,
 ];
 
+/// One round, in which nothing moves but the two words that change: the letters are passed in turn.
+macro_rules! round {
+    ($a:ident $b:ident $c:ident $d:ident $e:ident $f:ident $g:ident $h:ident, $t:expr, $w:expr) => {
+        let s1 = $e.rotate_right(6) ^ $e.rotate_right(11) ^ $e.rotate_right(25);
+        let t1 =
+            $h.wrapping_add(s1).wrapping_add($e & $f ^ !$e & $g).wrapping_add(ROUND[$t]).wrapping_add($w);
+        let s0 = $a.rotate_right(2) ^ $a.rotate_right(13) ^ $a.rotate_right(22);
+        $d = $d.wrapping_add(t1);
+        $h = t1.wrapping_add(s0.wrapping_add($a & $b ^ $a & $c ^ $b & $c));
+    };
+}
+
 fn compress(state: &mut [u32; 8], block: &[u8]) {
     let mut w = [0_u32; 64];
     for (word, bytes) in w.iter_mut().zip(block.chunks_exact(4)) {
-        *word = bytes.iter().fold(0, |word, &byte| word << 8 | u32::from(byte));
+        *word = u32::from_be_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]);
     }
     for t in 16..64 {
         let s0 = w[t - 15].rotate_right(7) ^ w[t - 15].rotate_right(18) ^ w[t - 15] >> 3;
@@ -70,13 +82,17 @@ fn compress(state: &mut [u32; 8], block: &[u8]) {
         w[t] = w[t - 16].wrapping_add(s0).wrapping_add(w[t - 7]).wrapping_add(s1);
     }
     let [mut a, mut b, mut c, mut d, mut e, mut f, mut g, mut h] = *state;
-    for (&round, &word) in ROUND.iter().zip(&w) {
-        let s1 = e.rotate_right(6) ^ e.rotate_right(11) ^ e.rotate_right(25);
-        let choice = e & f ^ !e & g;
-        let t1 = h.wrapping_add(s1).wrapping_add(choice).wrapping_add(round).wrapping_add(word);
-        let s0 = a.rotate_right(2) ^ a.rotate_right(13) ^ a.rotate_right(22);
-        let t2 = s0.wrapping_add(a & b ^ a & c ^ b & c);
-        (h, g, f, e, d, c, b, a) = (g, f, e, d.wrapping_add(t1), c, b, a, t1.wrapping_add(t2));
+    let mut t = 0;
+    while t < 64 {
+        round!(a b c d e f g h, t, w[t]);
+        round!(h a b c d e f g, t + 1, w[t + 1]);
+        round!(g h a b c d e f, t + 2, w[t + 2]);
+        round!(f g h a b c d e, t + 3, w[t + 3]);
+        round!(e f g h a b c d, t + 4, w[t + 4]);
+        round!(d e f g h a b c, t + 5, w[t + 5]);
+        round!(c d e f g h a b, t + 6, w[t + 6]);
+        round!(b c d e f g h a, t + 7, w[t + 7]);
+        t += 8;
     }
     for (word, new) in state.iter_mut().zip([a, b, c, d, e, f, g, h]) {
         *word = word.wrapping_add(new);

@@ -76,7 +76,7 @@ pub(super) fn chosen<'a>(
 fn judge<'a>(settled: Settled<'a>, before: &FitResult) -> Result<Chosen<'a>, SearchError> {
     let Settled { whole, round, as_good, .. } = settled;
     let judged = judged(&whole, before, round)?;
-    let as_good = if judged.refused.is_none() { as_good } else { Vec::new() };
+    let as_good = if judged.left_out.is_empty() { as_good } else { Vec::new() };
     Ok(Chosen { whole, judged, as_good })
 }
 
@@ -94,7 +94,7 @@ fn is_confirmed(whole: &Context<'_>, told: &Judged<'_>, taken_up: &Judged<'_>) -
     };
     let gains = |ratio: Option<f64>| ratio.is_some_and(|ratio| ratio < GAINS);
     let no_worse = |ratio: Option<f64>| ratio.is_none_or(|ratio| ratio <= NO_WORSE);
-    taken_up.refused.is_none()
+    taken_up.left_out.is_empty()
         && (gains(kept) || gains(every))
         && [kept, every, elsewhere].into_iter().all(no_worse)
 }

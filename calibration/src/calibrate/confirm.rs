@@ -1,16 +1,21 @@
-//! Confirmation: effects that do not help on rows which their search did not see are left out again.
+//! Confirmation: effects that a handful of rows decide, and effects that do not help on rows which their search did not see, are
+//! left out again.
 //!
 //! A search takes one effect by chance in about one of twenty residuals without any. Repeated without each fold, it takes
-//! another one each time, or none, and predicts the rows left out worse than the declaration does.
+//! another one each time, or none, and predicts the rows left out worse than the declaration does. Where rows are few, the errors
+//! that are fitted beside such an effect are as wrong as it is.
 
 use super::held_out;
 use crate::diagnose::Caution;
 use crate::diagnose::rms::{BeforeAfter, Worse, worse};
 use crate::fit::FitResult;
-use crate::search::context::Context;
+use crate::search::context::{Context, Found};
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
 use crate::search::{HeldOut, SearchError, Stage, nested};
+
+/// Fewer observations than this are no evidence of an effect.
+const FEW: f64 = 5.0;
 
 /// The round that the report is about, judged on held-out rows.
 pub(super) struct Judged<'a> {
@@ -18,8 +23,8 @@ pub(super) struct Judged<'a> {
     pub held_out: HeldOut,
     /// One for each unit of residuals.
     pub rms: Vec<BeforeAfter>,
-    /// The effects that were left out again, if any.
-    pub refused: Option<Caution>,
+    /// The effects that were left out again.
+    pub left_out: Vec<Caution>,
 }
 
 /// Repeats the search without each fold; if it predicts the rows left out worse with effects than without, the declaration
@@ -30,17 +35,40 @@ pub(super) fn judged<'a>(
     round: Round<'a>,
 ) -> Result<Judged<'a>, SearchError> {
     (whole.tell)(Stage::HeldOut);
+    let (round, mut left_out) = without_few(whole, round)?;
     let of = |round: &Round<'a>| {
         let held_out = nested(&round.search.problem, &round.sets, &whole.options);
         held_out::rms(whole, before, round, &held_out).map(|rms| (held_out, rms))
     };
     let (held_out, rms) = of(&round)?;
     let Some(refused) = refused(whole, &round, &rms) else {
-        return Ok(Judged { round, held_out, rms, refused: None });
+        return Ok(Judged { round, held_out, rms, left_out });
     };
+    left_out.push(refused);
     let round = Round::at(whole, Fitted::with(whole, Vec::new(), &round.fitted)?)?;
     let (held_out, rms) = of(&round)?;
-    Ok(Judged { round, held_out, rms, refused: Some(refused) })
+    Ok(Judged { round, held_out, rms, left_out })
+}
+
+/// The round without effects that hang on few observations, and what is told of them.
+fn without_few<'a>(
+    whole: &Context<'a>,
+    mut round: Round<'a>,
+) -> Result<(Round<'a>, Vec<Caution>), SearchError> {
+    let mut left_out = Vec::new();
+    loop {
+        let behind = |found: &Found| round.observations_behind(found.effect);
+        let (few, enough): (Vec<Found>, Vec<Found>) =
+            round.fitted.found.iter().cloned().partition(|found| behind(found) < FEW);
+        if few.is_empty() {
+            return Ok((round, left_out));
+        }
+        left_out.extend(few.iter().map(|found| Caution::FewBehindAnEffect {
+            effect: whole.catalogue[found.effect].name.clone(),
+            observations: behind(found),
+        }));
+        round = Round::at(whole, Fitted::with(whole, enough, &round.fitted)?)?;
+    }
 }
 
 /// What is told of effects that the held-out rows speak against.

@@ -1,6 +1,6 @@
 //! The whole loop: fit, search, reconsider outliers, confirm, diagnose, amend.
 //!
-//! One round (`round` of [`crate::search`]) fits the declaration with the effects accepted so far and searches from there.
+//! Rows that come back to one place and share an error there are grouped first (`places`). One round (`round` of [`crate::search`]) fits the declaration with the effects accepted so far and searches from there.
 //! Rounds go on until one changes nothing (`rounds`). Then rows that were set aside together are reconsidered (`outliers`),
 //! a memory of the noise competes with the effects (`memory`), shapes of the library compete with them (`functions`), the
 //! search is repeated without each fold (`held_out`), effects that do not help there are left out (`confirm`), and shapes are taken
@@ -13,6 +13,7 @@ mod heard;
 pub(crate) mod held_out;
 mod memory;
 mod outliers;
+mod places;
 mod rounds;
 
 use std::cell::OnceCell;
@@ -135,10 +136,10 @@ pub fn calibrate_telling(
     check_scale_of_ranges(&request.plan.chain, request.observations, &request.plan.fit)?;
     // Studies with functions that the library found live as long as the loops that read them.
     let studies = choice::Studies::default();
-    let remembering = OnceCell::new();
+    let (remembering, by_place) = (OnceCell::new(), OnceCell::new());
     let whole = Context { tell, ..Context::new(request, &observables, HELD)? };
 
-    let first = Fitted::first(&whole)?;
+    let (whole, first) = places::grouped(whole, &by_place)?;
     if !matches!(first.fit.outcome, Outcome::Converged { .. }) {
         // What a failed fit leaves is no residual to search.
         return unusable(&whole, first);
@@ -154,8 +155,8 @@ pub fn calibrate_telling(
         let (whole, round) = memory::settled(whole, &remembering, round)?;
         chosen(&whole, &before, round, &studies)?
     };
-    let Judged { round, held_out, rms, refused } = judged;
-    let confirmed = Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good, refused };
+    let Judged { round, held_out, rms, left_out } = judged;
+    let confirmed = Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good, left_out };
     let diagnosis = diagnose(&whole, &before, &round.fitted, Ok(confirmed))?;
     let drawn = trace::drawn(request.observations, &round.fitted.fit);
     let traces = trace::traces(&whole, &round, &drawn)?;

@@ -6,15 +6,18 @@ pub mod derive;
 mod measured;
 pub mod orientation;
 mod origin;
+mod places;
 mod poses;
 mod si_unit;
 mod tangent;
 pub mod units;
 pub mod unknowns;
+pub(crate) mod waves;
 
 pub use derive::{DeriveError, Derived, parse_derived};
 pub use measured::{Measure, Measured};
 pub use origin::{Origin, Origins};
+pub use places::places;
 pub use poses::{Poses, Series};
 pub use si_unit::SiUnit;
 pub use tangent::{direction_from_offset, direction_from_spherical, tangent_frame};
@@ -33,6 +36,8 @@ pub struct Observations {
     pub sigma: Vec<Option<[f64; 3]>>,
     /// Group of each row: rows of one group are not independent and are held out together.
     pub groups: Vec<u32>,
+    /// Whether groups are places that rows were found to share something at, and nobody declared them.
+    pub by_place: bool,
     /// Whether the order of the rows is their order of acquisition.
     pub in_sequence: bool,
     /// Number of each row in its file, counted from 1 without the header; empty where no file was read.
@@ -73,6 +78,7 @@ impl Observations {
             measured: rows.iter().filter_map(|&row| self.measured.get(row).copied()).collect(),
             sigma: rows.iter().filter_map(|&row| self.sigma.get(row).copied()).collect(),
             groups: rows.iter().filter_map(|&row| self.groups.get(row).copied()).collect(),
+            by_place: self.by_place,
             in_sequence: self.in_sequence,
             row_numbers: rows.iter().filter_map(|&row| self.row_numbers.get(row).copied()).collect(),
             origins: self.origins.select(&rows),

@@ -68,7 +68,7 @@ pub enum Caution {
         /// Their unit.
         unit: SiUnit,
     },
-    /// An effect hangs on fewer than five observations.
+    /// An effect passed the test, but hangs on fewer than five observations: it was left out again.
     #[serde(rename = "few observations behind an effect")]
     FewBehindAnEffect {
         /// Its name.
@@ -81,6 +81,14 @@ pub enum Caution {
     LimitOfEffects {
         /// How many.
         effects: usize,
+    },
+    /// Rows of one place share an error there: a place counts as a group.
+    #[serde(rename = "rows of one place share something")]
+    OfOnePlace {
+        /// Rows.
+        rows: usize,
+        /// Places that they stand at.
+        places: usize,
     },
     /// Rows that were set aside have something in common.
     #[serde(rename = "rows set aside share something")]
@@ -189,6 +197,10 @@ pub(super) fn of_rms(rms: &[BeforeAfter]) -> impl Iterator<Item = Caution> {
 #[must_use]
 pub fn of_data(chain: &Chain, observations: &Observations, fit: &FitResult) -> Vec<Caution> {
     let mut cautions = Vec::new();
+    if observations.by_place {
+        let places = observations.groups.iter().max().map_or(0, |last| *last as usize + 1);
+        cautions.push(Caution::OfOnePlace { rows: observations.rows(), places });
+    }
     for series in &observations.poses.series {
         cautions.extend(of_joints(chain, observations, series));
         cautions.extend(out_of_place(observations, series, fit));

@@ -224,7 +224,7 @@ pub(super) fn effects(
                 standing: moved.standing,
                 p_value: found.p_value,
                 selected_in_folds: set.map_or(0.0, |set| confirmed.held_out.share(set)),
-                observations: observations_behind(last, found.effect),
+                observations: last.observations_behind(found.effect),
                 bias: detectability::bias(whole, last, found.effect, errors),
             }
         })
@@ -302,14 +302,4 @@ fn amplitude(last: &Round<'_>, rms: &[BeforeAfter], effect: EffectId, errors: &[
     let best =
         rms.iter().map(of_unit).reduce(|best, own| if own.standing > best.standing { own } else { best });
     best.unwrap_or_else(|| unreachable!("an effect was found in observations"))
-}
-
-/// How many observations an effect hangs on: the rows' share of its projected columns, as an effective number.
-fn observations_behind(last: &Round<'_>, effect: EffectId) -> f64 {
-    let problem = last.search.of_rows();
-    let rows = problem.rows();
-    let shares = problem.columns(effect).into_iter().flat_map(|column| {
-        (0..rows.nrows()).map(move |component| (component, rows[(component, column)].powi(2)))
-    });
-    last.search.share() * last.search.rows.rows_behind(shares)
 }

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::data::Observations;
+use crate::data::waves::waves;
 use crate::fit::FitResult;
 use crate::search::products::add_products;
 
@@ -122,14 +123,17 @@ fn products<'a>(
 ) -> Mat<f64> {
     let of_chunk = |rows: &[usize]| {
         let mut columns = Mat::zeros(rows.len(), width);
-        for (at, &row) in rows.iter().enumerate() {
-            columns[(at, 0)] = 1.0;
-            let (sin, cos) = readings[row].sin_cos();
-            let (mut s, mut c) = (0.0, 1.0);
-            for order in 1..=ORDERS {
-                (s, c) = (s * cos + c * sin, c * cos - s * sin);
-                (columns[(at, 2 * order - 1)], columns[(at, 2 * order)]) = (c, s);
+        let [sine, cosine] = waves(&rows.iter().map(|&row| readings[row]).collect::<Vec<_>>(), 1.0);
+        columns.col_as_slice_mut(0).fill(1.0);
+        let (mut s, mut c) = (vec![0.0; rows.len()], vec![1.0; rows.len()]);
+        for order in 1..=ORDERS {
+            for (((s, c), sine), cosine) in s.iter_mut().zip(&mut c).zip(&sine).zip(&cosine) {
+                (*s, *c) = (*s * cosine + *c * sine, *c * cosine - *s * sine);
             }
+            columns.col_as_slice_mut(2 * order - 1).copy_from_slice(&c);
+            columns.col_as_slice_mut(2 * order).copy_from_slice(&s);
+        }
+        for (at, &row) in rows.iter().enumerate() {
             let values = residuals(row).into_iter().flatten();
             values.enumerate().for_each(|(number, &value)| columns[(at, WIDTH + number)] = value);
         }

@@ -57,9 +57,6 @@ pub use rms::{Beside, Rms};
 pub use trace::Trace;
 pub use verdict::Verdict;
 
-/// Fewer observations than this are no evidence of an effect.
-const FEW: f64 = 5.0;
-
 /// What a calibration comes to, and everything that it found: `report.json`, whose keys are a promise.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Diagnosis {
@@ -177,8 +174,8 @@ pub(crate) struct Confirmed<'a> {
     pub rms: Vec<BeforeAfter>,
     /// Functions that explain the data about as well as accepted effects.
     pub as_good: &'a [AsGood],
-    /// Effects that were left out again, since held-out rows speak against them.
-    pub refused: Option<Caution>,
+    /// Effects that were left out again, since few rows speak for them, or held-out rows against them.
+    pub left_out: Vec<Caution>,
 }
 
 /// What fits and search come to. Without a search the fit alone is told: it failed, or had too few observations.
@@ -203,7 +200,7 @@ pub(crate) fn diagnose(
     if let (Ended::NotConverged { steps }, true) = (Ended::from(&before.outcome), !found.effects.is_empty()) {
         cautions.push(Caution::DeclarationNotFitted { steps });
     }
-    cautions.extend(confirmed.as_ref().ok().and_then(|confirmed| confirmed.refused.clone()));
+    cautions.extend(confirmed.iter().flat_map(|confirmed| confirmed.left_out.clone()));
     cautions.extend(caution::of_noise(&noise, fit.degrees_of_freedom));
     cautions.extend(of_data(&last.chain, observations, fit));
     let aside: Vec<usize> = fit.set_aside.iter().map(|aside| aside.row).collect();
@@ -337,10 +334,6 @@ fn cautions(found: &Found, whole: &Context<'_>, rms: &[BeforeAfter]) -> Vec<Caut
     let mut cautions = Vec::new();
     if !found.effects.is_empty() {
         cautions.extend(caution::of_rms(rms));
-    }
-    for effect in found.effects.iter().filter(|effect| effect.observations < FEW) {
-        let (effect, observations) = (effect.names[0].clone(), effect.observations);
-        cautions.push(Caution::FewBehindAnEffect { effect, observations });
     }
     if found.effects.len() >= whole.options.most {
         cautions.push(Caution::LimitOfEffects { effects: found.effects.len() });

@@ -336,10 +336,17 @@ fn neighbours(whole: &Context<'_>, last: &Round<'_>, left: &Left<'_>, signs: &Si
             if angle { point.extend([q.cos(), q.sin()]) } else { point.push((q - mean) / unit) }
         }
         let what = format!("neighbours along {}", symbol.name);
-        statistics.push(Statistic::of_pairs(what, &along(readings), &first, left, signs));
+        statistics.push(Statistic::of_pairs(
+            what,
+            &along(readings, &observations.groups),
+            &first,
+            left,
+            signs,
+        ));
     }
     let what = "neighbours in the space of all joints".to_owned();
-    statistics.insert(0, Statistic::of_pairs(what, &nearest(&points), &first, left, signs));
+    statistics
+        .insert(0, Statistic::of_pairs(what, &nearest(&points, &observations.groups), &first, left, signs));
     if observations.in_sequence {
         for lag in LAGS {
             let what = format!("observations {lag} rows apart");

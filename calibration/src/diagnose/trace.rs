@@ -5,6 +5,7 @@ use model_core::{SymbolId, SymbolKind};
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
+use rayon::prelude::*;
 
 use super::units::of_reading;
 use crate::candidate::{Dependence, Effect, Function};
@@ -63,7 +64,7 @@ pub(crate) fn drawn(observations: &Observations, fit: &FitResult) -> Vec<usize> 
     }
     let weight = |row: usize| fit.residuals.weight[row];
     let mut order: Vec<usize> = (0..rows).collect();
-    order.sort_by(|&a, &b| {
+    order.par_sort_unstable_by(|&a, &b| {
         (weight(a) > 0.0).cmp(&(weight(b) > 0.0)).then(length[b].total_cmp(&length[a])).then(a.cmp(&b))
     });
     let mut rest = order.split_off(FIRST);

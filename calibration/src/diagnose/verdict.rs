@@ -29,7 +29,7 @@ pub enum Verdict {
     /// No effect stands out from the noise.
     #[serde(rename = "nothing detectable")]
     NothingDetectable,
-    /// Too few observations for what is to be estimated, or an effect that hangs on fewer than five.
+    /// Too few observations for what is to be estimated, or an effect that hangs on fewer than five is all that stands out.
     #[serde(rename = "too few observations")]
     TooFewObservations,
     /// The fit did not end at a minimum: its numbers mean nothing.
@@ -88,7 +88,8 @@ pub(super) fn verdict(evidence: Evidence<'_>) -> Verdict {
         Ended::NotConverged { .. } | Ended::FarOff { .. } => return Verdict::FitFailed,
         Ended::Converged { .. } => {}
     }
-    if any(|caution| matches!(caution, Caution::FewBehindAnEffect { .. })) {
+    let few = any(|caution| matches!(caution, Caution::FewBehindAnEffect { .. }));
+    if few && !evidence.effects && !evidence.structure {
         Verdict::TooFewObservations
     } else if any(|caution| matches!(caution, Caution::ResidualIsRounding { .. })) && !evidence.effects {
         // Rounding has a structure of its own, and no noise to tell it from.
@@ -138,7 +139,9 @@ mod tests {
             (Evidence { form_open: true, structure: true, ..whole }, Verdict::StructureRemains),
             (Evidence { structure: true, ..whole }, Verdict::StructureRemains),
             (Evidence { structure: true, unnamed: true, ..whole }, Verdict::UnnamedFunction),
-            (Evidence { cautions: &thin, structure: true, ..whole }, Verdict::TooFewObservations),
+            (Evidence { cautions: &thin, ..none }, Verdict::TooFewObservations),
+            (Evidence { cautions: &thin, ..whole }, Verdict::Explained),
+            (Evidence { cautions: &thin, structure: true, ..none }, Verdict::StructureRemains),
             (Evidence { ended: &failed, ..whole }, Verdict::FitFailed),
             (Evidence { ended: &few, ..whole }, Verdict::TooFewObservations),
             (none, Verdict::NothingDetectable),

@@ -20,7 +20,11 @@ const NEGLIGIBLE_IN_A_FREE_FRAME: f64 = 1e-5;
 /// The same while the noise is still being learned.
 const ROUGHLY: f64 = 1e-2;
 
-/// Steps so short change the objective by no more than this share, of which rounding is no small part.
+/// The noise is known when no standard deviation changes by more than this share.
+const NOISE_KNOWN: f64 = 1e-3;
+
+/// Steps so short change the objective by no more than this share, of which rounding is no small part; what of the noise changes by
+/// less is the same noise: all rows are asked again for any other.
 const ROUNDING: f64 = 1e-12;
 
 /// How often the noise is learned anew.
@@ -114,8 +118,8 @@ impl Solver<'_> {
                 break;
             }
             let learned = self.learn_noise(course);
-            let known = same(&learned, &course.noise);
-            if learned != course.noise {
+            let known = same(&learned, &course.noise, NOISE_KNOWN);
+            if !same(&learned, &course.noise, ROUNDING) {
                 let values = std::mem::take(&mut course.point.values);
                 let rest = course.point.rest.clone();
                 course.point = self.point(values, &learned, course.weighting, rest)?;

@@ -7,6 +7,7 @@ mod align;
 mod block;
 mod cluster;
 mod descent;
+mod directions;
 mod few;
 mod fingerprint;
 mod mixing;
@@ -31,6 +32,8 @@ mod subspace;
 pub(crate) mod sweep;
 mod uncertainty;
 mod wire;
+
+use std::sync::Arc;
 
 use faer::Mat;
 use model_core::{Chain, SymbolId, SymbolKind};
@@ -101,9 +104,6 @@ impl FitOptions {
 pub struct Residuals {
     /// Measured minus predicted before whitening, rad or m, length n.
     pub raw: Vec<f64>,
-    /// Measured minus predicted, whitened: unit variance and independent if the noise model holds, times the
-    /// square root of the robust weight; length n.
-    pub whitened: Vec<f64>,
     /// The row of each component, length n.
     pub row: Vec<u32>,
     /// The robust weight of each row, 0 to 1.
@@ -157,8 +157,8 @@ pub struct FitResult {
     /// The triangular factor of the derivatives by each parameter, whitened but for memory between rows, each row by the
     /// root of its robust weight.
     pub factor: Partial,
-    /// The residuals.
-    pub residuals: Residuals,
+    /// The residuals, which copies share: of many rows they are most of what a fit holds.
+    pub residuals: Arc<Residuals>,
 }
 
 impl FitResult {

@@ -1,6 +1,7 @@
 //! The chain as a fit sees it: residual components of observations and their derivatives.
 
 use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
 
 use codegen::{Form, Interpreter, NodeId, Op, Program, build_all};
 use model_core::{Chain, Quantity, SymbolId, SymbolKind};
@@ -33,6 +34,37 @@ pub struct Model {
     /// Symbols of the chain; values behind them are those of objects and stations.
     symbols: usize,
     turns_by: TurnsBy,
+    spare: Spare,
+}
+
+/// What runs the programs, and room for a block.
+#[derive(Debug)]
+struct Running {
+    /// Of each series its program and its beam's.
+    interpreters: Vec<(Interpreter, Option<Interpreter>)>,
+    block: Block,
+}
+
+/// Those that nobody uses at the moment: making one costs as much as some blocks of rows.
+#[derive(Debug, Default)]
+struct Spare(Mutex<Vec<Running>>);
+
+impl Clone for Spare {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+/// One in use, which is spare again when it is done with.
+struct Lent<'a> {
+    running: Option<Running>,
+    to: &'a Spare,
+}
+
+impl Drop for Lent<'_> {
+    fn drop(&mut self) {
+        self.to.0.lock().unwrap_or_else(PoisonError::into_inner).extend(self.running.take());
+    }
 }
 
 /// Rows to evaluate: poses, and what was measured there if anything was.
@@ -92,6 +124,7 @@ impl Model {
             beams,
             symbols: chain.symbols.len(),
             turns_by: TurnsBy::Object,
+            spare: Spare::default(),
         })
     }
 
@@ -108,8 +141,16 @@ impl Model {
         let programs: Vec<Program> = poses.series.iter().map(of).collect();
         let beams = beams(chain, poses, &programs);
         let symbols = chain.symbols.len();
-        let (parameters, column_of, turns_by) = (Vec::new(), Vec::new(), TurnsBy::Object);
-        Self { parameters, column_of, columns: 0, programs, beams, symbols, turns_by }
+        Self {
+            parameters: Vec::new(),
+            column_of: Vec::new(),
+            columns: 0,
+            programs,
+            beams,
+            symbols,
+            turns_by: TurnsBy::Object,
+            spare: Spare::default(),
+        }
     }
 
     /// What is estimated, in the order of the columns.
@@ -181,13 +222,9 @@ impl Model {
         tasks
             .into_par_iter()
             .map_init(
-                || {
-                    let own = self.programs.iter().zip(&self.beams);
-                    let own = own
-                        .map(|(value, beam)| (Interpreter::new(value), beam.as_ref().map(Interpreter::new)));
-                    (own.collect::<Vec<_>>(), Block::default())
-                },
-                |(interpreters, block), (index, rows)| {
+                || self.lent(),
+                |lent, (index, rows)| {
+                    let Running { interpreters, block } = lent.running.get_or_insert_with(|| self.running());
                     let (Some((interpreter, beam)), Some(series)) =
                         (interpreters.get_mut(index), of.poses.series.get(index))
                     else {
@@ -201,6 +238,17 @@ impl Model {
                 },
             )
             .collect()
+    }
+
+    fn lent(&self) -> Lent<'_> {
+        let running = self.spare.0.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        Lent { running, to: &self.spare }
+    }
+
+    fn running(&self) -> Running {
+        let own = self.programs.iter().zip(&self.beams);
+        let own = own.map(|(value, beam)| (Interpreter::new(value), beam.as_ref().map(Interpreter::new)));
+        Running { interpreters: own.collect(), block: Block::default() }
     }
 
     /// Evaluates consecutive rows of one series into a block.
@@ -245,6 +293,12 @@ impl Model {
             if unknowns.is_some() {
                 block.unknown.resize(m * count, Default::default());
             }
+            block.project();
+            return Ok(());
+        }
+        if series.measure == Measure::Direction && unknowns.is_none() {
+            drop(outputs);
+            block.compare_directions(of.observed.map(|observed| &observed.measured[rows]))?;
             block.project();
             return Ok(());
         }

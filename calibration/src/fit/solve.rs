@@ -2,6 +2,7 @@
 //! determine, under its prior.
 
 use std::cell::OnceCell;
+use std::sync::Arc;
 
 use model_core::Chain;
 
@@ -73,7 +74,15 @@ impl Solver<'_> {
     /// Where a fit of some of very many rows ends, evenly spread; none where they are not many, or that fit does not end well.
     fn of_sample(&self) -> Result<Option<Vec<f64>>, FitError> {
         let rows = self.observations.rows();
+<<<<<<< ours
+        let unknowns = self.observations.unknowns.as_ref();
+        let (many, few) =
+            if unknowns.is_some() { (MANY_OF_OBJECTS, SAMPLE_OF_OBJECTS) } else { (MANY, SAMPLE) };
+        let too_few = unknowns.is_some_and(|unknowns| unknowns.objects.len() < OBJECTS);
+        if rows < many || too_few || !self.options.robust {
+=======
         if rows < MANY || !self.options.robust || self.observations.unknowns.is_some() {
+>>>>>>> theirs
             return Ok(None);
         }
         // Steps of an irrational length meet no period of the data.
@@ -156,7 +165,7 @@ impl Solver<'_> {
             subspace,
             parameters,
             values: point.values,
-            residuals: Residuals { raw: point.sweep.residual, whitened, row: self.layout.row, weight },
+            residuals: Arc::new(Residuals { raw: point.sweep.residual, row: self.layout.row, weight }),
         })
     }
 }

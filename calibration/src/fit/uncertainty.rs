@@ -234,14 +234,16 @@ impl Solver<'_> {
         let mut known: Vec<u32> = groups.clone();
         known.sort_unstable();
         known.dedup();
-        if known.len() < 2 || known.len() >= groups.len() || known.len() > MANY_GROUPS {
+        if known.len() < 2 || known.len() >= groups.len() {
             return None;
         }
+        // Groups of groups are as independent, and still many.
+        let count = known.len().min(MANY_GROUPS);
         let bucket = |row: &u32| match known.binary_search(&groups[*row as usize]) {
-            Ok(bucket) => bucket,
+            Ok(bucket) => bucket * count / known.len(),
             Err(_) => unreachable!("`known` holds every group of a row"),
         };
-        Some(Buckets { of_component: self.layout.row.iter().map(bucket).collect(), count: known.len() })
+        Some(Buckets { of_component: self.layout.row.iter().map(bucket).collect(), count })
     }
 
     /// The columns of J, whitened and each row by the root of its weight, times the root, n × k; and the residual alike.

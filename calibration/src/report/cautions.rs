@@ -27,11 +27,18 @@ pub fn caution(caution: &Caution) -> String {
             short(*after, *unit)
         ),
         Caution::FewBehindAnEffect { effect, observations } => {
-            format!("{effect}: it rests on about {observations:.1} observations. Measure more there first.")
+            format!(
+                "{effect} stood out, but it rests on about {observations:.1} observations. It was left out; repeat them \
+                 first."
+            )
         }
         Caution::LimitOfEffects { effects } => {
             format!("The search stopped at {effects} effects, as many as it may accept; there may be more.")
         }
+        Caution::OfOnePlace { rows, places } => format!(
+            "Rows of one place agree more with each other than chance explains: the {rows} rows count as {places} groups, a \
+             place each. What a place shares is in the ±."
+        ),
         Caution::SetAsideShare { reading, from, to, rows: [aside, there] } => format!(
             "{aside} of the {there} rows with {reading} from {from:.3} to {to:.3} (SI) were set aside: they share \
              something that the declaration lacks."

@@ -109,6 +109,22 @@ impl Folds {
 
 /// Numbers groups from 0 in order of first appearance.
 fn number(groups: &[usize]) -> (Vec<usize>, usize) {
+    // Groups that are numbered already, with gaps perhaps, need no map.
+    let most = groups.iter().copied().max().unwrap_or(0);
+    if most <= 2 * groups.len() {
+        let mut numbers = vec![usize::MAX; most + 1];
+        let mut next = 0;
+        let mut of = |group: usize| {
+            let number = &mut numbers[group];
+            if *number == usize::MAX {
+                *number = next;
+                next += 1;
+            }
+            *number
+        };
+        let of_row = groups.iter().map(|&group| of(group)).collect();
+        return (of_row, next);
+    }
     let mut numbers = BTreeMap::new();
     let of_row = groups
         .iter()

@@ -8,6 +8,7 @@
 mod simulated;
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
@@ -52,8 +53,8 @@ pub enum ProblemError {
 /// A whitened problem, ready to be searched.
 #[derive(Debug, Clone)]
 pub struct Problem {
-    /// `[U | Z̃ | r̃]`, one row for each whitened component of an observation.
-    rows: Mat<f64>,
+    /// `[U | Z̃ | r̃]`, one row for each whitened component of an observation; shared by the same problem in other folds.
+    rows: Arc<Mat<f64>>,
     /// Columns of U.
     declared: usize,
     /// Columns of each candidate in `rows`.
@@ -160,7 +161,7 @@ impl Problem {
         let blocks = blocks.iter().map(|block| block.start + u..block.end + u).collect();
 
         let mut problem = Self {
-            rows,
+            rows: Arc::new(rows),
             declared: u,
             blocks,
             visible,
@@ -217,7 +218,7 @@ impl Problem {
     /// A copy of some rows.
     #[must_use]
     pub fn rows_at(&self, members: &[usize]) -> Mat<f64> {
-        picked(self.rows.as_ref(), members)
+        picked((*self.rows).as_ref(), members)
     }
 
     /// The Gram matrix of the rows in the folds chosen, and how many rows those are (or were, before they were merged).
@@ -266,7 +267,7 @@ impl Problem {
     /// `[U | Z̃ | r̃]`.
     #[must_use]
     pub fn rows(&self) -> MatRef<'_, f64> {
-        self.rows.as_ref()
+        (*self.rows).as_ref()
     }
 
     /// Rank of the declared columns.

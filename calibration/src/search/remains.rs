@@ -12,6 +12,12 @@ use super::signs::Signs;
 /// Nearest neighbours of each observation in the space of all joints.
 const NEAREST: usize = 4;
 
+/// Neighbours of each observation along one reading, ahead of it.
+const AHEAD: usize = 2;
+
+/// Observations that are passed over at most on the way to a neighbour of another group.
+const PASSED: usize = 64;
+
 /// Observations that are compared with each other at most: beyond that, evenly chosen ones are.
 const COMPARED: usize = 4000;
 
@@ -93,16 +99,17 @@ pub fn combined(statistics: &[Statistic]) -> (f64, Vec<f64>) {
     ((1 + as_good) as f64 / count, alone)
 }
 
-/// Each observation with its nearest ones in the space of some coordinates (one list an observation).
+/// Each observation with its nearest ones in the space of some coordinates (one list an observation), those of its own group aside:
+/// what a group shares is no structure.
 #[must_use]
-pub fn nearest(points: &[Vec<f64>]) -> Vec<(usize, usize)> {
+pub fn nearest(points: &[Vec<f64>], groups: &[u32]) -> Vec<(usize, usize)> {
     let step = points.len().div_ceil(COMPARED).max(1);
     let chosen: Vec<usize> = (0..points.len()).step_by(step).collect();
     chosen
         .par_iter()
         .flat_map_iter(|&a| {
             let mut near: Vec<(f64, usize)> = Vec::with_capacity(NEAREST + 1);
-            for &b in chosen.iter().filter(|&&b| b != a) {
+            for &b in chosen.iter().filter(|&&b| b != a && groups[b] != groups[a]) {
                 let distance: f64 = points[a].iter().zip(&points[b]).map(|(x, y)| (x - y) * (x - y)).sum();
                 if near.len() == NEAREST && near.last().is_some_and(|&(most, _)| distance >= most) {
                     continue;
@@ -116,12 +123,16 @@ pub fn nearest(points: &[Vec<f64>]) -> Vec<(usize, usize)> {
         .collect()
 }
 
-/// Observations that follow each other in one reading: each with the next two.
+/// Observations that follow each other in one reading: each with the next two of other groups.
 #[must_use]
-pub fn along(reading: &[f64]) -> Vec<(usize, usize)> {
+pub fn along(reading: &[f64], groups: &[u32]) -> Vec<(usize, usize)> {
     let mut order: Vec<usize> = (0..reading.len()).collect();
     order.sort_by(|&a, &b| reading[a].total_cmp(&reading[b]).then(a.cmp(&b)));
-    [1, 2].iter().flat_map(|&lag| order.iter().zip(order.iter().skip(lag)).map(|(&a, &b)| (a, b))).collect()
+    let next = |(at, &a): (usize, &usize)| {
+        let others = order[at + 1..].iter().take(PASSED).filter(move |&&b| groups[b] != groups[a]);
+        others.take(AHEAD).map(move |&b| (a, b))
+    };
+    order.iter().enumerate().flat_map(next).collect()
 }
 
 /// Observations so many rows apart within each run of rows.

@@ -35,6 +35,16 @@ impl<'a> Round<'a> {
         problem.groups() >= FEWEST && problem.rows().nrows() >= problem.declared() + columns + FEWEST
     }
 
+    /// How many observations an effect hangs on: the rows' share of its projected columns, as an effective number.
+    pub fn observations_behind(&self, effect: EffectId) -> f64 {
+        let problem = self.search.of_rows();
+        let rows = problem.rows();
+        let shares = problem.columns(effect).into_iter().flat_map(|column| {
+            (0..rows.nrows()).map(move |component| (component, rows[(component, column)].powi(2)))
+        });
+        self.search.share() * self.search.rows.rows_behind(shares)
+    }
+
     /// The confounded set that an effect belongs to.
     pub fn set_of(&self, effect: EffectId) -> Option<SetId> {
         self.sets.iter().position(|set| set.members.contains(&effect)).map(SetId)

@@ -15,13 +15,13 @@ use crate::data::Observations;
 use crate::data::unknowns::{Object, Unknowns};
 use crate::fit::noise::{Layout, Noise, Run};
 use crate::fit::objects::Reduction;
-use crate::search::columns::{Columns, Seen, keep};
+use crate::search::columns::{Columns, Probed, Seen, keep};
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
 use crate::search::{Folds, SearchError};
 
 /// Rows of a chunk.
-const CHUNK: usize = 2048;
+const CHUNK: usize = 1024;
 
 /// Consecutive rows of a sample that stay together, so that what follows each other can still be compared.
 const STRETCH: usize = 64;
@@ -55,6 +55,17 @@ impl<'a> RowSet<'a> {
         stretches: &[Range<usize>],
         wanted: impl Fn(EffectId) -> bool,
     ) -> Result<Self, SearchError> {
+        Self::probed(whole, fitted, &fitted.probed, stretches, wanted)
+    }
+
+    /// The same with derivatives at the places of wanted effects, and at any others.
+    pub fn probed(
+        whole: &Context<'a>,
+        fitted: &Fitted,
+        probed: &Probed,
+        stretches: &[Range<usize>],
+        wanted: impl Fn(EffectId) -> bool,
+    ) -> Result<Self, SearchError> {
         let all = whole.request.observations;
         let rows: usize = stretches.iter().map(ExactSizeIterator::len).sum();
         let observations = if rows == all.rows() {
@@ -62,7 +73,7 @@ impl<'a> RowSet<'a> {
         } else {
             Cow::Owned(all.select(&stretches.iter().flat_map(Clone::clone).collect::<Vec<_>>()))
         };
-        let mut columns = fitted.probed.columns(&observations)?;
+        let mut columns = probed.columns(&observations)?;
         columns.declared = &columns.declared * &fitted.combinations;
         let values = &fitted.fit.values;
         let wanted = |effect| wanted(effect) || fitted.found.iter().any(|found| found.effect == effect);
@@ -234,6 +245,12 @@ pub(crate) fn dealt(
 pub(crate) fn all_rows(observations: &Observations) -> Vec<Range<usize>> {
     let rows = observations.poses.series.iter().map(|series| series.rows.clone());
     rows.filter(|rows| !rows.is_empty()).collect()
+}
+
+/// The number of each component of some stretches of rows.
+pub(crate) fn components(fitted: &Fitted, stretches: &[Range<usize>]) -> Vec<usize> {
+    let first = &fitted.layout.first;
+    stretches.iter().flat_map(|stretch| first[stretch.start]..first[stretch.end]).collect()
 }
 
 /// All rows chunk by chunk, each of some stretches; rows of one object lie in one chunk.

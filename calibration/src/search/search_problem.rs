@@ -1,16 +1,18 @@
 //! The search's problem at a fit: row by row, or from merged rows where they are many.
 
 use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
 
 use faer::Mat;
 use model_core::SymbolKind;
 use rayon::prelude::*;
 
-use super::row_set::{RowSet, all_rows, chunks, dealt, sample};
+use super::chunk::Chunk;
+use super::row_set::{RowSet, all_rows, chunks, components, dealt, sample};
 use crate::candidate::EffectId;
-use crate::data::Poses;
-use crate::search::columns::{Columns, Seen, keep};
-use crate::search::context::Context;
+use crate::data::{Observations, Poses};
+use crate::search::columns::{Columns, Probed, Seen, keep, places};
+use crate::search::context::{Context, declared};
 use crate::search::fitted::Fitted;
 use crate::search::reach::{Part, Reach, further_out};
 use crate::search::{Cells, Folds, Problem, ProblemError};
@@ -72,26 +74,26 @@ impl<'a> SearchProblem<'a> {
         let observations = whole.request.observations;
         let (mut cells, of_groups) = Cells::new(&folds, CELLS.min(whole.held / (width * width)), width);
         let mut seen: Option<Seen> = None;
-        let columns = |components: &[usize], row_set: RowSet<'a>| {
-            let by_cell = of_groups.sorted(&folds.groups_of(components));
-            (row_set.whitened_in(&by_cell.order), by_cell, row_set.seen)
+        // Matrices of chunks that were taken in: a new one each time would cost as much as filling it.
+        let room: Mutex<Vec<Mat<f64>>> = Mutex::default();
+        let rooms = || room.lock().unwrap_or_else(PoisonError::into_inner);
+        let made = |stretches: &[Range<usize>]| {
+            let by_cell = of_groups.sorted(&folds.groups_of(&components(fitted, stretches)));
+            let room = rooms().pop().unwrap_or_else(|| Mat::zeros(0, 0));
+            Chunk::of(whole, fitted, stretches, by_cell, room)
         };
         let mut rows = 0;
-        each_chunk(
-            whole,
-            fitted,
-            |_| true,
-            columns,
-            |components, (whitened, by_cell, of_chunk)| {
-                (whole.tell)(Stage::Columns { rows, of: observations.rows() });
-                rows += components.chunk_by(|&a, &b| fitted.layout.row[a] == fitted.layout.row[b]).count();
-                cells.add(whitened.as_ref(), &by_cell);
-                match &mut seen {
-                    None => seen = Some(of_chunk),
-                    Some(seen) => seen.merge(&of_chunk),
-                }
-            },
-        )?;
+        each_chunk(observations, made, |stretches, chunk| {
+            (whole.tell)(Stage::Columns { rows, of: observations.rows() });
+            rows += stretches.iter().map(ExactSizeIterator::len).sum::<usize>();
+            cells.add(chunk.columns.as_ref(), &chunk.by_cell);
+            match &mut seen {
+                None => seen = Some(chunk.seen),
+                Some(seen) => seen.merge(&chunk.seen),
+            }
+            rooms().push(chunk.columns);
+        })?;
+        drop(room);
         let usable = seen.map_or_else(Vec::new, |seen| seen.usable(&whole.catalogue));
         let functions = whole
             .catalogue
@@ -106,6 +108,7 @@ impl<'a> SearchProblem<'a> {
             .collect();
         let (merged, of_merged) = cells.merged(&kept);
         let problem_of_all = problem(whole, fitted, &usable, &merged, of_merged)?;
+        drop(merged);
 
         let few = whole.held / 4 / width * observations.rows() / folds.rows();
         let sample = sample(observations, few, whole.request.plan.hold_out.seed);
@@ -160,40 +163,34 @@ impl<'a> SearchProblem<'a> {
             return Ok(vec![f(&(0..self.folds.rows()).collect::<Vec<_>>(), &self.rows)]);
         }
         let mut all = Vec::new();
-        let made = |components: &[usize], mut row_set: RowSet<'a>| {
+        // No derivatives but of what is wanted.
+        let is_wanted =
+            |effect: EffectId| wanted(effect) || fitted.found.iter().any(|found| found.effect == effect);
+        let effects = whole.catalogue.iter().enumerate().filter(|&(number, _)| is_wanted(EffectId(number)));
+        let places = places(&effects.map(|(_, effect)| effect.clone()).collect::<Vec<_>>());
+        let poses = &whole.request.observations.poses;
+        let probed = Probed::new(&fitted.chain, poses, declared(whole), &fitted.fit.values, &places)?;
+        let made = |stretches: &[Range<usize>]| {
+            let mut row_set = RowSet::probed(whole, fitted, &probed, stretches, &wanted)?;
             row_set.keep(&self.usable);
-            f(components, &row_set)
+            Ok(f(&components(fitted, stretches), &row_set))
         };
-        each_chunk(whole, fitted, wanted, made, |_, made| all.push(made))?;
+        each_chunk(whole.request.observations, made, |_, made| all.push(made))?;
         Ok(all)
     }
 }
 
-/// Lets `take` have what `make` makes of all rows, one chunk after another, each with its components. Some chunks are made at
-/// once, and taken in their order: the number of processors changes no bit.
-fn each_chunk<'a, T: Send>(
-    whole: &Context<'a>,
-    fitted: &Fitted,
-    wanted: impl Fn(EffectId) -> bool + Sync,
-    make: impl Fn(&[usize], RowSet<'a>) -> T + Sync,
-    mut take: impl FnMut(Vec<usize>, T),
+/// Lets `take` have what `make` makes of all rows, one chunk after another, each of some stretches. Some chunks are made at once, and
+/// taken in their order: the number of processors changes no bit.
+fn each_chunk<T: Send>(
+    observations: &Observations,
+    make: impl Fn(&[Range<usize>]) -> Result<T, SearchError> + Sync,
+    mut take: impl FnMut(&[Range<usize>], T),
 ) -> Result<(), SearchError> {
-    let first = &fitted.layout.first;
-    for some in chunks(whole.request.observations).chunks(AT_ONCE) {
-        let made: Vec<Result<(Vec<usize>, T), SearchError>> = some
-            .par_iter()
-            .map(|chunk| {
-                let stretches = chunk.iter();
-                let components: Vec<usize> =
-                    stretches.flat_map(|stretch| first[stretch.start]..first[stretch.end]).collect();
-                let row_set = RowSet::of(whole, fitted, chunk, &wanted)?;
-                let made = make(&components, row_set);
-                Ok((components, made))
-            })
-            .collect();
-        for made in made {
-            let (components, made) = made?;
-            take(components, made);
+    for some in chunks(observations).chunks(AT_ONCE) {
+        let made: Vec<Result<T, SearchError>> = some.par_iter().map(|stretches| make(stretches)).collect();
+        for (stretches, made) in some.iter().zip(made) {
+            take(stretches, made?);
         }
     }
     Ok(())

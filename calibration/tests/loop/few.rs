@@ -1,7 +1,7 @@
 //! An effect that hangs on a handful of observations is told as one.
 
 use calibration::data::{Observations, Poses};
-use calibration::diagnose::{Diagnosis, Verdict};
+use calibration::diagnose::{Caution, Diagnosis, Verdict};
 use calibration::study::Study;
 use model_core::Chain;
 
@@ -36,11 +36,30 @@ fn report(second: usize) -> Diagnosis {
         .diagnosis
 }
 
+/// What the caution about few observations tells.
+fn resting_on_few(report: &Diagnosis) -> Vec<&str> {
+    let few = |caution| match caution {
+        &Caution::FewBehindAnEffect { ref effect, observations } if observations < 5.0 => {
+            Some(effect.as_str())
+        }
+        _ => None,
+    };
+    report.cautions.iter().filter_map(few).collect()
+}
+
 #[test]
-fn an_offset_of_three_rows_is_told_as_resting_on_few() {
+fn an_offset_of_three_rows_is_told_as_resting_on_few_and_left_out() {
     let report = report(3);
-    assert_eq!(report.verdict, Verdict::TooFewObservations, "{:?} {:?}", report.effects, report.observations);
-    assert!(report.effects[0].driver == "session_2", "{:?}", report.effects);
+    let few = resting_on_few(&report);
+    assert!(few.len() == 1 && few[0].starts_with("offset of a session in "), "{:?}", report.cautions);
+    assert!(report.effects.is_empty(), "{:?}", report.effects);
+    assert_eq!(
+        report.verdict,
+        Verdict::TooFewObservations,
+        "{:?} {:?}",
+        report.cautions,
+        report.observations
+    );
 }
 
 #[test]
@@ -49,4 +68,5 @@ fn the_same_offset_of_thirty_rows_is_explained() {
     assert_eq!(report.effects.len(), 1, "{:?}", report.effects);
     assert!(report.effects[0].driver == "session_2", "{:?}", report.effects);
     assert_eq!(report.verdict, Verdict::Confounded);
+    assert!(resting_on_few(&report).is_empty(), "{:?}", report.cautions);
 }

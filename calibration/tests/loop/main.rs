@@ -9,5 +9,6 @@ mod instruments;
 mod left_out;
 mod mistaken;
 mod remembering;
+mod rounds;
 mod simulated;
 mod taken_up;

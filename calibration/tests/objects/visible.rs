@@ -30,7 +30,8 @@ fn noisy(data: &str, size: f64) -> String {
             Ok(value) if number > 0 => {
                 step += 1.0;
                 // Uniform, by steps of the golden section; ranges stand in the last column.
-                let noise = 2.0 * (step * 0.618_033_988_75 + (step * step * 0.414_213_562).fract()).fract() - 1.0;
+                let noise =
+                    2.0 * (step * 0.618_033_988_75 + (step * step * 0.414_213_562).fract()).fract() - 1.0;
                 (value + noise * if column == 5 { size } else { 0.1 * size }).to_string()
             }
             _ => cell.to_owned(),

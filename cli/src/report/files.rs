@@ -40,8 +40,15 @@ pub fn write_all(reported: &Reported<'_>, folder: &Path) -> Result<(), Failure> 
             None => {}
         }
     }
-    files.write("residuals.csv", |file| write_residuals(reported, &folder.join("residuals.csv"), file))?;
-    files.write_text("report.html", &page(reported))?;
+    let (residuals, page) = rayon::join(
+        || {
+            files
+                .write("residuals.csv", |file| write_residuals(reported, &folder.join("residuals.csv"), file))
+        },
+        || page(reported),
+    );
+    residuals?;
+    files.write_text("report.html", &page)?;
     files.finish()
 }
 

@@ -2,21 +2,29 @@
 
 use std::fs::File;
 use std::io::{self, BufReader, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use calibration::data::units::{BareColumn, Plausible};
+#[cfg(feature = "parquet")]
+use calibration::formats::parquet::TextType;
 use calibration::formats::{
     self, Cells, ColumnName, DataError, Form, Kept, Options, ReadAs, TableReader, Wanted, declared_columns,
     find_reading,
 };
 use model_core::{Chain, ObservableId, Quantity, Symbol, SymbolId};
+#[cfg(feature = "parquet")]
+use rayon::prelude::*;
 
 use super::{CHUNK, failure, known_format};
 use crate::evaluation::readings_of;
 use crate::failure::Failure;
 use crate::source;
+
+/// Bytes of a file up to which its texts are held until the last is known.
+#[cfg(feature = "parquet")]
+const HELD: u64 = 1 << 26;
 
 /// A data file whose columns of readings are found by the names of joints and inputs.
 pub struct ReadingsTable<'t> {
@@ -30,6 +38,8 @@ pub struct ReadingsTable<'t> {
     started: bool,
     /// How far a file has been read; none of what is no file, or is read as a whole before its first row.
     extent: Option<Extent>,
+    /// What opens it again, if it is a file.
+    file: Option<(PathBuf, Options)>,
 }
 
 /// How much of a file has been read.
@@ -122,6 +132,7 @@ impl<'t> ReadingsTable<'t> {
             formats::open(BufReader::new(Counted { file, read }), &path.display().to_string(), &options)
         };
         let mut table = Self::of(reader.map_err(failure)?, chain);
+        table.file = extent.is_some().then(|| (path.to_owned(), options));
         table.extent = extent.filter(|extent| extent.share() < 1.0);
         Ok(table)
     }
@@ -129,7 +140,48 @@ impl<'t> ReadingsTable<'t> {
     /// The readings of a chain in an open table, of which nothing else is wanted.
     pub fn of(reader: Box<dyn TableReader + 't>, chain: &Chain) -> Self {
         let declared = declared_columns(chain);
-        Self { reader, declared, readings: Vec::new(), wanted: Vec::new(), started: false, extent: None }
+        let (readings, wanted) = (Vec::new(), Vec::new());
+        Self { reader, declared, readings, wanted, started: false, extent: None, file: None }
+    }
+
+    /// What the texts of each column are that is kept as it came, from reading the whole file once before: with that, a large
+    /// table with types of its own is written as it is read. None where it is no such file, or has types itself.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    #[cfg(feature = "parquet")]
+    pub fn text_types(&self) -> Result<Option<Vec<TextType>>, Failure> {
+        let Some((path, options)) = &self.file else { return Ok(None) };
+        if !self.extent.as_ref().is_some_and(|extent| extent.of > HELD) {
+            return Ok(None);
+        }
+        let file = File::open(path).map_err(|error| source::not_readable(path, &error))?;
+        let reader = formats::open(BufReader::new(file), &path.display().to_string(), options);
+        let is_kept = |wanted: &&Wanted| matches!(wanted.form, Form::Kept);
+        let wanted: Vec<Wanted> = self.wanted.iter().filter(is_kept).copied().collect();
+        let readings = self.readings.iter();
+        let readings = readings.map(|own| Reading { symbol: own.symbol, column: own.column, bare: None });
+        let mut scanned = Self {
+            reader: reader.map_err(failure)?,
+            declared: self.declared.clone(),
+            readings: readings.collect(),
+            started: false,
+            extent: None,
+            file: None,
+            wanted,
+        };
+        let mut types = vec![TextType::default(); scanned.wanted.len()];
+        while let Some(rows) = scanned.next()? {
+            if rows.kept.iter().any(|kept| matches!(kept, Kept::Typed(_))) {
+                return Ok(None);
+            }
+            types.par_iter_mut().zip(&rows.kept).for_each(|(seen, kept)| {
+                if let Kept::Texts(texts) = kept {
+                    seen.see(texts);
+                }
+            });
+        }
+        Ok(Some(types))
     }
 
     /// The share of the file that has been read, where that is known.

@@ -7,7 +7,7 @@ use calibration::formats::{self, Kept, Written};
 #[cfg(feature = "parquet")]
 use calibration::formats::{Options, parquet};
 
-use super::{failure, known_format};
+use super::{ReadingsTable, failure, known_format};
 use crate::failure::Failure;
 use crate::output;
 
@@ -86,6 +86,30 @@ impl TableWriter<'_> {
                 Ok(())
             }
         }
+    }
+
+    /// The same of a table whose columns come first, those of them that are kept.
+    ///
+    /// # Errors
+    /// The place cannot be written, or the table cannot be read.
+    #[cfg_attr(not(feature = "parquet"), expect(unused_variables, reason = "separated values have no types"))]
+    pub fn header_beside(
+        &mut self,
+        header: &[String],
+        table: &ReadingsTable<'_>,
+        is_kept: &[bool],
+    ) -> Result<(), Failure> {
+        self.header(header)?;
+        #[cfg(feature = "parquet")]
+        if let Self::Parquet { writer, .. } = self
+            && let Some(known) = table.text_types()?
+        {
+            let kept = known.into_iter().zip(is_kept).filter(|(_, is_kept)| **is_kept);
+            let mut types: Vec<_> = kept.map(|(known, _)| Some(known)).collect();
+            types.resize(header.len(), None);
+            *writer = parquet::Writer::with_types(header.to_vec(), types);
+        }
+        Ok(())
     }
 
     /// Writes some rows, column by column in the order of the header.

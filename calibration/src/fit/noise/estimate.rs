@@ -1,6 +1,7 @@
 //! The noise model from residuals: first the floors, then what varies with the joints.
 
 use model_core::Chain;
+use rayon::prelude::*;
 
 use super::{Layout, Noise, NoiseOptions, pools, variance};
 use crate::data::{Measured, Observations};
@@ -30,7 +31,7 @@ fn medians(observations: &Observations, layout: &Layout, residual: &[f64], state
         let scaled = own.map(|at| (residual[at] / stated[at]).abs()).collect();
         robust::median(scaled) / robust::median_norm(1)
     };
-    pools.iter().map(median).collect()
+    pools.par_iter().map(median).collect()
 }
 
 /// The logarithm of how large residuals are by their medians, the mean over all components.

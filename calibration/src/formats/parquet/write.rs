@@ -11,10 +11,11 @@ use ::parquet::errors::{ParquetError, Result};
 use ::parquet::file::properties::WriterProperties;
 use ::parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use ::parquet::schema::types::{ColumnPath, Type, TypePtr};
+use rayon::prelude::*;
 
 use super::TypedCells;
 use super::cells::Values;
-use crate::formats::Kept;
+use crate::formats::{Kept, Texts};
 
 /// Rows of a group: what is held of a table whose types are known.
 const GROUP: usize = 1 << 19;
@@ -53,10 +54,38 @@ impl Column {
     }
 }
 
+/// What the texts of a column are, as far as they have been seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TextType {
+    /// Whether there is any but empty ones.
+    is_any: bool,
+    are_whole: bool,
+    are_double: bool,
+}
+
+impl Default for TextType {
+    fn default() -> Self {
+        Self { is_any: false, are_whole: true, are_double: true }
+    }
+}
+
+impl TextType {
+    /// Sees more texts of the column.
+    pub fn see(&mut self, texts: &Texts) {
+        for text in texts.iter().filter(|text| !text.is_empty()) {
+            self.is_any = true;
+            self.are_whole = self.are_whole && whole(text).is_some();
+            self.are_double = self.are_double && double(text).is_some();
+        }
+    }
+}
+
 /// A table that is being written: rows go in and the bytes of the file come out, group by group. Texts have no type before the
-/// last is known, so that a table with a column of them comes out at the end.
+/// last is known, so that a table with a column of them comes out at the end, unless somebody has [seen](TextType) them before.
 pub struct Writer {
     names: Vec<String>,
+    /// Per column the type of its texts, where it is known.
+    types: Vec<Option<TextType>>,
     /// Rows that have not come out.
     held: Vec<Column>,
     rows: usize,
@@ -68,7 +97,13 @@ impl Writer {
     /// A table of columns with these names.
     #[must_use]
     pub fn new(names: Vec<String>) -> Self {
-        Self { names, held: Vec::new(), rows: 0, file: None }
+        Self { types: vec![None; names.len()], names, held: Vec::new(), rows: 0, file: None }
+    }
+
+    /// The same where all texts of some columns have been seen, one entry a column: it comes out as it is written.
+    #[must_use]
+    pub fn with_types(names: Vec<String>, types: Vec<Option<TextType>>) -> Self {
+        Self { types, ..Self::new(names) }
     }
 
     /// Takes in so many rows, column by column; returns the bytes of the file that are now known.
@@ -82,7 +117,10 @@ impl Writer {
             self.held.iter_mut().zip(columns).for_each(|(held, more)| held.append(more));
         }
         self.rows += count;
-        let waits = self.held.iter().any(|column| matches!(column, Column::Kept(Kept::Texts(_))));
+        let has_type = |(column, of_texts): (&Column, &Option<TextType>)| {
+            of_texts.is_some() || !matches!(column, Column::Kept(Kept::Texts(_)))
+        };
+        let waits = !self.held.iter().zip(&self.types).all(has_type);
         if self.rows < GROUP || waits { Ok(Vec::new()) } else { self.group() }
     }
 
@@ -106,9 +144,12 @@ impl Writer {
 
     /// Writes what is held as a group of rows.
     fn group(&mut self) -> Result<Vec<u8>> {
-        let columns = self.names.iter().zip(std::mem::take(&mut self.held));
-        let columns: Vec<TypedCells> =
-            columns.map(|(name, column)| typed(name, column)).collect::<Result<_>>()?;
+        let columns: Vec<_> =
+            self.names.iter().zip(std::mem::take(&mut self.held)).zip(&self.types).collect();
+        let columns: Vec<TypedCells> = columns
+            .into_par_iter()
+            .map(|((name, column), of_texts)| typed(name, column, *of_texts))
+            .collect::<Result<_>>()?;
         self.rows = 0;
         let mut file = match self.file.take() {
             Some(file) => file,
@@ -142,8 +183,8 @@ fn begun(columns: &[TypedCells]) -> Result<SerializedFileWriter<Vec<u8>>> {
     SerializedFileWriter::new(Vec::new(), schema, Arc::new(properties.build()))
 }
 
-/// The column with a type of its own.
-fn typed(name: &str, column: Column) -> Result<TypedCells> {
+/// The column with a type of its own; what is not known of its texts is seen here.
+fn typed(name: &str, column: Column, of_texts: Option<TextType>) -> Result<TypedCells> {
     let texts = match column {
         Column::Kept(Kept::Typed(cells)) => return Ok(cells),
         Column::Numbers(numbers) => {
@@ -156,13 +197,21 @@ fn typed(name: &str, column: Column) -> Result<TypedCells> {
     let present = || texts.iter().filter(|text| !text.is_empty());
     let levels = Some(texts.iter().map(|text| i16::from(!text.is_empty())).collect());
     let of = |of_type, values| Ok(TypedCells { of_type, levels, values });
-    if present().next().is_some() {
-        if let Some(longs) = present().map(whole).collect() {
-            return of(optional(name, Physical::INT64)?, Values::Int64(longs));
-        }
-        if let Some(doubles) = present().map(double).collect() {
-            return of(optional(name, Physical::DOUBLE)?, Values::Double(doubles));
-        }
+    let of_texts = of_texts.unwrap_or_else(|| {
+        let mut seen = TextType::default();
+        seen.see(&texts);
+        seen
+    });
+    let changed = || ParquetError::General(format!("column `{name}` changed while it was read"));
+    if of_texts.is_any && of_texts.are_whole {
+        let longs: Option<Vec<i64>> = present().map(whole).collect();
+        return of(optional(name, Physical::INT64)?, Values::Int64(longs.ok_or_else(changed)?));
+    }
+    if of_texts.is_any && of_texts.are_double {
+        // That a double holds every digit has been seen.
+        let finite = |text: &str| text.parse().ok().filter(|number: &f64| number.is_finite());
+        let doubles: Option<Vec<f64>> = present().map(finite).collect();
+        return of(optional(name, Physical::DOUBLE)?, Values::Double(doubles.ok_or_else(changed)?));
     }
     let builder = Type::primitive_type_builder(name, Physical::BYTE_ARRAY)
         .with_repetition(Repetition::OPTIONAL)
@@ -297,6 +346,40 @@ mod tests {
         // What came from such a file goes back into one as it came.
         let again = file_of(&names, kept.iter().cloned().map(Column::Kept).collect())?;
         assert_eq!(read(&again)?, (kept, said));
+        Ok(())
+    }
+
+    #[test]
+    fn texts_that_were_seen_before_come_out_as_they_fill()
+    -> std::result::Result<(), Box<dyn std::error::Error>> {
+        // A whole number with more digits than a double holds, and only in another part a fraction: a text.
+        let parts =
+            [[["12345678901234567", "1", ""], ["2", "3", "4"]], [["0.5", "6", "7"], ["8", "0.1", ""]]];
+        let mut types = vec![TextType::default(); 2];
+        for part in &parts {
+            types.iter_mut().zip(part).for_each(|(seen, cells)| seen.see(&cells.iter().collect()));
+        }
+        let names: Vec<String> = ["a".to_owned(), "b".to_owned()].into();
+        let mut writer = Writer::with_types(names.clone(), types.into_iter().map(Some).collect());
+        let mut file = Vec::new();
+        for part in &parts {
+            file.extend(writer.rows(part.iter().map(|cells| texts(cells)).collect(), GROUP)?);
+            assert_eq!(writer.bytes(), 0);
+        }
+        file.extend(writer.finish()?);
+        let (kept, said) = read(&file)?;
+        assert_eq!(said[0], ["12345678901234567", "1", "", "0.5", "6", "7"]);
+        assert_eq!(said[1], ["2.0", "3.0", "4.0", "8.0", "0.1", ""]);
+        let held = file_of(&names, [0, 1].map(|at| texts(&[parts[0][at], parts[1][at]].concat())).into())?;
+        assert_eq!(read(&held)?, (kept, said));
+        // A file that changed in between is no reason for a wrong number.
+        let mut writer = Writer::with_types(
+            vec!["a".to_owned()],
+            vec![Some(TextType { is_any: true, ..TextType::default() })],
+        );
+        assert!(
+            writer.rows(vec![texts(&["x"])], GROUP).is_err_and(|error| error.to_string().contains("changed"))
+        );
         Ok(())
     }
 

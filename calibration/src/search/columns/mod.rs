@@ -13,7 +13,7 @@ use faer::Mat;
 use model_core::algebra::Poly;
 use model_core::{Chain, SymbolId, SymbolKind};
 
-use crate::candidate::{Effect, EffectId, Function, Place, add_error, insert};
+use crate::candidate::{Effect, EffectId, Place, add_error, insert};
 use crate::data::unknowns::{Unknowns, WIDTH};
 use crate::data::{Observations, Poses};
 use crate::fit::{Block, FitError, Model};
@@ -198,29 +198,47 @@ impl Columns {
     /// The columns of each effect that is wanted over a part of the rows, zero where there is no finite value; and
     /// what the part shows of which of them are usable, which all parts together decide.
     #[must_use]
-    pub fn of_part<'e>(
+    pub fn of_part(
         &self,
         chain: &Chain,
-        effects: &'e [Effect],
+        effects: &[Effect],
         poses: &Poses,
         values: &[f64],
         wanted: impl Fn(EffectId) -> bool,
     ) -> (Vec<Vec<Vec<f64>>>, Seen) {
+        let mut columns = vec![Vec::new(); effects.len()];
+        let seen = self.each_column(chain, effects, poses, values, wanted, |effect, fill| {
+            let mut column = vec![0.0; self.row.len()];
+            fill(&mut column);
+            columns[effect.0].push(column);
+        });
+        (columns, seen)
+    }
+
+    /// The same column by column: `take` is given, effect by effect, what fills a column of as many components as there are.
+    pub(crate) fn each_column(
+        &self,
+        chain: &Chain,
+        effects: &[Effect],
+        poses: &Poses,
+        values: &[f64],
+        wanted: impl Fn(EffectId) -> bool,
+        mut take: impl FnMut(EffectId, &dyn Fn(&mut [f64])),
+    ) -> Seen {
         let mut readings = Functions::new(chain, poses, values);
         let mut seen = Seen::of_probes(&self.places, &self.probes);
-        let mut columns = Vec::with_capacity(effects.len());
         // Many effects have the same functions at other places; each is spread over the components of its rows once.
         let mut known: Vec<(&Poly, Option<Vec<f64>>, Extent)> = Vec::new();
         for (number, effect) in effects.iter().enumerate() {
             if !wanted(EffectId(number)) {
-                columns.push(Vec::new());
                 seen.effects.push(Vec::new());
                 continue;
             }
             let places = effect.places();
             let mut extents = Vec::new();
-            let column = |function: &'e Function| {
-                let mut sum = vec![0.0; self.row.len()];
+            for function in &effect.functions {
+                // Derivatives with the functions that they are multiplied by.
+                let mut parts: Vec<(&[f64], usize)> = Vec::new();
                 for &place in &places {
                     let Some(number) = self.places.iter().position(|known| *known == place) else { continue };
                     let probe = self.probes.col_as_slice(number);
@@ -236,19 +254,49 @@ impl Columns {
                             known.push((amount, by_row.map(spread), extent));
                             known.len() - 1
                         });
-                        let (_, function, extent) = &known[at];
-                        extents.push(extent.clone());
-                        let Some(function) = function else { continue };
-                        let moved = probe.iter().zip(function);
-                        sum.iter_mut().zip(moved).for_each(|(sum, (probe, value))| *sum += probe * value);
+                        extents.push(known[at].2.clone());
+                        parts.push((probe, at));
                     }
                 }
-                sum
-            };
-            columns.push(effect.functions.iter().map(column).collect());
+                let present = parts.iter().filter_map(|&(probe, at)| Some((probe, known[at].1.as_deref()?)));
+                let present: Vec<(&[f64], &[f64])> = present.collect();
+                take(EffectId(number), &|column| {
+                    let Some((&(probe, function), others)) = present.split_first() else {
+                        return column.fill(0.0);
+                    };
+                    let moved = probe.iter().zip(function);
+                    column.iter_mut().zip(moved).for_each(|(sum, (probe, value))| *sum = probe * value);
+                    for (probe, function) in others {
+                        let moved = probe.iter().zip(*function);
+                        column.iter_mut().zip(moved).for_each(|(sum, (probe, value))| *sum += probe * value);
+                    }
+                });
+            }
             seen.effects.push(extents);
         }
-        (columns, seen)
+        seen
+    }
+
+    /// The same with the components in another order, each times its factor: whitened, where that is all that whitening does.
+    /// What a part [shows](Seen) of probes is for the columns before that to say.
+    pub(crate) fn scaled_in(&self, order: &[usize], factor: &[f64]) -> Self {
+        let scaled =
+            |column: &[f64]| -> Vec<f64> { order.iter().map(|&at| column[at] * factor[at]).collect() };
+        let each = |columns: &Mat<f64>| {
+            let mut new = Mat::zeros(order.len(), columns.ncols());
+            for j in 0..columns.ncols() {
+                new.col_as_slice_mut(j).copy_from_slice(&scaled(columns.col_as_slice(j)));
+            }
+            new
+        };
+        Self {
+            residual: scaled(&self.residual),
+            declared: each(&self.declared),
+            row: order.iter().map(|&at| self.row[at]).collect(),
+            unknown: Vec::new(),
+            places: self.places.clone(),
+            probes: each(&self.probes),
+        }
     }
 }
 

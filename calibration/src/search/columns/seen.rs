@@ -3,7 +3,7 @@
 use faer::Mat;
 use model_core::TransformKind;
 
-use super::UNSEEN;
+use super::{Columns, UNSEEN};
 use crate::candidate::{Effect, Place};
 
 /// Values of a function more than this many times its RMS make the column hang on a single observation.
@@ -70,6 +70,11 @@ impl Seen {
     pub(super) fn of_probes(places: &[Place], probes: &Mat<f64>) -> Self {
         let squares = probes.col_iter().map(|probe| probe.squared_norm_l2()).collect();
         Self { places: places.to_vec(), squares, effects: Vec::new() }
+    }
+
+    /// The same as columns show the probes that were not whitened.
+    pub(crate) fn with_probes(self, columns: &Columns) -> Self {
+        Self { effects: self.effects, ..Self::of_probes(&columns.places, &columns.probes) }
     }
 
     /// Adds what another part shows, of the same effects at the same places.

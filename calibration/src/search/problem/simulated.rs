@@ -1,5 +1,7 @@
 //! The same columns with other residuals: what simulations search again and again.
 
+use std::sync::Arc;
+
 use faer::Mat;
 
 use super::{Problem, ProblemError, check_finite};
@@ -37,7 +39,8 @@ impl Problem {
         let (left, taken) = self.split(residual);
         let last = self.residual();
         let mut problem = self.clone();
-        problem.rows.col_mut(last).copy_from(left.col(0));
+        let rows = Arc::make_mut(&mut problem.rows);
+        rows.col_mut(last).copy_from(left.col(0));
         problem.absorbed.col_mut(last - self.declared).copy_from(taken.col(0));
         for j in 0..=last {
             let mut products = vec![0.0; problem.grams.len()];

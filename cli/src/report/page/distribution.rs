@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use maud::Markup;
+use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF as _, Normal};
 
 use super::card::{CARD, card};
@@ -82,7 +83,7 @@ pub fn quantiles(component: &Component, changed: bool) -> Markup {
     let [before, after] = values(component);
     let spread = robust_spread(&after);
     let [before, after] = [before, after].map(|mut values| {
-        values.sort_unstable_by(f64::total_cmp);
+        values.par_sort_unstable_by(f64::total_cmp);
         over_normal(&values)
     });
     let both = || before.iter().chain(&after);

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use calibration::data::{Measure, Measured};
 use calibration::report::numbers;
 use maud::{Markup, PreEscaped, html};
+use rayon::prelude::*;
 
 use super::card::CARD;
 use super::rows::Rows;
@@ -46,14 +47,17 @@ pub fn maps(reported: &Reported<'_>, rows: &Rows) -> Markup {
         series
             .rows
             .clone()
+            .into_par_iter()
             .filter(|&row| !rows.every_aside[row])
             .filter_map(|row| Some((place(row)?, (part(first, row)?, part(second, row)?))))
             .collect()
     };
     let before = arrows(false);
     let mut lengths: Vec<f64> = before.iter().map(|(_, (across, along))| across.hypot(*along)).collect();
-    lengths.sort_by(f64::total_cmp);
-    let typical = lengths.get(lengths.len() * 19 / 20).copied().unwrap_or(1.0).max(f64::MIN_POSITIVE);
+    let most = lengths.len() * 19 / 20;
+    let typical =
+        if lengths.is_empty() { 1.0 } else { *lengths.select_nth_unstable_by(most, f64::total_cmp).1 };
+    let typical = typical.max(f64::MIN_POSITIVE);
     let scale = numbers::told_in(typical * rows.unit.in_si, &rows.unit);
     let (title, labels) = if direction {
         ("Over the sky", ["azimuth, °", "elevation, °"])

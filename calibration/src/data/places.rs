@@ -1,0 +1,218 @@
+//! Places that rows come back to: readings that lie together in bunches, far from all others.
+//!
+//! Whoever observes the same targets in several rounds, or reads a pose more than once, has bunches: rows of one lie nearer to
+//! each other than to any other row, by far. Rows of a path or of a cloud have none, however dense they lie.
+
+use model_core::{Chain, Quantity, SymbolId, SymbolKind};
+
+use super::Poses;
+
+/// How much further the rows of other places are than those of one are from each other, at least.
+const APART: f64 = 2.5;
+
+/// How far apart places are tried to be, as shares of the ranges that the readings cover: from here to there, doubled each time.
+const NEAREST: f64 = 1e-9;
+const FURTHEST: f64 = 0.1;
+
+/// A chain of rows that is wider than a place is long where it holds more than one of so many rows.
+const LONG: usize = 10;
+
+/// Pairs of rows that are compared at most, for each row, and found apart or together: where there are more, rows lie too dense to
+/// say.
+const FOUND_APART: usize = 64;
+const FOUND_TOGETHER: usize = 500;
+
+/// The golden section: readings weighed by its powers add up to the same for hardly any two rows of a grid.
+const SECTION: f64 = 0.618_033_988_749_894_9;
+
+/// The place of each row, numbered from 0 in the order of the rows; `None` where less than half of the rows share theirs.
+///
+/// A place is told by joints, and by inputs that are lengths or angles: not by the temperature, the time or the side from which
+/// it was approached.
+#[must_use]
+pub fn places(chain: &Chain, poses: &Poses) -> Option<Vec<u32>> {
+    let readings = scaled(chain, poses);
+    let rows = readings.first()?.len();
+    let line = Line::through(&readings);
+    let mut best: Option<(usize, Vec<u32>)> = None;
+    let mut apart = NEAREST;
+    while apart <= FURTHEST {
+        let Some(linked) = Linked::within(&readings, &line, apart) else { break };
+        let (shared, of_row) = linked.bunches(&readings, apart / APART);
+        if 2 * shared >= rows && best.as_ref().is_none_or(|(most, _)| shared > *most) {
+            best = Some((shared, of_row));
+        }
+        apart *= 2.0;
+    }
+    best.map(|(_, of_row)| of_row)
+}
+
+/// The readings that tell a place, each over the range that it covers.
+fn scaled(chain: &Chain, poses: &Poses) -> Vec<Vec<f64>> {
+    let tells = |kind: SymbolKind, quantity: Quantity| match kind {
+        SymbolKind::Joint => true,
+        SymbolKind::Input => quantity != Quantity::Number,
+        _ => false,
+    };
+    let of_column = |(id, values): &(SymbolId, Vec<f64>)| {
+        let symbol = chain.symbol(*id);
+        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let range = high - low;
+        (tells(symbol.kind, symbol.quantity) && range > 0.0 && range.is_finite())
+            .then(|| values.iter().map(|value| value / range).collect())
+    };
+    poses.columns.iter().filter_map(of_column).collect()
+}
+
+/// Rows in the order in which they lie along a line through the space of the readings.
+struct Line {
+    order: Vec<usize>,
+    /// Where each row lies.
+    at: Vec<f64>,
+    /// How far apart along it rows can be that differ by one in every reading.
+    stretch: f64,
+}
+
+impl Line {
+    fn through(readings: &[Vec<f64>]) -> Self {
+        let rows = readings.first().map_or(0, Vec::len);
+        let weights: Vec<f64> = (0..readings.len()).map(|power| SECTION.powi(power as i32)).collect();
+        let of_row =
+            |row: usize| readings.iter().zip(&weights).map(|(values, weight)| weight * values[row]).sum();
+        let at: Vec<f64> = (0..rows).map(of_row).collect();
+        let mut order: Vec<usize> = (0..rows).collect();
+        order.sort_by(|&a, &b| at[a].total_cmp(&at[b]));
+        Self { order, at, stretch: weights.iter().sum() }
+    }
+}
+
+/// Rows in chains, link by link no further than some distance from the next.
+struct Linked {
+    /// Of each row another one of its chain, or itself.
+    parent: Vec<usize>,
+}
+
+impl Linked {
+    /// Links all rows that lie within a distance in every reading; `None` where they lie too dense.
+    fn within(readings: &[Vec<f64>], line: &Line, distance: f64) -> Option<Self> {
+        let mut linked = Self { parent: (0..line.order.len()).collect() };
+        let rows = line.order.len();
+        let (mut apart, mut together) = (FOUND_APART * rows, FOUND_TOGETHER * rows);
+        for (at, &row) in line.order.iter().enumerate() {
+            for &other in &line.order[at + 1..] {
+                if line.at[other] - line.at[row] > line.stretch * distance {
+                    break;
+                }
+                if readings.iter().all(|values| (values[other] - values[row]).abs() <= distance) {
+                    together = together.checked_sub(1)?;
+                    linked.join(row, other);
+                } else {
+                    apart = apart.checked_sub(1)?;
+                }
+            }
+        }
+        Some(linked)
+    }
+
+    fn root(&mut self, mut row: usize) -> usize {
+        while self.parent[row] != row {
+            self.parent[row] = self.parent[self.parent[row]];
+            row = self.parent[row];
+        }
+        row
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.root(a), self.root(b));
+        let (first, last) = (a.min(b), a.max(b));
+        self.parent[last] = first;
+    }
+
+    /// How many rows share a place with others, a chain that is no wider than this; and the place of each row. Places too near to each
+    /// other to be told apart count as one; the rows of a long chain have one each.
+    fn bunches(mut self, readings: &[Vec<f64>], widest: f64) -> (usize, Vec<u32>) {
+        let rows = self.parent.len();
+        let roots: Vec<usize> = (0..rows).map(|row| self.root(row)).collect();
+        let mut size = vec![0_usize; rows];
+        roots.iter().for_each(|&root| size[root] += 1);
+        let mut narrow = vec![true; rows];
+        for values in readings {
+            let mut ends = vec![[f64::INFINITY, f64::NEG_INFINITY]; rows];
+            for (value, &root) in values.iter().zip(&roots) {
+                let [low, high] = ends[root];
+                ends[root] = [low.min(*value), high.max(*value)];
+            }
+            narrow.iter_mut().zip(ends).for_each(|(narrow, [low, high])| *narrow &= high - low <= widest);
+        }
+        let is_place = |root: usize| size[root] > 1 && narrow[root];
+        let is_long = |root: usize| !narrow[root] && LONG * size[root] > rows;
+        let mut number: Vec<Option<u32>> = vec![None; rows];
+        let mut next = 0;
+        let mut shared = 0;
+        let mut of_row = Vec::with_capacity(rows);
+        for (row, &root) in roots.iter().enumerate() {
+            let key = if is_long(root) { row } else { root };
+            shared += usize::from(is_place(root));
+            let place = *number[key].get_or_insert_with(|| {
+                next += 1;
+                next - 1
+            });
+            of_row.push(place);
+        }
+        (shared, of_row)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The places of rows of two joints.
+    fn of(joints: impl Fn(usize) -> [f64; 2], rows: usize) -> Option<Vec<u32>> {
+        let text = "chain C { body a on ground { motion: Rz(p); motion_error: Rz(e); } body b on a { motion: Rx(q); } \
+                    observe o: direction(0, 1, 0) of b; }";
+        let Ok(chain) = Chain::from_text(text) else { unreachable!("the declaration is right") };
+        let column = |at: usize| (0..rows).map(|row| joints(row)[at]).collect();
+        let mut columns: Vec<_> = ["p", "q"]
+            .iter()
+            .enumerate()
+            .filter_map(|(at, name)| Some((chain.find_symbol(name)?, column(at))))
+            .collect();
+        columns.sort_by_key(|(id, _)| *id);
+        places(&chain, &Poses { series: Vec::new(), columns })
+    }
+
+    /// Numbers that fill the unit interval evenly.
+    fn even(row: usize, step: f64) -> f64 {
+        (row as f64 * step).fract()
+    }
+
+    #[test]
+    fn rounds_are_places() {
+        let target = |row: usize| [even(row % 40, 0.754_877_666), even(row % 40, 0.569_840_291)];
+        let rounds: Vec<u32> = (0..200).map(|row| row % 40).collect();
+        assert_eq!(of(target, 200), Some(rounds.clone()));
+        let aimed = |row: usize| target(row).map(|q| q + 0.001 * even(row * row, 0.618_033_99));
+        assert_eq!(of(aimed, 200), Some(rounds));
+        // Each read to its end.
+        let read: Vec<u32> = (0..200).map(|row| row / 5).collect();
+        assert_eq!(of(|row| target(row / 5), 200), Some(read));
+        // Six poses, four hundred times.
+        assert_eq!(of(|row| target(row % 6), 2400), Some((0..2400).map(|row| row % 6).collect()));
+    }
+
+    #[test]
+    fn clouds_paths_grids_and_points_are_none() {
+        let cloud = |row: usize| [even(row, 0.754_877_666), even(row, 0.569_840_291)];
+        assert_eq!(of(cloud, 500), None);
+        let path = |row: usize| [(row as f64 / 900.0).sin(), (row as f64 / 400.0).cos()];
+        assert_eq!(of(path, 3000), None);
+        assert_eq!(of(|row| [(row % 20) as f64, (row / 20) as f64], 400), None);
+        // Lines of a raster, dense along one joint.
+        assert_eq!(of(|row| [(row / 100) as f64, (row % 100) as f64 / 100.0], 1000), None);
+        assert_eq!(of(|_| [1.0, 2.0], 50), None);
+        assert_eq!(of(|_| [0.0; 2], 0), None);
+        assert_eq!(of(|row| [f64::NAN, row as f64], 30), None);
+    }
+}

@@ -1,0 +1,102 @@
+//! Targets that are observed in several rounds: each stands a little wrong, the same way in every round.
+
+use calibration::data::{Measure, Measured, Observations, Poses, Series, tangent_frame};
+use calibration::diagnose::{Caution, Diagnosis};
+use calibration::study::Study;
+use model_core::Chain;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::StandardNormal;
+
+use crate::simulated::{lidar, pointing, search};
+
+const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;
+const PLACES: usize = 60;
+const ROUNDS: usize = 5;
+
+/// What the search makes of the scanner at 60 targets in five rounds, each row with noise of 2 arcsec and each target off by so
+/// many, `eccentric` off centre in beta, aimed at anew within some angle.
+fn report(seed: u64, off_rad: f64, eccentric: f64, aimed_rad: f64) -> Diagnosis {
+    let text = lidar();
+    let chain = Chain::from_text(&text).unwrap();
+    let study = "chain = \"c\"\nobservable = \"pointing\"\ndata = \"d\"\n[observed]\nkind = \"direction\"\n";
+    let plan = Study::from_text(study).unwrap().plan(&chain).unwrap();
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let targets: Vec<[f64; 3]> =
+        (0..PLACES).map(|_| [(); 3].map(|()| random.random_range(-3.0..3.0))).collect();
+    let mut normal = || -> f64 { random.sample(StandardNormal) };
+    let off: Vec<[f64; 2]> = (0..PLACES).map(|_| [normal(), normal()]).collect();
+    let names = ["alpha", "beta", "gamma"];
+    let mut columns: Vec<_> =
+        names.iter().map(|name| (chain.find_symbol(name).unwrap(), Vec::new())).collect();
+    let mut observed = Vec::new();
+    for row in 0..PLACES * ROUNDS {
+        let readings = targets[row % PLACES].map(|q| q + aimed_rad * normal());
+        columns.iter_mut().zip(readings).for_each(|((_, column), reading)| column.push(reading));
+        let beta = readings[1] + eccentric * readings[1].cos();
+        let aim = pointing(&chain, &[], [readings[0], beta, readings[2], 0.0, 0.0]);
+        let [across, along] = tangent_frame(&aim);
+        let [right, up] = [0, 1].map(|at| 2.0 * ARCSEC * normal() + off_rad * off[row % PLACES][at]);
+        observed.push(Measured::Direction((aim + across * right + along * up).normalize()));
+    }
+    columns.sort_by_key(|(id, _)| *id);
+    let rows = observed.len();
+    let observations = Observations {
+        poses: Poses {
+            series: vec![Series {
+                observable: chain.find_observable("pointing").unwrap(),
+                measure: Measure::Direction,
+                rows: 0..rows,
+                source: "simulated".to_owned(),
+            }],
+            columns,
+        },
+        measured: observed,
+        groups: (0..rows as u32).collect(),
+        row_numbers: (1..=rows as u64).collect(),
+        ..Observations::default()
+    };
+    search(&text, &plan, &observations).diagnosis
+}
+
+/// How many places the report counts as groups, if it does.
+fn places(report: &Diagnosis) -> Option<usize> {
+    let of = |caution: &Caution| match *caution {
+        Caution::OfOnePlace { rows, places } => {
+            assert_eq!(rows, PLACES * ROUNDS);
+            Some(places)
+        }
+        _ => None,
+    };
+    report.cautions.iter().find_map(of)
+}
+
+/// One of six at most; where every row counted for itself it was every one.
+#[test]
+fn what_a_target_is_off_by_is_no_effect() {
+    let mut accepted = Vec::new();
+    for seed in 0..6 {
+        let report = report(seed, 2.0 * ARCSEC, 0.0, if seed % 2 == 0 { 0.0 } else { 0.003 });
+        assert!(places(&report).is_some_and(|places| (58..=60).contains(&places)), "{:?}", report.cautions);
+        accepted.extend(report.effects.into_iter().map(|effect| (seed, effect.names)));
+    }
+    assert!(accepted.len() <= 1, "{accepted:?}");
+}
+
+/// An effect is found beside what targets are off by, and where they are not.
+#[test]
+fn an_effect_is_found_in_rounds() {
+    for off_rad in [2.0 * ARCSEC, 0.0] {
+        let report = report(11, off_rad, 12.0 * ARCSEC, 0.0);
+        // The cosine of beta alone is what gravity does too.
+        let here = report.effects.iter().any(|effect| effect.body == "middle" && effect.dof == "Rx");
+        assert!(here, "{off_rad}: {:?}", report.effects);
+    }
+}
+
+/// Where rows of one place share nothing, each counts for itself; chance says otherwise in one of twenty.
+#[test]
+fn rows_that_share_nothing_count_each() {
+    let grouped = (20..24).filter(|seed| places(&report(*seed, 0.0, 0.0, 0.0)).is_some()).count();
+    assert!(grouped <= 1, "{grouped} of 4");
+}

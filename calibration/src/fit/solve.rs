@@ -74,15 +74,7 @@ impl Solver<'_> {
     /// Where a fit of some of very many rows ends, evenly spread; none where they are not many, or that fit does not end well.
     fn of_sample(&self) -> Result<Option<Vec<f64>>, FitError> {
         let rows = self.observations.rows();
-<<<<<<< ours
-        let unknowns = self.observations.unknowns.as_ref();
-        let (many, few) =
-            if unknowns.is_some() { (MANY_OF_OBJECTS, SAMPLE_OF_OBJECTS) } else { (MANY, SAMPLE) };
-        let too_few = unknowns.is_some_and(|unknowns| unknowns.objects.len() < OBJECTS);
-        if rows < many || too_few || !self.options.robust {
-=======
         if rows < MANY || !self.options.robust || self.observations.unknowns.is_some() {
->>>>>>> theirs
             return Ok(None);
         }
         // Steps of an irrational length meet no period of the data.

@@ -9,6 +9,7 @@ better than roughly. The scanner has all of its thirty errors, and an outer circ
 declaration lacks (`--plain`: it does not). NumPy alone is needed; what a scanner shows is worked out here, by its matrices.
 """
 import argparse
+import json
 import math
 import os
 import pathlib
@@ -123,14 +124,17 @@ def main():
             if arguments.keep:
                 continue
             began = time.monotonic()
-            command = [str(arguments.trueaxis.resolve()), "calibrate", "study.toml", "--out", "result"]
-            process = subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL)
-            _, status, used = os.wait4(process.pid, 0)
+            command = [str(arguments.trueaxis.resolve()), "calibrate", "study.toml", "--dry-run", "--format", "json"]
+            with open(folder / "report.json", "w") as report:
+                process = subprocess.Popen(command, cwd=folder, stdout=report)
+                _, status, used = os.wait4(process.pid, 0)
             clock, processor = time.monotonic() - began, used.ru_utime + used.ru_stime
             if os.waitstatus_to_exitcode(status) not in (0, 1):
                 raise SystemExit(f"{size}: exit code {os.waitstatus_to_exitcode(status)}")
-            kept = next(line for line in (folder / "result" / "report.txt").read_text().splitlines() if line.strip()) if (folder / "result" / "report.txt").exists() else ""
-            print(f"| {rows:,} | {objects:,} {arguments.kind} | {processor:.1f} s | {clock:.1f} s | {used.ru_maxrss / 1024:.0f} MB | {kept}", flush=True)
+            report = json.loads((folder / "report.json").read_text())
+            found = ", ".join(cause["name"] for one in report["effects"] for cause in one["causes"] if cause["relation"] == "accepted")
+            memory = used.ru_maxrss / 1024
+            print(f"| {rows:,} | {objects:,} {arguments.kind} | {processor:.1f} s | {clock:.1f} s | {memory:.0f} MB | {report['verdict']}: {found or 'nothing'} |", flush=True)
 
 
 if __name__ == "__main__":

@@ -20,13 +20,6 @@ const MANY: usize = 200_000;
 /// Rows of such a sample, about.
 const SAMPLE: usize = 20_000;
 
-/// The same of rows that observe unknown objects: a sample is of whole objects, and costs more steps than all rows do from there.
-const MANY_OF_OBJECTS: usize = 20_000;
-const SAMPLE_OF_OBJECTS: usize = 6_000;
-
-/// Objects from which on some of them stand for all.
-const OBJECTS: usize = 200;
-
 /// When more than this share of the rows has lost all weight, other starts are tried.
 const DOUBTFUL: f64 = 0.25;
 
@@ -81,21 +74,13 @@ impl Solver<'_> {
     /// Where a fit of some of very many rows ends, evenly spread; none where they are not many, or that fit does not end well.
     fn of_sample(&self) -> Result<Option<Vec<f64>>, FitError> {
         let rows = self.observations.rows();
-        let unknowns = self.observations.unknowns.as_ref();
-        let (many, few) =
-            if unknowns.is_some() { (MANY_OF_OBJECTS, SAMPLE_OF_OBJECTS) } else { (MANY, SAMPLE) };
-        let too_few = unknowns.is_some_and(|unknowns| unknowns.objects.len() < OBJECTS);
-        if rows < many || too_few || !self.options.robust {
+        if rows < MANY || !self.options.robust || self.observations.unknowns.is_some() {
             return Ok(None);
         }
         // Steps of an irrational length meet no period of the data.
         let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
-        let share = few as f64 / rows as f64;
-        let unit = |row: usize| match unknowns.and_then(|unknowns| unknowns.object[row]) {
-            Some(object) => object as usize,
-            None => row,
-        };
-        let chosen = (0..rows).filter(|&row| (unit(row) as f64 * golden).fract() < share);
+        let share = SAMPLE as f64 / rows as f64;
+        let chosen = (0..rows).filter(|&row| (row as f64 * golden).fract() < share);
         let sample = self.observations.select(&chosen.collect::<Vec<_>>());
         let noise = NoiseOptions { variance: false, serial: false, ..self.options.noise.clone() };
         let of_sample = fit(self.chain, &sample, &FitOptions { noise, ..self.options.clone() })?;

@@ -288,6 +288,10 @@ impl Sums {
             }
         }
 
+        if k == 0 {
+            // All has gone to the stations: where the object is, is known.
+            return;
+        }
         let stations: Vec<usize> = telling.iter().filter_map(|(station, _)| *station).collect();
         let behind = k + OF_STATION * stations.len();
         let width = behind + columns + 1;

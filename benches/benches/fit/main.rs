@@ -59,6 +59,7 @@ fn simulate(chain: &Chain, observable: &str, joints: &[(&str, f64, f64)], rows: 
         measured,
         sigma: Vec::new(),
         groups: (0..).take(rows).collect(),
+        together: Vec::new(),
         by_place: false,
         in_sequence: false,
         row_numbers: (1..).take(rows).collect(),

@@ -9,6 +9,7 @@ mod origin;
 mod places;
 mod poses;
 mod si_unit;
+mod site;
 mod tangent;
 pub mod units;
 pub mod unknowns;
@@ -36,6 +37,9 @@ pub struct Observations {
     pub sigma: Vec<Option<[f64; 3]>>,
     /// Group of each row: rows of one group are not independent and are held out together.
     pub groups: Vec<u32>,
+    /// The site of each row, which is held out as a whole and is one unit to the ±, though noise does not hang together there; empty
+    /// where groups alone count.
+    pub together: Vec<u32>,
     /// Whether groups are places that rows were found to share something at, and nobody declared them.
     pub by_place: bool,
     /// Whether the order of the rows is their order of acquisition.
@@ -78,6 +82,7 @@ impl Observations {
             measured: rows.iter().filter_map(|&row| self.measured.get(row).copied()).collect(),
             sigma: rows.iter().filter_map(|&row| self.sigma.get(row).copied()).collect(),
             groups: rows.iter().filter_map(|&row| self.groups.get(row).copied()).collect(),
+            together: rows.iter().filter_map(|&row| self.together.get(row).copied()).collect(),
             by_place: self.by_place,
             in_sequence: self.in_sequence,
             row_numbers: rows.iter().filter_map(|&row| self.row_numbers.get(row).copied()).collect(),

@@ -115,7 +115,7 @@ impl Solver<'_> {
         let agrees = stated.is_some_and(|stated| stated.agreement == Agreement::Agrees);
         let mut root = subspace.covariance_root(&full, rest);
         let found_noise = self.shared(course, weight, &root)?;
-        let spread = if let Some(groups) = self.groups() {
+        let spread = if let Some(groups) = self.buckets(&self.observations.units()) {
             root = subspace.covariance_root(&self.partial(&course.point.sweep), rest);
             let (q, e) = self.coordinates(course, weight, &root)?;
             // Weights move along with residuals, and by so much more the estimates.
@@ -230,8 +230,12 @@ impl Solver<'_> {
 
     /// The groups of the components, where rows share any and there are several.
     fn groups(&self) -> Option<Buckets> {
-        let groups = &self.observations.groups;
-        let mut known: Vec<u32> = groups.clone();
+        self.buckets(&self.observations.groups)
+    }
+
+    /// The units of the components, where several rows have one and there are several.
+    fn buckets(&self, groups: &[u32]) -> Option<Buckets> {
+        let mut known: Vec<u32> = groups.to_vec();
         known.sort_unstable();
         known.dedup();
         if known.len() < 2 || known.len() >= groups.len() {

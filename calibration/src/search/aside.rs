@@ -37,6 +37,8 @@ struct Sorted {
     order: Vec<usize>,
     /// Positions in the order, equal readings never apart.
     cuts: Vec<usize>,
+    /// Between which cuts each row lies.
+    between: Vec<u8>,
 }
 
 /// The stretch of a reading in which far more rows were set aside than elsewhere, if chance does not explain it.
@@ -61,33 +63,38 @@ pub(crate) fn shared(poses: &Poses, aside: &[usize], seed: u64) -> Option<Shared
                 })
                 .collect();
             cuts.dedup();
-            Sorted { reading: *reading, order, cuts }
+            let mut between = vec![0; rows];
+            for (number, ends) in (0..).zip(cuts.windows(2)) {
+                order[ends[0]..ends[1]].iter().for_each(|&row| between[row] = number);
+            }
+            Sorted { reading: *reading, order, cuts, between }
         })
         .collect();
-    let mut is_aside = vec![false; rows];
-    aside.iter().for_each(|&row| is_aside[row] = true);
-    let best = |is_aside: &[bool]| -> Option<(f64, usize, usize, usize)> {
+    let best = |aside: &[usize]| -> Option<(f64, usize, usize, usize)> {
         let each = sorted.iter().enumerate().filter_map(|(number, sorted)| {
-            most_crowded(sorted, is_aside, aside.len()).map(|(score, from, to)| (score, number, from, to))
+            most_crowded(sorted, aside).map(|(score, from, to)| (score, number, from, to))
         });
         each.max_by(|a, b| a.0.total_cmp(&b.0))
     };
-    let (score, number, from, to) = best(&is_aside)?;
+    let (score, number, from, to) = best(aside)?;
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut as_crowded = 0_usize;
+    // Only as many rows are shuffled as are asked for.
+    let mut shuffled: Vec<usize> = (0..rows).collect();
     for _ in 0..PERMUTATIONS {
-        for i in (1..rows).rev() {
-            is_aside.swap(i, random.random_range(0..=i));
+        for i in 0..aside.len() {
+            shuffled.swap(i, random.random_range(i..rows));
         }
-        as_crowded += usize::from(best(&is_aside).is_some_and(|(other, ..)| other >= score));
+        as_crowded += usize::from(best(&shuffled[..aside.len()]).is_some_and(|(other, ..)| other >= score));
     }
     if (1 + as_crowded) as f64 / (1 + PERMUTATIONS) as f64 > CHANCE {
         return None;
     }
-    let Sorted { reading, order, .. } = &sorted[number];
+    let Sorted { reading, order, cuts, between } = &sorted[number];
     let values = poses.column(*reading)?;
     let own = &order[from..to];
-    let there = own.iter().filter(|row| aside.contains(row)).count();
+    let is_there = |&&row: &&usize| (from..to).contains(&cuts[usize::from(between[row])]);
+    let there = aside.iter().filter(is_there).count();
     Some(Shared {
         reading: *reading,
         from: values[own[0]],
@@ -97,16 +104,13 @@ pub(crate) fn shared(poses: &Poses, aside: &[usize], seed: u64) -> Option<Shared
 }
 
 /// The stretch with the largest excess of rows set aside, in standard deviations of the hypergeometric distribution.
-fn most_crowded(sorted: &Sorted, is_aside: &[bool], aside: usize) -> Option<(f64, usize, usize)> {
+fn most_crowded(sorted: &Sorted, aside: &[usize]) -> Option<(f64, usize, usize)> {
     let rows = sorted.order.len() as f64;
-    let mut before = Vec::with_capacity(sorted.cuts.len());
-    let (mut count, mut at) = (0_usize, 0);
-    for &cut in &sorted.cuts {
-        count += sorted.order[at..cut].iter().filter(|&&row| is_aside[row]).count();
-        at = cut;
-        before.push(count);
-    }
-    let share = aside as f64 / rows;
+    let mut before = vec![0_usize; sorted.cuts.len()];
+    // Behind the cut that a row lies before.
+    aside.iter().for_each(|&row| before[usize::from(sorted.between[row]) + 1] += 1);
+    (1..before.len()).for_each(|cut| before[cut] += before[cut - 1]);
+    let share = aside.len() as f64 / rows;
     let mut best: Option<(f64, usize, usize)> = None;
     for i in 0..sorted.cuts.len() {
         for j in i + 1..sorted.cuts.len() {

@@ -217,15 +217,17 @@ pub(crate) fn dealt(
     let groups = groups(observations, row);
     let Some(unknowns) = &observations.unknowns else {
         let are_alone = observations.groups.is_sorted_by(|before, after| before < after);
-        if !(noise.remembers() && are_alone) {
-            return Folds::deal(&groups, folds, seed);
+        if !(noise.remembers() && are_alone && observations.together.is_empty()) {
+            let units = observations.units();
+            let of_component: Vec<usize> = row.iter().map(|&row| units[row as usize] as usize).collect();
+            return Folds::deal_together(&groups, &of_component, folds, seed);
         }
         // Neighbours of a row that is held out know what it remembers.
         let rows = observations.rows().max(1);
         let units: Vec<usize> = row.iter().map(|&row| row as usize * folds / rows).collect();
         return Folds::deal_together(&groups, &units, folds, seed);
     };
-    let together = unknowns.together(&observations.groups);
+    let together = unknowns.together(&observations.units());
     let units: Vec<usize> = row.iter().map(|&row| together[row as usize]).collect();
     let mut dealt = Folds::deal_together(&groups, &units, folds, seed);
     // The components that go into an object's numbers say nothing of anything else.

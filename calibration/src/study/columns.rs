@@ -57,8 +57,8 @@ impl Columns {
             }
         }
         let of_objects = source.object.iter().chain(&source.station);
-        let labels =
-            plan.group.iter().chain(&plan.id).chain(of_objects).chain(&plan.order).cloned().collect();
+        let of_folds = plan.hold_out.together.iter().chain(&plan.order);
+        let labels = plan.group.iter().chain(&plan.id).chain(of_objects).chain(of_folds).cloned().collect();
         Self { plans, readings, observed, sigma, times, labels }
     }
 

@@ -54,6 +54,25 @@ struct Rows {
     bytes: usize,
 }
 
+/// Labels with their numbers, from 0 in order of first appearance.
+type Numbers = BTreeMap<Vec<String>, u32>;
+
+/// Labels of groups, and of what is held out together.
+#[derive(Default)]
+struct Numbered {
+    groups: Numbers,
+    together: Numbers,
+}
+
+/// The number of each of so many rows by its labels.
+fn number(known: &mut Numbers, labels: &[Vec<String>], rows: usize) -> Vec<u32> {
+    let of_row = |row: usize| {
+        let next = known.len() as u32;
+        *known.entry(labels.iter().map(|labels| labels[row].clone()).collect()).or_insert(next)
+    };
+    (0..rows).map(of_row).collect()
+}
+
 impl Plan {
     /// Reads all data files.
     ///
@@ -73,7 +92,7 @@ impl Plan {
     pub fn load_tables(&self, open: &mut OpenTable<'_>) -> Result<Loaded, DataError> {
         let mut doubtful = Vec::new();
         let mut observations = self.no_observations();
-        let mut groups = BTreeMap::new();
+        let mut groups = Numbered::default();
         for source in &self.sources {
             self.append(&mut observations, source, &source.paths, open, &mut groups, &mut doubtful)?;
         }
@@ -82,7 +101,7 @@ impl Plan {
             (Some(path), Some(source)) => {
                 let mut all = self.no_observations();
                 let paths = std::slice::from_ref(path);
-                self.append(&mut all, source, paths, open, &mut BTreeMap::new(), &mut doubtful)?;
+                self.append(&mut all, source, paths, open, &mut Numbered::default(), &mut doubtful)?;
                 Some(all)
             }
             _ => None,
@@ -104,7 +123,7 @@ impl Plan {
         source: &SourcePlan,
         paths: &[String],
         open: &mut OpenTable<'_>,
-        groups: &mut BTreeMap<Vec<String>, u32>,
+        numbered: &mut Numbered,
         doubtful: &mut Vec<BareColumn>,
     ) -> Result<(), DataError> {
         let columns = Columns::of(self, source);
@@ -157,15 +176,15 @@ impl Plan {
         }
         let grouping = self.group.len();
         self.append_objects(all, source, &rows, start);
-        for row in 0..count {
-            let group = if grouping == 0 {
-                (start + row) as u32
-            } else {
-                let label = rows.labels.iter().take(grouping).map(|labels| labels[row].clone()).collect();
-                let next = groups.len() as u32;
-                *groups.entry(label).or_insert(next)
-            };
-            all.groups.push(group);
+        if grouping == 0 {
+            all.groups.extend((start as u32..).take(count));
+        } else {
+            all.groups.extend(number(&mut numbered.groups, &rows.labels[..grouping], count));
+        }
+        let own = self.hold_out.together.len();
+        if own > 0 {
+            let end = columns.labels.len() - usize::from(self.order.is_some());
+            all.together.extend(number(&mut numbered.together, &rows.labels[end - own..end], count));
         }
         all.row_numbers.extend(&rows.row_numbers);
         all.origins.extend(

@@ -60,6 +60,8 @@ pub struct HoldOut {
     pub folds: usize,
     /// A second file instead, relative to the study.
     pub file: Option<String>,
+    /// Columns whose rows with the same labels are held out together, and are one unit to the ±.
+    pub together: Vec<String>,
     /// Seed of the division.
     pub seed: u64,
 }
@@ -371,7 +373,8 @@ impl Study {
         let folds = &self.hold_out.folds;
         within(folds.span(), "folds", *folds.get_ref(), 2..=1000)?;
         let folds = usize::try_from(*folds.get_ref()).unwrap_or(usize::MAX);
-        Ok(HoldOut { folds, file: self.hold_out.file.clone(), seed: self.hold_out.seed })
+        let (file, together) = (self.hold_out.file.clone(), self.hold_out.together.0.clone());
+        Ok(HoldOut { folds, file, together, seed: self.hold_out.seed })
     }
 }
 

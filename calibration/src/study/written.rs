@@ -316,12 +316,13 @@ impl Default for SearchTable {
 pub(super) struct HoldOutTable {
     pub folds: Spanned<u64>,
     pub file: Option<String>,
+    pub together: OneOrMore,
     pub seed: u64,
 }
 
 impl Default for HoldOutTable {
     fn default() -> Self {
-        Self { folds: Spanned::new(0..0, 10), file: None, seed: 1 }
+        Self { folds: Spanned::new(0..0, 10), file: None, together: OneOrMore::default(), seed: 1 }
     }
 }
 

@@ -119,6 +119,7 @@ impl Simulation {
             measured,
             sigma: Vec::new(),
             groups: (0..).take(rows).collect(),
+            together: Vec::new(),
             by_place: false,
             in_sequence: false,
             row_numbers: (1..).take(rows).collect(),

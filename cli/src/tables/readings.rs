@@ -152,7 +152,7 @@ impl<'t> ReadingsTable<'t> {
     #[cfg(feature = "parquet")]
     pub fn text_types(&self) -> Result<Option<Vec<TextType>>, Failure> {
         let Some((path, options)) = &self.file else { return Ok(None) };
-        if !self.extent.as_ref().is_some_and(|extent| extent.of > HELD) {
+        if self.extent.as_ref().is_none_or(|extent| extent.of <= HELD) {
             return Ok(None);
         }
         let file = File::open(path).map_err(|error| source::not_readable(path, &error))?;

@@ -36,21 +36,28 @@ pub(super) fn judged<'a>(
 ) -> Result<Judged<'a>, SearchError> {
     (whole.tell)(Stage::HeldOut);
     let (round, mut left_out) = without_few(whole, round)?;
-    let of = |round: &Round<'a>, left_out: &[Caution]| {
-        let mut held_out = nested(&round.search.problem, &round.sets, &whole.options);
-        if round.fitted.found.is_empty() && !left_out.is_empty() {
-            // What was left out has no part in the figures either.
-            held_out.after = held_out.before.clone();
-        }
-        held_out::rms(whole, before, round, &held_out).map(|rms| (held_out, rms))
-    };
-    let (held_out, rms) = of(&round, &left_out)?;
+    if round.fitted.found.is_empty() && !left_out.is_empty() {
+        return of_declaration(whole, before, round, left_out);
+    }
+    let held_out = nested(&round.search.problem, &round.sets, &whole.options);
+    let rms = held_out::rms(whole, before, &round, &held_out)?;
     let Some(refused) = refused(whole, &round, &rms) else {
         return Ok(Judged { round, held_out, rms, left_out });
     };
     left_out.push(refused);
     let round = Round::at(whole, Fitted::with(whole, Vec::new(), &round.fitted)?)?;
-    let (held_out, rms) = of(&round, &left_out)?;
+    of_declaration(whole, before, round, left_out)
+}
+
+/// The declaration as it was, judged: what was left out has no part in the figures either.
+fn of_declaration<'a>(
+    whole: &Context<'a>,
+    before: &FitResult,
+    round: Round<'a>,
+    left_out: Vec<Caution>,
+) -> Result<Judged<'a>, SearchError> {
+    let held_out = HeldOut::of_declared(&round.search.problem);
+    let rms = held_out::rms(whole, before, &round, &held_out)?;
     Ok(Judged { round, held_out, rms, left_out })
 }
 

@@ -11,8 +11,6 @@ use std::collections::BTreeMap;
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
 use crate::data::{Observations, places};
-use crate::fit::FitResult;
-use crate::fit::noise::Layout;
 use crate::search::SearchError;
 use crate::search::context::{Context, Request};
 use crate::search::fitted::Fitted;
@@ -31,14 +29,15 @@ pub(super) fn grouped<'a>(
 ) -> Result<(Context<'a>, Fitted), SearchError> {
     let first = Fitted::first(&whole)?;
     let observations = whole.request.observations;
-    let are_alone = observations.groups.is_sorted_by(|before, after| before < after);
-    if !first.fit.outcome.is_usable() || !are_alone || observations.unknowns.is_some() {
+    if !first.fit.outcome.is_usable() || !observations.rows_are_alone() || observations.unknowns.is_some() {
         return Ok((whole, first));
     }
     let Some(places) = places(&whole.request.plan.chain, &observations.poses) else {
         return Ok((whole, first));
     };
-    if !share(observations, &first.fit, &places) || remember(observations, &first.fit, &places) {
+    let all = at_places(&first, &places);
+    // Of places that are read to their end, one after another, what rows share may be a memory.
+    if !share(&all, first.fit.rank) || places.is_sorted() && remember(&all) {
         return Ok((whole, first));
     }
     let observations =
@@ -48,34 +47,44 @@ pub(super) fn grouped<'a>(
     Ok((whole, first))
 }
 
-/// The residual components in units of their noise, those of rows that count.
-fn values<'a>(layout: &'a Layout, fit: &'a FitResult) -> impl Iterator<Item = (u16, u32, f64)> + 'a {
-    let sigma = fit.noise.sigma_without_memory().into_owned();
-    let keys = layout.kind.iter().zip(&layout.row);
-    keys.zip(fit.residuals.raw.iter().zip(sigma))
-        .filter(|((_, row), _)| fit.residuals.weight[**row as usize] > 0.0)
-        .map(|((&kind, &row), (raw, sigma))| (kind, row, (raw / sigma).clamp(-CLIP, CLIP)))
+/// Residual components of one kind at one place, in units of their noise.
+#[derive(Default)]
+struct Sums {
+    count: f64,
+    sum: f64,
+    squares: f64,
 }
 
-/// Whether means of places scatter more than rows of one place let expect.
+/// The components of each kind at each place, of rows that count.
+type AtPlaces = BTreeMap<(u16, u32), Sums>;
+
+fn at_places(fitted: &Fitted, places: &[u32]) -> AtPlaces {
+    let Fitted { layout, fit, .. } = fitted;
+    let sigma = fit.noise.sigma_without_memory();
+    let mut all = AtPlaces::new();
+    for (at, (&kind, &row)) in layout.kind.iter().zip(&layout.row).enumerate() {
+        if fit.residuals.weight[row as usize] > 0.0 {
+            let value = (fit.residuals.raw[at] / sigma[at]).clamp(-CLIP, CLIP);
+            let own = all.entry((kind, places[row as usize])).or_default();
+            own.count += 1.0;
+            own.sum += value;
+            own.squares += value * value;
+        }
+    }
+    all
+}
+
+/// Whether means of places scatter more than rows of one place let expect, after a fit of this rank.
 ///
 /// Source: the F test of lack of fit against pure error, N. R. Draper, H. Smith, Applied Regression Analysis, section 2.1.
-fn share(observations: &Observations, fit: &FitResult, places: &[u32]) -> bool {
-    let layout = Layout::of(observations);
-    let mut sums: BTreeMap<(u16, u32), [f64; 3]> = BTreeMap::new();
-    for (kind, row, value) in values(&layout, fit) {
-        let [count, sum, squares] = sums.entry((kind, places[row as usize])).or_default();
-        *count += 1.0;
-        *sum += value;
-        *squares += value * value;
-    }
+fn share(all: &AtPlaces, rank: usize) -> bool {
     let (mut between, mut within, mut free) = (0.0, 0.0, 0.0);
-    for [count, sum, squares] in sums.values() {
+    for Sums { count, sum, squares } in all.values() {
         between += sum * sum / count;
         within += (squares - sum * sum / count).max(0.0);
         free += count - 1.0;
     }
-    let of_means = sums.len() as f64 - fit.rank as f64;
+    let of_means = all.len() as f64 - rank as f64;
     if free < 1.0 || of_means < 1.0 {
         return false;
     }
@@ -84,22 +93,10 @@ fn share(observations: &Observations, fit: &FitResult, places: &[u32]) -> bool {
     ratio.is_nan() || FisherSnedecor::new(of_means, free).is_ok_and(|f| f.sf(ratio) < CHANCE)
 }
 
-/// Whether the places themselves follow each other, each read to its end, and remember those before: then what their rows share is
-/// a memory.
-fn remember(observations: &Observations, fit: &FitResult, places: &[u32]) -> bool {
-    if !places.is_sorted() {
-        return false;
-    }
-    let layout = Layout::of(observations);
-    let mut means: BTreeMap<(u16, u32), [f64; 2]> = BTreeMap::new();
-    for (kind, row, value) in values(&layout, fit) {
-        let [count, sum] = means.entry((kind, places[row as usize])).or_default();
-        *count += 1.0;
-        *sum += value;
-    }
-    let means: Vec<(u16, f64)> =
-        means.into_iter().map(|((kind, _), [count, sum])| (kind, sum / count)).collect();
-    let neighbours = means.iter().zip(means.iter().skip(1)).filter(|(a, b)| a.0 == b.0);
+/// Whether places that follow each other remember those before.
+fn remember(all: &AtPlaces) -> bool {
+    let means = || all.iter().map(|(&(kind, _), Sums { count, sum, .. })| (kind, sum / count));
+    let neighbours = means().zip(means().skip(1)).filter(|(a, b)| a.0 == b.0);
     let products: Vec<f64> = neighbours.map(|(a, b)| a.1 * b.1).collect();
     let square = products.iter().map(|product| product * product).sum::<f64>();
     products.iter().sum::<f64>() > 3.0 * square.sqrt()

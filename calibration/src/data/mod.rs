@@ -3,6 +3,7 @@
 //! Files become observations in [`crate::study`]; nothing here knows a file's format.
 
 pub mod derive;
+mod joined;
 mod measured;
 pub mod orientation;
 mod origin;

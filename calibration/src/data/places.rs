@@ -6,6 +6,7 @@
 use model_core::{Chain, Quantity, SymbolId, SymbolKind};
 
 use super::Poses;
+use super::joined::Joined;
 
 /// How much further the rows of other places are than those of one are from each other, at least.
 const APART: f64 = 2.5;
@@ -37,10 +38,13 @@ pub fn places(chain: &Chain, poses: &Poses) -> Option<Vec<u32>> {
     let mut best: Option<(usize, Vec<u32>)> = None;
     let mut apart = NEAREST;
     while apart <= FURTHEST {
-        let Some(linked) = Linked::within(&readings, &line, apart) else { break };
-        let (shared, of_row) = linked.bunches(&readings, apart / APART);
-        if 2 * shared >= rows && best.as_ref().is_none_or(|(most, _)| shared > *most) {
-            best = Some((shared, of_row));
+        let Some((linked, links)) = linked(&readings, &line, apart) else { break };
+        // A link brings two rows together at most.
+        if 4 * links >= rows {
+            let (shared, of_row) = bunches(linked, &readings, apart / APART);
+            if 2 * shared >= rows && best.as_ref().is_none_or(|(most, _)| shared > *most) {
+                best = Some((shared, of_row));
+            }
         }
         apart *= 2.0;
     }
@@ -87,81 +91,60 @@ impl Line {
     }
 }
 
-/// Rows in chains, link by link no further than some distance from the next.
-struct Linked {
-    /// Of each row another one of its chain, or itself.
-    parent: Vec<usize>,
+/// Rows in chains, link by link no further than a distance from the next in every reading, and how many links it took; `None` where
+/// rows lie too dense.
+fn linked(readings: &[Vec<f64>], line: &Line, distance: f64) -> Option<(Joined, usize)> {
+    let rows = line.order.len();
+    let (mut linked, mut links) = (Joined::alone(rows), 0);
+    let (mut apart, mut together) = (FOUND_APART * rows, FOUND_TOGETHER * rows);
+    for (at, &row) in line.order.iter().enumerate() {
+        for &other in &line.order[at + 1..] {
+            if line.at[other] - line.at[row] > line.stretch * distance {
+                break;
+            }
+            if readings.iter().all(|values| (values[other] - values[row]).abs() <= distance) {
+                together = together.checked_sub(1)?;
+                links += usize::from(linked.join(row, other));
+            } else {
+                apart = apart.checked_sub(1)?;
+            }
+        }
+    }
+    Some((linked, links))
 }
 
-impl Linked {
-    /// Links all rows that lie within a distance in every reading; `None` where they lie too dense.
-    fn within(readings: &[Vec<f64>], line: &Line, distance: f64) -> Option<Self> {
-        let mut linked = Self { parent: (0..line.order.len()).collect() };
-        let rows = line.order.len();
-        let (mut apart, mut together) = (FOUND_APART * rows, FOUND_TOGETHER * rows);
-        for (at, &row) in line.order.iter().enumerate() {
-            for &other in &line.order[at + 1..] {
-                if line.at[other] - line.at[row] > line.stretch * distance {
-                    break;
-                }
-                if readings.iter().all(|values| (values[other] - values[row]).abs() <= distance) {
-                    together = together.checked_sub(1)?;
-                    linked.join(row, other);
-                } else {
-                    apart = apart.checked_sub(1)?;
-                }
-            }
+/// How many rows share a place with others, a chain that is no wider than this; and the place of each row. Places too near to each
+/// other to be told apart count as one; the rows of a long chain have one each.
+fn bunches(mut linked: Joined, readings: &[Vec<f64>], widest: f64) -> (usize, Vec<u32>) {
+    let rows = readings.first().map_or(0, Vec::len);
+    let roots: Vec<usize> = (0..rows).map(|row| linked.first(row)).collect();
+    let mut size = vec![0_usize; rows];
+    roots.iter().for_each(|&root| size[root] += 1);
+    let mut narrow = vec![true; rows];
+    for values in readings {
+        let mut ends = vec![[f64::INFINITY, f64::NEG_INFINITY]; rows];
+        for (value, &root) in values.iter().zip(&roots) {
+            let [low, high] = ends[root];
+            ends[root] = [low.min(*value), high.max(*value)];
         }
-        Some(linked)
+        narrow.iter_mut().zip(ends).for_each(|(narrow, [low, high])| *narrow &= high - low <= widest);
     }
-
-    fn root(&mut self, mut row: usize) -> usize {
-        while self.parent[row] != row {
-            self.parent[row] = self.parent[self.parent[row]];
-            row = self.parent[row];
-        }
-        row
+    let is_place = |root: usize| size[root] > 1 && narrow[root];
+    let is_long = |root: usize| !narrow[root] && LONG * size[root] > rows;
+    let mut number: Vec<Option<u32>> = vec![None; rows];
+    let mut next = 0;
+    let mut shared = 0;
+    let mut of_row = Vec::with_capacity(rows);
+    for (row, &root) in roots.iter().enumerate() {
+        let key = if is_long(root) { row } else { root };
+        shared += usize::from(is_place(root));
+        let place = *number[key].get_or_insert_with(|| {
+            next += 1;
+            next - 1
+        });
+        of_row.push(place);
     }
-
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        let (first, last) = (a.min(b), a.max(b));
-        self.parent[last] = first;
-    }
-
-    /// How many rows share a place with others, a chain that is no wider than this; and the place of each row. Places too near to each
-    /// other to be told apart count as one; the rows of a long chain have one each.
-    fn bunches(mut self, readings: &[Vec<f64>], widest: f64) -> (usize, Vec<u32>) {
-        let rows = self.parent.len();
-        let roots: Vec<usize> = (0..rows).map(|row| self.root(row)).collect();
-        let mut size = vec![0_usize; rows];
-        roots.iter().for_each(|&root| size[root] += 1);
-        let mut narrow = vec![true; rows];
-        for values in readings {
-            let mut ends = vec![[f64::INFINITY, f64::NEG_INFINITY]; rows];
-            for (value, &root) in values.iter().zip(&roots) {
-                let [low, high] = ends[root];
-                ends[root] = [low.min(*value), high.max(*value)];
-            }
-            narrow.iter_mut().zip(ends).for_each(|(narrow, [low, high])| *narrow &= high - low <= widest);
-        }
-        let is_place = |root: usize| size[root] > 1 && narrow[root];
-        let is_long = |root: usize| !narrow[root] && LONG * size[root] > rows;
-        let mut number: Vec<Option<u32>> = vec![None; rows];
-        let mut next = 0;
-        let mut shared = 0;
-        let mut of_row = Vec::with_capacity(rows);
-        for (row, &root) in roots.iter().enumerate() {
-            let key = if is_long(root) { row } else { root };
-            shared += usize::from(is_place(root));
-            let place = *number[key].get_or_insert_with(|| {
-                next += 1;
-                next - 1
-            });
-            of_row.push(place);
-        }
-        (shared, of_row)
-    }
+    (shared, of_row)
 }
 
 #[cfg(test)]

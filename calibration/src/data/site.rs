@@ -4,8 +4,15 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use super::Observations;
+use super::joined::Joined;
 
 impl Observations {
+    /// Whether each row is a group of its own.
+    #[must_use]
+    pub fn rows_are_alone(&self) -> bool {
+        self.groups.is_sorted_by(|before, after| before < after)
+    }
+
     /// What is held out together, and what the ± count as one: of each row the number of its group, or of the site that holds its
     /// group.
     #[must_use]
@@ -14,25 +21,12 @@ impl Observations {
         if together.is_empty() {
             return Cow::Borrowed(groups);
         }
-        // Each label leads to the least one that a group shares with it, round after round until none leads further.
-        let most = together.iter().max().map_or(0, |last| *last as usize + 1);
-        let mut least: Vec<u32> = (0..).take(most).collect();
-        loop {
-            let mut of_group: BTreeMap<u32, u32> = BTreeMap::new();
-            for (&group, &label) in groups.iter().zip(together) {
-                let own = of_group.entry(group).or_insert(u32::MAX);
-                *own = (*own).min(least[label as usize]);
-            }
-            let mut changed = false;
-            for (group, &label) in groups.iter().zip(together) {
-                let own = of_group[group];
-                changed |= own < least[label as usize];
-                least[label as usize] = least[label as usize].min(own);
-            }
-            if !changed {
-                return Cow::Owned(together.iter().map(|&label| least[label as usize]).collect());
-            }
+        let mut joined = Joined::alone(together.iter().max().map_or(0, |last| *last as usize + 1));
+        let mut of_group: BTreeMap<u32, u32> = BTreeMap::new();
+        for (&group, &label) in groups.iter().zip(together) {
+            joined.join(*of_group.entry(group).or_insert(label) as usize, label as usize);
         }
+        Cow::Owned(together.iter().map(|&label| joined.first(label as usize) as u32).collect())
     }
 }
 

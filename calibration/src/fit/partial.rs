@@ -93,7 +93,9 @@ impl Rows {
     /// of the rows in the other columns.
     #[must_use]
     pub fn split(mut self, k: usize) -> (Mat<f64>, Self) {
-        let side = self.values.len().checked_div(self.stride).unwrap_or(0);
+        let Some(side) = self.values.len().checked_div(self.stride) else {
+            unreachable!("rows that are split are one at least")
+        };
         let mut packed = vec![0.0; side * (side + 1) / 2];
         let work = Reflections { packed: &mut packed, side, leading: k.min(side), rows: &mut self };
         vector::run(vector::path(), work);
@@ -129,11 +131,16 @@ impl Partial {
 
     /// Takes in rows of as many columns as there are parameters, and the residual.
     #[must_use]
-    pub fn with(mut self, mut rows: Rows) -> Self {
+    pub fn with(mut self, rows: Rows) -> Self {
+        self.add(rows);
+        self
+    }
+
+    /// The same in place.
+    pub fn add(&mut self, mut rows: Rows) {
         self.components += rows.count as u64;
         let (packed, side) = (&mut self.packed, self.parameters + 1);
         vector::run(vector::path(), Reflections { packed, side, leading: side, rows: &mut rows });
-        self
     }
 
     /// Takes in the rows of a matrix.

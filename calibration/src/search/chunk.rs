@@ -68,12 +68,9 @@ impl Chunk {
             },
         );
         let mut without = white.residual;
-        for (found, new) in fitted.found.iter().zip(&fitted.errors) {
-            for (column, error) in of_effect[found.effect.0].clone().zip(new) {
-                let (value, column) = (values[error.index()], columns.col_as_slice(column));
-                without.iter_mut().zip(column).for_each(|(r, z)| *r += value * z);
-            }
-        }
+        fitted.put_back(&mut without, |effect| {
+            of_effect[effect.0].clone().map(|column| columns.col_as_slice(column))
+        });
         columns.col_as_slice_mut(width - 1).copy_from_slice(&without);
         Ok(Self { columns, by_cell, seen: seen.with_probes(&bare) })
     }

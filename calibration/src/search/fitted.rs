@@ -5,6 +5,7 @@ use model_core::{Chain, SymbolId};
 
 use super::context::{Context, Found, declared};
 use super::{SearchError, Stage};
+use crate::candidate::EffectId;
 use crate::data::unknowns::Unknowns;
 use crate::fit::noise::{Layout, NoiseOptions};
 use crate::fit::{FitOptions, FitResult, fit};
@@ -58,6 +59,20 @@ impl Fitted {
         // Objects and stations start where they came to stand.
         options.start.extend(&last.fit.values[last.chain.symbols.len()..]);
         Self::of(whole, chain, kept, errors, options)
+    }
+
+    /// Adds to residuals what the effects explain of them; `columns` gives those of an effect.
+    pub fn put_back<'c, C: Iterator<Item = &'c [f64]>>(
+        &self,
+        residual: &mut [f64],
+        columns: impl Fn(EffectId) -> C,
+    ) {
+        for (found, errors) in self.found.iter().zip(&self.errors) {
+            for (column, error) in columns(found.effect).zip(errors) {
+                let value = self.fit.values[error.index()];
+                residual.iter_mut().zip(column).for_each(|(r, z)| *r += value * z);
+            }
+        }
     }
 
     /// The combinations for columns that may know of no stations.

@@ -108,7 +108,7 @@ impl Folds {
 }
 
 /// Numbers groups from 0 in order of first appearance.
-fn number(groups: &[usize]) -> (Vec<usize>, usize) {
+pub(super) fn number(groups: &[usize]) -> (Vec<usize>, usize) {
     // Groups that are numbered already, with gaps perhaps, need no map.
     let most = groups.iter().copied().max().unwrap_or(0);
     if most <= 2 * groups.len() {

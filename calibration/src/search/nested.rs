@@ -19,6 +19,14 @@ pub struct HeldOut {
 }
 
 impl HeldOut {
+    /// What no search was made for: the declared columns alone, before and after.
+    #[must_use]
+    pub fn of_declared(problem: &Problem) -> Self {
+        let alone = |fold: usize| State::declared(problem, |f| f != fold).coefficients();
+        let before: Vec<_> = (0..problem.folds()).into_par_iter().map(alone).collect();
+        Self { chosen: vec![Vec::new(); before.len()], after: before.clone(), before }
+    }
+
     /// In what share of the folds a set was chosen.
     #[must_use]
     pub fn share(&self, set: SetId) -> f64 {

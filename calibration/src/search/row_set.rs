@@ -80,12 +80,7 @@ impl<'a> RowSet<'a> {
         let (effects, seen) =
             columns.of_part(&fitted.chain, &whole.catalogue, &observations.poses, values, wanted);
         let mut without = columns.residual.clone();
-        for (found, new) in fitted.found.iter().zip(&fitted.errors) {
-            for (column, error) in effects[found.effect.0].iter().zip(new) {
-                let value = values[error.index()];
-                without.iter_mut().zip(column).for_each(|(r, z)| *r += value * z);
-            }
-        }
+        fitted.put_back(&mut without, |effect| effects[effect.0].iter().map(Vec::as_slice));
         let weight = stretches.iter().flat_map(|stretch| &fitted.fit.residuals.weight[stretch.clone()]);
         let weight: Vec<f64> = weight.map(|weight| weight.sqrt()).collect();
         let root_weight: Vec<f64> = columns.row.iter().map(|&row| weight[row as usize]).collect();
@@ -215,21 +210,18 @@ pub(crate) fn dealt(
     seed: u64,
 ) -> Folds {
     let groups = groups(observations, row);
-    let Some(unknowns) = &observations.unknowns else {
-        let are_alone = observations.groups.is_sorted_by(|before, after| before < after);
-        if !(noise.remembers() && are_alone && observations.together.is_empty()) {
-            let units = observations.units();
-            let of_component: Vec<usize> = row.iter().map(|&row| units[row as usize] as usize).collect();
-            return Folds::deal_together(&groups, &of_component, folds, seed);
+    let units: Vec<usize> = match &observations.unknowns {
+        Some(unknowns) => unknowns.together(&observations.units()),
+        None if noise.remembers() && observations.rows_are_alone() && observations.together.is_empty() => {
+            // Neighbours of a row that is held out know what it remembers.
+            let rows = observations.rows();
+            (0..rows).map(|row| row * folds / rows).collect()
         }
-        // Neighbours of a row that is held out know what it remembers.
-        let rows = observations.rows().max(1);
-        let units: Vec<usize> = row.iter().map(|&row| row as usize * folds / rows).collect();
-        return Folds::deal_together(&groups, &units, folds, seed);
+        None => observations.units().iter().map(|&unit| unit as usize).collect(),
     };
-    let together = unknowns.together(&observations.units());
-    let units: Vec<usize> = row.iter().map(|&row| together[row as usize]).collect();
+    let units: Vec<usize> = row.iter().map(|&row| units[row as usize]).collect();
     let mut dealt = Folds::deal_together(&groups, &units, folds, seed);
+    let Some(unknowns) = &observations.unknowns else { return dealt };
     // The components that go into an object's numbers say nothing of anything else.
     let mut left: Vec<usize> = unknowns.objects.iter().map(Object::numbers).collect();
     for (component, &row) in row.iter().enumerate() {

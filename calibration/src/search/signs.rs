@@ -6,6 +6,8 @@ use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
+use super::folds::number;
+
 /// Groups beyond this number are flipped together with their neighbours in the data: still a valid flip, and as
 /// good a sample of chance, at a cost that does not grow with the data.
 const MOST_FLIPPED: usize = 400;
@@ -42,15 +44,9 @@ impl Signs {
         seed: u64,
         bucket: impl Fn(usize, usize, usize) -> usize,
     ) -> Self {
-        let mut numbers = std::collections::BTreeMap::new();
-        for &group in group_of_row {
-            let next = numbers.len();
-            numbers.entry(group).or_insert(next);
-        }
-        let groups = numbers.len();
+        let (numbers, groups) = number(group_of_row);
         let buckets = groups.min(MOST_FLIPPED);
-        let bucket_of_row =
-            group_of_row.iter().map(|group| bucket(numbers[group], groups, buckets)).collect();
+        let bucket_of_row = numbers.into_iter().map(|number| bucket(number, groups, buckets)).collect();
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut bits = 0_u64;
         let mut left = 0;

@@ -7,6 +7,7 @@ use faer::Mat;
 use nalgebra::Vector3;
 
 use super::Measure;
+use super::joined::Joined;
 
 pub use pose::Pose;
 pub(crate) use pose::right_jacobian;
@@ -234,25 +235,15 @@ impl Unknowns {
     #[must_use]
     pub fn together(&self, groups: &[u32]) -> Vec<usize> {
         let objects = self.objects.len();
-        // Each object leads to the group of its first row, groups to the objects that they share.
         let most = groups.iter().copied().max().map_or(0, |most| most as usize + 1);
-        let mut above: Vec<usize> = (0..objects + most).collect();
+        let mut joined = Joined::alone(objects + most);
         for (object, &group) in self.object.iter().zip(groups) {
             if let Some(object) = *object {
-                let ends = [object as usize, objects + group as usize].map(|at| top(&above, at));
-                above[ends[0].max(ends[1])] = ends[0].min(ends[1]);
+                joined.join(object as usize, objects + group as usize);
             }
         }
-        groups.iter().map(|&group| top(&above, objects + group as usize)).collect()
+        groups.iter().map(|&group| joined.first(objects + group as usize)).collect()
     }
-}
-
-/// What stands at the end of a way up.
-fn top(above: &[usize], mut at: usize) -> usize {
-    while above[at] != at {
-        at = above[at];
-    }
-    at
 }
 
 fn first(numbers: impl Iterator<Item = usize>, start: usize) -> Vec<usize> {

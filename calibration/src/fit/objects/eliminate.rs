@@ -11,7 +11,7 @@
 //! Source: G. H. Golub, V. Pereyra, Separable nonlinear least squares: the variable projection method and its
 //! applications, Inverse Problems 19 (2003) R1-R26; eliminated block by block as in a bundle adjustment.
 
-use faer::{Mat, MatRef};
+use faer::Mat;
 use rayon::prelude::*;
 
 use crate::data::unknowns::{Freedom, OF_OBJECT, Unknowns, WIDTH};
@@ -104,14 +104,13 @@ impl Eliminated {
             if let Some(own) = own {
                 let start = layout.first_of_station[station];
                 let places = (start..start + OF_STATION).chain(of_stations..of_stations + columns + 1);
-                whole = whole.with(spread(own.factor().as_ref(), places, of_stations + columns + 1));
+                let own = own.factor();
+                whole.add(spread(own.nrows(), self::columns(&own), places, of_stations + columns + 1));
             }
         }
-        whole = whole.with(spread(
-            bare.factor().as_ref(),
-            of_stations..of_stations + columns + 1,
-            of_stations + columns + 1,
-        ));
+        let bare = bare.factor();
+        let places = of_stations..of_stations + columns + 1;
+        whole.add(spread(bare.nrows(), self::columns(&bare), places, of_stations + columns + 1));
         let free = held(&layout, &mut whole, &mut objective);
 
         let factor = whole.factor();
@@ -218,15 +217,15 @@ impl Sums {
     }
 
     fn merge(&mut self, other: Self) {
-        let of_whole = other.whole.factor();
-        self.whole = self.whole.clone().with_rows(of_whole.as_ref());
+        self.whole.add(rows(&other.whole.factor()));
         for (own, other) in self.of_station.iter_mut().zip(other.of_station) {
-            *own = match (own.take(), other) {
-                (Some(own), Some(other)) => Some(own.with_rows(other.factor().as_ref())),
-                (own, other) => own.or(other),
-            };
+            match (own.as_mut(), other) {
+                (Some(own), Some(other)) => own.add(rows(&other.factor())),
+                (None, other) => *own = other,
+                (Some(_), None) => {}
+            }
         }
-        self.bare = self.bare.clone().with_rows(other.bare.factor().as_ref());
+        self.bare.add(rows(&other.bare.factor()));
         self.taken += other.taken;
         self.objective += other.objective;
         self.triangles.extend(other.triangles);
@@ -238,7 +237,7 @@ impl Sums {
         self.measure(rows);
         let mut matrix = Rows::zeros(rows.len(), layout.columns + 1);
         fill(&mut matrix, rows, WIDTH..WIDTH + layout.columns + 1);
-        self.bare = std::mem::replace(&mut self.bare, Partial::new(0)).with(matrix);
+        self.bare.add(matrix);
     }
 
     fn measure(&mut self, rows: &[(u32, &[f64])]) {
@@ -279,11 +278,10 @@ impl Sums {
             let (few, rest) = matrix.split(k);
             telling.push((station, few));
             match station {
-                None => self.bare = std::mem::replace(&mut self.bare, Partial::new(0)).with(rest),
+                None => self.bare.add(rest),
                 Some(station) => {
-                    let sum = self.of_station[station].take();
-                    let sum = sum.unwrap_or_else(|| Partial::new(OF_STATION + columns));
-                    self.of_station[station] = Some(sum.with(rest));
+                    let sum = &mut self.of_station[station];
+                    sum.get_or_insert_with(|| Partial::new(OF_STATION + columns)).add(rest);
                 }
             }
         }
@@ -336,13 +334,8 @@ impl Sums {
             .flat_map(|start| start..start + OF_STATION)
             .collect();
         let places = numbers.iter().copied().chain(of_stations..of_stations + columns + 1);
-        let mut spread = Rows::zeros(count + k, of_stations + columns + 1);
-        let mut targets: Vec<&mut [f64]> = spread.columns_mut().collect();
-        for (from, to) in rest.columns_mut().zip(places) {
-            targets[to].copy_from_slice(from);
-        }
-        drop(targets);
-        self.whole = std::mem::replace(&mut self.whole, Partial::new(0)).with(spread);
+        let rest = rest.columns_mut().map(|column| &*column);
+        self.whole.add(spread(count + k, rest, places, of_stations + columns + 1));
         self.triangles.push(Triangle { own: own.collect(), stations: numbers, factor });
     }
 }
@@ -357,15 +350,30 @@ fn fill(matrix: &mut Rows, rows: &[(u32, &[f64])], chosen: impl Iterator<Item = 
     }
 }
 
-/// Rows whose columns stand at some places among `width`.
-fn spread(rows: MatRef<'_, f64>, places: impl Iterator<Item = usize>, width: usize) -> Rows {
-    let mut spread = Rows::zeros(rows.nrows(), width);
+/// So many rows whose columns stand at some places among `width`.
+fn spread<'a>(
+    count: usize,
+    columns: impl Iterator<Item = &'a [f64]>,
+    places: impl Iterator<Item = usize>,
+    width: usize,
+) -> Rows {
+    let mut spread = Rows::zeros(count, width);
     let mut targets: Vec<&mut [f64]> = spread.columns_mut().collect();
-    for (from, to) in rows.col_iter().zip(places) {
-        targets[to].iter_mut().zip(from.iter()).for_each(|(to, from)| *to = *from);
+    for (from, to) in columns.zip(places) {
+        targets[to].copy_from_slice(from);
     }
     drop(targets);
     spread
+}
+
+/// The columns of a matrix.
+fn columns(matrix: &Mat<f64>) -> impl Iterator<Item = &[f64]> {
+    (0..matrix.ncols()).map(|column| matrix.col_as_slice(column))
+}
+
+/// A matrix as rows.
+fn rows(matrix: &Mat<f64>) -> Rows {
+    spread(matrix.nrows(), columns(matrix), 0..matrix.ncols(), matrix.ncols())
 }
 
 /// Adds what is stated of stations, and rows that hold the others where nothing else does; per number whether it is free.
@@ -397,6 +405,6 @@ fn held(layout: &Layout<'_>, whole: &mut Partial, objective: &mut f64) -> Vec<bo
         }
     }
     drop(columns);
-    *whole = whole.clone().with(rows);
+    whole.add(rows);
     free
 }

@@ -126,14 +126,15 @@ def trial(cell, seed):
         where = [{joint: aimed(joint, q) for joint, q in where[row % places].items()} for row in range(rows)]
     columns = [serial(cell["noise"], rows, rng) for _ in range(3)]
     sessions = cell.get("sessions")
-    shift = [[rng.gauss(0, 1) for _ in range(3)] for _ in range(sessions or places or 1)]
-    session = [row % places if places else row * (sessions or 1) // rows for row in range(rows)]
-    if sessions:
+    session = [row * (sessions or 1) // rows for row in range(rows)]
+    shifts = [(of_row, [[rng.gauss(0, 1) for _ in range(3)] for _ in range(count)])
+              for count, of_row in ((sessions, session), (places, [row % (places or 1) for row in range(rows)])) if count]
+    if sessions and not places:
         for row, q in enumerate(where):
             # Each session in a band of the first joint of its own.
             low, high = instrument.ranges[instrument.joints[0]]
             q[instrument.joints[0]] = low + (high - low) * (session[row] + rng.random()) / sessions
-    unit = [[instrument.noise * (columns[k][row] + (shift[session[row]][k] if sessions or places else 0)) for k in range(3)] for row in range(rows)]
+    unit = [[instrument.noise * (columns[k][row] + sum(shift[of_row[row]][k] for of_row, shift in shifts)) for k in range(3)] for row in range(rows)]
     data = [measured(instrument, e, q, n, cell.get("in_space", False)) for q, n in zip(where, unit)]
     noise = []
     if sessions and cell.get("declared", True):
@@ -213,6 +214,10 @@ def cells(command):
         add("rounds", instrument, 300, "independent", places=60, aimed=0.003)
     for sessions in (6, 12, 60):
         add("sessions", mount, 300, "independent", sessions=sessions)
+    for instrument in (mount, directions):
+        # Every target in every session.
+        add("crossed", instrument, 300, "independent", sessions=6, places=50)
+        add("crossed", instrument, 300, "independent", sessions=12, places=25)
     return out
 
 

@@ -61,6 +61,7 @@ fn simulate(chain: &Chain, observable: &str, joints: &[(&str, f64, f64)], rows: 
         groups: (0..).take(rows).collect(),
         together: Vec::new(),
         by_place: false,
+        crossed: Vec::new(),
         in_sequence: false,
         row_numbers: (1..).take(rows).collect(),
         origins: Origins::default(),

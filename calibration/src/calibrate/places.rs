@@ -6,7 +6,7 @@
 //! but the pretence that rows of one place speak for it independently.
 
 use std::cell::OnceCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
@@ -21,27 +21,33 @@ const CHANCE: f64 = 0.05;
 /// Values further out than this count as this far, so that outliers do not decide.
 const CLIP: f64 = 4.0;
 
-/// The first fit, with places for groups where nobody declared groups and rows of one place share something; `own` is where the
-/// observations live then.
+/// The first fit, with places for groups where rows of one place share something that no declared group of them does; `own` is
+/// where the observations live then.
 pub(super) fn grouped<'a>(
     whole: Context<'a>,
     own: &'a OnceCell<Observations>,
 ) -> Result<(Context<'a>, Fitted), SearchError> {
     let first = Fitted::first(&whole)?;
     let observations = whole.request.observations;
-    if !first.fit.outcome.is_usable() || !observations.rows_are_alone() || observations.unknowns.is_some() {
+    let whole_sites = !observations.together.is_empty() || observations.unknowns.is_some();
+    if !first.fit.outcome.is_usable() || whole_sites {
         return Ok((whole, first));
     }
     let Some(places) = places(&whole.request.plan.chain, &observations.poses) else {
         return Ok((whole, first));
     };
-    let all = at_places(&first, &places);
+    let crossed = if observations.rows_are_alone() { Vec::new() } else { observations.groups.clone() };
+    let all = match crossed.as_slice() {
+        [] => Some(at_places(&first, &places)),
+        declared => across_groups(&first, &places, declared),
+    };
+    let Some(all) = all else { return Ok((whole, first)) };
     // Of places that are read to their end, one after another, what rows share may be a memory.
     if !share(&all, first.fit.rank) || places.is_sorted() && remember(&all) {
         return Ok((whole, first));
     }
     let observations =
-        own.get_or_init(|| Observations { groups: places, by_place: true, ..observations.clone() });
+        own.get_or_init(|| Observations { groups: places, by_place: true, crossed, ..observations.clone() });
     let whole = Context { request: Request { observations, ..whole.request }, ..whole };
     let first = Fitted::first(&whole)?;
     Ok((whole, first))
@@ -55,23 +61,61 @@ struct Sums {
     squares: f64,
 }
 
+impl Sums {
+    fn add(&mut self, value: f64) {
+        self.count += 1.0;
+        self.sum += value;
+        self.squares += value * value;
+    }
+
+    fn mean(&self) -> f64 {
+        self.sum / self.count
+    }
+}
+
 /// The components of each kind at each place, of rows that count.
 type AtPlaces = BTreeMap<(u16, u32), Sums>;
 
 fn at_places(fitted: &Fitted, places: &[u32]) -> AtPlaces {
-    let Fitted { layout, fit, .. } = fitted;
-    let sigma = fit.noise.sigma_without_memory();
     let mut all = AtPlaces::new();
-    for (at, (&kind, &row)) in layout.kind.iter().zip(&layout.row).enumerate() {
-        if fit.residuals.weight[row as usize] > 0.0 {
-            let value = (fit.residuals.raw[at] / sigma[at]).clamp(-CLIP, CLIP);
-            let own = all.entry((kind, places[row as usize])).or_default();
-            own.count += 1.0;
-            own.sum += value;
-            own.squares += value * value;
-        }
+    for (kind, row, value) in values(fitted) {
+        all.entry((kind, places[row])).or_default().add(value);
     }
     all
+}
+
+/// The same where groups were declared: means over the rows that a group has at a place, without what the group shares, at the places
+/// to which several groups come. `None` where less than half of the rows stand there.
+fn across_groups(fitted: &Fitted, places: &[u32], declared: &[u32]) -> Option<AtPlaces> {
+    let mut groups: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
+    for (&place, &group) in places.iter().zip(declared) {
+        groups.entry(place).or_default().insert(group);
+    }
+    let is_crossed = |row: &usize| groups[&places[*row]].len() > 1;
+    if 2 * (0..places.len()).filter(is_crossed).count() < places.len() {
+        return None;
+    }
+    let of_groups = at_places(fitted, declared);
+    let mut cells: BTreeMap<(u16, u32, u32), Sums> = BTreeMap::new();
+    for (kind, row, value) in values(fitted).filter(|(_, row, _)| is_crossed(row)) {
+        let own = value - of_groups[&(kind, declared[row])].mean();
+        cells.entry((kind, places[row], declared[row])).or_default().add(own);
+    }
+    let mut all = AtPlaces::new();
+    for ((kind, place, _), cell) in cells {
+        all.entry((kind, place)).or_default().add(cell.mean());
+    }
+    Some(all)
+}
+
+/// The kind, the row and the value of each component of rows that count, in units of its noise.
+fn values(fitted: &Fitted) -> impl Iterator<Item = (u16, usize, f64)> {
+    let Fitted { layout, fit, .. } = fitted;
+    let sigma = fit.noise.sigma_without_memory().into_owned();
+    let keys = layout.kind.iter().zip(&layout.row).map(|(&kind, &row)| (kind, row as usize));
+    keys.zip(fit.residuals.raw.iter().zip(sigma))
+        .filter(|((_, row), _)| fit.residuals.weight[*row] > 0.0)
+        .map(|((kind, row), (raw, sigma))| (kind, row, (raw / sigma).clamp(-CLIP, CLIP)))
 }
 
 /// Whether means of places scatter more than rows of one place let expect, after a fit of this rank.
@@ -95,7 +139,7 @@ fn share(all: &AtPlaces, rank: usize) -> bool {
 
 /// Whether places that follow each other remember those before.
 fn remember(all: &AtPlaces) -> bool {
-    let means = || all.iter().map(|(&(kind, _), Sums { count, sum, .. })| (kind, sum / count));
+    let means = || all.iter().map(|(&(kind, _), own)| (kind, own.mean()));
     let neighbours = means().zip(means().skip(1)).filter(|(a, b)| a.0 == b.0);
     let products: Vec<f64> = neighbours.map(|(a, b)| a.1 * b.1).collect();
     let square = products.iter().map(|product| product * product).sum::<f64>();

@@ -43,6 +43,9 @@ pub struct Observations {
     pub together: Vec<u32>,
     /// Whether groups are places that rows were found to share something at, and nobody declared them.
     pub by_place: bool,
+    /// The groups that somebody declared, where places that cross them count as groups: what their rows share is taken out of the
+    /// noise; empty elsewhere.
+    pub crossed: Vec<u32>,
     /// Whether the order of the rows is their order of acquisition.
     pub in_sequence: bool,
     /// Number of each row in its file, counted from 1 without the header; empty where no file was read.
@@ -85,6 +88,7 @@ impl Observations {
             groups: rows.iter().filter_map(|&row| self.groups.get(row).copied()).collect(),
             together: rows.iter().filter_map(|&row| self.together.get(row).copied()).collect(),
             by_place: self.by_place,
+            crossed: rows.iter().filter_map(|&row| self.crossed.get(row).copied()).collect(),
             in_sequence: self.in_sequence,
             row_numbers: rows.iter().filter_map(|&row| self.row_numbers.get(row).copied()).collect(),
             origins: self.origins.select(&rows),

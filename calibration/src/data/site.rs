@@ -13,6 +13,12 @@ impl Observations {
         self.groups.is_sorted_by(|before, after| before < after)
     }
 
+    /// The groups whose rows share an offset of the noise: as they were declared, where places count as groups instead.
+    #[must_use]
+    pub fn sharing(&self) -> &[u32] {
+        if self.crossed.is_empty() { &self.groups } else { &self.crossed }
+    }
+
     /// What is held out together, and what the ± count as one: of each row the number of its group, or of the site that holds its
     /// group.
     #[must_use]

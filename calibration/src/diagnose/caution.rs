@@ -89,6 +89,8 @@ pub enum Caution {
         rows: usize,
         /// Places that they stand at.
         places: usize,
+        /// Whether groups were declared, which the places cross.
+        beside_groups: bool,
     },
     /// Rows that were set aside have something in common.
     #[serde(rename = "rows set aside share something")]
@@ -199,7 +201,8 @@ pub fn of_data(chain: &Chain, observations: &Observations, fit: &FitResult) -> V
     let mut cautions = Vec::new();
     if observations.by_place {
         let places = observations.groups.iter().max().map_or(0, |last| *last as usize + 1);
-        cautions.push(Caution::OfOnePlace { rows: observations.rows(), places });
+        let beside_groups = !observations.crossed.is_empty();
+        cautions.push(Caution::OfOnePlace { rows: observations.rows(), places, beside_groups });
     }
     for series in &observations.poses.series {
         cautions.extend(of_joints(chain, observations, series));

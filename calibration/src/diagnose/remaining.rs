@@ -135,7 +135,7 @@ pub(crate) fn remaining(whole: &Context<'_>, last: &Round<'_>) -> Result<Remaini
         (effect, Mat::from_fn(last.search.rows.columns.residual.len(), white.len(), |i, j| white[j][i]))
     });
     let tensors = tensors.filter(|(_, own)| own.ncols() > 0).collect();
-    let scanned = Scanned { last, columns, drivers, tensors };
+    let mut scanned = Scanned { last, columns, drivers, tensors };
     smooths.retain(|smooth| {
         scanned.columns.probe(smooth.place).is_some() && scanned.driver(smooth.driver).is_some()
     });
@@ -166,13 +166,21 @@ pub(crate) fn remaining(whole: &Context<'_>, last: &Round<'_>) -> Result<Remaini
     let pairs = left.scan(scanned.tensors.len(), |number| Sheet::of(scanned.tensors[number].1.clone()));
     statistics.push(Statistic::of_scan("smooth functions of two joints", &pairs));
     let (p_value, alone) = combined(&statistics);
-    let looked =
+    let looked: Vec<Looked> =
         statistics.iter().zip(alone).map(|(s, p_value)| Looked { at: s.what.clone(), p_value }).collect();
 
     // Either in place of what was accepted there, or the most conspicuous of what is left.
-    let most = if p_value <= options.false_alarm { functions.most_conspicuous() } else { None };
+    // A function is named only where functions stand out by themselves: neighbours may for many reasons.
+    let [.., of_one, of_two] = looked.as_slice() else { unreachable!("both scans are statistics") };
+    let stands_out = |own: &Looked| p_value.max(own.p_value) <= options.false_alarm;
+    let (one_stands_out, two_stand_out) = (stands_out(of_one), stands_out(of_two));
+    let most = if one_stands_out { functions.most_conspicuous() } else { None };
     let most = most.and_then(|number| smooths.get(number)).copied();
     smooths.retain(|smooth| Some(*smooth) == most || spelt_out(whole, last, *smooth));
+    scanned.tensors.retain(|(of_two, _)| {
+        two_stand_out
+            || last.fitted.found.iter().any(|found| whole.catalogue[found.effect].place == of_two.place)
+    });
     let best = scanned.best_function(whole, &smooths, &left);
     let chain = &last.fitted.chain;
     let place = best.as_ref().map(|function| Where {

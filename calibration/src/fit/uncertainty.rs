@@ -89,8 +89,8 @@ enum Spread {
     Even { factor: f64, degrees_of_freedom: f64 },
     /// The same, pool by pool of components: Q_kᵀQ_k, and the degrees of freedom.
     Pools { factor: f64, pools: Vec<(Mat<f64>, f64)> },
-    /// From whole groups, times a factor.
-    Groups { factor: f64, clusters: Clusters },
+    /// From whole groups, times a factor; and what groups that cross them add, with its degrees of freedom.
+    Groups { factor: f64, clusters: Clusters, crossed: Option<(Mat<f64>, f64)> },
     /// It is this.
     Serial { product: Mat<f64>, degrees_of_freedom: f64 },
 }
@@ -120,7 +120,14 @@ impl Solver<'_> {
             let (q, e) = self.coordinates(course, weight, &root)?;
             // Weights move along with residuals, and by so much more the estimates.
             let clusters = Clusters::new(shares(&q, &e, &groups));
-            Spread::Groups { factor: tally.stride().powi(2), clusters }
+            let crossed = match &found_noise {
+                Shared::Offsets(offsets, own) if offsets.crossed => {
+                    let (product, degrees_of_freedom) = offsets.covariance(&q);
+                    Some((product * faer::Scale(own * own), degrees_of_freedom))
+                }
+                _ => None,
+            };
+            Spread::Groups { factor: tally.stride().powi(2), clusters, crossed }
         } else if let Shared::Memory(memory, _) = &found_noise {
             let degrees_of_freedom = (memory.independent - self.used(course)).max(LEAST);
             Spread::Serial { product: &memory.product * faer::Scale(found.max(1.0)), degrees_of_freedom }
@@ -177,9 +184,7 @@ impl Solver<'_> {
             |most| trend::beside(self.chain, self.observations, &self.layout, &sigma, weight, &q, most);
         let (few, complete) = beside(trend::MOST[0]);
         if options.serial && (declared || self.groups().is_none()) {
-            let earns = serial::EARNS[usize::from(!declared)];
-            let fitted =
-                |beside: &Mat<f64>| serial::fit(&self.layout, &e, &q, beside, earns, axes.as_deref());
+            let fitted = |beside: &Mat<f64>| serial::fit(&self.layout, &e, &q, beside, axes.as_deref());
             let alone = trend::determined(&q);
             if let Some(memory) = fitted(if options.beside_effects { &few } else { &alone }) {
                 let certain = complete || declared || !options.beside_effects;
@@ -198,8 +203,8 @@ impl Solver<'_> {
                 return Ok(Shared::Memory(memory, order));
             }
         }
-        let groups = &self.observations.groups;
-        let of_groups = self.groups().and_then(|_| session::fit(&self.layout, groups, &e, &few));
+        let of_groups =
+            self.groups().and_then(|_| session::fit(&self.layout, self.observations, weight, &e, &few));
         Ok(of_groups.map_or(Shared::Nothing, |(offsets, own)| Shared::Offsets(offsets, own)))
     }
 
@@ -345,9 +350,13 @@ impl Uncertainty {
             Spread::Even { factor, .. } | Spread::Pools { factor, .. } => {
                 &self.root * &self.data * self.root.transpose() * faer::Scale(*factor)
             }
-            Spread::Groups { factor, clusters } => {
+            Spread::Groups { factor, clusters, crossed } => {
                 let own = &self.root * clusters.scores();
-                &own * own.transpose() * faer::Scale(*factor)
+                let mut sum = &own * own.transpose();
+                if let Some((product, _)) = crossed {
+                    sum += &self.root * product * self.root.transpose();
+                }
+                sum * faer::Scale(*factor)
             }
             Spread::Serial { product, .. } => &self.root * product * self.root.transpose(),
         };
@@ -394,19 +403,30 @@ impl Uncertainty {
                 (factor * form(&self.data, &a), *degrees_of_freedom)
             }
             Spread::Pools { factor, pools } => {
-                // Source: F. E. Satterthwaite, Biometrics Bulletin 2 (1946) 110-114.
-                let parts = pools.iter().map(|(gram, own)| (form(gram, &a), own));
-                let (sum, squares) = parts.fold((0.0, 0.0), |(sum, squares), (part, own)| {
-                    (sum + part, squares + part * part / own)
-                });
-                (factor * sum, if squares > 0.0 { sum * sum / squares } else { self.left })
+                let (sum, free) = together(pools.iter().map(|(gram, own)| (form(gram, &a), *own)));
+                (factor * sum, if sum > 0.0 { free } else { self.left })
             }
-            Spread::Groups { factor, clusters } => {
+            Spread::Groups { factor, clusters, crossed } => {
                 let along = Mat::from_fn(1, a.len(), |_, at| a[at]) * clusters.scores();
-                (factor * along.squared_norm_l2(), clusters.degrees_of_freedom(&a))
+                let own = (along.squared_norm_l2(), clusters.degrees_of_freedom(&a));
+                let (variance, free) = match crossed {
+                    Some((product, free)) => together([own, (form(product, &a), *free)].into_iter()),
+                    None => own,
+                };
+                (factor * variance, free)
             }
             Spread::Serial { product, degrees_of_freedom } => (form(product, &a), *degrees_of_freedom),
         };
         (by_data + by_prior, degrees_of_freedom)
     }
+}
+
+/// The sum of independent estimates of variances, and its degrees of freedom.
+///
+/// Source: F. E. Satterthwaite, Biometrics Bulletin 2 (1946) 110-114.
+fn together(parts: impl Iterator<Item = (f64, f64)>) -> (f64, f64) {
+    let (sum, squares) = parts.fold((0.0, 0.0), |(sum, squares), (part, own)| {
+        (sum + part, if part > 0.0 { squares + part * part / own } else { squares })
+    });
+    (sum, if squares > 0.0 { sum * sum / squares } else { 0.0 })
 }

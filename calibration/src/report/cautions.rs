@@ -35,9 +35,10 @@ pub fn caution(caution: &Caution) -> String {
         Caution::LimitOfEffects { effects } => {
             format!("The search stopped at {effects} effects, as many as it may accept; there may be more.")
         }
-        Caution::OfOnePlace { rows, places } => format!(
+        Caution::OfOnePlace { rows, places, beside_groups } => format!(
             "Rows of one place agree more with each other than chance explains: the {rows} rows count as {places} groups, a \
-             place each. What a place shares is in the ±."
+             place each. What a place shares is in the ±{}.",
+            if *beside_groups { ", and what your groups share is in the noise" } else { "" }
         ),
         Caution::SetAsideShare { reading, from, to, rows: [aside, there] } => format!(
             "{aside} of the {there} rows with {reading} from {from:.3} to {to:.3} (SI) were set aside: they share \

@@ -31,7 +31,7 @@ impl Chunk {
     ) -> Result<Self, SearchError> {
         let observations = whole.request.observations;
         let noise = &fitted.fit.noise;
-        if noise.serial.is_some() || noise.in_space.is_some() || observations.unknowns.is_some() {
+        if noise.mixes_rows() || observations.unknowns.is_some() {
             // Whitening makes more of a component than a multiple of itself.
             let rows = RowSet::of(whole, fitted, stretches, |_| true)?;
             return Ok(Self { columns: rows.whitened_in(&by_cell.order), by_cell, seen: rows.seen });

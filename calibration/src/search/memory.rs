@@ -12,11 +12,20 @@ use super::contest::ln_choices;
 use super::round::Round;
 use super::sweep::Sweep;
 use crate::fit::noise::Run;
-use crate::fit::noise::serial::{EARNS, FEWEST, Model, longest, models};
+use crate::fit::noise::serial::{FEWEST, Model, longest, models};
 use crate::fit::noise::space;
 
+/// Twice the logarithm of the likelihood that a memory gains over white noise at least, to be held against effects.
+///
+/// Source: the upper 5 % point of the chi-squared distribution with two degrees of freedom.
+const GAINS: f64 = 5.99;
+
+/// By how much effects must explain the data better, in the same unit: where the two do about as well, nothing but the order of
+/// the rows speaks for either.
+const BETTER: f64 = 6.0;
+
 /// Whether a memory of the row before, beside the declared errors alone, explains the data of a round as well as the effects
-/// that it accepted, whatever memory there is beside them.
+/// that it accepted, or nearly so, whatever memory there is beside them.
 pub(crate) fn explains(last: &Round<'_>) -> bool {
     let rows = &last.search.rows;
     let mut groups = rows.observations.groups.clone();
@@ -54,7 +63,7 @@ pub(crate) fn explains(last: &Round<'_>) -> bool {
     };
     let (white, memory) = (deviance(&declared, None), remembering(&declared));
     let explained = deviance(&with_effects, None).min(remembering(&with_effects));
-    white - memory + 2.0 * each > EARNS[usize::from(!in_sequence)] && memory <= explained + effects
+    white - memory + 2.0 * each > GAINS && memory <= explained + effects + BETTER
 }
 
 /// −2 ln of the likelihood of values that some columns were fitted to.

@@ -125,7 +125,7 @@ impl<'a> RowSet<'a> {
 
     /// Whether whitening makes of a component more than a multiple of itself.
     pub fn mixes_rows(&self) -> bool {
-        self.noise.serial.is_some() || self.reduction.is_some()
+        self.noise.mixes_rows() || self.reduction.is_some()
     }
 
     /// Takes out of a column before whitening what objects, each estimated from its own rows alone, explain of it.

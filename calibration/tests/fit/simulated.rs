@@ -121,6 +121,7 @@ impl Simulation {
             groups: (0..).take(rows).collect(),
             together: Vec::new(),
             by_place: false,
+            crossed: Vec::new(),
             in_sequence: false,
             row_numbers: (1..).take(rows).collect(),
             origins: Origins::default(),

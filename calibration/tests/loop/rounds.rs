@@ -14,9 +14,21 @@ const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;
 const PLACES: usize = 60;
 const ROUNDS: usize = 5;
 
-/// What the search makes of the scanner at 60 targets in five rounds, each row with noise of 2 arcsec and each target off by so
-/// many, `eccentric` off centre in beta, aimed at anew within some angle.
-fn report(seed: u64, off_rad: f64, eccentric: f64, aimed_rad: f64) -> Diagnosis {
+/// The scanner at 60 targets in five rounds, each row with noise of 2 arcsec.
+#[derive(Default)]
+struct Rounds {
+    /// How far each target is off.
+    off_rad: f64,
+    /// How far everything is off in each round, which is declared a group; none is where it is zero.
+    shift_rad: f64,
+    /// How far off centre beta is, once a turn.
+    eccentric_rad: f64,
+    /// Within which angle each target is aimed at anew.
+    aimed_rad: f64,
+}
+
+/// What the search makes of it.
+fn report(seed: u64, Rounds { off_rad, shift_rad, eccentric_rad, aimed_rad }: Rounds) -> Diagnosis {
     let text = lidar();
     let chain = Chain::from_text(&text).unwrap();
     let study = "chain = \"c\"\nobservable = \"pointing\"\ndata = \"d\"\n[observed]\nkind = \"direction\"\n";
@@ -26,6 +38,7 @@ fn report(seed: u64, off_rad: f64, eccentric: f64, aimed_rad: f64) -> Diagnosis 
         (0..PLACES).map(|_| [(); 3].map(|()| random.random_range(-3.0..3.0))).collect();
     let mut normal = || -> f64 { random.sample(StandardNormal) };
     let off: Vec<[f64; 2]> = (0..PLACES).map(|_| [normal(), normal()]).collect();
+    let shift: Vec<[f64; 2]> = (0..ROUNDS).map(|_| [normal(), normal()]).collect();
     let names = ["alpha", "beta", "gamma"];
     let mut columns: Vec<_> =
         names.iter().map(|name| (chain.find_symbol(name).unwrap(), Vec::new())).collect();
@@ -33,10 +46,12 @@ fn report(seed: u64, off_rad: f64, eccentric: f64, aimed_rad: f64) -> Diagnosis 
     for row in 0..PLACES * ROUNDS {
         let readings = targets[row % PLACES].map(|q| q + aimed_rad * normal());
         columns.iter_mut().zip(readings).for_each(|((_, column), reading)| column.push(reading));
-        let beta = readings[1] + eccentric * readings[1].cos();
+        let beta = readings[1] + eccentric_rad * readings[1].cos();
         let aim = pointing(&chain, &[], [readings[0], beta, readings[2], 0.0, 0.0]);
         let [across, along] = tangent_frame(&aim);
-        let [right, up] = [0, 1].map(|at| 2.0 * ARCSEC * normal() + off_rad * off[row % PLACES][at]);
+        let [right, up] = [0, 1].map(|at| {
+            2.0 * ARCSEC * normal() + off_rad * off[row % PLACES][at] + shift_rad * shift[row / PLACES][at]
+        });
         observed.push(Measured::Direction((aim + across * right + along * up).normalize()));
     }
     columns.sort_by_key(|(id, _)| *id);
@@ -52,7 +67,7 @@ fn report(seed: u64, off_rad: f64, eccentric: f64, aimed_rad: f64) -> Diagnosis 
             columns,
         },
         measured: observed,
-        groups: (0..rows as u32).collect(),
+        groups: (0..rows as u32).map(|row| if shift_rad > 0.0 { row / PLACES as u32 } else { row }).collect(),
         row_numbers: (1..=rows as u64).collect(),
         ..Observations::default()
     };
@@ -62,7 +77,7 @@ fn report(seed: u64, off_rad: f64, eccentric: f64, aimed_rad: f64) -> Diagnosis 
 /// How many places the report counts as groups, if it does.
 fn places(report: &Diagnosis) -> Option<usize> {
     let of = |caution: &Caution| match *caution {
-        Caution::OfOnePlace { rows, places } => {
+        Caution::OfOnePlace { rows, places, .. } => {
             assert_eq!(rows, PLACES * ROUNDS);
             Some(places)
         }
@@ -76,7 +91,8 @@ fn places(report: &Diagnosis) -> Option<usize> {
 fn what_a_target_is_off_by_is_no_effect() {
     let mut accepted = Vec::new();
     for seed in 0..6 {
-        let report = report(seed, 2.0 * ARCSEC, 0.0, if seed % 2 == 0 { 0.0 } else { 0.003 });
+        let aimed_rad = if seed % 2 == 0 { 0.0 } else { 0.003 };
+        let report = report(seed, Rounds { off_rad: 2.0 * ARCSEC, aimed_rad, ..Rounds::default() });
         assert!(places(&report).is_some_and(|places| (58..=60).contains(&places)), "{:?}", report.cautions);
         accepted.extend(report.effects.into_iter().map(|effect| (seed, effect.names)));
     }
@@ -87,7 +103,7 @@ fn what_a_target_is_off_by_is_no_effect() {
 #[test]
 fn an_effect_is_found_in_rounds() {
     for off_rad in [2.0 * ARCSEC, 0.0] {
-        let report = report(11, off_rad, 12.0 * ARCSEC, 0.0);
+        let report = report(11, Rounds { off_rad, eccentric_rad: 12.0 * ARCSEC, ..Rounds::default() });
         // The cosine of beta alone is what gravity does too.
         let here = report.effects.iter().any(|effect| effect.body == "middle" && effect.dof == "Rx");
         assert!(here, "{off_rad}: {:?}", report.effects);
@@ -97,6 +113,31 @@ fn an_effect_is_found_in_rounds() {
 /// Where rows of one place share nothing, each counts for itself; chance says otherwise in one of twenty.
 #[test]
 fn rows_that_share_nothing_count_each() {
-    let grouped = (20..24).filter(|seed| places(&report(*seed, 0.0, 0.0, 0.0)).is_some()).count();
+    let grouped = (20..24).filter(|seed| places(&report(*seed, Rounds::default())).is_some()).count();
     assert!(grouped <= 1, "{grouped} of 4");
+}
+
+/// Every target in every declared group: the places count, and what groups share is noise beside them. Where groups alone counted,
+/// all were told an effect.
+#[test]
+fn declared_groups_do_not_hide_what_targets_are_off_by() {
+    let (off_rad, shift_rad) = (2.0 * ARCSEC, 2.0 * ARCSEC);
+    let mut accepted = Vec::new();
+    for seed in 30..34 {
+        let report = report(seed, Rounds { off_rad, shift_rad, ..Rounds::default() });
+        assert_eq!(places(&report), Some(PLACES));
+        accepted.extend(report.effects.into_iter().map(|effect| (seed, effect.names)));
+    }
+    assert!(accepted.len() <= 1, "{accepted:?}");
+    // Larger than both by far, and found.
+    let report = report(34, Rounds { off_rad, shift_rad, eccentric_rad: 12.0 * ARCSEC, aimed_rad: 0.0 });
+    let here = report.effects.iter().any(|effect| effect.body == "middle" && effect.dof == "Rx");
+    assert!(here, "{:?}", report.effects);
+}
+
+/// Where rows of one place share nothing, groups stay what was declared, whatever those share.
+#[test]
+fn places_that_share_nothing_leave_declared_groups_as_they_are() {
+    let report = report(40, Rounds { shift_rad: 2.0 * ARCSEC, ..Rounds::default() });
+    assert_eq!(places(&report), None);
 }

@@ -160,6 +160,12 @@ impl Serial {
 }
 
 impl Noise {
+    /// Whether [whitening](Self::whiten) makes of a component more than a multiple of itself.
+    #[must_use]
+    pub fn mixes_rows(&self) -> bool {
+        self.serial.is_some() || self.offsets.as_ref().is_some_and(|offsets| offsets.crossed)
+    }
+
     /// Whether rows were found to remember those before, or may.
     #[must_use]
     pub fn remembers(&self) -> bool {
@@ -243,6 +249,9 @@ impl Noise {
     pub fn whiten(&self, column: &mut [f64]) {
         for (value, sigma) in column.iter_mut().zip(&self.sigma) {
             *value /= sigma;
+        }
+        if let Some(offsets) = self.offsets.as_ref().filter(|offsets| offsets.crossed) {
+            offsets.whiten(column);
         }
         if let Some(filter) = &self.in_space {
             self.runs.iter().for_each(|&run| filter.whiten(column, run));

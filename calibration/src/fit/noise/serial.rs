@@ -12,7 +12,7 @@ use super::space::Filter;
 use super::{Layout, Run, Serial};
 
 /// Components below which no serial correlation is looked for.
-pub(crate) const FEWEST: usize = 60;
+pub(crate) const FEWEST: usize = 30;
 
 /// Components from which on what the fit took out of the residuals makes no difference.
 pub(super) const MANY: usize = 50_000;
@@ -24,12 +24,12 @@ const CLIP: f64 = 3.0;
 const AUTOREGRESSIVE: [f64; 10] = [0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98];
 
 /// Coefficients of the innovation before that are tried, as shares of the other coefficient below zero, and as they are above.
-const MOVING_AVERAGE: [f64; 5] = [-0.9, -0.75, -0.5, -0.25, 0.4];
+const MOVING_AVERAGE: [f64; 7] = [-0.95, -0.9, -0.82, -0.7, -0.5, -0.25, 0.4];
 
-/// Twice the logarithm of the likelihood that memory must gain: where an order of acquisition is declared, and where none is.
+/// Twice the logarithm of the likelihood that memory must gain over white noise.
 ///
-/// Source: the upper 1 % and 0.03 % points of the chi-squared distribution with two degrees of freedom.
-pub const EARNS: [f64; 2] = [9.21, 16.2];
+/// Source: the upper 1 % point of the chi-squared distribution with two degrees of freedom.
+const EARNS: f64 = 9.21;
 
 /// Neighbours that hang together by less than so many standard deviations of chance are not looked at closely.
 const LOOKED_AT: f64 = 1.0;
@@ -96,15 +96,13 @@ struct Tried {
 }
 
 /// What the data bear out of the serial correlation of values, in order; `q` holds the orthonormal columns that were fitted to
-/// them (n × k), `beside` those with what else they may hold, `earns` what a model must gain over white noise, and `axes` the
-/// [axes](super::space::axes) of the components.
+/// them (n × k), `beside` those with what else they may hold, and `axes` the [axes](super::space::axes) of the components.
 #[must_use]
 pub fn fit(
     layout: &Layout,
     values: &[f64],
     q: &Mat<f64>,
     beside: &Mat<f64>,
-    earns: f64,
     axes: Option<&[[f64; 3]]>,
 ) -> Option<Memory> {
     let length = longest(&layout.runs)?;
@@ -119,7 +117,7 @@ pub fn fit(
         .filter_map(|(model, coefficients)| problem.tried(model, coefficients))
         .collect();
     let best = tried.iter().min_by(|a, b| a.criterion.total_cmp(&b.criterion))?;
-    if white.deviance - best.deviance < earns || best.criterion >= white.criterion {
+    if white.deviance - best.deviance < EARNS || best.criterion >= white.criterion {
         return None;
     }
     let (Model { serial, in_space }, innovation, least) =

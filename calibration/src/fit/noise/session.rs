@@ -7,6 +7,7 @@
 use faer::{Mat, Side};
 
 use super::Layout;
+use crate::data::Observations;
 
 /// Variances of the offset that are tried, in units of the noise of a row.
 const RATIOS: [f64; 14] = [0.0, 0.01, 0.03, 0.06, 0.1, 0.2, 0.4, 0.8, 1.5, 3.0, 6.0, 12.0, 30.0, 100.0];
@@ -23,13 +24,17 @@ pub struct Offsets {
     kind: Vec<u16>,
     /// Per kind the variance of the offsets over that of a row's own noise.
     pub ratio: Vec<f64>,
+    /// Whether whitening takes them out: where places that cross these groups are what counts as independent.
+    pub crossed: bool,
 }
 
 impl Offsets {
-    /// No offsets in these groups of rows.
-    fn none(layout: &Layout, groups: &[u32]) -> Self {
+    /// No offsets in the groups of these rows; those that do not count have one of their own.
+    fn none(layout: &Layout, observations: &Observations, weight: &[f64]) -> Self {
+        let groups = observations.sharing();
+        let group = |row: u32| if weight[row as usize] > 0.0 { groups[row as usize] } else { u32::MAX };
         let mut keys: Vec<(u16, u32)> =
-            layout.kind.iter().zip(&layout.row).map(|(&kind, &row)| (kind, groups[row as usize])).collect();
+            layout.kind.iter().zip(&layout.row).map(|(&kind, &row)| (kind, group(row))).collect();
         let of_component = keys.clone();
         keys.sort_unstable();
         keys.dedup();
@@ -39,6 +44,7 @@ impl Offsets {
             set: of_component.iter().map(place).collect(),
             kind: layout.kind.clone(),
             ratio: vec![0.0; layout.kinds],
+            crossed: !observations.crossed.is_empty(),
         }
     }
 
@@ -49,6 +55,7 @@ impl Offsets {
             set: parts.clone().flat_map(|part| self.set[part].iter().copied()).collect(),
             kind: parts.flat_map(|part| self.kind[part].iter().copied()).collect(),
             ratio: self.ratio.clone(),
+            crossed: self.crossed,
         }
     }
 
@@ -66,6 +73,22 @@ impl Offsets {
             let [count, sum] = means[set as usize];
             *value -= sum / count * (1.0 - 1.0 / (1.0 + count * self.ratio[usize::from(kind)]).sqrt());
         }
+    }
+
+    /// What they make of the covariance of Qᵀe, in units of the variance of the rows' own noise; and the degrees of freedom of their
+    /// size.
+    #[must_use]
+    pub fn covariance(&self, q: &Mat<f64>) -> (Mat<f64>, f64) {
+        let sets = self.set.iter().max().map_or(0, |last| *last as usize + 1);
+        let mut sums = Mat::<f64>::zeros(q.ncols(), sets);
+        for (at, (&set, &kind)) in self.set.iter().zip(&self.kind).enumerate() {
+            let size = self.ratio[usize::from(kind)].sqrt();
+            for (sum, value) in sums.col_as_slice_mut(set as usize).iter_mut().zip(q.row(at).iter()) {
+                *sum += size * value;
+            }
+        }
+        let free = sets.saturating_sub(self.ratio.len()).max(1);
+        (&sums * sums.transpose(), free as f64)
     }
 
     /// Standard deviation of a component in units of its own noise.
@@ -87,9 +110,16 @@ impl Offsets {
 }
 
 /// The offsets of groups in values of variance about one, and the standard deviation of the rows' own noise in their unit;
-/// `q` holds the orthonormal columns that were fitted to them (n × k). `None` where the groups share nothing.
+/// `weight` is that of each row, and `q` holds the orthonormal columns that were fitted to them (n × k). `None` where the groups
+/// share nothing.
 #[must_use]
-pub fn fit(layout: &Layout, groups: &[u32], values: &[f64], q: &Mat<f64>) -> Option<(Offsets, f64)> {
+pub fn fit(
+    layout: &Layout,
+    observations: &Observations,
+    weight: &[f64],
+    values: &[f64],
+    q: &Mat<f64>,
+) -> Option<(Offsets, f64)> {
     let k = if values.len() > MANY { 0 } else { q.ncols() };
     if values.len() <= k + 1 {
         return None;
@@ -110,7 +140,7 @@ pub fn fit(layout: &Layout, groups: &[u32], values: &[f64], q: &Mat<f64>) -> Opt
         let value = 2.0 * left * own.ln() + offsets.ln_determinant() + ln_columns;
         value.is_finite().then_some((value, own))
     };
-    let mut best = Offsets::none(layout, groups);
+    let mut best = Offsets::none(layout, observations, weight);
     let mut least = deviance(&best)?;
     // Kind by kind, twice round: they hang together through the columns alone.
     for kind in (0..layout.kinds).chain(0..layout.kinds) {

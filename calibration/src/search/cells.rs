@@ -5,6 +5,7 @@
 
 use std::ops::Range;
 
+use codegen::vector::{self, Arithmetic};
 use faer::{Mat, MatRef};
 use rayon::prelude::*;
 
@@ -108,8 +109,16 @@ impl Cells {
             .collect();
         let group_of_row: Vec<usize> =
             roots.iter().enumerate().flat_map(|(cell, rows)| std::iter::repeat_n(cell, rows.len())).collect();
-        let all: Vec<Vec<f64>> = roots.into_iter().flatten().collect();
-        let rows = Mat::from_fn(all.len(), kept.len(), |i, j| all[i][j]);
+        let mut rows = Mat::zeros(group_of_row.len(), kept.len());
+        let mut start = 0;
+        // Each is forgotten once it is copied: all of them take as much memory as what they become.
+        for root in roots {
+            for j in 0..kept.len() {
+                let target = &mut rows.col_as_slice_mut(j)[start..start + root.len()];
+                target.iter_mut().zip(&root).for_each(|(to, row)| *to = row[j]);
+            }
+            start += root.len();
+        }
         (rows, Folds { group_of_row, fold_of_group: self.fold_of_cell, rows_of_fold: self.rows_of_fold })
     }
 }
@@ -123,15 +132,16 @@ fn root(gram: &Mat<f64>) -> Vec<Vec<f64>> {
     let mut rows: Vec<Vec<f64>> = Vec::new();
     while rows.len() < width {
         let share = |j: usize| if scale[j] > 0.0 { left[j] / scale[j] } else { 0.0 };
-        let Some(pivot) = (0..width).max_by(|&a, &b| share(a).total_cmp(&share(b))) else { break };
-        if share(pivot) <= NOTHING {
+        let most = |best: (usize, f64), j: usize| {
+            let own = share(j);
+            if own >= best.1 { (j, own) } else { best }
+        };
+        let (pivot, most) = (0..width).fold((0, f64::NEG_INFINITY), most);
+        if most <= NOTHING {
             break;
         }
         let mut row: Vec<f64> = gram.col_as_slice(pivot).to_vec();
-        for known in &rows {
-            let factor = known[pivot];
-            row.iter_mut().zip(known).for_each(|(r, k)| *r -= factor * k);
-        }
+        vector::run(vector::path(), Taken { row: &mut row, known: &rows, pivot });
         let length = left[pivot].sqrt();
         for (value, left) in row.iter_mut().zip(&mut left) {
             *value /= length;
@@ -141,6 +151,25 @@ fn root(gram: &Mat<f64>) -> Vec<Vec<f64>> {
         rows.push(row);
     }
     rows
+}
+
+/// A row that loses its share of the known ones, told by their values at the pivot.
+struct Taken<'a> {
+    row: &'a mut [f64],
+    known: &'a [Vec<f64>],
+    pivot: usize,
+}
+
+impl vector::Work for Taken<'_> {
+    #[inline(always)]
+    fn run<A: Arithmetic>(self, _: A) {
+        for known in self.known {
+            let factor = known[self.pivot];
+            for (own, known) in self.row.iter_mut().zip(known) {
+                *own -= factor * known;
+            }
+        }
+    }
 }
 
 #[cfg(test)]

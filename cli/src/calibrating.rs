@@ -6,12 +6,13 @@ use std::path::{Path, PathBuf};
 
 use calibration::calibrate::{Calibration, Request, Stage, calibrate_telling};
 use calibration::data::Observations;
+use calibration::formats::sha256;
 use calibration::study::{Loaded, OpenTable, Plan, Study};
 
 use crate::failure::Failure;
 use crate::report::{FileRead, Provenance, Reported};
 use crate::source::{self, Source};
-use crate::{date, sha256, tables, terminal};
+use crate::{date, tables, terminal};
 
 /// A study that was read, with the declaration that it names.
 pub struct Studied {

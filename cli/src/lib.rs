@@ -22,7 +22,6 @@ mod poses;
 mod ranges;
 mod report;
 mod set_up;
-mod sha256;
 mod sizes;
 mod source;
 mod streaming;

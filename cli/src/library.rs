@@ -308,18 +308,21 @@ pub fn report_html(calibrated: &Calibrated, is_whole: bool) -> String {
     if is_whole { report::page(&reported) } else { report::excerpt(&reported) }
 }
 
-/// `residuals.csv`, as columns that `visit` sees.
+/// `residuals.csv` of every row, as columns that `visit` sees.
 pub fn residuals<T>(calibrated: &Calibrated, visit: impl FnOnce(Vec<(String, Cells<'_>)>) -> T) -> T {
-    visit(report::table(&calibrated.reported(None)))
+    let reported = calibrated.reported(None);
+    visit(report::table(&reported, &report::rows_written(&reported, true)))
 }
 
-/// Writes every file of a calibration into a folder; they appear together, or not at all.
+/// Writes every file of a calibration into a folder; they appear together, or not at all. Of very many rows `residuals.csv` has a part,
+/// unless all residuals are asked for.
 ///
 /// # Errors
 /// The folder or a file cannot be written.
-pub fn write(calibrated: &Calibrated, folder: &Path) -> Result<(), Failure> {
+pub fn write(calibrated: &Calibrated, folder: &Path, all_residuals: bool) -> Result<(), Failure> {
     let name = folder.display().to_string();
-    report::write_all(&calibrated.reported(Some(&name)), folder)
+    let reported = calibrated.reported(Some(&name));
+    report::write_all(&reported, &report::rows_written(&reported, all_residuals), folder)
 }
 
 /// A text without the colours of a terminal.

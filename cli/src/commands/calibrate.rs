@@ -31,6 +31,9 @@ pub struct Arguments {
     /// Folder for report.html, report.json, amended.chain, errors.toml and residuals.csv
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Write every row into residuals.csv; of more than 100,000 rows, a part is written otherwise
+    #[arg(long, requires = "out")]
+    all_residuals: bool,
     /// Only print how the declaration would change (with --format json: the whole report, the change in it); write nothing
     #[arg(long, conflicts_with = "out")]
     dry_run: bool,
@@ -75,7 +78,16 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         return Ok(answer(reported.calibration));
     }
     if let Some(folder) = &arguments.out {
-        report::write_all(&reported, folder)?;
+        let shown = report::rows_written(&reported, arguments.all_residuals);
+        report::write_all(&reported, &shown, folder)?;
+        let rows = reported.observations.rows();
+        if shown.is_part_of(rows) {
+            terminal::note(format_args!(
+                "residuals.csv has {} of {rows} rows: those set aside, those with the largest residuals, and others by lot; \
+                 `stands_for` says for how many each stands. --all-residuals writes every row",
+                shown.rows.len()
+            ));
+        }
         terminal::note(format_args!("the report is in {}", folder.join("report.html").display()));
     }
     let layout = Layout { width: terminal::width(), verbose: arguments.verbose };

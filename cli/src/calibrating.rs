@@ -80,12 +80,14 @@ impl Studied {
         self.tables().map(|path| self.study.beside(Path::new(path))).collect()
     }
 
-    /// Reads the tables; warns of columns whose numbers are hardly in SI.
+    /// Reads the tables, and says when they are read; warns of columns whose numbers are hardly in SI.
     ///
     /// # Errors
     /// What is wrong with a table, with its place.
-    pub fn load(self, open: &mut OpenTable<'_>) -> Result<Measured, Failure> {
-        let loaded = self.plan.load_tables(open).map_err(tables::failure)?;
+    pub fn load(self, open: &mut OpenTable<'_>, read: impl FnOnce()) -> Result<Measured, Failure> {
+        let loaded = self.plan.load_tables(open);
+        read();
+        let loaded = loaded.map_err(tables::failure)?;
         self.plan.doubts.iter().for_each(terminal::warn);
         self.plan.unstated.iter().for_each(terminal::warn);
         self.plan.timeless.iter().for_each(terminal::warn);

@@ -27,6 +27,7 @@ mod source;
 mod streaming;
 mod tables;
 mod terminal;
+mod waiting;
 mod wrap;
 
 use std::process::ExitCode;

@@ -13,6 +13,7 @@ use crate::calibrating::Studied;
 use crate::failure::Failure;
 use crate::report::{self, Layout};
 use crate::source::Source;
+use crate::waiting::Waiting;
 use crate::{output, source, terminal};
 
 /// Fit the errors to measured data, and find what the declaration lacks.
@@ -55,17 +56,20 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         refuse_to_replace(folder, &studied)?;
     }
     let (study, from) = (studied.study.clone(), studied.plan.data_from.clone());
-    let measured = studied.load(&mut |path, options| {
+    let progress = terminal::progress();
+    let mut open = |path: &str, options: &formats::Options| {
+        progress.set_message(format!("reading {path}"));
         formats::open(open_beside(&study, path, from.as_deref())?, path, options)
-    })?;
+    };
+    let measured = studied.load(&mut open, || progress.finish_and_clear())?;
     terminal::note(format_args!(
         "{}",
         what_is_done(&measured.studied.plan, measured.loaded.observations.rows())
     ));
 
-    let progress = terminal::progress();
+    let (progress, waiting) = (terminal::progress(), Waiting::default());
     let calibrated =
-        measured.calibrate(terminal::command_line(), &|stage| progress.set_message(stage.to_string()));
+        measured.calibrate(terminal::command_line(), &|stage| progress.set_message(waiting.told(stage)));
     progress.finish_and_clear();
     let calibrated = calibrated?;
     let folder = arguments.out.as_ref().map(|folder| folder.display().to_string());

@@ -24,6 +24,9 @@ pub(super) const VISIBLE: f64 = 1e-4;
 /// Singular values of the scaled declared columns below this share of the largest count as zero.
 const RANK: f64 = 1e-9;
 
+/// Rows that are copied at a time.
+const AT_ONCE: usize = 4096;
+
 /// Why a problem cannot be set up.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum ProblemError {
@@ -213,8 +216,12 @@ impl Problem {
         self.grams = (0..self.folds())
             .map(|fold| {
                 let mut gram = Mat::zeros(width, width);
-                add_products(&mut gram, self.rows_at(&self.rows_of_folds(|f| f == fold)).as_ref());
-                mirrored(&mut gram);
+                let members = self.rows_of_folds(|f| f == fold);
+                // Of some rows at a time: those of a fold may be most of a matrix that is large.
+                members
+                    .chunks(AT_ONCE)
+                    .for_each(|some| add_products(gram.as_mut(), self.rows_at(some).as_ref()));
+                mirrored(gram.as_mut());
                 gram
             })
             .collect();

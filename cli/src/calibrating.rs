@@ -6,12 +6,13 @@ use std::path::{Path, PathBuf};
 
 use calibration::calibrate::{Calibration, Request, Stage, calibrate_telling};
 use calibration::data::Observations;
+use calibration::formats::sha256;
 use calibration::study::{Loaded, OpenTable, Plan, Study};
 
 use crate::failure::Failure;
 use crate::report::{FileRead, Provenance, Reported};
 use crate::source::{self, Source};
-use crate::{date, sha256, tables, terminal};
+use crate::{date, tables, terminal};
 
 /// A study that was read, with the declaration that it names.
 pub struct Studied {
@@ -79,12 +80,14 @@ impl Studied {
         self.tables().map(|path| self.study.beside(Path::new(path))).collect()
     }
 
-    /// Reads the tables; warns of columns whose numbers are hardly in SI.
+    /// Reads the tables, and says when they are read; warns of columns whose numbers are hardly in SI.
     ///
     /// # Errors
     /// What is wrong with a table, with its place.
-    pub fn load(self, open: &mut OpenTable<'_>) -> Result<Measured, Failure> {
-        let loaded = self.plan.load_tables(open).map_err(tables::failure)?;
+    pub fn load(self, open: &mut OpenTable<'_>, read: impl FnOnce()) -> Result<Measured, Failure> {
+        let loaded = self.plan.load_tables(open);
+        read();
+        let loaded = loaded.map_err(tables::failure)?;
         self.plan.doubts.iter().for_each(terminal::warn);
         self.plan.unstated.iter().for_each(terminal::warn);
         self.plan.timeless.iter().for_each(terminal::warn);

@@ -22,12 +22,12 @@ mod poses;
 mod ranges;
 mod report;
 mod set_up;
-mod sha256;
 mod sizes;
 mod source;
 mod streaming;
 mod tables;
 mod terminal;
+mod waiting;
 mod wrap;
 
 use std::process::ExitCode;

@@ -256,11 +256,13 @@ pub fn calibrated(
     tell: &(dyn Fn(Stage) + Sync),
 ) -> Result<Calibrated, Failure> {
     let (study, from) = (studied.study.clone(), studied.plan.data_from.clone());
-    let measured =
-        studied.load(&mut |path, options| match in_memory.iter().find(|(name, _)| *name == path) {
+    let measured = studied.load(
+        &mut |path, options| match in_memory.iter().find(|(name, _)| *name == path) {
             Some((name, columns)) => Ok(Box::new(Reader::new(name, columns.iter().copied())?)),
             None => open(calibrate::open_beside(&study, path, from.as_deref())?, path, options),
-        })?;
+        },
+        || (),
+    )?;
     measured.calibrate(command, tell)
 }
 
@@ -308,18 +310,21 @@ pub fn report_html(calibrated: &Calibrated, is_whole: bool) -> String {
     if is_whole { report::page(&reported) } else { report::excerpt(&reported) }
 }
 
-/// `residuals.csv`, as columns that `visit` sees.
+/// `residuals.csv` of every row, as columns that `visit` sees.
 pub fn residuals<T>(calibrated: &Calibrated, visit: impl FnOnce(Vec<(String, Cells<'_>)>) -> T) -> T {
-    visit(report::table(&calibrated.reported(None)))
+    let reported = calibrated.reported(None);
+    visit(report::table(&reported, &report::rows_written(&reported, true)))
 }
 
-/// Writes every file of a calibration into a folder; they appear together, or not at all.
+/// Writes every file of a calibration into a folder; they appear together, or not at all. Of very many rows `residuals.csv` has a part,
+/// unless all residuals are asked for.
 ///
 /// # Errors
 /// The folder or a file cannot be written.
-pub fn write(calibrated: &Calibrated, folder: &Path) -> Result<(), Failure> {
+pub fn write(calibrated: &Calibrated, folder: &Path, all_residuals: bool) -> Result<(), Failure> {
     let name = folder.display().to_string();
-    report::write_all(&calibrated.reported(Some(&name)), folder)
+    let reported = calibrated.reported(Some(&name));
+    report::write_all(&reported, &report::rows_written(&reported, all_residuals), folder)
 }
 
 /// A text without the colours of a terminal.

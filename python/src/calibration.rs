@@ -117,7 +117,7 @@ impl Calibration {
         library::estimates(&self.0)
     }
 
-    /// `residuals.csv` as columns; NaN where a row has no such component.
+    /// `residuals.csv` of every row as columns; NaN where a row has no such component.
     fn residuals(&self, py: Python<'_>) -> Columns {
         let columns = py.detach(|| {
             library::residuals(&self.0, |columns| {
@@ -136,7 +136,7 @@ impl Calibration {
     }
 
     /// Writes every file of the calibration into a folder.
-    fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<()> {
-        errors::run(py, || library::write(&self.0, &folder))
+    fn write(&self, py: Python<'_>, folder: PathBuf, all_residuals: bool) -> PyResult<()> {
+        errors::run(py, || library::write(&self.0, &folder, all_residuals))
     }
 }

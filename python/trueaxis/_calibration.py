@@ -88,9 +88,12 @@ class Calibration:
         """``report.html``; or only its first screen and its pictures."""
         return self._native.html(whole)
 
-    def write(self, folder: str | os.PathLike[str]) -> None:
-        """Writes every file of the command's ``--out``; they appear together, or not at all."""
-        self._native.write(os.fspath(folder))
+    def write(self, folder: str | os.PathLike[str], *, all_residuals: bool = False) -> None:
+        """Writes every file of the command's ``--out``; they appear together, or not at all.
+
+        Of more than 100,000 rows ``residuals.csv`` has a part, unless ``all_residuals``.
+        """
+        self._native.write(os.fspath(folder), all_residuals)
 
     def __repr__(self) -> str:
         return self.text()

@@ -137,8 +137,8 @@ fn within_reach(whole: &Context<'_>, last: &Round<'_>, residual: &[f64]) -> Vec<
     if !whole.request.plan.fit.robust {
         return vec![true; observations.rows()];
     }
-    let mut white = residual.to_vec();
-    last.fitted.fit.noise.without_memory().whiten(&mut white);
+    let sigma = last.fitted.fit.noise.sigma_without_memory();
+    let white: Vec<f64> = residual.iter().zip(sigma.iter()).map(|(value, sigma)| value / sigma).collect();
     let norms: Vec<f64> = last.fitted.layout.norms(&white).collect();
     norms
         .iter()
@@ -162,16 +162,16 @@ pub(crate) fn predicted<const N: usize>(
     let mut wanted: Vec<EffectId> = used.map(|candidate| candidates[candidate].0).collect();
     wanted.sort_unstable();
     let wanted = |effect: EffectId| wanted.binary_search(&effect).is_ok();
-    let row_sets = last.search.each_row_set(whole, &last.fitted, wanted, |components, row_set| {
+    let predicted = |components: &[usize], row_set: &RowSet<'_>| {
         let of = |coefficients| predicted_of(last, &candidates, coefficients, components, row_set);
         (components.to_vec(), coefficients.map(of))
-    })?;
+    };
     let mut left = [(); N].map(|()| vec![0.0; last.fitted.layout.components()]);
-    for (components, row_set) in row_sets {
-        for (left, part) in left.iter_mut().zip(row_set) {
+    last.search.each_row_set(whole, &last.fitted, wanted, predicted, |(components, parts)| {
+        for (left, part) in left.iter_mut().zip(parts) {
             components.iter().zip(part).for_each(|(&component, value)| left[component] = value);
         }
-    }
+    })?;
     Ok(left)
 }
 

@@ -22,6 +22,7 @@ use model_core::{Chain, Mistakes};
 
 use crate::amend::{AmendError, amend, with_quantities_of};
 use crate::data::units::BareColumn;
+use crate::diagnose::shown::{DRAWN, Shown};
 use crate::diagnose::{Confirmed, Diagnosis, Trace, diagnose, rounding, trace};
 use crate::fit::{FitResult, Outcome};
 use crate::formats::DataError;
@@ -158,7 +159,7 @@ pub fn calibrate_telling(
     let Judged { round, held_out, rms, left_out } = judged;
     let confirmed = Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good, left_out };
     let diagnosis = diagnose(&whole, &before, &round.fitted, Ok(confirmed))?;
-    let drawn = trace::drawn(request.observations, &round.fitted.fit);
+    let drawn = Shown::of(request.observations, &round.fitted.fit, DRAWN).rows;
     let traces = trace::traces(&whole, &round, &drawn)?;
     let mut chain = round.fitted.chain;
     let mut amended = None;
@@ -178,7 +179,7 @@ fn unusable(whole: &Context<'_>, first: Fitted) -> Result<Calibration, Calibrate
     let rms = held_out::of_fit(whole.request.observations, &first);
     let diagnosis = diagnose(whole, &first.fit, &first, Err(rms))?;
     let Fitted { chain, fit, .. } = first;
-    let drawn = trace::drawn(whole.request.observations, &fit);
+    let drawn = Shown::of(whole.request.observations, &fit, DRAWN).rows;
     Ok(Calibration {
         diagnosis,
         amended: None,

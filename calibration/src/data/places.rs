@@ -4,6 +4,7 @@
 //! each other than to any other row, by far. Rows of a path or of a cloud have none, however dense they lie.
 
 use model_core::{Chain, Quantity, SymbolId, SymbolKind};
+use rayon::prelude::*;
 
 use super::Poses;
 use super::joined::Joined;
@@ -38,7 +39,7 @@ pub fn places(chain: &Chain, poses: &Poses) -> Option<Vec<u32>> {
     let mut best: Option<(usize, Vec<u32>)> = None;
     let mut apart = NEAREST;
     while apart <= FURTHEST {
-        let Some((linked, links)) = linked(&readings, &line, apart) else { break };
+        let Some((linked, links)) = linked(&line, apart) else { break };
         // A link brings two rows together at most.
         if 4 * links >= rows {
             let (shared, of_row) = bunches(linked, &readings, apart / APART);
@@ -71,9 +72,11 @@ fn scaled(chain: &Chain, poses: &Poses) -> Vec<Vec<f64>> {
 
 /// Rows in the order in which they lie along a line through the space of the readings.
 struct Line {
-    order: Vec<usize>,
-    /// Where each row lies.
+    order: Vec<u32>,
+    /// Where they lie, in that order.
     at: Vec<f64>,
+    /// Their readings, in that order: rows that are compared lie side by side.
+    readings: Vec<Vec<f64>>,
     /// How far apart along it rows can be that differ by one in every reading.
     stretch: f64,
 }
@@ -85,26 +88,29 @@ impl Line {
         let of_row =
             |row: usize| readings.iter().zip(&weights).map(|(values, weight)| weight * values[row]).sum();
         let at: Vec<f64> = (0..rows).map(of_row).collect();
-        let mut order: Vec<usize> = (0..rows).collect();
-        order.sort_by(|&a, &b| at[a].total_cmp(&at[b]));
-        Self { order, at, stretch: weights.iter().sum() }
+        let mut order: Vec<u32> = (0..rows as u32).collect();
+        order.par_sort_unstable_by(|&a, &b| at[a as usize].total_cmp(&at[b as usize]).then(a.cmp(&b)));
+        let ordered = |values: &Vec<f64>| order.iter().map(|&row| values[row as usize]).collect();
+        let (at, readings) = (ordered(&at), readings.iter().map(ordered).collect());
+        Self { order, at, readings, stretch: weights.iter().sum() }
     }
 }
 
 /// Rows in chains, link by link no further than a distance from the next in every reading, and how many links it took; `None` where
 /// rows lie too dense.
-fn linked(readings: &[Vec<f64>], line: &Line, distance: f64) -> Option<(Joined, usize)> {
+fn linked(line: &Line, distance: f64) -> Option<(Joined, usize)> {
     let rows = line.order.len();
     let (mut linked, mut links) = (Joined::alone(rows), 0);
     let (mut apart, mut together) = (FOUND_APART * rows, FOUND_TOGETHER * rows);
-    for (at, &row) in line.order.iter().enumerate() {
-        for &other in &line.order[at + 1..] {
-            if line.at[other] - line.at[row] > line.stretch * distance {
+    let reach = line.stretch * distance;
+    for row in 0..rows {
+        for other in row + 1..rows {
+            if line.at[other] - line.at[row] > reach {
                 break;
             }
-            if readings.iter().all(|values| (values[other] - values[row]).abs() <= distance) {
+            if line.readings.iter().all(|values| (values[other] - values[row]).abs() <= distance) {
                 together = together.checked_sub(1)?;
-                links += usize::from(linked.join(row, other));
+                links += usize::from(linked.join(line.order[row] as usize, line.order[other] as usize));
             } else {
                 apart = apart.checked_sub(1)?;
             }

@@ -138,7 +138,7 @@ fn products<'a>(
             values.enumerate().for_each(|(number, &value)| columns[(at, WIDTH + number)] = value);
         }
         let mut products = Mat::zeros(width, width);
-        add_products(&mut products, columns.as_ref());
+        add_products(products.as_mut(), columns.as_ref());
         products
     };
     let chunks: Vec<Mat<f64>> = rows.par_chunks(CHUNK).map(of_chunk).collect();

@@ -15,6 +15,7 @@ mod noise;
 mod precision;
 pub(crate) mod remaining;
 pub(crate) mod rms;
+pub(crate) mod shown;
 pub(crate) mod trace;
 mod units;
 mod verdict;
@@ -54,6 +55,7 @@ pub use noise::{NoiseFound, SerialFound, SeriesNoise, VarianceFound};
 pub use precision::{Determined, NotSeparable, Precision, precision};
 pub use remaining::{Looked, Remaining, Where};
 pub use rms::{Beside, Rms};
+pub use shown::Shown;
 pub use trace::Trace;
 pub use verdict::Verdict;
 

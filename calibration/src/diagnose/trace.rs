@@ -2,25 +2,14 @@
 //! and the fitted function with its uncertainty.
 
 use model_core::{SymbolId, SymbolKind};
-use rand::seq::SliceRandom;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
-use rayon::prelude::*;
 
 use super::units::of_reading;
 use crate::candidate::{Dependence, Effect, Function};
-use crate::data::{Observations, Poses, SiUnit};
-use crate::fit::FitResult;
+use crate::data::{Poses, SiUnit};
 use crate::search::SearchError;
 use crate::search::columns::functions::Functions;
 use crate::search::context::Context;
 use crate::search::round::Round;
-
-/// Rows that pictures show at most.
-const DRAWN: usize = 2000;
-
-/// Of so many rows that are shown, those set aside and those with the largest residuals come first.
-const FIRST: usize = 500;
 
 /// Points of a curve.
 const POINTS: usize = 73;
@@ -49,29 +38,6 @@ pub struct Trace {
     /// Where the function repeats too often to be drawn over the whole reading: its period, in the unit of the driver; the curve
     /// is one of it.
     pub period: Option<f64>,
-}
-
-/// The rows that pictures draw, in order: every row, or of many those set aside, those with the largest residuals, and a
-/// sample of the others with a fixed seed.
-pub(crate) fn drawn(observations: &Observations, fit: &FitResult) -> Vec<usize> {
-    let rows = observations.rows();
-    if rows <= DRAWN {
-        return (0..rows).collect();
-    }
-    let mut length = vec![0.0; rows];
-    for (&row, residual) in fit.residuals.row.iter().zip(&fit.residuals.raw) {
-        length[row as usize] += residual * residual;
-    }
-    let weight = |row: usize| fit.residuals.weight[row];
-    let mut order: Vec<usize> = (0..rows).collect();
-    order.par_sort_unstable_by(|&a, &b| {
-        (weight(a) > 0.0).cmp(&(weight(b) > 0.0)).then(length[b].total_cmp(&length[a])).then(a.cmp(&b))
-    });
-    let mut rest = order.split_off(FIRST);
-    rest.shuffle(&mut ChaCha8Rng::seed_from_u64(1));
-    order.extend(rest.into_iter().take(DRAWN - FIRST));
-    order.sort_unstable();
-    order
 }
 
 /// Every accepted effect over some rows.

@@ -23,6 +23,12 @@ const ROUGHLY: f64 = 1e-2;
 /// Steps so short change the objective by no more than this share, of which rounding is no small part.
 const ROUNDING: f64 = 1e-12;
 
+/// The noise is known when no standard deviation changes by more than this share.
+const NOISE_KNOWN: f64 = 1e-3;
+
+/// What changes by less than this share is the same noise: all rows are asked again for any other.
+const SAME_NOISE: f64 = 1e-12;
+
 /// How often the noise is learned anew.
 const NOISE_ROUNDS: usize = 8;
 
@@ -114,8 +120,8 @@ impl Solver<'_> {
                 break;
             }
             let learned = self.learn_noise(course);
-            let known = same(&learned, &course.noise);
-            if learned != course.noise {
+            let known = same(&learned, &course.noise, NOISE_KNOWN);
+            if !same(&learned, &course.noise, SAME_NOISE) {
                 let values = std::mem::take(&mut course.point.values);
                 let rest = course.point.rest.clone();
                 course.point = self.point(values, &learned, course.weighting, rest)?;

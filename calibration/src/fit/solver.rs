@@ -12,9 +12,6 @@ use crate::data::Observations;
 use crate::data::unknowns::Unknowns;
 use crate::fit::noise::{self, Layout, Noise};
 
-/// The noise is known when no standard deviation changes by more than this share.
-const NOISE_KNOWN: f64 = 1e-3;
-
 /// One fit in progress.
 pub(super) struct Solver<'a> {
     pub chain: &'a Chain,
@@ -221,8 +218,8 @@ impl Solver<'_> {
     }
 }
 
-/// Whether two noise models weigh components alike.
-pub(super) fn same(a: &Noise, b: &Noise) -> bool {
-    let close = |x: f64, y: f64| (x - y).abs() <= NOISE_KNOWN * y.abs();
+/// Whether two noise models weigh components alike, up to some share.
+pub(super) fn same(a: &Noise, b: &Noise, share: f64) -> bool {
+    let close = |x: f64, y: f64| (x - y).abs() <= share * y.abs();
     a.sigma.len() == b.sigma.len() && a.sigma.iter().zip(&b.sigma).all(|(&x, &y)| close(x, y))
 }

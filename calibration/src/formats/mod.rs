@@ -20,6 +20,7 @@ pub mod parquet;
 mod quote;
 mod records;
 mod separator;
+pub mod sha256;
 mod texts;
 pub mod tpoint;
 mod write;

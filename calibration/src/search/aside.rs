@@ -7,6 +7,7 @@ use model_core::SymbolId;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
+use rayon::prelude::*;
 
 use crate::data::Poses;
 
@@ -31,14 +32,34 @@ pub(crate) struct Shared {
     pub rows: [usize; 2],
 }
 
-/// Rows in the order of one reading, and where stretches of it may start and end.
+/// Where stretches of one reading may start and end, the rows in its order.
 struct Sorted {
     reading: SymbolId,
-    order: Vec<usize>,
     /// Positions in the order, equal readings never apart.
     cuts: Vec<usize>,
+    /// The reading behind each cut but the last, and that before each but the first.
+    ends: Vec<[f64; 2]>,
     /// Between which cuts each row lies.
     between: Vec<u8>,
+}
+
+impl Sorted {
+    fn by(reading: SymbolId, values: &[f64]) -> Self {
+        let rows = values.len();
+        let mut sorted = values.to_vec();
+        sorted.par_sort_unstable_by(f64::total_cmp);
+        let cut = |cut: usize| match sorted.get(cut) {
+            Some(value) => sorted.partition_point(|other| other < value),
+            None => rows,
+        };
+        let mut cuts: Vec<usize> = (0..=CUTS).map(|i| cut(i * rows / CUTS)).collect();
+        cuts.dedup();
+        let ends: Vec<[f64; 2]> =
+            cuts.windows(2).map(|ends| [sorted[ends[0]], sorted[ends[1] - 1]]).collect();
+        let number = |value: &f64| ends[1..].partition_point(|[from, _]| from <= value) as u8;
+        let between = values.par_iter().map(number).collect();
+        Self { reading, cuts, ends, between }
+    }
 }
 
 /// The stretch of a reading in which far more rows were set aside than elsewhere, if chance does not explain it.
@@ -47,29 +68,8 @@ pub(crate) fn shared(poses: &Poses, aside: &[usize], seed: u64) -> Option<Shared
     if aside.len() < FEWEST || 2 * aside.len() > rows {
         return None;
     }
-    let sorted: Vec<Sorted> = (poses.columns.iter())
-        .map(|(reading, values)| {
-            let mut order: Vec<usize> = (0..rows).collect();
-            order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
-            let value = |at: usize| values[order[at]];
-            let mut cuts: Vec<usize> = (0..=CUTS)
-                .map(|i| i * rows / CUTS)
-                .map(|cut| {
-                    (0..cut)
-                        .rev()
-                        .take_while(|&at| cut < rows && value(at) == value(cut))
-                        .last()
-                        .unwrap_or(cut)
-                })
-                .collect();
-            cuts.dedup();
-            let mut between = vec![0; rows];
-            for (number, ends) in (0..).zip(cuts.windows(2)) {
-                order[ends[0]..ends[1]].iter().for_each(|&row| between[row] = number);
-            }
-            Sorted { reading: *reading, order, cuts, between }
-        })
-        .collect();
+    let sorted: Vec<Sorted> =
+        poses.columns.iter().map(|(reading, values)| Sorted::by(*reading, values)).collect();
     let best = |aside: &[usize]| -> Option<(f64, usize, usize, usize)> {
         let each = sorted.iter().enumerate().filter_map(|(number, sorted)| {
             most_crowded(sorted, aside).map(|(score, from, to)| (score, number, from, to))
@@ -87,25 +87,25 @@ pub(crate) fn shared(poses: &Poses, aside: &[usize], seed: u64) -> Option<Shared
         }
         as_crowded += usize::from(best(&shuffled[..aside.len()]).is_some_and(|(other, ..)| other >= score));
     }
+    drop(shuffled);
     if (1 + as_crowded) as f64 / (1 + PERMUTATIONS) as f64 > CHANCE {
         return None;
     }
-    let Sorted { reading, order, cuts, between } = &sorted[number];
-    let values = poses.column(*reading)?;
-    let own = &order[from..to];
-    let is_there = |&&row: &&usize| (from..to).contains(&cuts[usize::from(between[row])]);
+    let Sorted { reading, cuts, ends, between } = &sorted[number];
+    let is_there = |&&row: &&usize| (from..to).contains(&usize::from(between[row]));
     let there = aside.iter().filter(is_there).count();
     Some(Shared {
         reading: *reading,
-        from: values[own[0]],
-        to: values[own[own.len() - 1]],
-        rows: [there, own.len()],
+        from: ends[from][0],
+        to: ends[to - 1][1],
+        rows: [there, cuts[to] - cuts[from]],
     })
 }
 
-/// The stretch with the largest excess of rows set aside, in standard deviations of the hypergeometric distribution.
+/// The stretch with the largest excess of rows set aside, in standard deviations of the hypergeometric distribution, and between
+/// which cuts it lies.
 fn most_crowded(sorted: &Sorted, aside: &[usize]) -> Option<(f64, usize, usize)> {
-    let rows = sorted.order.len() as f64;
+    let rows = sorted.between.len() as f64;
     let mut before = vec![0_usize; sorted.cuts.len()];
     // Behind the cut that a row lies before.
     aside.iter().for_each(|&row| before[usize::from(sorted.between[row]) + 1] += 1);
@@ -121,7 +121,7 @@ fn most_crowded(sorted: &Sorted, aside: &[usize]) -> Option<(f64, usize, usize)>
             }
             let score = ((before[j] - before[i]) as f64 - size * share) / variance.sqrt();
             if best.is_none_or(|(most, ..)| score > most) {
-                best = Some((score, sorted.cuts[i], sorted.cuts[j]));
+                best = Some((score, i, j));
             }
         }
     }

@@ -5,7 +5,8 @@
 
 use std::ops::Range;
 
-use faer::{Mat, MatRef};
+use codegen::vector::{self, Arithmetic};
+use faer::{Mat, MatMut, MatRef};
 use rayon::prelude::*;
 
 use super::folds::Folds;
@@ -17,10 +18,11 @@ const NOTHING: f64 = 1e-13;
 /// Inner products of the rows seen so far, cell by cell.
 #[derive(Debug, Clone)]
 pub struct Cells {
+    width: usize,
     fold_of_cell: Vec<usize>,
     rows_of_fold: Vec<usize>,
-    /// The lower half.
-    grams: Vec<Mat<f64>>,
+    /// Of each cell a matrix, column by column, of which the lower half counts: in one piece, whose memory is given back as a whole.
+    products: Vec<f64>,
 }
 
 /// Which cell each group belongs to.
@@ -75,8 +77,9 @@ impl Cells {
         });
         let cell_of_group = CellsOfGroups(cell_of_group.collect());
         let cells = Self {
+            width,
             rows_of_fold: folds.rows_of_fold.clone(),
-            grams: vec![Mat::zeros(width, width); fold_of_cell.len()],
+            products: vec![0.0; fold_of_cell.len() * width * width],
             fold_of_cell,
         };
         (cells, cell_of_group)
@@ -84,63 +87,92 @@ impl Cells {
 
     /// Takes in rows, put in the order of their cells.
     pub fn add(&mut self, rows: MatRef<'_, f64>, by_cell: &ByCell) {
-        let mut own = vec![0..0; self.grams.len()];
+        let (width, mut own) = (self.width, vec![0..0; self.fold_of_cell.len()]);
         for (cell, places) in &by_cell.cells {
             own[*cell] = places.clone();
         }
-        self.grams
-            .par_iter_mut()
-            .zip(own)
-            .filter(|(_, own)| !own.is_empty())
-            .for_each(|(gram, own)| add_products(gram, rows.subrows(own.start, own.len())));
+        let cells = self.products.par_chunks_mut(width * width).zip(own);
+        cells.filter(|(_, own)| !own.is_empty()).for_each(|(products, own)| {
+            let products = MatMut::from_column_major_slice_mut(products, width, width);
+            add_products(products, rows.subrows(own.start, own.len()));
+        });
     }
 
     /// The rows that stand for all, with the columns `kept` alone, and the folds that they lie in.
     #[must_use]
     pub fn merged(self, kept: &[usize]) -> (Mat<f64>, Folds) {
-        let roots: Vec<Vec<Vec<f64>>> = self
-            .grams
-            .into_par_iter()
-            .map(|mut gram| {
-                mirrored(&mut gram);
-                root(&Mat::from_fn(kept.len(), kept.len(), |i, j| gram[(kept[i], kept[j])]))
-            })
-            .collect();
+        let Self { width, fold_of_cell, rows_of_fold, mut products } = self;
+        let cells = products.par_chunks_mut(width * width);
+        let roots: Vec<Vec<usize>> = cells.map(|products| root(products, width, kept)).collect();
         let group_of_row: Vec<usize> =
             roots.iter().enumerate().flat_map(|(cell, rows)| std::iter::repeat_n(cell, rows.len())).collect();
-        let all: Vec<Vec<f64>> = roots.into_iter().flatten().collect();
-        let rows = Mat::from_fn(all.len(), kept.len(), |i, j| all[i][j]);
-        (rows, Folds { group_of_row, fold_of_group: self.fold_of_cell, rows_of_fold: self.rows_of_fold })
+        let mut rows = Mat::zeros(group_of_row.len(), kept.len());
+        let mut start = 0;
+        for (root, products) in roots.iter().zip(products.chunks(width * width)) {
+            for (j, &column) in kept.iter().enumerate() {
+                let target = &mut rows.col_as_slice_mut(j)[start..start + root.len()];
+                target.iter_mut().zip(root).for_each(|(to, row)| *to = products[row * width + column]);
+            }
+            start += root.len();
+        }
+        (rows, Folds { group_of_row, fold_of_group: fold_of_cell, rows_of_fold })
     }
 }
 
-/// Rows R with RᵀR the matrix given (symmetric, both halves filled), as many as it has rank: Cholesky's, the column of which
-/// most is left always next.
-fn root(gram: &Mat<f64>) -> Vec<Vec<f64>> {
-    let width = gram.ncols();
-    let scale: Vec<f64> = (0..width).map(|j| gram[(j, j)]).collect();
+/// Makes of inner products, of which the lower half is given, rows R with RᵀR those of the columns `kept`, as many as they have
+/// rank: Cholesky's, the column of which most is left always next. Which columns of the products became its rows, in order.
+fn root(products: &mut [f64], width: usize, kept: &[usize]) -> Vec<usize> {
+    mirrored(MatMut::from_column_major_slice_mut(products, width, width));
+    let scale: Vec<f64> = (0..width).map(|j| products[j * width + j]).collect();
     let mut left = scale.clone();
-    let mut rows: Vec<Vec<f64>> = Vec::new();
-    while rows.len() < width {
+    let (mut pivots, mut row) = (Vec::new(), vec![0.0; width]);
+    while pivots.len() < kept.len() {
         let share = |j: usize| if scale[j] > 0.0 { left[j] / scale[j] } else { 0.0 };
-        let Some(pivot) = (0..width).max_by(|&a, &b| share(a).total_cmp(&share(b))) else { break };
-        if share(pivot) <= NOTHING {
+        let most = |best: (usize, f64), &j: &usize| {
+            let own = share(j);
+            if own >= best.1 { (j, own) } else { best }
+        };
+        let (pivot, most) = kept.iter().fold((0, f64::NEG_INFINITY), most);
+        if most <= NOTHING {
             break;
         }
-        let mut row: Vec<f64> = gram.col_as_slice(pivot).to_vec();
-        for known in &rows {
-            let factor = known[pivot];
-            row.iter_mut().zip(known).for_each(|(r, k)| *r -= factor * k);
-        }
+        let place = pivot * width..(pivot + 1) * width;
+        row.copy_from_slice(&products[place.clone()]);
+        let taken = Taken { row: &mut row, products, width, pivots: &pivots, pivot };
+        vector::run(vector::path(), taken);
         let length = left[pivot].sqrt();
         for (value, left) in row.iter_mut().zip(&mut left) {
             *value /= length;
             *left -= *value * *value;
         }
         left[pivot] = 0.0;
-        rows.push(row);
+        products[place].copy_from_slice(&row);
+        pivots.push(pivot);
     }
-    rows
+    pivots
+}
+
+/// A row that loses its share of the known ones, told by their values at the pivot.
+struct Taken<'a> {
+    row: &'a mut [f64],
+    products: &'a [f64],
+    width: usize,
+    /// Which columns of the products are known rows.
+    pivots: &'a [usize],
+    pivot: usize,
+}
+
+impl vector::Work for Taken<'_> {
+    #[inline(always)]
+    fn run<A: Arithmetic>(self, _: A) {
+        for at in self.pivots {
+            let known = &self.products[at * self.width..(at + 1) * self.width];
+            let factor = known[self.pivot];
+            for (own, known) in self.row.iter_mut().zip(known) {
+                *own -= factor * known;
+            }
+        }
+    }
 }
 
 #[cfg(test)]

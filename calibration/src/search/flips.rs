@@ -20,9 +20,11 @@ use super::tail::Tails;
 /// One family of tests under sign flips: blocks of columns, tested for what they explain of a residual after the
 /// columns that are swept.
 pub struct Family<'a> {
-    /// The rows, in columns as `sweep` numbers them; the last is the residual.
-    pub rows: MatRef<'a, f64>,
-    /// The Gram matrix of `rows` with the declared columns and the accepted effects swept.
+    /// Columns as `sweep` numbers them; the last is the residual.
+    pub columns: MatRef<'a, f64>,
+    /// The rows of them that are tested.
+    pub rows: &'a [usize],
+    /// The Gram matrix of those rows with the declared columns and the accepted effects swept.
     pub sweep: &'a Sweep,
     /// The swept columns.
     pub base: &'a [usize],
@@ -33,15 +35,20 @@ pub struct Family<'a> {
 }
 
 impl Family<'_> {
+    /// Some columns, over the rows that are tested.
+    fn picked(&self, columns: &[usize]) -> Mat<f64> {
+        Mat::from_fn(self.rows.len(), columns.len(), |i, j| self.columns[(self.rows[i], columns[j])])
+    }
+
     /// What the regression on the swept columns leaves of the residual, row by row, and each row's leverage: the share of
     /// its own noise that the fit took.
     fn left(&self) -> (Vec<f64>, Vec<f64>) {
-        let last = self.rows.ncols() - 1;
-        let mut left = self.rows.col(last).iter().copied().collect::<Vec<f64>>();
+        let last = self.columns.ncols() - 1;
+        let mut left: Vec<f64> = self.rows.iter().map(|&row| self.columns[(row, last)]).collect();
         let mut leverage = vec![0.0; left.len()];
         let p = self.base.len();
         let inverse = Mat::from_fn(p, p, |i, j| -self.sweep.entry(self.base[i], self.base[j]));
-        let basis = Mat::from_fn(left.len(), p, |i, j| self.rows[(i, self.base[j])]);
+        let basis = self.picked(self.base);
         let spread = &basis * &inverse;
         for (j, &column) in self.base.iter().enumerate() {
             let coefficient = self.sweep.entry(column, last);
@@ -66,7 +73,7 @@ impl Family<'_> {
             *value /= (1.0 - h).max(1e-3).sqrt();
         }
         let total: f64 = left.iter().map(|e| e * e).sum();
-        let scores = signs.scores(self.rows, &left);
+        let scores = signs.scores_at(self.columns, |at| self.rows[at], &left);
         let whiteners: Vec<Mat<f64>> = self.blocks.iter().map(|block| self.sweep.whitener(block)).collect();
         let ranks: Vec<usize> = whiteners.iter().map(Mat::ncols).collect();
         let p = self.base.len();
@@ -102,11 +109,11 @@ impl Family<'_> {
     fn smallest_standardised(&self, signs: &Signs, left: &[f64]) -> Vec<f64> {
         let p = self.base.len();
         let inverse = Mat::from_fn(p, p, |i, j| -self.sweep.entry(self.base[i], self.base[j]));
-        let own = Mat::from_fn(left.len(), p, |i, j| self.rows[(i, self.base[j])]);
+        let own = self.picked(self.base);
         let basis = &own * lower_root(&inverse);
         let flipped = Standardised::new(signs, basis.as_ref(), left);
         let chance = self.blocks.par_iter().map(|block| {
-            let mut columns = Mat::from_fn(left.len(), block.len(), |i, c| self.rows[(i, block[c])]);
+            let mut columns = self.picked(block);
             let coefficients = Mat::from_fn(p, block.len(), |j, c| self.sweep.entry(self.base[j], block[c]));
             matmul(&mut columns, Accum::Add, &own, &coefficients, -1.0, Par::Seq);
             let orthonormal = columns * self.sweep.whitener(block);

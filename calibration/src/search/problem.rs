@@ -24,6 +24,9 @@ pub(super) const VISIBLE: f64 = 1e-4;
 /// Singular values of the scaled declared columns below this share of the largest count as zero.
 const RANK: f64 = 1e-9;
 
+/// Rows that are copied at a time.
+const AT_ONCE: usize = 4096;
+
 /// Why a problem cannot be set up.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum ProblemError {
@@ -92,40 +95,51 @@ impl Problem {
         folds: usize,
         seed: u64,
     ) -> Result<Self, ProblemError> {
-        Self::dealt(declared, candidates, blocks, residual, Folds::deal(groups, folds, seed))
-    }
-
-    /// The same, from groups that are dealt already.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn dealt(
-        declared: MatRef<'_, f64>,
-        candidates: MatRef<'_, f64>,
-        blocks: &[Range<usize>],
-        residual: &[f64],
-        folds: Folds,
-    ) -> Result<Self, ProblemError> {
         let n = residual.len();
         for (what, found) in [
             ("the declared columns", declared.nrows()),
             ("the candidates", candidates.nrows()),
-            ("the list of groups", folds.rows()),
+            ("the list of groups", groups.len()),
         ] {
             if found != n {
                 return Err(ProblemError::Rows { what, found, expected: n });
             }
         }
-        check_finite("the declared columns", declared)?;
-        check_finite("the candidates", candidates)?;
-        check_finite("the residual", faer::ColRef::from_slice(residual).as_mat())?;
+        let (p, k) = (declared.ncols(), candidates.ncols());
+        let mut rows = Mat::zeros(n, p + k + 1);
+        rows.subcols_mut(0, p).copy_from(declared);
+        rows.subcols_mut(p, k).copy_from(candidates);
+        rows.col_as_slice_mut(p + k).copy_from_slice(residual);
+        Self::of_rows(rows, p, blocks, Folds::deal(groups, folds, seed))
+    }
 
-        let (basis, right) = range(declared)?;
-        let (u, k) = (basis.ncols(), candidates.ncols());
-        let mut rows = Mat::zeros(n, u + k + 1);
+    /// The same from one matrix `[J | Z | r]` with so many declared columns, which it makes its own, and from groups that are dealt
+    /// already.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(crate) fn of_rows(
+        mut rows: Mat<f64>,
+        declared: usize,
+        blocks: &[Range<usize>],
+        folds: Folds,
+    ) -> Result<Self, ProblemError> {
+        let (n, k) = (rows.nrows(), rows.ncols() - declared - 1);
+        if folds.rows() != n {
+            return Err(ProblemError::Rows { what: "the list of groups", found: folds.rows(), expected: n });
+        }
+        check_finite("the declared columns", rows.subcols(0, declared))?;
+        check_finite("the candidates", rows.subcols(declared, k))?;
+        check_finite("the residual", rows.subcols(declared + k, 1))?;
+
+        let (basis, right) = range(rows.subcols(0, declared))?;
+        let u = basis.ncols();
+        if u < declared {
+            let mut fewer = Mat::zeros(n, u + k + 1);
+            fewer.subcols_mut(u, k + 1).copy_from(rows.subcols(declared, k + 1));
+            rows = fewer;
+        }
         rows.subcols_mut(0, u).copy_from(&basis);
-        rows.subcols_mut(u, k).copy_from(candidates);
-        rows.col_as_slice_mut(u + k).copy_from_slice(residual);
         let before: Vec<f64> = (0..k).map(|j| rows.col(u + j).squared_norm_l2()).collect();
         let mut absorbed = Mat::zeros(u, k + 1);
         // Twice: one pass of Gram-Schmidt leaves rounding of the part taken out.
@@ -202,8 +216,12 @@ impl Problem {
         self.grams = (0..self.folds())
             .map(|fold| {
                 let mut gram = Mat::zeros(width, width);
-                add_products(&mut gram, self.rows_at(&self.rows_of_folds(|f| f == fold)).as_ref());
-                mirrored(&mut gram);
+                let members = self.rows_of_folds(|f| f == fold);
+                // Of some rows at a time: those of a fold may be most of a matrix that is large.
+                members
+                    .chunks(AT_ONCE)
+                    .for_each(|some| add_products(gram.as_mut(), self.rows_at(some).as_ref()));
+                mirrored(gram.as_mut());
                 gram
             })
             .collect();

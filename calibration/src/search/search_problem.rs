@@ -64,7 +64,7 @@ impl<'a> SearchProblem<'a> {
         let mut rows = RowSet::of(whole, fitted, &all_rows(whole.request.observations), |_| true)?;
         let usable = rows.seen.usable(&whole.catalogue);
         rows.keep(&usable);
-        let problem = problem(whole, fitted, &usable, &rows.whitened(), folds.clone())?;
+        let problem = problem(whole, fitted, &usable, rows.whitened(), folds.clone())?;
         let reach = reach(whole, fitted, &problem, &rows, &usable)?;
         Ok(Self { problem: problem.with_reach(reach), rows, sampled: None, folds, usable })
     }
@@ -107,8 +107,7 @@ impl<'a> SearchProblem<'a> {
             .map(|(column, _)| column)
             .collect();
         let (merged, of_merged) = cells.merged(&kept);
-        let problem_of_all = problem(whole, fitted, &usable, &merged, of_merged)?;
-        drop(merged);
+        let problem_of_all = problem(whole, fitted, &usable, merged, of_merged)?;
 
         let few = whole.held / 4 / width * observations.rows() / folds.rows();
         let sample = sample(observations, few, whole.request.plan.hold_out.seed);
@@ -117,7 +116,7 @@ impl<'a> SearchProblem<'a> {
         let hold_out = &whole.request.plan.hold_out;
         let row = &rows.columns.row;
         let of_rows = dealt(&rows.observations, &fitted.fit.noise, row, hold_out.folds, hold_out.seed);
-        let sampled = problem(whole, fitted, &usable, &rows.whitened(), of_rows)?;
+        let sampled = problem(whole, fitted, &usable, rows.whitened(), of_rows)?;
         let of_sample = reach(whole, fitted, &sampled, &rows, &usable)?;
         let sampled = sampled.with_reach(of_sample);
         let reach = reach(whole, fitted, &problem_of_all, &rows, &usable)?;
@@ -150,19 +149,20 @@ impl<'a> SearchProblem<'a> {
             .collect()
     }
 
-    /// What `f` makes of all rows, one set of rows after another, each with its components; with the columns of the effects
-    /// that are wanted.
+    /// Lets `take` have what `f` makes of all rows, one set of rows after another, each with its components; with the columns of the
+    /// effects that are wanted.
     pub fn each_row_set<T: Send>(
         &self,
         whole: &Context<'a>,
         fitted: &Fitted,
         wanted: impl Fn(EffectId) -> bool + Sync,
         f: impl Fn(&[usize], &RowSet<'_>) -> T + Sync,
-    ) -> Result<Vec<T>, SearchError> {
+        mut take: impl FnMut(T),
+    ) -> Result<(), SearchError> {
         if self.sampled.is_none() {
-            return Ok(vec![f(&(0..self.folds.rows()).collect::<Vec<_>>(), &self.rows)]);
+            take(f(&(0..self.folds.rows()).collect::<Vec<_>>(), &self.rows));
+            return Ok(());
         }
-        let mut all = Vec::new();
         // No derivatives but of what is wanted.
         let is_wanted =
             |effect: EffectId| wanted(effect) || fitted.found.iter().any(|found| found.effect == effect);
@@ -175,8 +175,7 @@ impl<'a> SearchProblem<'a> {
             row_set.keep(&self.usable);
             Ok(f(&components(fitted, stretches), &row_set))
         };
-        each_chunk(whole.request.observations, made, |_, made| all.push(made))?;
-        Ok(all)
+        each_chunk(whole.request.observations, made, |_, made| take(made))
     }
 }
 
@@ -201,7 +200,7 @@ fn problem(
     whole: &Context<'_>,
     fitted: &Fitted,
     usable: &[bool],
-    rows: &Mat<f64>,
+    rows: Mat<f64>,
     folds: Folds,
 ) -> Result<Problem, ProblemError> {
     let mut count = 0;
@@ -211,9 +210,7 @@ fn problem(
         start..count
     });
     let blocks: Vec<Range<usize>> = blocks.collect();
-    let declared = fitted.combinations.ncols();
-    let residual = rows.col_as_slice(declared + count);
-    Problem::dealt(rows.subcols(0, declared), rows.subcols(declared, count), &blocks, residual, folds)
+    Problem::of_rows(rows, fitted.combinations.ncols(), &blocks, folds)
 }
 
 /// What the candidates of a problem do at the data's poses and further out, each series in units of its noise.

@@ -85,7 +85,6 @@ pub fn select(
 ) -> Selection {
     let blocks = SetColumns::of(problem, sets);
     let members = problem.rows_of_folds(chosen);
-    let rows = problem.rows_at(&members);
     let groups: Vec<usize> = members.iter().map(|&row| problem.group_of_row()[row]).collect();
     let signs = Signs::new(&groups, options.flips, options.seed);
     let folds: Vec<usize> = (0..problem.folds()).filter(|&fold| chosen(fold)).collect();
@@ -103,10 +102,10 @@ pub fn select(
         state.add(&blocks[known.set]);
         accepted.push(known.clone());
     }
-    let search = Search { problem, blocks: &blocks, folds: &folds, guards };
+    let search = Search { problem, blocks: &blocks, rows: &members, folds: &folds, guards };
     let mut dropped = search.drop_idle(&mut state, &mut accepted, options, None);
     let (remaining_p, ended) = loop {
-        let mut tests = search.test(&state, &accepted, &rows, &signs);
+        let mut tests = search.test(&state, &accepted, &signs);
         // What was dropped once does not come back, here or by a swap: every turn of this loop accepts one more or
         // shortens the list of candidates, so it ends.
         tests.retain(|test| !dropped.contains(&test.set));
@@ -151,6 +150,8 @@ struct Left {
 struct Search<'a> {
     problem: &'a Problem,
     blocks: &'a SetColumns,
+    /// The rows that are searched.
+    rows: &'a [usize],
     folds: &'a [usize],
     guards: Guards<'a>,
 }
@@ -184,7 +185,7 @@ impl Search<'_> {
     }
 
     /// Tests every set that is not in yet.
-    fn test(&self, state: &State, accepted: &[Accepted], rows: &Mat<f64>, signs: &Signs) -> Vec<Test> {
+    fn test(&self, state: &State, accepted: &[Accepted], signs: &Signs) -> Vec<Test> {
         let open: Vec<SetId> =
             self.blocks.ids().filter(|&set| accepted.iter().all(|a| a.set != set)).collect();
         let gains: Vec<(f64, usize)> = open.iter().map(|&set| state.gain(&self.blocks[set])).collect();
@@ -196,7 +197,8 @@ impl Search<'_> {
         let resolved = !is_needed(signs.buckets(), state.base.len());
         let sure = resolved && best + (open.len() as f64).ln() < BEYOND_FLIPS;
         let family = Family {
-            rows: rows.as_ref(),
+            columns: self.problem.rows(),
+            rows: self.rows,
             sweep: &state.sweep,
             base: &state.base,
             blocks: &tested,

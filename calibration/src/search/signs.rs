@@ -1,5 +1,7 @@
 //! Random signs for the rows, drawn group by group.
 
+use std::ops::Range;
+
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
 use rand::Rng;
@@ -78,11 +80,32 @@ impl Signs {
     /// Σ column × residual within each bucket, buckets × columns.
     #[must_use]
     pub fn scores(&self, columns: MatRef<'_, f64>, residual: &[f64]) -> Mat<f64> {
+        self.scores_at(columns, |at| at, residual)
+    }
+
+    /// The same where the rows that have signs are some of the columns'; `row` gives the place of each there.
+    pub(super) fn scores_at(
+        &self,
+        columns: MatRef<'_, f64>,
+        row: impl Fn(usize) -> usize,
+        residual: &[f64],
+    ) -> Mat<f64> {
         let mut scores = Mat::zeros(self.buckets(), columns.ncols());
+        // Rows of one bucket that follow each other are added up without going through memory.
+        let mut start = 0;
+        let runs: Vec<(usize, Range<usize>)> = self
+            .bucket_of_row
+            .chunk_by(|a, b| a == b)
+            .map(|run| {
+                start += run.len();
+                (run[0], start - run.len()..start)
+            })
+            .collect();
         for (j, column) in columns.col_iter().enumerate() {
             let target = scores.col_as_slice_mut(j);
-            for ((&bucket, &e), &z) in self.bucket_of_row.iter().zip(residual).zip(column.iter()) {
-                target[bucket] += z * e;
+            for (bucket, run) in &runs {
+                let products = run.clone().map(|at| column[row(at)] * residual[at]);
+                target[*bucket] += products.sum::<f64>();
             }
         }
         scores

@@ -14,6 +14,7 @@ const DEPENDENT: f64 = 1e-7;
 /// A Gram matrix with some of its columns swept.
 #[derive(Debug, Clone)]
 pub struct Sweep {
+    /// It stays symmetric: the lower half alone is read and kept.
     matrix: Mat<f64>,
     /// The diagonal before any sweep: the scale that a pivot is judged by.
     scale: Vec<f64>,
@@ -21,7 +22,7 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Starts from a Gram matrix (symmetric, both halves filled).
+    /// Starts from a Gram matrix, of which the lower half is read.
     #[must_use]
     pub fn new(gram: Mat<f64>) -> Self {
         let scale: Vec<f64> = (0..gram.ncols()).map(|i| gram[(i, i)]).collect();
@@ -60,20 +61,18 @@ impl Sweep {
 
     fn pivot(&mut self, k: usize, sign: f64) {
         let d = self.matrix[(k, k)];
-        let pivot: Vec<f64> = self.matrix.col_as_slice(k).to_vec();
+        let pivot: Vec<f64> = (0..self.scale.len()).map(|i| self.entry(i, k)).collect();
         for j in 0..pivot.len() {
             let factor = pivot[j] / d;
             if j == k || factor == 0.0 {
                 continue;
             }
-            for (target, &p) in self.matrix.col_as_slice_mut(j).iter_mut().zip(&pivot) {
+            for (target, &p) in self.matrix.col_as_slice_mut(j)[j..].iter_mut().zip(&pivot[j..]) {
                 *target -= p * factor;
             }
         }
         for (i, &p) in pivot.iter().enumerate() {
-            let value = if i == k { -1.0 / d } else { sign * p / d };
-            self.matrix[(i, k)] = value;
-            self.matrix[(k, i)] = value;
+            self.matrix[(i.max(k), i.min(k))] = if i == k { -1.0 / d } else { sign * p / d };
         }
     }
 
@@ -88,7 +87,7 @@ impl Sweep {
     /// inverse of their Gram matrix.
     #[must_use]
     pub fn entry(&self, i: usize, j: usize) -> f64 {
-        self.matrix[(i, j)]
+        self.matrix[(i.max(j), i.min(j))]
     }
 
     /// The drop in the residual's sum of squares from adding a block of columns, and the block's rank.
@@ -99,13 +98,13 @@ impl Sweep {
             if self.swept[column] || !self.has_pivot(column) {
                 return (0.0, 0);
             }
-            let score = self.matrix[(column, residual)];
+            let score = self.entry(column, residual);
             return (score * score / self.matrix[(column, column)], 1);
         }
         let whitener = self.whitener(block);
         let gain = (0..whitener.ncols())
             .map(|c| {
-                let score: f64 = (0..k).map(|i| whitener[(i, c)] * self.matrix[(block[i], residual)]).sum();
+                let score: f64 = (0..k).map(|i| whitener[(i, c)] * self.entry(block[i], residual)).sum();
                 score * score
             })
             .sum();
@@ -119,7 +118,7 @@ impl Sweep {
         let product = |a: &[f64], b: &[f64]| -> f64 {
             (0..k)
                 .flat_map(|i| (0..k).map(move |j| (i, j)))
-                .map(|(i, j)| a[i] * b[j] * self.matrix[(block[i], block[j])])
+                .map(|(i, j)| a[i] * b[j] * self.entry(block[i], block[j]))
                 .sum()
         };
         let mut found: Vec<Vec<f64>> = Vec::new();

@@ -13,6 +13,7 @@ use crate::calibrating::Studied;
 use crate::failure::Failure;
 use crate::report::{self, Layout};
 use crate::source::Source;
+use crate::waiting::Waiting;
 use crate::{output, source, terminal};
 
 /// Fit the errors to measured data, and find what the declaration lacks.
@@ -31,6 +32,9 @@ pub struct Arguments {
     /// Folder for report.html, report.json, amended.chain, errors.toml and residuals.csv
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Write every row into residuals.csv; of more than 100,000 rows, a part is written otherwise
+    #[arg(long, requires = "out")]
+    all_residuals: bool,
     /// Only print how the declaration would change (with --format json: the whole report, the change in it); write nothing
     #[arg(long, conflicts_with = "out")]
     dry_run: bool,
@@ -52,17 +56,20 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         refuse_to_replace(folder, &studied)?;
     }
     let (study, from) = (studied.study.clone(), studied.plan.data_from.clone());
-    let measured = studied.load(&mut |path, options| {
+    let progress = terminal::progress();
+    let mut open = |path: &str, options: &formats::Options| {
+        progress.set_message(format!("reading {path}"));
         formats::open(open_beside(&study, path, from.as_deref())?, path, options)
-    })?;
+    };
+    let measured = studied.load(&mut open, || progress.finish_and_clear())?;
     terminal::note(format_args!(
         "{}",
         what_is_done(&measured.studied.plan, measured.loaded.observations.rows())
     ));
 
-    let progress = terminal::progress();
+    let (progress, waiting) = (terminal::progress(), Waiting::default());
     let calibrated =
-        measured.calibrate(terminal::command_line(), &|stage| progress.set_message(stage.to_string()));
+        measured.calibrate(terminal::command_line(), &|stage| progress.set_message(waiting.told(stage)));
     progress.finish_and_clear();
     let calibrated = calibrated?;
     let folder = arguments.out.as_ref().map(|folder| folder.display().to_string());
@@ -75,7 +82,16 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         return Ok(answer(reported.calibration));
     }
     if let Some(folder) = &arguments.out {
-        report::write_all(&reported, folder)?;
+        let shown = report::rows_written(&reported, arguments.all_residuals);
+        report::write_all(&reported, &shown, folder)?;
+        let rows = reported.observations.rows();
+        if shown.is_part_of(rows) {
+            terminal::note(format_args!(
+                "residuals.csv has {} of {rows} rows: those set aside, those with the largest residuals, and others by lot; \
+                 `stands_for` says for how many each stands. --all-residuals writes every row",
+                shown.rows.len()
+            ));
+        }
         terminal::note(format_args!("the report is in {}", folder.join("report.html").display()));
     }
     let layout = Layout { width: terminal::width(), verbose: arguments.verbose };

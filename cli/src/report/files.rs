@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 
-use calibration::diagnose::Diagnosis;
+use calibration::diagnose::{Diagnosis, Shown};
 use calibration::formats::{Texts, Written};
 use model_core::Chain;
 use serde::Serialize;
@@ -22,12 +22,22 @@ const SCHEMA: u32 = 4;
 /// The files of a calibration in its folder.
 pub const NAMES: [&str; 5] = ["report.html", "report.json", "amended.chain", "errors.toml", "residuals.csv"];
 
-/// Writes `report.html`, `report.json` and `residuals.csv` into a folder, which is made if it is not there; and, where a
-/// usable model came out, `amended.chain` and `errors.toml`. They appear together, or not at all.
+/// Rows that `residuals.csv` has at most, unless all are asked for.
+const ROWS: usize = 100_000;
+
+/// Which rows `residuals.csv` has.
+#[must_use]
+pub fn rows_written(reported: &Reported<'_>, all: bool) -> Shown {
+    let most = if all { usize::MAX } else { ROWS };
+    Shown::of(reported.observations, &reported.calibration.after, most)
+}
+
+/// Writes `report.html`, `report.json` and, with the rows that are shown, `residuals.csv` into a folder, which is made if it is not there;
+/// and, where a usable model came out, `amended.chain` and `errors.toml`. They appear together, or not at all.
 ///
 /// # Errors
 /// The folder or a file cannot be written; nothing has changed then.
-pub fn write_all(reported: &Reported<'_>, folder: &Path) -> Result<(), Failure> {
+pub fn write_all(reported: &Reported<'_>, shown: &Shown, folder: &Path) -> Result<(), Failure> {
     let mut files = Folder::new(folder)?;
     files.write_text("report.json", &json(reported)?)?;
     let calibration = reported.calibration;
@@ -42,8 +52,8 @@ pub fn write_all(reported: &Reported<'_>, folder: &Path) -> Result<(), Failure> 
     }
     let (residuals, page) = rayon::join(
         || {
-            files
-                .write("residuals.csv", |file| write_residuals(reported, &folder.join("residuals.csv"), file))
+            let path = folder.join("residuals.csv");
+            files.write("residuals.csv", |file| write_residuals(reported, shown, &path, file))
         },
         || page(reported),
     );
@@ -95,8 +105,13 @@ pub fn json(reported: &Reported<'_>) -> Result<String, Failure> {
 }
 
 /// One row an observation, as [`table`](super::table) has them; a cell is empty where there is no number.
-fn write_residuals(reported: &Reported<'_>, path: &Path, file: &mut dyn Write) -> Result<(), Failure> {
-    let columns = residuals::table(reported);
+fn write_residuals(
+    reported: &Reported<'_>,
+    shown: &Shown,
+    path: &Path,
+    file: &mut dyn Write,
+) -> Result<(), Failure> {
+    let columns = residuals::table(reported, shown);
     tables::csv_row(file, path, columns.iter().map(|(name, _)| name.as_str()))?;
     let texts: Vec<Option<Texts>> = columns
         .iter()
@@ -109,5 +124,5 @@ fn write_residuals(reported: &Reported<'_>, path: &Path, file: &mut dyn Write) -
         (Cells::Texts(_), Some(texts)) => Written::Texts(texts),
         (Cells::Texts(_), None) => unreachable!("texts were gathered above"),
     });
-    tables::csv_rows(file, path, &written.collect::<Vec<_>>(), reported.observations.rows())
+    tables::csv_rows(file, path, &written.collect::<Vec<_>>(), shown.rows.len())
 }

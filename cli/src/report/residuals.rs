@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use calibration::data::SiUnit;
+use calibration::diagnose::Shown;
 use calibration::fit::FitResult;
 use calibration::formats::ColumnName;
 use model_core::SymbolId;
@@ -15,21 +16,21 @@ pub struct Component {
     pub name: &'static str,
     /// `rad` or `m`.
     pub unit: SiUnit,
-    /// Of the declaration as it was, one a row.
+    /// Of the declaration as it was, one a row that was asked for.
     pub before: Vec<Option<f64>>,
-    /// Of the amended one, one a row.
+    /// Of the amended one, likewise.
     pub after: Vec<Option<f64>>,
 }
 
-/// Every component that the observations have, in order of first appearance.
+/// Every component that the observations have, in order of first appearance, at some rows in order.
 #[must_use]
-pub fn components(reported: &Reported<'_>) -> Vec<Component> {
-    let (poses, rows) = (&reported.observations.poses, reported.observations.rows());
+pub fn components(reported: &Reported<'_>, rows: &[usize]) -> Vec<Component> {
+    let poses = &reported.observations.poses;
     let mut components: Vec<Component> = Vec::new();
     for series in &poses.series {
         for &name in series.measure.component_names() {
             if components.iter().all(|component| component.name != name) {
-                let absent = vec![None; rows];
+                let absent = vec![None; rows.len()];
                 let unit = series.measure.unit();
                 components.push(Component { name, unit, before: absent.clone(), after: absent });
             }
@@ -37,15 +38,19 @@ pub fn components(reported: &Reported<'_>) -> Vec<Component> {
     }
     let mut fill = |fit: &FitResult, of: fn(&mut Component) -> &mut Vec<Option<f64>>| {
         let mut residuals = fit.residuals.row.iter().zip(&fit.residuals.raw).peekable();
+        let mut wanted = rows.iter().enumerate().peekable();
         for series in &poses.series {
             let names = series.measure.component_names();
             let places: Vec<Option<usize>> =
                 names.iter().map(|&name| components.iter().position(|known| known.name == name)).collect();
             for row in series.rows.clone() {
+                let at = wanted.next_if(|&(_, &wanted)| wanted == row).map(|(at, _)| at);
                 let mut places = places.iter().flatten();
                 while let Some((_, &residual)) = residuals.next_if(|&(&of, _)| of as usize == row) {
                     let Some(&place) = places.next() else { break };
-                    of(&mut components[place])[row] = Some(residual);
+                    if let Some(at) = at {
+                        of(&mut components[place])[at] = Some(residual);
+                    }
                 }
             }
         }
@@ -76,20 +81,22 @@ pub enum Cells<'a> {
     Residuals(Vec<Option<f64>>),
 }
 
-/// One row an observation: its number; its file, line and name, as far as there are such; the readings, the residual components before and after, in SI, and its weight; each
-/// column by its name.
+/// One row an observation that is shown: its number; its file, line and name, as far as there are such; the readings, the residual components
+/// before and after, in SI, and its weight; of a part of the rows, for how many each stands. Each column by its name.
 #[must_use]
-pub fn table<'a>(reported: &'a Reported<'_>) -> Vec<(String, Cells<'a>)> {
+pub fn table<'a>(reported: &'a Reported<'_>, shown: &Shown) -> Vec<(String, Cells<'a>)> {
+    let is_part = shown.is_part_of(reported.observations.rows());
     let mut columns: Vec<(String, Cells<'a>)> = readings(reported)
         .map(|(name, unit, values)| {
             let name = match unit {
                 SiUnit::ONE => name.to_owned(),
                 unit => format!("{name} [{unit}]"),
             };
-            (name, Cells::Numbers(values.into()))
+            let own = || shown.rows.iter().map(|&row| values[row]).collect();
+            (name, Cells::Numbers(if is_part { Cow::Owned(own()) } else { values.into() }))
         })
         .collect();
-    for component in components(reported) {
+    for component in components(reported, &shown.rows) {
         let name = |when| format!("{}_{when} [{}]", component.name, component.unit);
         let names = [name("before"), name("after")];
         columns.extend(names.into_iter().zip([component.before, component.after].map(Cells::Residuals)));
@@ -102,25 +109,29 @@ pub fn table<'a>(reported: &'a Reported<'_>) -> Vec<(String, Cells<'a>)> {
         }
         name
     };
-    let [row, file, line, id, weight] = ["row", "file", "line", "id", "weight"].map(own);
+    let [row, file, line, id, weight, stands_for] =
+        ["row", "file", "line", "id", "weight", "stands_for"].map(own);
     let observations = reported.observations;
     let weights = &reported.calibration.after.residuals.weight;
-    let rows = observations.rows();
+    let rows = || shown.rows.iter().copied();
     let origins = &observations.origins;
-    let lines: Option<Vec<u64>> = (0..rows).map(|row| origins.of(row).line).collect();
+    let lines: Option<Vec<u64>> = rows().map(|row| origins.of(row).line).collect();
     let text = |text: Option<&str>| text.unwrap_or_default().to_owned();
     let places = [
-        Some((row, Cells::Rows((0..rows).map(|row| observations.row_number(row)).collect()))),
+        Some((row, Cells::Rows(rows().map(|row| observations.row_number(row)).collect()))),
         origins
             .has_files()
-            .then(|| (file, Cells::Texts((0..rows).map(|row| text(origins.of(row).file)).collect()))),
-        lines.filter(|_| rows > 0).map(|lines| (line, Cells::Rows(lines))),
+            .then(|| (file, Cells::Texts(rows().map(|row| text(origins.of(row).file)).collect()))),
+        lines.filter(|lines| !lines.is_empty()).map(|lines| (line, Cells::Rows(lines))),
         origins
             .has_names()
-            .then(|| (id, Cells::Texts((0..rows).map(|row| text(origins.of(row).name)).collect()))),
+            .then(|| (id, Cells::Texts(rows().map(|row| text(origins.of(row).name)).collect()))),
     ];
     columns.splice(0..0, places.into_iter().flatten());
-    let weights = (0..rows).map(|row| weights.get(row).copied().unwrap_or(1.0)).collect();
+    let weights = rows().map(|row| weights.get(row).copied().unwrap_or(1.0)).collect();
     columns.push((weight, Cells::Numbers(Cow::Owned(weights))));
+    if is_part {
+        columns.push((stands_for, Cells::Numbers(Cow::Owned(shown.stands_for.clone()))));
+    }
     columns
 }

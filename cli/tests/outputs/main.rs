@@ -74,6 +74,51 @@ fn the_files_of_a_calibration_appear_together_or_not_at_all() {
 }
 
 #[test]
+fn residuals_of_very_many_rows_are_a_part_that_stands_for_all() {
+    let folder = shaft("many-rows");
+    let simulate =
+        "simulate shaft.chain --errors e.toml --poses 100500 --noise 1arcsec --seed 1 --out measured.csv";
+    done(&words(&folder, simulate));
+    // One row that is far off.
+    let text = folder.read("measured.csv");
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    let mut far: Vec<&str> = lines[777].split(',').collect();
+    let components = far.len() - 3;
+    far.splice(components.., ["0", "0", "1"]);
+    lines[777] = far.join(",");
+    folder.write("measured.csv", lines.join("\n") + "\n");
+    let run = words(&folder, &format!("{CALIBRATE} part"));
+    done(&run);
+    assert!(run.stderr.contains("residuals.csv has 100000 of 100500 rows"), "{run}");
+    let part = folder.read("part/residuals.csv");
+    let (header, rows) = part.split_once('\n').expect("a header");
+    assert!(header.starts_with("row,") && header.ends_with(",weight,stands_for"), "{header}");
+    let cells: Vec<Vec<&str>> = rows.lines().map(|row| row.split(',').collect()).collect();
+    assert_eq!(cells.len(), 100_000);
+    let number = |cell: &str| cell.parse::<f64>().expect("a number");
+    let all: f64 = cells.iter().map(|row| number(row.last().expect("a cell"))).sum();
+    assert!((all - 100_500.0).abs() < 1e-6, "{all}");
+    assert!(cells.iter().is_sorted_by(|a, b| number(a[0]) < number(b[0])), "in the order of the file");
+    let aside: Vec<&Vec<&str>> = cells.iter().filter(|row| number(row[row.len() - 2]) == 0.0).collect();
+    assert!(aside.iter().any(|row| row[0] == "777" && number(row[row.len() - 1]) == 1.0), "{aside:?}");
+
+    let run = words(&folder, &format!("{CALIBRATE} all --all-residuals"));
+    done(&run);
+    assert!(!run.stderr.contains("residuals.csv has"), "{run}");
+    let all = folder.read("all/residuals.csv");
+    assert_eq!(all.lines().count(), 100_501);
+    assert!(all.lines().next().is_some_and(|header| header.ends_with(",weight")), "no part, no share");
+    // What is in both says the same.
+    let of_all: Vec<&str> = all.lines().collect();
+    for row in rows.lines() {
+        let (own, _) = row.rsplit_once(',').expect("a row");
+        let at: usize = own.split(',').next().expect("a cell").parse().expect("a row number");
+        assert_eq!(of_all[at], own);
+    }
+    refused(&words(&folder, "calibrate study.toml --all-residuals"), "--out");
+}
+
+#[test]
 fn a_place_that_fails_late_gives_back_what_was_replaced() {
     let folder = shaft("late");
     fs::create_dir(folder.0.join("x.h")).expect("a folder where the header is to stand");

@@ -1,18 +1,34 @@
 //! A variance that depends on the joints: log-linear in cos q, sin q, cos 2q, sin 2q of each joint and in the
 //! logarithm of measured ranges.
 //!
+//! The functions are made anew block by block whenever they are asked for: of many rows they would need more memory than the rows.
+//!
 //! Source: A. C. Harvey, Estimating Regression Models with Multiplicative Heteroscedasticity, Econometrica 44 (1976):
 //! maximum likelihood by Fisher scoring.
 
+use std::ops::Range;
+
 use faer::Mat;
-use faer::linalg::solvers::SolveLstsq;
-use model_core::{Chain, Quantity, SymbolKind};
+use model_core::{Chain, Quantity, SymbolId, SymbolKind};
+use rayon::prelude::*;
 
 use super::{Layout, VarianceModel, VarianceTerm};
 use crate::data::Observations;
+use crate::data::waves::waves;
+use crate::fit::partial::{Partial, Rows};
 
 /// Components per coefficient below which no variance model is looked for.
 const COMPONENTS_PER_TERM: usize = 15;
+
+/// Rows whose functions are made at a time.
+const BLOCK: usize = 4096;
+
+/// What is left of a function by those before it, as a share of its length, below which it gets no coefficient.
+const DEPENDENT: f64 = 1e-7;
+
+/// The logarithm of a variance stays this near to that of the level: a factor of 1e9 is beyond any instrument, and this keeps
+/// the exponential finite.
+const REACH: f64 = 20.0;
 
 /// The model and, per row, the factor on the standard deviation; `None` if the data do not bear one out.
 pub fn fit(
@@ -22,91 +38,296 @@ pub fn fit(
     scaled: &[f64],
     weight: &[f64],
 ) -> Option<(VarianceModel, Vec<f64>)> {
-    let terms = terms(chain, observations);
-    let kept: Vec<usize> = (0..scaled.len()).filter(|&at| weight[layout.row[at] as usize] > 0.0).collect();
-    if terms.is_empty() || kept.len() < COMPONENTS_PER_TERM * terms.len() {
+    let sources = sources(chain, observations);
+    let terms: Vec<VarianceTerm> = sources.iter().flat_map(Source::terms).collect();
+    // Components of a row share its functions, so a row counts once, with how many it has and the sum of their squares.
+    let of_row = |row: usize| layout.first[row]..layout.first[row + 1];
+    let rows: Vec<[f64; 2]> = (0..layout.rows())
+        .map(|row| match weight[row] > 0.0 {
+            true => [of_row(row).len() as f64, scaled[of_row(row)].iter().map(|value| value * value).sum()],
+            false => [0.0; 2],
+        })
+        .collect();
+    let [count, squares] =
+        rows.iter().fold([0.0; 2], |[count, sum], [own, square]| [count + own, sum + square]);
+    if terms.is_empty() || count < (COMPONENTS_PER_TERM * terms.len()) as f64 {
         return None;
     }
-    let columns: Vec<Vec<f64>> = terms.iter().map(|term| column(*term, observations)).collect();
-    let design = Mat::from_fn(kept.len(), terms.len() + 1, |row, term| match term.checked_sub(1) {
-        None => 1.0,
-        Some(term) => columns[term][layout.row[kept[row]] as usize],
-    });
-    let factored = design.col_piv_qr();
-    let squares: Vec<f64> = kept.iter().map(|&at| scaled[at] * scaled[at]).collect();
-    let level = squares.iter().sum::<f64>() / kept.len() as f64;
+    let level = squares / count;
     if level <= 0.0 {
         return None;
     }
-    let mut log_variance = vec![level.ln(); kept.len()];
-    let mut coefficients = Mat::from_fn(terms.len() + 1, 1, |at, _| if at == 0 { level.ln() } else { 0.0 });
-    for _ in 0..30 {
-        let score = Mat::from_fn(kept.len(), 1, |at, _| squares[at] / log_variance[at].exp() - 1.0);
-        let step = factored.solve_lstsq(score);
-        coefficients += &step;
-        let fitted = &design * &coefficients;
-        for (at, value) in log_variance.iter_mut().enumerate() {
-            // A factor of 1e9 between variances is beyond any instrument, and keeps the exponential finite.
-            *value = fitted[(at, 0)].clamp(level.ln() - 20.0, level.ln() + 20.0);
-        }
-        if step.norm_max() < 1e-6 {
-            break;
-        }
-    }
-    let deviance = |log_variance: f64, square: f64| log_variance + square / log_variance.exp();
-    let gain: f64 = squares
-        .iter()
-        .zip(&log_variance)
-        .map(|(&square, &fitted)| deviance(level.ln(), square) - deviance(fitted, square))
-        .sum();
+    let model =
+        Scoring { sources: &sources, rows: &rows, means: means(&sources, rows.len()), level: level.ln() };
+    let coefficients = model.coefficients();
+    let gain = model.gain(&coefficients);
     // Heavy tails make variances look uneven: the likelihood ratio is scaled by what the fourth moment says.
-    let standardised = squares.iter().zip(&log_variance).map(|(square, fitted)| square / fitted.exp());
-    let excess = standardised.map(|ratio| (ratio - 1.0).powi(2)).sum::<f64>() / kept.len() as f64 / 2.0;
-    if gain / excess.max(1.0) < terms.len() as f64 * (kept.len() as f64).ln() {
+    let excess = model.sums(&coefficients, 1, |block, fitted, sum| {
+        for (row, fitted) in block.zip(fitted).filter(|&(row, _)| rows[row][0] > 0.0) {
+            let variance = fitted.exp();
+            let ratio = |value: &f64| (value * value / variance - 1.0).powi(2);
+            sum[0] += scaled[of_row(row)].iter().map(ratio).sum::<f64>();
+        }
+    })[0]
+        / count
+        / 2.0;
+    if gain / excess.max(1.0) < terms.len() as f64 * count.ln() {
         return None;
     }
-    let factor = (0..observations.rows())
-        .map(|row| {
-            let log: f64 =
-                (0..terms.len()).map(|term| coefficients[(term + 1, 0)] * columns[term][row]).sum();
-            (log.clamp(-20.0, 20.0) / 2.0).exp()
-        })
-        .collect();
-    let terms = terms.into_iter().enumerate().map(|(at, term)| (term, coefficients[(at + 1, 0)])).collect();
-    Some((VarianceModel { terms }, factor))
+    let factor = |fitted: f64| ((fitted - coefficients[0]).clamp(-REACH, REACH) / 2.0).exp();
+    let factors = blocks(rows.len()).into_par_iter().map(|block| {
+        let fitted = model.fitted(&model.functions(&block), &coefficients);
+        fitted.into_iter().map(factor).collect::<Vec<f64>>()
+    });
+    let factors: Vec<Vec<f64>> = factors.collect();
+    let terms = terms.into_iter().zip(coefficients[1..].iter().copied()).collect();
+    Some((VarianceModel { terms }, factors.concat()))
 }
 
-fn terms(chain: &Chain, observations: &Observations) -> Vec<VarianceTerm> {
-    let mut terms = Vec::new();
-    for (id, values) in &observations.poses.columns {
-        let symbol = chain.symbol(*id);
-        match (symbol.kind, symbol.quantity) {
-            (SymbolKind::Joint, Quantity::Angle) => {
-                for multiple in 1..=2 {
-                    terms.extend([VarianceTerm::Cos(*id, multiple), VarianceTerm::Sin(*id, multiple)]);
-                }
+/// Readings with the functions that are made of them.
+enum Source<'a> {
+    /// Cosine and sine, of once and twice the angle.
+    Angle(SymbolId, &'a [f64]),
+    /// The logarithm.
+    Range(SymbolId, &'a [f64]),
+}
+
+impl Source<'_> {
+    fn terms(&self) -> Vec<VarianceTerm> {
+        match *self {
+            Self::Angle(id, _) => {
+                (1..=2).flat_map(|of| [VarianceTerm::Cos(id, of), VarianceTerm::Sin(id, of)]).collect()
             }
-            (SymbolKind::Input, Quantity::Length) if values.iter().all(|&range| range > 0.0) => {
-                terms.push(VarianceTerm::LogRange(*id));
-            }
-            _ => {}
+            Self::Range(id, _) => vec![VarianceTerm::LogRange(id)],
         }
     }
-    terms
+
+    /// The functions over some rows.
+    fn functions(&self, rows: Range<usize>) -> Vec<Vec<f64>> {
+        match self {
+            Self::Angle(_, readings) => {
+                let [sine, cosine] = waves(&readings[rows], 1.0);
+                let both = || sine.iter().zip(&cosine);
+                let (double_sine, double_cosine) =
+                    (both().map(|(s, c)| 2.0 * s * c), both().map(|(s, c)| (c - s) * (c + s)));
+                let double = [double_cosine.collect(), double_sine.collect()];
+                [cosine, sine].into_iter().chain(double).collect()
+            }
+            Self::Range(_, readings) => vec![readings[rows].iter().map(|range| range.ln()).collect()],
+        }
+    }
 }
 
-/// The function at every row, less its mean.
-fn column(term: VarianceTerm, observations: &Observations) -> Vec<f64> {
-    let (id, function): (_, Box<dyn Fn(f64) -> f64>) = match term {
-        VarianceTerm::Cos(id, multiple) => (id, Box::new(move |q: f64| (f64::from(multiple) * q).cos())),
-        VarianceTerm::Sin(id, multiple) => (id, Box::new(move |q: f64| (f64::from(multiple) * q).sin())),
-        VarianceTerm::LogRange(id) => (id, Box::new(f64::ln)),
+fn sources<'a>(chain: &Chain, observations: &'a Observations) -> Vec<Source<'a>> {
+    let of = |(id, values): &'a (SymbolId, Vec<f64>)| {
+        let symbol = chain.symbol(*id);
+        match (symbol.kind, symbol.quantity) {
+            (SymbolKind::Joint, Quantity::Angle) => Some(Source::Angle(*id, values)),
+            (SymbolKind::Input, Quantity::Length) if values.iter().all(|&range| range > 0.0) => {
+                Some(Source::Range(*id, values))
+            }
+            _ => None,
+        }
     };
-    let readings = observations
-        .poses
-        .column(id)
-        .unwrap_or_else(|| unreachable!("a variance goes with what the observations have readings of"));
-    let values: Vec<f64> = readings.iter().map(|&value| function(value)).collect();
-    let mean = values.iter().sum::<f64>() / (values.len() as f64).max(1.0);
-    values.into_iter().map(|value| value - mean).collect()
+    observations.poses.columns.iter().filter_map(of).collect()
+}
+
+/// All rows, block by block.
+fn blocks(rows: usize) -> Vec<Range<usize>> {
+    (0..rows).step_by(BLOCK).map(|start| start..(start + BLOCK).min(rows)).collect()
+}
+
+/// The mean of each function over all rows.
+fn means(sources: &[Source<'_>], rows: usize) -> Vec<f64> {
+    let of_block = |block: Range<usize>| -> Vec<f64> {
+        let functions = sources.iter().flat_map(|source| source.functions(block.clone()));
+        functions.map(|values| values.iter().sum()).collect()
+    };
+    let sums = added(blocks(rows).into_par_iter().map(of_block).collect());
+    sums.into_iter().map(|sum| sum / rows as f64).collect()
+}
+
+/// Sums of blocks added up in their order, so that the number of processors changes no bit.
+fn added(parts: Vec<Vec<f64>>) -> Vec<f64> {
+    let add = |mut whole: Vec<f64>, part: Vec<f64>| {
+        whole.iter_mut().zip(part).for_each(|(whole, part)| *whole += part);
+        whole
+    };
+    parts.into_iter().reduce(add).unwrap_or_default()
+}
+
+/// Fisher scoring of one set of residuals.
+struct Scoring<'a> {
+    sources: &'a [Source<'a>],
+    /// Of each row how many components count, and the sum of their squares.
+    rows: &'a [[f64; 2]],
+    means: Vec<f64>,
+    /// The logarithm of the mean square.
+    level: f64,
+}
+
+impl Scoring<'_> {
+    /// The functions over a block of rows, each less its mean.
+    fn functions(&self, block: &Range<usize>) -> Vec<Vec<f64>> {
+        let functions = self.sources.iter().flat_map(|source| source.functions(block.clone()));
+        let centred = functions.zip(&self.means).map(|(mut values, mean)| {
+            values.iter_mut().for_each(|value| *value -= mean);
+            values
+        });
+        centred.collect()
+    }
+
+    /// The logarithm of the variance that these coefficients give each row of a block.
+    fn fitted(&self, functions: &[Vec<f64>], coefficients: &[f64]) -> Vec<f64> {
+        let rows = functions.first().map_or(0, Vec::len);
+        let mut fitted = vec![coefficients[0]; rows];
+        for (values, coefficient) in functions.iter().zip(&coefficients[1..]) {
+            fitted.iter_mut().zip(values).for_each(|(fitted, value)| *fitted += coefficient * value);
+        }
+        fitted.iter_mut().for_each(|value| *value = value.clamp(self.level - REACH, self.level + REACH));
+        fitted
+    }
+
+    /// So many sums over all rows, of what is made of a block and its logarithms of the variance.
+    fn sums(
+        &self,
+        coefficients: &[f64],
+        count: usize,
+        add: impl Fn(Range<usize>, Vec<f64>, &mut [f64]) + Sync,
+    ) -> Vec<f64> {
+        let of_block = |block: Range<usize>| {
+            let fitted = self.fitted(&self.functions(&block), coefficients);
+            let mut sums = vec![0.0; count];
+            add(block, fitted, &mut sums);
+            sums
+        };
+        added(blocks(self.rows.len()).into_par_iter().map(of_block).collect())
+    }
+
+    /// The constant and the coefficient of each function at the maximum of the likelihood.
+    fn coefficients(&self) -> Vec<f64> {
+        let independent = Independent::of(&self.factor());
+        let mut coefficients = vec![0.0; independent.width];
+        coefficients[0] = self.level;
+        for _ in 0..30 {
+            let step = independent.solved(&self.score(&coefficients));
+            coefficients.iter_mut().zip(&step).for_each(|(own, step)| *own += step);
+            if step.iter().all(|step| step.abs() < 1e-6) {
+                break;
+            }
+        }
+        coefficients
+    }
+
+    /// The triangular factor of the constant and the functions, over all components that count.
+    fn factor(&self) -> Mat<f64> {
+        let width = 1 + self.means.len();
+        let of_block = |block: Range<usize>| {
+            let root: Vec<f64> = self.rows[block.clone()].iter().map(|[count, _]| count.sqrt()).collect();
+            let functions = self.functions(&block);
+            let mut rows = Rows::zeros(block.len(), width + 1);
+            for (number, column) in rows.columns_mut().take(width).enumerate() {
+                match number.checked_sub(1) {
+                    None => column.copy_from_slice(&root),
+                    Some(at) => (column.iter_mut().zip(&root).zip(&functions[at]))
+                        .for_each(|((to, root), value)| *to = root * value),
+                }
+            }
+            Partial::new(width).with(rows)
+        };
+        let parts: Vec<Partial> = blocks(self.rows.len()).into_par_iter().map(of_block).collect();
+        let whole = parts.into_iter().fold(Partial::new(width), |whole, part| {
+            let Ok(merged) = whole.merge(&part) else { unreachable!("the parts have the same columns") };
+            merged
+        });
+        whole.factor().submatrix(0, 0, width, width).to_owned()
+    }
+
+    /// The derivative of twice the log-likelihood by each coefficient.
+    fn score(&self, coefficients: &[f64]) -> Vec<f64> {
+        let of_block = |block: Range<usize>| {
+            let functions = self.functions(&block);
+            let fitted = self.fitted(&functions, coefficients);
+            let excess = self.rows[block].iter().zip(fitted);
+            let excess: Vec<f64> =
+                excess.map(|([count, squares], fitted)| squares / fitted.exp() - count).collect();
+            let product = |values: &Vec<f64>| values.iter().zip(&excess).map(|(a, b)| a * b).sum();
+            std::iter::once(excess.iter().sum()).chain(functions.iter().map(product)).collect()
+        };
+        added(blocks(self.rows.len()).into_par_iter().map(of_block).collect())
+    }
+
+    /// Twice the log-likelihood that the functions gain over one variance for all.
+    fn gain(&self, coefficients: &[f64]) -> f64 {
+        let deviance = |log_variance: f64, [count, squares]: [f64; 2]| {
+            count * log_variance + squares / log_variance.exp()
+        };
+        let gain = self.sums(coefficients, 1, |block, fitted, sum| {
+            let each = self.rows[block].iter().zip(fitted);
+            sum[0] = each.map(|(&row, fitted)| deviance(self.level, row) - deviance(fitted, row)).sum();
+        });
+        gain[0]
+    }
+}
+
+/// Columns of which none depends on those before it, with their triangular factor.
+struct Independent {
+    columns: Vec<usize>,
+    factor: Mat<f64>,
+    /// Of all columns.
+    width: usize,
+}
+
+impl Independent {
+    /// Of some columns with their triangular factor.
+    fn of(all: &Mat<f64>) -> Self {
+        let width = all.ncols();
+        let is_own = |&j: &usize| all[(j, j)].abs() > DEPENDENT * all.col(j).norm_l2();
+        let columns: Vec<usize> = (0..width).filter(is_own).collect();
+        let count = columns.len();
+        let own = Mat::from_fn(width, count + 1, |i, j| columns.get(j).map_or(0.0, |&j| all[(i, j)]));
+        let factor = Partial::new(count).with_rows(own.as_ref()).factor();
+        Self { factor: factor.submatrix(0, 0, count, count).to_owned(), columns, width }
+    }
+
+    /// The solution of RᵀRx = b, zero for the other columns.
+    fn solved(&self, b: &[f64]) -> Vec<f64> {
+        let (r, count) = (&self.factor, self.columns.len());
+        let mut x: Vec<f64> = self.columns.iter().map(|&column| b[column]).collect();
+        for j in 0..count {
+            let before: f64 = (0..j).map(|i| r[(i, j)] * x[i]).sum();
+            x[j] = (x[j] - before) / r[(j, j)];
+        }
+        for i in (0..count).rev() {
+            let behind: f64 = (i + 1..count).map(|j| r[(i, j)] * x[j]).sum();
+            x[i] = (x[i] - behind) / r[(i, i)];
+        }
+        let mut all = vec![0.0; self.width];
+        self.columns.iter().zip(x).for_each(|(&column, x)| all[column] = x);
+        all
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_that_depend_on_others_get_nothing_and_the_rest_is_least_squares() {
+        let mut rows = Mat::from_fn(40, 5, |i, j| ((i * (2 * j + 3)) as f64 * 0.7).sin());
+        for i in 0..40 {
+            rows[(i, 1)] = 0.0;
+            rows[(i, 2)] = 3.0 * rows[(i, 0)];
+        }
+        let factor = Partial::new(4).with_rows(rows.as_ref()).factor();
+        let independent = Independent::of(&factor.submatrix(0, 0, 4, 4).to_owned());
+        let products = rows.transpose() * &rows;
+        let b: Vec<f64> = (0..4).map(|j| products[(j, 4)]).collect();
+        let x = independent.solved(&b);
+        assert_eq!((x[1], x[2]), (0.0, 0.0));
+        for i in [0, 3] {
+            let left = products[(i, 0)] * x[0] + products[(i, 3)] * x[3] - b[i];
+            assert!(left.abs() < 1e-12 * products[(i, i)], "{left}");
+        }
+    }
 }

@@ -6,6 +6,7 @@ use model_core::algebra::{Poly, Wave};
 use model_core::{Chain, SymbolId};
 
 use crate::data::Poses;
+use crate::data::waves::waves;
 
 /// Evaluates functions of joints and inputs over the rows of some poses.
 pub(crate) struct Functions<'a> {
@@ -13,7 +14,8 @@ pub(crate) struct Functions<'a> {
     poses: &'a Poses,
     /// Of every symbol, for those without readings.
     values: &'a [f64],
-    waves: BTreeMap<(SymbolId, u32, Wave), Vec<f64>>,
+    /// Sine and cosine of each joint's harmonics.
+    waves: BTreeMap<(SymbolId, u32), [Vec<f64>; 2]>,
 }
 
 impl<'a> Functions<'a> {
@@ -23,9 +25,10 @@ impl<'a> Functions<'a> {
 
     /// The function's value at each row; `None` if a symbol has neither readings nor a value.
     pub(crate) fn column(&mut self, amount: &Poly) -> Option<Vec<f64>> {
-        let mut sum = vec![0.0; self.poses.rows()];
+        let rows = self.poses.rows();
+        let mut sum: Option<Vec<f64>> = None;
         for term in amount.terms() {
-            let mut product = vec![term.coefficient.to_f64(); sum.len()];
+            let mut product = vec![term.coefficient.to_f64(); rows];
             for &(symbol, power) in &term.powers {
                 let reading = self.reading(symbol)?;
                 let power = i32::try_from(power).ok()?;
@@ -42,9 +45,12 @@ impl<'a> Functions<'a> {
                     product.iter_mut().zip(wave).for_each(|(p, w)| *p /= w.powi(power));
                 }
             }
-            sum.iter_mut().zip(&product).for_each(|(s, p)| *s += p);
+            match &mut sum {
+                None => sum = Some(product),
+                Some(sum) => sum.iter_mut().zip(&product).for_each(|(s, p)| *s += p),
+            }
         }
-        Some(sum)
+        Some(sum.unwrap_or_else(|| vec![0.0; rows]))
     }
 
     fn reading(&self, symbol: SymbolId) -> Option<Vec<f64>> {
@@ -65,18 +71,15 @@ impl<'a> Functions<'a> {
     }
 
     fn wave(&mut self, symbol: SymbolId, harmonic: u32, wave: Wave) -> Option<&[f64]> {
-        let key = (symbol, harmonic, wave);
+        let key = (symbol, harmonic);
         if !self.waves.contains_key(&key) {
-            let mut column = self.reading(symbol)?;
-            for value in &mut column {
-                let angle = f64::from(harmonic) * *value;
-                *value = match wave {
-                    Wave::Sin => angle.sin(),
-                    Wave::Cos => angle.cos(),
-                };
-            }
-            self.waves.insert(key, column);
+            let both = waves(&self.reading(symbol)?, f64::from(harmonic));
+            self.waves.insert(key, both);
         }
-        self.waves.get(&key).map(Vec::as_slice)
+        let [sine, cosine] = self.waves.get(&key)?;
+        Some(match wave {
+            Wave::Sin => sine,
+            Wave::Cos => cosine,
+        })
     }
 }

@@ -6,6 +6,8 @@ use faer::Mat;
 use model_core::algebra::{AngleSum, Poly, Rational};
 use model_core::{Chain, Quantity, SymbolId};
 
+use crate::data::waves::waves;
+
 /// Digits of a threshold, relative to the range of the readings.
 const DIGITS: f64 = 4.0;
 
@@ -115,12 +117,8 @@ impl Shape {
             return Mat::from_fn(readings.len(), highest as usize, |i, j| readings[i].powi(j as i32 + 1));
         }
         if let Self::Harmonic { order } = *self {
-            let angle = |i: usize| f64::from(order) * readings[i];
-            return Mat::from_fn(
-                readings.len(),
-                2,
-                |i, j| if j == 0 { angle(i).cos() } else { angle(i).sin() },
-            );
+            let [sine, cosine] = waves(readings, f64::from(order));
+            return Mat::from_fn(readings.len(), 2, |i, j| if j == 0 { cosine[i] } else { sine[i] });
         }
         let ramps = self.ramps();
         Mat::from_fn(readings.len(), ramps.len(), |i, j| {

@@ -16,19 +16,21 @@ const BARS: usize = 24;
 /// Marks of a picture of quantiles at most: more would lie on each other.
 const QUANTILES: usize = 240;
 
-/// The values of every row, before and after, in the unit of the axis.
-fn values(component: &Component) -> [Vec<f64>; 2] {
+/// The values of every row, before and after, in the unit of the axis; none before where nothing changed, which is what is after.
+fn values(component: &Component, changed: bool) -> [Vec<f64>; 2] {
     let in_unit = |values: &[Option<f64>], column: &Column| -> Vec<f64> {
         let finite = values.iter().flatten().filter(|value| value.is_finite());
         finite.map(|si| si / column.in_si).collect()
     };
-    [in_unit(&component.every.before, &component.before), in_unit(&component.every.after, &component.after)]
+    let before = if changed { in_unit(&component.every.before, &component.before) } else { Vec::new() };
+    [before, in_unit(&component.every.after, &component.after)]
 }
 
 /// How often a residual has which size, of every row; the normal distribution of what is left beside it.
 pub fn histogram(component: &Component, changed: bool) -> Markup {
-    let [before, after] = values(component);
-    let reach = size(&before, 99).max(size(&after, 99)) * 1.05 + f64::MIN_POSITIVE;
+    let [before, after] = values(component, changed);
+    let of_before = if changed { size(&before, 99) } else { 0.0 };
+    let reach = of_before.max(size(&after, 99)) * 1.05 + f64::MIN_POSITIVE;
     let width = 2.0 * reach / BARS as f64;
     let count = |values: &[f64]| {
         let mut bins = [0.0; BARS];
@@ -80,7 +82,7 @@ fn robust_spread(values: &[f64]) -> f64 {
 
 /// Sorted residuals over the quantiles of a normal distribution: a straight line if the noise is normal.
 pub fn quantiles(component: &Component, changed: bool) -> Markup {
-    let [before, after] = values(component);
+    let [before, after] = values(component, changed);
     let spread = robust_spread(&after);
     let [before, after] = [before, after].map(|mut values| {
         values.par_sort_unstable_by(f64::total_cmp);

@@ -52,7 +52,8 @@ pub fn maps(reported: &Reported<'_>, rows: &Rows) -> Markup {
             .filter_map(|row| Some((place(row)?, (part(first, row)?, part(second, row)?))))
             .collect()
     };
-    let before = arrows(false);
+    // Where nothing changed, what was before is what is.
+    let before = arrows(!rows.changed);
     let mut lengths: Vec<f64> = before.iter().map(|(_, (across, along))| across.hypot(*along)).collect();
     let most = lengths.len() * 19 / 20;
     let typical =
@@ -84,7 +85,7 @@ pub fn maps(reported: &Reported<'_>, rows: &Rows) -> Markup {
     };
     html! {
         @if rows.changed { (picture(before, "before", "was")) (picture(arrows(true), "after", "is")) }
-        @else { (picture(arrows(true), "", "is")) }
+        @else { (picture(before, "", "is")) }
     }
 }
 

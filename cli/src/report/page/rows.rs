@@ -33,7 +33,7 @@ pub struct Component {
     pub before: Column,
     /// After.
     pub after: Column,
-    /// What is left, of every row, drawn or not, in SI.
+    /// What is left, of every row, drawn or not, in SI; nothing before where nothing changed.
     pub every: residuals::Component,
 }
 
@@ -69,7 +69,7 @@ impl Rows {
         let weight = &calibration.after.residuals.weight;
         let every_aside: Vec<bool> =
             (0..observations.rows()).map(|row| weight.get(row) == Some(&0.0)).collect();
-        let all = residuals::components(reported);
+        let all = residuals::components(reported, &(0..observations.rows()).collect::<Vec<_>>());
         let places = thinned(
             &calibration.drawn,
             &every_aside,
@@ -98,6 +98,7 @@ impl Rows {
             values: drawn.iter().map(|&row| values[row].map(|si| si / reading.in_si)).collect(),
             in_si: reading.in_si,
         };
+        let changed = !calibration.diagnosis.effects.is_empty();
         let components: Vec<Component> = all
             .into_iter()
             .map(|component| {
@@ -109,7 +110,11 @@ impl Rows {
                     before: column(format!("{} before", component.name), &label, &component.before, &reading),
                     after: column(format!("{} after", component.name), &label, &component.after, &reading),
                     label,
-                    every: component,
+                    every: if changed {
+                        component
+                    } else {
+                        residuals::Component { before: Vec::new(), ..component }
+                    },
                 }
             })
             .collect();
@@ -150,7 +155,7 @@ impl Rows {
             numbers: drawn.iter().map(|&row| observations.row_number(row)).collect(),
             of: observations.rows(),
             aside: drawn.iter().map(|&row| every_aside[row]).collect(),
-            changed: !calibration.diagnosis.effects.is_empty(),
+            changed,
             every_aside,
             readings: readings.collect(),
             effects: effects.collect(),

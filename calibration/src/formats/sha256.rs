@@ -61,10 +61,9 @@ const ROUND: [u32; 64] = [
 
 /// One round, in which nothing moves but the two words that change: the letters are passed in turn.
 macro_rules! round {
-    ($a:ident $b:ident $c:ident $d:ident $e:ident $f:ident $g:ident $h:ident, $t:expr, $w:expr) => {
+    ($a:ident $b:ident $c:ident $d:ident $e:ident $f:ident $g:ident $h:ident, $k:expr, $w:expr) => {
         let s1 = $e.rotate_right(6) ^ $e.rotate_right(11) ^ $e.rotate_right(25);
-        let t1 =
-            $h.wrapping_add(s1).wrapping_add($e & $f ^ !$e & $g).wrapping_add(ROUND[$t]).wrapping_add($w);
+        let t1 = $h.wrapping_add(s1).wrapping_add($e & $f ^ !$e & $g).wrapping_add($k).wrapping_add($w);
         let s0 = $a.rotate_right(2) ^ $a.rotate_right(13) ^ $a.rotate_right(22);
         $d = $d.wrapping_add(t1);
         $h = t1.wrapping_add(s0.wrapping_add($a & $b ^ $a & $c ^ $b & $c));
@@ -82,17 +81,16 @@ fn compress(state: &mut [u32; 8], block: &[u8]) {
         w[t] = w[t - 16].wrapping_add(s0).wrapping_add(w[t - 7]).wrapping_add(s1);
     }
     let [mut a, mut b, mut c, mut d, mut e, mut f, mut g, mut h] = *state;
-    let mut t = 0;
-    while t < 64 {
-        round!(a b c d e f g h, t, w[t]);
-        round!(h a b c d e f g, t + 1, w[t + 1]);
-        round!(g h a b c d e f, t + 2, w[t + 2]);
-        round!(f g h a b c d e, t + 3, w[t + 3]);
-        round!(e f g h a b c d, t + 4, w[t + 4]);
-        round!(d e f g h a b c, t + 5, w[t + 5]);
-        round!(c d e f g h a b, t + 6, w[t + 6]);
-        round!(b c d e f g h a, t + 7, w[t + 7]);
-        t += 8;
+    let ((w, _), (k, _)) = (w.as_chunks::<8>(), ROUND.as_chunks::<8>());
+    for (w, k) in w.iter().zip(k) {
+        round!(a b c d e f g h, k[0], w[0]);
+        round!(h a b c d e f g, k[1], w[1]);
+        round!(g h a b c d e f, k[2], w[2]);
+        round!(f g h a b c d e, k[3], w[3]);
+        round!(e f g h a b c d, k[4], w[4]);
+        round!(d e f g h a b c, k[5], w[5]);
+        round!(c d e f g h a b, k[6], w[6]);
+        round!(b c d e f g h a, k[7], w[7]);
     }
     for (word, new) in state.iter_mut().zip([a, b, c, d, e, f, g, h]) {
         *word = word.wrapping_add(new);

@@ -2,13 +2,13 @@
 //!
 //! With a stated noise that the residuals do not contradict, by what is stated. Else by the residuals: of every kind of
 //! component, weighed by what each has part in; of whole groups where rows of a group are not independent; in order of
-//! acquisition where rows remember those before.
+//! acquisition where rows remember those before; row by row where rows observe objects.
 
 use faer::Mat;
 use model_core::SymbolId;
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
-use super::cluster::{Clusters, Share};
+use super::cluster::{ALONE, Clusters, Share};
 use super::objects::Reduction;
 use super::shared::{Order, Shared};
 use super::solver::{Course, Solver};
@@ -24,6 +24,10 @@ const MANY: f64 = 1000.0;
 
 /// Degrees of freedom that even a random walk leaves to its own size.
 const LEAST: f64 = 3.0;
+
+/// Sets of rows, and degrees of freedom, from which on every row's own residual says how uncertain it makes the estimates. As many
+/// as no period of a file has in common with them.
+const SETS_OF_ROWS: usize = 211;
 
 /// Groups above which each has so little part that none needs adjusting one by one.
 const MANY_GROUPS: usize = 5000;
@@ -117,9 +121,9 @@ impl Solver<'_> {
         let found_noise = self.shared(course, weight, &root)?;
         let spread = if let Some(groups) = self.buckets(&self.observations.units()) {
             root = subspace.covariance_root(&self.partial(&course.point.sweep), rest);
-            let (q, e) = self.coordinates(course, weight, &root)?;
+            let Coordinates { q, residual, .. } = self.coordinates(course, weight, &root)?;
             // Weights move along with residuals, and by so much more the estimates.
-            let clusters = Clusters::new(shares(&q, &e, &groups));
+            let clusters = Clusters::new(shares(&q, &residual, &groups));
             Spread::Groups { factor: tally.stride().powi(2), clusters }
         } else if let Shared::Memory(memory, _) = &found_noise {
             let degrees_of_freedom = (memory.independent - self.used(course)).max(LEAST);
@@ -128,14 +132,26 @@ impl Solver<'_> {
             Spread::Even { factor: 1.0 / level / efficiency, degrees_of_freedom: f64::INFINITY }
         } else if left < 1.0 {
             Spread::Unknown
+        } else if self.observations.unknowns.is_some() && left >= SETS_OF_ROWS as f64 {
+            // How far off a plane a point is hangs on how it was hit, and across a beam on the range, while along it does not:
+            // no variance of the joints is that of every component.
+            root = subspace.covariance_root(&self.partial(&course.point.sweep), rest);
+            let Coordinates { q, mut residual, followed } = self.coordinates(course, weight, &root)?;
+            for (value, followed) in residual.iter_mut().zip(followed) {
+                *value /= (1.0 - followed).max(ALONE).sqrt();
+            }
+            let of_component = self.layout.row.iter().map(|&row| row as usize % SETS_OF_ROWS).collect();
+            let sets = Buckets { of_component, count: SETS_OF_ROWS };
+            let clusters = Clusters::new(shares(&q, &residual, &sets));
+            Spread::Groups { factor: tally.stride().powi(2), clusters }
         } else if left < MANY && self.layout.kinds > 1 {
             let pool = pools(self.observations, &self.layout, self.used(course));
             let of_component: Vec<usize> =
                 self.layout.kind.iter().map(|&kind| pool[usize::from(kind)]).collect();
             let count = pool.iter().max().map_or(0, |last| last + 1);
             let counted: Vec<f64> = weight.iter().map(|weight| f64::from(u8::from(*weight > 0.0))).collect();
-            let (q, e) = self.coordinates(course, &counted, &root)?;
-            let shares = shares(&q, &e, &Buckets { of_component, count });
+            let Coordinates { q, residual, .. } = self.coordinates(course, &counted, &root)?;
+            let shares = shares(&q, &residual, &Buckets { of_component, count });
             let of = |share: Share| {
                 let used: f64 = (0..share.score.len()).map(|at| share.gram[(at, at)]).sum();
                 (share.gram, (share.count - used).max(1.0))
@@ -172,7 +188,7 @@ impl Solver<'_> {
         if self.groups().is_none() && white(&self.whitened(course, &counted)) {
             return Ok(Shared::Nothing);
         }
-        let (q, e) = self.coordinates(course, &counted, root)?;
+        let Coordinates { q, residual: e, .. } = self.coordinates(course, &counted, root)?;
         let beside =
             |most| trend::beside(self.chain, self.observations, &self.layout, &sigma, weight, &q, most);
         let (few, complete) = beside(trend::MOST[0]);
@@ -250,13 +266,8 @@ impl Solver<'_> {
         Some(Buckets { of_component: self.layout.row.iter().map(bucket).collect(), count })
     }
 
-    /// The columns of J, whitened and each row by the root of its weight, times the root, n × k; and the residual alike.
-    fn coordinates(
-        &self,
-        course: &Course,
-        weight: &[f64],
-        root: &Mat<f64>,
-    ) -> Result<(Mat<f64>, Vec<f64>), FitError> {
+    /// The columns of J, whitened and each row by the root of its weight, times the root; and the residual alike.
+    fn coordinates(&self, course: &Course, weight: &[f64], root: &Mat<f64>) -> Result<Coordinates, FitError> {
         let k = root.ncols();
         let mut by_column = Mat::<f64>::zeros(self.model.columns(), k);
         for (from, column) in root.row_iter().zip(self.model.column_of()) {
@@ -294,14 +305,23 @@ impl Solver<'_> {
             residual.extend(own);
             unknown.extend(of_objects);
         }
-        if let Some(unknowns) = &self.observations.unknowns {
+        let followed = self.observations.unknowns.as_ref().map_or_else(Vec::new, |unknowns| {
             let row = &self.layout.row;
             let scale = row.iter().zip(sigma.iter()).map(|(&row, sigma)| weight[row as usize].sqrt() / sigma);
-            Reduction::new(unknowns, row, &unknown, scale.collect())
-                .project(unknowns, row, &unknown, &mut whole);
-        }
-        Ok((whole, residual))
+            let reduction = Reduction::new(unknowns, row, &unknown, scale.collect());
+            reduction.project(unknowns, row, &unknown, &mut whole)
+        });
+        Ok(Coordinates { q: whole, residual, followed })
     }
+}
+
+/// Where the components stand among the determined combinations.
+struct Coordinates {
+    /// Orthonormal columns, n × k.
+    q: Mat<f64>,
+    residual: Vec<f64>,
+    /// The share of each component's own residual that objects and stations follow; empty where there are none.
+    followed: Vec<f64>,
 }
 
 /// What each bucket of components has part in.

@@ -9,7 +9,7 @@
 use faer::{Mat, Side};
 
 /// A group's direction that the group alone determines leaves no residual to learn from.
-const ALONE: f64 = 1e-8;
+pub(super) const ALONE: f64 = 1e-8;
 
 /// What a group of rows has part in: columns Q that are orthonormal over all rows.
 #[derive(Debug, Clone)]

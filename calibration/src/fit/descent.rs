@@ -29,6 +29,13 @@ const NOISE_KNOWN: f64 = 1e-3;
 /// What changes by less than this share is the same noise: all rows are asked again for any other.
 const SAME_NOISE: f64 = 1e-12;
 
+/// Beside unknown objects, a step along what the data do not determine that promises less than this share of the objective, and
+/// does not keep it, is beyond what the sums resolve.
+const UNRESOLVED: f64 = 1e-8;
+
+/// The damping that stays of such steps, once one without any was refused.
+const DAMPED: f64 = 1e-8;
+
 /// How often the noise is learned anew.
 const NOISE_ROUNDS: usize = 8;
 
@@ -142,7 +149,9 @@ impl Solver<'_> {
         let mut damping = 0.0;
         course.stopped = None;
         // Weights that follow many objects' residuals settle slowly, each object's in its own time.
-        let mut mixing = self.observations.unknowns.is_some().then(Mixing::default);
+        let has_objects = self.observations.unknowns.is_some();
+        let mut mixing = has_objects.then(Mixing::default);
+        let mut least = 0.0;
         for _ in 0..self.options.max_iterations {
             let point = &course.point;
             let tally = &point.sweep.tally;
@@ -165,8 +174,15 @@ impl Solver<'_> {
                 mixing = Some(Mixing::default());
             } else if next.objective() <= point.objective() * (1.0 + 1e-9) {
                 course.point = next;
-                damping = if damping < 1e-7 { 0.0 } else { damping / 10.0 };
+                damping = if damping < 1e-7 { least } else { damping / 10.0 };
             } else {
+                if has_objects && matches!(point.rest, Rest::Prior(_)) {
+                    if step.length.powi(2) <= UNRESOLVED * point.objective() {
+                        course.stopped = (damping > 0.0).then_some(Reason::NoDescent);
+                        return Ok(());
+                    }
+                    least = DAMPED;
+                }
                 damping = (damping * 10.0).max(1e-6);
                 if damping > 1e8 {
                     course.stopped = Some(Reason::NoDescent);

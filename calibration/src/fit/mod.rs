@@ -8,6 +8,7 @@ mod block;
 mod cluster;
 mod descent;
 mod directions;
+mod estimable;
 mod few;
 mod fingerprint;
 mod mixing;
@@ -43,6 +44,7 @@ use sweep::Weighting;
 
 pub(crate) use align::align_robustly;
 pub use block::Block;
+pub use estimable::Estimable;
 pub use model::Model;
 pub use normal::{Rest, Step};
 pub use outcome::{Outcome, Reason, SetAside, Why};
@@ -53,7 +55,6 @@ pub use stated::{Agreement, Stated};
 pub use stream::{Next, Pass, Streamed, StreamedResult};
 pub use subspace::Subspace;
 pub use sweep::Tally;
-pub use uncertainty::Estimable;
 pub use wire::PassError;
 
 /// What to fit and how.
@@ -174,7 +175,7 @@ impl FitResult {
     pub fn half_width(&self, parameter: SymbolId, confidence: f64) -> Option<f64> {
         let at = self.parameters.iter().position(|&id| id == parameter)?;
         let freedom = self.parameter_degrees_of_freedom[at];
-        uncertainty::half_width(self.standard_uncertainty(parameter)?, freedom, confidence)
+        estimable::half_width(self.standard_uncertainty(parameter)?, freedom, confidence)
     }
 
     /// (JᵀJ)⁻¹ of the whitened and weighted rows, the prior of what is not determined included, p × p, SI.

@@ -107,6 +107,27 @@ impl Rows {
         (own, Self { values, ..self })
     }
 
+    /// Rows below each other, so many columns of each.
+    #[must_use]
+    pub fn stacked(parts: Vec<Self>, columns: usize) -> Self {
+        let mut stacked = Self::zeros(parts.iter().map(|part| part.count).sum(), columns);
+        let mut at = 0;
+        for mut part in parts {
+            let count = part.count;
+            for (to, from) in stacked.columns_mut().zip(part.columns_mut()) {
+                to[at..at + count].copy_from_slice(from);
+            }
+            at += count;
+        }
+        stacked
+    }
+
+    /// How many rows.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
     /// As a matrix.
     #[must_use]
     pub fn to_matrix(mut self) -> Mat<f64> {

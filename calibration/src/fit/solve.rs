@@ -53,7 +53,11 @@ pub fn fit(chain: &Chain, observations: &Observations, options: &FitOptions) -> 
 impl Solver<'_> {
     fn run(mut self) -> Result<FitResult, FitError> {
         let weighting = self.options.weighting();
-        let mut course = match self.of_sample()? {
+        let near = match self.of_objects() {
+            None => self.of_sample()?,
+            near => near,
+        };
+        let mut course = match near {
             Some(near) => self.course_from(&near, weighting)?,
             None => {
                 let start = self.with_state(starting_values(self.chain, self.observations, self.options)?);
@@ -69,6 +73,12 @@ impl Solver<'_> {
         }
         self.release(&mut course)?;
         self.result(course)
+    }
+
+    /// Where another fit of these objects ended, if this one is to start there.
+    fn of_objects(&self) -> Option<Vec<f64>> {
+        let start = &self.options.start;
+        (start.len() > self.chain.symbols.len()).then(|| start.clone())
     }
 
     /// Where a fit of some of very many rows ends, evenly spread; none where they are not many, or that fit does not end well.

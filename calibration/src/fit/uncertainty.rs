@@ -2,13 +2,13 @@
 //!
 //! With a stated noise that the residuals do not contradict, by what is stated. Else by the residuals: of every kind of
 //! component, weighed by what each has part in; of whole groups where rows of a group are not independent; in order of
-//! acquisition where rows remember those before.
+//! acquisition where rows remember those before; row by row where rows observe objects.
 
 use faer::Mat;
 use model_core::SymbolId;
-use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
-use super::cluster::{Clusters, Share};
+use super::cluster::{ALONE, Clusters, Share};
+use super::estimable::Estimable;
 use super::objects::Reduction;
 use super::shared::{Order, Shared};
 use super::solver::{Course, Solver};
@@ -25,47 +25,12 @@ const MANY: f64 = 1000.0;
 /// Degrees of freedom that even a random walk leaves to its own size.
 const LEAST: f64 = 3.0;
 
+/// Sets of rows, and degrees of freedom, from which on every row's own residual says how uncertain it makes the estimates. As many
+/// as no period of a file has in common with them.
+const SETS_OF_ROWS: usize = 211;
+
 /// Groups above which each has so little part that none needs adjusting one by one.
 const MANY_GROUPS: usize = 5000;
-
-/// A combination that the data determine.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Estimable {
-    /// Parameters in their order with their factors (SI), the first 1.
-    pub combination: Vec<(SymbolId, f64)>,
-    /// Its value, SI, in the unit of the first.
-    pub value: f64,
-    /// Its standard uncertainty; `None` without degrees of freedom.
-    pub standard_uncertainty: Option<f64>,
-    /// The degrees of freedom of that; infinite where the noise is stated.
-    pub degrees_of_freedom: f64,
-}
-
-impl Estimable {
-    /// Half the width of the interval that holds the value with this confidence (0.95, say), SI; `None` where nothing is known.
-    #[must_use]
-    pub fn half_width(&self, confidence: f64) -> Option<f64> {
-        half_width(self.standard_uncertainty?, self.degrees_of_freedom, confidence)
-    }
-}
-
-/// From here on the quantile of Student's t is that of the normal distribution with one correction, to 1e-8; the library's
-/// search for it does not end at very many degrees of freedom.
-const NEARLY_NORMAL: f64 = 1e4;
-
-/// By Student's t.
-///
-/// Source: the first term of the expansion in M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions, 26.7.5.
-pub(super) fn half_width(uncertainty: f64, degrees_of_freedom: f64, confidence: f64) -> Option<f64> {
-    let share = f64::midpoint(1.0, confidence);
-    let reach = if degrees_of_freedom < NEARLY_NORMAL {
-        StudentsT::new(0.0, 1.0, degrees_of_freedom).ok()?.inverse_cdf(share)
-    } else {
-        let z = Normal::standard().inverse_cdf(share);
-        z + (z.powi(3) + z) / (4.0 * degrees_of_freedom)
-    };
-    Some(reach * uncertainty).filter(|width| width.is_finite())
-}
 
 /// The uncertainty of every combination of the estimates.
 pub(super) struct Uncertainty {
@@ -117,9 +82,9 @@ impl Solver<'_> {
         let found_noise = self.shared(course, weight, &root)?;
         let spread = if let Some(groups) = self.buckets(&self.observations.units()) {
             root = subspace.covariance_root(&self.partial(&course.point.sweep), rest);
-            let (q, e) = self.coordinates(course, weight, &root)?;
+            let Coordinates { q, residual, .. } = self.coordinates(course, weight, &root)?;
             // Weights move along with residuals, and by so much more the estimates.
-            let clusters = Clusters::new(shares(&q, &e, &groups));
+            let clusters = Clusters::new(shares(&q, &residual, &groups));
             let crossed = match &found_noise {
                 Shared::Offsets(offsets, own) if offsets.crossed => {
                     let (product, degrees_of_freedom) = offsets.covariance(&q);
@@ -135,14 +100,26 @@ impl Solver<'_> {
             Spread::Even { factor: 1.0 / level / efficiency, degrees_of_freedom: f64::INFINITY }
         } else if left < 1.0 {
             Spread::Unknown
+        } else if self.observations.unknowns.is_some() && left >= SETS_OF_ROWS as f64 {
+            // How far off a plane a point is hangs on how it was hit, and across a beam on the range, while along it does not:
+            // no variance of the joints is that of every component.
+            root = subspace.covariance_root(&self.partial(&course.point.sweep), rest);
+            let Coordinates { q, mut residual, followed } = self.coordinates(course, weight, &root)?;
+            for (value, followed) in residual.iter_mut().zip(followed) {
+                *value /= (1.0 - followed).max(ALONE).sqrt();
+            }
+            let of_component = self.layout.row.iter().map(|&row| row as usize % SETS_OF_ROWS).collect();
+            let sets = Buckets { of_component, count: SETS_OF_ROWS };
+            let clusters = Clusters::new(shares(&q, &residual, &sets));
+            Spread::Groups { factor: tally.stride().powi(2), clusters, crossed: None }
         } else if left < MANY && self.layout.kinds > 1 {
             let pool = pools(self.observations, &self.layout, self.used(course));
             let of_component: Vec<usize> =
                 self.layout.kind.iter().map(|&kind| pool[usize::from(kind)]).collect();
             let count = pool.iter().max().map_or(0, |last| last + 1);
             let counted: Vec<f64> = weight.iter().map(|weight| f64::from(u8::from(*weight > 0.0))).collect();
-            let (q, e) = self.coordinates(course, &counted, &root)?;
-            let shares = shares(&q, &e, &Buckets { of_component, count });
+            let Coordinates { q, residual, .. } = self.coordinates(course, &counted, &root)?;
+            let shares = shares(&q, &residual, &Buckets { of_component, count });
             let of = |share: Share| {
                 let used: f64 = (0..share.score.len()).map(|at| share.gram[(at, at)]).sum();
                 (share.gram, (share.count - used).max(1.0))
@@ -179,7 +156,7 @@ impl Solver<'_> {
         if self.groups().is_none() && white(&self.whitened(course, &counted)) {
             return Ok(Shared::Nothing);
         }
-        let (q, e) = self.coordinates(course, &counted, root)?;
+        let Coordinates { q, residual: e, .. } = self.coordinates(course, &counted, root)?;
         let beside =
             |most| trend::beside(self.chain, self.observations, &self.layout, &sigma, weight, &q, most);
         let (few, complete) = beside(trend::MOST[0]);
@@ -255,13 +232,8 @@ impl Solver<'_> {
         Some(Buckets { of_component: self.layout.row.iter().map(bucket).collect(), count })
     }
 
-    /// The columns of J, whitened and each row by the root of its weight, times the root, n × k; and the residual alike.
-    fn coordinates(
-        &self,
-        course: &Course,
-        weight: &[f64],
-        root: &Mat<f64>,
-    ) -> Result<(Mat<f64>, Vec<f64>), FitError> {
+    /// The columns of J, whitened and each row by the root of its weight, times the root; and the residual alike.
+    fn coordinates(&self, course: &Course, weight: &[f64], root: &Mat<f64>) -> Result<Coordinates, FitError> {
         let k = root.ncols();
         let mut by_column = Mat::<f64>::zeros(self.model.columns(), k);
         for (from, column) in root.row_iter().zip(self.model.column_of()) {
@@ -299,14 +271,23 @@ impl Solver<'_> {
             residual.extend(own);
             unknown.extend(of_objects);
         }
-        if let Some(unknowns) = &self.observations.unknowns {
+        let followed = self.observations.unknowns.as_ref().map_or_else(Vec::new, |unknowns| {
             let row = &self.layout.row;
             let scale = row.iter().zip(sigma.iter()).map(|(&row, sigma)| weight[row as usize].sqrt() / sigma);
-            Reduction::new(unknowns, row, &unknown, scale.collect())
-                .project(unknowns, row, &unknown, &mut whole);
-        }
-        Ok((whole, residual))
+            let reduction = Reduction::new(unknowns, row, &unknown, scale.collect());
+            reduction.project(unknowns, row, &unknown, &mut whole)
+        });
+        Ok(Coordinates { q: whole, residual, followed })
     }
+}
+
+/// Where the components stand among the determined combinations.
+struct Coordinates {
+    /// Orthonormal columns, n × k.
+    q: Mat<f64>,
+    residual: Vec<f64>,
+    /// The share of each component's own residual that objects and stations follow; empty where there are none.
+    followed: Vec<f64>,
 }
 
 /// What each bucket of components has part in.

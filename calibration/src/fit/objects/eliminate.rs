@@ -14,6 +14,7 @@
 use faer::Mat;
 use rayon::prelude::*;
 
+use super::gathered::Gathered;
 use crate::data::unknowns::{Freedom, OF_OBJECT, Unknowns, WIDTH};
 use crate::fit::{Partial, Rows};
 
@@ -22,7 +23,7 @@ use crate::fit::{Partial, Rows};
 const HOLD: f64 = 1e-6;
 
 /// Parts that the objects are cut into: as many whatever the number of processors, which changes no bit.
-const PARTS: usize = 16;
+const PARTS: usize = 8;
 
 /// A column of which less than this share is left, objects and stations aside, moved nothing else.
 const NOTHING: f64 = 3e-5;
@@ -104,13 +105,14 @@ impl Eliminated {
             if let Some(own) = own {
                 let start = layout.first_of_station[station];
                 let places = (start..start + OF_STATION).chain(of_stations..of_stations + columns + 1);
-                let own = own.factor();
+                let own = own.into_whole().factor();
                 whole.add(spread(own.nrows(), self::columns(&own), places, of_stations + columns + 1));
             }
         }
-        let bare = bare.factor();
+        let bare = bare.into_whole().factor();
         let places = of_stations..of_stations + columns + 1;
         whole.add(spread(bare.nrows(), self::columns(&bare), places, of_stations + columns + 1));
+        let mut whole = whole.into_whole();
         let free = held(&layout, &mut whole, &mut objective);
 
         let factor = whole.factor();
@@ -191,11 +193,11 @@ impl<'a> Layout<'a> {
 /// What some objects leave of their rows.
 struct Sums {
     /// Over the columns of all stations and the chain.
-    whole: Partial,
+    whole: Gathered,
     /// Over the columns of one station and the chain; none where nothing came of it.
-    of_station: Vec<Option<Partial>>,
+    of_station: Vec<Option<Gathered>>,
     /// Over the chain's columns, of rows that move no station.
-    bare: Partial,
+    bare: Gathered,
     taken: f64,
     objective: f64,
     triangles: Vec<Triangle>,
@@ -206,9 +208,9 @@ struct Sums {
 impl Sums {
     fn new(layout: &Layout<'_>) -> Self {
         Self {
-            whole: Partial::new(layout.of_stations + layout.columns),
+            whole: Gathered::new(layout.of_stations + layout.columns),
             of_station: vec![None; layout.unknowns.stations.len()],
-            bare: Partial::new(layout.columns),
+            bare: Gathered::new(layout.columns),
             taken: 0.0,
             objective: 0.0,
             triangles: Vec::new(),
@@ -217,15 +219,15 @@ impl Sums {
     }
 
     fn merge(&mut self, other: Self) {
-        self.whole.add(rows(&other.whole.factor()));
+        self.whole.add(rows(&other.whole.into_whole().factor()));
         for (own, other) in self.of_station.iter_mut().zip(other.of_station) {
             match (own.as_mut(), other) {
-                (Some(own), Some(other)) => own.add(rows(&other.factor())),
+                (Some(own), Some(other)) => own.add(rows(&other.into_whole().factor())),
                 (None, other) => *own = other,
                 (Some(_), None) => {}
             }
         }
-        self.bare.add(rows(&other.bare.factor()));
+        self.bare.add(rows(&other.bare.into_whole().factor()));
         self.taken += other.taken;
         self.objective += other.objective;
         self.triangles.extend(other.triangles);
@@ -281,7 +283,7 @@ impl Sums {
                 None => self.bare.add(rest),
                 Some(station) => {
                     let sum = &mut self.of_station[station];
-                    sum.get_or_insert_with(|| Partial::new(OF_STATION + columns)).add(rest);
+                    sum.get_or_insert_with(|| Gathered::new(OF_STATION + columns)).add(rest);
                 }
             }
         }

@@ -7,6 +7,7 @@
 //! What one row shows stands in `seen`, the elimination in `eliminate`, its rotation of whole columns in `reduce`.
 
 mod eliminate;
+mod gathered;
 mod reduce;
 mod seen;
 

@@ -86,14 +86,15 @@ impl Reduction {
 }
 
 impl Reduction {
-    /// Takes out of whitened columns what objects and stations explain of them, in place.
+    /// Takes out of whitened columns what objects and stations explain of them, in place. Returns of each component the share
+    /// of a residual of its own that objects and stations follow.
     pub fn project(
         &self,
         unknowns: &Unknowns,
         row: &[u32],
         unknown: &[[f64; WIDTH]],
         columns: &mut Mat<f64>,
-    ) {
+    ) -> Vec<f64> {
         for j in 0..columns.ncols() {
             self.take_out(columns.col_as_slice_mut(j));
         }
@@ -120,6 +121,25 @@ impl Reduction {
         for j in 0..columns.ncols() {
             basis.iter().for_each(|known| without(columns.col_as_slice_mut(j), known));
         }
+        let mut followed = self.followed();
+        for known in &basis {
+            followed.iter_mut().zip(known).for_each(|(share, value)| *share += value * value);
+        }
+        followed
+    }
+
+    /// Of each component the share of a residual of its own that its object follows.
+    fn followed(&self) -> Vec<f64> {
+        let mut followed = vec![0.0; self.scale.len()];
+        for turned in &self.turned {
+            for number in (0..turned.moves.len()).filter(|&number| turned.moves[number]) {
+                let mut unit = vec![0.0; turned.at.len()];
+                unit[number] = 1.0;
+                turned.turn_back(&mut unit);
+                turned.at.iter().zip(unit).for_each(|(&at, value)| followed[at] += value * value);
+            }
+        }
+        followed
     }
 
     /// Takes out of a whitened column what objects explain of it.
@@ -220,6 +240,16 @@ mod tests {
         let explained =
             |i: usize| (0..3).map(|j| (1.0 + (i % 2) as f64) * (j as f64 + 1.0) * unknown[i][j]).sum::<f64>();
         let physical: Vec<f64> = (0..12).map(|i| if i == 5 { 3.0 } else { explained(i) }).collect();
+        // What each component's own residual leaves of itself.
+        let followed = reduction.followed();
+        for (at, followed) in followed.iter().enumerate() {
+            let mut unit = vec![0.0; 12];
+            unit[at] = 1.0;
+            reduction.take_out(&mut unit);
+            assert!((1.0 - unit[at] - followed).abs() < 1e-12, "{at}: {unit:?}");
+        }
+        // Sines of three phases are sums of two, for each object.
+        assert!((followed.iter().sum::<f64>() - 4.0).abs() < 1e-12 && followed[5] == 0.0, "{followed:?}");
         let mut white: Vec<f64> = physical.iter().zip(&scale).map(|(value, scale)| value * scale).collect();
         reduction.reduce(&mut white);
         let left: f64 = white.iter().enumerate().filter(|(i, _)| *i != 5).map(|(_, x)| x * x).sum();

@@ -3,7 +3,7 @@
 
 use calibration::calibrate::{Request, calibrate};
 use calibration::candidate::Freedom;
-use calibration::data::{Measure, Measured, Observations, Poses, Series, tangent_frame};
+use calibration::data::{Measure, Measured, Observations, tangent_frame};
 use calibration::diagnose::{Diagnosis, EffectFound};
 use calibration::effects::assembly_name;
 use calibration::study::{Plan, Study};
@@ -15,6 +15,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 
 use crate::data::{load, root};
+use crate::simulated::observed_alone;
 
 const ARCSEC: f64 = std::f64::consts::PI / 180.0 / 3600.0;
 
@@ -96,17 +97,7 @@ fn measured(
             }
         });
     }
-    columns.sort_by_key(|(id, _)| *id);
-    Observations {
-        poses: Poses {
-            series: vec![Series { observable, measure, rows: 0..rows, source: "simulated".to_owned() }],
-            columns,
-        },
-        measured: observed,
-        groups: (0..rows as u32).collect(),
-        row_numbers: (1..=rows as u64).collect(),
-        ..Observations::default()
-    }
+    observed_alone(&plan.chain, name, measure, columns, observed)
 }
 
 #[test]

@@ -2,9 +2,7 @@
 //! simulated data that have the effect.
 
 use calibration::calibrate::{Calibration, Request, calibrate};
-use calibration::data::{
-    Measure, Measured, Observations, Poses, Series, direction_from_spherical, tangent_frame,
-};
+use calibration::data::{Measure, Measured, direction_from_spherical, tangent_frame};
 use calibration::study::Study;
 use model_core::{Chain, SymbolId};
 use rand::{RngExt, SeedableRng};
@@ -12,6 +10,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 
 use crate::data::root;
+use crate::simulated::observed_alone;
 
 const ARCSEC: f64 = std::f64::consts::PI / 180.0 / 3600.0;
 
@@ -37,22 +36,7 @@ fn calibrated(droop: f64) -> Calibration {
         let mut noise = || 5.0 * ARCSEC * random.sample::<f64, _>(StandardNormal);
         measured.push(Measured::Direction((aim + across * noise() + along * noise()).normalize()));
     }
-    columns.sort_by_key(|(id, _)| *id);
-    let observations = Observations {
-        poses: Poses {
-            series: vec![Series {
-                observable: chain.find_observable("sight").unwrap(),
-                measure: Measure::Direction,
-                rows: 0..rows,
-                source: "simulated".to_owned(),
-            }],
-            columns,
-        },
-        measured,
-        groups: (0..rows as u32).collect(),
-        row_numbers: (1..=rows as u64).collect(),
-        ..Observations::default()
-    };
+    let observations = observed_alone(&chain, "sight", Measure::Direction, columns, measured);
     calibrate(Request {
         text: &text,
         plan: &plan,

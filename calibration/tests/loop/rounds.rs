@@ -1,6 +1,6 @@
 //! Targets that are observed in several rounds: each stands a little wrong, the same way in every round.
 
-use calibration::data::{Measure, Measured, Observations, Poses, Series, tangent_frame};
+use calibration::data::{Measure, Measured, Observations, tangent_frame};
 use calibration::diagnose::{Caution, Diagnosis};
 use calibration::study::Study;
 use model_core::Chain;
@@ -8,7 +8,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 
-use crate::simulated::{lidar, pointing, search};
+use crate::simulated::{lidar, observed_alone, pointing, search};
 
 const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;
 const PLACES: usize = 60;
@@ -54,23 +54,10 @@ fn report(seed: u64, Rounds { off_rad, shift_rad, eccentric_rad, aimed_rad }: Ro
         });
         observed.push(Measured::Direction((aim + across * right + along * up).normalize()));
     }
-    columns.sort_by_key(|(id, _)| *id);
-    let rows = observed.len();
-    let observations = Observations {
-        poses: Poses {
-            series: vec![Series {
-                observable: chain.find_observable("pointing").unwrap(),
-                measure: Measure::Direction,
-                rows: 0..rows,
-                source: "simulated".to_owned(),
-            }],
-            columns,
-        },
-        measured: observed,
-        groups: (0..rows as u32).map(|row| if shift_rad > 0.0 { row / PLACES as u32 } else { row }).collect(),
-        row_numbers: (1..=rows as u64).collect(),
-        ..Observations::default()
-    };
+    let alone = observed_alone(&chain, "pointing", Measure::Direction, columns, observed);
+    let rows = 0..(PLACES * ROUNDS) as u32;
+    let groups = rows.map(|row| if shift_rad > 0.0 { row / PLACES as u32 } else { row }).collect();
+    let observations = Observations { groups, ..alone };
     search(&text, &plan, &observations).diagnosis
 }
 

@@ -29,6 +29,27 @@ fn plan(chain: &Chain) -> Plan {
     Study::from_text(study).unwrap().plan(chain).unwrap()
 }
 
+/// Readings and what was observed at them, each row a group of its own.
+pub(crate) fn observed_alone(
+    chain: &Chain,
+    observable: &str,
+    measure: Measure,
+    mut columns: Vec<(SymbolId, Vec<f64>)>,
+    measured: Vec<Measured>,
+) -> Observations {
+    columns.sort_by_key(|(id, _)| *id);
+    let rows = measured.len();
+    let observable = chain.find_observable(observable).unwrap();
+    let series = Series { observable, measure, rows: 0..rows, source: "simulated".to_owned() };
+    Observations {
+        poses: Poses { series: vec![series], columns },
+        measured,
+        groups: (0..rows as u32).collect(),
+        row_numbers: (1..=rows as u64).collect(),
+        ..Observations::default()
+    }
+}
+
 /// Observations of a plan's chain at random poses: `truth` turns the readings (alpha, beta, gamma, temperature,
 /// direction of beta) into what the instrument does.
 pub(crate) fn measured(
@@ -54,23 +75,7 @@ pub(crate) fn measured(
         let noise = [(); 2].map(|()| NOISE * random.sample::<f64, _>(StandardNormal));
         observed.push(Measured::Direction((aim + across * noise[0] + along * noise[1]).normalize()));
     }
-    columns.sort_by_key(|(id, _)| *id);
-    let observable = plan.chain.find_observable("pointing").unwrap();
-    Observations {
-        poses: Poses {
-            series: vec![Series {
-                observable,
-                measure: Measure::Direction,
-                rows: 0..rows,
-                source: "simulated".to_owned(),
-            }],
-            columns,
-        },
-        measured: observed,
-        groups: (0..rows as u32).collect(),
-        row_numbers: (1..=rows as u64).collect(),
-        ..Observations::default()
-    }
+    observed_alone(&plan.chain, "pointing", Measure::Direction, columns, observed)
 }
 
 /// The pointing of a chain text with some errors set, at some readings.

@@ -15,7 +15,7 @@ use crate::search::round::Round;
 use crate::search::{HeldOut, SearchError, Stage, nested};
 
 /// Fewer observations than this are no evidence of an effect.
-const FEW: f64 = 5.0;
+const FEW: f64 = 6.0;
 
 /// The round that the report is about, judged on held-out rows.
 pub(super) struct Judged<'a> {

@@ -68,7 +68,7 @@ pub enum Caution {
         /// Their unit.
         unit: SiUnit,
     },
-    /// An effect passed the test, but hangs on fewer than five observations: it was left out again.
+    /// An effect passed the test, but hangs on fewer than six observations: it was left out again.
     #[serde(rename = "few observations behind an effect")]
     FewBehindAnEffect {
         /// Its name.

@@ -29,7 +29,7 @@ pub enum Verdict {
     /// No effect stands out from the noise.
     #[serde(rename = "nothing detectable")]
     NothingDetectable,
-    /// Too few observations for what is to be estimated, or an effect that hangs on fewer than five is all that stands out.
+    /// Too few observations for what is to be estimated, or an effect that hangs on fewer than six is all that stands out.
     #[serde(rename = "too few observations")]
     TooFewObservations,
     /// The fit did not end at a minimum: its numbers mean nothing.

@@ -227,7 +227,7 @@ fn too_few(diagnosis: &Diagnosis) -> String {
             diagnosis.observations.rows, diagnosis.fit.rank[0], diagnosis.fit.rank[1]
         ),
         Ended::Converged { .. } | Ended::NotConverged { .. } | Ended::FarOff { .. } => {
-            "An effect stands out, but it rests on fewer than five observations: it was left out.".to_owned()
+            "An effect stands out, but it rests on fewer than six observations: it was left out.".to_owned()
         }
     }
 }

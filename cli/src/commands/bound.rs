@@ -50,20 +50,16 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let (chain, sizes) = errors_file::chain_and_sizes(&arguments.chain, arguments.sizes.needed()?)?;
     let ranges = ranges::of_chain(&chain, &arguments.range)?;
     let answers = bounds(&chain, &sizes, &ranges, &arguments.observable, arguments.seed)?;
-    let printed = match arguments.format {
+    match arguments.format {
         TextOrJson::Text => {
             let texts: Vec<String> =
                 answers.iter().map(|(bound, found)| remainder::text(bound, Some(found), &chain)).collect();
-            texts.join("\n")
+            terminal::print_text(&texts.join("\n"))?;
         }
         TextOrJson::Json => {
             let bounds: Vec<_> = answers.iter().map(|(bound, found)| as_json(&chain, bound, found)).collect();
-            format!("{:#}\n", json!({ "bounds": bounds }))
+            terminal::print(&format!("{:#}\n", json!({ "bounds": bounds })))?;
         }
-    };
-    match arguments.format {
-        TextOrJson::Text => terminal::print_text(&printed)?,
-        TextOrJson::Json => terminal::print(&printed)?,
     }
     Ok(Answer::Done)
 }

@@ -102,20 +102,16 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     if !arguments.designer.is_asked() {
         measured.iter_mut().for_each(|one| one.designed = None);
     }
-    let printed = match arguments.format {
+    match arguments.format {
         TextOrJson::Text => {
             let tables: Vec<String> = measured.iter().map(|one| budget::as_text(&chain, one)).collect();
-            tables.join("\n")
+            terminal::print_text(&tables.join("\n"))?;
         }
         TextOrJson::Json => {
             let budgets: Vec<Value> =
                 measured.iter().map(|one| budget::as_json(&chain, one, &poses)).collect();
-            format!("{:#}\n", json!({ "observables": budgets }))
+            terminal::print(&format!("{:#}\n", json!({ "observables": budgets })))?;
         }
-    };
-    match arguments.format {
-        TextOrJson::Text => terminal::print_text(&printed)?,
-        TextOrJson::Json => terminal::print(&printed)?,
     }
     Ok(Answer::Done)
 }

@@ -144,7 +144,8 @@ export function {name}(p{arguments}) {{
         let js = JavaScript { row: "[row]", ..js };
         let evaluated = js.statements(&lowered.evaluated, 4);
         let stores: String = self
-            .places(function.form)
+            .shared
+            .places(function.form, self.names)
             .iter()
             .zip(&lowered.outputs)
             .map(|(place, value)| format!("    out.{place}[row] = {};\n", js.text(value)))
@@ -177,23 +178,6 @@ export function {name}Rows(p{arguments}, out) {{
 "
         ));
         text
-    }
-
-    fn places(&self, form: Form) -> Vec<String> {
-        let mut places = Vec::new();
-        for &id in self.shared.unit.observables {
-            for component in 0..self.shared.shown(id) {
-                let component = format!("{}[{component}]", self.names.observable(id));
-                if form.is_jacobian() {
-                    places.extend(
-                        (0..self.shared.columns.len()).map(|column| format!("{component}[{column}]")),
-                    );
-                } else {
-                    places.push(component);
-                }
-            }
-        }
-        places
     }
 
     fn observed(&self, js: &JavaScript<'_>, form: Form, lowered: &Pose) -> String {

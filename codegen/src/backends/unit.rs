@@ -3,7 +3,7 @@
 use model_core::{Chain, ObservableId, Quantity, SymbolId, SymbolKind};
 
 use super::comments;
-use super::names::camel_case;
+use super::names::{Names, camel_case};
 use crate::build::Builds;
 use crate::program::{Form, Program};
 
@@ -167,6 +167,22 @@ impl<'a> Shared<'a> {
             rows = rest;
         }
         parts
+    }
+
+    /// Where each output of a form goes, in order: components of a field for each observable, or columns of them.
+    pub(crate) fn places(&self, form: Form, names: &Names) -> Vec<String> {
+        let mut places = Vec::new();
+        for &id in self.unit.observables {
+            for component in 0..self.shown(id) {
+                let component = format!("{}[{component}]", names.observable(id));
+                if form.is_jacobian() {
+                    places.extend((0..self.columns.len()).map(|column| format!("{component}[{column}]")));
+                } else {
+                    places.push(component);
+                }
+            }
+        }
+        places
     }
 
     /// How many numbers a form has for each component of an observable.

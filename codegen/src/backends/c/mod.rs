@@ -236,7 +236,7 @@ typedef struct {{
         for (variant, sin_cos) in variants {
             let (signature, c) = (self.one(function.form, variant), c(sin_cos));
             let body = c.statements(&lowered.evaluated, 4);
-            let places = self.places(function.form);
+            let places = self.shared.places(function.form, self.names);
             let stores: String = places
                 .iter()
                 .zip(&lowered.outputs)
@@ -247,24 +247,6 @@ typedef struct {{
             ));
         }
         text
-    }
-
-    /// Where each output of a form goes, in order.
-    fn places(&self, form: Form) -> Vec<String> {
-        let mut places = Vec::new();
-        for &id in self.shared.unit.observables {
-            for component in 0..self.shared.shown(id) {
-                let component = format!("{}[{component}]", self.names.observable(id));
-                if form.is_jacobian() {
-                    places.extend(
-                        (0..self.shared.columns.len()).map(|column| format!("{component}[{column}]")),
-                    );
-                } else {
-                    places.push(component);
-                }
-            }
-        }
-        places
     }
 
     /// Something of each argument of a pose.

@@ -256,7 +256,7 @@ fn of_components(file: &File<'_>, function: &Function, lowered: &Block) -> Strin
     let Paths { definitions, choice } =
         paths(&format!("{prefix}_{name}"), &parameters, &arguments, &arguments);
     let columns: String = columns(file, lowered).iter().map(|column| format!(", {column} + first")).collect();
-    let places = file.places(function.form);
+    let places = file.shared.places(function.form, file.names);
     let outs: String = places.iter().map(|place| format!(", out->{place} + first")).collect();
     let unread = file.of_pose(&|group| format!("    (void){};\n", group.argument));
     let poses = file.of_pose(&|group| format!("            {prefix}_{0} {1};\n", group.argument, one(group)));

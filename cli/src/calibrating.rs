@@ -90,6 +90,7 @@ impl Studied {
         let loaded = loaded.map_err(tables::failure)?;
         self.plan.doubts.iter().for_each(terminal::warn);
         self.plan.unstated.iter().for_each(terminal::warn);
+        self.plan.unsought.iter().for_each(terminal::warn);
         self.plan.timeless.iter().for_each(terminal::warn);
         loaded.doubtful.iter().for_each(terminal::warn);
         loaded.remarks.iter().for_each(terminal::warn);

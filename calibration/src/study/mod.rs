@@ -23,11 +23,13 @@ mod shown;
 mod sigma;
 mod syntax;
 mod timeless;
+mod unsought;
 mod unstated;
 mod written;
 
 pub use load::{Loaded, Open, OpenTable};
 pub use plan::{HoldOut, NextPoses, Plan, Search, SourcePlan};
 pub use timeless::Timeless;
+pub use unsought::Unsought;
 pub use unstated::Unstated;
 pub use written::Study;

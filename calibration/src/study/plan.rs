@@ -12,6 +12,7 @@ use super::observed::{ObservedColumns, observed_columns};
 use super::orientation;
 use super::shown::{self, Convention};
 use super::timeless::{Timeless, timeless};
+use super::unsought::{Unsought, unsought};
 use super::unstated::{Unstated, unstated};
 use super::written::{Column, Kind, Study, Table};
 use crate::candidate::Effect;
@@ -43,6 +44,8 @@ pub struct Plan {
     pub doubts: Vec<Doubt>,
     /// Inputs whose names sound like what they do not state.
     pub unstated: Vec<Unstated>,
+    /// Inputs that say what they are, and that nothing uses.
+    pub unsought: Vec<Unsought>,
     /// Whether the rows are in sequence while nothing says when they were taken.
     pub timeless: Option<Timeless>,
     pub(super) id: Option<String>,
@@ -181,6 +184,8 @@ impl Study {
         let (data_from, doubts) = (self.data_from.clone(), self.doubts(&chain, &sources));
         let chain = shown::vectors(chain);
         let unstated = unstated(&chain, &search.inputs);
+        let observed: Vec<_> = sources.iter().map(|source| source.observable).collect();
+        let unsought = unsought(&chain, &observed, &search);
         let timeless =
             if search.sequence { timeless(&chain, &search.inputs, order.as_deref()) } else { None };
         Ok(Plan {
@@ -193,6 +198,7 @@ impl Study {
             data_from,
             doubts,
             unstated,
+            unsought,
             timeless,
             id,
             group,

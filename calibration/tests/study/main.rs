@@ -224,6 +224,33 @@ fn names_of_a_study_are_names_of_the_language() {
     }
 }
 
+/// What derives a column, or declares the meaning of an input, and lets nothing use it, has most likely forgotten to.
+#[test]
+fn inputs_that_nothing_uses_are_remarked() {
+    let remarked = |chain: &str, study: &str| -> Vec<String> {
+        let plan = Study::from_text(study).unwrap().plan(&Chain::from_text(chain).unwrap()).unwrap();
+        plan.unsought.iter().map(ToString::to_string).collect()
+    };
+    let told = remarked(MOUNT, STUDY);
+    assert_eq!(told.len(), 2, "{told:#?}");
+    assert!(
+        told[0].contains("input sense (direction)") && told[1].contains("input drift (time)"),
+        "{told:#?}"
+    );
+    assert!(told[0].contains("inputs = [\"sense\"] under [search]"), "{told:#?}");
+    let named = STUDY.replace("[\"temperature\"]", "[\"temperature\", \"sense\", \"drift\"]");
+    assert_eq!(remarked(MOUNT, &named), [""; 0]);
+    // The declaration may use one itself.
+    let creeps = MOUNT
+        .replace("Rx(elevation_index)", "Rx(elevation_index), Rx(creep*drift)")
+        .replace("symbol azimuth", "input drift: time;\n    symbol azimuth");
+    let told = remarked(&creeps, STUDY);
+    assert!(told.len() == 1 && told[0].contains("input sense"), "{told:#?}");
+    // Whoever names the effects that may be found has said what is looked for.
+    let only = STUDY.replace("[search]", "[search]\neffects = [\"encoder\"]");
+    assert_eq!(remarked(MOUNT, &only), [""; 0]);
+}
+
 /// A drift is one of the time since the first row, which nothing says here.
 #[test]
 fn rows_in_sequence_without_a_time_are_remarked() {

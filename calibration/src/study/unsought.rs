@@ -1,0 +1,44 @@
+//! Inputs that say what they are, while neither the declaration nor an effect may use them.
+
+use std::fmt;
+
+use model_core::{Chain, ObservableId, SymbolId, SymbolKind};
+
+use super::plan::Search;
+
+/// An input that nothing uses.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unsought {
+    name: String,
+    meaning: &'static str,
+}
+
+impl fmt::Display for Unsought {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, meaning } = self;
+        write!(
+            f,
+            "nothing uses the input {name} ({meaning}): to look for effects that follow it, write inputs = [\"{name}\"] under \
+             [search]"
+        )
+    }
+}
+
+/// The inputs with a meaning that no observable hangs on and no effect may follow; none where the study names the effects
+/// that may be found.
+pub(super) fn unsought(chain: &Chain, observables: &[ObservableId], search: &Search) -> Vec<Unsought> {
+    if !search.only.is_empty() {
+        return Vec::new();
+    }
+    let mut used: Vec<SymbolId> = observables.iter().flat_map(|&id| chain.symbols_of_way(id)).collect();
+    // A phase that effects may follow is one of a range.
+    used.extend(search.inputs.iter().flat_map(|&id| [Some(id), chain.symbol(id).of]).flatten());
+    chain
+        .symbols_of(SymbolKind::Input)
+        .filter(|id| !used.contains(id))
+        .filter_map(|id| {
+            let symbol = chain.symbol(id);
+            Some(Unsought { name: symbol.name.clone(), meaning: symbol.meaning?.word() })
+        })
+        .collect()
+}

@@ -7,8 +7,9 @@ use crate::data::unknowns::Unknowns;
 use crate::data::{Measure, Measured, Observations};
 
 /// A row that observes an object: the point that the chain says, without errors.
-pub(super) struct Row {
+pub(crate) struct Row {
     pub number: usize,
+    pub series: usize,
     pub object: usize,
     pub station: usize,
     pub measure: Measure,
@@ -17,7 +18,7 @@ pub(super) struct Row {
 }
 
 /// The rows that observe objects.
-pub(super) fn rows(
+pub(crate) fn rows(
     chain: &Chain,
     observations: &Observations,
     unknowns: &Unknowns,
@@ -26,7 +27,7 @@ pub(super) fn rows(
     let mut values = values.to_vec();
     values.truncate(chain.symbols.len());
     let mut rows = Vec::new();
-    for series in &observations.poses.series {
+    for (of, series) in observations.poses.series.iter().enumerate() {
         let path = exact::Path::new(chain, series.observable);
         for row in series.rows.clone() {
             let Some(object) = unknowns.object[row] else { continue };
@@ -37,7 +38,7 @@ pub(super) fn rows(
             if point.iter().all(|part| part.is_finite()) {
                 let (station, measured) = (unknowns.station[row] as usize, observations.measured[row]);
                 let (object, measure) = (object as usize, series.measure);
-                rows.push(Row { number: row, object, station, measure, point, measured });
+                rows.push(Row { number: row, series: of, object, station, measure, point, measured });
             }
         }
     }

@@ -11,6 +11,7 @@ mod effects;
 mod estimated;
 mod format;
 mod inputs;
+mod kind;
 mod load;
 mod memory;
 mod mistakes;
@@ -27,7 +28,7 @@ mod unstated;
 mod written;
 
 pub use load::{Loaded, Open, OpenTable};
-pub use plan::{HoldOut, NextPoses, Plan, Search, SourcePlan};
+pub use plan::{HoldOut, NextPlaces, NextPoses, Plan, Search, SourcePlan};
 pub use timeless::Timeless;
 pub use unstated::Unstated;
 pub use written::Study;

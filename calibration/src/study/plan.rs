@@ -71,8 +71,23 @@ pub struct HoldOut {
 pub struct NextPoses {
     /// How many.
     pub count: usize,
-    /// Between which values of a joint, SI; joints without a range stay within that of the data.
+    /// Between which values of a joint, or of a range that is measured, SI; those without stay within that of the data.
     pub ranges: Vec<(SymbolId, Range<f64>)>,
+    /// What to add instead where rows observe objects from stations.
+    pub places: Option<NextPlaces>,
+}
+
+/// How many stations and objects to propose, and where.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NextPlaces {
+    /// Rows of each; as many as stations or objects have so far where the study does not say.
+    pub poses: Option<usize>,
+    /// Places to stand.
+    pub stations: usize,
+    /// Objects of each kind.
+    pub objects: Vec<(Measure, usize)>,
+    /// Between which x, y, z (m) and headings (rad).
+    pub bounds: [Option<Range<f64>>; 4],
 }
 
 /// Files that observe one thing in one way.
@@ -145,7 +160,7 @@ impl Study {
         let sources = mistakes.take(self.sources(&chain));
         let fit = mistakes.take(self.fit_options(&chain));
         let hold_out = mistakes.take(self.held_out());
-        let next = mistakes.take(self.next(&chain));
+        let next = sources.as_ref().and_then(|sources| mistakes.take(self.next(&chain, sources)));
         let format = mistakes.take(self.format());
         let sigma = sources.as_ref().and_then(|sources| mistakes.take(self.stated_sigma(sources)));
         let observables: Option<Vec<ObservableId>> =

@@ -10,6 +10,9 @@ use crate::objects::Remedy;
 /// Pointings of one proposal that a table holds.
 const POINTINGS: usize = 12;
 
+/// What gets smaller by less than this is as it was.
+const GAINS: f64 = 0.995;
+
 /// Every proposal; what both rules propose, once.
 pub(super) fn tables_of_places(diagnosis: &Diagnosis, unit: impl Fn(&str) -> SiUnit) -> Vec<PoseTable> {
     let all = &diagnosis.next_places;
@@ -67,7 +70,9 @@ fn table(
     if count > POINTINGS {
         notes.push(format!("{count} pointings in all, about as they stand here; report.json lists every one"));
     }
-    let gains = gained(diagnosis, &proposal.uncertainties);
+    let shown = |(name, now, then): &&(String, f64, f64)| !proposal.never.contains(name) && *then < GAINS * now;
+    let shown: Vec<_> = proposal.uncertainties.iter().filter(shown).cloned().collect();
+    let gains = gained(diagnosis, &shown);
     if gains.is_empty() {
         notes.push("nothing that is placed so makes an error surer".to_owned());
     }

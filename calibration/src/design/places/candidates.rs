@@ -54,6 +54,8 @@ pub(super) struct Possible {
 pub(super) struct Candidates<'a> {
     /// Where objects and stations are.
     pub unknowns: Unknowns,
+    /// What would be known of another station.
+    of_stations: Freedom,
     wanted: &'a NextPlaces,
     measures: Vec<Measure>,
     /// One a series that observes objects.
@@ -66,16 +68,17 @@ pub(super) struct Candidates<'a> {
 }
 
 impl<'a> Candidates<'a> {
-    /// `unknowns` are those of the observations where the fit has them.
+    /// Of observations whose objects and stations are where the fit has them.
     pub fn of(
         chain: &Chain,
         observations: &Observations,
-        unknowns: Unknowns,
+        of_stations: Freedom,
         values: &[f64],
         next: &NextPoses,
         wanted: &'a NextPlaces,
     ) -> Self {
         let poses = &observations.poses;
+        let unknowns = observations.unknowns.clone().unwrap_or_default();
         let aims = poses.series.iter().map(|series| {
             let observes = Shape::of(series.measure).is_some() && !series.rows.is_empty();
             observes.then(|| Aim::new(chain, series.observable, poses, &next.ranges, values))
@@ -87,6 +90,7 @@ impl<'a> Candidates<'a> {
             measures: poses.series.iter().map(|series| series.measure).collect(),
             has_beam: !ranges_of(chain, poses, &next.ranges).is_empty(),
             unknowns,
+            of_stations,
             wanted,
             rows,
             hits,
@@ -149,8 +153,7 @@ impl<'a> Candidates<'a> {
         let (.., yaw) = first.pose.turn.euler_angles();
         let turn = Rotation3::from_euler_angles(0.0, 0.0, heading - yaw) * first.pose.turn;
         let pose = Pose { turn, shift };
-        let freedom = as_the_others(self.stations().map(|station| station.freedom));
-        let station = Station { label: String::new(), freedom, known: Placed::Yes, pose };
+        let station = Station { label: String::new(), freedom: self.of_stations, known: Placed::Yes, pose };
         let per_station = self.rows_per(|row| row.station);
         let wanted = self.wanted.poses.unwrap_or(per_station);
 
@@ -277,10 +280,10 @@ impl<'a> Candidates<'a> {
     }
 }
 
-/// What would be known of one more.
-fn as_the_others(mut others: impl Iterator<Item = Freedom>) -> Freedom {
+/// What would be known of one more: what is known of every other.
+pub(super) fn as_the_others(mut others: impl Iterator<Item = Freedom>) -> Freedom {
     let Some(first) = others.next() else { return Freedom::Free };
-    if first != Freedom::Free && others.all(|other| other == first) { first } else { Freedom::Free }
+    if others.all(|other| other == first) { first } else { Freedom::Free }
 }
 
 /// A point of so many dimensions that fill the unit cube evenly.

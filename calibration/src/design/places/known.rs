@@ -13,8 +13,9 @@ use crate::fit::{FitError, FitResult, Model};
 /// Objects that a new station may aim at, those with the most rows; all others are eliminated, as a fit does.
 const AIMED_AT: usize = 150;
 
-/// Where what nobody knows may be turned, rad.
-const ANY_TURN_RAD: f64 = 1.0;
+/// How far what nobody knows may be turned, rad, and where it may be, as a share of how far apart things are: so much more than
+/// rows leave open that it tells nothing, and not so much that digits are lost.
+const ANY: f64 = 0.1;
 
 /// All numbers that an addition can have to do with.
 pub(super) struct Known {
@@ -34,7 +35,7 @@ pub(super) struct Known {
 pub(super) fn roots(freedom: Freedom, turns: [bool; 6], extent_m: f64) -> [f64; 6] {
     let (shift_m, turn_rad) = match freedom {
         Freedom::Within { shift_m, turn_rad } => (shift_m, turn_rad),
-        Freedom::Free | Freedom::Given => (extent_m, ANY_TURN_RAD),
+        Freedom::Free | Freedom::Given => (ANY * extent_m, ANY),
     };
     turns.map(|turn| 1.0 / if turn { turn_rad } else { shift_m })
 }
@@ -49,12 +50,15 @@ pub(super) fn of_object(shape: Shape) -> [bool; 6] {
 }
 
 impl Known {
-    /// `sizes` are those of the errors as far as the study says.
+    /// `values` are those of the fit, objects and stations where the observations have them; `sizes` those of the errors as far
+    /// as the study says.
+    #[allow(clippy::too_many_arguments)]
     pub fn of(
         model: &Model,
         observations: &Observations,
         unknowns: &Unknowns,
         fit: &FitResult,
+        values: &[f64],
         sizes: &[f64],
         extent_m: f64,
     ) -> Result<Self, FitError> {
@@ -65,7 +69,7 @@ impl Known {
             .zip(&layout.row)
             .map(|(sigma, &row)| fit.residuals.weight[row as usize].sqrt() / sigma)
             .collect();
-        let seen = Seen::of(model, observations, &layout, &fit.values, &root)?;
+        let seen = Seen::of(model, observations, &layout, values, &root)?;
         let errors = sizes.len();
         let mut next = errors;
         let mut place = |numbers: usize| {

@@ -11,12 +11,14 @@ mod noise;
 mod seen;
 mod weigh;
 
+use std::collections::BTreeSet;
+
 use model_core::Chain;
 use nalgebra::{DMatrix, Vector3};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::data::unknowns::{Object, OF_OBJECT, Shape, Station, Unknowns, WIDTH};
+use crate::data::unknowns::{Freedom, Object, OF_OBJECT, Shape, Station, Unknowns, WIDTH};
 use crate::data::{Measure, Measured, Observations, Poses, Series};
 use crate::design::Criterion;
 use crate::fit::noise::Layout;
@@ -24,11 +26,11 @@ use crate::fit::{FitError, FitResult, Model};
 use crate::objects::Remedy;
 use crate::study::{NextPlaces, NextPoses, Plan};
 use aim::ranges_of;
-use candidates::{Candidate, Candidates};
+use candidates::{Candidate, Candidates, as_the_others};
 use known::{Known, OF_STATION, of_object, roots};
 use noise::Usual;
 use seen::Seen;
-use weigh::{Pointed, badness, chosen, with};
+use weigh::{Pointed, badness, chosen, measured};
 
 /// The size of what the study states none of: coefficients of effects.
 const ANY_SIZE: f64 = 1.0;
@@ -144,12 +146,17 @@ pub(crate) fn propose_places(
         return Ok(Vec::new());
     };
     let Some(unknowns) = &observations.unknowns else { return Ok(Vec::new()) };
-    let unknowns = unknowns.at(&fit.values[chain.symbols.len()..]);
+    let own = unknowns.stations.iter().filter(|station| !station.label.is_empty());
+    let of_stations = as_the_others(own.map(|station| station.freedom));
+    let unknowns = in_a_frame(unknowns.at(&fit.values[chain.symbols.len()..]));
+    let mut values = fit.values[..chain.symbols.len()].to_vec();
+    values.resize(values.len() + unknowns.numbers(), 0.0);
+    let observations = &Observations { unknowns: Some(unknowns), ..observations.clone() };
     let model = Model::new(chain, &observations.poses, &fit.parameters)?.for_determination();
     let size = |id: &_| plan.fit.sizes.iter().find(|(own, _)| own == id).map_or(ANY_SIZE, |(_, size)| *size);
     let sizes: Vec<f64> = fit.parameters.iter().map(size).collect();
-    let candidates = Candidates::of(chain, observations, unknowns, &fit.values, next, wanted);
-    let known = Known::of(&model, observations, &candidates.unknowns, fit, &sizes, candidates.extent_m())?;
+    let candidates = Candidates::of(chain, observations, of_stations, &values, next, wanted);
+    let known = Known::of(&model, observations, &candidates.unknowns, fit, &values, &sizes, candidates.extent_m())?;
     let layout = Layout::of(observations);
     let scale = (0..sizes.len()).map(|at| fit.factor.length(at).max(1.0 / sizes[at]));
     let usual = Usual::of(&fit.noise, observations, &layout);
@@ -169,6 +176,19 @@ pub(crate) fn propose_places(
             .collect();
     }
     Ok(proposals)
+}
+
+/// The same with one station held where nothing holds the frame, which changes no error.
+fn in_a_frame(mut unknowns: Unknowns) -> Unknowns {
+    let used: BTreeSet<u32> = unknowns.station.iter().copied().collect();
+    let is_free = |freedom: Freedom| freedom == Freedom::Free;
+    let mut of_stations = used.iter().map(|&number| unknowns.stations[number as usize].freedom);
+    if of_stations.all(is_free) && unknowns.objects.iter().all(|object| is_free(object.freedom)) {
+        for &first in used.iter().take(1) {
+            unknowns.stations[first as usize].freedom = Freedom::Given;
+        }
+    }
+    unknowns
 }
 
 /// What is asked for, and how many.
@@ -218,8 +238,8 @@ impl Setting<'_> {
             let Some((best, trial)) = best else { break };
             used.push(best);
             let candidate = &candidates[best];
-            let mut whole = extended(&covariance, candidate, known.extent_m);
-            trial.pointings.iter().for_each(|&at| with(&mut whole, &seen[best][at], 1.0));
+            let whole = extended(&covariance, candidate, known.extent_m);
+            let Some(whole) = measured(&whole, trial.pointings.iter().map(|&at| &seen[best][at])) else { break };
             let n = covariance.nrows();
             covariance = whole.view((0, 0), (n, n)).into_owned();
             places.push(candidate.place(&known.unknowns, &trial.pointings, &read));
@@ -351,8 +371,7 @@ impl Setting<'_> {
             .iter()
             .map(|own| Pointed { at: own.at.iter().map(local).collect(), columns: own.columns.clone() })
             .collect();
-        let (pointings, after) = chosen(own, &pointed, candidate.wanted, &self.scale, criterion);
-        let errors = after.view((0, 0), (known.errors, known.errors)).into_owned();
+        let (pointings, errors) = chosen(&own, &pointed, candidate.wanted, &self.scale, criterion)?;
         let badness = badness(&errors, &self.scale, criterion);
         badness.is_finite().then_some(Trial { badness, pointings })
     }

@@ -5,6 +5,7 @@
 
 use nalgebra::DMatrix;
 
+use super::known::inverse;
 use crate::design::Criterion;
 
 /// The whitened rows of one pointing: where its columns stand, and the columns.
@@ -14,12 +15,28 @@ pub(super) struct Pointed {
     pub columns: DMatrix<f64>,
 }
 
-/// The covariance with rows added (sign 1) or taken out (sign −1).
-pub(super) fn with(covariance: &mut DMatrix<f64>, rows: &Pointed, sign: f64) {
+/// The covariance with some rows measured, by the sum of what is known; `None` where that is not finite.
+///
+/// Not row by row: what nobody knew before is known a million times as surely after, and the digits of a difference would be gone.
+pub(super) fn measured<'a>(
+    covariance: &DMatrix<f64>,
+    rows: impl Iterator<Item = &'a Pointed>,
+) -> Option<DMatrix<f64>> {
+    let mut information = inverse(covariance.clone())?;
+    for rows in rows {
+        let own = rows.columns.transpose() * &rows.columns;
+        for (i, &to) in rows.at.iter().enumerate() {
+            rows.at.iter().enumerate().for_each(|(j, &other)| information[(to, other)] += own[(i, j)]);
+        }
+    }
+    inverse(information)
+}
+
+/// Takes rows out again.
+fn without(covariance: &mut DMatrix<f64>, rows: &Pointed) {
     let spread = spread(covariance, rows, covariance.nrows());
-    let Some(inverse) = own(&spread, rows, sign).try_inverse() else { return };
-    let change = &spread * inverse * spread.transpose() * sign;
-    *covariance -= change;
+    let Some(inverse) = own(&spread, rows).try_inverse() else { return };
+    *covariance += &spread * inverse * spread.transpose();
 }
 
 /// The covariance of the first numbers with those that the rows see.
@@ -35,12 +52,12 @@ fn spread(covariance: &DMatrix<f64>, rows: &Pointed, first: usize) -> DMatrix<f6
     spread
 }
 
-/// 1 ± the covariance of what the rows would show.
-fn own(spread: &DMatrix<f64>, rows: &Pointed, sign: f64) -> DMatrix<f64> {
+/// 1 − the covariance of what the rows would show.
+fn own(spread: &DMatrix<f64>, rows: &Pointed) -> DMatrix<f64> {
     let m = rows.columns.nrows();
     DMatrix::from_fn(m, m, |i, j| {
         let of = rows.at.iter().enumerate().map(|(k, &at)| rows.columns[(i, k)] * spread[(at, j)]);
-        sign * of.sum::<f64>() + f64::from(u8::from(i == j))
+        f64::from(u8::from(i == j)) - of.sum::<f64>()
     })
 }
 
@@ -52,37 +69,39 @@ pub(super) fn badness(covariance: &DMatrix<f64>, scale: &[f64], criterion: Crite
                 2.0 * factor.l().diagonal().iter().map(|value| value.ln()).sum::<f64>()
             })
         }
-        Criterion::A => scale.iter().enumerate().map(|(at, scale)| covariance[(at, at)] * scale * scale).sum(),
+        Criterion::A => {
+            scale.iter().enumerate().map(|(at, scale)| covariance[(at, at)] * scale * scale).sum()
+        }
     }
 }
 
-/// Leaves out all but so many pointings, those that tell least of the first `errors` numbers; the numbers of those that stay,
-/// and the covariance with them.
+/// Leaves out all but so many pointings, those that tell least of the first numbers, as many as `scale` has; which stay, and the
+/// covariance of those numbers with them.
 pub(super) fn chosen(
-    mut covariance: DMatrix<f64>,
+    covariance: &DMatrix<f64>,
     pointings: &[Pointed],
     count: usize,
     scale: &[f64],
     criterion: Criterion,
-) -> (Vec<usize>, DMatrix<f64>) {
-    pointings.iter().for_each(|rows| with(&mut covariance, rows, 1.0));
+) -> Option<(Vec<usize>, DMatrix<f64>)> {
+    let errors = scale.len();
+    let mut now = measured(covariance, pointings.iter())?;
     let mut stay: Vec<usize> = (0..pointings.len()).collect();
     while stay.len() > count.max(1) {
-        let errors = scale.len();
-        let own_covariance = covariance.view((0, 0), (errors, errors)).into_owned();
+        let own_covariance = now.view((0, 0), (errors, errors)).into_owned();
         let loss = |pointing: usize| {
             let rows = &pointings[pointing];
-            let spread = spread(&covariance, rows, covariance.nrows());
-            let without = own(&spread, rows, -1.0);
-            let inverse = without.try_inverse()?;
+            let spread = spread(&now, rows, now.nrows());
+            let inverse = own(&spread, rows).try_inverse()?;
             let of_errors = spread.rows(0, errors);
             let after = &own_covariance + of_errors * inverse * of_errors.transpose();
             Some(badness(&after, scale, criterion)).filter(|loss| loss.is_finite())
         };
         let losses = stay.iter().enumerate().filter_map(|(at, &pointing)| Some((at, loss(pointing)?)));
         // The last of those that are alike, so that the first of a list stay.
-        let Some((least, _)) = losses.min_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0))) else { break };
-        with(&mut covariance, &pointings[stay.remove(least)], -1.0);
+        let (least, _) = losses.min_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))?;
+        without(&mut now, &pointings[stay.remove(least)]);
     }
-    (stay, covariance)
+    let after = measured(covariance, stay.iter().map(|&at| &pointings[at]))?;
+    Some((stay, after.view((0, 0), (errors, errors)).into_owned()))
 }

@@ -1,4 +1,4 @@
-//! The rows that observe objects, each with the point or direction that the chain without errors says.
+//! The rows that observe objects, each with the point or direction that the chain says.
 
 use model_core::{Chain, exact};
 use nalgebra::Vector3;
@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use crate::data::unknowns::Unknowns;
 use crate::data::{Measure, Measured, Observations};
 
-/// A row that observes an object: the point that the chain says, without errors.
+/// A row that observes an object: the point that the chain says.
 pub(crate) struct Row {
     pub number: usize,
     pub series: usize,
@@ -17,7 +17,7 @@ pub(crate) struct Row {
     pub measured: Measured,
 }
 
-/// The rows that observe objects.
+/// The rows that observe objects, the chain's symbols having these values.
 pub(crate) fn rows(
     chain: &Chain,
     observations: &Observations,

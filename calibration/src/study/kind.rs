@@ -2,6 +2,8 @@
 
 use serde::Deserialize;
 
+use crate::data::Measure;
+
 /// What the numbers of an observation are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -36,6 +38,24 @@ impl Kind {
             Self::Distance => "distance",
             Self::Sight => "sight",
             Self::Orientation => "orientation",
+        }
+    }
+
+    /// What is measured of an object; `None` where none is observed.
+    pub fn of_object(self) -> Option<Measure> {
+        match self {
+            Self::Plane => Some(Measure::Plane),
+            Self::Target => Some(Measure::Target),
+            Self::Fixed => Some(Measure::Fixed),
+            Self::Wire => Some(Measure::Wire),
+            Self::Distance => Some(Measure::Distance),
+            Self::Sight => Some(Measure::Sight),
+            Self::Direction
+            | Self::Spherical
+            | Self::Offset
+            | Self::Point
+            | Self::Range
+            | Self::Orientation => None,
         }
     }
 }

@@ -6,11 +6,10 @@ use model_core::{Chain, Quantity, SymbolKind};
 use toml::Spanned;
 
 use super::mistakes::{Gathered, Outcome, every, mistake, unknown, within};
-use super::plan::{NextPlaces, NextPoses, SourcePlan, si};
-use super::written::{Kind, NextTable, Study};
+use super::plan::{NextPlaces, NextPoses, si};
+use super::written::{Kind, NextTable, Observed, Study};
 use crate::data::Measure;
 use crate::data::units::Amount;
-use crate::data::unknowns::Shape;
 
 /// Stations, or objects of one kind, that are proposed at most.
 const MOST_PLACES: u64 = 20;
@@ -28,10 +27,17 @@ const BOUNDS: [(&str, Quantity); 4] = [
 
 impl Study {
     /// Where to propose to measure next.
-    pub(super) fn next(&self, chain: &Chain, sources: &[SourcePlan]) -> Outcome<Option<NextPoses>> {
+    pub(super) fn next(&self, chain: &Chain) -> Outcome<Option<NextPoses>> {
         let Some(written) = &self.next else { return Ok(None) };
         let (next, place) = (written.get_ref(), written.span());
-        let of_objects = sources.iter().any(|source| Shape::of(source.measure).is_some());
+        let observed = std::iter::once(&self.observed).chain(self.also.iter().map(|also| &also.observed));
+        let seen: Vec<Seen> = observed
+            .filter_map(|observed| {
+                let Observed { kind, station, .. } = observed.get_ref();
+                Some(Seen { kind: *kind, measure: kind.of_object()?, named: !station.0.is_empty() })
+            })
+            .collect();
+        let of_objects = !seen.is_empty();
         let mut mistakes = Gathered::default();
         let most = if of_objects { MOST_ROWS } else { 10_000 };
         if let Some(poses) = &next.poses {
@@ -52,7 +58,7 @@ impl Study {
             })?;
             Ok((id, ends(range, chain.symbol(id).quantity)?))
         })));
-        let places = mistakes.take(next.places(sources));
+        let places = mistakes.take(next.places(&seen));
         mistakes.none()?;
         let count = next.poses.as_ref().and_then(|poses| usize::try_from(*poses.get_ref()).ok());
         let (Some(ranges), Some(places)) = (ranges, places) else {
@@ -63,12 +69,18 @@ impl Study {
     }
 }
 
+/// What rows observe that is unknown.
+struct Seen {
+    kind: Kind,
+    measure: Measure,
+    /// Whether they name where from.
+    named: bool,
+}
+
 impl NextTable {
     /// The stations and objects that are asked for: one of each kind of the study where nothing is.
-    fn places(&self, sources: &[SourcePlan]) -> Outcome<Option<NextPlaces>> {
-        let observed: Vec<&SourcePlan> =
-            sources.iter().filter(|source| Shape::of(source.measure).is_some()).collect();
-        if observed.is_empty() {
+    fn places(&self, seen: &[Seen]) -> Outcome<Option<NextPlaces>> {
+        if seen.is_empty() {
             let stations = self.stations.as_ref().map(|stations| ("stations", stations.span()));
             let first = |table: Option<Range<usize>>, key| table.map(|span| (key, span));
             let objects = first(self.objects.keys().next().map(Spanned::span), "objects");
@@ -83,7 +95,7 @@ impl NextTable {
             };
         }
         let mut mistakes = Gathered::default();
-        let named = observed.iter().any(|source| !source.station.is_empty());
+        let named = seen.iter().any(|own| own.named);
         let nothing_asked = self.stations.is_none() && self.objects.is_empty();
         let stations = self.stations.as_ref().map_or(u64::from(nothing_asked && named), |count| *count.get_ref());
         if let Some(written) = &self.stations {
@@ -93,17 +105,16 @@ impl NextTable {
                 mistakes.take::<()>(Err(mistake(written.span(), "no row of this study names a station", help)));
             }
         }
-        let kinds: Vec<(Kind, Measure)> = observed.iter().map(|source| (source.kind, source.measure)).collect();
         let mut objects: Vec<(Measure, usize)> = Vec::new();
-        for (_, measure) in kinds.iter().filter(|_| nothing_asked) {
+        for Seen { measure, .. } in seen.iter().filter(|_| nothing_asked) {
             if !objects.iter().any(|(own, _)| own == measure) {
                 objects.push((*measure, 1));
             }
         }
         let asked = mistakes.take(every(self.objects.iter().map(|(name, count)| {
-            let own = kinds.iter().find(|(kind, _)| kind.name() == name.get_ref());
-            let (_, measure) = own.ok_or_else(|| {
-                let names = kinds.iter().map(|(kind, _)| kind.name());
+            let own = seen.iter().find(|own| own.kind.name() == name.get_ref());
+            let Seen { measure, .. } = own.ok_or_else(|| {
+                let names = seen.iter().map(|own| own.kind.name());
                 unknown(name.span(), "kind of object of this study", name.get_ref(), names)
             })?;
             within(count.span(), "objects", *count.get_ref(), 0..=MOST_PLACES)?;

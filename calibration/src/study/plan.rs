@@ -160,7 +160,7 @@ impl Study {
         let sources = mistakes.take(self.sources(&chain));
         let fit = mistakes.take(self.fit_options(&chain));
         let hold_out = mistakes.take(self.held_out());
-        let next = sources.as_ref().and_then(|sources| mistakes.take(self.next(&chain, sources)));
+        let next = mistakes.take(self.next(&chain));
         let format = mistakes.take(self.format());
         let sigma = sources.as_ref().and_then(|sources| mistakes.take(self.stated_sigma(sources)));
         let observables: Option<Vec<ObservableId>> =

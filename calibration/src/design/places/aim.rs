@@ -10,7 +10,7 @@ use crate::data::Poses;
 use crate::design::{joints, spread};
 
 /// Readings nearest to what is aimed at that are tried, at least.
-const TRIED: usize = 16;
+const TRIED: usize = 48;
 
 /// Steps of one attempt at most.
 const STEPS: usize = 25;

@@ -44,7 +44,8 @@ fn table(
     let places: Vec<String> = proposal.places.iter().map(|place| told(proposal.adds, place)).collect();
     let title = format!("{}, {aim}", places.join("; "));
     let several = places.len() > 1;
-    let units: Vec<Reading> = proposal.readings.iter().map(|name| numbers::reading(unit(name), 1.0)).collect();
+    let units: Vec<Reading> =
+        proposal.readings.iter().map(|name| numbers::reading(unit(name), 1.0)).collect();
     let all = || {
         let each = proposal.places.iter().enumerate();
         each.flat_map(|(number, place)| place.pointings.iter().map(move |pointing| (number, pointing)))
@@ -55,22 +56,28 @@ fn table(
     joints.extend(several.then(|| "number".to_owned()));
     joints.extend(from.then(|| "from".to_owned()));
     joints.extend(at.then(|| "at".to_owned()));
-    joints.extend(proposal.readings.iter().zip(&units).map(|(name, unit)| numbers::name_with_unit(name, &unit.name)));
+    joints.extend(
+        proposal.readings.iter().zip(&units).map(|(name, unit)| numbers::name_with_unit(name, &unit.name)),
+    );
     let poses = all().take(POINTINGS).map(|(number, own)| {
         let mut cells: Vec<String> = Vec::new();
         cells.extend(several.then(|| (number + 1).to_string()));
         cells.extend(from.then(|| own.station.clone()));
         cells.extend(at.then(|| own.object.clone()));
-        cells.extend(own.readings.iter().zip(&units).map(|(value, unit)| format!("{:.2}", value / unit.in_si)));
+        cells.extend(
+            own.readings.iter().zip(&units).map(|(value, unit)| format!("{:.2}", value / unit.in_si)),
+        );
         cells
     });
     let poses = poses.collect();
     let mut notes = Vec::new();
     let count = all().count();
     if count > POINTINGS {
-        notes.push(format!("{count} pointings in all, about as they stand here; report.json lists every one"));
+        notes
+            .push(format!("{count} pointings in all, about as they stand here; report.json lists every one"));
     }
-    let shown = |(name, now, then): &&(String, f64, f64)| !proposal.never.contains(name) && *then < GAINS * now;
+    let shown =
+        |(name, now, then): &&(String, f64, f64)| !proposal.never.contains(name) && *then < GAINS * now;
     let shown: Vec<_> = proposal.uncertainties.iter().filter(shown).cloned().collect();
     let gains = gained(diagnosis, &shown);
     if gains.is_empty() {

@@ -18,12 +18,8 @@ const MOST_PLACES: u64 = 20;
 const MOST_ROWS: u64 = 1000;
 
 /// What a place can be bounded in.
-const BOUNDS: [(&str, Quantity); 4] = [
-    ("x", Quantity::Length),
-    ("y", Quantity::Length),
-    ("z", Quantity::Length),
-    ("heading", Quantity::Angle),
-];
+const BOUNDS: [(&str, Quantity); 4] =
+    [("x", Quantity::Length), ("y", Quantity::Length), ("z", Quantity::Length), ("heading", Quantity::Angle)];
 
 impl Study {
     /// Where to propose to measure next.
@@ -45,7 +41,8 @@ impl Study {
         } else if !of_objects {
             mistakes.take::<()>(Err(mistake(place, "how many poses?", "write `poses = 12`")));
         }
-        let is_joint = |kind: SymbolKind| kind == SymbolKind::Joint || (of_objects && kind == SymbolKind::Input);
+        let is_joint =
+            |kind: SymbolKind| kind == SymbolKind::Joint || (of_objects && kind == SymbolKind::Input);
         let symbols = || {
             let all = chain.symbols_of(SymbolKind::Joint).chain(chain.symbols_of(SymbolKind::Input));
             all.filter(|&id| is_joint(chain.symbol(id).kind))
@@ -97,12 +94,17 @@ impl NextTable {
         let mut mistakes = Gathered::default();
         let named = seen.iter().any(|own| own.named);
         let nothing_asked = self.stations.is_none() && self.objects.is_empty();
-        let stations = self.stations.as_ref().map_or(u64::from(nothing_asked && named), |count| *count.get_ref());
+        let stations =
+            self.stations.as_ref().map_or(u64::from(nothing_asked && named), |count| *count.get_ref());
         if let Some(written) = &self.stations {
             mistakes.take(within(written.span(), "stations", stations, 0..=MOST_PLACES));
             if stations > 0 && !named {
                 let help = "write `station = \"…\"` under [observed]: the column that names where from, or ask for `objects`";
-                mistakes.take::<()>(Err(mistake(written.span(), "no row of this study names a station", help)));
+                mistakes.take::<()>(Err(mistake(
+                    written.span(),
+                    "no row of this study names a station",
+                    help,
+                )));
             }
         }
         let mut objects: Vec<(Measure, usize)> = Vec::new();
@@ -125,7 +127,12 @@ impl NextTable {
             let at = BOUNDS.iter().position(|(own, _)| own == name.get_ref());
             let Some(at) = at else {
                 let names = BOUNDS.iter().map(|(name, _)| *name);
-                mistakes.take::<()>(Err(unknown(name.span(), "coordinate of a place", name.get_ref(), names)));
+                mistakes.take::<()>(Err(unknown(
+                    name.span(),
+                    "coordinate of a place",
+                    name.get_ref(),
+                    names,
+                )));
                 continue;
             };
             bounds[at] = mistakes.take(ends(range, BOUNDS[at].1));

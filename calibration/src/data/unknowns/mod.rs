@@ -6,8 +6,8 @@ mod pose;
 use faer::Mat;
 use nalgebra::Vector3;
 
-use super::{Measure, tangent_frame};
 use super::joined::Joined;
+use super::{Measure, tangent_frame};
 
 pub use pose::Pose;
 pub(crate) use pose::right_jacobian;

@@ -59,7 +59,9 @@ pub(super) fn ranges_of(chain: &Chain, poses: &Poses, stated: &[(SymbolId, Range
         .columns
         .iter()
         .map(|(id, _)| *id)
-        .filter(|id| chain.symbol(*id).kind == SymbolKind::Input && chain.symbol(*id).quantity == Quantity::Length)
+        .filter(|id| {
+            chain.symbol(*id).kind == SymbolKind::Input && chain.symbol(*id).quantity == Quantity::Length
+        })
         .collect();
     let stated = |id: &SymbolId| stated.iter().any(|(known, _)| known == id);
     if lengths.len() == 1 { lengths } else { lengths.into_iter().filter(|id| stated(id)).collect() }
@@ -90,7 +92,8 @@ impl Aim {
             let is_free = joints.contains(id) || lengths.contains(id);
             let least = measured.iter().copied().fold(f64::INFINITY, f64::min);
             let most = measured.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            let range = stated.iter().find(|(known, _)| known == id).map_or(least..most, |(_, own)| own.clone());
+            let range =
+                stated.iter().find(|(known, _)| known == id).map_or(least..most, |(_, own)| own.clone());
             let turns = joints.contains(id) && chain.symbol(*id).quantity == Quantity::Angle;
             (*id, is_free.then_some(Free { range, turns }))
         });

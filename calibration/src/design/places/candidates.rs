@@ -63,6 +63,10 @@ pub(super) struct Candidates<'a> {
     rows: Vec<Row>,
     /// Of each row the point in the frame of the objects, if it is one.
     hits: Vec<Vector3<f64>>,
+    /// Of each object where it was hit, and by which series.
+    hits_of: Vec<Vec<(usize, Vector3<f64>)>>,
+    /// How far a usual plane reaches from its middle, m.
+    board_m: f64,
     /// Whether a beam goes from the station to what is observed.
     has_beam: bool,
 }
@@ -84,9 +88,18 @@ impl<'a> Candidates<'a> {
             observes.then(|| Aim::new(chain, series.observable, poses, &next.ranges, values))
         });
         let rows = rows(chain, observations, &unknowns, values);
-        let hits = rows.iter().map(|row| unknowns.stations[row.station].pose.apply(&row.point)).collect();
+        let hits: Vec<Vector3<f64>> =
+            rows.iter().map(|row| unknowns.stations[row.station].pose.apply(&row.point)).collect();
+        let mut hits_of = vec![Vec::new(); unknowns.objects.len()];
+        rows.iter().zip(&hits).for_each(|(row, hit)| hits_of[row.object].push((row.series, *hit)));
+        let planes = unknowns.objects.iter().zip(&hits_of).filter(|(own, _)| own.shape == Shape::Plane);
+        let reach = planes.filter(|(_, hits)| !hits.is_empty()).map(|(plane, hits)| {
+            median(hits.iter().map(|(_, hit)| (hit - plane.place).norm()).collect())
+        });
         Self {
             aims: aims.collect(),
+            board_m: median(reach.collect()),
+            hits_of,
             measures: poses.series.iter().map(|series| series.measure).collect(),
             has_beam: !ranges_of(chain, poses, &next.ranges).is_empty(),
             unknowns,
@@ -106,7 +119,10 @@ impl<'a> Candidates<'a> {
     fn things(&self) -> impl Iterator<Item = Vector3<f64>> + Clone {
         let hits = self.rows.iter().zip(&self.hits).filter(|(row, _)| row.measure != Measure::Sight);
         let points = self.unknowns.objects.iter().filter(|object| object.shape != Shape::Plane);
-        self.stations().map(|station| station.pose.shift).chain(points.map(|object| object.place)).chain(hits.map(|(_, hit)| *hit))
+        self.stations()
+            .map(|station| station.pose.shift)
+            .chain(points.map(|object| object.place))
+            .chain(hits.map(|(_, hit)| *hit))
     }
 
     /// The stations from which rows observe something.
@@ -157,8 +173,7 @@ impl<'a> Candidates<'a> {
         let per_station = self.rows_per(|row| row.station);
         let wanted = self.wanted.poses.unwrap_or(per_station);
 
-        let seen: BTreeSet<(usize, usize)> =
-            self.rows.iter().map(|row| (row.series, row.object)).collect();
+        let seen: BTreeSet<(usize, usize)> = self.rows.iter().map(|row| (row.series, row.object)).collect();
         let aimed: Vec<(usize, usize)> = seen
             .into_iter()
             .filter(|&(_, object)| {
@@ -172,7 +187,9 @@ impl<'a> Candidates<'a> {
             let Some(aim) = &self.aims[series] else { continue };
             let thing = &self.unknowns.objects[object];
             let goals: Vec<Goal> = match self.measures[series] {
-                Measure::Plane => self.spots(series, object, each).iter().map(|spot| Goal::Point(pose.back(spot))).collect(),
+                Measure::Plane => {
+                    self.spots(series, object, each).iter().map(|spot| Goal::Point(pose.back(spot))).collect()
+                }
                 Measure::Sight => vec![Goal::Way(pose.back(&thing.place))],
                 Measure::Wire | Measure::Distance => vec![Goal::Anything],
                 _ => vec![Goal::Point(pose.back(&thing.place))],
@@ -185,10 +202,20 @@ impl<'a> Candidates<'a> {
                     continue;
                 }
                 let ways = aim.at(goal, ways);
-                pointings.extend(ways.into_iter().map(|readings| Possible { series, station: new, object, readings }));
+                pointings.extend(ways.into_iter().map(|readings| Possible {
+                    series,
+                    station: new,
+                    object,
+                    readings,
+                }));
             }
         }
-        (!pointings.is_empty()).then_some(Candidate { station: Some(station), object: None, pointings, wanted })
+        (!pointings.is_empty()).then_some(Candidate {
+            station: Some(station),
+            object: None,
+            pointings,
+            wanted,
+        })
     }
 
     fn object(&self, number: usize, adds: Addition) -> Option<Candidate> {
@@ -215,7 +242,6 @@ impl<'a> Candidates<'a> {
             self.rows.iter().filter(|row| row.series == series).map(|row| row.station).collect();
         let ways = (CHOICE * wanted as f64 / stations.len().max(1) as f64).ceil() as usize;
         let ways = ways.clamp(WAYS[0], WAYS[1]);
-        let radius = self.board();
         let new = self.unknowns.objects.len();
         let mut pointings = Vec::new();
         for station in stations {
@@ -223,15 +249,25 @@ impl<'a> Candidates<'a> {
             let there = pose.back(&place);
             let goal = match measure {
                 Measure::Plane if self.grazes(&(place - pose.shift), &object.normal) => continue,
-                Measure::Plane => Goal::Board(there, pose.turn.inverse() * object.normal, radius),
+                Measure::Plane => Goal::Board(there, pose.turn.inverse() * object.normal, self.board_m),
                 Measure::Sight => Goal::Way(there),
                 Measure::Wire | Measure::Distance => Goal::Anything,
                 _ => Goal::Point(there),
             };
             let readings = aim.at(goal, ways);
-            pointings.extend(readings.into_iter().map(|readings| Possible { series, station, object: new, readings }));
+            pointings.extend(readings.into_iter().map(|readings| Possible {
+                series,
+                station,
+                object: new,
+                readings,
+            }));
         }
-        (!pointings.is_empty()).then_some(Candidate { station: None, object: Some(object), pointings, wanted })
+        (!pointings.is_empty()).then_some(Candidate {
+            station: None,
+            object: Some(object),
+            pointings,
+            wanted,
+        })
     }
 
     /// Whether a beam would be lost on a plane.
@@ -241,28 +277,10 @@ impl<'a> Candidates<'a> {
 
     /// Some points at which a plane was hit, spread over its rows.
     fn spots(&self, series: usize, object: usize, count: usize) -> Vec<Vector3<f64>> {
-        let own: Vec<Vector3<f64>> = self
-            .rows
-            .iter()
-            .zip(&self.hits)
-            .filter(|(row, _)| row.object == object && row.series == series)
-            .map(|(_, hit)| *hit)
-            .collect();
+        let own: Vec<Vector3<f64>> =
+            self.hits_of[object].iter().filter(|(by, _)| *by == series).map(|(_, hit)| *hit).collect();
         let count = count.clamp(1, own.len());
         (0..count).map(|at| own[at * own.len() / count]).collect()
-    }
-
-    /// How far a usual plane reaches from its middle, m.
-    fn board(&self) -> f64 {
-        let mut reach = Vec::new();
-        for (number, object) in self.unknowns.objects.iter().enumerate() {
-            let own = self.rows.iter().zip(&self.hits).filter(|(row, _)| row.object == number);
-            let own: Vec<f64> = own.map(|(_, hit)| (hit - object.place).norm()).collect();
-            if object.shape == Shape::Plane && !own.is_empty() {
-                reach.push(median(own));
-            }
-        }
-        median(reach)
     }
 
     /// Rows of a station or object, at the median.

@@ -109,7 +109,9 @@ impl Known {
             let mut known: Vec<usize> = (0..errors).collect();
             for one in &seen {
                 let start = stations[unknowns.station[one.row] as usize];
-                let Some(start) = start.filter(|start| object.is_some() && !known.contains(start)) else { continue };
+                let Some(start) = start.filter(|start| object.is_some() && !known.contains(start)) else {
+                    continue;
+                };
                 known.extend(start..start + WIDTH - OF_OBJECT);
             }
             // The object's numbers first.
@@ -117,7 +119,8 @@ impl Known {
             for (i, one) in seen.iter().enumerate() {
                 (0..k).for_each(|j| rows[(i, j)] = one.unknown[j]);
                 one.errors.iter().enumerate().for_each(|(j, value)| rows[(i, k + j)] = *value);
-                let Some(start) = stations[unknowns.station[one.row] as usize].filter(|_| object.is_some()) else {
+                let Some(start) = stations[unknowns.station[one.row] as usize].filter(|_| object.is_some())
+                else {
                     continue;
                 };
                 let first = known.iter().position(|&at| at == start).unwrap_or(0);
@@ -138,9 +141,8 @@ impl Known {
                 }
             }
         }
-        let covariance = inverse(information).ok_or_else(|| FitError::WrongShape {
-            why: "the information so far is not finite".to_owned(),
-        })?;
+        let covariance = inverse(information)
+            .ok_or_else(|| FitError::WrongShape { why: "the information so far is not finite".to_owned() })?;
         Ok(Self { covariance, errors, stations, objects, unknowns: unknowns.clone(), extent_m })
     }
 
@@ -154,6 +156,9 @@ impl Known {
 fn without_first(normal: &DMatrix<f64>, k: usize) -> DMatrix<f64> {
     let rest = normal.ncols() - k;
     let behind = normal.view((k, k), (rest, rest)).into_owned();
+    if k == 0 {
+        return behind;
+    }
     let Some(inverse) = inverse(normal.view((0, 0), (k, k)).into_owned()) else { return behind };
     let across = normal.view((0, k), (k, rest));
     behind - across.transpose() * inverse * across

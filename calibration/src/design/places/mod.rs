@@ -18,7 +18,7 @@ use nalgebra::{DMatrix, Vector3};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::data::unknowns::{Freedom, Object, OF_OBJECT, Shape, Station, Unknowns, WIDTH};
+use crate::data::unknowns::{Freedom, OF_OBJECT, Object, Shape, Station, Unknowns, WIDTH};
 use crate::data::{Measure, Measured, Observations, Poses, Series};
 use crate::design::Criterion;
 use crate::fit::noise::Layout;
@@ -156,7 +156,8 @@ pub(crate) fn propose_places(
     let size = |id: &_| plan.fit.sizes.iter().find(|(own, _)| own == id).map_or(ANY_SIZE, |(_, size)| *size);
     let sizes: Vec<f64> = fit.parameters.iter().map(size).collect();
     let candidates = Candidates::of(chain, observations, of_stations, &values, next, wanted);
-    let known = Known::of(&model, observations, &candidates.unknowns, fit, &values, &sizes, candidates.extent_m())?;
+    let known =
+        Known::of(&model, observations, &candidates.unknowns, fit, &values, &sizes, candidates.extent_m())?;
     let layout = Layout::of(observations);
     let scale = (0..sizes.len()).map(|at| fit.factor.length(at).max(1.0 / sizes[at]));
     let usual = Usual::of(&fit.noise, observations, &layout);
@@ -239,7 +240,9 @@ impl Setting<'_> {
             used.push(best);
             let candidate = &candidates[best];
             let whole = extended(&covariance, candidate, known.extent_m);
-            let Some(whole) = measured(&whole, trial.pointings.iter().map(|&at| &seen[best][at])) else { break };
+            let Some(whole) = measured(&whole, trial.pointings.iter().map(|&at| &seen[best][at])) else {
+                break;
+            };
             let n = covariance.nrows();
             covariance = whole.view((0, 0), (n, n)).into_owned();
             places.push(candidate.place(&known.unknowns, &trial.pointings, &read));
@@ -254,8 +257,10 @@ impl Setting<'_> {
             (self.chain.symbol(*id).name.clone(), now, now * gain)
         });
         let uncertainties = names.collect();
-        let readings =
-            read.iter().map(|&at| self.observations.poses.columns[at].0).map(|id| self.chain.symbol(id).name.clone());
+        let readings = read
+            .iter()
+            .map(|&at| self.observations.poses.columns[at].0)
+            .map(|id| self.chain.symbol(id).name.clone());
         let (never, remedies) = (Vec::new(), Vec::new());
         let readings = readings.collect();
         Ok(Some(PlaceProposal { adds, criterion, readings, places, uncertainties, never, remedies }))
@@ -330,7 +335,9 @@ impl Setting<'_> {
             let mut places: Vec<(usize, usize)> = Vec::new();
             places.extend(object.iter().flat_map(|start| (0..k).map(move |number| (start + number, number))));
             places.extend(
-                station.iter().flat_map(|start| (0..WIDTH - OF_OBJECT).map(move |j| (start + j, OF_OBJECT + j))),
+                station
+                    .iter()
+                    .flat_map(|start| (0..WIDTH - OF_OBJECT).map(move |j| (start + j, OF_OBJECT + j))),
             );
             let at = (0..known.errors).chain(places.iter().map(|(at, _)| *at)).collect();
             let columns = DMatrix::from_fn(of_row.len(), known.errors + places.len(), |i, j| {
@@ -356,7 +363,8 @@ impl Setting<'_> {
     ) -> Option<Trial> {
         // Only the numbers that it has to do with: the others follow.
         let mut numbers: Vec<usize> = (0..known.errors).collect();
-        let mut more: Vec<usize> = seen.iter().flat_map(|own| own.at[known.errors..].iter().copied()).collect();
+        let mut more: Vec<usize> =
+            seen.iter().flat_map(|own| own.at[known.errors..].iter().copied()).collect();
         more.sort_unstable();
         more.dedup();
         numbers.extend(more);

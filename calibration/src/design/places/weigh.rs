@@ -64,11 +64,9 @@ fn own(spread: &DMatrix<f64>, rows: &Pointed) -> DMatrix<f64> {
 /// How bad a covariance of errors is.
 pub(super) fn badness(covariance: &DMatrix<f64>, scale: &[f64], criterion: Criterion) -> f64 {
     match criterion {
-        Criterion::D => {
-            covariance.clone().cholesky().map_or(f64::NAN, |factor| {
-                2.0 * factor.l().diagonal().iter().map(|value| value.ln()).sum::<f64>()
-            })
-        }
+        Criterion::D => covariance.clone().cholesky().map_or(f64::NAN, |factor| {
+            2.0 * factor.l().diagonal().iter().map(|value| value.ln()).sum::<f64>()
+        }),
         Criterion::A => {
             scale.iter().enumerate().map(|(at, scale)| covariance[(at, at)] * scale * scale).sum()
         }

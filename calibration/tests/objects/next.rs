@@ -140,7 +140,8 @@ fn about(axis: usize, angle: f64) -> Matrix3<f64> {
 
 /// Where the beam ends in the scanner's frame; the errors in the order of [`ERRORS`].
 fn point(errors: &[f64], [azimuth, elevation, range]: [f64; 3]) -> Vector3<f64> {
-    let p = about(2, errors[4]) * Vector3::new(0.0, range + errors[5], 0.0) + Vector3::new(errors[3], 0.0, 0.0);
+    let p =
+        about(2, errors[4]) * Vector3::new(0.0, range + errors[5], 0.0) + Vector3::new(errors[3], 0.0, 0.0);
     let p = about(1, errors[1]) * about(0, elevation + errors[2]) * p + Vector3::new(0.0, errors[0], 0.0);
     about(2, -azimuth) * p
 }
@@ -158,7 +159,8 @@ fn by_matrices(stands: &[Stand], targets: &[Vector3<f64>], rows: &[Aimed]) -> [f
             own.turn * turn * point(&numbers[..6], read) + own.shift + shift - there
         };
         let beam = (own.turn * point(&[0.0; 6], read)).normalize();
-        let white = (Matrix3::identity() - beam * beam.transpose()) / ACROSS_M + beam * beam.transpose() / ALONG_M;
+        let white =
+            (Matrix3::identity() - beam * beam.transpose()) / ACROSS_M + beam * beam.transpose() / ALONG_M;
         for number in 0..15 {
             let column = match number {
                 0..6 => number,

@@ -93,9 +93,9 @@ impl<'a> Candidates<'a> {
         let mut hits_of = vec![Vec::new(); unknowns.objects.len()];
         rows.iter().zip(&hits).for_each(|(row, hit)| hits_of[row.object].push((row.series, *hit)));
         let planes = unknowns.objects.iter().zip(&hits_of).filter(|(own, _)| own.shape == Shape::Plane);
-        let reach = planes.filter(|(_, hits)| !hits.is_empty()).map(|(plane, hits)| {
-            median(hits.iter().map(|(_, hit)| (hit - plane.place).norm()).collect())
-        });
+        let reach = planes
+            .filter(|(_, hits)| !hits.is_empty())
+            .map(|(plane, hits)| median(hits.iter().map(|(_, hit)| (hit - plane.place).norm()).collect()));
         Self {
             aims: aims.collect(),
             board_m: median(reach.collect()),

@@ -5,7 +5,8 @@ use std::io::Read;
 use std::path::Path;
 
 use calibration::formats::DataError;
-use calibration::objects::{Remedy, SetUp, Visible, identify};
+use calibration::objects::{SetUp, Visible, identify};
+use calibration::report::remedy_would_show;
 use calibration::study::Study;
 use model_core::{Chain, SymbolId};
 use serde_json::{Value, json};
@@ -64,7 +65,7 @@ impl SetUpSeen {
         for (remedy, seen) in remedies {
             let more: Vec<SymbolId> =
                 seen.alone.iter().filter(|error| !now.alone.contains(error)).copied().collect();
-            let _ = write!(text, "{}: {}", words(*remedy), combinations(seen.combinations.len()));
+            let _ = write!(text, "{}: {}", remedy_would_show(*remedy), combinations(seen.combinations.len()));
             if !more.is_empty() {
                 let _ = write!(
                     text,
@@ -85,7 +86,7 @@ impl SetUpSeen {
             .iter()
             .map(|(remedy, seen)| {
                 let mut value = self.visible(seen);
-                value["with"] = Value::from(words(*remedy));
+                value["with"] = Value::from(remedy_would_show(*remedy));
                 value
             })
             .collect();
@@ -159,14 +160,5 @@ fn counted([all, unknown]: [usize; 2], what: &str) -> String {
         0 => format!("{all} known {what}{plural}"),
         _ if unknown == all => format!("{all} unknown {what}{plural}"),
         _ => format!("{all} {what}{plural} ({unknown} unknown)"),
-    }
-}
-
-fn words(remedy: Remedy) -> &'static str {
-    match remedy {
-        Remedy::OneLength => "One known length between two of the objects would show",
-        Remedy::KnownStations => "Known stations would show",
-        Remedy::KnownObjects => "Known objects would show",
-        Remedy::KnownBoth => "Known stations and objects would show",
     }
 }

@@ -4,6 +4,7 @@
 //! volume of the uncertainties smallest, A-optimal their sum of squares.
 
 pub(crate) mod discrimination;
+pub(crate) mod places;
 
 use std::ops::Range;
 
@@ -15,6 +16,7 @@ use crate::data::{Observations, Poses};
 use crate::fit::{FitError, FitResult, Model};
 
 pub use discrimination::{Separation, Told};
+pub use places::{Addition, Place, PlaceProposal, Pointing};
 
 /// Poses that are compared.
 const CANDIDATES: usize = 600;
@@ -224,7 +226,7 @@ pub(crate) fn spread(chain: &Chain, poses: &Poses, ranges: &[(SymbolId, Range<f6
 ///
 /// Source: M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences (2018): powers of the root of
 /// x^(d+1) = x + 1.
-fn generator(dimensions: usize) -> Vec<f64> {
+pub(crate) fn generator(dimensions: usize) -> Vec<f64> {
     let power = dimensions as f64 + 1.0;
     let mut root = 1.5f64;
     for _ in 0..60 {

@@ -26,16 +26,18 @@ use serde::Serialize;
 use crate::candidate::EffectId;
 use crate::data::{Observations, Origin, SiUnit};
 use crate::design::discrimination::separation;
-use crate::design::{Criterion, Proposal, Separation, propose};
+use crate::design::places::propose_places;
+use crate::design::{Criterion, PlaceProposal, Proposal, Separation, propose};
 use crate::effects::SHAPE;
 use crate::fit::FitResult;
+use crate::objects::{Visible, identify};
 use crate::search::HeldOut;
 use crate::search::aside::{Shared, shared};
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
 use crate::search::library::AsGood;
 use crate::search::round::Round;
-use crate::search::{SearchError, Stage};
+use crate::search::{Request, SearchError, Stage};
 use effects::Others;
 use rms::BeforeAfter;
 use verdict::Evidence;
@@ -82,6 +84,9 @@ pub struct Diagnosis {
     pub noise: NoiseFound,
     /// Where to measure next, if the study asks: D-optimal, then A-optimal.
     pub next_poses: Vec<Proposal>,
+    /// Where to put stations, walls, targets, sockets and wires next, where rows observe objects and the study asks.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub next_places: Vec<PlaceProposal>,
     /// Where to measure next to tell accepted effects from others that explain these data as well.
     pub separating: Vec<Separation>,
     /// The effects that were accepted, in the order they came in.
@@ -240,6 +245,7 @@ pub(crate) fn diagnose(
         estimable: errors::estimable(whole, last),
         not_separable: precision.not_separable.iter().map(|set| set.names.clone()).collect(),
         next_poses: if verdict.is_usable() { next_poses(whole, last) } else { Vec::new() },
+        next_places: if verdict.is_usable() { next_places(whole, last) } else { Vec::new() },
         separating: found.separating,
         precision,
         noise,
@@ -382,4 +388,23 @@ fn next_poses(whole: &Context<'_>, last: &Fitted) -> Vec<Proposal> {
         propose(&last.chain, observations, &last.fit, next.count, &next.ranges, criterion).ok()
     };
     [Criterion::D, Criterion::A].into_iter().filter_map(proposal).collect()
+}
+
+/// The stations and objects that the study asks for; none if it asks for none, or if they cannot be computed.
+fn next_places(whole: &Context<'_>, last: &Fitted) -> Vec<PlaceProposal> {
+    let Request { observations, plan, .. } = whole.request;
+    let mut proposals = propose_places(&last.chain, observations, &last.fit, plan).unwrap_or_default();
+    if proposals.iter().all(|proposal| proposal.never.is_empty()) {
+        return proposals;
+    }
+    let Ok(set_up) = identify(&plan.chain, observations, &plan.fit) else { return proposals };
+    for proposal in &mut proposals {
+        let shown = |seen: &Visible| {
+            let names = seen.alone.iter().map(|id| plan.chain.symbol(*id).name.clone());
+            names.filter(|name| proposal.never.contains(name)).collect::<Vec<String>>()
+        };
+        let all = set_up.remedies.iter().map(|(remedy, seen)| (*remedy, shown(seen)));
+        proposal.remedies = all.filter(|(_, names)| !names.is_empty()).collect();
+    }
+    proposals
 }

@@ -2,6 +2,7 @@
 //! their columns where objects and stations follow every change of them.
 
 use model_core::{Chain, SymbolId, SymbolKind};
+use serde::Serialize;
 
 use crate::data::Observations;
 use crate::data::unknowns::{Freedom, Shape, Station, Unknowns};
@@ -23,7 +24,8 @@ pub struct Visible {
 }
 
 /// Something that would show more.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Remedy {
     /// The length between two objects.
     OneLength,

@@ -12,5 +12,6 @@ mod start;
 
 pub use identify::{Remedy, SetUp, Visible, identify};
 pub use remark::Remark;
+pub(crate) use rows::{Row, rows};
 pub use scale::{check_scale, check_scale_of_ranges};
 pub use start::{StartError, check_named, place};

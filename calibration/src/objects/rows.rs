@@ -1,4 +1,4 @@
-//! The rows that observe objects, each with the point or direction that the chain without errors says.
+//! The rows that observe objects, each with the point or direction that the chain says.
 
 use model_core::{Chain, exact};
 use nalgebra::Vector3;
@@ -6,9 +6,10 @@ use nalgebra::Vector3;
 use crate::data::unknowns::Unknowns;
 use crate::data::{Measure, Measured, Observations};
 
-/// A row that observes an object: the point that the chain says, without errors.
-pub(super) struct Row {
+/// A row that observes an object: the point that the chain says.
+pub(crate) struct Row {
     pub number: usize,
+    pub series: usize,
     pub object: usize,
     pub station: usize,
     pub measure: Measure,
@@ -16,8 +17,8 @@ pub(super) struct Row {
     pub measured: Measured,
 }
 
-/// The rows that observe objects.
-pub(super) fn rows(
+/// The rows that observe objects, the chain's symbols having these values.
+pub(crate) fn rows(
     chain: &Chain,
     observations: &Observations,
     unknowns: &Unknowns,
@@ -26,7 +27,7 @@ pub(super) fn rows(
     let mut values = values.to_vec();
     values.truncate(chain.symbols.len());
     let mut rows = Vec::new();
-    for series in &observations.poses.series {
+    for (of, series) in observations.poses.series.iter().enumerate() {
         let path = exact::Path::new(chain, series.observable);
         for row in series.rows.clone() {
             let Some(object) = unknowns.object[row] else { continue };
@@ -37,7 +38,7 @@ pub(super) fn rows(
             if point.iter().all(|part| part.is_finite()) {
                 let (station, measured) = (unknowns.station[row] as usize, observations.measured[row]);
                 let (object, measure) = (object as usize, series.measure);
-                rows.push(Row { number: row, object, station, measure, point, measured });
+                rows.push(Row { number: row, series: of, object, station, measure, point, measured });
             }
         }
     }

@@ -411,5 +411,13 @@ fn measure(diagnosis: &Diagnosis) -> Vec<Step> {
             command: None,
         });
     }
+    if !diagnosis.next_places.is_empty() {
+        steps.push(Step {
+            title: "To make the errors surer, add".to_owned(),
+            text: "What the study asks for is listed below, with where to put it and what to aim at."
+                .to_owned(),
+            command: None,
+        });
+    }
     steps
 }

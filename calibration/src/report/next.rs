@@ -21,13 +21,8 @@ pub struct PoseTable {
     pub notes: Vec<String>,
 }
 
-/// Every proposal.
-#[must_use]
-pub fn pose_tables(diagnosis: &Diagnosis) -> Vec<PoseTable> {
-    let unit = |name: &str| {
-        let readings = &diagnosis.instrument.readings;
-        readings.iter().find(|reading| reading.name == name).map_or(SiUnit::ONE, |reading| reading.unit)
-    };
+/// Every proposal of poses; `unit` is that of a joint by its name.
+pub(super) fn tables_of_poses(diagnosis: &Diagnosis, unit: impl Fn(&str) -> SiUnit + Copy) -> Vec<PoseTable> {
     let proposals = diagnosis.next_poses.iter().map(|proposal| of_proposal(diagnosis, proposal, unit));
     let separations = diagnosis.separating.iter().map(|separation| of_separation(separation, unit));
     proposals.chain(separations).collect()
@@ -38,19 +33,25 @@ fn of_proposal(diagnosis: &Diagnosis, proposal: &Proposal, unit: impl Fn(&str) -
         Criterion::D => "to determine all errors together best",
         Criterion::A => "to make the uncertainties small on average",
     };
+    let notes = gained(diagnosis, &proposal.uncertainties);
+    let (joints, poses) = in_reading_units(&proposal.joints, &proposal.poses, unit);
+    PoseTable { title: title.to_owned(), joints, poses, notes }
+}
+
+/// How surely errors would be known that were known less surely: those that gain most.
+pub(super) fn gained(diagnosis: &Diagnosis, uncertainties: &[(String, f64, f64)]) -> Vec<String> {
     let unit_of = |name: &str| {
         let error = diagnosis.errors.iter().find(|error| error.name == name);
         error.map_or(SiUnit::ONE, |error| error.unit)
     };
     let mut gains: Vec<_> =
-        proposal.uncertainties.iter().filter(|(_, now, then)| now.is_finite() && then < now).collect();
+        uncertainties.iter().filter(|(_, now, then)| now.is_finite() && then < now).collect();
     gains.sort_by(|a, b| (a.2 / a.1).total_cmp(&(b.2 / b.1)));
-    let notes = gains.into_iter().take(ERRORS).map(|(name, now, then)| {
+    let told = gains.into_iter().take(ERRORS).map(|(name, now, then)| {
         let told = |si| numbers::told(si, unit_of(name));
         format!("the standard uncertainty of {name} would go from {} to {}", told(*now), told(*then))
     });
-    let (joints, poses) = in_reading_units(&proposal.joints, &proposal.poses, unit);
-    PoseTable { title: title.to_owned(), joints, poses, notes: notes.collect() }
+    told.collect()
 }
 
 fn of_separation(separation: &Separation, unit: impl Fn(&str) -> SiUnit) -> PoseTable {

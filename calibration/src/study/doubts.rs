@@ -35,7 +35,7 @@ impl Study {
             let written = format!("{name} = {number}");
             doubts.extend(plausible.doubt(symbol.quantity, &[*amount.get_ref()], &written, meant));
         }
-        for (name, range) in self.next.iter().flat_map(|next| &next.range) {
+        for (name, range) in self.next.iter().flat_map(|next| &next.get_ref().range) {
             let (name, [low, high]) = (name.get_ref(), *range.get_ref());
             let Some(id) = chain.find_symbol(name) else { continue };
             let (from, to) = (low.number, high.number);

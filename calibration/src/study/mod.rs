@@ -11,6 +11,7 @@ mod effects;
 mod estimated;
 mod format;
 mod inputs;
+mod kind;
 mod load;
 mod memory;
 mod mistakes;
@@ -28,7 +29,7 @@ mod unstated;
 mod written;
 
 pub use load::{Loaded, Open, OpenTable};
-pub use plan::{HoldOut, NextPoses, Plan, Search, SourcePlan};
+pub use plan::{HoldOut, NextPlaces, NextPoses, Plan, Search, SourcePlan};
 pub use timeless::Timeless;
 pub use unsought::Unsought;
 pub use unstated::Unstated;

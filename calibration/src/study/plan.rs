@@ -74,8 +74,23 @@ pub struct HoldOut {
 pub struct NextPoses {
     /// How many.
     pub count: usize,
-    /// Between which values of a joint, SI; joints without a range stay within that of the data.
+    /// Between which values of a joint, or of a range that is measured, SI; those without stay within that of the data.
     pub ranges: Vec<(SymbolId, Range<f64>)>,
+    /// What to add instead where rows observe objects from stations.
+    pub places: Option<NextPlaces>,
+}
+
+/// How many stations and objects to propose, and where.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NextPlaces {
+    /// Rows of each; as many as stations or objects have so far where the study does not say.
+    pub poses: Option<usize>,
+    /// Places to stand.
+    pub stations: usize,
+    /// Objects of each kind.
+    pub objects: Vec<(Measure, usize)>,
+    /// Between which x, y, z (m) and headings (rad).
+    pub bounds: [Option<Range<f64>>; 4],
 }
 
 /// Files that observe one thing in one way.

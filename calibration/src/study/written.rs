@@ -11,6 +11,7 @@ use serde::de::{Error, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
+pub(super) use super::kind::Kind;
 use crate::data::units::Amount;
 
 /// Names with what is said of them, in the order of the alphabet.
@@ -60,7 +61,7 @@ pub struct Study {
     #[serde(default)]
     pub(super) hold_out: HoldOutTable,
     /// Where to propose to measure next.
-    pub(super) next: Option<NextTable>,
+    pub(super) next: Option<Spanned<NextTable>>,
     /// Further data that observe otherwise.
     #[serde(default)]
     pub(super) also: Vec<Also>,
@@ -212,24 +213,6 @@ impl Observed {
     }
 }
 
-/// What the numbers of an observation are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum Kind {
-    Direction,
-    Spherical,
-    Offset,
-    Point,
-    Range,
-    Plane,
-    Target,
-    Fixed,
-    Wire,
-    Distance,
-    Sight,
-    Orientation,
-}
-
 /// `[noise]`.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -330,9 +313,17 @@ impl Default for HoldOutTable {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct NextTable {
-    pub poses: Spanned<u64>,
+    pub poses: Option<Spanned<u64>>,
     #[serde(default)]
     pub range: Table<[Amount; 2]>,
+    /// How many places to stand.
+    pub stations: Option<Spanned<u64>>,
+    /// How many objects of each kind.
+    #[serde(default)]
+    pub objects: Table<u64>,
+    /// Between which coordinates.
+    #[serde(default)]
+    pub place: Table<[Amount; 2]>,
 }
 
 /// Reads a value that may be written short (a text or number) or long (a table or list).

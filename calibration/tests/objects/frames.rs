@@ -84,7 +84,7 @@ fn the_planted_effect_is_found_and_the_errors_are_those_planted() {
         }
         let (before, after) = (found.diagnosis.before.held_out_rms, found.diagnosis.after.held_out_rms);
         assert!(after.unwrap() < before.unwrap(), "{name}");
-        // What a region of the joints or a pose to measure would be, nobody knows here.
-        assert!(found.diagnosis.after.elsewhere_rms.is_none() && found.diagnosis.next_poses.is_empty());
+        // What a region of the joints would be, nobody knows here; and nobody asked for places.
+        assert!(found.diagnosis.after.elsewhere_rms.is_none() && found.diagnosis.next_places.is_empty());
     }
 }

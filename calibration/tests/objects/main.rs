@@ -6,6 +6,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod frames;
+mod next;
 mod refused;
 mod visible;
 

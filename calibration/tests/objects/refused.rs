@@ -72,6 +72,23 @@ fn studies_that_cannot_be_meant_are_refused() {
             "is positive",
         ),
         (good.clone() + "[fit]\ntolerance = { trunnion = \"-1 mrad\" }\n", "tolerance is positive"),
+        (
+            good.clone() + "[next]\nobjects = { plane = 1 }\n",
+            "no kind of object of this study is called `plane`",
+        ),
+        (good.clone() + "[next]\nobjects = { wal = 1 }\n", "there are `target`"),
+        (good.clone() + "[next]\nstations = 100\n", "stations from 0 to 20"),
+        (good.clone() + "[next]\nwalls = 1\n", "`walls` is no key here"),
+        (good.clone() + "[next]\nplace = { x = [\"3 m\", \"1 m\"] }\n", "ends before it starts"),
+        (good.clone() + "[next]\nplace = { w = [\"3 m\", \"4 m\"] }\n", "no coordinate of a place"),
+        (
+            good.clone() + "[next]\nrange = { axes_apart = [\"3 m\", \"4 m\"] }\n",
+            "no joint or range is called",
+        ),
+        (
+            good.replace("station = \"station\"\n", "") + "[next]\nstations = 1\n",
+            "no row of this study names a station",
+        ),
         (good + "[fit]\ntolerance = { trunion = \"1 mrad\" }\n", "no error or constant is called `trunion`"),
     ];
     for (study, expected) in cases {

@@ -6,8 +6,8 @@ mod pose;
 use faer::Mat;
 use nalgebra::Vector3;
 
-use super::Measure;
 use super::joined::Joined;
+use super::{Measure, tangent_frame};
 
 pub use pose::Pose;
 pub(crate) use pose::right_jacobian;
@@ -112,6 +112,21 @@ impl Object {
     pub fn numbers(&self) -> usize {
         if self.freedom == Freedom::Given { 0 } else { self.shape.numbers() }
     }
+
+    /// Moves it by its numbers.
+    fn move_by(&mut self, own: &[f64]) {
+        match self.shape {
+            Shape::Plane => {
+                let [first, second] = tangent_frame(&self.normal);
+                self.normal = (self.normal + first * own[0] + second * own[1]).normalize();
+                self.place += self.normal * own[2];
+            }
+            Shape::Point | Shape::Wire => {
+                self.place += Vector3::new(own[0], own[1], own[2]);
+                self.offset += own.get(3).copied().unwrap_or(0.0);
+            }
+        }
+    }
 }
 
 /// Where the instrument stood.
@@ -206,6 +221,22 @@ impl Unknowns {
     #[must_use]
     pub fn first_of_objects(&self) -> Vec<usize> {
         first(self.objects.iter().map(Object::numbers), self.of_stations())
+    }
+
+    /// The same with objects and stations where these numbers have them: the numbers count from there.
+    #[must_use]
+    pub fn at(&self, numbers: &[f64]) -> Self {
+        let mut there = self.clone();
+        let firsts = self.first_of_stations();
+        for (station, first) in there.stations.iter_mut().zip(firsts).filter(|(own, _)| own.numbers() > 0) {
+            station.pose = station.pose.moved(&std::array::from_fn(|at| numbers[first + at]));
+        }
+        for (object, first) in there.objects.iter_mut().zip(self.first_of_objects()) {
+            if object.numbers() > 0 {
+                object.move_by(&numbers[first..first + object.numbers()]);
+            }
+        }
+        there
     }
 
     /// The same for some of the rows; objects and stations that no row of them has to do with stay.

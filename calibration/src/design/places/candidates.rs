@@ -1,0 +1,311 @@
+//! Places spread over where things are, each with what could be aimed at there and how.
+
+use std::collections::BTreeSet;
+use std::f64::consts::PI;
+
+use model_core::Chain;
+use nalgebra::{Rotation3, Vector3};
+use rayon::prelude::*;
+
+use super::Addition;
+use super::aim::{Aim, Goal, ranges_of};
+use super::known::{Known, extent};
+use crate::data::unknowns::{Freedom, Known as Placed, Object, Pose, Shape, Station, Unknowns};
+use crate::data::{Measure, Observations};
+use crate::design::generator;
+use crate::fit::robust::median;
+use crate::objects::{Row, rows};
+use crate::study::{NextPlaces, NextPoses};
+
+/// Places that are compared.
+const PLACES: usize = 96;
+
+/// Ways of pointing at one thing, at most and at least.
+const WAYS: [usize; 2] = [2, 40];
+
+/// Pointings to choose from, for each that is wanted.
+const CHOICE: f64 = 1.5;
+
+/// Rows of one addition at most.
+const MOST_ROWS: usize = 100;
+
+/// A beam that meets a plane at more than this from its normal is lost, as a cosine: 80 degrees.
+const GRAZING: f64 = 0.17;
+
+/// What could be added, and how it could be measured.
+pub(super) struct Candidate {
+    pub station: Option<Station>,
+    pub object: Option<Object>,
+    pub pointings: Vec<Possible>,
+    /// How many pointings are to be measured.
+    pub wanted: usize,
+}
+
+/// A row that could be measured; a station or object behind those that there are is the new one.
+pub(super) struct Possible {
+    pub series: usize,
+    pub station: usize,
+    pub object: usize,
+    /// One value a column of the readings.
+    pub readings: Vec<f64>,
+}
+
+/// What candidates are made of.
+pub(super) struct Candidates<'a> {
+    /// Where objects and stations are.
+    pub unknowns: Unknowns,
+    /// What would be known of another station.
+    of_stations: Freedom,
+    wanted: &'a NextPlaces,
+    measures: Vec<Measure>,
+    /// One a series that observes objects.
+    aims: Vec<Option<Aim>>,
+    rows: Vec<Row>,
+    /// Of each row the point in the frame of the objects, if it is one.
+    hits: Vec<Vector3<f64>>,
+    /// Of each object where it was hit, and by which series.
+    hits_of: Vec<Vec<(usize, Vector3<f64>)>>,
+    /// How far a usual plane reaches from its middle, m.
+    board_m: f64,
+    /// Whether a beam goes from the station to what is observed.
+    has_beam: bool,
+}
+
+impl<'a> Candidates<'a> {
+    /// Of observations whose objects and stations are where the fit has them.
+    pub fn of(
+        chain: &Chain,
+        observations: &Observations,
+        of_stations: Freedom,
+        values: &[f64],
+        next: &NextPoses,
+        wanted: &'a NextPlaces,
+    ) -> Self {
+        let poses = &observations.poses;
+        let unknowns = observations.unknowns.clone().unwrap_or_default();
+        let aims = poses.series.iter().map(|series| {
+            let observes = Shape::of(series.measure).is_some() && !series.rows.is_empty();
+            observes.then(|| Aim::new(chain, series.observable, poses, &next.ranges, values))
+        });
+        let rows = rows(chain, observations, &unknowns, values);
+        let hits: Vec<Vector3<f64>> =
+            rows.iter().map(|row| unknowns.stations[row.station].pose.apply(&row.point)).collect();
+        let mut hits_of = vec![Vec::new(); unknowns.objects.len()];
+        rows.iter().zip(&hits).for_each(|(row, hit)| hits_of[row.object].push((row.series, *hit)));
+        let planes = unknowns.objects.iter().zip(&hits_of).filter(|(own, _)| own.shape == Shape::Plane);
+        let reach = planes
+            .filter(|(_, hits)| !hits.is_empty())
+            .map(|(plane, hits)| median(hits.iter().map(|(_, hit)| (hit - plane.place).norm()).collect()));
+        Self {
+            aims: aims.collect(),
+            board_m: median(reach.collect()),
+            hits_of,
+            measures: poses.series.iter().map(|series| series.measure).collect(),
+            has_beam: !ranges_of(chain, poses, &next.ranges).is_empty(),
+            unknowns,
+            of_stations,
+            wanted,
+            rows,
+            hits,
+        }
+    }
+
+    /// How far apart things are, m.
+    pub fn extent_m(&self) -> f64 {
+        extent(self.things())
+    }
+
+    /// Where things are: stations, points, and where planes were hit.
+    fn things(&self) -> impl Iterator<Item = Vector3<f64>> + Clone {
+        let hits = self.rows.iter().zip(&self.hits).filter(|(row, _)| row.measure != Measure::Sight);
+        let points = self.unknowns.objects.iter().filter(|object| object.shape != Shape::Plane);
+        self.stations()
+            .map(|station| station.pose.shift)
+            .chain(points.map(|object| object.place))
+            .chain(hits.map(|(_, hit)| *hit))
+    }
+
+    /// The stations from which rows observe something.
+    fn stations(&self) -> impl Iterator<Item = &Station> + Clone {
+        let used: BTreeSet<usize> = self.rows.iter().map(|row| row.station).collect();
+        let all = self.unknowns.stations.iter().enumerate();
+        all.filter(move |(number, _)| used.contains(number)).map(|(_, station)| station)
+    }
+
+    /// What could be added of a kind.
+    pub fn all(&self, adds: Addition, known: &Known) -> Vec<Candidate> {
+        (0..PLACES)
+            .into_par_iter()
+            .filter_map(|number| match adds {
+                Addition::Station => self.station(number, known),
+                _ => self.object(number, adds),
+            })
+            .collect()
+    }
+
+    /// Coordinate number so of a place, between the ends of where things are or where the study says.
+    fn within(&self, axis: usize, share: f64, of_stations: bool) -> f64 {
+        let stations = self.stations().map(|station| station.pose.shift[axis]);
+        let things = self.things().map(|thing| thing[axis]);
+        let ends = |values: &mut dyn Iterator<Item = f64>| {
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
+        };
+        let (low, high) = match &self.wanted.bounds[axis] {
+            Some(range) => (range.start, range.end),
+            // An instrument stands as high as it has stood.
+            None if of_stations && axis == 2 => ends(&mut { stations }),
+            None => ends(&mut { things }),
+        };
+        low + (high - low) * share
+    }
+
+    fn station(&self, number: usize, known: &Known) -> Option<Candidate> {
+        let first = self.stations().find(|station| !station.label.is_empty())?;
+        let share = shares::<4>(number);
+        let shift = Vector3::from_fn(|axis, _| self.within(axis, share[axis], true));
+        let heading = self.wanted.bounds[3].clone().unwrap_or(-PI..PI);
+        let heading = heading.start + (heading.end - heading.start) * share[3];
+        // As upright as the others.
+        let (.., yaw) = first.pose.turn.euler_angles();
+        let turn = Rotation3::from_euler_angles(0.0, 0.0, heading - yaw) * first.pose.turn;
+        let pose = Pose { turn, shift };
+        let station = Station { label: String::new(), freedom: self.of_stations, known: Placed::Yes, pose };
+        let per_station = self.rows_per(|row| row.station);
+        let wanted = self.wanted.poses.unwrap_or(per_station);
+
+        let seen: BTreeSet<(usize, usize)> = self.rows.iter().map(|row| (row.series, row.object)).collect();
+        let aimed: Vec<(usize, usize)> = seen
+            .into_iter()
+            .filter(|&(_, object)| {
+                known.objects[object].is_some() || self.unknowns.objects[object].numbers() == 0
+            })
+            .collect();
+        let each = (CHOICE * wanted as f64 / aimed.len().max(1) as f64).ceil() as usize;
+        let new = self.unknowns.stations.len();
+        let mut pointings = Vec::new();
+        for (series, object) in aimed {
+            let Some(aim) = &self.aims[series] else { continue };
+            let thing = &self.unknowns.objects[object];
+            let goals: Vec<Goal> = match self.measures[series] {
+                Measure::Plane => {
+                    self.spots(series, object, each).iter().map(|spot| Goal::Point(pose.back(spot))).collect()
+                }
+                Measure::Sight => vec![Goal::Way(pose.back(&thing.place))],
+                Measure::Wire | Measure::Distance => vec![Goal::Anything],
+                _ => vec![Goal::Point(pose.back(&thing.place))],
+            };
+            let ways = (each / goals.len().max(1)).clamp(WAYS[0], WAYS[1]);
+            for goal in goals {
+                if let (Goal::Point(there), Measure::Plane) = (goal, self.measures[series])
+                    && self.grazes(&(pose.turn * there), &thing.normal)
+                {
+                    continue;
+                }
+                let ways = aim.at(goal, ways);
+                pointings.extend(ways.into_iter().map(|readings| Possible {
+                    series,
+                    station: new,
+                    object,
+                    readings,
+                }));
+            }
+        }
+        (!pointings.is_empty()).then_some(Candidate {
+            station: Some(station),
+            object: None,
+            pointings,
+            wanted,
+        })
+    }
+
+    fn object(&self, number: usize, adds: Addition) -> Option<Candidate> {
+        let series = self.measures.iter().position(|measure| Addition::of(*measure) == Some(adds))?;
+        let aim = self.aims[series].as_ref()?;
+        let measure = self.measures[series];
+        let shape = Shape::of(measure)?;
+        let share = shares::<5>(number);
+        let place = Vector3::from_fn(|axis, _| self.within(axis, share[axis], false));
+        let mut object = Object::unknown(String::new(), shape);
+        (object.place, object.known) = (place, Placed::Yes);
+        let own = self.unknowns.objects.iter().filter(|own| own.shape == shape);
+        object.freedom = as_the_others(own.clone().map(|own| own.freedom));
+        if shape == Shape::Plane {
+            let (up, around) = (2.0 * share[3] - 1.0, 2.0 * PI * share[4]);
+            let level = (1.0 - up * up).sqrt();
+            object.normal = Vector3::new(level * around.cos(), level * around.sin(), up);
+        }
+        if shape == Shape::Wire {
+            object.offset = median(own.map(|own| own.offset).collect());
+        }
+        let wanted = self.wanted.poses.unwrap_or_else(|| self.rows_per(|row| row.object));
+        let stations: BTreeSet<usize> =
+            self.rows.iter().filter(|row| row.series == series).map(|row| row.station).collect();
+        let ways = (CHOICE * wanted as f64 / stations.len().max(1) as f64).ceil() as usize;
+        let ways = ways.clamp(WAYS[0], WAYS[1]);
+        let new = self.unknowns.objects.len();
+        let mut pointings = Vec::new();
+        for station in stations {
+            let pose = self.unknowns.stations[station].pose;
+            let there = pose.back(&place);
+            let goal = match measure {
+                Measure::Plane if self.grazes(&(place - pose.shift), &object.normal) => continue,
+                Measure::Plane => Goal::Board(there, pose.turn.inverse() * object.normal, self.board_m),
+                Measure::Sight => Goal::Way(there),
+                Measure::Wire | Measure::Distance => Goal::Anything,
+                _ => Goal::Point(there),
+            };
+            let readings = aim.at(goal, ways);
+            pointings.extend(readings.into_iter().map(|readings| Possible {
+                series,
+                station,
+                object: new,
+                readings,
+            }));
+        }
+        (!pointings.is_empty()).then_some(Candidate {
+            station: None,
+            object: Some(object),
+            pointings,
+            wanted,
+        })
+    }
+
+    /// Whether a beam would be lost on a plane.
+    fn grazes(&self, beam: &Vector3<f64>, normal: &Vector3<f64>) -> bool {
+        self.has_beam && beam.normalize().dot(normal).abs() < GRAZING
+    }
+
+    /// Some points at which a plane was hit, spread over its rows.
+    fn spots(&self, series: usize, object: usize, count: usize) -> Vec<Vector3<f64>> {
+        let own: Vec<Vector3<f64>> =
+            self.hits_of[object].iter().filter(|(by, _)| *by == series).map(|(_, hit)| *hit).collect();
+        let count = count.clamp(1, own.len());
+        (0..count).map(|at| own[at * own.len() / count]).collect()
+    }
+
+    /// Rows of a station or object, at the median.
+    fn rows_per(&self, of: impl Fn(&Row) -> usize) -> usize {
+        let mut count: Vec<f64> = Vec::new();
+        for row in &self.rows {
+            let at = of(row);
+            if count.len() <= at {
+                count.resize(at + 1, 0.0);
+            }
+            count[at] += 1.0;
+        }
+        count.retain(|count| *count > 0.0);
+        (median(count) as usize).clamp(1, MOST_ROWS)
+    }
+}
+
+/// What would be known of one more: what is known of every other.
+pub(super) fn as_the_others(mut others: impl Iterator<Item = Freedom>) -> Freedom {
+    let Some(first) = others.next() else { return Freedom::Free };
+    if others.all(|other| other == first) { first } else { Freedom::Free }
+}
+
+/// A point of so many dimensions that fill the unit cube evenly.
+fn shares<const N: usize>(number: usize) -> [f64; N] {
+    let steps = generator(N);
+    std::array::from_fn(|axis| ((number as f64 + 0.5) * steps[axis]).fract())
+}

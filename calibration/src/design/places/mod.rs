@@ -1,0 +1,434 @@
+//! Where to put the next station, wall, target, socket or wire, and what to aim at: additions to a set-up with places that
+//! nobody knows, by which the worst-determined errors gain most.
+//!
+//! An addition brings numbers of its own, which are estimated with all others: a target that is seen once tells nothing. Of
+//! places spread over where things are each is judged by the pointings that tell most there.
+
+mod aim;
+mod candidates;
+mod known;
+mod noise;
+mod seen;
+mod weigh;
+
+use std::collections::BTreeSet;
+
+use model_core::Chain;
+use nalgebra::{DMatrix, Vector3};
+use rayon::prelude::*;
+use serde::Serialize;
+
+use crate::data::unknowns::{Freedom, OF_OBJECT, Object, Shape, Station, Unknowns, WIDTH};
+use crate::data::{Measure, Measured, Observations, Poses, Series};
+use crate::design::Criterion;
+use crate::fit::noise::Layout;
+use crate::fit::{FitError, FitResult, Model};
+use crate::objects::Remedy;
+use crate::study::{NextPlaces, NextPoses, Plan};
+use aim::ranges_of;
+use candidates::{Candidate, Candidates, as_the_others};
+use known::{Known, OF_STATION, of_object, roots};
+use noise::Usual;
+use seen::Seen;
+use weigh::{Pointed, badness, chosen, measured};
+
+/// The size of what the study states none of: coefficients of effects.
+const ANY_SIZE: f64 = 1.0;
+
+/// An error that is no surer than this share of its tolerance is not shown.
+const NOT_SHOWN: f64 = 0.7;
+
+/// What is added.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Addition {
+    /// A place to stand.
+    Station,
+    /// A wall or a board.
+    Plane,
+    /// A target.
+    Target,
+    /// A socket.
+    Fixed,
+    /// A wire.
+    Wire,
+    /// A pivot.
+    Distance,
+    /// A point to be sighted.
+    Sight,
+}
+
+impl Addition {
+    /// An object by how it is observed; `None` if no object is.
+    #[must_use]
+    pub fn of(measure: Measure) -> Option<Self> {
+        match measure {
+            Measure::Plane => Some(Self::Plane),
+            Measure::Target => Some(Self::Target),
+            Measure::Fixed => Some(Self::Fixed),
+            Measure::Wire => Some(Self::Wire),
+            Measure::Distance => Some(Self::Distance),
+            Measure::Sight => Some(Self::Sight),
+            Measure::Direction
+            | Measure::Point
+            | Measure::Range
+            | Measure::Azimuth
+            | Measure::Orientation => None,
+        }
+    }
+}
+
+/// Additions of one kind to a set-up, and what they promise.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PlaceProposal {
+    /// What is added.
+    pub adds: Addition,
+    /// What that makes small.
+    pub criterion: Criterion,
+    /// The joints and ranges, in the order of the pointings' readings.
+    pub readings: Vec<String>,
+    /// The additions, the most telling first.
+    pub places: Vec<Place>,
+    /// Per error: name, its standard uncertainty now, and with all of these measured, SI.
+    pub uncertainties: Vec<(String, f64, f64)>,
+    /// Errors that are not shown, nor would be.
+    pub never: Vec<String>,
+    /// What would show some of those.
+    pub remedies: Vec<(Remedy, Vec<String>)>,
+}
+
+/// One addition.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Place {
+    /// Where in the frame of the stations and objects, m.
+    pub place_m: [f64; 3],
+    /// Of a station: where its frame is turned about the vertical, rad.
+    pub heading_rad: Option<f64>,
+    /// Of a plane: its normal.
+    pub normal: Option<[f64; 3]>,
+    /// What to measure.
+    pub pointings: Vec<Pointing>,
+}
+
+/// One row to measure.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Pointing {
+    /// From where: the label of a station, empty for the new one and where there is none.
+    pub station: String,
+    /// At what: the label of an object, empty for the new one.
+    pub object: String,
+    /// About the readings of the joints and ranges, SI.
+    pub readings: Vec<f64>,
+}
+
+/// What everything that is proposed is judged by.
+struct Setting<'a> {
+    model: Model,
+    observations: &'a Observations,
+    fit: &'a FitResult,
+    chain: &'a Chain,
+    usual: Usual<'a>,
+    /// What an error does to the observations so far.
+    scale: Vec<f64>,
+}
+
+/// Proposes additions as the study asks for them; none where nothing was asked for.
+///
+/// # Errors
+/// As a fit of them would have.
+pub(crate) fn propose_places(
+    chain: &Chain,
+    observations: &Observations,
+    fit: &FitResult,
+    plan: &Plan,
+) -> Result<Vec<PlaceProposal>, FitError> {
+    let Some((next, wanted)) = plan.next.as_ref().and_then(|next| Some((next, next.places.as_ref()?))) else {
+        return Ok(Vec::new());
+    };
+    let Some(unknowns) = &observations.unknowns else { return Ok(Vec::new()) };
+    let own = unknowns.stations.iter().filter(|station| !station.label.is_empty());
+    let of_stations = as_the_others(own.map(|station| station.freedom));
+    let unknowns = in_a_frame(unknowns.at(&fit.values[chain.symbols.len()..]));
+    let mut values = fit.values[..chain.symbols.len()].to_vec();
+    values.resize(values.len() + unknowns.numbers(), 0.0);
+    let observations = &Observations { unknowns: Some(unknowns), ..observations.clone() };
+    let model = Model::new(chain, &observations.poses, &fit.parameters)?.for_determination();
+    let size = |id: &_| plan.fit.sizes.iter().find(|(own, _)| own == id).map_or(ANY_SIZE, |(_, size)| *size);
+    let sizes: Vec<f64> = fit.parameters.iter().map(size).collect();
+    let candidates = Candidates::of(chain, observations, of_stations, &values, next, wanted);
+    let known =
+        Known::of(&model, observations, &candidates.unknowns, fit, &values, &sizes, candidates.extent_m())?;
+    let layout = Layout::of(observations);
+    let scale = (0..sizes.len()).map(|at| fit.factor.length(at).max(1.0 / sizes[at]));
+    let usual = Usual::of(&fit.noise, observations, &layout);
+    let setting = Setting { model, observations, fit, chain, usual, scale: scale.collect() };
+    let mut proposals = Vec::new();
+    for (adds, count) in asked(wanted) {
+        let places = candidates.all(adds, &known);
+        for criterion in [Criterion::D, Criterion::A] {
+            proposals.extend(setting.proposal(&places, &known, adds, count, criterion, next)?);
+        }
+    }
+    for proposal in &mut proposals {
+        let after = |at: usize| proposal.uncertainties[at].2 > NOT_SHOWN * sizes[at];
+        proposal.never = (0..sizes.len())
+            .filter(|&at| after(at) && !fit.separable[at])
+            .map(|at| proposal.uncertainties[at].0.clone())
+            .collect();
+    }
+    Ok(proposals)
+}
+
+/// The same with one station held where nothing holds the frame, which changes no error.
+fn in_a_frame(mut unknowns: Unknowns) -> Unknowns {
+    let used: BTreeSet<u32> = unknowns.station.iter().copied().collect();
+    let is_free = |freedom: Freedom| freedom == Freedom::Free;
+    let mut of_stations = used.iter().map(|&number| unknowns.stations[number as usize].freedom);
+    if of_stations.all(is_free) && unknowns.objects.iter().all(|object| is_free(object.freedom)) {
+        for &first in used.iter().take(1) {
+            unknowns.stations[first as usize].freedom = Freedom::Given;
+        }
+    }
+    unknowns
+}
+
+/// What is asked for, and how many.
+fn asked(wanted: &NextPlaces) -> Vec<(Addition, usize)> {
+    let objects = wanted.objects.iter().filter_map(|&(measure, count)| Some((Addition::of(measure)?, count)));
+    let all = std::iter::once((Addition::Station, wanted.stations)).chain(objects);
+    all.filter(|(_, count)| *count > 0).collect()
+}
+
+/// What becomes of a candidate.
+struct Trial {
+    badness: f64,
+    pointings: Vec<usize>,
+}
+
+impl Setting<'_> {
+    fn proposal(
+        &self,
+        candidates: &[Candidate],
+        known: &Known,
+        adds: Addition,
+        count: usize,
+        criterion: Criterion,
+        next: &NextPoses,
+    ) -> Result<Option<PlaceProposal>, FitError> {
+        let before = known.of_errors();
+        let mut covariance = known.covariance.clone();
+        let seen: Vec<Vec<Pointed>> = candidates
+            .par_iter()
+            .map(|candidate| self.pointed(candidate, known))
+            .collect::<Result<_, FitError>>()?;
+        let read: Vec<_> = self.read(next);
+        let mut places = Vec::new();
+        let mut used: Vec<usize> = Vec::new();
+        for _ in 0..count {
+            let trials: Vec<Option<Trial>> = candidates
+                .par_iter()
+                .zip(&seen)
+                .map(|(candidate, seen)| self.trial(candidate, seen, known, &covariance, criterion))
+                .collect();
+            let best = trials
+                .into_iter()
+                .enumerate()
+                .filter(|(at, _)| !used.contains(at))
+                .filter_map(|(at, trial)| Some((at, trial?)))
+                .min_by(|a, b| a.1.badness.total_cmp(&b.1.badness).then(a.0.cmp(&b.0)));
+            let Some((best, trial)) = best else { break };
+            used.push(best);
+            let candidate = &candidates[best];
+            let whole = extended(&covariance, candidate, known.extent_m);
+            let Some(whole) = measured(&whole, trial.pointings.iter().map(|&at| &seen[best][at])) else {
+                break;
+            };
+            let n = covariance.nrows();
+            covariance = whole.view((0, 0), (n, n)).into_owned();
+            places.push(candidate.place(&known.unknowns, &trial.pointings, &read));
+        }
+        if places.is_empty() {
+            return Ok(None);
+        }
+        let names = self.fit.parameters.iter().enumerate().map(|(at, id)| {
+            let now = self.fit.covariance[(at, at)].sqrt();
+            let now = if now.is_finite() { now } else { before[(at, at)].sqrt() };
+            let gain = (covariance[(at, at)] / before[(at, at)]).max(0.0).sqrt();
+            (self.chain.symbol(*id).name.clone(), now, now * gain)
+        });
+        let uncertainties = names.collect();
+        let readings = read
+            .iter()
+            .map(|&at| self.observations.poses.columns[at].0)
+            .map(|id| self.chain.symbol(id).name.clone());
+        let (never, remedies) = (Vec::new(), Vec::new());
+        let readings = readings.collect();
+        Ok(Some(PlaceProposal { adds, criterion, readings, places, uncertainties, never, remedies }))
+    }
+
+    /// Which columns of the readings are told: those that an instrument is set by.
+    fn read(&self, next: &NextPoses) -> Vec<usize> {
+        let poses = &self.observations.poses;
+        let mut own = crate::design::joints(self.chain, poses);
+        own.extend(ranges_of(self.chain, poses, &next.ranges));
+        (0..poses.columns.len()).filter(|&at| own.contains(&poses.columns[at].0)).collect()
+    }
+
+    /// The rows of each pointing, whitened, over the numbers of all that is known and those of the candidate behind.
+    fn pointed(&self, candidate: &Candidate, known: &Known) -> Result<Vec<Pointed>, FitError> {
+        let poses = &self.observations.poses;
+        let mut order: Vec<usize> = (0..candidate.pointings.len()).collect();
+        order.sort_by_key(|&at| candidate.pointings[at].series);
+        let mut start = 0;
+        let series = poses.series.iter().enumerate().map(|(number, series)| {
+            let own = order.iter().filter(|&&at| candidate.pointings[at].series == number).count();
+            start += own;
+            Series { rows: start - own..start, ..series.clone() }
+        });
+        let series: Vec<Series> = series.collect();
+        let column = |at: usize| order.iter().map(|&own| candidate.pointings[own].readings[at]).collect();
+        let columns = poses.columns.iter().enumerate().map(|(at, (id, _))| (*id, column(at))).collect();
+        let mut unknowns: Unknowns = known.unknowns.clone();
+        unknowns.stations.extend(candidate.station.clone());
+        unknowns.objects.extend(candidate.object.clone());
+        unknowns.object = order.iter().map(|&at| Some(candidate.pointings[at].object as u32)).collect();
+        unknowns.station = order.iter().map(|&at| candidate.pointings[at].station as u32).collect();
+        let measured = order.iter().map(|&at| match poses.series[candidate.pointings[at].series].measure {
+            // How long it would be read plays no part in what it tells.
+            Measure::Wire | Measure::Distance => Measured::Length { length_m: 1.0 },
+            _ => Measured::Readings,
+        });
+        let mut values = self.fit.values[..self.chain.symbols.len()].to_vec();
+        values.resize(values.len() + unknowns.numbers(), 0.0);
+        let there = Observations {
+            measured: measured.collect(),
+            poses: Poses { series, columns },
+            unknowns: Some(unknowns),
+            ..Observations::default()
+        };
+        let root: Vec<f64> = order
+            .iter()
+            .flat_map(|&at| {
+                let pointing = &candidate.pointings[at];
+                let reading = |id| {
+                    let column = poses.columns.iter().position(|(own, _)| *own == id);
+                    column.map_or(f64::NAN, |column| pointing.readings[column])
+                };
+                self.usual.sigma(pointing.series, reading).into_iter().map(f64::recip)
+            })
+            .collect();
+        let seen = Seen::of(&self.model, &there, &Layout::of(&there), &values, &root)?;
+        let behind = known.covariance.nrows();
+        let mut pointed: Vec<Pointed> = Vec::new();
+        for (row, &at) in order.iter().enumerate() {
+            let pointing = &candidate.pointings[at];
+            let of_row: Vec<&Seen> = seen.iter().filter(|seen| seen.row == row).collect();
+            let station = known.stations.get(pointing.station).copied().unwrap_or_else(|| {
+                candidate.station.as_ref().filter(|station| station.numbers() > 0).map(|_| behind)
+            });
+            let object = known.objects.get(pointing.object).copied().unwrap_or_else(|| {
+                candidate.object.as_ref().filter(|object| object.numbers() > 0).map(|_| behind)
+            });
+            let thing = known.unknowns.objects.get(pointing.object).or(candidate.object.as_ref());
+            let k = thing.map_or(0, Object::numbers);
+            // In the order of the derivatives.
+            let mut places: Vec<(usize, usize)> = Vec::new();
+            places.extend(object.iter().flat_map(|start| (0..k).map(move |number| (start + number, number))));
+            places.extend(
+                station
+                    .iter()
+                    .flat_map(|start| (0..WIDTH - OF_OBJECT).map(move |j| (start + j, OF_OBJECT + j))),
+            );
+            let at = (0..known.errors).chain(places.iter().map(|(at, _)| *at)).collect();
+            let columns = DMatrix::from_fn(of_row.len(), known.errors + places.len(), |i, j| {
+                let seen = of_row[i];
+                if j < known.errors { seen.errors[j] } else { seen.unknown[places[j - known.errors].1] }
+            });
+            pointed.push(Pointed { at, columns });
+        }
+        // Back in the order of the candidate's pointings.
+        let mut by_pointing: Vec<(usize, Pointed)> = order.into_iter().zip(pointed).collect();
+        by_pointing.sort_by_key(|(at, _)| *at);
+        Ok(by_pointing.into_iter().map(|(_, pointed)| pointed).collect())
+    }
+
+    /// How good a candidate is with those of its pointings that tell most.
+    fn trial(
+        &self,
+        candidate: &Candidate,
+        seen: &[Pointed],
+        known: &Known,
+        covariance: &DMatrix<f64>,
+        criterion: Criterion,
+    ) -> Option<Trial> {
+        // Only the numbers that it has to do with: the others follow.
+        let mut numbers: Vec<usize> = (0..known.errors).collect();
+        let mut more: Vec<usize> =
+            seen.iter().flat_map(|own| own.at[known.errors..].iter().copied()).collect();
+        more.sort_unstable();
+        more.dedup();
+        numbers.extend(more);
+        let whole = extended(covariance, candidate, known.extent_m);
+        let own = DMatrix::from_fn(numbers.len(), numbers.len(), |i, j| whole[(numbers[i], numbers[j])]);
+        let behind = &numbers[known.errors..];
+        let local = |at: &usize| match *at < known.errors {
+            true => *at,
+            false => known.errors + behind.partition_point(|number| number < at),
+        };
+        let pointed: Vec<Pointed> = seen
+            .iter()
+            .map(|own| Pointed { at: own.at.iter().map(local).collect(), columns: own.columns.clone() })
+            .collect();
+        let (pointings, errors) = chosen(&own, &pointed, candidate.wanted, &self.scale, criterion)?;
+        let badness = badness(&errors, &self.scale, criterion);
+        badness.is_finite().then_some(Trial { badness, pointings })
+    }
+}
+
+/// The covariance with the numbers of a candidate behind, of which nothing is known but what the study would say.
+fn extended(covariance: &DMatrix<f64>, candidate: &Candidate, extent_m: f64) -> DMatrix<f64> {
+    let n = covariance.nrows();
+    let of_station = candidate.station.iter().filter(|station| station.numbers() > 0);
+    let mut roots_of: Vec<f64> =
+        of_station.flat_map(|station| roots(station.freedom, OF_STATION, extent_m)).collect();
+    if let Some(object) = &candidate.object {
+        let own = roots(object.freedom, of_object(object.shape), extent_m);
+        // A wire has a fourth number, a length as the others.
+        roots_of.extend(own.into_iter().take(object.numbers()));
+    }
+    let mut whole = DMatrix::zeros(n + roots_of.len(), n + roots_of.len());
+    whole.view_mut((0, 0), (n, n)).copy_from(covariance);
+    roots_of.into_iter().enumerate().for_each(|(at, root)| whole[(n + at, n + at)] = root.powi(-2));
+    whole
+}
+
+/// A vector as a list.
+fn list(vector: &Vector3<f64>) -> [f64; 3] {
+    [vector.x, vector.y, vector.z]
+}
+
+impl Candidate {
+    /// What is told of it.
+    fn place(&self, unknowns: &Unknowns, pointings: &[usize], read: &[usize]) -> Place {
+        let object = self.object.as_ref();
+        let station = self.station.as_ref();
+        let place = station.map(|station| station.pose.shift).or(object.map(|object| object.place));
+        let label = |own: Option<&String>| own.cloned().unwrap_or_default();
+        Place {
+            place_m: list(&place.unwrap_or_default()),
+            heading_rad: station.map(|station: &Station| station.pose.turn.euler_angles().2),
+            normal: object.filter(|object| object.shape == Shape::Plane).map(|object| list(&object.normal)),
+            pointings: pointings
+                .iter()
+                .map(|&at| {
+                    let own = &self.pointings[at];
+                    Pointing {
+                        station: label(unknowns.stations.get(own.station).map(|station| &station.label)),
+                        object: label(unknowns.objects.get(own.object).map(|object| &object.label)),
+                        readings: read.iter().map(|&column| own.readings[column]).collect(),
+                    }
+                })
+                .collect(),
+        }
+    }
+}

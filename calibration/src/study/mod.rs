@@ -11,6 +11,7 @@ mod effects;
 mod estimated;
 mod format;
 mod inputs;
+mod labels;
 mod load;
 mod memory;
 mod mistakes;

@@ -311,8 +311,8 @@ fn sweep_with<T: Send>(
     let (first_kind, kinds) = first_kinds(observations);
     let empty = Tally::new(model.columns(), kinds);
     let made = |series: usize, rows: Range<usize>, block: &Block| {
-        let own = layout.first[rows.start]..layout.first[rows.end];
-        let (sigma, aside) = (&sigma[own], aside.get(rows.clone()).unwrap_or_default());
+        let (sigma, aside) =
+            (&sigma[layout.of_rows(rows.clone())], aside.get(rows.clone()).unwrap_or_default());
         let mut tally = empty.clone();
         let root = tally.weighed(block, first_kind[series], sigma, weighting, aside);
         let rows = observations.unknowns.as_ref().map(|_| collected(block, &root, rows.start));

@@ -11,6 +11,7 @@ use crate::data::{Observations, SiUnit};
 use crate::diagnose::Rms;
 use crate::diagnose::expected_rms;
 use crate::diagnose::rms::BeforeAfter;
+use crate::fit::noise::Layout;
 use crate::fit::{FitResult, robust};
 use crate::search::HeldOut;
 use crate::search::SearchError;
@@ -30,38 +31,38 @@ pub(crate) fn rms(
     held_out: &HeldOut,
 ) -> Result<Vec<BeforeAfter>, SearchError> {
     let observations = whole.request.observations;
-    let rows = &last.fitted.layout.row;
-    // What is left of held-out rows before and after, of which rows, and which of them are within reach.
+    let layout = &last.fitted.layout;
+    // What is left of held-out rows before and after, how it lies, and which rows are within reach.
     let held_out = match whole.request.second {
         Some(second) => {
             let residual = |chain, values: &[f64]| Columns::at(chain, second, declared(whole), values, &[]);
             let before = residual(&whole.request.plan.chain, &before.values)?;
             let after = residual(&last.fitted.chain, &last.fitted.fit.values)?;
             let within = vec![true; second.rows()];
-            Some(([before.residual, after.residual], Cow::Owned(after.row), within, second))
+            Some(([before.residual, after.residual], Cow::Owned(Layout::of(second)), within, second))
         }
         None if last.search.problem.folds() > 1 => {
             let [before, after] = predicted(whole, last, [&held_out.before, &held_out.after])?;
             let within = within_reach(whole, last, &after);
-            Some(([before, after], Cow::Borrowed(rows), within, observations))
+            Some(([before, after], Cow::Borrowed(layout), within, observations))
         }
         None => None,
     };
     let weight = &last.fitted.fit.residuals.weight;
-    let kept = |row: u32| weight[row as usize] > 0.0;
+    let kept = |row: usize| weight[row] > 0.0;
     let units = observations.poses.units();
     let of_row = observations.poses.unit_of_row();
     let thirds = elsewhere(whole, last, &units);
     let of_unit = |(place, &unit): (usize, &SiUnit)| {
         let in_sample =
-            |fit: &FitResult| Figures::of(&fit.residuals.raw, rows, |row| of_row[row as usize] == unit, kept);
+            |fit: &FitResult| Figures::of(&fit.residuals.raw, layout, |row| of_row[row] == unit, kept);
         let [held_before, held_after] = match &held_out {
             None => [Figures::default(), Figures::default()],
-            Some((left, rows, within, judged)) => {
+            Some((left, layout, within, judged)) => {
                 let of_row = judged.poses.unit_of_row();
                 left.each_ref().map(|left| {
-                    let own = |row: u32| of_row[row as usize] == unit;
-                    Figures::of(left, rows, own, |row| within[row as usize])
+                    let own = |row: usize| of_row[row] == unit;
+                    Figures::of(left, layout, own, |row| within[row])
                 })
             }
         };
@@ -87,11 +88,11 @@ pub(crate) fn rms(
 /// In sample alone, where no search was made.
 pub(crate) fn of_fit(observations: &Observations, fitted: &Fitted) -> Vec<BeforeAfter> {
     let residuals = &fitted.fit.residuals;
-    let kept = |row: u32| residuals.weight.get(row as usize).is_some_and(|&weight| weight > 0.0);
+    let kept = |row: usize| residuals.weight.get(row).is_some_and(|&weight| weight > 0.0);
     let of_row = observations.poses.unit_of_row();
     let of_unit = |unit: SiUnit| {
-        let own = |row: u32| of_row[row as usize] == unit;
-        let rms = Figures::default().beside(Figures::of(&residuals.raw, &residuals.row, own, kept));
+        let own = |row: usize| of_row[row] == unit;
+        let rms = Figures::default().beside(Figures::of(&residuals.raw, &fitted.layout, own, kept));
         let expected = expected_rms(observations, &fitted.fit, unit);
         BeforeAfter { unit, expected, before: rms, after: rms }
     };
@@ -109,9 +110,14 @@ struct Figures {
 
 impl Figures {
     /// Over the rows `own`.
-    fn of(residual: &[f64], rows: &[u32], own: impl Fn(u32) -> bool, kept: impl Fn(u32) -> bool) -> Self {
-        let all = length(residual, rows, &own);
-        Self { all, kept: length(residual, rows, |row| own(row) && kept(row)) }
+    fn of(
+        residual: &[f64],
+        layout: &Layout,
+        own: impl Fn(usize) -> bool,
+        kept: impl Fn(usize) -> bool,
+    ) -> Self {
+        let all = length(residual, layout, &own);
+        Self { all, kept: length(residual, layout, |row| own(row) && kept(row)) }
     }
 
     /// These as held out, beside those in sample.
@@ -138,13 +144,12 @@ fn within_reach(whole: &Context<'_>, last: &Round<'_>, residual: &[f64]) -> Vec<
         return vec![true; observations.rows()];
     }
     let sigma = last.fitted.fit.noise.sigma_without_memory();
-    let white: Vec<f64> = residual.iter().zip(sigma.iter()).map(|(value, sigma)| value / sigma).collect();
-    let norms: Vec<f64> = last.fitted.layout.norms(&white).collect();
-    norms
-        .iter()
-        .zip(observations.poses.measures())
-        .map(|(&n, m)| n < robust::cutoff(m.components()))
-        .collect()
+    let layout = &last.fitted.layout;
+    let is_within = |(residual, sigma): (&[f64], &[f64])| {
+        let white = residual.iter().zip(sigma).map(|(value, sigma)| value / sigma);
+        white.map(|value| value * value).sum::<f64>().sqrt() < robust::cutoff(residual.len())
+    };
+    layout.by_row(residual).zip(layout.by_row(&sigma)).map(is_within).collect()
 }
 
 /// Per fold the coefficients of the columns of the problem that were used.
@@ -210,18 +215,14 @@ fn predicted_of(
 
 /// RMS over observations of the length of the residual, and how many they are; `None` without observations. Rows at which
 /// the chain has no finite value have no residual, and do not count.
-fn length(residual: &[f64], rows: &[u32], used: impl Fn(u32) -> bool) -> Option<(f64, usize)> {
+fn length(residual: &[f64], layout: &Layout, used: impl Fn(usize) -> bool) -> Option<(f64, usize)> {
     let (mut squares, mut count) = (0.0, 0_u32);
-    let mut at = 0;
-    while at < residual.len() {
-        let row = rows[at];
-        let end = at + rows[at..].iter().take_while(|&&other| other == row).count();
-        let square: f64 = residual[at..end].iter().map(|value| value * value).sum();
+    for (row, own) in layout.by_row(residual).enumerate() {
+        let square: f64 = own.iter().map(|value| value * value).sum();
         if used(row) && square.is_finite() {
             squares += square;
             count += 1;
         }
-        at = end;
     }
     (count > 0).then(|| (f64::sqrt(squares / f64::from(count)), count as usize))
 }

@@ -112,7 +112,7 @@ fn across_groups(fitted: &Fitted, places: &[u32], declared: &[u32]) -> Option<At
 fn values(fitted: &Fitted) -> impl Iterator<Item = (u16, usize, f64)> {
     let Fitted { layout, fit, .. } = fitted;
     let sigma = fit.noise.sigma_without_memory().into_owned();
-    let keys = layout.kind.iter().zip(&layout.row).map(|(&kind, &row)| (kind, row as usize));
+    let keys = layout.kind_of_each().map(|kind| kind as u16).zip(layout.row_of_each());
     keys.zip(fit.residuals.raw.iter().zip(sigma))
         .filter(|((_, row), _)| fit.residuals.weight[*row] > 0.0)
         .map(|((kind, row), (raw, sigma))| (kind, row, (raw / sigma).clamp(-CLIP, CLIP)))

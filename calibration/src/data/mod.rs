@@ -5,6 +5,7 @@
 pub mod derive;
 mod joined;
 mod measured;
+mod numbers;
 pub mod orientation;
 mod origin;
 mod places;
@@ -18,6 +19,8 @@ pub(crate) mod waves;
 
 pub use derive::{DeriveError, Derived, parse_derived};
 pub use measured::{Measure, Measured};
+pub use numbers::Numbers;
+pub(crate) use origin::Places;
 pub use origin::{Origin, Origins};
 pub use places::places;
 pub use poses::{Poses, Series};
@@ -49,7 +52,7 @@ pub struct Observations {
     /// Whether the order of the rows is their order of acquisition.
     pub in_sequence: bool,
     /// Number of each row in its file, counted from 1 without the header; empty where no file was read.
-    pub row_numbers: Vec<u64>,
+    pub row_numbers: Numbers,
     /// Where each row stands.
     pub origins: Origins,
     /// The objects and stations that nobody knows, if rows observe any.
@@ -66,7 +69,7 @@ impl Observations {
     /// The number of a row as its reader knows it: in its file, or here, counted from 1.
     #[must_use]
     pub fn row_number(&self, row: usize) -> u64 {
-        self.row_numbers.get(row).copied().unwrap_or(row as u64 + 1)
+        self.row_numbers.get(row).unwrap_or(row as u64 + 1)
     }
 
     /// Whether the rows of a series state their standard uncertainties.
@@ -90,7 +93,7 @@ impl Observations {
             by_place: self.by_place,
             crossed: rows.iter().filter_map(|&row| self.crossed.get(row).copied()).collect(),
             in_sequence: self.in_sequence,
-            row_numbers: rows.iter().filter_map(|&row| self.row_numbers.get(row).copied()).collect(),
+            row_numbers: self.row_numbers.select(&rows),
             origins: self.origins.select(&rows),
             unknowns: self.unknowns.as_ref().map(|unknowns| unknowns.select(&rows)),
         }

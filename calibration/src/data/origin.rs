@@ -1,14 +1,40 @@
 //! Where observations stand: in which file, on which line of it, and by what name of their own.
 
+use super::Numbers;
+
 /// Where rows stand; empty for rows that come from no file.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Origins {
     /// Every file, as messages name it.
     files: Vec<String>,
-    /// Per row the index of its file, and its line there, from 1; 0 where the format has no lines.
-    places: Vec<(u32, u64)>,
+    places: Places,
     /// Per row what the study's column of names says; empty if it names none.
     names: Vec<String>,
+}
+
+/// Per row the index of its file, and its line there, from 1; 0 where the format has no lines.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(crate) struct Places {
+    file: Numbers,
+    line: Numbers,
+}
+
+impl Places {
+    /// Appends rows of one file.
+    pub fn extend(&mut self, file: u32, lines: impl Iterator<Item = u64>) {
+        self.line.extend(lines);
+        self.file.extend(std::iter::repeat_n(u64::from(file), self.line.len() - self.file.len()));
+    }
+
+    /// The line that a row stands on, where the format has lines.
+    pub fn line(&self, row: usize) -> Option<u64> {
+        self.line.get(row).filter(|&line| line > 0)
+    }
+
+    /// Those of some rows, in the order given.
+    pub fn select(&self, rows: &[usize]) -> Self {
+        Self { file: self.file.select(rows), line: self.line.select(rows) }
+    }
 }
 
 /// Where one row stands.
@@ -26,11 +52,11 @@ impl Origins {
     /// Where a row stands, as far as that is known.
     #[must_use]
     pub fn of(&self, row: usize) -> Origin<'_> {
-        let place = self.places.get(row);
-        let file = place.filter(|_| self.files.len() > 1).and_then(|place| self.files.get(place.0 as usize));
+        let place = self.places.file.get(row).filter(|_| self.files.len() > 1);
+        let file = place.and_then(|place| self.files.get(place as usize));
         Origin {
             file: file.map(String::as_str),
-            line: place.map(|place| place.1).filter(|&line| line > 0),
+            line: self.places.line(row),
             name: self.names.get(row).map(String::as_str),
         }
     }
@@ -58,8 +84,9 @@ impl Origins {
     }
 
     /// Appends rows with their places, and their names where the study says a column of them.
-    pub(crate) fn extend(&mut self, places: &[(u32, u64)], names: Option<&[String]>) {
-        self.places.extend(places);
+    pub(crate) fn extend(&mut self, places: &Places, names: Option<&[String]>) {
+        self.places.file.extend(places.file.iter());
+        self.places.line.extend(places.line.iter());
         self.names.extend(names.unwrap_or_default().iter().cloned());
     }
 
@@ -68,7 +95,7 @@ impl Origins {
     pub fn select(&self, rows: &[usize]) -> Self {
         Self {
             files: self.files.clone(),
-            places: rows.iter().filter_map(|&row| self.places.get(row).copied()).collect(),
+            places: self.places.select(rows),
             names: rows.iter().filter_map(|&row| self.names.get(row).cloned()).collect(),
         }
     }

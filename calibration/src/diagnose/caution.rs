@@ -285,7 +285,7 @@ fn out_of_place(observations: &Observations, series: &Series, fit: &FitResult) -
 /// RMS of the residuals' lengths over the rows of one series, with weight or without.
 fn rms_of(series: &Series, observations: &Observations, fit: &FitResult) -> f64 {
     let layout = Layout::of(observations);
-    let own = layout.first[series.rows.start]..layout.first[series.rows.end];
+    let own = layout.of_rows(series.rows.clone());
     let squares: f64 = fit.residuals.raw[own].iter().map(|residual| residual * residual).sum();
     (squares / (series.rows.len() as f64).max(1.0)).sqrt()
 }

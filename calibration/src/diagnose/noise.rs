@@ -131,7 +131,7 @@ pub(crate) fn expected_rms(observations: &Observations, fit: &FitResult, unit: S
     let (sigma, layout) = (fit.noise.sigma_without_memory(), Layout::of(observations));
     let (mut squares, mut rows) = (0.0, 0.0_f64);
     for series in observations.poses.series.iter().filter(|series| series.measure.unit() == unit) {
-        let own = &sigma[layout.first[series.rows.start]..layout.first[series.rows.end]];
+        let own = &sigma[layout.of_rows(series.rows.clone())];
         squares += own.iter().map(|sigma| sigma * sigma).sum::<f64>();
         rows += series.rows.len() as f64;
     }

@@ -196,7 +196,7 @@ fn leverages(chain: &Chain, observations: &Observations, fit: &FitResult) -> Res
             }
             shares.iter_mut().zip(share).for_each(|(sum, share)| *sum += share * share);
         }
-        let sigma = &sigma[layout.first[rows.start]..layout.first[rows.end]];
+        let sigma = &sigma[layout.of_rows(rows.clone())];
         let whitened =
             block.by_row(&shares).into_iter().zip(sigma).map(|(share, sigma)| share / (sigma * sigma));
         let whitened: Vec<f64> = whitened.collect();

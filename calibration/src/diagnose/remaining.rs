@@ -323,7 +323,8 @@ fn neighbours(whole: &Context<'_>, last: &Round<'_>, left: &Left<'_>, signs: &Si
     let row_set = &last.search.rows;
     let observations = &*row_set.observations;
     let chain = whole.setting.chain;
-    let first = Layout::of(observations).first;
+    let layout = Layout::of(observations);
+    let first: Vec<usize> = (0..=layout.rows()).map(|row| layout.first(row)).collect();
     let joints: Vec<(SymbolId, &[f64])> = observations
         .poses
         .columns

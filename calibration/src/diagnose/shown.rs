@@ -6,6 +6,7 @@ use rand_chacha::rand_core::SeedableRng;
 
 use crate::data::Observations;
 use crate::fit::FitResult;
+use crate::fit::noise::Layout;
 
 /// Rows that pictures draw at most.
 pub(crate) const DRAWN: usize = 2000;
@@ -31,10 +32,9 @@ impl Shown {
         if rows <= most {
             return Self { rows: (0..rows).collect(), stands_for: vec![1.0; rows] };
         }
-        let mut length = vec![0.0; rows];
-        for (&row, residual) in fit.residuals.row.iter().zip(&fit.residuals.raw) {
-            length[row as usize] += residual * residual;
-        }
+        let layout = Layout::of(observations);
+        let square = |own: &[f64]| own.iter().fold(0.0, |sum, residual| sum + residual * residual);
+        let length: Vec<f64> = layout.by_row(&fit.residuals.raw).map(square).collect();
         Self::part(|row| fit.residuals.weight[row] > 0.0, &length, most)
     }
 

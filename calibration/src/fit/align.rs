@@ -58,7 +58,7 @@ pub fn starting_values(
             let Measured::Point(point) = observations.measured[row] else {
                 unreachable!("the series measures points")
             };
-            let first = layout.first[row];
+            let first = layout.first(row);
             let difference = Vector3::new(residual[first], residual[first + 1], residual[first + 2]);
             measured.push(point);
             predicted.push(point - difference);
@@ -90,7 +90,7 @@ fn turned_start(
         orientations().filter(|series| of(series).as_ref() == Some(&base)).flat_map(|own| own.rows.clone())
     {
         // From a base that is not turned, what is left of a row is the turn of the base.
-        let first = layout.first[row];
+        let first = layout.first(row);
         let turn = Rotation3::new(Vector3::new(residual[first], residual[first + 1], residual[first + 2]));
         for axis in 0..3 {
             // Both ends of each axis, so that nothing is shifted.

@@ -3,6 +3,8 @@
 //! Source: K. Madsen, H. B. Nielsen, O. Tingleff, Methods for Non-Linear Least Squares Problems (2004), with weights taken
 //! anew at every step.
 
+use std::sync::Arc;
+
 use super::mixing::Mixing;
 use super::normal::Rest;
 use super::solver::{Course, Solver, same};
@@ -52,7 +54,7 @@ impl Solver<'_> {
     /// From some values to the bottom, undetermined combinations still; robustly by degrees, from Huber's loss at the scale of
     /// the medians to Tukey's at that of the noise.
     pub(super) fn course(&mut self, start: &[f64], weighting: Weighting) -> Result<Course, FitError> {
-        let noise = self.first_noise(start)?;
+        let noise = Arc::new(self.first_noise(start)?);
         let subspace = self.determined(start, &noise)?;
         let values = self.with_smallest(start, &subspace);
         let first = if weighting == Weighting::Full { Weighting::Full } else { Weighting::Huber };
@@ -73,7 +75,7 @@ impl Solver<'_> {
 
     /// The same from values that are near the bottom already.
     pub(super) fn course_from(&mut self, near: &[f64], weighting: Weighting) -> Result<Course, FitError> {
-        let noise = self.first_noise(near)?;
+        let noise = Arc::new(self.first_noise(near)?);
         let subspace = self.determined(near, &noise)?;
         let values = self.with_smallest(near, &subspace);
         let point = self.point(values, &noise, weighting, Rest::Still)?;
@@ -107,7 +109,7 @@ impl Solver<'_> {
                 *course = before;
                 break;
             }
-            course.noise = self.noise_of(&course.point.sweep.residual);
+            course.noise = Arc::new(self.noise_of(&course.point.sweep.residual));
             let values = std::mem::take(&mut course.point.values);
             course.point = self.point(values, &course.noise, course.weighting, Rest::Still)?;
             if shrunk > scale - SCALE_SETTLED {
@@ -132,7 +134,7 @@ impl Solver<'_> {
                 let values = std::mem::take(&mut course.point.values);
                 let rest = course.point.rest.clone();
                 course.point = self.point(values, &learned, course.weighting, rest)?;
-                course.noise = learned;
+                course.noise = Arc::new(learned);
             }
             if known {
                 break;

@@ -58,10 +58,10 @@ impl Solver<'_> {
     fn squares(&self, course: &Course, unit: &Course, aside: &[bool]) -> (f64, f64) {
         let sigma = unit.noise.sigma_without_memory();
         let sweep = &course.point.sweep;
-        let components = sweep.residual.iter().zip(sigma.iter()).zip(&self.layout.row);
+        let components = sweep.residual.iter().zip(sigma.iter()).zip(self.layout.row_of_each());
         let counts = |row: usize| sweep.defined[row] && aside.get(row) != Some(&true);
         components
-            .filter(|(_, row)| counts(**row as usize))
+            .filter(|(_, row)| counts(*row))
             .fold((0.0, 0.0), |sums, ((value, sigma), _)| (sums.0 + (value / sigma).powi(2), sums.1 + 1.0))
     }
 }

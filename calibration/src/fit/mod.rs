@@ -105,8 +105,6 @@ impl FitOptions {
 pub struct Residuals {
     /// Measured minus predicted before whitening, rad or m, length n.
     pub raw: Vec<f64>,
-    /// The row of each component, length n.
-    pub row: Vec<u32>,
     /// The robust weight of each row, 0 to 1.
     pub weight: Vec<f64>,
 }
@@ -143,8 +141,8 @@ pub struct FitResult {
     pub stated: Option<Stated>,
     /// Rows that were set aside.
     pub set_aside: Vec<SetAside>,
-    /// The noise that was assumed and found.
-    pub noise: Noise,
+    /// The noise that was assumed and found, which copies share.
+    pub noise: Arc<Noise>,
     /// Sum of squares of the whitened residual.
     pub chi_squared: f64,
     /// Components with weight, less the independent numbers that the estimates use up.

@@ -18,6 +18,9 @@ use crate::data::{Measure, Measured, Observations, Poses, Series};
 /// Rows evaluated at a time: what a block holds stays in the second-level cache.
 pub const BLOCK_ROWS: usize = 256;
 
+/// Blocks that are made before the first of them is taken.
+const AT_ONCE: usize = 512;
+
 /// Evaluates observables and their derivatives by what is estimated.
 #[derive(Debug, Clone)]
 pub struct Model {
@@ -188,7 +191,21 @@ impl Model {
         values: &[f64],
         f: impl Fn(usize, Range<usize>, &Block) -> T + Sync,
     ) -> Result<Vec<T>, FitError> {
-        self.map_rows(Rows { poses: &observations.poses, observed: Some(observations) }, values, f)
+        let mut made = Vec::new();
+        self.each_block(observations, values, f, |own| made.push(own))?;
+        Ok(made)
+    }
+
+    /// The same, where `take` is given what `f` makes, block by block in order, while further blocks are made: what is made of all
+    /// rows is never held at once.
+    pub(crate) fn each_block<T: Send>(
+        &self,
+        observations: &Observations,
+        values: &[f64],
+        f: impl Fn(usize, Range<usize>, &Block) -> T + Sync,
+        take: impl FnMut(T) + Send,
+    ) -> Result<(), FitError> {
+        self.each(Rows { poses: &observations.poses, observed: Some(observations) }, values, f, take)
     }
 
     /// The same where nothing was measured: what would be seen if the chain were right. Residuals are zero.
@@ -205,23 +222,25 @@ impl Model {
             let why = "poses at which nothing was measured show no objects: take them bare".to_owned();
             return Err(FitError::WrongShape { why });
         }
-        self.map_rows(Rows { poses, observed: None }, values, f)
+        let mut made = Vec::new();
+        self.each(Rows { poses, observed: None }, values, f, |own| made.push(own))?;
+        Ok(made)
     }
 
-    fn map_rows<T: Send>(
+    fn each<T: Send>(
         &self,
         of: Rows<'_>,
         values: &[f64],
         f: impl Fn(usize, Range<usize>, &Block) -> T + Sync,
-    ) -> Result<Vec<T>, FitError> {
+        mut take: impl FnMut(T) + Send,
+    ) -> Result<(), FitError> {
         let mut tasks = Vec::new();
         for (index, series) in of.poses.series.iter().enumerate() {
             let starts = series.rows.clone().step_by(BLOCK_ROWS);
             tasks.extend(starts.map(|start| (index, start..(start + BLOCK_ROWS).min(series.rows.end))));
         }
-        tasks
-            .into_par_iter()
-            .map_init(
+        let made = |some: &[(usize, Range<usize>)]| -> Result<Vec<T>, FitError> {
+            let some = some.par_iter().cloned().map_init(
                 || self.lent(),
                 |lent, (index, rows)| {
                     let Running { interpreters, block } = lent.running.get_or_insert_with(|| self.running());
@@ -236,8 +255,16 @@ impl Model {
                     self.evaluate(interpreter, beam, of, series, rows.clone(), values, block)?;
                     Ok(f(index, rows, block))
                 },
-            )
-            .collect()
+            );
+            some.collect()
+        };
+        let mut before = Vec::new();
+        for some in tasks.chunks(AT_ONCE) {
+            let (next, ()) = rayon::join(|| made(some), || before.drain(..).for_each(&mut take));
+            before = next?;
+        }
+        before.into_iter().for_each(take);
+        Ok(())
     }
 
     fn lent(&self) -> Lent<'_> {

@@ -128,15 +128,15 @@ impl Solver<'_> {
         let rank = course.subspace.rank();
         let of_objects = course.point.sweep.eliminated.as_ref().map_or(0, |own| own.taken as usize);
         let (norms, weight) = self.norms_and_weights(&course);
-        let kept = self.layout.row.iter().filter(|&&row| weight[row as usize] > 0.0).count();
+        let kept = self.layout.row_of_each().filter(|&row| weight[row] > 0.0).count();
         let (uncertainty, shared) = self.uncertainty(&course, &weight)?;
         let far_off = self.is_far_off(&course).then_some(Reason::FarOff);
         let Course { point, noise, subspace, stopped, .. } = course;
-        let noise = shared.in_noise(noise);
+        let noise = Arc::new(shared.in_noise(Arc::unwrap_or_clone(noise)));
         let mut whitened = point.sweep.residual.clone();
         noise.whiten(&mut whitened);
-        for (value, &row) in whitened.iter_mut().zip(&self.layout.row) {
-            *value *= weight[row as usize].sqrt();
+        for (value, row) in whitened.iter_mut().zip(self.layout.row_of_each()) {
+            *value *= weight[row].sqrt();
         }
         let parameters = self.model.parameters().to_vec();
         let outcome = match stopped.or(far_off) {
@@ -167,7 +167,7 @@ impl Solver<'_> {
             subspace,
             parameters,
             values: point.values,
-            residuals: Arc::new(Residuals { raw: point.sweep.residual, row: self.layout.row, weight }),
+            residuals: Arc::new(Residuals { raw: point.sweep.residual, weight }),
         })
     }
 }

@@ -1,6 +1,7 @@
 //! One fit in progress: what it is of, where it is, and what all rows say there.
 
 use std::cell::OnceCell;
+use std::sync::Arc;
 
 use model_core::{Chain, SymbolKind};
 
@@ -48,7 +49,7 @@ impl Point {
 #[derive(Debug, Clone)]
 pub(super) struct Course {
     pub point: Point,
-    pub noise: Noise,
+    pub noise: Arc<Noise>,
     pub subspace: Subspace,
     pub weighting: Weighting,
     /// Why it ended before steps were negligible, if it did.
@@ -186,28 +187,28 @@ impl Solver<'_> {
     pub(super) fn norms_and_weights(&self, course: &Course) -> (Vec<f64>, Vec<f64>) {
         let sigma = course.noise.sigma_without_memory();
         let sweep = &course.point.sweep;
-        let white: Vec<f64> =
-            sweep.residual.iter().zip(sigma.iter()).map(|(residual, sigma)| residual / sigma).collect();
-        let rows =
-            self.layout.norms(&white).zip(self.layout.first.windows(2)).zip(&sweep.defined).enumerate();
-        rows.map(|(row, ((norm, ends), &defined))| {
-            let counts = defined && self.aside.get(row) != Some(&true);
-            (norm, if counts { course.weighting.weight(norm, ends[1] - ends[0]) } else { 0.0 })
-        })
-        .unzip()
+        let rows = self.layout.by_row(&sweep.residual).zip(self.layout.by_row(&sigma)).zip(&sweep.defined);
+        rows.enumerate()
+            .map(|(row, ((residual, sigma), &defined))| {
+                let white = residual.iter().zip(sigma).map(|(residual, sigma)| residual / sigma);
+                let norm = white.map(|value| value * value).sum::<f64>().sqrt();
+                let counts = defined && self.aside.get(row) != Some(&true);
+                (norm, if counts { course.weighting.weight(norm, residual.len()) } else { 0.0 })
+            })
+            .unzip()
     }
 
     /// The residual at the end of a course, whitened but for memory, each row times its weight.
     pub(super) fn whitened(&self, course: &Course, weight: &[f64]) -> Vec<f64> {
         let sigma = course.noise.sigma_without_memory();
-        let residual = course.point.sweep.residual.iter().zip(&self.layout.row).zip(sigma.iter());
-        residual.map(|((residual, &row), sigma)| residual * weight[row as usize] / sigma).collect()
+        let residual = course.point.sweep.residual.iter().zip(self.layout.row_of_each()).zip(sigma.iter());
+        residual.map(|((residual, row), sigma)| residual * weight[row] / sigma).collect()
     }
 
     /// The number of components with weight.
     pub(super) fn kept_components(&self, course: &Course) -> usize {
         let (_, weight) = self.norms_and_weights(course);
-        self.layout.row.iter().filter(|&&row| weight[row as usize] > 0.0).count()
+        self.layout.row_of_each().filter(|&row| weight[row] > 0.0).count()
     }
 
     /// How many independent numbers of the data the estimates use up.

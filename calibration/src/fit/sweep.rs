@@ -2,6 +2,8 @@
 //!
 //! Nothing of a row is kept but its residual, and that only for those who ask: derivatives go straight into the factor.
 
+use std::ops::Range;
+
 use super::block::Block;
 use super::model::Model;
 use super::objects::{Collected, Eliminated};
@@ -249,7 +251,7 @@ pub fn tally(
     sigma: &[f64],
     weighting: Weighting,
 ) -> Result<Tally, FitError> {
-    let (tally, _, _) = sweep_with(model, observations, layout, values, sigma, weighting, &[], |_| ())?;
+    let (tally, _) = sweep_with(model, observations, layout, values, sigma, weighting, &[], |_| (), |()| ())?;
     Ok(tally)
 }
 
@@ -264,10 +266,15 @@ pub fn sweep(
     aside: &[bool],
 ) -> Result<Sweep, FitError> {
     let keep = |block: &Block| (block.by_row(&block.residual), block.defined.clone());
-    let (tally, kept, eliminated) =
-        sweep_with(model, observations, layout, values, sigma, weighting, aside, keep)?;
-    let (residual, defined): (Vec<_>, Vec<_>) = kept.into_iter().unzip();
-    Ok(Sweep { tally, residual: residual.concat(), defined: defined.concat(), eliminated })
+    let (rows, components) = (layout.rows(), layout.components());
+    let (mut residual, mut defined) = (Vec::with_capacity(components), Vec::with_capacity(rows));
+    let take = |(own, of_rows): (Vec<f64>, Vec<bool>)| {
+        residual.extend(own);
+        defined.extend(of_rows);
+    };
+    let (tally, eliminated) =
+        sweep_with(model, observations, layout, values, sigma, weighting, aside, keep, take)?;
+    Ok(Sweep { tally, residual, defined, eliminated })
 }
 
 /// What poses would show at which nothing was measured, each component with unit weight.
@@ -283,8 +290,10 @@ pub fn design(model: &Model, poses: &Poses, values: &[f64]) -> Result<Partial, F
 
 /// Residuals alone.
 pub fn residuals(model: &Model, observations: &Observations, values: &[f64]) -> Result<Vec<f64>, FitError> {
-    let keep = |block: &Block| block.by_row(&block.residual);
-    Ok(model.map_blocks(observations, values, |_, _, block| keep(block))?.concat())
+    let mut residual = Vec::with_capacity(observations.poses.components());
+    let own = |_: usize, _: Range<usize>, block: &Block| block.by_row(&block.residual);
+    model.each_block(observations, values, own, |own| residual.extend(own))?;
+    Ok(residual)
 }
 
 #[allow(clippy::too_many_arguments)]
@@ -297,12 +306,13 @@ fn sweep_with<T: Send>(
     weighting: Weighting,
     aside: &[bool],
     keep: impl Fn(&Block) -> T + Sync,
-) -> Result<(Tally, Vec<T>, Option<Eliminated>), FitError> {
+    mut take: impl FnMut(T) + Send,
+) -> Result<(Tally, Option<Eliminated>), FitError> {
     let (first_kind, kinds) = first_kinds(observations);
     let empty = Tally::new(model.columns(), kinds);
-    let parts = model.map_blocks(observations, values, |series, rows, block| {
-        let own = layout.first[rows.start]..layout.first[rows.end];
-        let (sigma, aside) = (&sigma[own], aside.get(rows.clone()).unwrap_or_default());
+    let made = |series: usize, rows: Range<usize>, block: &Block| {
+        let (sigma, aside) =
+            (&sigma[layout.of_rows(rows.clone())], aside.get(rows.clone()).unwrap_or_default());
         let mut tally = empty.clone();
         let root = tally.weighed(block, first_kind[series], sigma, weighting, aside);
         let rows = observations.unknowns.as_ref().map(|_| collected(block, &root, rows.start));
@@ -310,16 +320,16 @@ fn sweep_with<T: Send>(
             tally.partial = tally.partial.with(scaled(block, &root));
         }
         (tally, keep(block), rows)
-    })?;
+    };
     let mut whole = empty.clone();
-    let mut kept = Vec::with_capacity(parts.len());
     let mut rows = Vec::new();
-    for (part, own, collected) in parts {
-        let Ok(merged) = whole.merge(&part) else { unreachable!("the parts are of one model and no pass") };
+    model.each_block(observations, values, made, |(part, own, collected)| {
+        let before = std::mem::replace(&mut whole, Tally::new(0, 0));
+        let Ok(merged) = before.merge(&part) else { unreachable!("the parts are of one model and no pass") };
         whole = merged;
-        kept.push(own);
+        take(own);
         rows.extend(collected);
-    }
+    })?;
     let eliminated = observations.unknowns.as_ref().map(|unknowns| {
         let components = rows.iter().map(|rows| rows.row.len() as u64).sum();
         let state = model.state(values);
@@ -328,5 +338,5 @@ fn sweep_with<T: Send>(
         whole.objective += eliminated.objective;
         eliminated
     });
-    Ok((whole, kept, eliminated))
+    Ok((whole, eliminated))
 }

@@ -108,14 +108,13 @@ impl Solver<'_> {
             for (value, followed) in residual.iter_mut().zip(followed) {
                 *value /= (1.0 - followed).max(ALONE).sqrt();
             }
-            let of_component = self.layout.row.iter().map(|&row| row as usize % SETS_OF_ROWS).collect();
+            let of_component = self.layout.row_of_each().map(|row| row % SETS_OF_ROWS).collect();
             let sets = Buckets { of_component, count: SETS_OF_ROWS };
             let clusters = Clusters::new(shares(&q, &residual, &sets));
             Spread::Groups { factor: tally.stride().powi(2), clusters, crossed: None }
         } else if left < MANY && self.layout.kinds > 1 {
             let pool = pools(self.observations, &self.layout, self.used(course));
-            let of_component: Vec<usize> =
-                self.layout.kind.iter().map(|&kind| pool[usize::from(kind)]).collect();
+            let of_component: Vec<usize> = self.layout.kind_of_each().map(|kind| pool[kind]).collect();
             let count = pool.iter().max().map_or(0, |last| last + 1);
             let counted: Vec<f64> = weight.iter().map(|weight| f64::from(u8::from(*weight > 0.0))).collect();
             let Coordinates { q, residual, .. } = self.coordinates(course, &counted, &root)?;
@@ -206,8 +205,9 @@ impl Solver<'_> {
         let stated = noise::stated(&self.options.noise, self.observations, &self.layout);
         let unit = self.options.noise.stated.filter(|_| self.observations.sigma.is_empty()).unwrap_or(1.0);
         let sigma = course.noise.sigma_without_memory();
-        let ratios = sigma.iter().zip(&stated).map(|(sigma, stated)| (sigma / stated / unit).powi(2));
-        ratios.sum::<f64>() / (stated.len() as f64).max(1.0)
+        let ratios =
+            sigma.iter().zip(noise::each(&stated)).map(|(sigma, stated)| (sigma / stated / unit).powi(2));
+        ratios.sum::<f64>() / (sigma.len() as f64).max(1.0)
     }
 
     /// The groups of the components, where rows share any and there are several.
@@ -225,11 +225,11 @@ impl Solver<'_> {
         }
         // Groups of groups are as independent, and still many.
         let count = known.len().min(MANY_GROUPS);
-        let bucket = |row: &u32| match known.binary_search(&groups[*row as usize]) {
+        let bucket = |row: usize| match known.binary_search(&groups[row]) {
             Ok(bucket) => bucket * count / known.len(),
             Err(_) => unreachable!("`known` holds every group of a row"),
         };
-        Some(Buckets { of_component: self.layout.row.iter().map(bucket).collect(), count })
+        Some(Buckets { of_component: self.layout.row_of_each().map(bucket).collect(), count })
     }
 
     /// The columns of J, whitened and each row by the root of its weight, times the root; and the residual alike.
@@ -242,10 +242,10 @@ impl Solver<'_> {
             }
         }
         let sigma = course.noise.sigma_without_memory();
-        let first = &self.layout.first;
+        let layout = &self.layout;
         let parts = self.model.map_blocks(self.observations, &course.point.values, |_, rows, block| {
             let whitened = |values: &[f64]| -> Vec<f64> {
-                let from = first[rows.start];
+                let from = layout.first(rows.start);
                 let by_row = block.by_row(values).into_iter().enumerate();
                 let scaled = by_row.map(|(at, value)| {
                     value * weight[rows.start + at / block.components].sqrt() / sigma[from + at]
@@ -272,7 +272,7 @@ impl Solver<'_> {
             unknown.extend(of_objects);
         }
         let followed = self.observations.unknowns.as_ref().map_or_else(Vec::new, |unknowns| {
-            let row = &self.layout.row;
+            let row: &[u32] = &self.layout.row_of_each().map(|row| row as u32).collect::<Vec<_>>();
             let scale = row.iter().zip(sigma.iter()).map(|(&row, sigma)| weight[row as usize].sqrt() / sigma);
             let reduction = Reduction::new(unknowns, row, &unknown, scale.collect());
             reduction.project(unknowns, row, &unknown, &mut whole)

@@ -27,7 +27,7 @@ pub struct Cells {
 
 /// Which cell each group belongs to.
 #[derive(Debug, Clone)]
-pub struct CellsOfGroups(Vec<usize>);
+pub struct CellsOfGroups(Vec<u32>);
 
 /// Rows put in an order in which those of one cell follow each other.
 #[derive(Debug, Clone)]
@@ -41,8 +41,8 @@ pub struct ByCell {
 impl CellsOfGroups {
     /// The order of some rows, whose groups are given as the folds number them.
     #[must_use]
-    pub fn sorted(&self, group_of_row: &[usize]) -> ByCell {
-        let cell = |row: usize| self.0[group_of_row[row]];
+    pub fn sorted(&self, group_of_row: &[u32]) -> ByCell {
+        let cell = |row: usize| self.0[group_of_row[row] as usize] as usize;
         let mut order: Vec<usize> = (0..group_of_row.len()).collect();
         order.sort_by_key(|&row| cell(row));
         let mut cells: Vec<(usize, Range<usize>)> = Vec::new();
@@ -63,7 +63,7 @@ impl Cells {
     pub fn new(folds: &Folds, most: usize, width: usize) -> (Self, CellsOfGroups) {
         let in_fold = (most / folds.count().max(1)).max(1);
         let mut size = vec![0_usize; folds.count()];
-        folds.fold_of_group.iter().for_each(|&fold| size[fold] += 1);
+        folds.fold_of_group.iter().for_each(|&fold| size[fold as usize] += 1);
         let mut first = Vec::new();
         let mut fold_of_cell = Vec::new();
         for (fold, &groups) in size.iter().enumerate() {
@@ -72,8 +72,9 @@ impl Cells {
         }
         let mut seen = vec![0_usize; folds.count()];
         let cell_of_group = folds.fold_of_group.iter().map(|&fold| {
+            let fold = fold as usize;
             seen[fold] += 1;
-            first[fold] + (seen[fold] - 1) * size[fold].min(in_fold) / size[fold]
+            (first[fold] + (seen[fold] - 1) * size[fold].min(in_fold) / size[fold]) as u32
         });
         let cell_of_group = CellsOfGroups(cell_of_group.collect());
         let cells = Self {
@@ -104,8 +105,9 @@ impl Cells {
         let Self { width, fold_of_cell, rows_of_fold, mut products } = self;
         let cells = products.par_chunks_mut(width * width);
         let roots: Vec<Vec<usize>> = cells.map(|products| root(products, width, kept)).collect();
-        let group_of_row: Vec<usize> =
-            roots.iter().enumerate().flat_map(|(cell, rows)| std::iter::repeat_n(cell, rows.len())).collect();
+        let of_cell = |(cell, rows): (usize, &Vec<usize>)| std::iter::repeat_n(cell as u32, rows.len());
+        let group_of_row: Vec<u32> = roots.iter().enumerate().flat_map(of_cell).collect();
+        let fold_of_group = fold_of_cell.into_iter().map(|fold| fold as u32).collect();
         let mut rows = Mat::zeros(group_of_row.len(), kept.len());
         let mut start = 0;
         for (root, products) in roots.iter().zip(products.chunks(width * width)) {
@@ -115,7 +117,7 @@ impl Cells {
             }
             start += root.len();
         }
-        (rows, Folds { group_of_row, fold_of_group: fold_of_cell, rows_of_fold })
+        (rows, Folds { group_of_row, fold_of_group, rows_of_fold })
     }
 }
 
@@ -195,13 +197,13 @@ mod tests {
         /// stay dependent.
         #[test]
         fn merged_rows_have_the_same_inner_products(
-            values in prop::collection::vec(-1.0f64..1.0, 240), chunk in 1usize..60, groups in 2usize..40, most in 1usize..12
+            values in prop::collection::vec(-1.0f64..1.0, 240), chunk in 1usize..60, groups in 2u32..40, most in 1usize..12
         ) {
             let mut rows = Mat::from_fn(60, 5, |i, j| values.get(4 * i + j).copied().unwrap_or(0.0));
             for i in 0..60 {
                 rows[(i, 4)] = 2.0 * rows[(i, 0)] - rows[(i, 3)];
             }
-            let numbers: Vec<usize> = (0..60).map(|row| row * 7 % groups).collect();
+            let numbers: Vec<u32> = (0..60).map(|row| row * 7 % groups).collect();
             let folds = Folds::deal(&numbers, 3, 1);
             let (mut cells, of_groups) = Cells::new(&folds, most, 5);
             for start in (0..60).step_by(chunk) {

@@ -39,7 +39,7 @@ impl Chunk {
         let components = components(fitted, stretches).into_iter();
         let weight = &fitted.fit.residuals.weight;
         let factor: Vec<f64> =
-            components.map(|at| weight[fitted.layout.row[at] as usize].sqrt() / noise.sigma[at]).collect();
+            components.map(|at| weight[fitted.layout.row(at)].sqrt() / noise.sigma[at]).collect();
         let own = observations.select(&stretches.iter().flat_map(Clone::clone).collect::<Vec<_>>());
         let bare = fitted.probed.columns(&own)?;
         let white = bare.scaled_in(&by_cell.order, &factor);

@@ -91,7 +91,7 @@ impl Problem {
         candidates: MatRef<'_, f64>,
         blocks: &[Range<usize>],
         residual: &[f64],
-        groups: &[usize],
+        groups: &[u32],
         folds: usize,
         seed: u64,
     ) -> Result<Self, ProblemError> {
@@ -272,7 +272,7 @@ impl Problem {
 
     /// Group of each row, numbered from 0.
     #[must_use]
-    pub fn group_of_row(&self) -> &[usize] {
+    pub fn group_of_row(&self) -> &[u32] {
         &self.folds.group_of_row
     }
 

@@ -190,42 +190,32 @@ fn runs(observations: &Observations, layout: &Layout, stretches: &[Range<usize>]
     let run = |stretch: &Range<usize>| {
         let series = observations.poses.series.iter().find(|series| series.rows.contains(&stretch.start));
         let stride = series.map_or(1, |series| series.measure.components());
-        Run { start: layout.first[stretch.start], end: layout.first[stretch.end], stride }
+        let Range { start, end } = layout.of_rows(stretch.clone());
+        Run { start, end, stride }
     };
     stretches.iter().map(run).collect()
 }
 
-/// The group of each component, by its row.
-pub(crate) fn groups(observations: &Observations, row: &[u32]) -> Vec<usize> {
-    row.iter().map(|&row| observations.groups[row as usize] as usize).collect()
-}
-
 /// The rows in folds: what is declared a group is held out together, and so is what observes one object, and of rows that
 /// remember each other one stretch a fold.
-pub(crate) fn dealt(
-    observations: &Observations,
-    noise: &Noise,
-    row: &[u32],
-    folds: usize,
-    seed: u64,
-) -> Folds {
-    let groups = groups(observations, row);
-    let units: Vec<usize> = match &observations.unknowns {
-        Some(unknowns) => unknowns.together(&observations.units()),
+pub(crate) fn dealt(observations: &Observations, noise: &Noise, folds: usize, seed: u64) -> Folds {
+    let layout = Layout::of(observations);
+    let of_each = |of: &[u32]| -> Vec<u32> { layout.row_of_each().map(|row| of[row]).collect() };
+    let units: Cow<'_, [u32]> = match &observations.unknowns {
+        Some(unknowns) => unknowns.together(&observations.units()).into(),
         None if noise.remembers() && observations.rows_are_alone() && observations.together.is_empty() => {
             // Neighbours of a row that is held out know what it remembers.
             let rows = observations.rows();
-            (0..rows).map(|row| row * folds / rows).collect()
+            (0..rows).map(|row| (row * folds / rows) as u32).collect()
         }
-        None => observations.units().iter().map(|&unit| unit as usize).collect(),
+        None => observations.units(),
     };
-    let units: Vec<usize> = row.iter().map(|&row| units[row as usize]).collect();
-    let mut dealt = Folds::deal_together(&groups, &units, folds, seed);
+    let mut dealt = Folds::deal_together(&of_each(&observations.groups), &of_each(&units), folds, seed);
     let Some(unknowns) = &observations.unknowns else { return dealt };
     // The components that go into an object's numbers say nothing of anything else.
     let mut left: Vec<usize> = unknowns.objects.iter().map(Object::numbers).collect();
-    for (component, &row) in row.iter().enumerate() {
-        if let Some(left) = unknowns.object[row as usize].map(|object| &mut left[object as usize])
+    for (component, row) in layout.row_of_each().enumerate() {
+        if let Some(left) = unknowns.object[row].map(|object| &mut left[object as usize])
             && *left > 0
         {
             *left -= 1;
@@ -243,8 +233,7 @@ pub(crate) fn all_rows(observations: &Observations) -> Vec<Range<usize>> {
 
 /// The number of each component of some stretches of rows.
 pub(crate) fn components(fitted: &Fitted, stretches: &[Range<usize>]) -> Vec<usize> {
-    let first = &fitted.layout.first;
-    stretches.iter().flat_map(|stretch| first[stretch.start]..first[stretch.end]).collect()
+    stretches.iter().flat_map(|stretch| fitted.layout.of_rows(stretch.clone())).collect()
 }
 
 /// All rows chunk by chunk, each of some stretches; rows of one object lie in one chunk.

@@ -49,7 +49,7 @@ impl<'a> SearchProblem<'a> {
     pub fn at(whole: &Context<'a>, fitted: &Fitted) -> Result<Self, SearchError> {
         let hold_out = &whole.request.plan.hold_out;
         let (all, noise) = (whole.request.observations, &fitted.fit.noise);
-        let folds = dealt(all, noise, &fitted.layout.row, hold_out.folds, hold_out.seed);
+        let folds = dealt(all, noise, hold_out.folds, hold_out.seed);
         let functions: usize = whole.catalogue.iter().map(|effect| effect.functions.len()).sum();
         let width = fitted.combinations.ncols() + functions + 1;
         if folds.rows() * width <= whole.held {
@@ -114,8 +114,7 @@ impl<'a> SearchProblem<'a> {
         let mut rows = RowSet::of(whole, fitted, &sample, |_| true)?;
         rows.keep(&usable);
         let hold_out = &whole.request.plan.hold_out;
-        let row = &rows.columns.row;
-        let of_rows = dealt(&rows.observations, &fitted.fit.noise, row, hold_out.folds, hold_out.seed);
+        let of_rows = dealt(&rows.observations, &fitted.fit.noise, hold_out.folds, hold_out.seed);
         let sampled = problem(whole, fitted, &usable, rows.whitened(), of_rows)?;
         let of_sample = reach(whole, fitted, &sampled, &rows, &usable)?;
         let sampled = sampled.with_reach(of_sample);
@@ -236,8 +235,7 @@ fn reach(
         .iter()
         .filter(|series| !series.rows.is_empty())
         .map(|series| {
-            let own = &fitted.fit.noise.sigma
-                [fitted.layout.first[series.rows.start]..fitted.layout.first[series.rows.end]];
+            let own = &fitted.fit.noise.sigma[fitted.layout.of_rows(series.rows.clone())];
             (own.iter().map(|sigma| sigma * sigma).sum::<f64>() / own.len() as f64).sqrt()
         })
         .collect();

@@ -85,7 +85,7 @@ pub fn select(
 ) -> Selection {
     let blocks = SetColumns::of(problem, sets);
     let members = problem.rows_of_folds(chosen);
-    let groups: Vec<usize> = members.iter().map(|&row| problem.group_of_row()[row]).collect();
+    let groups: Vec<u32> = members.iter().map(|&row| problem.group_of_row()[row]).collect();
     let signs = Signs::new(&groups, options.flips, options.seed);
     let folds: Vec<usize> = (0..problem.folds()).filter(|&fold| chosen(fold)).collect();
 

@@ -25,13 +25,13 @@ impl Signs {
     /// Signs for the rows whose groups are given. Where there are many groups, neighbours flip together: whatever
     /// correlation is left between them then counts as chance.
     #[must_use]
-    pub fn new(group_of_row: &[usize], flips: usize, seed: u64) -> Self {
+    pub fn new(group_of_row: &[u32], flips: usize, seed: u64) -> Self {
         Self::dealt(group_of_row, flips, seed, |number, groups, buckets| number * buckets / groups)
     }
 
     /// The same, but groups that flip together lie apart: correlation between neighbours is what is looked for.
     #[must_use]
-    pub fn scattered(group_of_row: &[usize], flips: usize, seed: u64) -> Self {
+    pub fn scattered(group_of_row: &[u32], flips: usize, seed: u64) -> Self {
         // Steps by the golden section come back to a bucket after as many steps as there are, in no simple pattern.
         let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
         Self::dealt(group_of_row, flips, seed, |number, groups, buckets| match groups > buckets {
@@ -41,14 +41,15 @@ impl Signs {
     }
 
     fn dealt(
-        group_of_row: &[usize],
+        group_of_row: &[u32],
         flips: usize,
         seed: u64,
         bucket: impl Fn(usize, usize, usize) -> usize,
     ) -> Self {
         let (numbers, groups) = number(group_of_row);
         let buckets = groups.min(MOST_FLIPPED);
-        let bucket_of_row = numbers.into_iter().map(|number| bucket(number, groups, buckets)).collect();
+        let bucket_of_row =
+            numbers.into_iter().map(|number| bucket(number as usize, groups, buckets)).collect();
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut bits = 0_u64;
         let mut left = 0;

@@ -22,7 +22,7 @@ fn problem(n: usize, p: usize, count: usize, planted: Option<(usize, f64)>, seed
         }
     }
     let blocks: Vec<_> = (0..count).map(|c| 2 * c..2 * c + 2).collect();
-    let groups: Vec<usize> = (0..n).map(|i| i / 2).collect();
+    let groups: Vec<u32> = (0..n as u32).map(|i| i / 2).collect();
     Problem::new(declared.as_ref(), candidates.as_ref(), &blocks, &residual, &groups, 10, seed).unwrap()
 }
 

@@ -1,19 +1,21 @@
 //! Data files of a plan, read into observations.
 
-use std::collections::BTreeMap;
 use std::io::Read;
 
 use model_core::{SymbolId, exact};
 use nalgebra::Vector3;
 
 use super::columns::Columns;
+use super::labels::{Numbered, number};
 use super::orientation::UNIT_TOLERANCE;
 use super::plan::{Plan, Reading, SourcePlan};
 use super::written::Kind;
 use crate::data::orientation::Turned;
 use crate::data::units::BareColumn;
 use crate::data::unknowns::{Shape, Station, Unknowns};
-use crate::data::{Measured, Observations, Series, direction_from_offset, direction_from_spherical};
+use crate::data::{
+    Measured, Numbers, Observations, Places, Series, direction_from_offset, direction_from_spherical,
+};
 use crate::formats::{self, Cells, DataError, TableReader};
 use crate::objects::{Remark, StartError, check_named, check_scale, place};
 
@@ -27,7 +29,7 @@ pub type OpenTable<'a> =
 /// Rows that are read at a time.
 const CHUNK: usize = 1 << 16;
 
-/// Memory that a number takes while a file is read: it is held as read, as a reading, and among the observations.
+/// Memory that a number takes while a file is read: it is held as read, and among what was observed with a mark of what it is.
 const BYTES_A_NUMBER: usize = 3 * size_of::<f64>();
 
 /// What the data files of a plan hold.
@@ -47,30 +49,15 @@ pub struct Loaded {
 struct Rows {
     numbers: Vec<Vec<f64>>,
     labels: Vec<Vec<String>>,
-    row_numbers: Vec<u64>,
-    /// The file of each row, and its line there; 0 where the format has no lines.
-    places: Vec<(u32, u64)>,
+    row_numbers: Numbers,
+    places: Places,
     /// Memory that these take, in bytes.
     bytes: usize,
 }
 
-/// Labels with their numbers, from 0 in order of first appearance.
-type Numbers = BTreeMap<Vec<String>, u32>;
-
-/// Labels of groups, and of what is held out together.
-#[derive(Default)]
-struct Numbered {
-    groups: Numbers,
-    together: Numbers,
-}
-
-/// The number of each of so many rows by its labels.
-fn number(known: &mut Numbers, labels: &[Vec<String>], rows: usize) -> Vec<u32> {
-    let of_row = |row: usize| {
-        let next = known.len() as u32;
-        *known.entry(labels.iter().map(|labels| labels[row].clone()).collect()).or_insert(next)
-    };
-    (0..rows).map(of_row).collect()
+/// Appends values; to nothing without a copy.
+fn append<T>(all: &mut Vec<T>, values: Vec<T>) {
+    if all.is_empty() { *all = values } else { all.extend(values) }
 }
 
 impl Plan {
@@ -130,8 +117,8 @@ impl Plan {
         let mut rows = Rows {
             numbers: vec![Vec::new(); columns.plans.len()],
             labels: vec![Vec::new(); columns.labels.len()],
-            row_numbers: Vec::new(),
-            places: Vec::new(),
+            row_numbers: Numbers::default(),
+            places: Places::default(),
             bytes: 0,
         };
         for path in paths {
@@ -151,14 +138,16 @@ impl Plan {
         if u32::try_from(start + count).is_err() {
             return Err(DataError::TooManyRows { file });
         }
-        let readings = self.readings(source, &columns, &rows);
-        let measured = self.measured(source, &columns, &rows, &readings, &file)?;
+        let readings = self.readings(source, &columns, &mut rows);
+        append(&mut all.measured, self.measured(source, &columns, &rows, &readings, &file)?);
+        // Of many rows these are most of what is held.
+        rows.numbers[columns.observed.clone()].fill_with(Vec::new);
         for (id, values) in readings {
             match all.poses.columns.binary_search_by_key(&id, |(known, _)| *known) {
                 Ok(at) => all.poses.columns[at].1.extend(values),
                 Err(at) => {
                     let mut padded = vec![0.0; start];
-                    padded.extend(values);
+                    append(&mut padded, values);
                     all.poses.columns.insert(at, (id, padded));
                 }
             }
@@ -167,7 +156,6 @@ impl Plan {
             // A source that does not have the column has no use for it either.
             values.resize(start + count, 0.0);
         }
-        all.measured.extend(measured);
         if !columns.sigma.is_empty() {
             all.sigma.resize(start, None);
             all.sigma.extend(sigma(&columns, &rows, &file)?.into_iter().map(Some));
@@ -186,7 +174,7 @@ impl Plan {
             let end = columns.labels.len() - usize::from(self.order.is_some());
             all.together.extend(number(&mut numbered.together, &rows.labels[end - own..end], count));
         }
-        all.row_numbers.extend(&rows.row_numbers);
+        all.row_numbers.extend(rows.row_numbers.iter());
         all.origins.extend(
             &rows.places,
             self.id.as_ref().and_then(|_| rows.labels.get(grouping)).map(Vec::as_slice),
@@ -249,23 +237,23 @@ impl Plan {
         }
     }
 
-    /// The readings of joints and inputs, derived ones included.
-    fn readings(&self, source: &SourcePlan, columns: &Columns, rows: &Rows) -> Vec<(SymbolId, Vec<f64>)> {
-        let number = |at: usize| rows.numbers[at].clone();
-        let read: Vec<(SymbolId, Vec<f64>)> =
-            columns.readings.iter().map(|&(id, at)| (id, number(at))).collect();
+    /// The readings of joints and inputs, derived ones included; those that were read are taken out of the rows.
+    fn readings(&self, source: &SourcePlan, columns: &Columns, rows: &mut Rows) -> Vec<(SymbolId, Vec<f64>)> {
+        // Each has a place of its own among the numbers.
+        let taken = |&(id, at): &(SymbolId, usize)| (id, std::mem::take(&mut rows.numbers[at]));
+        let mut all: Vec<(SymbolId, Vec<f64>)> = columns.readings.iter().map(taken).collect();
         let named = |name: &str| {
             let id = self.chain.find_symbol(name);
-            let of_symbol =
-                read.iter().find(|(known, _)| Some(*known) == id).map(|(_, values)| values.clone());
-            of_symbol
-                .or_else(|| columns.times.iter().find(|(time, _)| time == name).map(|&(_, at)| number(at)))
+            let of_symbol = all.iter().find(|(known, _)| Some(*known) == id).map(|(_, values)| values);
+            let time = || columns.times.iter().find(|(time, _)| time == name);
+            of_symbol.or_else(|| time().map(|&(_, at)| &rows.numbers[at])).cloned()
         };
         let derived = source.readings.iter().filter_map(|(id, reading)| {
             let Reading::Derived(derived) = reading else { return None };
             Some((*id, derived.values(named)?))
         });
-        let mut all: Vec<_> = read.iter().cloned().chain(derived).collect();
+        let derived: Vec<_> = derived.collect();
+        all.extend(derived);
         all.sort_by_key(|(id, _)| *id);
         all
     }
@@ -283,8 +271,8 @@ impl Plan {
         let at = |component: usize, row: usize| observed.get(component).map_or(0.0, |values| values[row]);
         let impossible = |row: usize, why: String| DataError::Impossible {
             file: file.to_string(),
-            line: rows.line(row),
-            row: rows.row_numbers[row],
+            line: rows.places.line(row),
+            row: rows.number(row),
             why,
         };
         let mut values = self.chain.nominal_values();
@@ -361,7 +349,7 @@ fn sigma(columns: &Columns, rows: &Rows, file: &str) -> Result<Vec<[f64; 3]>, Da
                 return Ok(sigma);
             }
             let why = "a standard uncertainty must be positive".to_string();
-            let (line, row) = (rows.line(row), rows.row_numbers[row]);
+            let (line, row) = (rows.places.line(row), rows.number(row));
             Err(DataError::Impossible { file: file.to_string(), line, row, why })
         })
         .collect()
@@ -378,16 +366,15 @@ impl Rows {
         doubtful: &mut Vec<BareColumn>,
     ) -> Result<(), DataError> {
         let (wanted, mut bare) = columns.wanted(plan, source, reader)?;
-        let before = self.row_numbers.last().copied().unwrap_or_default();
+        let before = self.row_numbers.last().unwrap_or_default();
         loop {
             let chunk = reader.read(&wanted, CHUNK)?;
             if chunk.rows.is_empty() {
                 break;
             }
-            self.bytes += chunk.rows.len() * (size_of::<u64>() + size_of::<(u32, u64)>());
             self.row_numbers.extend(chunk.rows.iter().map(|row| before + row));
             let lines = chunk.lines.iter().copied().chain(std::iter::repeat(0));
-            self.places.extend(lines.take(chunk.rows.len()).map(|line| (file, line)));
+            self.places.extend(file, lines.take(chunk.rows.len()));
             let (mut numbers, mut labels) = (self.numbers.iter_mut().enumerate(), self.labels.iter_mut());
             for cells in chunk.columns {
                 match cells {
@@ -431,12 +418,12 @@ impl Rows {
         for column in &mut self.labels {
             *column = order.iter().map(|&row| column[row].clone()).collect();
         }
-        self.row_numbers = order.iter().map(|&row| self.row_numbers[row]).collect();
-        self.places = order.iter().map(|&row| self.places[row]).collect();
+        self.row_numbers = self.row_numbers.select(&order);
+        self.places = self.places.select(&order);
     }
 
-    /// The line that a row stands on, where the format has lines.
-    fn line(&self, row: usize) -> Option<u64> {
-        self.places.get(row).map(|place| place.1).filter(|&line| line > 0)
+    /// The number of a row in its file.
+    fn number(&self, row: usize) -> u64 {
+        self.row_numbers.get(row).unwrap_or_default()
     }
 }

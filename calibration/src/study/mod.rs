@@ -12,6 +12,7 @@ mod estimated;
 mod format;
 mod inputs;
 mod kind;
+mod labels;
 mod load;
 mod memory;
 mod mistakes;

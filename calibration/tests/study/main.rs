@@ -67,7 +67,7 @@ fn a_study_reads_its_data_in_order_and_in_si() {
     assert!((plan.fit.start[fixed.index()] - 1.0 / 60.0 * std::f64::consts::PI / 180.0).abs() < 1e-15);
 
     let read = observations(STUDY, NIGHT).unwrap();
-    assert_eq!(read.row_numbers, [2, 4, 1, 3]);
+    assert_eq!(read.row_numbers.iter().collect::<Vec<_>>(), [2, 4, 1, 3]);
     assert_eq!(read.groups, [0, 0, 1, 1]);
     assert!(read.in_sequence);
     assert_eq!(read.poses.series[0].measure, Measure::Direction);

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use calibration::data::SiUnit;
 use calibration::diagnose::Shown;
 use calibration::fit::FitResult;
+use calibration::fit::noise::Layout;
 use calibration::formats::ColumnName;
 use model_core::SymbolId;
 
@@ -36,21 +37,17 @@ pub fn components(reported: &Reported<'_>, rows: &[usize]) -> Vec<Component> {
             }
         }
     }
+    let layout = Layout::of(reported.observations);
     let mut fill = |fit: &FitResult, of: fn(&mut Component) -> &mut Vec<Option<f64>>| {
-        let mut residuals = fit.residuals.row.iter().zip(&fit.residuals.raw).peekable();
-        let mut wanted = rows.iter().enumerate().peekable();
         for series in &poses.series {
-            let names = series.measure.component_names();
-            let places: Vec<Option<usize>> =
-                names.iter().map(|&name| components.iter().position(|known| known.name == name)).collect();
-            for row in series.rows.clone() {
-                let at = wanted.next_if(|&(_, &wanted)| wanted == row).map(|(at, _)| at);
-                let mut places = places.iter().flatten();
-                while let Some((_, &residual)) = residuals.next_if(|&(&of, _)| of as usize == row) {
-                    let Some(&place) = places.next() else { break };
-                    if let Some(at) = at {
-                        of(&mut components[place])[at] = Some(residual);
-                    }
+            let names = series.measure.component_names().iter();
+            let places: Vec<usize> = names
+                .filter_map(|&name| components.iter().position(|component| component.name == name))
+                .collect();
+            for (at, &row) in rows.iter().enumerate().filter(|(_, row)| series.rows.contains(row)) {
+                let residuals = &fit.residuals.raw[layout.of_rows(row..row + 1)];
+                for (&place, &residual) in places.iter().zip(residuals) {
+                    of(&mut components[place])[at] = Some(residual);
                 }
             }
         }

@@ -88,7 +88,6 @@ impl Design {
             blocks.push(start..start + effect.len());
             start += effect.len();
         }
-        let groups: Vec<usize> = columns.row.iter().map(|&row| row as usize).collect();
         let declared = Mat::from_fn(n, columns.declared.ncols(), |i, j| columns.declared[(i, j)] / SIGMA_RAD);
         let hold_out = &plan.hold_out;
         let problem = Problem::new(
@@ -96,7 +95,7 @@ impl Design {
             candidates.as_ref(),
             &blocks,
             &vec![0.0; n],
-            &groups,
+            &columns.row,
             hold_out.folds,
             hold_out.seed,
         )?;

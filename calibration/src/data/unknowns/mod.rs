@@ -264,7 +264,7 @@ impl Unknowns {
 
     /// What is held out together, row by row: rows of one object, and rows of one group.
     #[must_use]
-    pub fn together(&self, groups: &[u32]) -> Vec<usize> {
+    pub fn together(&self, groups: &[u32]) -> Vec<u32> {
         let objects = self.objects.len();
         let most = groups.iter().copied().max().map_or(0, |most| most as usize + 1);
         let mut joined = Joined::alone(objects + most);
@@ -273,7 +273,7 @@ impl Unknowns {
                 joined.join(object as usize, objects + group as usize);
             }
         }
-        groups.iter().map(|&group| joined.first(objects + group as usize)).collect()
+        groups.iter().map(|&group| joined.first(objects + group as usize) as u32).collect()
     }
 }
 

@@ -27,8 +27,11 @@ pub fn from_medians(
 fn medians(observations: &Observations, layout: &Layout, residual: &[f64], stated: &[f64]) -> Vec<f64> {
     let pools = pools(observations, layout, 0.0);
     let median = |pool: &usize| {
-        let own = (0..layout.components()).filter(|&at| pools[usize::from(layout.kind[at])] == *pool);
-        let scaled = own.map(|at| (residual[at] / stated[at]).abs()).collect();
+        let own = layout
+            .kind_of_each()
+            .zip(residual.iter().zip(each(stated)))
+            .filter(|(kind, _)| pools[*kind] == *pool);
+        let scaled = own.map(|(_, (residual, stated))| (residual / stated).abs()).collect();
         robust::median(scaled) / robust::median_norm(1)
     };
     pools.par_iter().map(median).collect()
@@ -37,9 +40,9 @@ fn medians(observations: &Observations, layout: &Layout, residual: &[f64], state
 /// The logarithm of how large residuals are by their medians, the mean over all components.
 #[must_use]
 pub fn ln_scale(observations: &Observations, layout: &Layout, residual: &[f64]) -> f64 {
-    let medians = medians(observations, layout, residual, &vec![1.0; layout.components()]);
+    let medians = medians(observations, layout, residual, &[]);
     let least = resolution(observations);
-    let sum: f64 = layout.kind.iter().map(|&kind| medians[usize::from(kind)].max(least).ln()).sum();
+    let sum: f64 = layout.kind_of_each().map(|kind| medians[kind].max(least).ln()).sum();
     sum / (layout.components() as f64).max(1.0)
 }
 
@@ -69,19 +72,18 @@ pub fn estimate(
     let stated = stated(options, observations, layout);
     // Weights between none and all are those of a robust fit.
     let robust_weights = weight.iter().any(|&weight| weight > 0.0 && weight < 1.0);
-    let counted =
-        layout.row.iter().filter(|&&row| robust_weights || weight[row as usize] > 0.0).count() as f64;
+    let counted = layout.row_of_each().filter(|&row| robust_weights || weight[row] > 0.0).count() as f64;
     let lost = counted / (counted - used).max(1.0);
     let pools = pools(observations, layout, used);
     let floors = |spread: &[f64]| -> Vec<f64> {
         let mut sums = vec![[0.0; 2]; layout.kinds];
-        for (at, &kind) in layout.kind.iter().enumerate() {
-            let row = layout.row[at] as usize;
-            let stride = layout.first[row + 1] - layout.first[row];
+        let of_each = layout.row_of_each().zip(layout.kind_of_each());
+        for ((row, kind), (residual, spread)) in of_each.zip(residual.iter().zip(each(spread))) {
+            let stride = layout.of_rows(row..row + 1).len();
             let consistency = if robust_weights { robust::consistency(stride) } else { 1.0 };
-            let [weights, squares] = &mut sums[pools[usize::from(kind)]];
+            let [weights, squares] = &mut sums[pools[kind]];
             *weights += weight[row];
-            *squares += weight[row] * consistency * (residual[at] / spread[at]).powi(2);
+            *squares += weight[row] * consistency * (residual / spread).powi(2);
         }
         let floor = |pool: &usize| {
             let [weights, squares] = sums[*pool];
@@ -95,7 +97,7 @@ pub fn estimate(
         let scaled: Vec<f64> = residual.iter().zip(&noise.sigma).map(|(r, sigma)| r / sigma).collect();
         if let Some((model, factor)) = variance::fit(chain, observations, layout, &scaled, weight) {
             let spread: Vec<f64> =
-                stated.iter().zip(&layout.row).map(|(sigma, &row)| sigma * factor[row as usize]).collect();
+                each(&stated).zip(layout.row_of_each()).map(|(sigma, row)| sigma * factor[row]).collect();
             noise = Noise { floor: floors(&spread), variance: Some(model), ..Noise::default() };
             noise = finish(noise, observations, layout, &spread);
         }
@@ -103,25 +105,30 @@ pub fn estimate(
     noise
 }
 
-/// What is stated per component, up to a factor: 1 where nothing is.
+/// What is stated per component, up to a factor; empty where nothing is.
 #[must_use]
 pub fn stated(options: &NoiseOptions, observations: &Observations, layout: &Layout) -> Vec<f64> {
     if observations.sigma.is_empty() || options.sigma.is_some() {
-        return vec![1.0; layout.components()];
+        return Vec::new();
     }
     let mut stated = Vec::with_capacity(layout.components());
-    for (ends, sigma) in layout.first.windows(2).zip(&observations.sigma) {
-        stated.extend(sigma.unwrap_or([1.0; 3]).iter().take(ends[1] - ends[0]));
+    for (measure, sigma) in observations.poses.measures().zip(&observations.sigma) {
+        stated.extend(sigma.unwrap_or([1.0; 3]).iter().take(measure.components()));
     }
     stated
+}
+
+/// One number a component: those of a list, or 1 where it is empty. A list of ones would be as large as the residuals.
+pub(in crate::fit) fn each(spread: &[f64]) -> impl Iterator<Item = f64> {
+    let ones = if spread.is_empty() { usize::MAX } else { 0 };
+    spread.iter().copied().chain(std::iter::repeat_n(1.0, ones))
 }
 
 /// Spreads the floors over the components. No standard deviation is smaller than what the numbers resolve.
 fn finish(mut noise: Noise, observations: &Observations, layout: &Layout, spread: &[f64]) -> Noise {
     let resolution = resolution(observations);
-    noise.sigma = (0..layout.components())
-        .map(|at| (noise.floor[usize::from(layout.kind[at])] * spread[at]).max(resolution))
-        .collect();
+    let of_each = layout.kind_of_each().zip(each(spread));
+    noise.sigma = of_each.map(|(kind, spread)| (noise.floor[kind] * spread).max(resolution)).collect();
     noise.runs.clone_from(&layout.runs);
     noise
 }

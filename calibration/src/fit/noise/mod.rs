@@ -20,8 +20,8 @@ use model_core::SymbolId;
 use crate::data::Observations;
 use crate::fit::robust::median;
 
+pub(super) use estimate::{each, ln_scale, stated};
 pub use estimate::{estimate, from_medians, of_floors, resolution};
-pub(super) use estimate::{ln_scale, stated};
 pub use layout::{Layout, Run};
 pub use pool::pools;
 pub use session::Offsets;

@@ -206,7 +206,7 @@ fn neighbours(layout: &Layout, values: &[f64], axes: Option<&[[f64; 3]]>) -> f64
         }
         if square > 0.0 && variance > 0.0 { products / square / variance.sqrt() } else { 0.0 }
     };
-    let own = correlation(&|a, b| if layout.kind[a] == layout.kind[b] { 1.0 } else { 0.0 });
+    let own = correlation(&|a, b| if layout.kind(a) == layout.kind(b) { 1.0 } else { 0.0 });
     let in_space =
         |axes: &[[f64; 3]]| correlation(&|a, b| axes[a].iter().zip(&axes[b]).map(|(a, b)| a * b).sum());
     axes.map_or(own, |axes| own.max(in_space(axes)))

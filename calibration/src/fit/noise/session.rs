@@ -32,9 +32,10 @@ impl Offsets {
     /// No offsets in the groups of these rows; those that do not count have one of their own.
     fn none(layout: &Layout, observations: &Observations, weight: &[f64]) -> Self {
         let groups = observations.sharing();
-        let group = |row: u32| if weight[row as usize] > 0.0 { groups[row as usize] } else { u32::MAX };
+        let group = |row: usize| if weight[row] > 0.0 { groups[row] } else { u32::MAX };
+        let kinds = || layout.kind_of_each().map(|kind| kind as u16);
         let mut keys: Vec<(u16, u32)> =
-            layout.kind.iter().zip(&layout.row).map(|(&kind, &row)| (kind, group(row))).collect();
+            kinds().zip(layout.row_of_each()).map(|(kind, row)| (kind, group(row))).collect();
         let of_component = keys.clone();
         keys.sort_unstable();
         keys.dedup();
@@ -42,7 +43,7 @@ impl Offsets {
         let place = |key: &(u16, u32)| keys.partition_point(|known| known < key) as u32;
         Self {
             set: of_component.iter().map(place).collect(),
-            kind: layout.kind.clone(),
+            kind: kinds().collect(),
             ratio: vec![0.0; layout.kinds],
             crossed: !observations.crossed.is_empty(),
         }

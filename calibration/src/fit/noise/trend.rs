@@ -40,8 +40,8 @@ pub fn beside(
     let all = layout.components();
     let most = most.min(all / COMPONENTS);
     let step = all.div_ceil(MANY).max(1);
-    let looked_at: Vec<usize> =
-        (0..all).filter(|&at| (layout.row[at] as usize).is_multiple_of(step)).collect();
+    let looked_at = layout.row_of_each().enumerate().filter(|(_, row)| row.is_multiple_of(step));
+    let looked_at: Vec<usize> = looked_at.map(|(at, _)| at).collect();
     let mut basis: Vec<Vec<f64>> = Vec::new();
     let mut take = |mut column: Vec<f64>| {
         let before = norm(&column);
@@ -87,8 +87,8 @@ pub fn beside(
     'all: for function in &functions {
         for kind in 0..layout.kinds {
             let at = |at: usize| {
-                let row = layout.row[at] as usize;
-                let own = usize::from(layout.kind[at]) == kind && weight[row] > 0.0;
+                let row = layout.row(at);
+                let own = layout.kind(at) == kind && weight[row] > 0.0;
                 if own { function(row) / sigma[at] } else { 0.0 }
             };
             if take(looked_at.iter().copied().map(at).collect()) >= most.max(q.ncols()) {

@@ -41,7 +41,7 @@ pub fn fit(
     let sources = sources(chain, observations);
     let terms: Vec<VarianceTerm> = sources.iter().flat_map(Source::terms).collect();
     // Components of a row share its functions, so a row counts once, with how many it has and the sum of their squares.
-    let of_row = |row: usize| layout.first[row]..layout.first[row + 1];
+    let of_row = |row: usize| layout.of_rows(row..row + 1);
     let rows: Vec<[f64; 2]> = (0..layout.rows())
         .map(|row| match weight[row] > 0.0 {
             true => [of_row(row).len() as f64, scaled[of_row(row)].iter().map(|value| value * value).sum()],

@@ -104,6 +104,12 @@ pub enum Caution {
         /// Rows set aside there, of how many there.
         rows: [usize; 2],
     },
+    /// What to measure next was asked for and cannot be computed.
+    #[serde(rename = "nothing proposed")]
+    NothingProposed {
+        /// What prevents it.
+        why: String,
+    },
     /// The declaration as it was could not be fitted: the figures before mean little.
     #[serde(rename = "declaration not fitted")]
     DeclarationNotFitted {

@@ -11,6 +11,7 @@ mod errors;
 mod function;
 mod harmonics;
 mod instrument;
+mod next;
 mod noise;
 mod precision;
 pub(crate) mod remaining;
@@ -26,19 +27,18 @@ use serde::Serialize;
 use crate::candidate::EffectId;
 use crate::data::{Observations, Origin, SiUnit};
 use crate::design::discrimination::separation;
-use crate::design::places::propose_places;
-use crate::design::{Criterion, PlaceProposal, Proposal, Separation, propose};
+use crate::design::{PlaceProposal, Proposal, Separation};
 use crate::effects::SHAPE;
 use crate::fit::FitResult;
-use crate::objects::{Visible, identify};
 use crate::search::HeldOut;
 use crate::search::aside::{Shared, shared};
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
 use crate::search::library::AsGood;
 use crate::search::round::Round;
-use crate::search::{Request, SearchError, Stage};
+use crate::search::{SearchError, Stage};
 use effects::Others;
+use next::{Next, next};
 use rms::BeforeAfter;
 use verdict::Evidence;
 
@@ -230,6 +230,8 @@ pub(crate) fn diagnose(
         form_open: found.effects.iter().any(|effect| !effect.form_determined),
         cautions: &cautions,
     });
+    let next = if verdict.is_usable() { next(whole, last) } else { Next::default() };
+    cautions.extend(next.missing);
     Ok(Diagnosis {
         verdict,
         cautions,
@@ -244,8 +246,8 @@ pub(crate) fn diagnose(
         errors,
         estimable: errors::estimable(whole, last),
         not_separable: precision.not_separable.iter().map(|set| set.names.clone()).collect(),
-        next_poses: if verdict.is_usable() { next_poses(whole, last) } else { Vec::new() },
-        next_places: if verdict.is_usable() { next_places(whole, last) } else { Vec::new() },
+        next_poses: next.poses,
+        next_places: next.places,
         separating: found.separating,
         precision,
         noise,
@@ -374,37 +376,4 @@ fn used(whole: &Context<'_>, fit: &FitResult) -> Used {
             })
             .collect(),
     }
-}
-
-/// The poses that the study asks for; none if it asks for none, or if they cannot be computed.
-fn next_poses(whole: &Context<'_>, last: &Fitted) -> Vec<Proposal> {
-    let Some(next) = &whole.request.plan.next else { return Vec::new() };
-    if whole.request.observations.unknowns.is_some() {
-        // A pose says nothing where no object stands.
-        return Vec::new();
-    }
-    let proposal = |criterion| {
-        let observations = whole.request.observations;
-        propose(&last.chain, observations, &last.fit, next.count, &next.ranges, criterion).ok()
-    };
-    [Criterion::D, Criterion::A].into_iter().filter_map(proposal).collect()
-}
-
-/// The stations and objects that the study asks for; none if it asks for none, or if they cannot be computed.
-fn next_places(whole: &Context<'_>, last: &Fitted) -> Vec<PlaceProposal> {
-    let Request { observations, plan, .. } = whole.request;
-    let mut proposals = propose_places(&last.chain, observations, &last.fit, plan).unwrap_or_default();
-    if proposals.iter().all(|proposal| proposal.never.is_empty()) {
-        return proposals;
-    }
-    let Ok(set_up) = identify(&plan.chain, observations, &plan.fit) else { return proposals };
-    for proposal in &mut proposals {
-        let shown = |seen: &Visible| {
-            let names = seen.alone.iter().map(|id| plan.chain.symbol(*id).name.clone());
-            names.filter(|name| proposal.never.contains(name)).collect::<Vec<String>>()
-        };
-        let all = set_up.remedies.iter().map(|(remedy, seen)| (*remedy, shown(seen)));
-        proposal.remedies = all.filter(|(_, names)| !names.is_empty()).collect();
-    }
-    proposals
 }

@@ -44,6 +44,9 @@ pub fn caution(caution: &Caution) -> String {
             "{aside} of the {there} rows with {reading} from {from:.3} to {to:.3} (SI) were set aside: they share \
              something that the declaration lacks."
         ),
+        Caution::NothingProposed { why } => {
+            format!("What `[next]` asks for cannot be proposed: {why}.")
+        }
         Caution::DeclarationNotFitted { steps } => format!(
             "The declaration as it was could not be fitted in {steps} steps: figures before mean little."
         ),

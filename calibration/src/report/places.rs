@@ -81,7 +81,7 @@ fn table(
     let shown: Vec<_> = proposal.uncertainties.iter().filter(shown).cloned().collect();
     let gains = gained(diagnosis, &shown);
     if gains.is_empty() {
-        notes.push("nothing that is placed so makes an error surer".to_owned());
+        notes.push("no error by itself becomes surer by it".to_owned());
     }
     notes.extend(gains);
     if !proposal.never.is_empty() {

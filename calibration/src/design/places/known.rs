@@ -66,8 +66,8 @@ impl Known {
         let sigma = fit.noise.sigma_without_memory();
         let root: Vec<f64> = sigma
             .iter()
-            .zip(&layout.row)
-            .map(|(sigma, &row)| fit.residuals.weight[row as usize].sqrt() / sigma)
+            .zip(layout.row_of_each())
+            .map(|(sigma, row)| fit.residuals.weight[row].sqrt() / sigma)
             .collect();
         let seen = Seen::of(model, observations, &layout, values, &root)?;
         let errors = sizes.len();

@@ -17,7 +17,7 @@ impl<'a> Usual<'a> {
         let sigma = noise.sigma_without_memory();
         let of_series = observations.poses.series.iter().map(|series| {
             let of_component = |component: usize| {
-                let own = |row: usize| (row, sigma[layout.first[row] + component]);
+                let own = |row: usize| (row, sigma[layout.first(row) + component]);
                 let mut rows: Vec<(usize, f64)> = series.rows.clone().map(own).collect();
                 rows.sort_by(|a, b| a.1.total_cmp(&b.1));
                 rows.get(rows.len() / 2).copied().unwrap_or((0, 1.0))

@@ -29,7 +29,7 @@ impl Seen {
             for row in (0..block.rows).filter(|&row| block.defined[row]) {
                 for component in 0..block.components {
                     let (at, own) = (component * block.rows + row, row * block.components + component);
-                    let root = root[layout.first[rows.start + row] + component];
+                    let root = root[layout.first(rows.start + row) + component];
                     if root == 0.0 {
                         continue;
                     }

@@ -200,7 +200,9 @@ impl Study {
         let chain = shown::vectors(chain);
         let unstated = unstated(&chain, &search.inputs);
         let observed: Vec<_> = sources.iter().map(|source| source.observable).collect();
-        let unsought = unsought(&chain, &observed, &search);
+        // Whoever names the effects that may be found has said what is looked for.
+        let unsought =
+            if search.only.is_empty() { unsought(&chain, &observed, &search.inputs) } else { Vec::new() };
         let timeless =
             if search.sequence { timeless(&chain, &search.inputs, order.as_deref()) } else { None };
         Ok(Plan {

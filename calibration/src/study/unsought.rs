@@ -4,8 +4,6 @@ use std::fmt;
 
 use model_core::{Chain, ObservableId, SymbolId, SymbolKind};
 
-use super::plan::Search;
-
 /// An input that nothing uses.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unsought {
@@ -24,15 +22,11 @@ impl fmt::Display for Unsought {
     }
 }
 
-/// The inputs with a meaning that no observable hangs on and no effect may follow; none where the study names the effects
-/// that may be found.
-pub(super) fn unsought(chain: &Chain, observables: &[ObservableId], search: &Search) -> Vec<Unsought> {
-    if !search.only.is_empty() {
-        return Vec::new();
-    }
+/// The inputs with a meaning that no observable hangs on and no effect may follow, which are `inputs`.
+pub(super) fn unsought(chain: &Chain, observables: &[ObservableId], inputs: &[SymbolId]) -> Vec<Unsought> {
     let mut used: Vec<SymbolId> = observables.iter().flat_map(|&id| chain.symbols_of_way(id)).collect();
     // A phase that effects may follow is one of a range.
-    used.extend(search.inputs.iter().flat_map(|&id| [Some(id), chain.symbol(id).of]).flatten());
+    used.extend(inputs.iter().flat_map(|&id| [Some(id), chain.symbol(id).of]).flatten());
     chain
         .symbols_of(SymbolKind::Input)
         .filter(|id| !used.contains(id))

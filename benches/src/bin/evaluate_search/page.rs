@@ -10,7 +10,8 @@ use crate::rate::Line;
 pub fn row(line: &Line) -> String {
     format!(
         "| {} | {} | {} | {} | {} | {} | {} | {:.1} s |",
-        line.what,
+        // A bar would begin another cell.
+        line.what.replace('|', "\\|"),
         line.target,
         line.shown,
         line.met(),

@@ -123,7 +123,9 @@ impl Known {
                 else {
                     continue;
                 };
-                let first = known.iter().position(|&at| at == start).unwrap_or(0);
+                let Some(first) = known.iter().position(|&at| at == start) else {
+                    unreachable!("every station of these rows is among what they know")
+                };
                 (0..WIDTH - OF_OBJECT).for_each(|j| rows[(i, k + first + j)] = one.unknown[OF_OBJECT + j]);
             }
             let mut normal = rows.transpose() * &rows;

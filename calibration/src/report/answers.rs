@@ -4,8 +4,9 @@ use super::causes::{cause, each_once, sentence_case};
 use super::effects::{chance_of, headline, place};
 use super::left::{function_form, remaining};
 use super::numbers::{short, times};
+use super::places::told_places;
 use crate::data::SiUnit;
-use crate::diagnose::{Caution, Diagnosis, Ended, Relation, Rms, Verdict};
+use crate::diagnose::{Caution, Diagnosis, EffectFound, Ended, Relation, Rms, Verdict};
 
 /// How good the news is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -145,14 +146,22 @@ fn happened(diagnosis: &Diagnosis) -> String {
             format!("{count} causes found; together they explain what the declaration left over.")
         }
         Verdict::Confounded if count == 1 => {
-            let fit = diagnosis.effects[0].causes.len();
-            format!("Cause found; these data fit {fit} physical causes equally well.")
+            let effect = &diagnosis.effects[0];
+            match (effect.causes.len(), effect.competing_with.as_slice()) {
+                (0 | 1, [names]) => {
+                    format!("Cause found; {} explains these data about as well.", names.join(" or "))
+                }
+                (0 | 1, others) => {
+                    format!("Cause found; {} other models explain these data about as well.", others.len())
+                }
+                (fit, _) => format!("Cause found; these data fit {fit} physical causes equally well."),
+            }
         }
         Verdict::Confounded => {
-            let several = diagnosis.effects.iter().filter(|effect| effect.causes.len() > 1).count();
-            format!(
-                "{count} effects found; for {several} of them these data fit several physical causes equally well."
-            )
+            let is_open =
+                |effect: &&EffectFound| effect.causes.len() > 1 || !effect.competing_with.is_empty();
+            let open = diagnosis.effects.iter().filter(is_open).count();
+            format!("{count} effects found; for {open} of them these data fit something else about as well.")
         }
         Verdict::FormNotDetermined if count == 1 => {
             let effect = &diagnosis.effects[0];
@@ -413,9 +422,11 @@ fn measure(diagnosis: &Diagnosis) -> Vec<Step> {
     }
     if !diagnosis.next_places.is_empty() {
         steps.push(Step {
-            title: "To make the errors surer, add".to_owned(),
-            text: "What the study asks for is listed below, with where to put it and what to aim at."
-                .to_owned(),
+            title: "To make the errors surer, add to the set-up".to_owned(),
+            text: format!(
+                "Best is {}. What to aim at stands under the measurements proposed below.",
+                told_places(&diagnosis.next_places[0])
+            ),
             command: None,
         });
     }

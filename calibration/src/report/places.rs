@@ -41,9 +41,8 @@ fn table(
     aim: &str,
     unit: impl Fn(&str) -> SiUnit,
 ) -> PoseTable {
-    let places: Vec<String> = proposal.places.iter().map(|place| told(proposal.adds, place)).collect();
-    let title = format!("{}, {aim}", places.join("; "));
-    let several = places.len() > 1;
+    let title = format!("{}, {aim}", told_places(proposal));
+    let several = proposal.places.len() > 1;
     let units: Vec<Reading> =
         proposal.readings.iter().map(|name| numbers::reading(unit(name), 1.0)).collect();
     let all = || {
@@ -91,6 +90,12 @@ fn table(
         notes.push(format!("{} {}", remedy_would_show(*remedy).to_lowercase(), errors.join(", ")));
     }
     PoseTable { title, joints, poses, notes }
+}
+
+/// What is added, and where.
+pub(super) fn told_places(proposal: &PlaceProposal) -> String {
+    let places: Vec<String> = proposal.places.iter().map(|place| told(proposal.adds, place)).collect();
+    places.join("; ")
 }
 
 /// `a station at x 1.20 m, y −3.41 m, z 1.60 m, heading 37°`

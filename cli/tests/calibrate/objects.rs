@@ -114,6 +114,36 @@ fn report(folder: &Folder, study: &str) -> Value {
     serde_json::from_str(&run.stdout).expect("JSON")
 }
 
+/// The first screen says what else explains the data, and where to stand next.
+#[test]
+fn the_first_screen_says_where_to_stand_next() {
+    let asks = |text: String| format!("{text}\n[next]\nstations = 1\nposes = 20\n");
+    let folder = changed("objects-next", "walls.toml", &["scanner.chain", "walls.csv"], asks);
+    let told = run(&folder, &["calibrate", "walls.toml"]).stdout;
+    let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
+    let report = report(&folder, "walls.toml");
+
+    let effect = &report["effects"][0];
+    let (causes, others) = (effect["causes"].as_array(), effect["competing_with"].as_array());
+    let (Some([_]), Some([other])) = (causes.map(Vec::as_slice), others.map(Vec::as_slice)) else {
+        panic!("{effect:#}")
+    };
+    let other = other[0].as_str().expect("a name");
+    assert!(told.contains(&format!("Cause found; {other} explains these data about as well.")), "{told}");
+
+    let next = &report["next_places"][0];
+    let places = next["places"].as_array().expect("a list");
+    assert_eq!(places.len(), 1);
+    let x = places[0]["place_m"][0].as_f64().expect("a number");
+    let best = format!("To make the errors surer, add to the set-up. Best is a station at x {x:.2} m");
+    assert!(told.contains(&best.replace('-', "−").replace("set−up", "set-up")), "{best}: {told}");
+    assert_eq!(places[0]["pointings"].as_array().expect("a list").len(), 20);
+    for error in next["uncertainties"].as_array().expect("a list") {
+        let [now, then] = [1, 2].map(|at| error[at].as_f64().expect("a number"));
+        assert!(then <= now && then > 0.0, "{error}");
+    }
+}
+
 /// Nothing holds the frame: all rough poses turned by 50 degrees about the vertical and shifted, the same errors come out.
 #[test]
 fn errors_do_not_depend_on_the_frame() {

@@ -424,7 +424,7 @@ fn measure(diagnosis: &Diagnosis) -> Vec<Step> {
         steps.push(Step {
             title: "To make the errors surer, add to the set-up".to_owned(),
             text: format!(
-                "Best is {}. What to aim at stands under the measurements proposed below.",
+                "Best is {}. What to aim at stands under Measure next.",
                 told_places(&diagnosis.next_places[0])
             ),
             command: None,

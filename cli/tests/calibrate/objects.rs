@@ -117,11 +117,10 @@ fn report(folder: &Folder, study: &str) -> Value {
 /// The first screen says what else explains the data, and where to stand next.
 #[test]
 fn the_first_screen_says_where_to_stand_next() {
-    let asks = |text: String| format!("{text}\n[next]\nstations = 1\nposes = 20\n");
-    let folder = changed("objects-next", "walls.toml", &["scanner.chain", "walls.csv"], asks);
-    let told = run(&folder, &["calibrate", "walls.toml"]).stdout;
+    let folder = changed("objects-next", "next.toml", &["scanner.chain", "walls.csv"], |text| text);
+    let told = run(&folder, &["calibrate", "next.toml"]).stdout;
     let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
-    let report = report(&folder, "walls.toml");
+    let report = report(&folder, "next.toml");
 
     let effect = &report["effects"][0];
     let (causes, others) = (effect["causes"].as_array(), effect["competing_with"].as_array());

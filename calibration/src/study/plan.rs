@@ -199,10 +199,8 @@ impl Study {
         let (data_from, doubts) = (self.data_from.clone(), self.doubts(&chain, &sources));
         let chain = shown::vectors(chain);
         let unstated = unstated(&chain, &search.inputs);
-        let observed: Vec<_> = sources.iter().map(|source| source.observable).collect();
         // Whoever names the effects that may be found has said what is looked for.
-        let unsought =
-            if search.only.is_empty() { unsought(&chain, &observed, &search.inputs) } else { Vec::new() };
+        let unsought = if search.only.is_empty() { unsought(&chain, &search.inputs) } else { Vec::new() };
         let timeless =
             if search.sequence { timeless(&chain, &search.inputs, order.as_deref()) } else { None };
         Ok(Plan {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use model_core::{Chain, ObservableId, SymbolId, SymbolKind};
+use model_core::{Chain, Meaning, SymbolId, SymbolKind};
 
 /// An input that nothing uses.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -22,9 +22,11 @@ impl fmt::Display for Unsought {
     }
 }
 
-/// The inputs with a meaning that no observable hangs on and no effect may follow, which are `inputs`.
-pub(super) fn unsought(chain: &Chain, observables: &[ObservableId], inputs: &[SymbolId]) -> Vec<Unsought> {
-    let mut used: Vec<SymbolId> = observables.iter().flat_map(|&id| chain.symbols_of_way(id)).collect();
+/// The inputs with a meaning that no observable of the chain hangs on and no effect may follow, which are `inputs`. A length or
+/// an angle says only how much it is.
+pub(super) fn unsought(chain: &Chain, inputs: &[SymbolId]) -> Vec<Unsought> {
+    let observables = chain.observables.iter().filter_map(|own| chain.find_observable(&own.name));
+    let mut used: Vec<SymbolId> = observables.flat_map(|id| chain.symbols_of_way(id)).collect();
     // A phase that effects may follow is one of a range.
     used.extend(inputs.iter().flat_map(|&id| [Some(id), chain.symbol(id).of]).flatten());
     chain
@@ -32,7 +34,8 @@ pub(super) fn unsought(chain: &Chain, observables: &[ObservableId], inputs: &[Sy
         .filter(|id| !used.contains(id))
         .filter_map(|id| {
             let symbol = chain.symbol(id);
-            Some(Unsought { name: symbol.name.clone(), meaning: symbol.meaning?.word() })
+            let meaning = symbol.meaning.filter(|own| !matches!(own, Meaning::Angle | Meaning::Length))?;
+            Some(Unsought { name: symbol.name.clone(), meaning: meaning.word() })
         })
         .collect()
 }

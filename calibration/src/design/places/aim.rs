@@ -52,15 +52,25 @@ struct Free {
     turns: bool,
 }
 
-/// The inputs that say how far along its beam an instrument measures: the one of length, and those of which the study says where
-/// they may be.
+/// The inputs that say how far along its beam an instrument measures: the one of length that moves what is observed of an
+/// instrument without errors, and those of which the study says where they may be.
 pub(super) fn ranges_of(chain: &Chain, poses: &Poses, stated: &[(SymbolId, Range<f64>)]) -> Vec<SymbolId> {
+    let is_error = |id| chain.symbol(id).kind == SymbolKind::Error;
+    let moves = |id: &SymbolId| {
+        poses.series.iter().any(|series| {
+            let way = chain.way(series.observable);
+            let amounts = way.iter().map(|passed| &passed.factor.amount);
+            let mut amounts = amounts.chain(&chain.observable(series.observable).components);
+            amounts.any(|amount| chain.symbols_in(&amount.graded_part(is_error, 0)).contains(id))
+        })
+    };
     let lengths: Vec<SymbolId> = poses
         .columns
         .iter()
         .map(|(id, _)| *id)
         .filter(|id| {
-            chain.symbol(*id).kind == SymbolKind::Input && chain.symbol(*id).quantity == Quantity::Length
+            let symbol = chain.symbol(*id);
+            symbol.kind == SymbolKind::Input && symbol.quantity == Quantity::Length && moves(id)
         })
         .collect();
     let stated = |id: &SymbolId| stated.iter().any(|(known, _)| known == id);

@@ -128,7 +128,7 @@ pub(crate) fn separation(
         }
     }
     let ranges = plan.next.as_ref().map_or(&[][..], |next| &next.ranges);
-    let count = plan.next.as_ref().map_or(POSES, |next| next.count);
+    let count = plan.next.as_ref().and_then(|next| next.count).unwrap_or(POSES);
     let poses = spread(&last.fitted.chain, &whole.request.observations.poses, ranges);
     let kept: Vec<EffectId> = (0..found.len()).filter(|&i| i != at).map(|i| found[i].effect).collect();
     let columns = columns_at(whole, last, &poses, &[&kept[..], &candidates].concat())?;

@@ -30,12 +30,14 @@ pub(super) fn next(whole: &Context<'_>, last: &Fitted) -> Next {
 
 fn next_poses(whole: &Context<'_>, last: &Fitted) -> Result<Vec<Proposal>, FitError> {
     let Request { observations, plan, .. } = whole.request;
-    let Some(next) = &plan.next else { return Ok(Vec::new()) };
+    let Some((next, count)) = plan.next.as_ref().and_then(|next| Some((next, next.count?))) else {
+        return Ok(Vec::new());
+    };
     if observations.unknowns.is_some() {
         // A pose says nothing where no object stands.
         return Ok(Vec::new());
     }
-    let of = |criterion| propose(&last.chain, observations, &last.fit, next.count, &next.ranges, criterion);
+    let of = |criterion| propose(&last.chain, observations, &last.fit, count, &next.ranges, criterion);
     [Criterion::D, Criterion::A].into_iter().map(of).collect()
 }
 

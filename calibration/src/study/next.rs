@@ -61,8 +61,7 @@ impl Study {
         let (Some(ranges), Some(places)) = (ranges, places) else {
             unreachable!("what is missing comes with a mistake")
         };
-        let places = places.filter(|_| of_objects).map(|places| NextPlaces { poses: count, ..places });
-        Ok(Some(NextPoses { count: count.unwrap_or_default(), ranges, places }))
+        Ok(Some(NextPoses { count, ranges, places }))
     }
 }
 
@@ -140,7 +139,7 @@ impl NextTable {
         mistakes.none()?;
         objects.extend(asked.into_iter().flatten());
         let stations = usize::try_from(stations).unwrap_or(usize::MAX);
-        Ok(Some(NextPlaces { poses: None, stations, objects, bounds }))
+        Ok(Some(NextPlaces { stations, objects, bounds }))
     }
 }
 

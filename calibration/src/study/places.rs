@@ -54,8 +54,7 @@ impl Study {
             let message = format!("`{}` is {what}, which this kind does not measure", observable.name);
             return Err(mistake(place, message, help));
         }
-        let kinds = [Kind::Plane, Kind::Target, Kind::Fixed, Kind::Wire, Kind::Distance, Kind::Sight];
-        let of_objects = kinds.contains(&observed.kind);
+        let of_objects = observed.kind.of_object().is_some();
         if of_objects && observed.object.0.is_empty() {
             let help = "write `object = \"…\"`: the column that names the wall, the target or the socket of each row";
             return Err(mistake(place, "which object does each row observe?", help));

@@ -72,8 +72,8 @@ pub struct HoldOut {
 /// How many poses to propose, and where.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NextPoses {
-    /// How many.
-    pub count: usize,
+    /// How many poses, or rows of each addition: as many as stations or objects have so far where the study does not say.
+    pub count: Option<usize>,
     /// Between which values of a joint, or of a range that is measured, SI; those without stay within that of the data.
     pub ranges: Vec<(SymbolId, Range<f64>)>,
     /// What to add instead where rows observe objects from stations.
@@ -83,8 +83,6 @@ pub struct NextPoses {
 /// How many stations and objects to propose, and where.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NextPlaces {
-    /// Rows of each; as many as stations or objects have so far where the study does not say.
-    pub poses: Option<usize>,
     /// Places to stand.
     pub stations: usize,
     /// Objects of each kind.

@@ -134,7 +134,7 @@ pub fn next_poses(count: usize) -> Result<Vec<Line>, Failure> {
     let chain = &design.plan.chain;
     let ranges = ["alpha", "beta", "gamma"].map(|name| (chain.find_symbol(name), -PI..PI));
     let ranges = ranges.into_iter().filter_map(|(id, range)| Some((id?, range))).collect();
-    design.plan.next = Some(NextPoses { count: 12, ranges, places: None });
+    design.plan.next = Some(NextPoses { count: Some(12), ranges, places: None });
     let (left, took) = runs(count, seed, |random| {
         let (effect, chain, values) = planted(&design, snr, random)?;
         let mut sampled = Noise::Even.sample(design.readings_of("beta"), random);

@@ -80,6 +80,22 @@ pub enum Known {
     Yes,
 }
 
+/// The numbers of one thing, as far as they are estimated.
+pub(crate) fn own_numbers<const N: usize>(state: &[f64], first: usize, count: usize) -> [f64; N] {
+    let mut own = [0.0; N];
+    own.iter_mut().zip(state.iter().skip(first).take(count)).for_each(|(own, value)| *own = *value);
+    own
+}
+
+/// The normal of a plane at its two numbers of tilt, and its derivative by each.
+pub(crate) fn tilted(normal: &Vector3<f64>, tilt: [f64; 2]) -> (Vector3<f64>, [Vector3<f64>; 2]) {
+    let [first, second] = tangent_frame(normal);
+    let long = normal + first * tilt[0] + second * tilt[1];
+    let length = long.norm();
+    let n = long / length;
+    (n, [first, second].map(|axis| (axis - n * n.dot(&axis)) / length))
+}
+
 /// Something that rows observe.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Object {
@@ -114,16 +130,15 @@ impl Object {
     }
 
     /// Moves it by its numbers.
-    fn move_by(&mut self, own: &[f64]) {
+    fn move_by(&mut self, own: [f64; OF_OBJECT]) {
         match self.shape {
             Shape::Plane => {
-                let [first, second] = tangent_frame(&self.normal);
-                self.normal = (self.normal + first * own[0] + second * own[1]).normalize();
+                (self.normal, _) = tilted(&self.normal, [own[0], own[1]]);
                 self.place += self.normal * own[2];
             }
             Shape::Point | Shape::Wire => {
                 self.place += Vector3::new(own[0], own[1], own[2]);
-                self.offset += own.get(3).copied().unwrap_or(0.0);
+                self.offset += own[3];
             }
         }
     }
@@ -229,11 +244,11 @@ impl Unknowns {
         let mut there = self.clone();
         let firsts = self.first_of_stations();
         for (station, first) in there.stations.iter_mut().zip(firsts).filter(|(own, _)| own.numbers() > 0) {
-            station.pose = station.pose.moved(&std::array::from_fn(|at| numbers[first + at]));
+            station.pose = station.pose.moved(&own_numbers(numbers, first, station.numbers()));
         }
         for (object, first) in there.objects.iter_mut().zip(self.first_of_objects()) {
             if object.numbers() > 0 {
-                object.move_by(&numbers[first..first + object.numbers()]);
+                object.move_by(own_numbers(numbers, first, object.numbers()));
             }
         }
         there

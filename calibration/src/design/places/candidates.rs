@@ -32,10 +32,39 @@ const MOST_ROWS: usize = 100;
 /// A beam that meets a plane at more than this from its normal is lost, as a cosine: 80 degrees.
 const GRAZING: f64 = 0.17;
 
+/// A station or an object that is not there yet.
+pub(super) enum New {
+    Station(Station),
+    Object(Object),
+}
+
+impl New {
+    pub fn station(&self) -> Option<&Station> {
+        match self {
+            Self::Station(station) => Some(station),
+            Self::Object(_) => None,
+        }
+    }
+
+    pub fn object(&self) -> Option<&Object> {
+        match self {
+            Self::Object(object) => Some(object),
+            Self::Station(_) => None,
+        }
+    }
+
+    /// How many numbers it brings that are estimated.
+    pub fn numbers(&self) -> usize {
+        match self {
+            Self::Station(station) => station.numbers(),
+            Self::Object(object) => object.numbers(),
+        }
+    }
+}
+
 /// What could be added, and how it could be measured.
 pub(super) struct Candidate {
-    pub station: Option<Station>,
-    pub object: Option<Object>,
+    pub new: New,
     pub pointings: Vec<Possible>,
     /// How many pointings are to be measured.
     pub wanted: usize,
@@ -57,6 +86,8 @@ pub(super) struct Candidates<'a> {
     /// What would be known of another station.
     of_stations: Freedom,
     wanted: &'a NextPlaces,
+    /// Rows of each addition, if the study says how many.
+    poses: Option<usize>,
     measures: Vec<Measure>,
     /// One a series that observes objects.
     aims: Vec<Option<Aim>>,
@@ -72,17 +103,17 @@ pub(super) struct Candidates<'a> {
 }
 
 impl<'a> Candidates<'a> {
-    /// Of observations whose objects and stations are where the fit has them.
+    /// Of observations whose objects and stations, `unknowns`, are where the fit has them.
     pub fn of(
         chain: &Chain,
         observations: &Observations,
+        unknowns: Unknowns,
         of_stations: Freedom,
         values: &[f64],
         next: &NextPoses,
         wanted: &'a NextPlaces,
     ) -> Self {
         let poses = &observations.poses;
-        let unknowns = observations.unknowns.clone().unwrap_or_default();
         let aims = poses.series.iter().map(|series| {
             let observes = Shape::of(series.measure).is_some() && !series.rows.is_empty();
             observes.then(|| Aim::new(chain, series.observable, poses, &next.ranges, values))
@@ -105,6 +136,7 @@ impl<'a> Candidates<'a> {
             unknowns,
             of_stations,
             wanted,
+            poses: next.count,
             rows,
             hits,
         }
@@ -170,8 +202,7 @@ impl<'a> Candidates<'a> {
         let turn = Rotation3::from_euler_angles(0.0, 0.0, heading - yaw) * first.pose.turn;
         let pose = Pose { turn, shift };
         let station = Station { label: String::new(), freedom: self.of_stations, known: Placed::Yes, pose };
-        let per_station = self.rows_per(|row| row.station);
-        let wanted = self.wanted.poses.unwrap_or(per_station);
+        let wanted = self.poses.unwrap_or_else(|| self.rows_per(|row| row.station));
 
         let seen: BTreeSet<(usize, usize)> = self.rows.iter().map(|row| (row.series, row.object)).collect();
         let aimed: Vec<(usize, usize)> = seen
@@ -210,12 +241,7 @@ impl<'a> Candidates<'a> {
                 }));
             }
         }
-        (!pointings.is_empty()).then_some(Candidate {
-            station: Some(station),
-            object: None,
-            pointings,
-            wanted,
-        })
+        (!pointings.is_empty()).then_some(Candidate { new: New::Station(station), pointings, wanted })
     }
 
     fn object(&self, number: usize, adds: Addition) -> Option<Candidate> {
@@ -237,7 +263,7 @@ impl<'a> Candidates<'a> {
         if shape == Shape::Wire {
             object.offset = median(own.map(|own| own.offset).collect());
         }
-        let wanted = self.wanted.poses.unwrap_or_else(|| self.rows_per(|row| row.object));
+        let wanted = self.poses.unwrap_or_else(|| self.rows_per(|row| row.object));
         let stations: BTreeSet<usize> =
             self.rows.iter().filter(|row| row.series == series).map(|row| row.station).collect();
         let ways = (CHOICE * wanted as f64 / stations.len().max(1) as f64).ceil() as usize;
@@ -262,12 +288,7 @@ impl<'a> Candidates<'a> {
                 readings,
             }));
         }
-        (!pointings.is_empty()).then_some(Candidate {
-            station: None,
-            object: Some(object),
-            pointings,
-            wanted,
-        })
+        (!pointings.is_empty()).then_some(Candidate { new: New::Object(object), pointings, wanted })
     }
 
     /// Whether a beam would be lost on a plane.

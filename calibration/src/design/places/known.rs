@@ -52,7 +52,6 @@ pub(super) fn of_object(shape: Shape) -> [bool; 6] {
 impl Known {
     /// `values` are those of the fit, objects and stations where the observations have them; `sizes` those of the errors as far
     /// as the study says.
-    #[allow(clippy::too_many_arguments)]
     pub fn of(
         model: &Model,
         observations: &Observations,

@@ -26,7 +26,7 @@ use crate::fit::{FitError, FitResult, Model};
 use crate::objects::Remedy;
 use crate::study::{NextPlaces, NextPoses, Plan};
 use aim::ranges_of;
-use candidates::{Candidate, Candidates, as_the_others};
+use candidates::{Candidate, Candidates, New, as_the_others};
 use known::{Known, OF_STATION, of_object, roots};
 use noise::Usual;
 use seen::Seen;
@@ -151,11 +151,11 @@ pub(crate) fn propose_places(
     let unknowns = in_a_frame(unknowns.at(&fit.values[chain.symbols.len()..]));
     let mut values = fit.values[..chain.symbols.len()].to_vec();
     values.resize(values.len() + unknowns.numbers(), 0.0);
-    let observations = &Observations { unknowns: Some(unknowns), ..observations.clone() };
+    let observations = &Observations { unknowns: Some(unknowns.clone()), ..observations.clone() };
     let model = Model::new(chain, &observations.poses, &fit.parameters)?.for_determination();
     let size = |id: &_| plan.fit.sizes.iter().find(|(own, _)| own == id).map_or(ANY_SIZE, |(_, size)| *size);
     let sizes: Vec<f64> = fit.parameters.iter().map(size).collect();
-    let candidates = Candidates::of(chain, observations, of_stations, &values, next, wanted);
+    let candidates = Candidates::of(chain, observations, unknowns, of_stations, &values, next, wanted);
     let known =
         Known::of(&model, observations, &candidates.unknowns, fit, &values, &sizes, candidates.extent_m())?;
     let layout = Layout::of(observations);
@@ -165,8 +165,11 @@ pub(crate) fn propose_places(
     let mut proposals = Vec::new();
     for (adds, count) in asked(wanted) {
         let places = candidates.all(adds, &known);
+        let seen = places.par_iter().map(|place| setting.pointed(place, &known));
+        let seen = seen.collect::<Result<Vec<_>, FitError>>()?;
+        let places: Vec<(Candidate, Vec<Pointed>)> = places.into_iter().zip(seen).collect();
         for criterion in [Criterion::D, Criterion::A] {
-            proposals.extend(setting.proposal(&places, &known, adds, count, criterion, next)?);
+            proposals.extend(setting.proposal(&places, &known, adds, count, criterion, next));
         }
     }
     for proposal in &mut proposals {
@@ -208,26 +211,21 @@ struct Trial {
 impl Setting<'_> {
     fn proposal(
         &self,
-        candidates: &[Candidate],
+        candidates: &[(Candidate, Vec<Pointed>)],
         known: &Known,
         adds: Addition,
         count: usize,
         criterion: Criterion,
         next: &NextPoses,
-    ) -> Result<Option<PlaceProposal>, FitError> {
+    ) -> Option<PlaceProposal> {
         let before = known.of_errors();
         let mut covariance = known.covariance.clone();
-        let seen: Vec<Vec<Pointed>> = candidates
-            .par_iter()
-            .map(|candidate| self.pointed(candidate, known))
-            .collect::<Result<_, FitError>>()?;
         let read: Vec<_> = self.read(next);
         let mut places = Vec::new();
         let mut used: Vec<usize> = Vec::new();
         for _ in 0..count {
             let trials: Vec<Option<Trial>> = candidates
                 .par_iter()
-                .zip(&seen)
                 .map(|(candidate, seen)| self.trial(candidate, seen, known, &covariance, criterion))
                 .collect();
             let best = trials
@@ -238,9 +236,9 @@ impl Setting<'_> {
                 .min_by(|a, b| a.1.badness.total_cmp(&b.1.badness).then(a.0.cmp(&b.0)));
             let Some((best, trial)) = best else { break };
             used.push(best);
-            let candidate = &candidates[best];
+            let (candidate, seen) = &candidates[best];
             let whole = extended(&covariance, candidate, known.extent_m);
-            let Some(whole) = measured(&whole, trial.pointings.iter().map(|&at| &seen[best][at])) else {
+            let Some(whole) = measured(&whole, trial.pointings.iter().map(|&at| &seen[at])) else {
                 break;
             };
             let n = covariance.nrows();
@@ -248,7 +246,7 @@ impl Setting<'_> {
             places.push(candidate.place(&known.unknowns, &trial.pointings, &read));
         }
         if places.is_empty() {
-            return Ok(None);
+            return None;
         }
         let names = self.fit.parameters.iter().enumerate().map(|(at, id)| {
             let now = self.fit.covariance[(at, at)].sqrt();
@@ -263,7 +261,7 @@ impl Setting<'_> {
             .map(|id| self.chain.symbol(id).name.clone());
         let (never, remedies) = (Vec::new(), Vec::new());
         let readings = readings.collect();
-        Ok(Some(PlaceProposal { adds, criterion, readings, places, uncertainties, never, remedies }))
+        Some(PlaceProposal { adds, criterion, readings, places, uncertainties, never, remedies })
     }
 
     /// Which columns of the readings are told: those that an instrument is set by.
@@ -289,8 +287,8 @@ impl Setting<'_> {
         let column = |at: usize| order.iter().map(|&own| candidate.pointings[own].readings[at]).collect();
         let columns = poses.columns.iter().enumerate().map(|(at, (id, _))| (*id, column(at))).collect();
         let mut unknowns: Unknowns = known.unknowns.clone();
-        unknowns.stations.extend(candidate.station.clone());
-        unknowns.objects.extend(candidate.object.clone());
+        unknowns.stations.extend(candidate.new.station().cloned());
+        unknowns.objects.extend(candidate.new.object().cloned());
         unknowns.object = order.iter().map(|&at| Some(candidate.pointings[at].object as u32)).collect();
         unknowns.station = order.iter().map(|&at| candidate.pointings[at].station as u32).collect();
         let measured = order.iter().map(|&at| match poses.series[candidate.pointings[at].series].measure {
@@ -318,18 +316,14 @@ impl Setting<'_> {
             })
             .collect();
         let seen = Seen::of(&self.model, &there, &Layout::of(&there), &values, &root)?;
-        let behind = known.covariance.nrows();
+        let behind = (candidate.new.numbers() > 0).then_some(known.covariance.nrows());
         let mut pointed: Vec<Pointed> = Vec::new();
         for (row, &at) in order.iter().enumerate() {
             let pointing = &candidate.pointings[at];
             let of_row: Vec<&Seen> = seen.iter().filter(|seen| seen.row == row).collect();
-            let station = known.stations.get(pointing.station).copied().unwrap_or_else(|| {
-                candidate.station.as_ref().filter(|station| station.numbers() > 0).map(|_| behind)
-            });
-            let object = known.objects.get(pointing.object).copied().unwrap_or_else(|| {
-                candidate.object.as_ref().filter(|object| object.numbers() > 0).map(|_| behind)
-            });
-            let thing = known.unknowns.objects.get(pointing.object).or(candidate.object.as_ref());
+            let station = known.stations.get(pointing.station).copied().unwrap_or(behind);
+            let object = known.objects.get(pointing.object).copied().unwrap_or(behind);
+            let thing = known.unknowns.objects.get(pointing.object).or(candidate.new.object());
             let k = thing.map_or(0, Object::numbers);
             // In the order of the derivatives.
             let mut places: Vec<(usize, usize)> = Vec::new();
@@ -388,17 +382,19 @@ impl Setting<'_> {
 /// The covariance with the numbers of a candidate behind, of which nothing is known but what the study would say.
 fn extended(covariance: &DMatrix<f64>, candidate: &Candidate, extent_m: f64) -> DMatrix<f64> {
     let n = covariance.nrows();
-    let of_station = candidate.station.iter().filter(|station| station.numbers() > 0);
-    let mut roots_of: Vec<f64> =
-        of_station.flat_map(|station| roots(station.freedom, OF_STATION, extent_m)).collect();
-    if let Some(object) = &candidate.object {
-        let own = roots(object.freedom, of_object(object.shape), extent_m);
+    let (freedom, turns) = match &candidate.new {
+        New::Station(station) => (station.freedom, OF_STATION),
         // A wire has a fourth number, a length as the others.
-        roots_of.extend(own.into_iter().take(object.numbers()));
-    }
-    let mut whole = DMatrix::zeros(n + roots_of.len(), n + roots_of.len());
+        New::Object(object) => (object.freedom, of_object(object.shape)),
+    };
+    let k = candidate.new.numbers();
+    let mut whole = DMatrix::zeros(n + k, n + k);
     whole.view_mut((0, 0), (n, n)).copy_from(covariance);
-    roots_of.into_iter().enumerate().for_each(|(at, root)| whole[(n + at, n + at)] = root.powi(-2));
+    roots(freedom, turns, extent_m)
+        .into_iter()
+        .take(k)
+        .enumerate()
+        .for_each(|(at, root)| whole[(n + at, n + at)] = root.powi(-2));
     whole
 }
 
@@ -410,14 +406,17 @@ fn list(vector: &Vector3<f64>) -> [f64; 3] {
 impl Candidate {
     /// What is told of it.
     fn place(&self, unknowns: &Unknowns, pointings: &[usize], read: &[usize]) -> Place {
-        let object = self.object.as_ref();
-        let station = self.station.as_ref();
-        let place = station.map(|station| station.pose.shift).or(object.map(|object| object.place));
+        let (place, heading_rad, normal) = match &self.new {
+            New::Station(Station { pose, .. }) => (pose.shift, Some(pose.turn.euler_angles().2), None),
+            New::Object(object) => {
+                (object.place, None, (object.shape == Shape::Plane).then(|| list(&object.normal)))
+            }
+        };
         let label = |own: Option<&String>| own.cloned().unwrap_or_default();
         Place {
-            place_m: list(&place.unwrap_or_default()),
-            heading_rad: station.map(|station: &Station| station.pose.turn.euler_angles().2),
-            normal: object.filter(|object| object.shape == Shape::Plane).map(|object| list(&object.normal)),
+            place_m: list(&place),
+            heading_rad,
+            normal,
             pointings: pointings
                 .iter()
                 .map(|&at| {

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::data::unknowns::{OF_OBJECT, Object, Pose, Unknowns, WIDTH, right_jacobian};
+use crate::data::unknowns::{OF_OBJECT, Object, Pose, Unknowns, WIDTH, own_numbers, right_jacobian, tilted};
 use crate::data::{Measure, Measured, tangent_frame};
 use crate::fit::residual;
 
@@ -12,13 +12,6 @@ pub(crate) type Columns = [[f64; WIDTH]; 3];
 /// Residual components of a row, the gradient of each predicted component by the chain's x, y, z, and the derivatives by
 /// what is unknown.
 pub(crate) type Seen = ([(f64, Vector3<f64>); 3], Columns);
-
-/// The numbers of one thing, as far as they are estimated.
-fn numbers<const N: usize>(state: &[f64], first: usize, count: usize) -> [f64; N] {
-    let mut own = [0.0; N];
-    own.iter_mut().zip(state.iter().skip(first).take(count)).for_each(|(own, value)| *own = *value);
-    own
-}
 
 /// What a row shows of its object from its station, the chain saying `predicted`; `None` if it observes nothing unknown.
 ///
@@ -40,13 +33,13 @@ pub(crate) fn seen(
     let object = unknowns.objects.get(at)?;
     let place = *unknowns.station.get(row)? as usize;
     let station = unknowns.stations.get(place)?;
-    let by: [f64; 6] = numbers(state, first[0][place], station.numbers());
+    let by: [f64; 6] = own_numbers(state, first[0][place], station.numbers());
     let frame = Frame {
         by: turns_by,
         pose: station.pose.moved(&by),
         jacobian: right_jacobian(&Vector3::new(by[3], by[4], by[5])).transpose(),
     };
-    let own: [f64; OF_OBJECT] = numbers(state, first[1][at], object.numbers());
+    let own: [f64; OF_OBJECT] = own_numbers(state, first[1][at], object.numbers());
     Some(match (measure, measured) {
         (Measure::Plane, _) => frame.plane(object, own, predicted),
         (Measure::Target, _) => frame.target(object, own, predicted, beam),
@@ -58,15 +51,6 @@ pub(crate) fn seen(
         (Measure::Sight, _) => frame.sight(object, own, predicted),
         _ => return None,
     })
-}
-
-/// The normal of a plane at its two numbers of tilt, and its derivative by each.
-fn tilted(normal: &Vector3<f64>, tilt: [f64; 2]) -> (Vector3<f64>, [Vector3<f64>; 2]) {
-    let [first, second] = tangent_frame(normal);
-    let long = normal + first * tilt[0] + second * tilt[1];
-    let length = long.norm();
-    let n = long / length;
-    (n, [first, second].map(|axis| (axis - n * n.dot(&axis)) / length))
 }
 
 /// What turns with a station when the derivative of a target or a sight is taken.

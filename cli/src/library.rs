@@ -26,9 +26,10 @@ pub use crate::evaluation::{Exactness, Quantity};
 pub use crate::failure::Failure;
 pub use crate::report::Cells;
 pub use crate::source::Source;
-pub use crate::streaming::{Rows, Streaming, accumulated};
+pub use crate::streaming::{Foretold, Rows, Streaming, accumulated, validated};
 pub use crate::terminal::collecting;
 pub use calibration::calibrate::Stage;
+pub use calibration::fit::Validation;
 pub use calibration::formats::memory::Column;
 
 /// An answer for reading, and the same for programs.

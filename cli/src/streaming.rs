@@ -1,6 +1,7 @@
 //! The fit of a study whose rows somebody else deals out, to processes or machines: passes and sums of them as bytes.
 
-use calibration::fit::{Next, Pass, Streamed, StreamedResult, Tally};
+use calibration::data::Observations;
+use calibration::fit::{Foretelling, Next, Pass, Streamed, StreamedResult, Tally, Validation};
 use calibration::formats::{DataError, TableReader, open};
 use calibration::study::Loaded;
 use model_core::SymbolKind;
@@ -9,7 +10,8 @@ use serde_json::{Value, json};
 use crate::calibrating::Studied;
 use crate::commands::calibrate;
 use crate::failure::Failure;
-use crate::{tables, terminal};
+use crate::source::Source;
+use crate::{errors_file, tables, terminal};
 
 /// A fit between passes, or done.
 pub struct Streaming {
@@ -47,16 +49,19 @@ impl Streaming {
         }
     }
 
-    /// Takes up what all rows say in that pass: the tallies of its parts, in the order in which they are to be merged.
+    /// Takes up what all rows say in that pass: of each file the tallies of its parts, in the order in which they are to be merged.
     ///
     /// # Errors
     /// Bytes that are no tally of this pass.
-    pub fn take<'t>(self, tallies: impl IntoIterator<Item = &'t [u8]>) -> Result<Self, Failure> {
+    pub fn take(self, files: &[Vec<Vec<u8>>]) -> Result<Self, Failure> {
         let Next::Pass(streamed) = self.next else { return Ok(self) };
-        let whole = tallies.into_iter().try_fold(streamed.pass.empty(), |whole, bytes| {
-            whole.merge(&Tally::from_bytes(bytes).map_err(input)?).map_err(input)
-        })?;
-        Ok(Self { next: streamed.next(&whole), ..self })
+        let of_file = |parts: &Vec<Vec<u8>>| {
+            parts.iter().try_fold(streamed.pass.empty(), |whole, bytes| {
+                whole.merge(&Tally::from_bytes(bytes).map_err(input)?).map_err(input)
+            })
+        };
+        let files = files.iter().map(of_file).collect::<Result<Vec<_>, _>>()?;
+        Ok(Self { next: streamed.next(&files).map_err(input)?, ..self })
     }
 
     /// What the fit found; none while there are passes to make.
@@ -78,6 +83,45 @@ pub fn accumulated(studied: &Studied, rows: Rows<'_>, pass: &[u8]) -> Result<Vec
     let plan = &studied.plan;
     let pass = Pass::from_bytes(pass, &plan.chain, &observations, &plan.fit).map_err(input)?;
     pass.accumulate(&observations).map(|tally| tally.to_bytes()).map_err(input)
+}
+
+/// A study by a declaration, and its errors.
+#[derive(Clone, Copy)]
+pub struct Foretold<'a> {
+    /// The study, with the declaration.
+    pub studied: &'a Studied,
+    /// A file of errors.
+    pub errors: &'a Source,
+}
+
+/// How two declarations foretell rows that neither was fitted to, given once for either; `floor` is what a fit found of each component's
+/// standard deviation.
+///
+/// # Errors
+/// The rows or the errors cannot be read.
+pub fn validated(
+    before: Foretold<'_>,
+    after: Foretold<'_>,
+    rows: [Rows<'_>; 2],
+    floor: &[f64],
+) -> Result<Validation, Failure> {
+    let [rows_before, rows_after] = rows;
+    let (own_before, own_after) = (before.loaded(rows_before)?, after.loaded(rows_after)?);
+    let options = &after.studied.plan.fit;
+    Validation::of(before.foretelling(&own_before), after.foretelling(&own_after), floor, options)
+        .map_err(input)
+}
+
+impl<'a> Foretold<'a> {
+    /// Rows as this declaration reads them, and the values of its symbols.
+    fn loaded(self, rows: Rows<'_>) -> Result<(Observations, Vec<f64>), Failure> {
+        let values = errors_file::values(self.errors, &self.studied.plan.chain)?;
+        Ok((load(self.studied, rows)?.observations, values))
+    }
+
+    fn foretelling(self, (observations, values): &'a (Observations, Vec<f64>)) -> Foretelling<'a> {
+        Foretelling { chain: &self.studied.plan.chain, values, observations }
+    }
 }
 
 fn input(error: impl ToString) -> Failure {
@@ -128,7 +172,7 @@ fn as_json(studied: &Studied, result: &StreamedResult) -> Value {
         json!({
             "name": symbol.name,
             "value": result.values[id.index()],
-            "standard_uncertainty": result.covariance[(at, at)].sqrt(),
+            "standard_uncertainty": result.uncertainty[at],
             "unit": symbol.quantity.unit(),
             "separable": result.separable[at],
         })
@@ -141,6 +185,11 @@ fn as_json(studied: &Studied, result: &StreamedResult) -> Value {
         "values": values.map(|(symbol, &value)| (symbol.name.clone(), json!(value))).collect::<serde_json::Map<_, _>>(),
         "rank": result.rank,
         "noise": result.floor,
+        "shared_by_files": result.shared.as_ref().map(|shared| json!({
+            "files": shared.units,
+            "ratio": shared.ratio,
+            "p_value": shared.p_value,
+        })),
         "rms": result.rms,
         "rows": rows,
         "rows_kept": kept,

@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use trueaxis_cli::library::{self, Rows, Source, Streaming, Studied};
+use trueaxis_cli::library::{self, Foretold, Rows, Source, Streaming, Studied, Validation};
 
 use crate::errors;
 use crate::tables::Table;
@@ -85,13 +85,13 @@ impl Fitting {
         streaming.as_ref().and_then(Streaming::pass).map(|bytes| PyBytes::new(py, &bytes))
     }
 
-    /// Takes up what all files say in that pass, in their order.
-    fn take(&self, py: Python<'_>, tallies: Vec<Vec<u8>>) -> PyResult<()> {
+    /// Takes up what the chunks of all files say in that pass, in their order.
+    fn take(&self, py: Python<'_>, files: Vec<Vec<Vec<u8>>>) -> PyResult<()> {
         let mut streaming = self.streaming.lock().unwrap_or_else(PoisonError::into_inner);
         let Some(before) = streaming.take() else {
             return Err(pyo3::exceptions::PyValueError::new_err("this fit has failed"));
         };
-        *streaming = Some(errors::run(py, || before.take(tallies.iter().map(Vec::as_slice)))?);
+        *streaming = Some(errors::run(py, || before.take(&files))?);
         Ok(())
     }
 
@@ -100,6 +100,37 @@ impl Fitting {
         let streaming = self.streaming.lock().unwrap_or_else(PoisonError::into_inner);
         streaming.as_ref().and_then(Streaming::found).map(|found| found.to_string())
     }
+}
+
+/// How two declarations, each with a file of errors, foretell some rows: rows, rows kept, squares of the residuals before and after, and
+/// those of the rows kept.
+#[pyfunction]
+pub fn validate(
+    py: Python<'_>,
+    study: Text,
+    before: (Text, Text),
+    after: (Text, Text),
+    rows: (String, Vec<(String, Bound<'_, PyAny>)>),
+    floor: Vec<f64>,
+) -> PyResult<(u64, u64, [f64; 2], [f64; 2])> {
+    let (name, columns) = rows;
+    let table = Table::of(columns)?;
+    let columns = table.columns()?;
+    let Validation { rows, kept, squares, squares_kept } = errors::run(py, || {
+        let read = |(chain, errors): (Text, Text)| {
+            Ok((Studied::of(source(study.clone()), source(chain))?, source(errors)))
+        };
+        let (before, after) = (read(before)?, read(after)?);
+        let foretold = |(studied, errors)| Foretold { studied, errors };
+        let rows = || Ok(Rows::Table(library::table(&name, &columns)?));
+        library::validated(
+            foretold((&before.0, &before.1)),
+            foretold((&after.0, &after.1)),
+            [rows()?, rows()?],
+            &floor,
+        )
+    })?;
+    Ok((rows, kept, squares, squares_kept))
 }
 
 /// What some rows say in a pass, as bytes.

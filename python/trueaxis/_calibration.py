@@ -7,13 +7,16 @@ import json
 import os
 from collections.abc import Callable, Mapping
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import _native
 from ._chain import Chain
 from ._tables import Table, columns_of
+
+if TYPE_CHECKING:
+    import distributed
 
 
 class Calibration:
@@ -119,29 +122,40 @@ def calibrate(
     *,
     text: str | None = None,
     chain: Chain | None = None,
-    client: Any = None,
+    client: distributed.Client | str | None = None,
+    search_rows: int = 1_000_000,
+    seed: int = 1,
     progress: Callable[[str], object] | None = None,
 ) -> Calibration:
     """Fits the errors to measured data, finds what the declaration lacks, and judges both on data that nobody fitted.
 
+    The data may be a folder of Parquet files, of any size: the search reads at most ``search_rows`` rows drawn from all files, the
+    amended declaration is fitted to every row, and the error before and after is told for the rows that were not drawn. What comes
+    back then is a :class:`FolderCalibration`.
+
     :param study: the path of the study file.
     :param data: tables that stand for files that the study names: a pandas, Polars or Arrow table or a dictionary of columns
-        where it names one, else a dictionary from each name to its table. What is not given is read from its file.
+        where it names one, else a dictionary from each name to its table. What is not given is read from its file. Or a
+        folder of ``.parquet`` files, one such file, or a list of them, which stand for the one table that the study names.
     :param text: the text of the study, where it is no file; ``study`` then only says where it would be.
     :param chain: a declaration that stands for the one that the study names.
-    :param client: refused: the search for what a declaration lacks runs on one machine. :func:`fit` estimates the declared
-        errors on a cluster.
+    :param client: for a folder: a Dask client, or the address of a scheduler, whose workers read a file each and must see the same
+        files. If a worker dies, others read its files again. The search itself runs here. Without one, the processors of this
+        machine do all. The answer has the same bits either way.
+    :param search_rows: for a folder: rows that the search reads at most, in this process's memory.
+    :param seed: for a folder: of which rows are drawn.
     :param progress: called with a text when the next stage begins.
     :raises MistakeError: mistakes in the study or the declaration.
     :raises TrueaxisError: a file or a table that cannot be read, with the row and the column.
     """
+    if _is_path(data) or (isinstance(data, (list, tuple)) and data and all(_is_path(path) for path in data)):
+        from ._folder import calibrate_folder
+
+        return calibrate_folder(study, data, text, chain, client, search_rows, seed, progress)
     if client is not None:
         from ._errors import TrueaxisError
 
-        raise TrueaxisError(
-            "the search for what a declaration lacks runs on one machine: leave `client` out, or estimate the declared errors "
-            "alone on the cluster: trueaxis.fit(study, folder, client=client)"
-        )
+        raise TrueaxisError("a cluster reads files: give a folder of Parquet files that its workers see as `data`")
     resolved = _native.Study(os.fspath(study), text, None if chain is None else chain._native)
     tables = [] if data is None else _named(data, resolved.tables)
     command = f"trueaxis.calibrate({os.fspath(study)!r})"
@@ -162,6 +176,10 @@ def _named(data: Any, names: list[str]) -> list[tuple[str, Any]]:
         listed = ", ".join(f"`{name}`" for name in names)
         raise TrueaxisError(f"the study names {listed}: give a dictionary from each name to its table")
     return [(names[0], columns_of(data))]
+
+
+def _is_path(value: Any) -> bool:
+    return isinstance(value, (str, os.PathLike))
 
 
 def _is_frame(value: Any) -> bool:

@@ -19,6 +19,7 @@ from ._tables import Table, columns_of, with_columns
 
 if TYPE_CHECKING:
     import distributed
+    import pyarrow
 
 ROWS = 1 << 18
 """Rows that are in memory at a time, a file that is being corrected."""
@@ -165,6 +166,30 @@ def _connected(address: str) -> distributed.Client:
         raise TrueaxisError(f"no scheduler answers at `{address}`: {error}") from None
 
 
+@contextmanager
+def opened(file: str) -> Iterator[pyarrow.parquet.ParquetFile]:
+    """A Parquet file; what is wrong with it is told by its name."""
+    import pyarrow
+    import pyarrow.parquet as parquet
+
+    try:
+        with parquet.ParquetFile(file) as open_file:
+            yield open_file
+    except (pyarrow.ArrowException, OSError) as error:
+        raise TrueaxisError(f"{file}: {error}") from None
+
+
+def batches(file: str) -> Iterator[tuple[int, pyarrow.Table]]:
+    """The rows of a Parquet file chunk by chunk, each with the number of rows before it."""
+    import pyarrow
+
+    first = 0
+    with opened(file) as open_file:
+        for batch in open_file.iter_batches(batch_size=ROWS):
+            yield first, pyarrow.Table.from_batches([batch])
+            first += batch.num_rows
+
+
 def _apply_file(task: tuple) -> tuple[str, int]:
     """Corrects one file, chunk by chunk; the result takes its name when it is whole."""
     source, out, chain, name, text, observables, version = task
@@ -176,16 +201,14 @@ def _apply_file(task: tuple) -> tuple[str, int]:
     partial = f"{out}.{secrets.token_hex(8)}.partial"
     rows, writer = 0, None
     try:
-        with parquet.ParquetFile(source) as file:
-            for batch in file.iter_batches(batch_size=ROWS):
-                table = pyarrow.Table.from_batches([batch])
-                place = place_of(source, rows)
-                added = chain._native.over_table((place, columns_of(table)), (name, text), observables, True, True)
-                corrected = with_columns(table, dict(added))
-                if writer is None:
-                    writer = parquet.ParquetWriter(partial, corrected.schema)
-                writer.write_table(corrected)
-                rows += table.num_rows
+        for first, table in batches(source):
+            place = place_of(source, first)
+            added = chain._native.over_table((place, columns_of(table)), (name, text), observables, True, True)
+            corrected = with_columns(table, dict(added))
+            if writer is None:
+                writer = parquet.ParquetWriter(partial, corrected.schema)
+            writer.write_table(corrected)
+            rows = first + table.num_rows
         if writer is None:
             raise TrueaxisError(f"{source}: there are no rows")
         writer.close()

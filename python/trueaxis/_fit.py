@@ -11,9 +11,9 @@ import numpy as np
 
 from . import _native
 from ._chain import Chain
-from ._cluster import ROWS, files_of, place_of, require_version, workers
+from ._cluster import Each, batches, files_of, place_of, require_version, workers
 from ._errors import TrueaxisError
-from ._tables import Table, columns_of
+from ._tables import Columns, Table, columns_of
 
 if TYPE_CHECKING:
     import distributed
@@ -50,6 +50,12 @@ class Fit:
         return self._found["noise"]
 
     @property
+    def shared_by_files(self) -> dict[str, float] | None:
+        """Where rows of a file share errors, how much: ``ratio``, the variance of what the files say of the estimates over what their rows
+        explain, ``p_value`` and ``files``. The ± then come from whole files. None where they do not, or fewer than three files are there."""
+        return self._found["shared_by_files"]
+
+    @property
     def rank(self) -> int:
         """How many independent combinations of errors the data determine."""
         return self._found["rank"]
@@ -77,6 +83,9 @@ class Fit:
     def __repr__(self) -> str:
         ended = f"after {self.passes} passes" if self.converged else f"not converged after {self.passes} passes"
         lines = [f"{self.rows} rows, {self.rows_kept} kept, {ended}; rms {self.rms:.4g}"]
+        if self.shared_by_files is not None:
+            ratio = self.shared_by_files["ratio"]
+            lines.append(f"rows of a file share errors ({ratio:.3g} times the variance of independent rows): ± from whole files")
         errors = self.errors
         width = max(len(name) for name in errors["name"])
         for name, value, uncertainty, unit in zip(*(errors[key] for key in list(errors)[:4])):
@@ -95,7 +104,7 @@ def fit(
 ) -> Fit:
     """Estimates the declared errors from a folder of files, which is read again for each of some passes; memory is that of a
     chunk a processor. It looks for no effects that the declaration lacks, nor for noise that remembers or changes: for
-    these, :func:`calibrate` a part of the rows.
+    these, :func:`calibrate` the same folder.
 
     :param study: the path of the study file. The files stand for the one table that it names.
     :param data: a folder of ``.parquet`` or ``.csv`` files, one file, or a list of files. The first must have rows enough to start
@@ -111,22 +120,35 @@ def fit(
     """
     files = [str(file) for file in files_of(data, [".parquet", ".csv"])]
     declaration = None if chain is None else (chain._native.origin, chain.text)
-    sample = next(_chunks(files[0]), None)
+    sample = next(chunks(files[0]), None)
     if sample is None:
         raise TrueaxisError(f"{files[0]}: there are no rows")
     fitting = _native.Fitting((os.fspath(study), text), declaration, sample)
+    with workers(client) as each:
+        return of_files(fitting, files, each, progress)
+
+
+def of_files(fitting: _native.Fitting, files: list[str], each: Each, progress: Callable[[int, int, int], object] | None) -> Fit:
+    """Makes every pass of a fit over files."""
     texts = fitting.texts
     number = 0
-    with workers(client) as each:
-        while (step := fitting.step()) is not None:
-            number += 1
-            tasks = [(file, *texts, step, _native.__version__) for file in files]
-            tallies: dict[str, list[bytes]] = {}
-            for file, of_file in each(_accumulate_file, tasks):
-                tallies[file] = of_file
-                if progress is not None:
-                    progress(number, len(tallies), len(files))
-            fitting.take([tally for file in files for tally in tallies[file]])
+    while (step := fitting.step()) is not None:
+        number += 1
+        tasks = [(file, *texts, step, _native.__version__) for file in files]
+        tallies: dict[str, list[bytes]] = {}
+        for file, of_file in each(_accumulate_file, tasks):
+            tallies[file] = of_file
+            if progress is not None:
+                progress(number, len(tallies), len(files))
+        fitting.take([tallies[file] for file in files])
+    return Fit(json.loads(fitting.found()))
+
+
+def of_table(fitting: _native.Fitting, rows: tuple[str, Columns]) -> Fit:
+    """Makes every pass of a fit over rows in memory."""
+    texts = fitting.texts
+    while (step := fitting.step()) is not None:
+        fitting.take([[_native.accumulate(*texts, rows, step)]])
     return Fit(json.loads(fitting.found()))
 
 
@@ -134,25 +156,16 @@ def _accumulate_file(task: tuple) -> tuple[str, list[bytes]]:
     """What each chunk of a file says in a pass."""
     file, study, chain, step, version = task
     require_version(version)
-    tallies = [_native.accumulate(study, chain, rows, step) for rows in _chunks(file)]
+    tallies = [_native.accumulate(study, chain, rows, step) for rows in chunks(file)]
     if not tallies:
         raise TrueaxisError(f"{file}: there are no rows")
     return file, tallies
 
 
-def _chunks(file: str) -> Iterator[tuple[str, Any]]:
+def chunks(file: str) -> Iterator[tuple[str, Any]]:
     """The rows of a file chunk by chunk; a file of separated values as one."""
     if not file.endswith(".parquet"):
         yield file, None
         return
-    import pyarrow
-    import pyarrow.parquet as parquet
-
-    rows = 0
-    try:
-        with parquet.ParquetFile(file) as opened:
-            for batch in opened.iter_batches(batch_size=ROWS):
-                yield place_of(file, rows), columns_of(pyarrow.Table.from_batches([batch]))
-                rows += batch.num_rows
-    except (pyarrow.ArrowException, OSError) as error:
-        raise TrueaxisError(f"{file}: {error}") from None
+    for first, batch in batches(file):
+        yield place_of(file, first), columns_of(batch)

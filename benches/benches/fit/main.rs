@@ -111,7 +111,7 @@ fn streamed(chain: &Chain, chunks: &[Observations], options: &FitOptions) -> Str
         let whole = chunks.iter().fold(state.pass.empty(), |whole, chunk| {
             whole.merge(&state.pass.accumulate(chunk).unwrap()).unwrap()
         });
-        match state.next(&whole) {
+        match state.next(&[whole]).unwrap() {
             Next::Pass(next) => state = *next,
             Next::Done(result) => return *result,
         }

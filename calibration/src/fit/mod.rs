@@ -32,6 +32,8 @@ mod stream;
 mod subspace;
 pub(crate) mod sweep;
 mod uncertainty;
+mod units;
+mod validation;
 mod wire;
 
 use std::sync::Arc;
@@ -55,6 +57,8 @@ pub use stated::{Agreement, Stated};
 pub use stream::{Next, Pass, Streamed, StreamedResult};
 pub use subspace::Subspace;
 pub use sweep::Tally;
+pub use units::SharedByUnits;
+pub use validation::{Foretelling, Validation};
 pub use wire::PassError;
 
 /// What to fit and how.

@@ -1,8 +1,9 @@
 //! The fit of more rows than memory holds: each pass takes the rows chunk by chunk into a tally, and tallies merge.
 //!
 //! The contract for any engine that deals out chunks: [`Pass::accumulate`] makes a [`Tally`] of a chunk, tallies of parts
-//! [`Tally::merge`], and [`Streamed::next`] makes of the whole tally the next pass, until there is none. Memory
-//! is that of one chunk. The noise is a floor for each kind of component; memory between rows is not looked for.
+//! [`Tally::merge`], and [`Streamed::next`] makes of the tallies of whole files the next pass, until there is none. Memory
+//! is that of one chunk. The noise is a floor for each kind of component; memory between rows is not looked for, but errors
+//! that the rows of a file share.
 
 use faer::Mat;
 use model_core::{Chain, SymbolId, SymbolKind};
@@ -10,10 +11,12 @@ use model_core::{Chain, SymbolId, SymbolKind};
 use super::fingerprint::fingerprint;
 use super::model::Model;
 use super::normal::Rest;
-use super::partial::Partial;
+use super::partial::{Partial, PartialError};
 use super::size::UNSHOWN;
+use super::stated::{Agreement, Stated};
 use super::subspace::Subspace;
 use super::sweep::{Tally, Weighting, tally};
+use super::units::{SharedByUnits, shared};
 use super::{FitError, FitOptions, fit, robust};
 use crate::data::Observations;
 use crate::fit::noise::{self, Layout, NoiseOptions};
@@ -61,8 +64,12 @@ pub struct StreamedResult {
     pub parameters: Vec<SymbolId>,
     /// The value of every symbol, SI, by symbol.
     pub values: Vec<f64>,
-    /// Covariance of the estimates, p × p, SI.
+    /// Covariance of the estimates, p × p, SI, if rows are independent.
     pub covariance: Mat<f64>,
+    /// Standard uncertainties, SI, in the order of the covariance: of independent rows or, where those of a file share errors, of files.
+    pub uncertainty: Vec<f64>,
+    /// What the rows of a file share; none where they do not, or there are too few files to tell.
+    pub shared: Option<SharedByUnits>,
     /// The number of combinations that the data determine.
     pub rank: usize,
     /// Per parameter, whether no undetermined combination holds it.
@@ -128,9 +135,17 @@ impl Streamed {
         Ok(Self { pass, subspace: None, begin, expected, components, passes: 0 })
     }
 
-    /// Makes of the tally of a whole pass the next one, or the result.
-    #[must_use]
-    pub fn next(mut self, tally: &Tally) -> Next {
+    /// Makes of a whole pass the next one, or the result: of the tallies of all files (rows that may share errors), merged in
+    /// their order.
+    ///
+    /// # Errors
+    /// Tallies of another pass.
+    pub fn next(self, files: &[Tally]) -> Result<Next, PartialError> {
+        let whole = files.iter().try_fold(self.pass.empty(), Tally::merge)?;
+        Ok(self.after(&whole, files))
+    }
+
+    fn after(mut self, tally: &Tally, files: &[Tally]) -> Next {
         self.passes += 1;
         let partial = tally.partial.spread(self.pass.model.column_of());
         let Some(subspace) = self.subspace.clone() else {
@@ -146,7 +161,7 @@ impl Streamed {
         let known = floor.iter().zip(&self.pass.floor).all(|(a, b)| (a - b).abs() <= FLOOR_KNOWN * b);
         let converged = known && step.length <= NEGLIGIBLE * (subspace.rank() as f64).sqrt();
         if converged || self.passes >= PASSES {
-            return Next::Done(Box::new(self.result(&subspace, tally, &partial, converged)));
+            return Next::Done(Box::new(self.result(&subspace, tally, files, &partial, converged)));
         }
         for (parameter, change) in self.pass.model.parameters().iter().zip(&step.change) {
             self.pass.values[parameter.index()] += change;
@@ -170,26 +185,42 @@ impl Streamed {
         self,
         subspace: &Subspace,
         tally: &Tally,
+        files: &[Tally],
         partial: &Partial,
         converged: bool,
     ) -> StreamedResult {
         let rest = self.rest(subspace);
         let used = subspace.used(partial, &rest);
-        let factor = match (self.pass.noise.known(), self.pass.weighting) {
-            (None, _) => tally.variance_factor(used),
-            (Some(_), Weighting::Biweight) => 1.0 / robust::EFFICIENCY,
-            (Some(_), _) => 1.0,
-        };
+        let found = tally.variance_factor(used);
+        let robust = self.pass.weighting == Weighting::Biweight;
+        let efficiency = if robust { robust::EFFICIENCY } else { 1.0 };
+        let left = (partial.components as f64 - used).max(0.0);
+        // What is stated holds unless the residuals speak against it.
+        let agrees = self.pass.noise.known().is_some()
+            && Stated::compared(found * efficiency, left).agreement == Agreement::Agrees;
+        let factor = if agrees { 1.0 / efficiency } else { found };
         let root = subspace.covariance_root(partial, &rest);
         let by_prior = &root * (root.transpose() * subspace.precision_root(&rest));
         let by_prior = &by_prior * by_prior.transpose();
         let of_data = &root * root.transpose() - &by_prior;
         // The factor is weighted; dividing by the mean weight makes up for it.
         let mean = (tally.weights / partial.components as f64).max(f64::MIN_POSITIVE);
+        let covariance = of_data * faer::Scale(factor * mean) + by_prior;
+        let components = partial.components as f64;
+        let variance = tally.weighted_squares / (components - used).max(1.0) / mean;
+        let of_files: Vec<Partial> =
+            files.iter().map(|file| file.partial.spread(self.pass.model.column_of())).collect();
+        let shared = shared(&of_files, &root, variance, tally.stride());
+        let uncertainty = (0..covariance.nrows()).map(|at| {
+            let of_files = shared.as_ref().map_or(0.0, |shared| shared.covariance[(at, at)]);
+            covariance[(at, at)].max(of_files).sqrt()
+        });
         StreamedResult {
             parameters: self.pass.model.parameters().to_vec(),
             values: self.pass.values,
-            covariance: of_data * faer::Scale(factor * mean) + by_prior,
+            uncertainty: uncertainty.collect(),
+            covariance,
+            shared,
             rank: subspace.rank(),
             separable: subspace.separable(),
             floor: self.pass.floor,

@@ -1,9 +1,10 @@
 //! The fit of a study whose rows somebody else deals out, to processes or machines: passes and sums of them as bytes.
 
 use calibration::data::Observations;
-use calibration::fit::{Foretelling, Next, Pass, Streamed, StreamedResult, Tally, Validation};
+use calibration::fit::noise::NoiseOptions;
+use calibration::fit::{FitOptions, Foretelling, Next, Pass, Streamed, StreamedResult, Tally, Validation};
 use calibration::formats::{DataError, TableReader, open};
-use calibration::study::Loaded;
+use calibration::study::{Loaded, Plan};
 use model_core::SymbolKind;
 use serde_json::{Value, json};
 
@@ -36,7 +37,8 @@ impl Streaming {
         let loaded = load(&studied, sample)?;
         loaded.doubtful.iter().for_each(terminal::warn);
         let plan = &studied.plan;
-        let streamed = Streamed::from_sample(&plan.chain, &loaded.observations, &plan.fit).map_err(input)?;
+        let streamed =
+            Streamed::from_sample(&plan.chain, &loaded.observations, &options(plan)).map_err(input)?;
         Ok(Self { next: Next::Pass(Box::new(streamed)), studied })
     }
 
@@ -81,7 +83,7 @@ impl Streaming {
 pub fn accumulated(studied: &Studied, rows: Rows<'_>, pass: &[u8]) -> Result<Vec<u8>, Failure> {
     let Loaded { observations, .. } = load(studied, rows)?;
     let plan = &studied.plan;
-    let pass = Pass::from_bytes(pass, &plan.chain, &observations, &plan.fit).map_err(input)?;
+    let pass = Pass::from_bytes(pass, &plan.chain, &observations, &options(plan)).map_err(input)?;
     pass.accumulate(&observations).map(|tally| tally.to_bytes()).map_err(input)
 }
 
@@ -122,6 +124,13 @@ impl<'a> Foretold<'a> {
     fn foretelling(self, (observations, values): &'a (Observations, Vec<f64>)) -> Foretelling<'a> {
         Foretelling { chain: &self.studied.plan.chain, values, observations }
     }
+}
+
+/// How to fit: while something is missing, residuals are larger than what is stated of the noise, and weights go by what they are.
+fn options(plan: &Plan) -> FitOptions {
+    let NoiseOptions { sigma, stated, .. } = plan.fit.noise;
+    let noise = NoiseOptions { sigma: None, stated: stated.or(sigma), ..plan.fit.noise };
+    FitOptions { noise, ..plan.fit.clone() }
 }
 
 fn input(error: impl ToString) -> Failure {

@@ -15,6 +15,7 @@ FILES = 64
 ROWS = 2000
 SEARCHED = 20_000
 SEARCHING = STUDY.replace("effects = []\n", "")
+# Twice what the study states.
 NOISE = 2e-5
 # The elevation circle sits off its axis: 60 µrad, which the declaration lacks.
 ECCENTRIC = 60e-6
@@ -72,13 +73,14 @@ def alone(mount, folder):
 
 
 def test_the_effect_is_found_and_every_row_is_fitted(alone):
-    assert alone.verdict in ("explained", "confounded") and set(alone.effects["driver"]) & {"elevation", "gravity"}
+    assert alone.verdict in ("explained", "confounded", "form not determined")
+    assert alone.effects["body"][0] == "elevation_axis" and alone.effects["dof"][0] == "Rx"
     assert (alone.rows, alone.rows_searched) == (FILES * ROWS, SEARCHED)
     assert alone.fit.converged and alone.fit.rows == FILES * ROWS
     # What the declaration foretells of rows that nobody fitted is off by the effect, what the amended one foretells is noise.
     left = alone.validation
     assert left.rows == FILES * ROWS - SEARCHED and 0.99 * left.rows < left.rows_kept <= left.rows
-    assert left.before > 1.2 * left.after and abs(left.after / (NOISE * np.sqrt(2)) - 1) < 0.02
+    assert left.before > 1.1 * left.after and abs(left.after / (NOISE * np.sqrt(2)) - 1) < 0.02
     for name, value, uncertainty in zip(*(alone.errors[key] for key in ["name", "value", "standard_uncertainty"])):
         if name in TRUE and name != "elevation_index":
             assert abs(value - TRUE[name]) < 4.5 * uncertainty, name
@@ -86,7 +88,7 @@ def test_the_effect_is_found_and_every_row_is_fitted(alone):
             searched = next(row for row in alone.report["errors"] if row["name"] == name)
             assert 0.3 < uncertainty / searched["standard_uncertainty"] < 0.5, name
     text = repr(alone)
-    assert "20,000 of 128,000 rows" in text and "108,000 rows that were not drawn the error falls" in text
+    assert "20,000 of 128,000 rows" in text and "108,000 rows that were not drawn the error (RMS) falls" in text
 
 
 def test_a_worker_that_dies_changes_nothing(mount, folder, alone, cluster):  # noqa: F811
@@ -121,22 +123,38 @@ def test_the_amended_chain_lacks_nothing(mount, folder, alone):
     assert again.effects.rows == 0 and again.validation.before == pytest.approx(again.validation.after, rel=1e-3)
 
 
-def test_errors_that_rows_share_widen_the_estimates(mount, tmp_path):
+def nights():
     """Rows of a night share an error as large as their own: no number of rows makes up for few nights."""
-    nights = []
     for at in range(20):
         night = pointings(ROWS, at, off_centre=0.0)
         shift = np.random.default_rng([7, at]).normal(0, NOISE, 3)
         point = np.array([night[f"pointing_{c}"] for c in "xyz"]) + shift[:, None]
         night.update(zip(["pointing_x", "pointing_y", "pointing_z"], point / np.linalg.norm(point, axis=0)))
-        nights.append({**night, "night": [f"n{at}"] * ROWS})
-    told = calibrate(mount, written(tmp_path / "nights", nights), text=SEARCHING.replace("[noise]\n", '[noise]\ngroup = "night"\n'), search_rows=10_000)
-    independent = dict(zip(told.fit.errors["name"], told.fit.errors["standard_uncertainty"]))
+        yield {**night, "night": np.array([f"n{at}"] * ROWS)}
+
+
+def is_wide(told):
+    """Whether the ± hold the truth, and are those of twenty nights: their mean has a twentieth of their variance."""
     for name, value, uncertainty in zip(*(told.errors[key] for key in ["name", "value", "standard_uncertainty"])):
         assert abs(value - TRUE.get(name, 0.0)) < 4.5 * uncertainty, name
-    # A shift of 20 nights averages to a twentieth of its variance, whatever the rows.
-    uncertainty = dict(zip(told.errors["name"], told.errors["standard_uncertainty"]))
-    assert uncertainty["tilt_x"] > 0.5 * NOISE / np.sqrt(20) > 5 * independent["tilt_x"]
+    return dict(zip(told.errors["name"], told.errors["standard_uncertainty"]))["tilt_x"] > 0.5 * NOISE / np.sqrt(20)
+
+
+def test_errors_that_rows_of_a_file_share_widen_the_estimates(mount, tmp_path):
+    told = calibrate(mount, written(tmp_path / "nights", nights()), search_rows=10_000)
+    assert told.fit.shared_by_files["files"] == 20 and told.fit.shared_by_files["ratio"] > 50
+    assert "rows of a file share errors" in repr(told.fit) and is_wide(told)
+
+
+def test_errors_that_declared_groups_share_widen_the_estimates(mount, tmp_path):
+    """Every file has rows of every night, so that files share nothing of their own."""
+    all_rows = {name: np.concatenate([night[name] for night in parts]) for parts in [list(nights())] for name in parts[0]}
+    dealt = [{name: cells[at::10] for name, cells in all_rows.items()} for at in range(10)]
+    grouped = SEARCHING.replace("[noise]\n", '[noise]\ngroup = "night"\n')
+    told = calibrate(mount, written(tmp_path / "dealt", dealt), text=grouped, search_rows=10_000)
+    assert told.fit.shared_by_files is None and is_wide(told)
+    independent = dict(zip(told.fit.errors["name"], told.fit.errors["standard_uncertainty"]))
+    assert independent["tilt_x"] < 0.1 * NOISE / np.sqrt(20)
 
 
 def test_what_is_written_is_read_again(alone, mount, folder, tmp_path):

@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 STRETCH = 1000
 """Rows beside each other that are drawn together: neighbours tell whether the noise remembers."""
 
+BORNE_OUT = 3.0
+"""Standard uncertainties that a coefficient of an effect differs from zero by at least, where every row bears the effect out."""
+
 Stretch = tuple[int, int]
 """The first row of a stretch of a file, and the first behind it."""
 
@@ -101,6 +104,16 @@ class FolderCalibration(Calibration):
         return searched if searched is None or self._fitted is None else {**searched, **self._fitted.values}
 
     @property
+    def not_borne_out(self) -> list[str]:
+        """The effects that the search found and that every row does not bear out: none of their coefficients differs from zero by three
+        of its standard uncertainties."""
+        if self._fitted is None:
+            return []
+        told = {row[0]: abs(row[1]) / row[2] for row in zip(*self.errors.values())}
+        effects = [(effect["text"], [told[name] for name in effect["coefficients"] if name in told]) for effect in self.report["effects"]]
+        return [text for text, sizes in effects if sizes and max(sizes) < BORNE_OUT]
+
+    @property
     def errors_toml(self) -> str | None:
         """As of :class:`Calibration`, from every row."""
         text = super().errors_toml
@@ -114,7 +127,7 @@ class FolderCalibration(Calibration):
             if is_set and name in told:
                 value, uncertainty, unit, separable = told[name]
                 remark = f"± {uncertainty:.2g}" if separable else "determined only together with others"
-                line = f"{key} = {value!r:24} # {unit}, {remark}"
+                line = f"{key} = {float(value)!r:24} # {unit}, {remark}"
             lines.append(line)
         return "\n".join(lines) + "\n"
 
@@ -124,13 +137,13 @@ class FolderCalibration(Calibration):
             return super().text(verbose=verbose)
         told = [f"The search read {self.rows_searched:,} of {self.rows:,} rows, drawn from all files.", "", super().text(verbose=verbose)]
         if self.validation is not None:
-            left = self.validation
+            before, after = (_length(rms, self.report["unit"]) for rms in [self.validation.before, self.validation.after])
+            falls = self.validation.after <= self.validation.before
             told += [
-                f"In the {left.rows:,} rows that were not drawn the error falls from {left.before:.4g} to {left.after:.4g} (RMS, rad or m)."
-                if left.after <= left.before
-                else f"In the {left.rows:,} rows that were not drawn the error grows from {left.before:.4g} to {left.after:.4g} (RMS, rad or"
-                " m): do not correct with what was found."
+                f"In the {self.validation.rows:,} rows that were not drawn the error (RMS) {'falls' if falls else 'grows'} from {before} to "
+                f"{after}{'.' if falls else ': do not correct with what was found.'}"
             ]
+        told += [f"Every row does not bear it out: {name}. Leave it out of the declaration." for name in self.not_borne_out]
         if self.fit is not None and not self.fit.converged:
             told += ["The fit of every row did not come to an end: the errors are those of the rows that were drawn."]
         elif self.fit is not None:
@@ -159,6 +172,11 @@ class FolderCalibration(Calibration):
             staged.rename(target)
         finally:
             shutil.rmtree(staged, ignore_errors=True)
+
+
+def _length(rms: float, unit: str) -> str:
+    """A length of residuals as people read it."""
+    return f"{np.degrees(rms) * 3600:.3g}″" if unit == "rad" else f"{rms:.4g} {unit}"
 
 
 def calibrate_folder(

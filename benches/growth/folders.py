@@ -30,9 +30,9 @@ JOB = """
 import sys, trueaxis
 client = sys.argv[3] if len(sys.argv) > 3 else None
 found = trueaxis.calibrate("study.toml", "scan", client=client)
-assert found.fit is None or found.fit.converged
-assert found.rows == int(sys.argv[1]), found.rows
-print(found.verdict, list(found.effects["driver"]), found.validation and [found.validation.before, found.validation.after], found.fit and found.fit.passes, file=sys.stderr)
+every = found.report.get("every_row", {"rows": found.report["observations"]["rows"], "converged": True})
+assert every["converged"] and every["rows"] == int(sys.argv[1]), every
+print(found.verdict, list(found.effects["driver"]), every, file=sys.stderr)
 found.write(sys.argv[2])
 """
 

@@ -1,5 +1,6 @@
 //! The fit of a study whose rows somebody else deals out, to processes or machines: passes and sums of them as bytes.
 
+use calibration::calibrate::OfEveryRow;
 use calibration::data::Observations;
 use calibration::fit::noise::NoiseOptions;
 use calibration::fit::{FitOptions, Foretelling, Next, Pass, Streamed, StreamedResult, Tally, Validation};
@@ -8,7 +9,7 @@ use calibration::study::{Loaded, Plan};
 use model_core::SymbolKind;
 use serde_json::{Value, json};
 
-use crate::calibrating::Studied;
+use crate::calibrating::{Calibrated, Studied};
 use crate::commands::calibrate;
 use crate::failure::Failure;
 use crate::source::Source;
@@ -64,6 +65,26 @@ impl Streaming {
         };
         let files = files.iter().map(of_file).collect::<Result<Vec<_>, _>>()?;
         Ok(Self { next: streamed.next(&files).map_err(input)?, ..self })
+    }
+
+    /// Takes what every row says into a calibration of some: this fit, of all of them, and the same fit of those that the
+    /// calibration read; `validation` is of the others, and all come in so many `files`.
+    ///
+    /// # Errors
+    /// A fit is not done.
+    pub fn complete(
+        &self,
+        calibrated: &mut Calibrated,
+        drawn: &Self,
+        files: usize,
+        validation: Option<Validation>,
+    ) -> Result<(), Failure> {
+        let (Next::Done(fit), Next::Done(drawn)) = (&self.next, &drawn.next) else {
+            return Err(Failure::Input("the fit is not done: make all of its passes first".to_owned()));
+        };
+        let chain = &self.studied.plan.chain;
+        calibrated.calibration.take_every_row(OfEveryRow { chain, fit, drawn, files, validation });
+        Ok(())
     }
 
     /// What the fit found; none while there are passes to make.

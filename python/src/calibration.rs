@@ -47,8 +47,8 @@ impl Study {
 }
 
 /// What came of a study.
-#[pyclass(frozen, module = "trueaxis._native")]
-pub struct Calibration(Calibrated);
+#[pyclass(module = "trueaxis._native")]
+pub struct Calibration(pub(crate) Calibrated);
 
 /// Calibrates; takes the study up. `progress` is called with what is being done.
 #[pyfunction]

@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use trueaxis_cli::library::{self, Foretold, Rows, Source, Streaming, Studied, Validation};
 
+use crate::calibration::Calibration;
 use crate::errors;
 use crate::tables::Table;
 
@@ -93,6 +94,25 @@ impl Fitting {
         };
         *streaming = Some(errors::run(py, || before.take(&files))?);
         Ok(())
+    }
+
+    /// Takes every row into a calibration of some: this fit of all, the same fit of those that it read, and sums over the others.
+    fn complete(
+        &self,
+        py: Python<'_>,
+        calibration: &mut Calibration,
+        drawn: &Self,
+        files: usize,
+        sums: Option<(u64, u64, [f64; 2], [f64; 2])>,
+    ) -> PyResult<()> {
+        let [fit, drawn] =
+            [self, drawn].map(|one| one.streaming.lock().unwrap_or_else(PoisonError::into_inner));
+        let (Some(fit), Some(drawn)) = (fit.as_ref(), drawn.as_ref()) else {
+            return Err(pyo3::exceptions::PyValueError::new_err("this fit has failed"));
+        };
+        let validation =
+            sums.map(|(rows, kept, squares, squares_kept)| Validation { rows, kept, squares, squares_kept });
+        errors::run(py, || fit.complete(&mut calibration.0, drawn, files, validation))
     }
 
     /// What was found, as JSON; none while there are passes to make.

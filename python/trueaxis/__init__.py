@@ -18,7 +18,6 @@ from ._chain import Chain, ClosedForm, Observable, Symbol, check
 from ._cluster import apply
 from ._errors import Mistake, MistakeError, TrueaxisError, TrueaxisWarning
 from ._fit import Fit, fit
-from ._folder import FolderCalibration, Validation
 from ._native import __version__
 from ._tables import Table
 
@@ -28,7 +27,6 @@ __all__ = [
     "Chain",
     "ClosedForm",
     "Fit",
-    "FolderCalibration",
     "Mistake",
     "MistakeError",
     "Observable",
@@ -36,7 +34,6 @@ __all__ = [
     "Table",
     "TrueaxisError",
     "TrueaxisWarning",
-    "Validation",
     "__version__",
     "apply",
     "calibrate",

@@ -130,8 +130,8 @@ def calibrate(
     """Fits the errors to measured data, finds what the declaration lacks, and judges both on data that nobody fitted.
 
     The data may be a folder of Parquet files, of any size: the search reads at most ``search_rows`` rows drawn from all files, the
-    amended declaration is fitted to every row, and the error before and after is told for the rows that were not drawn. What comes
-    back then is a :class:`FolderCalibration`.
+    amended declaration is fitted to every row, and the error before and after is told for the rows that were not drawn. Errors, ± and
+    values are then those of every row, the evidence and the pictures those of the rows drawn; ``report["every_row"]`` says more.
 
     :param study: the path of the study file.
     :param data: tables that stand for files that the study names: a pandas, Polars or Arrow table or a dictionary of columns

@@ -8,6 +8,7 @@
 
 mod choice;
 mod confirm;
+mod every_row;
 mod functions;
 mod heard;
 pub(crate) mod held_out;
@@ -38,6 +39,7 @@ use confirm::{Judged, judged};
 use rounds::rounds;
 
 pub use crate::search::{Request, Stage};
+pub use every_row::OfEveryRow;
 
 /// Numbers that a matrix of the search holds at most (128 MB). Rows that need more are merged.
 const HELD: usize = 1 << 24;

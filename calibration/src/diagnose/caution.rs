@@ -104,6 +104,23 @@ pub enum Caution {
         /// Rows set aside there, of how many there.
         rows: [usize; 2],
     },
+    /// Rows of one file share an error: the ± count files.
+    #[serde(rename = "rows of one file share something")]
+    FilesShareErrors {
+        /// Files.
+        files: usize,
+        /// The variance of what they say of the estimates, over what their rows explain.
+        ratio: f64,
+    },
+    /// Effects that the search found in some of the rows, and that every row does not bear out.
+    #[serde(rename = "not borne out by every row")]
+    NotBorneOut {
+        /// Their names.
+        effects: Vec<String>,
+    },
+    /// The fit of every row did not converge.
+    #[serde(rename = "every row not fitted")]
+    EveryRowNotFitted,
     /// What to measure next was asked for and cannot be computed.
     #[serde(rename = "nothing proposed")]
     NothingProposed {

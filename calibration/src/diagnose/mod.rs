@@ -8,6 +8,7 @@ pub(crate) mod detectability;
 mod effects;
 mod ended;
 mod errors;
+mod every_row;
 mod function;
 mod harmonics;
 mod instrument;
@@ -47,6 +48,7 @@ pub use detectability::NotShown;
 pub use effects::{Cause, EffectFound, Relation, Side};
 pub use ended::Ended;
 pub use errors::{ErrorFound, Estimable, Part};
+pub use every_row::{EveryRow, Foretold, SharedByFiles};
 pub use function::Form;
 pub use harmonics::Harmonics;
 pub use instrument::{
@@ -72,6 +74,9 @@ pub struct Diagnosis {
     pub fit: Fits,
     /// What was used.
     pub observations: Used,
+    /// What every row says, where the search read only some of them; errors and coefficients are then those of every row.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub every_row: Option<EveryRow>,
     /// The declared and the new errors.
     pub errors: Vec<ErrorFound>,
     /// Combinations that these data determine of errors that they do not determine one by one.
@@ -242,6 +247,7 @@ pub(crate) fn diagnose(
             degrees_of_freedom: fit.degrees_of_freedom,
         },
         observations: used(whole, fit),
+        every_row: None,
         instrument: instrument::instrument(&whole.setting, &last.chain, observations, &errors),
         errors,
         estimable: errors::estimable(whole, last),

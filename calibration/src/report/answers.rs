@@ -6,7 +6,7 @@ use super::left::{function_form, remaining};
 use super::numbers::{short, times};
 use super::places::told_places;
 use crate::data::SiUnit;
-use crate::diagnose::{Caution, Diagnosis, EffectFound, Ended, Relation, Rms, Verdict};
+use crate::diagnose::{Caution, Diagnosis, EffectFound, Ended, EveryRow, Relation, Rms, Verdict};
 
 /// How good the news is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -82,14 +82,11 @@ pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>) -> Answers {
     Answers {
         tone: tone(diagnosis),
         badge: badge(diagnosis),
-        happened: if is_worse_elsewhere(diagnosis) {
-            format!(
-                "{} Where these data do not lie the effects make it worse: correct only where they do.",
-                happened(diagnosis)
-            )
-        } else {
-            happened(diagnosis)
-        },
+        happened: [Some(happened(diagnosis)), elsewhere(diagnosis), searched(diagnosis)]
+            .into_iter()
+            .flatten()
+            .collect::<Vec<_>>()
+            .join(" "),
         chance: effects.first().filter(|_| usable).map(|effect| chance_of(effect, diagnosis)),
         what,
         causes,
@@ -97,6 +94,21 @@ pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>) -> Answers {
         better: better(diagnosis),
         next: next(diagnosis, folder),
     }
+}
+
+/// Where not to correct with it.
+fn elsewhere(diagnosis: &Diagnosis) -> Option<String> {
+    is_worse_elsewhere(diagnosis).then(|| {
+        "Where these data do not lie the effects make it worse: correct only where they do.".to_owned()
+    })
+}
+
+/// How many rows were searched, where not all were.
+fn searched(diagnosis: &Diagnosis) -> Option<String> {
+    let EveryRow { rows, files, converged, .. } = diagnosis.every_row.as_ref()?;
+    let files = if *files > 1 { format!(", drawn from {files} files") } else { String::new() };
+    let errors = if *converged { "; the errors are from every row" } else { "" };
+    Some(format!("The search read {} of {rows} rows{files}{errors}.", diagnosis.observations.rows))
 }
 
 fn is_worse(diagnosis: &Diagnosis) -> bool {
@@ -250,6 +262,10 @@ fn better(diagnosis: &Diagnosis) -> String {
         Some(of_unit(diagnosis, observed, own.unit, [own.before, own.after]))
     });
     let mut all: Vec<String> = std::iter::once(first).chain(beside).collect();
+    all.extend(diagnosis.every_row.as_ref().and_then(|every| every.validation).map(|left| {
+        let [before, after] = [left.before_kept, left.after_kept].map(|rms| short(rms, diagnosis.unit));
+        format!("On the {} rows that the search did not read it goes from {before} to {after}.", left.rows)
+    }));
     let is_told = diagnosis.verdict.is_usable() && !diagnosis.effects.is_empty();
     all.extend(
         remaining(diagnosis)

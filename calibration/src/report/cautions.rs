@@ -44,6 +44,19 @@ pub fn caution(caution: &Caution) -> String {
             "{aside} of the {there} rows with {reading} from {from:.3} to {to:.3} (SI) were set aside: they share \
              something that the declaration lacks."
         ),
+        Caution::FilesShareErrors { files, ratio } => format!(
+            "Rows of one file share an error: what the {files} files say scatters with {} the variance that their rows explain. The ± \
+             count each file as one.",
+            times(*ratio)
+        ),
+        Caution::NotBorneOut { effects } => format!(
+            "Every row does not bear out {}: with all rows it is no larger than its ±. Leave it out.",
+            effects.join("; ")
+        ),
+        Caution::EveryRowNotFitted => {
+            "The fit of every row did not converge: the errors are those of the rows that were searched."
+                .to_owned()
+        }
         Caution::NothingProposed { why } => {
             format!("What `[next]` asks for cannot be proposed: {why}.")
         }

@@ -87,14 +87,18 @@ impl Studied {
     pub fn load(self, open: &mut OpenTable<'_>, read: impl FnOnce()) -> Result<Measured, Failure> {
         let loaded = self.plan.load_tables(open);
         read();
-        let loaded = loaded.map_err(tables::failure)?;
+        Ok(self.with_data(loaded.map_err(tables::failure)?))
+    }
+
+    /// With data that were read; warns of what is doubtful.
+    pub fn with_data(self, loaded: Loaded) -> Measured {
         self.plan.doubts.iter().for_each(terminal::warn);
         self.plan.unstated.iter().for_each(terminal::warn);
         self.plan.unsought.iter().for_each(terminal::warn);
         self.plan.timeless.iter().for_each(terminal::warn);
         loaded.doubtful.iter().for_each(terminal::warn);
         loaded.remarks.iter().for_each(terminal::warn);
-        Ok(Measured { studied: self, loaded })
+        Measured { studied: self, loaded }
     }
 
     /// The study, the declaration and the data with their checksums. What is no file, a pipe or a table in memory, has been
@@ -149,6 +153,16 @@ impl Measured {
 }
 
 impl Calibrated {
+    /// The study that it came of.
+    pub fn studied(&self) -> &Studied {
+        &self.studied
+    }
+
+    /// The data that it was made from.
+    pub fn observations(&self) -> &Observations {
+        &self.observations
+    }
+
     /// What is reported; `folder` is where the files go to, if they are written.
     #[must_use]
     pub fn reported<'a>(&'a self, folder: Option<&'a str>) -> Reported<'a> {

@@ -16,6 +16,7 @@ mod failure;
 mod init;
 mod letters;
 pub mod library;
+mod many;
 mod output;
 mod over_table;
 mod poses;

@@ -24,6 +24,7 @@ use crate::{claims, errors_file, poses, report, terminal};
 pub use crate::calibrating::{Calibrated, Studied};
 pub use crate::evaluation::{Exactness, Quantity};
 pub use crate::failure::Failure;
+pub use crate::many::stretches;
 pub use crate::report::Cells;
 pub use crate::source::Source;
 pub use crate::streaming::{Foretold, Rows, Streaming, accumulated, validated};

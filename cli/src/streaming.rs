@@ -148,13 +148,13 @@ impl<'a> Foretold<'a> {
 }
 
 /// How to fit: while something is missing, residuals are larger than what is stated of the noise, and weights go by what they are.
-fn options(plan: &Plan) -> FitOptions {
+pub fn options(plan: &Plan) -> FitOptions {
     let NoiseOptions { sigma, stated, .. } = plan.fit.noise;
     let noise = NoiseOptions { sigma: None, stated: stated.or(sigma), ..plan.fit.noise };
     FitOptions { noise, ..plan.fit.clone() }
 }
 
-fn input(error: impl ToString) -> Failure {
+pub fn input(error: impl ToString) -> Failure {
     Failure::Input(error.to_string())
 }
 

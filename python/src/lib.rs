@@ -21,7 +21,7 @@ mod _native {
     #[pymodule_export]
     use super::formula::ClosedForm;
     #[pymodule_export]
-    use super::streaming::{Fitting, accumulate, validate};
+    use super::streaming::{Fitting, accumulate, stretches, validate};
 
     use super::*;
 

@@ -122,6 +122,13 @@ impl Fitting {
     }
 }
 
+/// Which rows of files with so many rows to draw for a search: of each file stretches, each from a row to the one behind it.
+#[pyfunction]
+pub fn stretches(rows: Vec<u64>, wanted: u64, seed: u64) -> Vec<Vec<(u64, u64)>> {
+    let drawn = library::stretches(&rows, wanted, seed).into_iter();
+    drawn.map(|own| own.into_iter().map(|stretch| (stretch.start, stretch.end)).collect()).collect()
+}
+
 /// How two declarations, each with a file of errors, foretell some rows: rows, rows kept, squares of the residuals before and after, and
 /// those of the rows kept.
 #[pyfunction]

@@ -9,7 +9,7 @@ from test_calibration import STUDY, TRUE
 from test_cluster import cluster  # noqa: F401
 
 import trueaxis
-from trueaxis import _folder, _native
+from trueaxis import _native
 
 FILES = 64
 ROWS = 2000
@@ -173,18 +173,6 @@ def test_what_is_written_is_read_again(alone, tmp_path):
     of_file = chain.exact(readings, str(tmp_path / "out" / "errors.toml"))
     np.testing.assert_array_equal(of_file, chain.exact(readings, alone.values))
     assert alone.values["collimation"] == dict(zip(alone.errors["name"], alone.errors["value"]))["collimation"]
-
-
-def test_every_row_is_drawn_or_judged_once():
-    for rows, wanted in [([5, 1, 7000, 3, 2500], 3000), ([10] * 700, 2000), ([2500], 2499), ([1, 1, 1], 1), ([4000], 10)]:
-        stretches = _folder._stretches(rows, wanted, 3)
-        assert len(stretches) == len(rows)
-        for own, count in zip(stretches, rows):
-            assert all(0 <= start < end <= count for start, end in own)
-            assert all(one[1] <= other[0] for one, other in zip(own, own[1:]))
-        drawn = sum(end - start for own in stretches for start, end in own)
-        assert 0.5 * wanted <= drawn <= wanted, (rows, wanted, drawn)
-    assert _folder._stretches([5, 6], 11, 1) == [[(0, 5)], [(0, 6)]]
 
 
 def test_what_is_wrong_is_named(mount, folder, tmp_path):

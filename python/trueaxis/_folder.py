@@ -21,9 +21,6 @@ from ._tables import Columns, columns_of
 if TYPE_CHECKING:
     import distributed
 
-STRETCH = 1000
-"""Rows beside each other that are drawn together: neighbours tell whether the noise remembers."""
-
 Stretch = tuple[int, int]
 """The first row of a stretch of a file, and the first behind it."""
 
@@ -50,7 +47,7 @@ def calibrate_folder(
     with workers(client) as each:
         of_file = dict(each(_count, [(file, _native.__version__) for file in files]))
         rows = sum(of_file.values())
-        stretches = _stretches([of_file[file] for file in files], search_rows, seed)
+        stretches = _native.stretches([of_file[file] for file in files], search_rows, seed)
         drawn = sum(end - start for own in stretches for start, end in own)
         tell(f"drawing {drawn:,} of {rows:,} rows from {len(files)} files")
         sample, lacking = _drawn(each, files, stretches)
@@ -95,25 +92,6 @@ def _count(task: tuple) -> tuple[str, int]:
     if rows == 0:
         raise TrueaxisError(f"{file}: there are no rows")
     return file, rows
-
-
-def _stretches(rows: list[int], wanted: int, seed: int) -> list[list[Stretch]]:
-    """Which rows of each file to draw, evenly from all: of as many parts of the rows, a stretch somewhere in each."""
-    total = sum(rows)
-    if total <= wanted:
-        return [[(0, count)] for count in rows]
-    count = max(1, wanted // STRETCH)
-    random = np.random.default_rng(seed)
-    bounds = np.linspace(0, total, count + 1).astype(int)
-    length = min(STRETCH, wanted)
-    starts = [int(low + random.integers(0, max(1, high - low - length + 1))) for low, high in zip(bounds, bounds[1:])]
-    drawn: list[list[Stretch]] = []
-    first = 0
-    for own in rows:
-        cut = [(max(start, first) - first, min(start + length, first + own) - first) for start in starts]
-        drawn.append([(start, end) for start, end in cut if start < end])
-        first += own
-    return drawn
 
 
 def _drawn(each: Each, files: list[str], stretches: list[list[Stretch]]) -> tuple[Columns, dict[str, str]]:

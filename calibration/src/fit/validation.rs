@@ -33,6 +33,20 @@ pub struct Validation {
     pub squares_kept: [f64; 2],
 }
 
+impl std::ops::Add for Validation {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        let sum = |one: [f64; 2], other: [f64; 2]| [one[0] + other[0], one[1] + other[1]];
+        Self {
+            rows: self.rows + other.rows,
+            kept: self.kept + other.kept,
+            squares: sum(self.squares, other.squares),
+            squares_kept: sum(self.squares_kept, other.squares_kept),
+        }
+    }
+}
+
 impl Validation {
     /// Judges a declaration `before` and one `after` on the same rows; `floor` is the standard deviation of each kind of component,
     /// rad or m, or a factor on what the data state.

@@ -17,6 +17,7 @@ mod number;
 mod options;
 #[cfg(feature = "parquet")]
 pub mod parquet;
+pub mod part;
 mod quote;
 mod records;
 mod separator;

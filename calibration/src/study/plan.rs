@@ -56,6 +56,22 @@ pub struct Plan {
     pub(super) format: Options,
 }
 
+impl Plan {
+    /// How its tables are read.
+    #[must_use]
+    pub fn options(&self) -> &Options {
+        &self.format
+    }
+
+    /// The same of one file alone, with as many sources.
+    #[must_use]
+    pub fn of_file(&self, path: &str) -> Self {
+        let mut plan = self.clone();
+        plan.sources.iter_mut().for_each(|source| source.paths = vec![path.to_owned()]);
+        plan
+    }
+}
+
 /// How to judge on data that no stage saw.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct HoldOut {

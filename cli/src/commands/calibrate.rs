@@ -14,7 +14,7 @@ use crate::failure::Failure;
 use crate::report::{self, Layout};
 use crate::source::Source;
 use crate::waiting::Waiting;
-use crate::{output, source, terminal};
+use crate::{many, output, source, terminal};
 
 /// Fit the errors to measured data, and find what the declaration lacks.
 ///
@@ -32,6 +32,9 @@ pub struct Arguments {
     /// Folder for report.html, report.json, amended.chain, errors.toml and residuals.csv
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Rows that the search holds at most; of more it reads so many, drawn from all, and a fit reads every row
+    #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = at_least_one)]
+    search_rows: usize,
     /// Write every row into residuals.csv; of more than 100,000 rows, a part is written otherwise
     #[arg(long, requires = "out")]
     all_residuals: bool,
@@ -57,21 +60,34 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     }
     let (study, from) = (studied.study.clone(), studied.plan.data_from.clone());
     let progress = terminal::progress();
-    let mut open = |path: &str, options: &formats::Options| {
-        progress.set_message(format!("reading {path}"));
+    let reading = progress.clone();
+    let mut open = move |path: &str, options: &formats::Options| {
+        reading.set_message(format!("reading {path}"));
         formats::open(open_beside(&study, path, from.as_deref())?, path, options)
     };
-    let measured = studied.load(&mut open, || progress.finish_and_clear())?;
-    terminal::note(format_args!(
-        "{}",
-        what_is_done(&measured.studied.plan, measured.loaded.observations.rows())
-    ));
+    let read = many::read(studied, arguments.search_rows, &mut open);
+    progress.finish_and_clear();
+    let (measured, others) = read?;
+    let rows = measured.loaded.observations.rows();
+    if let Some(others) = &others {
+        terminal::note(format_args!(
+            "{} observations; the search reads {rows} of them, drawn from all, and a fit every one (--search-rows)",
+            others.all()
+        ));
+    }
+    terminal::note(format_args!("{}", what_is_done(&measured.studied.plan, rows)));
 
     let (progress, waiting) = (terminal::progress(), Waiting::default());
     let calibrated =
         measured.calibrate(terminal::command_line(), &|stage| progress.set_message(waiting.told(stage)));
+    let completed = calibrated.and_then(|mut calibrated| {
+        if let Some(others) = others {
+            others.complete(&mut calibrated, &mut open, &|told| progress.set_message(told))?;
+        }
+        Ok(calibrated)
+    });
     progress.finish_and_clear();
-    let calibrated = calibrated?;
+    let calibrated = completed?;
     let folder = arguments.out.as_ref().map(|folder| folder.display().to_string());
     let reported = calibrated.reported(folder.as_deref());
     if arguments.dry_run {
@@ -100,6 +116,14 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         TextOrJson::Json => report::json(&reported)?,
     })?;
     Ok(answer(reported.calibration))
+}
+
+fn at_least_one(text: &str) -> Result<usize, String> {
+    match text.replace('_', "").parse() {
+        Ok(0) => Err("the search needs rows to read".to_owned()),
+        Ok(rows) => Ok(rows),
+        Err(_) => Err("write a whole number, such as 1000000".to_owned()),
+    }
 }
 
 /// No, where no usable model came out.

@@ -1,0 +1,286 @@
+//! A calibration of more rows than its search reads: the search reads rows drawn from all files, a fit reads every row, chunk by chunk, and
+//! what the search found is judged on the rows that were not drawn.
+
+use std::ops::Range;
+
+use calibration::calibrate::OfEveryRow;
+use calibration::data::unknowns::Shape;
+use calibration::data::{Observations, Poses, Series};
+use calibration::fit::{Foretelling, Next, Pass, Streamed, StreamedResult, Tally, Validation};
+use calibration::formats::part::{Budget, Stretches, Within, count};
+use calibration::study::{OpenTable, Plan, SourcePlan};
+use model_core::SymbolId;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::calibrating::{Calibrated, Measured, Studied};
+use crate::failure::Failure;
+use crate::source::Source;
+use crate::streaming::{input, options};
+use crate::tables;
+
+/// Rows of a chunk.
+const CHUNK: u64 = 1 << 18;
+
+/// Rows beside each other that are drawn together: neighbours tell whether the noise remembers.
+const STRETCH: u64 = 1000;
+
+/// Rows that were not drawn for the search.
+pub struct Others {
+    files: Vec<Drawn>,
+}
+
+/// A file, and the rows that were drawn of it.
+struct Drawn {
+    path: String,
+    rows: u64,
+    stretches: Vec<Range<u64>>,
+}
+
+/// Reads every row of a study's tables or, where there are more, draws so many, and says what the others are.
+///
+/// # Errors
+/// What is wrong with a table.
+pub fn read(
+    studied: Studied,
+    at_most: usize,
+    open: &mut OpenTable<'static>,
+) -> Result<(Measured, Option<Others>), Failure> {
+    let plan = &studied.plan;
+    if !may_be_drawn(plan) {
+        let loaded = plan.load_tables(open).map_err(tables::failure)?;
+        return Ok((studied.with_data(loaded), None));
+    }
+    let budget = Budget::new(at_most);
+    let loaded =
+        plan.load_tables(&mut |path, options| Ok(Box::new(Within::new(open(path, options)?, &budget))));
+    if !budget.is_exceeded() {
+        let loaded = loaded.map_err(tables::failure)?;
+        return Ok((studied.with_data(loaded), None));
+    }
+    drop(loaded);
+    let paths = plan.sources.iter().flat_map(|source| &source.paths);
+    let rows = paths.map(|path| Ok((path.clone(), count(&mut *open(path, plan.options())?)?)));
+    let rows: Vec<(String, u64)> = rows.collect::<Result<_, _>>().map_err(tables::failure)?;
+    let counts: Vec<u64> = rows.iter().map(|(_, rows)| *rows).collect();
+    let stretches = stretches(&counts, at_most as u64, plan.hold_out.seed);
+    let drawn = |((path, rows), stretches)| Drawn { path, rows, stretches };
+    let files: Vec<Drawn> = rows.into_iter().zip(stretches).map(drawn).collect();
+    let mut left = files.iter();
+    let loaded = plan.load_tables(&mut |path, options| {
+        let Some(file) = left.next() else { unreachable!("each file of the study is read once: {path}") };
+        Ok(Box::new(Stretches::new(open(path, options)?, 0, file.stretches.iter().cloned())))
+    });
+    let loaded = loaded.map_err(tables::failure)?;
+    Ok((studied.with_data(loaded), Some(Others { files })))
+}
+
+/// Whether a part of the rows can stand for all: not where they observe what nobody knows, or several things.
+fn may_be_drawn(plan: &Plan) -> bool {
+    let has_objects = |source: &SourcePlan| Shape::of(source.measure).is_some();
+    plan.sources.len() == 1 && plan.hold_out.file.is_none() && !plan.sources.iter().any(has_objects)
+}
+
+/// Which rows of files with so many rows to draw, evenly from all: of as many parts of the rows, a stretch somewhere in each. Every row
+/// where no more are there than are wanted.
+#[must_use]
+pub fn stretches(rows: &[u64], wanted: u64, seed: u64) -> Vec<Vec<Range<u64>>> {
+    let all: u64 = rows.iter().sum();
+    if all <= wanted {
+        return rows.iter().map(|&rows| vec![0..rows]).collect();
+    }
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let (parts, length) = ((wanted / STRETCH).max(1), STRETCH.min(wanted));
+    let bound = |part: u64| (u128::from(part) * u128::from(all) / u128::from(parts)) as u64;
+    let drawn: Vec<Range<u64>> = (0..parts)
+        .map(|part| {
+            let last = bound(part + 1).saturating_sub(length).max(bound(part));
+            let start = random.random_range(bound(part)..=last);
+            start..start + length
+        })
+        .collect();
+    let mut first = 0;
+    let own = |&rows: &u64| {
+        let cut = |stretch: &Range<u64>| {
+            let end = stretch.end.min(first + rows).saturating_sub(first);
+            stretch.start.saturating_sub(first)..end
+        };
+        let stretches = drawn.iter().map(cut).filter(|stretch| stretch.start < stretch.end).collect();
+        first += rows;
+        stretches
+    };
+    rows.iter().map(own).collect()
+}
+
+impl Others {
+    /// All rows, those that were drawn among them.
+    pub fn all(&self) -> u64 {
+        self.files.iter().map(|file| file.rows).sum()
+    }
+
+    /// Takes what every row says into a calibration of those that were drawn.
+    ///
+    /// # Errors
+    /// A row that was not drawn cannot be read.
+    pub fn complete(
+        &self,
+        calibrated: &mut Calibrated,
+        open: &mut OpenTable<'static>,
+        tell: &dyn Fn(String),
+    ) -> Result<(), Failure> {
+        let Some(amended) = &calibrated.calibration.amended else { return Ok(()) };
+        let declared = calibrated.studied();
+        let amended = Studied::of(declared.study.clone(), Source::of_text("amended.chain", amended))?;
+        let drawn =
+            [calibrated.observations().clone(), renamed(calibrated.observations(), declared, &amended)];
+        let [before, after] = [(declared, &drawn[0]), (&amended, &drawn[1])].map(|(studied, drawn)| {
+            let start =
+                Streamed::from_sample(&studied.plan.chain, drawn, &options(&studied.plan)).map_err(input)?;
+            passes(start, |pass, _| Ok(vec![pass.accumulate(drawn).map_err(input)?]))
+        });
+        let (before, after) = (before?, after?);
+        let mut validation = Validation::default();
+        let start =
+            Streamed::from_sample(&amended.plan.chain, &drawn[1], &options(&amended.plan)).map_err(input)?;
+        let fit = passes(start, |pass, number| {
+            let mut done = 0;
+            let mut of_file = |file: &Drawn| {
+                let mut tally = pass.empty();
+                each_chunk(&amended.plan, file, open, |first, rows| {
+                    tell(format!("fitting every row, pass {number}: row {} of {}", done + first, self.all()));
+                    tally = tally.clone().merge(&pass.accumulate(&rows).map_err(input)?).map_err(input)?;
+                    if number == 1 {
+                        let others = file.without_drawn(first, &rows);
+                        let foretold = renamed(&others, &amended, declared);
+                        let one = Foretelling {
+                            chain: &declared.plan.chain,
+                            values: &before.values,
+                            observations: &foretold,
+                        };
+                        let other = Foretelling {
+                            chain: &amended.plan.chain,
+                            values: &after.values,
+                            observations: &others,
+                        };
+                        let own = Validation::of(one, other, &after.floor, &options(&amended.plan))
+                            .map_err(input)?;
+                        validation = validation + own;
+                    }
+                    Ok(())
+                })?;
+                done += file.rows;
+                Ok(tally)
+            };
+            self.files.iter().map(&mut of_file).collect()
+        })?;
+        let validation = (before.converged && after.converged).then_some(validation);
+        let chain = &amended.plan.chain;
+        let every = OfEveryRow { chain, fit: &fit, drawn: &after, files: self.files.len(), validation };
+        calibrated.calibration.take_every_row(every);
+        Ok(())
+    }
+}
+
+impl Drawn {
+    /// Rows of this file, of which the first has this number, without those that were drawn.
+    fn without_drawn(&self, first: u64, rows: &Observations) -> Observations {
+        let is_drawn = |row: u64| self.stretches.iter().any(|stretch| stretch.contains(&row));
+        let others: Vec<usize> = (0..rows.rows()).filter(|&row| !is_drawn(first + row as u64)).collect();
+        rows.select(&others)
+    }
+}
+
+/// Makes every pass of a fit: `make` gives the tallies of all files in a pass, of which the first has the number 1.
+fn passes(
+    mut fit: Streamed,
+    mut make: impl FnMut(&Pass, usize) -> Result<Vec<Tally>, Failure>,
+) -> Result<StreamedResult, Failure> {
+    for number in 1.. {
+        let tallies = make(&fit.pass, number)?;
+        match fit.next(&tallies).map_err(input)? {
+            Next::Pass(next) => fit = *next,
+            Next::Done(result) => return Ok(*result),
+        }
+    }
+    unreachable!("a fit ends after some passes")
+}
+
+/// Reads a file chunk by chunk; `take` is given each chunk and how many rows come before it.
+fn each_chunk(
+    plan: &Plan,
+    file: &Drawn,
+    open: &mut OpenTable<'static>,
+    mut take: impl FnMut(u64, Observations) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let plan = plan.of_file(&file.path);
+    let mut reader = open(&file.path, plan.options()).map_err(tables::failure)?;
+    let mut first = 0;
+    while first < file.rows {
+        let end = (first + CHUNK).min(file.rows);
+        let mut chunk = Some(Stretches::new(&mut *reader, first, [first..end]));
+        let loaded = plan.load_tables(&mut |path, _| match chunk.take() {
+            Some(chunk) => Ok(Box::new(chunk)),
+            None => unreachable!("one file is read once: {path}"),
+        });
+        take(first, loaded.map_err(tables::failure)?.observations)?;
+        first = end;
+    }
+    Ok(())
+}
+
+/// Observations by one declaration as another has them, whose symbols of the same names stand at other places.
+fn renamed(observations: &Observations, from: &Studied, to: &Studied) -> Observations {
+    let (from, to) = (&from.plan.chain, &to.plan.chain);
+    let poses = &observations.poses;
+    let column =
+        |(id, values): &(SymbolId, Vec<f64>)| Some((to.find_symbol(&from.symbol(*id).name)?, values.clone()));
+    let mut columns: Vec<_> = poses.columns.iter().filter_map(column).collect();
+    columns.sort_by_key(|(id, _)| *id);
+    let series = poses.series.iter().map(|series| {
+        let name = &from.observable(series.observable).name;
+        let Some(observable) = to.find_observable(name) else {
+            unreachable!("an amended declaration observes what the declaration does: {name}")
+        };
+        Series { observable, ..series.clone() }
+    });
+    let poses = Poses { series: series.collect(), columns };
+    Observations { poses, ..observations.clone() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_are_drawn_once_and_evenly() {
+        let tables = [
+            (vec![5, 1, 7000, 3, 2500], 3000),
+            (vec![10; 700], 2000),
+            (vec![2500], 2499),
+            (vec![1, 1, 1], 1),
+        ];
+        for (rows, wanted) in tables {
+            let drawn = stretches(&rows, wanted, 3);
+            assert_eq!(drawn.len(), rows.len());
+            for (own, &rows) in drawn.iter().zip(&rows) {
+                assert!(
+                    own.iter().all(|stretch| stretch.start < stretch.end && stretch.end <= rows),
+                    "{own:?}"
+                );
+                assert!(own.windows(2).all(|pair| pair[0].end <= pair[1].start), "{own:?}");
+            }
+            let count: u64 = drawn.iter().flatten().map(|stretch| stretch.end - stretch.start).sum();
+            assert!(count <= wanted && count * 2 > wanted, "{rows:?}: {count} of {wanted}");
+        }
+        assert_eq!(stretches(&[5, 6], 11, 1), [[0..5], [0..6]]);
+        // Of a thousand parts of a hundred million rows, none is far from where it should be.
+        let drawn = stretches(&[60_000_000, 40_000_000], 1_000_000, 1);
+        assert_eq!([drawn[0].len(), drawn[1].len()], [600, 400]);
+        assert!(
+            drawn[0]
+                .iter()
+                .zip(0..)
+                .all(|(own, part)| (part * 100_000..(part + 1) * 100_000).contains(&own.start))
+        );
+    }
+}

@@ -4,9 +4,12 @@
 //! component, weighed by what each has part in; of whole groups where rows of a group are not independent; in order of
 //! acquisition where rows remember those before; row by row where rows observe objects.
 
+use std::ops::Range;
+
 use faer::Mat;
 use model_core::SymbolId;
 
+use super::block::Block;
 use super::cluster::{ALONE, Clusters, Share};
 use super::estimable::Estimable;
 use super::objects::Reduction;
@@ -151,8 +154,8 @@ impl Solver<'_> {
         let sigma = course.noise.sigma_without_memory();
         // The columns of all rows take more memory than all else; most data need none.
         let axes = noise::space::axes(self.observations);
-        let white = |values: &[f64]| serial::looks_white(&self.layout, values, axes.as_deref());
-        if self.groups().is_none() && white(&self.whitened(course, &counted)) {
+        let nothing = |values: &[f64]| serial::is_white(&self.layout, values, axes.as_deref());
+        if self.groups().is_none() && nothing(&self.whitened(course, &counted)) {
             return Ok(Shared::Nothing);
         }
         let Coordinates { q, residual: e, .. } = self.coordinates(course, &counted, root)?;
@@ -243,7 +246,11 @@ impl Solver<'_> {
         }
         let sigma = course.noise.sigma_without_memory();
         let layout = &self.layout;
-        let parts = self.model.map_blocks(self.observations, &course.point.values, |_, rows, block| {
+        let mut whole = Mat::zeros(self.layout.components(), k);
+        let mut residual = Vec::with_capacity(self.layout.components());
+        let mut unknown = Vec::new();
+        // Of many rows the columns are most of what is held: they are never there twice.
+        let made = |_: usize, rows: Range<usize>, block: &Block| {
             let whitened = |values: &[f64]| -> Vec<f64> {
                 let from = layout.first(rows.start);
                 let by_row = block.by_row(values).into_iter().enumerate();
@@ -262,15 +269,12 @@ impl Solver<'_> {
                 }
             }
             (q, residual, block.unknown.clone())
-        })?;
-        let mut whole = Mat::zeros(self.layout.components(), k);
-        let mut residual = Vec::with_capacity(self.layout.components());
-        let mut unknown = Vec::new();
-        for (q, own, of_objects) in parts {
+        };
+        self.model.each_block(self.observations, &course.point.values, made, |(q, own, of_objects)| {
             whole.subrows_mut(residual.len(), own.len()).copy_from(&q);
             residual.extend(own);
             unknown.extend(of_objects);
-        }
+        })?;
         let followed = self.observations.unknowns.as_ref().map_or_else(Vec::new, |unknowns| {
             let row: &[u32] = &self.layout.row_of_each().map(|row| row as u32).collect::<Vec<_>>();
             let scale = row.iter().zip(sigma.iter()).map(|(&row, sigma)| weight[row as usize].sqrt() / sigma);

@@ -5,6 +5,7 @@ mod support;
 
 mod bad_studies;
 mod instruments;
+mod many;
 mod noiseless;
 mod objects;
 mod observations;

@@ -141,23 +141,27 @@ impl Serial {
 }
 
 impl Serial {
-    /// Multiplies a column by the transpose of what turns innovations into values of variance one, in place.
-    pub(super) fn colour(self, column: &mut [f64], run: Run) {
+    /// Multiplies a piece of a run, `stride` components a row, by the transpose of what turns innovations into values of variance one, in
+    /// place. A run is taken piece by piece, its last first: `after` is what the piece behind left, and becomes what this one leaves;
+    /// `begins` says that it is the first of the run.
+    pub(super) fn colour(self, piece: &mut [f64], stride: usize, after: &mut Carried, begins: bool) {
         let gain = self.gain();
-        for component in 0..run.stride {
+        for (component, [sum, carried]) in after.iter_mut().enumerate().take(stride) {
             // Backwards through x_t = φ x_{t−1} + e_t + θ e_{t−1}: what each innovation has part in.
-            let (mut after, mut carried) = (0.0, 0.0);
-            for at in (run.start + component..run.end).step_by(run.stride).rev() {
-                let Some(value) = column.get_mut(at) else { return };
-                after = *value + self.autoregressive * after;
-                let remembered = self.moving_average * carried;
-                let first = at == run.start + component;
-                *value = if first { after + remembered / (gain * gain) } else { (after + remembered) / gain };
-                carried = after;
+            for at in (component..piece.len()).step_by(stride).rev() {
+                let value = &mut piece[at];
+                *sum = *value + self.autoregressive * *sum;
+                let remembered = self.moving_average * *carried;
+                let first = begins && at == component;
+                *value = if first { *sum + remembered / (gain * gain) } else { (*sum + remembered) / gain };
+                *carried = *sum;
             }
         }
     }
 }
+
+/// What the rows behind a piece of a run leave to it, for each of at most three components a row.
+pub(super) type Carried = [[f64; 2]; 3];
 
 impl Noise {
     /// Whether [whitening](Self::whiten) makes of a component more than a multiple of itself.
@@ -275,7 +279,11 @@ mod tests {
         let unit = |at: usize| {
             let mut column = vec![0.0; 200];
             column[at] = 1.0;
-            serial.colour(&mut column, run);
+            let mut after = Carried::default();
+            // In two pieces, the last first.
+            let (first, last) = column.split_at_mut(90);
+            serial.colour(last, run.stride, &mut after, false);
+            serial.colour(first, run.stride, &mut after, true);
             column
         };
         let product = |a: usize, b: usize| unit(a).iter().zip(unit(b)).map(|(x, y)| x * y).sum::<f64>();

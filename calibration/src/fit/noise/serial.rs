@@ -9,7 +9,7 @@ use faer::{Mat, Side};
 use rayon::prelude::*;
 
 use super::space::Filter;
-use super::{Layout, Run, Serial};
+use super::{Carried, Layout, Run, Serial};
 
 /// Components below which no serial correlation is looked for.
 pub(crate) const FEWEST: usize = 30;
@@ -30,6 +30,19 @@ const MOVING_AVERAGE: [f64; 7] = [-0.95, -0.9, -0.82, -0.7, -0.5, -0.25, 0.4];
 ///
 /// Source: the upper 1 % point of the chi-squared distribution with two degrees of freedom.
 const EARNS: f64 = 9.21;
+
+/// No memory.
+const WHITE: Serial = Serial { autoregressive: 0.0, moving_average: 0.0 };
+
+/// Rows of a run whose part of a product is made at once.
+const PIECE: usize = 8192;
+
+/// Of many rows, models are told apart first in so many stretches of so many components.
+const STRETCHES: usize = 50;
+const STRETCH: usize = 4_000;
+
+/// A model that is less likely by so much in the stretches, as twice a logarithm, is so in all rows.
+const RULED_OUT: f64 = 50.0;
 
 /// Neighbours that hang together by less than so many standard deviations of chance are not looked at closely.
 const LOOKED_AT: f64 = 1.0;
@@ -61,11 +74,6 @@ pub(crate) struct Model {
 }
 
 impl Model {
-    /// No memory.
-    fn white() -> Self {
-        Self { serial: Serial { autoregressive: 0.0, moving_average: 0.0 }, in_space: None }
-    }
-
     /// Turns values into innovations in place.
     pub fn whiten(&self, column: &mut [f64], runs: &[Run]) {
         for &run in runs {
@@ -86,9 +94,34 @@ impl Model {
     }
 }
 
+/// A model before it is made: its filter takes as much memory as the rows.
+#[derive(Debug, Clone, Copy)]
+struct Kind {
+    serial: Serial,
+    in_space: bool,
+    /// The number of its coefficients.
+    coefficients: f64,
+}
+
+impl Kind {
+    /// In the residuals' own axes, and in those of space where they differ.
+    fn all(length: usize, has_axes: bool) -> impl Iterator<Item = Self> {
+        let spaces: &[bool] = if has_axes { &[false, true] } else { &[false] };
+        spaces.iter().flat_map(move |&in_space| {
+            serials(length).map(move |(serial, coefficients)| Self { serial, in_space, coefficients })
+        })
+    }
+
+    fn model(&self, axes: Option<&[[f64; 3]]>, runs: &[Run]) -> Option<Model> {
+        let Self { serial, in_space, .. } = *self;
+        let in_space = if in_space { Some(Filter::new(serial, axes?, runs)?) } else { None };
+        Some(Model { serial, in_space })
+    }
+}
+
 /// A model, and how likely it is.
 struct Tried {
-    model: Model,
+    kind: Kind,
     /// −2 ln of the restricted likelihood, and AICc.
     deviance: f64,
     criterion: f64,
@@ -109,26 +142,23 @@ pub fn fit(
     if values.len() < FEWEST + beside.ncols() || length < 4 || looks_white(layout, values, axes) {
         return None;
     }
-    let problem = Problem::new(layout, values, beside);
-    let white = problem.tried(Model::white(), 0.0)?;
-    let tried: Vec<Tried> = models(length, &layout.runs, axes)
-        .collect::<Vec<_>>()
-        .into_par_iter()
-        .filter_map(|(model, coefficients)| problem.tried(model, coefficients))
-        .collect();
+    let problem = Problem::new(&layout.runs, axes, values, beside);
+    let white = problem.tried(Kind { serial: WHITE, in_space: false, coefficients: 0.0 })?;
+    let kinds = shortlist(layout, values, axes, Kind::all(length, axes.is_some()).collect());
+    let tried: Vec<Tried> = kinds.into_par_iter().filter_map(|kind| problem.tried(kind)).collect();
     let best = tried.iter().min_by(|a, b| a.criterion.total_cmp(&b.criterion))?;
     if white.deviance - best.deviance < EARNS || best.criterion >= white.criterion {
         return None;
     }
     let (Model { serial, in_space }, innovation, least) =
-        (best.model.clone(), best.innovation, best.criterion);
+        (best.kind.model(axes, &layout.runs)?, best.innovation, best.criterion);
     let mut product = Mat::zeros(q.ncols(), q.ncols());
     let mut sum = 0.0;
     for model in tried {
         let weight = (0.5 * (least - model.criterion)).exp();
         if weight > 0.01 {
             sum += weight;
-            product += faer::Scale(weight) * problem.product(&model, q);
+            product += faer::Scale(weight) * problem.product(&model, q)?;
         }
     }
     product *= faer::Scale(1.0 / sum);
@@ -146,9 +176,60 @@ pub fn fit(
 }
 
 /// Whether neighbours among the values hang together so little that no memory is looked for.
-#[must_use]
-pub fn looks_white(layout: &Layout, values: &[f64], axes: Option<&[[f64; 3]]>) -> bool {
+fn looks_white(layout: &Layout, values: &[f64], axes: Option<&[[f64; 3]]>) -> bool {
     neighbours(layout, values, axes) < LOOKED_AT
+}
+
+/// Whether no memory can come of the values: neighbours hang together too little for it to be looked for or, of many rows, no
+/// model earns its place. Nobody needs the columns that were fitted to them then.
+#[must_use]
+pub fn is_white(layout: &Layout, values: &[f64], axes: Option<&[[f64; 3]]>) -> bool {
+    let none = Mat::zeros(values.len(), 0);
+    looks_white(layout, values, axes)
+        || values.len() > MANY && fit(layout, values, &none, &none, axes).is_none()
+}
+
+/// Of many rows the models that some stretches of them do not rule out, and those that remember longer than a stretch.
+fn shortlist(layout: &Layout, values: &[f64], axes: Option<&[[f64; 3]]>, kinds: Vec<Kind>) -> Vec<Kind> {
+    let stretches = stretches(&layout.runs, values.len());
+    if stretches.is_empty() {
+        return kinds;
+    }
+    let mut runs = Vec::new();
+    let (mut own, mut own_axes) = (Vec::new(), Vec::new());
+    for stretch in &stretches {
+        let start = own.len();
+        own.extend(&values[stretch.start..stretch.end]);
+        own_axes.extend(axes.into_iter().flat_map(|axes| &axes[stretch.start..stretch.end]));
+        runs.push(Run { start, end: own.len(), ..*stretch });
+    }
+    let problem = Problem::new(&runs, axes.map(|_| own_axes.as_slice()), &own, &Mat::zeros(own.len(), 0));
+    let tried: Vec<(Kind, Option<Tried>)> =
+        kinds.into_par_iter().map(|kind| (kind, problem.tried(kind))).collect();
+    let deviances = tried.iter().filter_map(|(_, tried)| Some(tried.as_ref()?.deviance));
+    let least = deviances.fold(f64::INFINITY, f64::min);
+    let is_listed = |(kind, tried): &(Kind, Option<Tried>)| {
+        kind.serial.autoregressive > AUTOREGRESSIVE[AUTOREGRESSIVE.len() - 1]
+            || tried.as_ref().is_some_and(|tried| tried.deviance <= least + RULED_OUT)
+    };
+    tried.into_iter().filter(is_listed).map(|(kind, _)| kind).collect()
+}
+
+/// Stretches of runs from all over so many components; none where these are few.
+fn stretches(runs: &[Run], components: usize) -> Vec<Run> {
+    if components <= 2 * STRETCH * STRETCHES {
+        return Vec::new();
+    }
+    let each = components / STRETCHES;
+    let of_run = |run: &Run| {
+        let run = *run;
+        (run.start..run.end).step_by(each / run.stride * run.stride).map(move |start| Run {
+            start,
+            end: run.end.min(start + STRETCH / run.stride * run.stride),
+            ..run
+        })
+    };
+    runs.iter().flat_map(of_run).collect()
 }
 
 /// The models that are tried on runs of at most so many rows, each with its number of coefficients: in the residuals' own axes,
@@ -158,13 +239,8 @@ pub(crate) fn models<'a>(
     runs: &'a [Run],
     axes: Option<&'a [[f64; 3]]>,
 ) -> impl Iterator<Item = (Model, f64)> + 'a {
-    let own = serials(length).map(|(serial, free)| (Model { serial, in_space: None }, free));
-    let in_space = axes.into_iter().flat_map(move |axes| {
-        serials(length).filter_map(move |(serial, free)| {
-            Some((Model { serial, in_space: Some(Filter::new(serial, axes, runs)?) }, free))
-        })
-    });
-    own.chain(in_space)
+    Kind::all(length, axes.is_some())
+        .filter_map(move |kind| Some((kind.model(axes, runs)?, kind.coefficients)))
 }
 
 fn serials(length: usize) -> impl Iterator<Item = (Serial, f64)> {
@@ -215,21 +291,23 @@ fn neighbours(layout: &Layout, values: &[f64], axes: Option<&[[f64; 3]]>) -> f64
 /// The values and what was fitted to them.
 struct Problem<'a> {
     runs: &'a [Run],
+    axes: Option<&'a [[f64; 3]]>,
     /// Columns that were fitted, then the values.
     columns: Mat<f64>,
 }
 
 impl<'a> Problem<'a> {
-    fn new(layout: &'a Layout, values: &[f64], q: &Mat<f64>) -> Self {
+    fn new(runs: &'a [Run], axes: Option<&'a [[f64; 3]]>, values: &[f64], q: &Mat<f64>) -> Self {
         let k = if values.len() > MANY { 0 } else { q.ncols() };
         let columns = Mat::from_fn(values.len(), k + 1, |row, column| {
             if column == k { values[row].clamp(-CLIP, CLIP) } else { q[(row, column)] }
         });
-        Self { runs: &layout.runs, columns }
+        Self { runs, axes, columns }
     }
 
-    /// How likely a model of so many coefficients is; `None` where its columns are not independent.
-    fn tried(&self, model: Model, coefficients: f64) -> Option<Tried> {
+    /// How likely a model is; `None` where its columns are not independent, or where no noise is like it.
+    fn tried(&self, kind: Kind) -> Option<Tried> {
+        let model = kind.model(self.axes, self.runs)?;
         let mut white = self.columns.clone();
         (0..white.ncols()).for_each(|j| model.whiten(white.col_as_slice_mut(j), self.runs));
         let gram = white.transpose() * &white;
@@ -241,26 +319,37 @@ impl<'a> Problem<'a> {
         let innovation = l[(k, k)] / left.sqrt();
         let deviance = left * (innovation * innovation).ln() + model.ln_determinant(self.runs) + ln_columns;
         // The size of the innovations is a parameter too.
-        let price = coefficients + 1.0;
+        let price = kind.coefficients + 1.0;
         let criterion = deviance + 2.0 * price * left / (left - price - 1.0).max(1.0);
-        deviance.is_finite().then_some(Tried { model, deviance, criterion, innovation })
+        deviance.is_finite().then_some(Tried { kind, deviance, criterion, innovation })
     }
 
-    /// QᵀVQ for a model.
-    fn product(&self, tried: &Tried, q: &Mat<f64>) -> Mat<f64> {
-        let Model { serial, in_space } = &tried.model;
-        let coloured = |j: usize| match in_space {
-            Some(filter) => filter.coloured(q.col_as_slice(j), self.runs),
-            None => {
-                let mut column = q.col_as_slice(j).to_vec();
-                self.runs.iter().for_each(|&run| serial.colour(&mut column, run));
-                column
+    /// QᵀVQ for a model, piece by piece of the runs: a root of V times Q would be larger than Q.
+    fn product(&self, tried: &Tried, q: &Mat<f64>) -> Option<Mat<f64>> {
+        let Model { serial, in_space } = tried.kind.model(self.axes, self.runs)?;
+        let mut product = Mat::<f64>::zeros(q.ncols(), q.ncols());
+        for run in self.runs {
+            let mut after = vec![Carried::default(); q.ncols()];
+            let starts = (run.start..run.end).step_by(PIECE * run.stride);
+            for start in starts.rev() {
+                let piece = Run { start, end: run.end.min(start + PIECE * run.stride), ..*run };
+                let begins = start == run.start;
+                let coloured = |j: usize, after: &mut Carried| match &in_space {
+                    Some(filter) => filter.coloured(q.col_as_slice(j), piece, after, begins),
+                    None => {
+                        let mut column = q.col_as_slice(j)[piece.start..piece.end].to_vec();
+                        serial.colour(&mut column, piece.stride, after, begins);
+                        column
+                    }
+                };
+                let columns: Vec<Vec<f64>> =
+                    after.par_iter_mut().enumerate().map(|(j, after)| coloured(j, after)).collect();
+                let rows = columns.first().map_or(0, Vec::len);
+                let all = Mat::from_fn(rows, columns.len(), |row, column| columns[column][row]);
+                product += all.transpose() * &all;
             }
-        };
-        let columns: Vec<Vec<f64>> = (0..q.ncols()).map(coloured).collect();
-        let rows = columns.first().map_or(0, Vec::len);
-        let coloured = Mat::from_fn(rows, columns.len(), |row, column| columns[column][row]);
+        }
         let deviation = tried.innovation * serial.gain();
-        coloured.transpose() * &coloured * faer::Scale(deviation * deviation)
+        Some(product * faer::Scale(deviation * deviation))
     }
 }

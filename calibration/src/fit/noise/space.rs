@@ -4,7 +4,7 @@
 //! Source: A. C. Harvey, Forecasting, Structural Time Series Models and the Kalman Filter (1989), section 3.2: the innovations
 //! of the filter are independent, and say everything.
 
-use super::{Run, Serial};
+use super::{Carried, Run, Serial};
 use crate::data::{Measure, Measured, Observations, tangent_frame};
 
 /// A vector of space.
@@ -106,32 +106,28 @@ impl Filter {
         self.scale.iter().map(|scale| -2.0 * scale.ln()).sum()
     }
 
-    /// The products of a column with what each value, of variance one, has part in: two roots of the covariance, one after the
-    /// other, so that the sum of squares is what the noise makes of the column.
+    /// The products of a piece of a run with what each value, of variance one, has part in: two roots of the covariance, one after
+    /// the other, so that the sum of squares is what the noise makes of the column. Pieces come as [`Serial::colour`] says.
     #[must_use]
-    pub fn coloured(&self, column: &[f64], runs: &[Run]) -> Vec<f64> {
+    pub fn coloured(&self, column: &[f64], piece: Run, after: &mut Carried, begins: bool) -> Vec<f64> {
         let Some(Parts { remembered, white }) = Parts::of(self.serial) else {
             unreachable!("a filter is made of such parts")
         };
         let total = remembered + white;
-        let mut roots = Vec::with_capacity(4 * column.len());
         let alone = Serial { moving_average: 0.0, ..self.serial };
-        for run in runs {
-            // The column by the axes of space, row by row.
-            let mut lifted = Vec::new();
-            for row in (run.start..run.end).step_by(run.stride) {
-                let mut sum = Vector::default();
-                let own = row..(row + run.stride).min(run.end);
-                for (axes, value) in self.axes[own.clone()].iter().zip(&column[own]) {
-                    sum.iter_mut().zip(axes).for_each(|(sum, axis)| *sum += axis * value);
-                }
-                lifted.extend(sum);
+        // The column by the axes of space, row by row.
+        let mut roots = Vec::new();
+        for row in (piece.start..piece.end).step_by(piece.stride) {
+            let mut sum = Vector::default();
+            let own = row..(row + piece.stride).min(piece.end);
+            for (axes, value) in self.axes[own.clone()].iter().zip(&column[own]) {
+                sum.iter_mut().zip(axes).for_each(|(sum, axis)| *sum += axis * value);
             }
-            let whole = Run { start: 0, end: lifted.len(), stride: 3 };
-            alone.colour(&mut lifted, whole);
-            roots.extend(lifted.iter().map(|value| value * (remembered / total).sqrt()));
+            roots.extend(sum);
         }
-        roots.extend(column.iter().map(|value| value * (white / total).sqrt()));
+        alone.colour(&mut roots, 3, after, begins);
+        roots.iter_mut().for_each(|value| *value *= (remembered / total).sqrt());
+        roots.extend(column[piece.start..piece.end].iter().map(|value| value * (white / total).sqrt()));
         roots
     }
 }
@@ -231,7 +227,13 @@ mod tests {
         let runs = [Run { start: 0, end: 400, stride: 2 }];
         let filter = Filter::new(serial, &axes, &runs).unwrap();
         let column: Vec<f64> = (0..400).map(|i| (f64::from(i) * 0.07).cos()).collect();
-        let square: f64 = filter.coloured(&column, &runs).iter().map(|value| value * value).sum();
+        let mut after = Carried::default();
+        let squares = [(200..400, false), (0..200, true)].map(|(own, begins)| {
+            let piece = Run { start: own.start, end: own.end, stride: 2 };
+            let coloured = filter.coloured(&column, piece, &mut after, begins);
+            coloured.iter().map(|value| value * value).sum::<f64>()
+        });
+        let square: f64 = squares.iter().sum();
         let covariance = covariance(serial, &axes);
         let pairs = column.iter().enumerate().flat_map(|a| column.iter().enumerate().map(move |b| (a, b)));
         let expected: f64 = pairs.map(|((i, a), (j, b))| a * covariance[(i, j)] * b).sum();

@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 
 use crate::budget::Measured;
 use crate::claims::{ClaimsFile, as_json};
-use crate::commands::{bound, budget, calibrate, check, derive, identify, simulate};
+use crate::commands::{bound, budget, check, derive, identify, simulate};
 use crate::evaluation::{self, Evaluator};
 use crate::ranges::{self, Range, RangeArgument};
 use crate::source::observables;
@@ -261,7 +261,7 @@ pub fn calibrated(
     let measured = studied.load(
         &mut |path, options| match in_memory.iter().find(|(name, _)| *name == path) {
             Some((name, columns)) => Ok(Box::new(Reader::new(name, columns.iter().copied())?)),
-            None => open(calibrate::open_beside(&study, path, from.as_deref())?, path, options),
+            None => open(tables::open_beside(&study, path, from.as_deref())?, path, options),
         },
         || (),
     )?;

@@ -10,7 +10,6 @@ use model_core::SymbolKind;
 use serde_json::{Value, json};
 
 use crate::calibrating::{Calibrated, Studied};
-use crate::commands::calibrate;
 use crate::failure::Failure;
 use crate::source::Source;
 use crate::{errors_file, tables, terminal};
@@ -179,7 +178,7 @@ fn load(studied: &Studied, rows: Rows<'_>) -> Result<Loaded, Failure> {
     let mut rows = Some(rows);
     let loaded = studied.plan.load_tables(&mut |path, options| match rows.take() {
         Some(Rows::Table(table)) => Ok(table),
-        Some(Rows::File(file)) => open(calibrate::open_beside(&studied.study, file, None)?, file, options),
+        Some(Rows::File(file)) => open(tables::open_beside(&studied.study, file, None)?, file, options),
         None => unreachable!("one table is read once: {path}"),
     });
     let loaded = loaded.map_err(|error| match error {

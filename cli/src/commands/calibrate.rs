@@ -1,11 +1,10 @@
 //! `trueaxis calibrate`: fit, residual, trace, amend, report.
 
-use std::fs::File;
-use std::io::{self, Read};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use calibration::calibrate::Calibration;
-use calibration::formats::{self, DataError};
+use calibration::formats;
 use calibration::study::Plan;
 
 use super::{Answer, TextOrJson};
@@ -14,7 +13,7 @@ use crate::failure::Failure;
 use crate::report::{self, Layout};
 use crate::source::Source;
 use crate::waiting::Waiting;
-use crate::{many, output, source, terminal};
+use crate::{many, output, tables, terminal};
 
 /// Fit the errors to measured data, and find what the declaration lacks.
 ///
@@ -63,7 +62,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let reading = progress.clone();
     let mut open = move |path: &str, options: &formats::Options| {
         reading.set_message(format!("reading {path}"));
-        formats::open(open_beside(&study, path, from.as_deref())?, path, options)
+        formats::open(tables::open_beside(&study, path, from.as_deref())?, path, options)
     };
     let read = many::read(studied, arguments.search_rows, &mut open);
     progress.finish_and_clear();
@@ -147,30 +146,4 @@ fn what_is_done(plan: &Plan, rows: usize) -> String {
         (None, folds) => format!("repeating the search in {folds} folds"),
     };
     format!("{rows} observations; fitting {} errors, searching, and {folds}", plan.fit.estimate.len())
-}
-
-/// Opens a data file that the study names; one that is not there comes with where the study says that it is to be had.
-///
-/// # Errors
-/// It cannot be read.
-pub fn open_beside(study: &Source, path: &str, from: Option<&str>) -> Result<Box<dyn Read>, DataError> {
-    let beside = study.beside(Path::new(path));
-    let unreadable = |error: &io::Error| {
-        let why = match source::not_readable(&beside, error) {
-            Failure::Read { why, .. } => why,
-            other => other.to_string(),
-        };
-        let why = match from {
-            Some(from) if error.kind() == io::ErrorKind::NotFound => {
-                format!("{why}; the study says where the data are to be had: {from}")
-            }
-            _ => why,
-        };
-        DataError::Unreadable { file: beside.display().to_string(), why }
-    };
-    let file = File::open(&beside).map_err(|error| unreadable(&error))?;
-    if file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
-        return Err(unreadable(&io::ErrorKind::IsADirectory.into()));
-    }
-    Ok(Box::new(file))
 }

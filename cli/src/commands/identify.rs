@@ -8,12 +8,12 @@ use model_core::identify::{self, Candidate, Identifiability, Mistaken, Ratio, Ve
 use model_core::{BodyId, Chain, Mistakes, ObservableId, Role, names, print};
 use serde_json::{Value, json};
 
-use super::calibrate::open_beside;
 use super::{Answer, TextOrJson};
 use crate::certificates::CertificateArguments;
 use crate::failure::Failure;
 use crate::set_up::SetUpSeen;
 use crate::source::{Source, listed, observables};
+use crate::tables::open_beside;
 use crate::terminal;
 
 /// Say what no data can tell apart.

@@ -3,11 +3,14 @@
 mod readings;
 mod write;
 
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
 
 use calibration::formats::DataError;
 
 use crate::failure::Failure;
+use crate::source::{self, Source};
 #[cfg(feature = "point-clouds")]
 pub use readings::factor_of;
 pub use readings::{ReadingsTable, Rows};
@@ -59,4 +62,30 @@ fn known_format(path: &Path) -> Result<(), Failure> {
 /// A mistake in a data file; its text names the file and the place.
 pub fn failure(error: DataError) -> Failure {
     Failure::Input(error.to_string())
+}
+
+/// Opens a data file that the study names; one that is not there comes with where the study says that it is to be had.
+///
+/// # Errors
+/// It cannot be read.
+pub fn open_beside(study: &Source, path: &str, from: Option<&str>) -> Result<Box<dyn Read>, DataError> {
+    let beside = study.beside(Path::new(path));
+    let unreadable = |error: &io::Error| {
+        let why = match source::not_readable(&beside, error) {
+            Failure::Read { why, .. } => why,
+            other => other.to_string(),
+        };
+        let why = match from {
+            Some(from) if error.kind() == io::ErrorKind::NotFound => {
+                format!("{why}; the study says where the data are to be had: {from}")
+            }
+            _ => why,
+        };
+        DataError::Unreadable { file: beside.display().to_string(), why }
+    };
+    let file = File::open(&beside).map_err(|error| unreadable(&error))?;
+    if file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
+        return Err(unreadable(&io::ErrorKind::IsADirectory.into()));
+    }
+    Ok(Box::new(file))
 }

@@ -47,7 +47,8 @@ pub fn read(
     open: &mut OpenTable<'static>,
 ) -> Result<(Measured, Option<Others>), Failure> {
     let plan = &studied.plan;
-    if !may_be_drawn(plan) {
+    // A pipe can be read once only.
+    if !may_be_drawn(plan) || !studied.table_files().iter().all(|path| path.is_file()) {
         let loaded = plan.load_tables(open).map_err(tables::failure)?;
         return Ok((studied.with_data(loaded), None));
     }
@@ -87,7 +88,7 @@ fn may_be_drawn(plan: &Plan) -> bool {
 pub fn stretches(rows: &[u64], wanted: u64, seed: u64) -> Vec<Vec<Range<u64>>> {
     let all: u64 = rows.iter().sum();
     if all <= wanted {
-        return rows.iter().map(|&rows| vec![0..rows]).collect();
+        return rows.iter().map(|&rows| std::iter::once(0..rows).collect()).collect();
     }
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let (parts, length) = ((wanted / STRETCH).max(1), STRETCH.min(wanted));
@@ -133,15 +134,15 @@ impl Others {
         let amended = Studied::of(declared.study.clone(), Source::of_text("amended.chain", amended))?;
         let drawn =
             [calibrated.observations().clone(), renamed(calibrated.observations(), declared, &amended)];
-        let [before, after] = [(declared, &drawn[0]), (&amended, &drawn[1])].map(|(studied, drawn)| {
-            let start =
-                Streamed::from_sample(&studied.plan.chain, drawn, &options(&studied.plan)).map_err(input)?;
-            passes(start, |pass, _| Ok(vec![pass.accumulate(drawn).map_err(input)?]))
-        });
-        let (before, after) = (before?, after?);
+        let start = |studied: &Studied, drawn| {
+            Streamed::from_sample(&studied.plan.chain, drawn, &options(&studied.plan)).map_err(input)
+        };
+        let of_drawn =
+            |start, drawn| passes(start, |pass, _| Ok(vec![pass.accumulate(drawn).map_err(input)?]));
+        let before = of_drawn(start(declared, &drawn[0])?, &drawn[0])?;
+        let start = start(&amended, &drawn[1])?;
+        let after = of_drawn(start.clone(), &drawn[1])?;
         let mut validation = Validation::default();
-        let start =
-            Streamed::from_sample(&amended.plan.chain, &drawn[1], &options(&amended.plan)).map_err(input)?;
         let fit = passes(start, |pass, number| {
             let mut done = 0;
             let mut of_file = |file: &Drawn| {
@@ -217,7 +218,7 @@ fn each_chunk(
     let mut first = 0;
     while first < file.rows {
         let end = (first + CHUNK).min(file.rows);
-        let mut chunk = Some(Stretches::new(&mut *reader, first, [first..end]));
+        let mut chunk = Some(Stretches::new(&mut *reader, first, std::iter::once(first..end)));
         let loaded = plan.load_tables(&mut |path, _| match chunk.take() {
             Some(chunk) => Ok(Box::new(chunk)),
             None => unreachable!("one file is read once: {path}"),
@@ -272,7 +273,7 @@ mod tests {
             let count: u64 = drawn.iter().flatten().map(|stretch| stretch.end - stretch.start).sum();
             assert!(count <= wanted && count * 2 > wanted, "{rows:?}: {count} of {wanted}");
         }
-        assert_eq!(stretches(&[5, 6], 11, 1), [[0..5], [0..6]]);
+        assert_eq!(stretches(&[5, 6], 11, 1).concat(), [0..5, 0..6]);
         // Of a thousand parts of a hundred million rows, none is far from where it should be.
         let drawn = stretches(&[60_000_000, 40_000_000], 1_000_000, 1);
         assert_eq!([drawn[0].len(), drawn[1].len()], [600, 400]);

@@ -179,6 +179,8 @@ impl<'a> Left<'a> {
     /// Scans sheets, made one after another by `sheet`.
     pub fn scan(&self, sheets: usize, sheet: impl Fn(usize) -> Sheet + Sync) -> Scan {
         let rows = self.residual.len();
+        let standardised = is_needed(self.signs.buckets(), self.basis.ncols())
+            .then(|| Standardised::new(self.signs, self.basis.as_ref(), &self.residual));
         let each: Vec<Scanned> = (0..sheets)
             .into_par_iter()
             .map(|number| {
@@ -193,8 +195,6 @@ impl<'a> Left<'a> {
                 let scores = self.signs.scores(sheet.columns.as_ref(), &self.flipped);
                 let known = &self.known_scores;
                 let own = self.known.subcols(0, q);
-                let standardised = is_needed(self.signs.buckets(), self.basis.ncols())
-                    .then(|| Standardised::new(self.signs, self.basis.as_ref(), &self.residual));
                 let mut chance = Chance::new(self.signs.flips());
                 let mut found = Vec::new();
                 for block in &sheet.blocks {

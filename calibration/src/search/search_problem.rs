@@ -15,6 +15,7 @@ use crate::search::columns::{Columns, Probed, Seen, keep, places};
 use crate::search::context::{Context, declared};
 use crate::search::fitted::Fitted;
 use crate::search::reach::{Part, Reach, further_out};
+use crate::search::standardised::MANY;
 use crate::search::{Cells, Folds, Problem, ProblemError};
 use crate::search::{SearchError, Stage};
 
@@ -72,7 +73,8 @@ impl<'a> SearchProblem<'a> {
     /// With chunk after chunk merged into what is left of those before, and a sample in memory.
     fn merged(whole: &Context<'a>, fitted: &Fitted, folds: Folds, width: usize) -> Result<Self, SearchError> {
         let observations = whole.request.observations;
-        let (mut cells, of_groups) = Cells::new(&folds, CELLS.min(whole.held / (width * width)), width);
+        let cells = cells(whole.held / (width * width), folds.count());
+        let (mut cells, of_groups) = Cells::new(&folds, cells, width);
         let mut seen: Option<Seen> = None;
         // Matrices of chunks that were taken in: a new one each time would cost as much as filling it.
         let room: Mutex<Vec<Mat<f64>>> = Mutex::default();
@@ -176,6 +178,14 @@ impl<'a> SearchProblem<'a> {
         };
         each_chunk(whole.request.observations, made, |_, made| take(made))
     }
+}
+
+/// How many cells there are where so many fill a matrix of the search. Up to twice as many where flips of the folds but one
+/// would else be of too few to be plain: each flip at its own variance costs a hundred times as much.
+fn cells(fill: usize, folds: usize) -> usize {
+    let plain = MANY.div_ceil(folds.saturating_sub(1).max(1)) * folds;
+    let most = if fill < plain && plain <= 2 * fill { plain } else { fill };
+    CELLS.min(most)
 }
 
 /// Lets `take` have what `make` makes of all rows, one chunk after another, each of some stretches. Some chunks are made at once, and

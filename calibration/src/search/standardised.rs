@@ -7,24 +7,32 @@
 //! Source: De Santis, Goeman, Hemerik, Davenport and Finos, "Inference in generalized linear models with robustness to
 //! misspecified variances", arXiv:2209.13918.
 
-use faer::{Mat, MatRef};
+use std::ops::Range;
 
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatRef, Par};
+
+use super::products::picked;
 use super::signs::Signs;
 
-/// Buckets of groups, for each fitted column and in all, from which on the plain flips, with each row's leverage undone, do
-/// as well.
+/// Buckets of groups for each fitted column from which on the plain flips, with each row's leverage undone, do as well.
 const MANY_FOR_A_COLUMN: usize = 16;
-const MANY: usize = 100;
+
+/// The same of all fitted columns.
+pub(super) const MANY: usize = 100;
 
 /// Shares of a score's variance that a flip leaves below which it says nothing.
 const NOTHING: f64 = 1e-6;
 
-/// What is flipped.
+/// What is flipped, its rows in the order of their buckets.
 pub(super) struct Standardised<'a> {
     signs: &'a Signs,
-    /// U.
-    basis: MatRef<'a, f64>,
-    residual: &'a [f64],
+    /// Which row comes when.
+    order: Vec<usize>,
+    /// The rows of each bucket in that order.
+    buckets: Vec<(usize, Range<usize>)>,
+    /// `[U | r]`.
+    fitted: Mat<f64>,
 }
 
 /// Whether flips of so many buckets have to be standardised after a fit of so many columns.
@@ -33,44 +41,55 @@ pub(super) fn is_needed(buckets: usize, fitted: usize) -> bool {
 }
 
 impl<'a> Standardised<'a> {
-    pub fn new(signs: &'a Signs, basis: MatRef<'a, f64>, residual: &'a [f64]) -> Self {
-        Self { signs, basis, residual }
+    pub fn new(signs: &'a Signs, basis: MatRef<'_, f64>, residual: &[f64]) -> Self {
+        let of_row = signs.bucket_of_row();
+        let mut order: Vec<usize> = (0..residual.len()).collect();
+        order.sort_by_key(|&row| of_row[row]);
+        let mut end = 0;
+        let runs = order.chunk_by(|&a, &b| of_row[a] == of_row[b]).map(|run| {
+            end += run.len();
+            (of_row[run[0]], end - run.len()..end)
+        });
+        let buckets = runs.collect();
+        let p = basis.ncols();
+        let mut fitted = Mat::zeros(residual.len(), p + 1);
+        fitted.subcols_mut(0, p).copy_from(picked(basis, &order));
+        fitted.col_as_slice_mut(p).iter_mut().zip(&order).for_each(|(to, &row)| *to = residual[row]);
+        Self { signs, order, buckets, fitted }
     }
 
     /// What a block explains of each flip's sum of squares.
     pub fn gains(&self, block: MatRef<'_, f64>) -> Vec<f64> {
-        let (p, q) = (self.basis.ncols(), block.ncols());
-        let mut products = Mat::zeros(self.signs.buckets(), p * q + q);
-        let mut product = vec![0.0; self.residual.len()];
-        for c in 0..q {
-            for u in 0..p {
-                let pairs = self.basis.col(u).iter().zip(block.col(c).iter());
-                product.iter_mut().zip(pairs).for_each(|(target, (a, b))| *target = a * b);
-                self.add(&product, products.col_as_slice_mut(c * p + u));
+        let (p, q) = (self.fitted.ncols() - 1, block.ncols());
+        let block = picked(block, &self.order);
+        // Of each bucket the products of U and of the residual with each column of the block.
+        let mut products = Mat::zeros(self.signs.buckets(), (p + 1) * q);
+        let mut own = Mat::zeros(p + 1, q);
+        for (bucket, rows) in &self.buckets {
+            let fitted = self.fitted.subrows(rows.start, rows.len());
+            let block = block.subrows(rows.start, rows.len());
+            matmul(&mut own, Accum::Replace, fitted.transpose(), block, 1.0, Par::Seq);
+            for (c, column) in own.col_iter().enumerate() {
+                for (u, product) in column.iter().enumerate() {
+                    products[(*bucket, c * (p + 1) + u)] = *product;
+                }
             }
-            let pairs = self.residual.iter().zip(block.col(c).iter());
-            product.iter_mut().zip(pairs).for_each(|(target, (a, b))| *target = a * b);
-            self.add(&product, products.col_as_slice_mut(p * q + c));
         }
         let flipped = self.signs.flip(products.as_ref());
         let mut left = Mat::zeros(q, q);
         (0..self.signs.flips())
             .map(|flip| {
-                let w = |u: usize, c: usize| flipped[(flip, c * p + u)];
+                let w = |u: usize, c: usize| flipped[(flip, c * (p + 1) + u)];
                 for i in 0..q {
                     for j in 0..=i {
                         let taken: f64 = (0..p).map(|u| w(u, i) * w(u, j)).sum();
                         left[(i, j)] = if i == j { 1.0 - taken } else { -taken };
                     }
                 }
-                let score: Vec<f64> = (0..q).map(|c| flipped[(flip, p * q + c)]).collect();
+                let score: Vec<f64> = (0..q).map(|c| w(p, c)).collect();
                 quadratic(&mut left, score)
             })
             .collect()
-    }
-
-    fn add(&self, product: &[f64], target: &mut [f64]) {
-        self.signs.bucket_of_row().iter().zip(product).for_each(|(&bucket, value)| target[bucket] += value);
     }
 }
 

@@ -13,7 +13,6 @@ use crate::diagnose::rms::share;
 use crate::fit::FitResult;
 use crate::search::SearchError;
 use crate::search::context::Context;
-use crate::search::fitted::Fitted;
 use crate::search::library::AsGood;
 use crate::search::round::Round;
 use crate::study::Plan;
@@ -67,7 +66,7 @@ pub(super) fn chosen<'a>(
     if functions == Some(false) || told.round.fitted.found.len() > NAMED || !may_gain() {
         return judge(told, before);
     }
-    let fitted = Fitted::with(whole, told.round.fitted.found.clone(), &told.round.fitted)?;
+    let fitted = told.round.fitted.clone();
     let told = judge(told, before)?;
     let taken_up = judge(with_functions(Round::at(whole, fitted)?, TRIED)?, before)?;
     Ok(if is_confirmed(whole, &told.judged, &taken_up.judged) { taken_up } else { told })

@@ -13,6 +13,7 @@ use crate::search::ProblemError;
 use crate::search::columns::{Columns, Probed, places};
 
 /// A fit of the declaration with the effects accepted so far.
+#[derive(Clone)]
 pub(crate) struct Fitted {
     /// The declaration with these effects.
     pub chain: Chain,

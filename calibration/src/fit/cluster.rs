@@ -22,24 +22,6 @@ pub(super) struct Share {
     pub count: f64,
 }
 
-impl Share {
-    /// No rows yet, k columns.
-    pub fn new(k: usize) -> Self {
-        Self { gram: Mat::zeros(k, k), score: vec![0.0; k], count: 0.0 }
-    }
-
-    /// Takes in one component: its row of Q and its residual.
-    pub fn add(&mut self, row: &[f64], residual: f64) {
-        self.count += 1.0;
-        for (j, &right) in row.iter().enumerate() {
-            self.score[j] += right * residual;
-            for (i, &left) in row.iter().enumerate() {
-                self.gram[(i, j)] += left * right;
-            }
-        }
-    }
-}
-
 /// Groups, each adjusted for what the fit took out of its residuals.
 #[derive(Debug, Clone)]
 pub(super) struct Clusters {

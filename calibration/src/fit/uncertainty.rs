@@ -8,6 +8,7 @@ use std::ops::Range;
 
 use faer::Mat;
 use model_core::SymbolId;
+use rayon::prelude::*;
 
 use super::block::Block;
 use super::cluster::{ALONE, Clusters, Share};
@@ -296,16 +297,29 @@ struct Coordinates {
 
 /// What each bucket of components has part in.
 fn shares(q: &Mat<f64>, residual: &[f64], buckets: &Buckets) -> Vec<Share> {
-    let mut shares = vec![Share::new(q.ncols()); buckets.count];
-    let mut row = vec![0.0; q.ncols()];
-    for (at, (&bucket, &residual)) in buckets.of_component.iter().zip(residual).enumerate() {
-        row.iter_mut().enumerate().for_each(|(j, value)| *value = q[(at, j)]);
+    let k = q.ncols();
+    let mut members: Vec<Vec<usize>> = vec![Vec::new(); buckets.count];
+    for (at, &bucket) in buckets.of_component.iter().enumerate() {
         // What is set aside is zero throughout.
-        if residual != 0.0 || row.iter().any(|value| *value != 0.0) {
-            shares[bucket].add(&row, residual);
+        if residual[at] != 0.0 || (0..k).any(|j| q[(at, j)] != 0.0) {
+            members[bucket].push(at);
         }
     }
-    shares
+    let share = |own: Vec<usize>| {
+        let mut rows = Mat::<f64>::zeros(own.len(), k);
+        for j in 0..k {
+            let column = q.col_as_slice(j);
+            rows.col_as_slice_mut(j).iter_mut().zip(&own).for_each(|(to, &at)| *to = column[at]);
+        }
+        let left = Mat::from_fn(own.len(), 1, |row, _| residual[own[row]]);
+        let score = rows.transpose() * left;
+        Share {
+            gram: rows.transpose() * &rows,
+            score: score.col_as_slice(0).to_vec(),
+            count: own.len() as f64,
+        }
+    };
+    members.into_par_iter().map(share).collect()
 }
 
 /// Which of some sets each component belongs to.

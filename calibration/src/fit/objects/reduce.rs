@@ -4,12 +4,24 @@
 //! as white as the rows were, and has no part of any object: a column of the search is then one that objects would not
 //! have followed, in rows that were held out as well, where each object is estimated anew from its own rows alone.
 
-use faer::Mat;
+use std::ops::Range;
+
+use faer::{Mat, Side};
+use rayon::prelude::*;
 
 use crate::data::unknowns::{Unknowns, WIDTH};
 
 /// A direction of an object of which less than this share is left by those before moves nothing of its own.
 const NOTHING: f64 = 1e-8;
+
+/// A combination of stations' columns of length one of which this share of the sum of squares is left moves nothing of its own.
+const MOVED: f64 = 1e-10;
+
+/// Rows that are multiplied at a time.
+const CHUNK: usize = 8192;
+
+/// Numbers that are multiplied at once.
+const LANES: usize = 8;
 
 /// What one object's rows are rotated by.
 #[derive(Debug, Clone)]
@@ -24,6 +36,8 @@ struct Turned {
     columns: Mat<f64>,
     /// Which of the numbers the rows move.
     moves: Vec<bool>,
+    /// Whitened orthonormal columns that span what those do.
+    units: Vec<Vec<f64>>,
 }
 
 /// The rotation of all objects' rows.
@@ -44,7 +58,7 @@ impl Reduction {
                 components[object as usize].push(component);
             }
         }
-        let turned = components.into_iter().zip(&unknowns.objects).filter_map(|(at, object)| {
+        let turned = components.into_par_iter().zip(&unknowns.objects).filter_map(|(at, object)| {
             let k = object.numbers().min(at.len());
             if k == 0 {
                 return None;
@@ -53,16 +67,23 @@ impl Reduction {
             let mut matrix = Mat::from_fn(at.len(), k, |i, j| columns[(i, j)] * scale[at[i]]);
             let (reflections, moves) = reflected(&mut matrix);
             let factor = Mat::from_fn(k, k, |i, j| if i <= j { matrix[(i, j)] } else { 0.0 });
-            Some(Turned { at, reflections, factor, columns, moves })
+            let units = units(&reflections, &moves);
+            Some(Turned { at, reflections, factor, columns, moves, units })
         });
         Self { turned: turned.collect(), scale }
     }
 
     /// Rotates a whitened and weighted column, and puts to zero what objects explain.
     pub fn reduce(&self, column: &mut [f64]) {
+        let mut own = Vec::new();
         for turned in &self.turned {
-            let own = turned.unexplained(column);
-            turned.at.iter().zip(own).for_each(|(&at, value)| column[at] = value);
+            turned.gather(column, &mut own);
+            turned.turn(&mut own);
+            own.iter_mut()
+                .zip(&turned.moves)
+                .filter(|(_, moves)| **moves)
+                .for_each(|(value, _)| *value = 0.0);
+            turned.at.iter().zip(&own).for_each(|(&at, value)| column[at] = *value);
         }
     }
 
@@ -95,35 +116,29 @@ impl Reduction {
         unknown: &[[f64; WIDTH]],
         columns: &mut Mat<f64>,
     ) -> Vec<f64> {
-        for j in 0..columns.ncols() {
-            self.take_out(columns.col_as_slice_mut(j));
-        }
+        self.take_out(columns);
         let mut stations = unknowns.station_columns(row, unknown);
-        for j in 0..stations.ncols() {
-            let column = stations.col_as_slice_mut(j);
+        for column in stations.col_iter_mut() {
             column.iter_mut().zip(&self.scale).for_each(|(value, scale)| *value *= scale);
-            self.take_out(column);
         }
-        // Column by column, twice: one pass of Gram-Schmidt leaves rounding of the part taken out.
-        let mut basis: Vec<Vec<f64>> = Vec::new();
-        for column in stations.col_iter() {
-            let mut own: Vec<f64> = column.iter().copied().collect();
-            let before = length(&own);
-            for _ in 0..2 {
-                basis.iter().for_each(|known| without(&mut own, known));
-            }
-            let after = length(&own);
-            if after > 1e-6 * before && after > 0.0 {
-                own.iter_mut().for_each(|value| *value /= after);
-                basis.push(own);
-            }
-        }
-        for j in 0..columns.ncols() {
-            basis.iter().for_each(|known| without(columns.col_as_slice_mut(j), known));
-        }
+        self.take_out(&mut stations);
         let mut followed = self.followed();
-        for known in &basis {
-            followed.iter_mut().zip(known).for_each(|(share, value)| *share += value * value);
+        let root = root(&products(&stations, &stations));
+        let taken = &root * (root.transpose() * products(&stations, columns));
+        let parts = in_chunks(stations.nrows(), |rows| {
+            let own = stations.subrows(rows.start, rows.len());
+            (own * &taken, own * &root)
+        });
+        let mut at = 0;
+        for (explained, basis) in parts {
+            let count = explained.nrows();
+            let mut columns = columns.subrows_mut(at, count);
+            columns -= &explained;
+            for column in basis.col_iter() {
+                let own = followed[at..].iter_mut().zip(column.iter());
+                own.for_each(|(share, value)| *share += value * value);
+            }
+            at += count;
         }
         followed
     }
@@ -132,59 +147,115 @@ impl Reduction {
     fn followed(&self) -> Vec<f64> {
         let mut followed = vec![0.0; self.scale.len()];
         for turned in &self.turned {
-            for number in (0..turned.moves.len()).filter(|&number| turned.moves[number]) {
-                let mut unit = vec![0.0; turned.at.len()];
-                unit[number] = 1.0;
-                turned.turn_back(&mut unit);
+            for unit in &turned.units {
                 turned.at.iter().zip(unit).for_each(|(&at, value)| followed[at] += value * value);
             }
         }
         followed
     }
 
-    /// Takes out of a whitened column what objects explain of it.
-    fn take_out(&self, column: &mut [f64]) {
-        for turned in &self.turned {
-            let mut own = turned.unexplained(column);
-            turned.turn_back(&mut own);
-            turned.at.iter().zip(own).for_each(|(&at, value)| column[at] = value);
+    /// Takes out of whitened columns what objects explain of them.
+    fn take_out(&self, columns: &mut Mat<f64>) {
+        let without = |j: usize| {
+            let mut column = columns.col_as_slice(j).to_vec();
+            let mut own = Vec::new();
+            for turned in &self.turned {
+                turned.gather(&column, &mut own);
+                for unit in &turned.units {
+                    let share = dot(unit, &own);
+                    add(&mut own, -share, unit);
+                }
+                turned.at.iter().zip(&own).for_each(|(&at, value)| column[at] = *value);
+            }
+            column
+        };
+        let columns_without: Vec<Vec<f64>> = (0..columns.ncols()).into_par_iter().map(without).collect();
+        for (j, column) in columns_without.into_iter().enumerate() {
+            columns.col_as_slice_mut(j).copy_from_slice(&column);
         }
     }
 }
 
-fn length(column: &[f64]) -> f64 {
-    column.iter().map(|value| value * value).sum::<f64>().sqrt()
+/// What `f` makes of some rows at a time, in order.
+fn in_chunks<T: Send>(rows: usize, f: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
+    let chunk = |number: usize| number * CHUNK..((number + 1) * CHUNK).min(rows);
+    (0..rows.div_ceil(CHUNK)).into_par_iter().map(|number| f(chunk(number))).collect()
 }
 
-/// Takes a unit column's part out of another.
-fn without(column: &mut [f64], unit: &[f64]) {
-    let share: f64 = column.iter().zip(unit).map(|(a, b)| a * b).sum();
-    column.iter_mut().zip(unit).for_each(|(a, b)| *a -= share * b);
+/// The inner products of the columns of one matrix with those of another.
+fn products(a: &Mat<f64>, b: &Mat<f64>) -> Mat<f64> {
+    let parts = in_chunks(a.nrows(), |rows| {
+        a.subrows(rows.start, rows.len()).transpose() * b.subrows(rows.start, rows.len())
+    });
+    parts.into_iter().fold(Mat::zeros(a.ncols(), b.ncols()), |sum, part| sum + part)
+}
+
+/// A matrix that makes of columns with these inner products orthonormal ones that span them.
+fn root(products: &Mat<f64>) -> Mat<f64> {
+    let count = products.ncols();
+    let length = |j: usize| products[(j, j)].sqrt();
+    let kept: Vec<usize> = (0..count).filter(|&j| length(j) > 0.0).collect();
+    let scaled = Mat::from_fn(kept.len(), kept.len(), |i, j| {
+        products[(kept[i], kept[j])] / (length(kept[i]) * length(kept[j]))
+    });
+    let Ok(eigen) = scaled.self_adjoint_eigen(Side::Lower) else { return Mat::zeros(count, 0) };
+    let values = eigen.S().column_vector();
+    let largest = values.iter().copied().fold(0.0, f64::max);
+    let seen: Vec<usize> = (0..kept.len()).filter(|&at| values[at] > MOVED * largest).collect();
+    let mut root = Mat::zeros(count, seen.len());
+    for (to, &at) in seen.iter().enumerate() {
+        for (i, &row) in kept.iter().enumerate() {
+            root[(row, to)] = eigen.U()[(i, at)] / values[at].sqrt() / length(row);
+        }
+    }
+    root
+}
+
+/// The sum of products, lane by lane.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let ((a, rest), (b, other)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
+    let mut sums = [0.0; LANES];
+    for (a, b) in a.iter().zip(b) {
+        (0..LANES).for_each(|lane| sums[lane] += a[lane] * b[lane]);
+    }
+    sums.iter().sum::<f64>() + rest.iter().zip(other).map(|(a, b)| a * b).sum::<f64>()
+}
+
+/// Adds a multiple of `b` to `a`.
+fn add(a: &mut [f64], factor: f64, b: &[f64]) {
+    a.iter_mut().zip(b).for_each(|(a, b)| *a += factor * b);
 }
 
 impl Turned {
-    /// The object's part of a whitened column, rotated, zero where the object explains it.
-    fn unexplained(&self, column: &[f64]) -> Vec<f64> {
-        let mut own: Vec<f64> = self.at.iter().map(|&at| column[at]).collect();
-        self.turn(&mut own);
-        own.iter_mut().zip(&self.moves).filter(|(_, moves)| **moves).for_each(|(value, _)| *value = 0.0);
-        own
-    }
-
-    fn turn_back(&self, own: &mut [f64]) {
-        let all: Vec<_> = self.reflections.col_iter().zip(&self.moves).filter(|(_, moves)| **moves).collect();
-        for (v, _) in all.into_iter().rev() {
-            let share: f64 = 2.0 * v.iter().zip(own.iter()).map(|(v, x)| v * x).sum::<f64>();
-            own.iter_mut().zip(v.iter()).for_each(|(x, v)| *x -= share * v);
-        }
+    /// The object's part of a column.
+    fn gather(&self, column: &[f64], own: &mut Vec<f64>) {
+        own.clear();
+        own.extend(self.at.iter().map(|&at| column[at]));
     }
 
     fn turn(&self, own: &mut [f64]) {
-        for (v, _) in self.reflections.col_iter().zip(&self.moves).filter(|(_, moves)| **moves) {
-            let share: f64 = 2.0 * v.iter().zip(own.iter()).map(|(v, x)| v * x).sum::<f64>();
-            own.iter_mut().zip(v.iter()).for_each(|(x, v)| *x -= share * v);
+        for number in (0..self.moves.len()).filter(|&number| self.moves[number]) {
+            let v = self.reflections.col_as_slice(number);
+            let share = dot(v, own);
+            add(own, -2.0 * share, v);
         }
     }
+}
+
+/// Whitened unit columns that span what an object moves: what reflections make of the first of their coordinates.
+fn units(reflections: &Mat<f64>, moves: &[bool]) -> Vec<Vec<f64>> {
+    let moving = || (0..moves.len()).filter(|&number| moves[number]);
+    let unit = |number: usize| {
+        let mut unit = vec![0.0; reflections.nrows()];
+        unit[number] = 1.0;
+        for number in moving().rev() {
+            let v = reflections.col_as_slice(number);
+            let share = dot(v, &unit);
+            add(&mut unit, -2.0 * share, v);
+        }
+        unit
+    };
+    moving().map(unit).collect()
 }
 
 /// Turns a matrix into a triangle in place; the reflections, and which columns had anything of their own.
@@ -243,10 +314,9 @@ mod tests {
         // What each component's own residual leaves of itself.
         let followed = reduction.followed();
         for (at, followed) in followed.iter().enumerate() {
-            let mut unit = vec![0.0; 12];
-            unit[at] = 1.0;
+            let mut unit = Mat::from_fn(12, 1, |row, _| f64::from(u8::from(row == at)));
             reduction.take_out(&mut unit);
-            assert!((1.0 - unit[at] - followed).abs() < 1e-12, "{at}: {unit:?}");
+            assert!((1.0 - unit[(at, 0)] - followed).abs() < 1e-12, "{at}: {unit:?}");
         }
         // Sines of three phases are sums of two, for each object.
         assert!((followed.iter().sum::<f64>() - 4.0).abs() < 1e-12 && followed[5] == 0.0, "{followed:?}");

@@ -149,8 +149,19 @@ impl<'a> Left<'a> {
     /// The Gram matrix of the known columns, others, and the residual, in this order.
     #[must_use]
     pub fn gram(&self, columns: MatRef<'_, f64>) -> Mat<f64> {
+        self.gram_of_blocks(columns, std::slice::from_ref(&(0..columns.ncols())))
+    }
+
+    /// The same without the products of columns of different blocks, which are left zero.
+    fn gram_of_blocks(&self, columns: MatRef<'_, f64>, blocks: &[Range<usize>]) -> Mat<f64> {
         let (k, q) = (columns.ncols(), self.known.ncols() - 1);
-        let (own, cross) = (columns.transpose() * columns, self.known.transpose() * columns);
+        let cross = self.known.transpose() * columns;
+        let mut own = Mat::zeros(k, k);
+        for block in blocks {
+            let (start, count) = (block.start, block.len());
+            let part = columns.subcols(start, count);
+            own.submatrix_mut(start, start, count, count).copy_from(part.transpose() * part);
+        }
         let known = &self.known_gram;
         // The residual comes last in both numberings.
         let place = |at: usize| match at {
@@ -186,7 +197,7 @@ impl<'a> Left<'a> {
             .map(|number| {
                 let sheet = sheet(number);
                 let q = self.known.ncols() - 1;
-                let gram = self.gram(sheet.columns.as_ref());
+                let gram = self.gram_of_blocks(sheet.columns.as_ref(), &sheet.blocks);
                 let before: Vec<f64> = (0..gram.ncols()).map(|j| gram[(j, j)]).collect();
                 let mut sweep = Sweep::new(gram);
                 let base: Vec<usize> = (0..q).filter(|&column| sweep.add(column)).collect();

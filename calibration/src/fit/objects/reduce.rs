@@ -195,6 +195,10 @@ fn root(products: &Mat<f64>) -> Mat<f64> {
     let count = products.ncols();
     let length = |j: usize| products[(j, j)].sqrt();
     let kept: Vec<usize> = (0..count).filter(|&j| length(j) > 0.0).collect();
+    if kept.is_empty() {
+        // No station is unknown, or none moves anything.
+        return Mat::zeros(count, 0);
+    }
     let scaled = Mat::from_fn(kept.len(), kept.len(), |i, j| {
         products[(kept[i], kept[j])] / (length(kept[i]) * length(kept[j]))
     });

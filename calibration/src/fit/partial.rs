@@ -10,9 +10,6 @@ use faer::{Mat, MatRef};
 /// Numbers that are multiplied at once.
 const LANES: usize = 8;
 
-/// Columns that are turned into the triangle before the others follow.
-const PANEL: usize = 4;
-
 /// The triangular factor R of [J | r] for all rows so far, with counts: QᵀQ = 1, [J | r] = Q R.
 ///
 /// p parameters, so R is (p + 1) × (p + 1); the last column belongs to the residual.
@@ -242,7 +239,7 @@ impl Partial {
 /// Reflections that turn a triangle on top of rows into a triangle alone. Nothing is fused, so that a factor has the
 /// same bits on every processor.
 ///
-/// Source: G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., sections 5.1 and 5.2.3; rows go in block by block as in
+/// Source: G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., section 5.1; rows go in block by block as in
 /// J. Demmel et al., Communication-optimal Parallel and Sequential QR and LU Factorizations (2012), section 4.
 struct Reflections<'a> {
     packed: &'a mut [f64],
@@ -256,132 +253,53 @@ impl vector::Work for Reflections<'_> {
     #[inline(always)]
     fn run<A: Arithmetic>(self, _: A) {
         let Self { packed, side, leading, rows } = self;
-        let stride = rows.stride;
-        if stride == 0 {
-            return;
-        }
-        for first in (0..leading).step_by(PANEL) {
-            let last = (first + PANEL).min(leading);
-            let end = (last * stride).min(rows.values.len());
+        let stride = rows.stride.max(1);
+        for column in 0..leading {
+            let end = ((column + 1) * stride).min(rows.values.len());
             let (done, others) = rows.values.split_at_mut(end);
-            let Some(panel) = done.get_mut(first * stride..) else { return };
-            let mut turned: [Option<Reflection>; PANEL] = [None; PANEL];
-            for column in first..last {
-                let (before, after) = panel.split_at_mut((column + 1 - first) * stride);
-                let below = &before[(column - first) * stride..];
-                let Some(own) = Reflection::of(&mut packed[column * (column + 1) / 2 + column], below) else {
-                    continue;
-                };
-                for (other, target) in (column + 1..last).zip(after.chunks_exact_mut(stride)) {
-                    let top = &mut packed[other * (other + 1) / 2 + column];
-                    apply([own], [[0.0]], [below], [top], target);
-                }
-                turned[column - first] = Some(own);
-            }
-            let own = |at: usize| &panel[at * stride..(at + 1) * stride];
-            if let [Some(a), Some(b), Some(c), Some(d)] = turned {
-                // All at once, so that a column behind them is read and written but once.
-                let belows: [&[f64]; PANEL] = std::array::from_fn(own);
-                let mut products = [[0.0; PANEL]; PANEL];
-                for j in 0..PANEL {
-                    (0..j).for_each(|i| products[j][i] = dot(belows[j], belows[i]));
-                }
-                for (other, target) in (last..side).zip(others.chunks_exact_mut(stride)) {
-                    let start = other * (other + 1) / 2 + first;
-                    if let [x, y, z, w] = &mut packed[start..start + PANEL] {
-                        apply([a, b, c, d], products, belows, [x, y, z, w], target);
-                    }
-                }
+            let below = done.get(column * stride..).unwrap_or_default();
+            let square = dot(below, below);
+            let corner = column * (column + 1) / 2 + column;
+            if square < f64::MIN_POSITIVE {
                 continue;
             }
-            for (at, turned) in turned.into_iter().enumerate() {
-                let Some(turned) = turned else { continue };
-                for (other, target) in (last..side).zip(others.chunks_exact_mut(stride)) {
-                    let top = &mut packed[other * (other + 1) / 2 + first + at];
-                    apply([turned], [[0.0]], [own(at)], [top], target);
-                }
+            let old = packed[corner];
+            // The sign that does not cancel.
+            let new = -(old * old + square).sqrt().copysign(old);
+            let head = old - new;
+            packed[corner] = new;
+            for (other, target) in (column + 1..side).zip(others.chunks_exact_mut(stride)) {
+                let at = other * (other + 1) / 2 + column;
+                let share = (head * packed[at] + dot(below, target)) / (new * head);
+                packed[at] += share * head;
+                add(target, share, below);
             }
         }
     }
-}
-
-/// A reflection that turns a column's rows into its corner of the triangle.
-#[derive(Clone, Copy)]
-struct Reflection {
-    head: f64,
-    /// The corner times the head.
-    scale: f64,
-}
-
-impl Reflection {
-    /// Of a column's corner, which it replaces, and its rows; none where these are nothing.
-    #[inline(always)]
-    fn of(corner: &mut f64, below: &[f64]) -> Option<Self> {
-        let square = dot(below, below);
-        if square < f64::MIN_POSITIVE {
-            return None;
-        }
-        let old = *corner;
-        // The sign that does not cancel.
-        let new = -(old * old + square).sqrt().copysign(old);
-        let head = old - new;
-        *corner = new;
-        Some(Self { head, scale: new * head })
-    }
-}
-
-/// Applies reflections one after the other to a column, of which `tops` are those rows of the triangle: with the products of their
-/// rows with those of the ones before.
-#[inline(always)]
-fn apply<const N: usize>(
-    turned: [Reflection; N],
-    products: [[f64; N]; N],
-    belows: [&[f64]; N],
-    tops: [&mut f64; N],
-    target: &mut [f64],
-) {
-    let dots = dots(belows, target);
-    let mut shares = [0.0; N];
-    for (j, top) in tops.into_iter().enumerate() {
-        let moved: f64 = (0..j).map(|i| shares[i] * products[j][i]).sum();
-        shares[j] = (turned[j].head * *top + (dots[j] + moved)) / turned[j].scale;
-        *top += shares[j] * turned[j].head;
-    }
-    add(target, shares, belows);
 }
 
 /// The sum of products, lane by lane.
 #[inline(always)]
 fn dot(a: &[f64], b: &[f64]) -> f64 {
-    dots([a], b)[0]
-}
-
-/// The same of some columns with one.
-#[inline(always)]
-fn dots<const N: usize>(columns: [&[f64]; N], b: &[f64]) -> [f64; N] {
+    let (a, _) = a.as_chunks::<LANES>();
     let (b, _) = b.as_chunks::<LANES>();
-    let columns = columns.map(|column| &column.as_chunks::<LANES>().0[..b.len()]);
-    let mut sums = [[0.0; LANES]; N];
-    for (at, b) in b.iter().enumerate() {
-        for (sums, column) in sums.iter_mut().zip(columns) {
-            for lane in 0..LANES {
-                sums[lane] += column[at][lane] * b[lane];
-            }
+    let mut sums = [0.0; LANES];
+    for (a, b) in a.iter().zip(b) {
+        for lane in 0..LANES {
+            sums[lane] += a[lane] * b[lane];
         }
     }
-    sums.map(|sums| sums.iter().sum())
+    sums.iter().sum()
 }
 
-/// Adds multiples of columns to `a`.
+/// Adds a multiple of `b` to `a`.
 #[inline(always)]
-fn add<const N: usize>(a: &mut [f64], factors: [f64; N], columns: [&[f64]; N]) {
+fn add(a: &mut [f64], factor: f64, b: &[f64]) {
     let (a, _) = a.as_chunks_mut::<LANES>();
-    let columns = columns.map(|column| &column.as_chunks::<LANES>().0[..a.len()]);
-    for (at, a) in a.iter_mut().enumerate() {
-        for (column, factor) in columns.iter().zip(factors) {
-            for lane in 0..LANES {
-                a[lane] += factor * column[at][lane];
-            }
+    let (b, _) = b.as_chunks::<LANES>();
+    for (a, b) in a.iter_mut().zip(b) {
+        for lane in 0..LANES {
+            a[lane] += factor * b[lane];
         }
     }
 }

@@ -107,7 +107,7 @@ impl Filter {
     }
 
     /// The products of a piece of a run with what each value, of variance one, has part in: two roots of the covariance, one after
-    /// the other, so that the sum of squares is what the noise makes of the column. Pieces come as [`Serial::colour`] says.
+    /// the other, so that the sum of squares is what the noise makes of the column. Pieces come from the last to the first.
     #[must_use]
     pub fn coloured(&self, column: &[f64], piece: Run, after: &mut Carried, begins: bool) -> Vec<f64> {
         let Some(Parts { remembered, white }) = Parts::of(self.serial) else {

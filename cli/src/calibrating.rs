@@ -15,6 +15,7 @@ use crate::source::{self, Source};
 use crate::{date, tables, terminal};
 
 /// A study that was read, with the declaration that it names.
+#[derive(Clone)]
 pub struct Studied {
     /// The study.
     pub study: Source,
@@ -80,14 +81,13 @@ impl Studied {
         self.tables().map(|path| self.study.beside(Path::new(path))).collect()
     }
 
-    /// Reads the tables, and says when they are read; warns of columns whose numbers are hardly in SI.
+    /// Reads the tables; warns of columns whose numbers are hardly in SI.
     ///
     /// # Errors
     /// What is wrong with a table, with its place.
-    pub fn load(self, open: &mut OpenTable<'_>, read: impl FnOnce()) -> Result<Measured, Failure> {
-        let loaded = self.plan.load_tables(open);
-        read();
-        Ok(self.with_data(loaded.map_err(tables::failure)?))
+    pub fn load(self, open: &mut OpenTable<'_>) -> Result<Measured, Failure> {
+        let loaded = self.plan.load_tables(open).map_err(tables::failure)?;
+        Ok(self.with_data(loaded))
     }
 
     /// With data that were read; warns of what is doubtful.

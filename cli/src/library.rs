@@ -258,13 +258,11 @@ pub fn calibrated(
     tell: &(dyn Fn(Stage) + Sync),
 ) -> Result<Calibrated, Failure> {
     let (study, from) = (studied.study.clone(), studied.plan.data_from.clone());
-    let measured = studied.load(
-        &mut |path, options| match in_memory.iter().find(|(name, _)| *name == path) {
+    let measured =
+        studied.load(&mut |path, options| match in_memory.iter().find(|(name, _)| *name == path) {
             Some((name, columns)) => Ok(Box::new(Reader::new(name, columns.iter().copied())?)),
             None => open(tables::open_beside(&study, path, from.as_deref())?, path, options),
-        },
-        || (),
-    )?;
+        })?;
     measured.calibrate(command, tell)
 }
 

@@ -49,8 +49,7 @@ pub fn read(
     let plan = &studied.plan;
     // A pipe can be read once only.
     if !may_be_drawn(plan) || !studied.table_files().iter().all(|path| path.is_file()) {
-        let loaded = plan.load_tables(open).map_err(tables::failure)?;
-        return Ok((studied.with_data(loaded), None));
+        return Ok((studied.load(open)?, None));
     }
     let budget = Budget::new(at_most);
     let loaded =

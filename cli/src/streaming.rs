@@ -2,7 +2,6 @@
 
 use calibration::calibrate::OfEveryRow;
 use calibration::data::Observations;
-use calibration::fit::noise::NoiseOptions;
 use calibration::fit::{FitOptions, Foretelling, Next, Pass, Streamed, StreamedResult, Tally, Validation};
 use calibration::formats::{DataError, TableReader, open};
 use calibration::study::{Loaded, Plan};
@@ -15,6 +14,7 @@ use crate::source::Source;
 use crate::{errors_file, tables, terminal};
 
 /// A fit between passes, or done.
+#[derive(Clone)]
 pub struct Streaming {
     studied: Studied,
     next: Next,
@@ -129,8 +129,8 @@ pub fn validated(
 ) -> Result<Validation, Failure> {
     let [rows_before, rows_after] = rows;
     let (own_before, own_after) = (before.loaded(rows_before)?, after.loaded(rows_after)?);
-    let options = &after.studied.plan.fit;
-    Validation::of(before.foretelling(&own_before), after.foretelling(&own_after), floor, options)
+    let options = options(&after.studied.plan);
+    Validation::of(before.foretelling(&own_before), after.foretelling(&own_after), floor, &options)
         .map_err(input)
 }
 
@@ -146,11 +146,9 @@ impl<'a> Foretold<'a> {
     }
 }
 
-/// How to fit: while something is missing, residuals are larger than what is stated of the noise, and weights go by what they are.
+/// How to fit, as the search does.
 pub fn options(plan: &Plan) -> FitOptions {
-    let NoiseOptions { sigma, stated, .. } = plan.fit.noise;
-    let noise = NoiseOptions { sigma: None, stated: stated.or(sigma), ..plan.fit.noise };
-    FitOptions { noise, ..plan.fit.clone() }
+    FitOptions { noise: plan.fit.noise.by_residuals(), ..plan.fit.clone() }
 }
 
 pub fn input(error: impl ToString) -> Failure {
@@ -201,7 +199,7 @@ fn as_json(studied: &Studied, result: &StreamedResult) -> Value {
         json!({
             "name": symbol.name,
             "value": result.values[id.index()],
-            "standard_uncertainty": result.uncertainty[at],
+            "standard_uncertainty": result.standard_uncertainty(&[(at, 1.0)]),
             "unit": symbol.quantity.unit(),
             "separable": result.separable[at],
         })

@@ -74,6 +74,12 @@ impl Fitting {
         Ok(Self { study, chain, streaming: Mutex::new(Some(streaming)) })
     }
 
+    /// The same fit, to be made of other rows.
+    fn copy(&self) -> Self {
+        let streaming = self.streaming.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        Self { study: self.study.clone(), chain: self.chain.clone(), streaming: Mutex::new(streaming) }
+    }
+
     /// The study and the declaration, each with its name.
     #[getter]
     fn texts(&self) -> (Text, Text) {

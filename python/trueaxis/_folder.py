@@ -70,14 +70,14 @@ def calibrate_folder(
         tell("fitting the declaration to the rows that were drawn, as it was and as amended")
         fitted, (studied, declared) = of_table(before, table), before.texts
         amended = ("amended.chain", found.amended)
-        of_drawn = _native.Fitting(studied, amended, table)
+        fitting = _native.Fitting(studied, amended, table)
+        of_drawn = fitting.copy()
         after = of_table(of_drawn, table)
         sums = None
         if fitted.converged and after.converged:
             judged = [(declared, errors_text(fitted.values)), (amended, errors_text(after.values))]
             tasks = [(file, own, studied, judged, after.noise, _native.__version__) for file, own in zip(files, stretches)]
             sums = _judged(each, tasks, tell)
-        fitting = _native.Fitting(studied, amended, table)
         of_files(fitting, files, each, lambda number, done, of: tell(f"fitting every row, pass {number}: {done} of {of} files"))
         fitting.complete(native, of_drawn, len(files), sums)
         return Calibration(native)

@@ -1,6 +1,5 @@
 //! Every row: a calibration of some of the rows takes its errors from a fit of all, and is judged on the others.
 
-use faer::Mat;
 use model_core::Chain;
 
 use super::Calibration;
@@ -62,14 +61,15 @@ impl Calibration {
             let id = chain.find_symbol(name)?;
             fit.parameters.iter().position(|known| *known == id)
         };
+        let estimate = |at: usize| fit.values[fit.parameters[at].index()];
         for (symbol, value) in self.chain.symbols.iter().zip(&mut self.after.values) {
             if let Some(at) = place(&symbol.name) {
-                *value = fit.values[fit.parameters[at].index()];
+                *value = estimate(at);
             }
         }
         for error in &mut self.diagnosis.errors {
             let Some(at) = place(&error.name) else { continue };
-            error.value = fit.values[fit.parameters[at].index()];
+            error.value = estimate(at);
             if let Some(searched) = error.standard_uncertainty {
                 error.standard_uncertainty = Some(every.uncertainty(&[(at, 1.0)], searched, has_groups));
             }
@@ -82,8 +82,7 @@ impl Calibration {
                 .iter()
                 .map(|(id, factor)| Some((place(&self.chain.symbol(*id).name)?, *factor)));
             let Some(parts) = parts.collect::<Option<Vec<_>>>() else { continue };
-            own.value =
-                parts.iter().map(|(at, factor)| factor * fit.values[fit.parameters[*at].index()]).sum();
+            own.value = parts.iter().map(|(at, factor)| factor * estimate(*at)).sum();
             own.standard_uncertainty = every.uncertainty(&parts, own.standard_uncertainty, has_groups);
         }
         let mut not_borne_out = Vec::new();
@@ -116,24 +115,14 @@ impl OfEveryRow<'_> {
     /// The standard uncertainty of a combination of parameters from every row. A fit of all counts rows of a file as independent, or files:
     /// what else the calibration knows of its noise makes its ± `searched` of the rows drawn, and those of all by as much larger.
     fn uncertainty(&self, combination: &[(usize, f64)], searched: f64, has_groups: bool) -> f64 {
-        let own = standard(self.fit, combination);
+        let own = self.fit.standard_uncertainty(combination);
         if has_groups {
             // More rows of the same groups tell less than more groups would.
             return own.max(searched);
         }
-        let of_drawn = standard(self.drawn, combination);
+        let of_drawn = self.drawn.standard_uncertainty(combination);
         if of_drawn > 0.0 { own * (searched / of_drawn).max(1.0) } else { own }
     }
-}
-
-/// The standard uncertainty of a combination, of independent rows or of whole files.
-fn standard(fit: &StreamedResult, combination: &[(usize, f64)]) -> f64 {
-    let of = |covariance: &Mat<f64>| -> f64 {
-        let pairs = combination.iter().flat_map(|one| combination.iter().map(move |other| (one, other)));
-        pairs.map(|((i, a), (j, b))| a * b * covariance[(*i, *j)]).sum()
-    };
-    let of_files = fit.shared.as_ref().map_or(0.0, |shared| of(&shared.covariance));
-    of(&fit.covariance).max(of_files).max(0.0).sqrt()
 }
 
 /// Means of the sums; none without rows that count.

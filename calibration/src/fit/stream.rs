@@ -66,8 +66,6 @@ pub struct StreamedResult {
     pub values: Vec<f64>,
     /// Covariance of the estimates, p × p, SI, if rows are independent.
     pub covariance: Mat<f64>,
-    /// Standard uncertainties, SI, in the order of the covariance: of independent rows or, where those of a file share errors, of files.
-    pub uncertainty: Vec<f64>,
     /// What the rows of a file share; none where they do not, or there are too few files to tell.
     pub shared: Option<SharedByUnits>,
     /// The number of combinations that the data determine.
@@ -84,6 +82,20 @@ pub struct StreamedResult {
     pub passes: usize,
     /// Whether the last step was negligible.
     pub converged: bool,
+}
+
+impl StreamedResult {
+    /// The standard uncertainty of a combination of parameters, each by its place in the covariance with its factor, SI: of independent
+    /// rows or, where those of a file share errors, of files.
+    #[must_use]
+    pub fn standard_uncertainty(&self, combination: &[(usize, f64)]) -> f64 {
+        let of = |covariance: &Mat<f64>| -> f64 {
+            let pairs = combination.iter().flat_map(|one| combination.iter().map(move |other| (one, other)));
+            pairs.map(|((i, a), (j, b))| a * b * covariance[(*i, *j)]).sum()
+        };
+        let of_files = self.shared.as_ref().map_or(0.0, |shared| of(&shared.covariance));
+        of(&self.covariance).max(of_files).max(0.0).sqrt()
+    }
 }
 
 /// What is to be done after a pass.
@@ -206,19 +218,13 @@ impl Streamed {
         // The factor is weighted; dividing by the mean weight makes up for it.
         let mean = (tally.weights / partial.components as f64).max(f64::MIN_POSITIVE);
         let covariance = of_data * faer::Scale(factor * mean) + by_prior;
-        let components = partial.components as f64;
-        let variance = tally.weighted_squares / (components - used).max(1.0) / mean;
+        let variance = tally.weighted_squares / left.max(1.0) / mean;
         let of_files: Vec<Partial> =
             files.iter().map(|file| file.partial.spread(self.pass.model.column_of())).collect();
         let shared = shared(&of_files, &root, variance, tally.stride());
-        let uncertainty = (0..covariance.nrows()).map(|at| {
-            let of_files = shared.as_ref().map_or(0.0, |shared| shared.covariance[(at, at)]);
-            covariance[(at, at)].max(of_files).sqrt()
-        });
         StreamedResult {
             parameters: self.pass.model.parameters().to_vec(),
             values: self.pass.values,
-            uncertainty: uncertainty.collect(),
             covariance,
             shared,
             rank: subspace.rank(),

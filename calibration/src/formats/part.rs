@@ -2,14 +2,14 @@
 
 use std::cell::Cell;
 use std::collections::VecDeque;
-use std::ops::Range;
+use std::ops::{DerefMut, Range};
 
 use super::{Chunk, ColumnName, DataError, Form, TableReader, Wanted, no_cells};
 
 /// Rows that are passed over at a time.
 const SKIPPED: u64 = 1 << 16;
 
-/// Some stretches of a table's rows.
+/// Some stretches of a table's rows, of a reader that this owns or borrows.
 pub struct Stretches<R> {
     reader: R,
     /// Rows that have been read.
@@ -17,7 +17,7 @@ pub struct Stretches<R> {
     left: VecDeque<Range<u64>>,
 }
 
-impl<R: TableReader> Stretches<R> {
+impl<R: DerefMut<Target: TableReader>> Stretches<R> {
     /// The rows in these stretches, which follow each other, of a reader that has read `at` of them.
     #[must_use]
     pub fn new(reader: R, at: u64, stretches: impl IntoIterator<Item = Range<u64>>) -> Self {
@@ -25,7 +25,7 @@ impl<R: TableReader> Stretches<R> {
     }
 }
 
-impl<R: TableReader> TableReader for Stretches<R> {
+impl<R: DerefMut<Target: TableReader>> TableReader for Stretches<R> {
     fn source(&self) -> &str {
         self.reader.source()
     }
@@ -39,7 +39,7 @@ impl<R: TableReader> TableReader for Stretches<R> {
             if self.at >= next.end {
                 self.left.pop_front();
             } else if self.at < next.start {
-                let rows = skip(&mut self.reader, next.start - self.at)?;
+                let rows = skip(&mut *self.reader, next.start - self.at)?;
                 if rows == 0 {
                     break;
                 }
@@ -55,7 +55,7 @@ impl<R: TableReader> TableReader for Stretches<R> {
 }
 
 /// Passes over at most so many rows; how many there were.
-fn skip(reader: &mut dyn TableReader, rows: u64) -> Result<u64, DataError> {
+fn skip<R: TableReader + ?Sized>(reader: &mut R, rows: u64) -> Result<u64, DataError> {
     let wanted = [Wanted { column: 0, form: Form::Kept }];
     Ok(reader.read(&wanted, rows.min(SKIPPED) as usize)?.rows.len() as u64)
 }
@@ -101,7 +101,7 @@ pub struct Within<'b, R> {
     budget: &'b Budget,
 }
 
-impl<'b, R: TableReader> Within<'b, R> {
+impl<'b, R: DerefMut<Target: TableReader>> Within<'b, R> {
     /// The rows that a budget has left.
     #[must_use]
     pub fn new(reader: R, budget: &'b Budget) -> Self {
@@ -109,7 +109,7 @@ impl<'b, R: TableReader> Within<'b, R> {
     }
 }
 
-impl<R: TableReader> TableReader for Within<'_, R> {
+impl<R: DerefMut<Target: TableReader>> TableReader for Within<'_, R> {
     fn source(&self) -> &str {
         self.reader.source()
     }
@@ -125,38 +125,10 @@ impl<R: TableReader> TableReader for Within<'_, R> {
             self.budget.left.set(left - chunk.rows.len());
             return Ok(chunk);
         }
-        if !self.budget.is_exceeded() && skip(&mut self.reader, 1)? > 0 {
+        if !self.budget.is_exceeded() && skip(&mut *self.reader, 1)? > 0 {
             self.budget.is_exceeded.set(true);
         }
         Ok(Chunk { columns: no_cells(wanted), ..Chunk::default() })
-    }
-}
-
-impl<T: TableReader + ?Sized> TableReader for &mut T {
-    fn source(&self) -> &str {
-        (**self).source()
-    }
-
-    fn header(&self) -> &[ColumnName] {
-        (**self).header()
-    }
-
-    fn read(&mut self, wanted: &[Wanted], at_most: usize) -> Result<Chunk, DataError> {
-        (**self).read(wanted, at_most)
-    }
-}
-
-impl<T: TableReader + ?Sized> TableReader for Box<T> {
-    fn source(&self) -> &str {
-        (**self).source()
-    }
-
-    fn header(&self) -> &[ColumnName] {
-        (**self).header()
-    }
-
-    fn read(&mut self, wanted: &[Wanted], at_most: usize) -> Result<Chunk, DataError> {
-        (**self).read(wanted, at_most)
     }
 }
 

@@ -7,7 +7,7 @@ use super::context::{Context, Found, declared};
 use super::{SearchError, Stage};
 use crate::candidate::EffectId;
 use crate::data::unknowns::Unknowns;
-use crate::fit::noise::{Layout, NoiseOptions};
+use crate::fit::noise::Layout;
 use crate::fit::{FitOptions, FitResult, fit};
 use crate::search::ProblemError;
 use crate::search::columns::{Columns, Probed, places};
@@ -90,10 +90,7 @@ impl Fitted {
         options: FitOptions,
     ) -> Result<Self, SearchError> {
         let observations = whole.request.observations;
-        // While something is missing, residuals are larger than the noise: weights go by what they are.
-        let NoiseOptions { sigma, stated, .. } = options.noise;
-        let noise = NoiseOptions { sigma: None, stated: stated.or(sigma), ..options.noise };
-        let options = FitOptions { noise, ..options };
+        let options = FitOptions { noise: options.noise.by_residuals(), ..options };
         (whole.tell)(Stage::Fit { effects: found.len() });
         let fit = fit(&chain, observations, &options)?;
         let places = places(&whole.catalogue);

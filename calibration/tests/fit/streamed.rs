@@ -218,11 +218,12 @@ fn rows_of_a_file_may_share_errors() {
             let result = streamed(&simulation, &files[0], &files, &options);
             assert_eq!(result.shared.is_some(), shares, "{:?}", result.shared);
             let at = result.parameters.iter().position(|&id| id == base).unwrap();
-            let error = (result.values[base.index()] - truth) / result.uncertainty[at];
+            let uncertainty = result.standard_uncertainty(&[(at, 1.0)]);
+            let error = (result.values[base.index()] - truth) / uncertainty;
             off[usize::from(shares)] += error * error;
             // Independent rows would make it a tenth of what it is.
             let independent = result.covariance[(at, at)].sqrt();
-            seen += usize::from(result.uncertainty[at] > if shares { 5.0 } else { 1.0 } * independent);
+            seen += usize::from(uncertainty > if shares { 5.0 } else { 1.0 } * independent);
         }
     }
     // Sums of twenty squares of what is normal, but for the few files: chi-squared lies between 7 and 40 in 99 of 100 cases.

@@ -48,6 +48,13 @@ impl NoiseOptions {
     pub(crate) fn known(&self) -> Option<f64> {
         self.sigma.filter(|sigma| *sigma > 0.0)
     }
+
+    /// The same where weights go by what the residuals are, and what is known of them only states what they should be: while
+    /// something is missing, residuals are larger than the noise.
+    #[must_use]
+    pub fn by_residuals(&self) -> Self {
+        Self { sigma: None, stated: self.stated.or(self.sigma), ..self.clone() }
+    }
 }
 
 impl Default for NoiseOptions {

@@ -68,7 +68,7 @@ pub(super) fn trusting(plan: &Plan) -> Plan {
 /// Rows that a round's model does not explain: those set aside, and as many as uneven noise could hide.
 fn doubts(round: &Round<'_>) -> usize {
     let fit = &round.fitted.fit;
-    fit.set_aside.len() + if fit.noise.variance.is_some() { fewest(round) } else { 0 }
+    fit.set_aside.len() + if !fit.noise.variance.is_empty() { fewest(round) } else { 0 }
 }
 
 /// Penalised log-likelihood of a round's model at its noise, where the robust loss bounds what a row far from the rest costs.
@@ -86,7 +86,7 @@ fn criterion(whole: &Context<'_>, round: &Round<'_>) -> f64 {
         .map(|(norm, measure)| robust::loss(norm, measure.components()))
         .sum();
     let spread: f64 = noise.sigma.iter().map(|sigma| sigma.ln()).sum();
-    let terms = noise.variance.map_or(0, |model| model.terms.len());
+    let terms: usize = noise.variance.iter().map(|model| model.terms.len()).sum();
     let parameters = (round.fitted.fit.rank + terms) as f64;
     let choice = ln_choices(round.sets.len(), round.fitted.found.len());
     -spread - loss / 2.0 - parameters / 2.0 * (white.len() as f64).ln() - choice

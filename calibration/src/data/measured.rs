@@ -1,6 +1,7 @@
 //! What one observation measured, and what the numbers of a series are.
 
 use nalgebra::{UnitQuaternion, Vector3};
+use serde::Serialize;
 
 use super::SiUnit;
 
@@ -33,6 +34,18 @@ pub enum Measure {
     Distance,
     /// A direction that is an unknown point's from a station; two residual components across and along, rad.
     Sight,
+}
+
+/// What the noise of a component is of: that of one varies with the pose in its own way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NoiseOf {
+    /// Angles.
+    Angles,
+    /// Lengths.
+    Lengths,
+    /// Places across a beam, which is as far off as an angle makes it at the range.
+    Across,
 }
 
 impl Measure {
@@ -73,6 +86,16 @@ impl Measure {
             Self::Plane => &["off_plane"],
             Self::Target => &["across", "up", "along"],
             Self::Wire | Self::Distance => &["length"],
+        }
+    }
+
+    /// What the noise of a residual component is of.
+    #[must_use]
+    pub fn noise_of(self, component: usize) -> NoiseOf {
+        match self {
+            Self::Target if component < 2 => NoiseOf::Across,
+            _ if self.unit() == SiUnit::RAD => NoiseOf::Angles,
+            _ => NoiseOf::Lengths,
         }
     }
 

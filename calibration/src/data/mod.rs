@@ -18,7 +18,7 @@ pub mod unknowns;
 pub(crate) mod waves;
 
 pub use derive::{DeriveError, Derived, parse_derived};
-pub use measured::{Measure, Measured};
+pub use measured::{Measure, Measured, NoiseOf};
 pub use numbers::Numbers;
 pub(crate) use origin::Places;
 pub use origin::{Origin, Origins};
@@ -76,6 +76,13 @@ impl Observations {
     #[must_use]
     pub fn states_sigma(&self, series: &Series) -> bool {
         self.sigma.get(series.rows.clone()).is_some_and(|own| own.iter().any(Option::is_some))
+    }
+
+    /// What the noise of each kind of component is of, series by series, component by component.
+    #[must_use]
+    pub fn noise_of_kinds(&self) -> Vec<NoiseOf> {
+        let measures = self.poses.series.iter().map(|series| series.measure);
+        measures.flat_map(|measure| (0..measure.components()).map(move |at| measure.noise_of(at))).collect()
     }
 
     /// These rows, in the order given, with all that belongs to them. Every series is kept, though it may hold no rows.

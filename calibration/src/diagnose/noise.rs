@@ -3,7 +3,7 @@
 use model_core::{Chain, SymbolId};
 use serde::Serialize;
 
-use crate::data::{Observations, SiUnit};
+use crate::data::{NoiseOf, Observations, SiUnit};
 use crate::fit::FitResult;
 use crate::fit::noise::{Layout, VarianceTerm};
 
@@ -18,7 +18,7 @@ pub struct NoiseFound {
     pub stated: Option<f64>,
     /// What was found over what the study or the data state; none where nothing is stated.
     pub over_stated: Option<f64>,
-    /// How the logarithm of the variance depends on joints and ranges: a sum of these.
+    /// How the logarithm of the variance depends on joints and ranges: of angles, of lengths and across a beam a sum of these.
     pub variance: Vec<VarianceFound>,
     /// What a row keeps of the row before, if the rows remember.
     pub serial: Option<SerialFound>,
@@ -45,6 +45,8 @@ pub struct SeriesNoise {
 /// A term of the logarithm of the variance.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct VarianceFound {
+    /// The components whose variance it is.
+    pub noise_of: NoiseOf,
     /// `cos`, `sin` or `ln`.
     pub function: &'static str,
     /// The joint or range.
@@ -92,14 +94,15 @@ pub(super) fn noise(
     let over_stated = over_stated(&series, stated);
     let unit = observations.poses.series.first().map_or(SiUnit::RAD, |series| series.measure.unit());
     let expected_rms = expected_rms(observations, fit, unit);
-    let variance = fit.noise.variance.iter().flat_map(|model| &model.terms);
-    let variance = variance.map(|&(term, coefficient)| {
+    let variance =
+        fit.noise.variance.iter().flat_map(|model| model.terms.iter().map(|term| (model.of, *term)));
+    let variance = variance.map(|(noise_of, (term, coefficient))| {
         let (function, id, multiple): (_, SymbolId, _) = match term {
             VarianceTerm::Cos(id, multiple) => ("cos", id, multiple),
             VarianceTerm::Sin(id, multiple) => ("sin", id, multiple),
             VarianceTerm::LogRange(id) => ("ln", id, 1),
         };
-        VarianceFound { function, of: chain.symbol(id).name.clone(), multiple, coefficient }
+        VarianceFound { noise_of, function, of: chain.symbol(id).name.clone(), multiple, coefficient }
     });
     NoiseFound {
         expected_rms,

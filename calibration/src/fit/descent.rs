@@ -5,13 +5,14 @@
 
 use std::sync::Arc;
 
+use super::coordinates::Coordinates;
 use super::mixing::Mixing;
 use super::normal::Rest;
 use super::solver::{Course, Solver, same};
 use super::subspace::Subspace;
 use super::sweep::Weighting;
 use super::{FitError, Reason};
-use crate::fit::noise::{self, Noise};
+use crate::fit::noise::{self, Followed, Noise};
 
 /// A step is negligible when it moves the prediction by this many standard deviations in all.
 const NEGLIGIBLE: f64 = 1e-7;
@@ -128,7 +129,7 @@ impl Solver<'_> {
             if self.kept_components(course) as f64 <= self.used(course) {
                 break;
             }
-            let learned = self.learn_noise(course);
+            let learned = self.learn_noise(course)?;
             let known = same(&learned, &course.noise, NOISE_KNOWN);
             if !same(&learned, &course.noise, SAME_NOISE) {
                 let values = std::mem::take(&mut course.point.values);
@@ -228,5 +229,32 @@ impl Solver<'_> {
         let resolution = noise::resolution(self.observations);
         let sigma = noise.sigma_without_memory();
         sigma.iter().map(|sigma| (resolution / sigma).powi(2)).sum::<f64>().sqrt()
+    }
+    /// What the residuals say of the noise.
+    fn learn_noise(&self, course: &Course) -> Result<Noise, FitError> {
+        let (_, weight) = self.norms_and_weights(course);
+        let sweep = &course.point.sweep;
+        let followed = match &self.observations.unknowns {
+            None => Followed::Evenly { used: self.used(course) },
+            // An object seen closely takes its place from the sights across it, which leave little of their own.
+            Some(_) => {
+                let root = course.subspace.covariance_root(&self.partial(sweep), &course.point.rest);
+                let Coordinates { q, mut followed, .. } = self.coordinates(course, &weight, &root)?;
+                for column in q.col_iter() {
+                    followed.iter_mut().zip(column.iter()).for_each(|(sum, value)| *sum += value * value);
+                }
+                Followed::Each(followed)
+            }
+        };
+        let options = &self.options.noise;
+        Ok(noise::estimate(
+            self.chain,
+            options,
+            self.observations,
+            &self.layout,
+            &sweep.residual,
+            &weight,
+            &followed,
+        ))
     }
 }

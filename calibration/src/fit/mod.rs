@@ -6,6 +6,7 @@
 mod align;
 mod block;
 mod cluster;
+mod coordinates;
 mod descent;
 mod directions;
 mod estimable;

@@ -176,13 +176,6 @@ impl Solver<'_> {
         noise::ln_scale(self.observations, &self.layout, residual)
     }
 
-    pub(super) fn learn_noise(&self, course: &Course) -> Noise {
-        let (_, weight) = self.norms_and_weights(course);
-        let (residual, used) = (&course.point.sweep.residual, self.used(course));
-        let options = &self.options.noise;
-        noise::estimate(self.chain, options, self.observations, &self.layout, residual, &weight, used)
-    }
-
     /// Per row the norm of its whitened components and its weight; rows without a value have none.
     pub(super) fn norms_and_weights(&self, course: &Course) -> (Vec<f64>, Vec<f64>) {
         let sigma = course.noise.sigma_without_memory();

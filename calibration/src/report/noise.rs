@@ -1,6 +1,7 @@
 //! The noise in words.
 
 use super::numbers::{times, told};
+use crate::data::NoiseOf;
 use crate::diagnose::{Diagnosis, VarianceFound};
 
 /// What was found of the noise, a sentence each.
@@ -25,10 +26,15 @@ pub fn noise(diagnosis: &Diagnosis) -> Vec<String> {
              missing"
         ));
     }
-    if !noise.variance.is_empty() {
-        let terms: Vec<String> = noise.variance.iter().map(term).collect();
+    for own in noise.variance.chunk_by(|one, next| one.noise_of == next.noise_of) {
+        let terms: Vec<String> = own.iter().map(term).collect();
+        let of = match own[0].noise_of {
+            NoiseOf::Angles => "of angles",
+            NoiseOf::Lengths => "of lengths",
+            NoiseOf::Across => "across the beam",
+        };
         said.push(format!(
-            "the noise depends on the joints: the logarithm of its variance is {}",
+            "the noise {of} depends on the joints: the logarithm of its variance is {}",
             terms.join(" ")
         ));
     }

@@ -7,7 +7,9 @@
 
 mod frames;
 mod next;
+mod noise;
 mod refused;
+mod room;
 mod visible;
 
 use std::path::{Path, PathBuf};

@@ -29,15 +29,18 @@ impl<'a> Usual<'a> {
 
     /// The standard deviation of each component of a row of a series at some readings, rad or m.
     pub fn sigma(&self, series: usize, reading: impl Fn(SymbolId) -> f64) -> Vec<f64> {
-        let own = |&(row, sigma): &(usize, f64)| {
+        let measure = self.observations.poses.series[series].measure;
+        let own = |(component, &(row, sigma)): (usize, &(usize, f64))| {
             let there =
                 |id: SymbolId| self.observations.poses.column(id).map_or(f64::NAN, |column| column[row]);
-            let terms = self.noise.variance.iter().flat_map(|variance| &variance.terms);
+            let of = measure.noise_of(component);
+            let own = self.noise.variance.iter().filter(|variance| variance.of == of);
+            let terms = own.flat_map(|variance| &variance.terms);
             let ln: f64 =
                 terms.map(|(term, by)| by * (function(*term, &reading) - function(*term, &there))).sum();
             (sigma * (ln / 2.0).exp()).max(f64::MIN_POSITIVE)
         };
-        self.of_series[series].iter().map(own).collect()
+        self.of_series[series].iter().enumerate().map(own).collect()
     }
 }
 

@@ -58,7 +58,19 @@ pub fn of_floors(
     finish(Noise { floor, ..Noise::default() }, observations, layout, &stated)
 }
 
-/// The noise model from raw residuals, the weights of the rows, and how many independent numbers the estimates used up.
+/// How much of residuals the estimates follow.
+#[derive(Debug, Clone)]
+pub enum Followed {
+    /// So many independent numbers were estimated, and no component is known to have more part in them than others.
+    Evenly {
+        /// How many.
+        used: f64,
+    },
+    /// Of each component the share of a residual of its own.
+    Each(Vec<f64>),
+}
+
+/// The noise model from raw residuals, the weights of the rows, and what the estimates followed of them.
 #[must_use]
 pub fn estimate(
     chain: &Chain,
@@ -67,27 +79,33 @@ pub fn estimate(
     layout: &Layout,
     residual: &[f64],
     weight: &[f64],
-    used: f64,
+    followed: &Followed,
 ) -> Noise {
     let stated = stated(options, observations, layout);
     // Weights between none and all are those of a robust fit.
     let robust_weights = weight.iter().any(|&weight| weight > 0.0 && weight < 1.0);
     let counted = layout.row_of_each().filter(|&row| robust_weights || weight[row] > 0.0).count() as f64;
-    let lost = counted / (counted - used).max(1.0);
+    let (used, left) = match followed {
+        Followed::Evenly { used } => (*used, vec![(counted - used).max(1.0) / counted]),
+        Followed::Each(followed) => {
+            (followed.iter().sum(), followed.iter().map(|followed| (1.0 - followed).max(0.0)).collect())
+        }
+    };
     let pools = pools(observations, layout, used);
     let floors = |spread: &[f64]| -> Vec<f64> {
         let mut sums = vec![[0.0; 2]; layout.kinds];
         let of_each = layout.row_of_each().zip(layout.kind_of_each());
-        for ((row, kind), (residual, spread)) in of_each.zip(residual.iter().zip(each(spread))) {
+        let residuals = residual.iter().zip(each(spread)).zip(left.iter().cycle());
+        for ((row, kind), ((residual, spread), left)) in of_each.zip(residuals) {
             let stride = layout.of_rows(row..row + 1).len();
             let consistency = if robust_weights { robust::consistency(stride) } else { 1.0 };
             let [weights, squares] = &mut sums[pools[kind]];
-            *weights += weight[row];
+            *weights += weight[row] * left;
             *squares += weight[row] * consistency * (residual / spread).powi(2);
         }
         let floor = |pool: &usize| {
             let [weights, squares] = sums[*pool];
-            if weights > 0.0 { (lost * squares / weights).sqrt() } else { 0.0 }
+            if weights > 0.0 { (squares / weights).sqrt() } else { 0.0 }
         };
         pools.iter().map(floor).collect()
     };
@@ -95,10 +113,17 @@ pub fn estimate(
     let mut noise = finish(Noise { floor, ..Noise::default() }, observations, layout, &stated);
     if options.variance && options.sigma.is_none() {
         let scaled: Vec<f64> = residual.iter().zip(&noise.sigma).map(|(r, sigma)| r / sigma).collect();
-        if let Some((model, factor)) = variance::fit(chain, observations, layout, &scaled, weight) {
-            let spread: Vec<f64> =
-                each(&stated).zip(layout.row_of_each()).map(|(sigma, row)| sigma * factor[row]).collect();
-            noise = Noise { floor: floors(&spread), variance: Some(model), ..Noise::default() };
+        let found = variance::fit(chain, observations, layout, &scaled, weight, &left);
+        if !found.is_empty() {
+            let of_kinds = observations.noise_of_kinds();
+            let mut spread: Vec<f64> = each(&stated).take(layout.components()).collect();
+            for (model, factor) in &found {
+                let of_each = layout.row_of_each().zip(layout.kind_of_each());
+                let own = spread.iter_mut().zip(of_each).filter(|(_, (_, kind))| of_kinds[*kind] == model.of);
+                own.for_each(|(spread, (row, _))| *spread *= factor[row]);
+            }
+            let variance = found.into_iter().map(|(model, _)| model).collect();
+            noise = Noise { floor: floors(&spread), variance, ..Noise::default() };
             noise = finish(noise, observations, layout, &spread);
         }
     }

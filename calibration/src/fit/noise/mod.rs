@@ -17,11 +17,11 @@ use std::borrow::Cow;
 
 use model_core::SymbolId;
 
-use crate::data::Observations;
+use crate::data::{NoiseOf, Observations};
 use crate::fit::robust::median;
 
+pub use estimate::{Followed, estimate, from_medians, of_floors, resolution};
 pub(super) use estimate::{each, ln_scale, stated};
-pub use estimate::{estimate, from_medians, of_floors, resolution};
 pub use layout::{Layout, Run};
 pub use pool::pools;
 pub use session::Offsets;
@@ -69,8 +69,8 @@ pub struct Noise {
     /// Standard deviation of each kind of component (series by series, component by component): rad or m, or a
     /// factor on the standard uncertainties that the data state.
     pub floor: Vec<f64>,
-    /// The dependence of the variance on the joints, if one was found.
-    pub variance: Option<VarianceModel>,
+    /// The dependence of the variance on the joints: of angles, of lengths and across a beam, where one was found.
+    pub variance: Vec<VarianceModel>,
     /// The serial correlation, if one was found.
     pub serial: Option<Serial>,
     /// What whitens by it, where rows remember in axes that stand still in space, and not across and along a beam that turns.
@@ -90,6 +90,8 @@ pub struct Noise {
 /// log variance = Σ coefficient · function of joints and ranges, above the floor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VarianceModel {
+    /// The components whose variance it is.
+    pub of: NoiseOf,
     /// Functions with their coefficients.
     pub terms: Vec<(VarianceTerm, f64)>,
 }

@@ -1,5 +1,5 @@
 //! A variance that depends on the joints: log-linear in cos q, sin q, cos 2q, sin 2q of each joint and in the
-//! logarithm of measured ranges.
+//! logarithm of measured ranges; of angles, of lengths and of what lies across a beam each its own.
 //!
 //! The functions are made anew block by block whenever they are asked for: of many rows they would need more memory than the rows.
 //!
@@ -13,8 +13,9 @@ use model_core::{Chain, Quantity, SymbolId, SymbolKind};
 use rayon::prelude::*;
 
 use super::{Layout, VarianceModel, VarianceTerm};
-use crate::data::Observations;
 use crate::data::waves::waves;
+use crate::data::{NoiseOf, Observations};
+use crate::fit::cluster::ALONE;
 use crate::fit::partial::{Partial, Rows};
 
 /// Components per coefficient below which no variance model is looked for.
@@ -30,24 +31,44 @@ const DEPENDENT: f64 = 1e-7;
 /// the exponential finite.
 const REACH: f64 = 20.0;
 
-/// The model and, per row, the factor on the standard deviation; `None` if the data do not bear one out.
+/// The models that the data bear out, each with its factor on the standard deviation, per row. A residual has so much of its
+/// noise `left`: one share for all, or each its own.
 pub fn fit(
     chain: &Chain,
     observations: &Observations,
     layout: &Layout,
     scaled: &[f64],
     weight: &[f64],
-) -> Option<(VarianceModel, Vec<f64>)> {
+    left: &[f64],
+) -> Vec<(VarianceModel, Vec<f64>)> {
+    let of_kinds = observations.noise_of_kinds();
+    let mut all = of_kinds.clone();
+    all.sort_unstable();
+    all.dedup();
     let sources = sources(chain, observations);
+    let own = |of: NoiseOf| {
+        let own = |row: usize| {
+            let components = if weight[row] > 0.0 { layout.of_rows(row..row + 1) } else { 0..0 };
+            let kinds = &of_kinds[layout.kind(components.start)..];
+            let own = components.zip(kinds).filter(move |(_, kind)| **kind == of);
+            own.map(|(at, _)| (left[at % left.len()], scaled[at]))
+        };
+        of_components(of, &sources, layout.rows(), own)
+    };
+    all.into_iter().filter_map(own).collect()
+}
+
+/// The model of what a row has of its `own` and, per row, the factor on the standard deviation; `None` if the data do not bear one out.
+fn of_components<I: Iterator<Item = (f64, f64)>>(
+    of: NoiseOf,
+    sources: &[Source<'_>],
+    rows: usize,
+    own: impl Fn(usize) -> I + Sync,
+) -> Option<(VarianceModel, Vec<f64>)> {
     let terms: Vec<VarianceTerm> = sources.iter().flat_map(Source::terms).collect();
     // Components of a row share its functions, so a row counts once, with how many it has and the sum of their squares.
-    let of_row = |row: usize| layout.of_rows(row..row + 1);
-    let rows: Vec<[f64; 2]> = (0..layout.rows())
-        .map(|row| match weight[row] > 0.0 {
-            true => [of_row(row).len() as f64, scaled[of_row(row)].iter().map(|value| value * value).sum()],
-            false => [0.0; 2],
-        })
-        .collect();
+    let add = |[count, sum]: [f64; 2], (left, value): (f64, f64)| [count + left, sum + value * value];
+    let rows: Vec<[f64; 2]> = (0..rows).map(|row| own(row).fold([0.0; 2], add)).collect();
     let [count, squares] =
         rows.iter().fold([0.0; 2], |[count, sum], [own, square]| [count + own, sum + square]);
     if terms.is_empty() || count < (COMPONENTS_PER_TERM * terms.len()) as f64 {
@@ -57,16 +78,15 @@ pub fn fit(
     if level <= 0.0 {
         return None;
     }
-    let model =
-        Scoring { sources: &sources, rows: &rows, means: means(&sources, rows.len()), level: level.ln() };
+    let model = Scoring { sources, rows: &rows, means: means(sources, rows.len()), level: level.ln() };
     let coefficients = model.coefficients();
     let gain = model.gain(&coefficients);
     // Heavy tails make variances look uneven: the likelihood ratio is scaled by what the fourth moment says.
     let excess = model.sums(&coefficients, 1, |block, fitted, sum| {
         for (row, fitted) in block.zip(fitted).filter(|&(row, _)| rows[row][0] > 0.0) {
             let variance = fitted.exp();
-            let ratio = |value: &f64| (value * value / variance - 1.0).powi(2);
-            sum[0] += scaled[of_row(row)].iter().map(ratio).sum::<f64>();
+            let ratio = |(left, value): (f64, f64)| (value * value / variance / left - 1.0).powi(2) * left;
+            sum[0] += own(row).filter(|(left, _)| *left > ALONE).map(ratio).sum::<f64>();
         }
     })[0]
         / count
@@ -81,7 +101,7 @@ pub fn fit(
     });
     let factors: Vec<Vec<f64>> = factors.collect();
     let terms = terms.into_iter().zip(coefficients[1..].iter().copied()).collect();
-    Some((VarianceModel { terms }, factors.concat()))
+    Some((VarianceModel { of, terms }, factors.concat()))
 }
 
 /// Readings with the functions that are made of them.
@@ -159,7 +179,7 @@ fn added(parts: Vec<Vec<f64>>) -> Vec<f64> {
 /// Fisher scoring of one set of residuals.
 struct Scoring<'a> {
     sources: &'a [Source<'a>],
-    /// Of each row how many components count, and the sum of their squares.
+    /// Of each row how many components count, each by what it has left, and the sum of their squares.
     rows: &'a [[f64; 2]],
     means: Vec<f64>,
     /// The logarithm of the mean square.

@@ -1,0 +1,75 @@
+//! Where the components of the residual stand among the combinations that the data determine.
+
+use std::ops::Range;
+
+use faer::Mat;
+
+use super::FitError;
+use super::block::Block;
+use super::objects::Reduction;
+use super::solver::{Course, Solver};
+
+/// Where the components stand among the determined combinations.
+pub(super) struct Coordinates {
+    /// Orthonormal columns, n × k.
+    pub q: Mat<f64>,
+    pub residual: Vec<f64>,
+    /// The share of each component's own residual that objects and stations follow; empty where there are none.
+    pub followed: Vec<f64>,
+}
+
+impl Solver<'_> {
+    /// The columns of J, whitened and each row by the root of its weight, times the root; and the residual alike.
+    pub(super) fn coordinates(
+        &self,
+        course: &Course,
+        weight: &[f64],
+        root: &Mat<f64>,
+    ) -> Result<Coordinates, FitError> {
+        let k = root.ncols();
+        let mut by_column = Mat::<f64>::zeros(self.model.columns(), k);
+        for (from, column) in root.row_iter().zip(self.model.column_of()) {
+            if let Some(column) = *column {
+                by_column.row_mut(column).iter_mut().zip(from.iter()).for_each(|(sum, part)| *sum += part);
+            }
+        }
+        let sigma = course.noise.sigma_without_memory();
+        let layout = &self.layout;
+        let mut whole = Mat::zeros(self.layout.components(), k);
+        let mut residual = Vec::with_capacity(self.layout.components());
+        let mut unknown = Vec::new();
+        // Of many rows the columns are most of what is held: they are never there twice.
+        let made = |_: usize, rows: Range<usize>, block: &Block| {
+            let whitened = |values: &[f64]| -> Vec<f64> {
+                let from = layout.first(rows.start);
+                let by_row = block.by_row(values).into_iter().enumerate();
+                let scaled = by_row.map(|(at, value)| {
+                    value * weight[rows.start + at / block.components].sqrt() / sigma[from + at]
+                });
+                scaled.collect()
+            };
+            let residual = whitened(&block.residual);
+            let mut q = Mat::<f64>::zeros(residual.len(), k);
+            for (column, values) in block.columns().enumerate() {
+                let values = whitened(values);
+                for j in 0..k {
+                    let share = by_column[(column, j)];
+                    q.col_as_slice_mut(j).iter_mut().zip(&values).for_each(|(q, value)| *q += share * value);
+                }
+            }
+            (q, residual, block.unknown.clone())
+        };
+        self.model.each_block(self.observations, &course.point.values, made, |(q, own, of_objects)| {
+            whole.subrows_mut(residual.len(), own.len()).copy_from(&q);
+            residual.extend(own);
+            unknown.extend(of_objects);
+        })?;
+        let followed = self.observations.unknowns.as_ref().map_or_else(Vec::new, |unknowns| {
+            let row: &[u32] = &self.layout.row_of_each().map(|row| row as u32).collect::<Vec<_>>();
+            let scale = row.iter().zip(sigma.iter()).map(|(&row, sigma)| weight[row as usize].sqrt() / sigma);
+            let reduction = Reduction::new(unknowns, row, &unknown, scale.collect());
+            reduction.project(unknowns, row, &unknown, &mut whole)
+        });
+        Ok(Coordinates { q: whole, residual, followed })
+    }
+}

@@ -1,7 +1,7 @@
 //! The five answers that stand first: what happened, what it is, where, how much better, what to do next.
 
 use super::causes::{cause, each_once, sentence_case};
-use super::effects::{chance_of, headline, place};
+use super::effects::{chance_of_all, headline, place};
 use super::left::{function_form, remaining};
 use super::numbers::{short, times};
 use super::places::told_places;
@@ -87,7 +87,7 @@ pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>) -> Answers {
             .flatten()
             .collect::<Vec<_>>()
             .join(" "),
-        chance: effects.first().filter(|_| usable).map(|effect| chance_of(effect, diagnosis)),
+        chance: if usable { chance_of_all(&effects, diagnosis) } else { None },
         what,
         causes,
         places: effects.iter().map(|effect| place(effect, diagnosis)).collect(),

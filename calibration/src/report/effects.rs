@@ -72,11 +72,40 @@ pub fn chance_of(effect: &EffectFound, diagnosis: &Diagnosis) -> String {
         Some(folds) if folds > 1 => {
             // A share of a few folds, rounded to the number it came from.
             let times = (effect.selected_in_folds * folds as f64).round();
-            let only = if 2.0 * times < folds as f64 { "only " } else { "" };
-            format!("{sure}; found again in {only}{times} of {folds} repeats")
+            let times = match (times > 0.0, 2.0 * times < folds as f64) {
+                (false, _) => "none".to_owned(),
+                (true, true) => format!("only {times}"),
+                (true, false) => times.to_string(),
+            };
+            format!("{sure}; found again in {times} of {folds} repeats")
         }
         _ => sure,
     }
+}
+
+/// How sure effects are, of which the first is told first: that one and the least sure of all. None where there is none.
+#[must_use]
+pub fn chance_of_all(effects: &[&EffectFound], diagnosis: &Diagnosis) -> Option<String> {
+    let [first, others @ ..] = effects else { return None };
+    let surest = chance_of(first, diagnosis);
+    let unsure = |a: &EffectFound, b: &EffectFound| {
+        let by_chance = a.p_value.total_cmp(&b.p_value);
+        by_chance.then(b.selected_in_folds.total_cmp(&a.selected_in_folds))
+    };
+    let Some(least) = others.iter().max_by(|a, b| unsure(a, b)) else { return Some(surest) };
+    let told = chance_of(least, diagnosis);
+    Some(match told == surest {
+        true => format!("each {}", predicate(&surest)),
+        false => {
+            let [surest, told] = [surest, told].map(|chance| predicate(&chance));
+            format!("the first {surest}. The least sure, {}, {told}", least.names[0])
+        }
+    })
+}
+
+/// `is unlikely to be chance`, but `could be chance`.
+fn predicate(chance: &str) -> String {
+    if chance.starts_with("could") { chance.to_owned() } else { format!("is {chance}") }
 }
 
 /// What speaks for an effect, and what cannot be told from it, a line each.

@@ -23,6 +23,10 @@ const STANDS: f64 = 0.5;
 /// The combinations that the data determine.
 #[derive(Debug, Clone)]
 pub struct Subspace {
+    /// What the rows tell.
+    partial: Partial,
+    /// Whether it is asked what they tell more of than sizes do.
+    is_beyond: bool,
     /// Length of each column of the whitened Jacobian; 1 for columns of zeros.
     scale: Vec<f64>,
     /// What is not determined, in parameters times their scale and in reduced echelon form, p × (p − rank).
@@ -60,8 +64,7 @@ impl Subspace {
             // Only numbers that are none do not factor: nothing is seen then.
             Err(_) => Mat::identity(p, p),
         };
-        let (unseen, pivots) = echelon(unseen);
-        Self { scale, unseen, pivots, size: Vec::new(), axes: Mat::zeros(p, p) }.resized(size)
+        Self::without(unseen, scale, partial, false).resized(size)
     }
 
     /// What the rows tell more of than the sizes do: combinations whose standard uncertainty from the whitened rows is below
@@ -80,9 +83,25 @@ impl Subspace {
             // Only numbers that are none do not factor: nothing is seen then.
             Err(_) => Mat::identity(p, p),
         };
-        let (unseen, pivots) = echelon(unseen);
         let scale = size.iter().map(|size| 1.0 / size).collect();
-        Self { scale, unseen, pivots, size: Vec::new(), axes: Mat::zeros(p, p) }.resized(size)
+        Self::without(unseen, scale, partial, true).resized(size)
+    }
+
+    /// What is left without combinations that are not seen, of parameters times their scale; the sizes are still to be told.
+    fn without(unseen: Mat<f64>, scale: Vec<f64>, partial: &Partial, is_beyond: bool) -> Self {
+        let (unseen, pivots) = echelon(unseen);
+        let axes = Mat::zeros(scale.len(), scale.len());
+        Self { partial: partial.clone(), is_beyond, scale, unseen, pivots, size: Vec::new(), axes }
+    }
+
+    /// What the rows tell of the first so many parameters, as if there were no others.
+    #[must_use]
+    pub fn of_first(&self, count: usize) -> Self {
+        let partial = self.partial.spread(&(0..count).map(Some).collect::<Vec<_>>());
+        match self.is_beyond {
+            true => Self::beyond(&partial, self.scale[..count].iter().map(|scale| 1.0 / scale).collect()),
+            false => Self::determined(&partial, self.size[..count].to_vec()),
+        }
     }
 
     /// The same combinations with other sizes.
@@ -110,7 +129,7 @@ impl Subspace {
     }
 
     /// The change of each parameter that counts as one, SI.
-    pub(super) fn size(&self) -> &[f64] {
+    pub(crate) fn size(&self) -> &[f64] {
         &self.size
     }
 
@@ -293,5 +312,25 @@ mod tests {
                 approx::assert_relative_eq!(*value, expected, epsilon = 1e-12);
             }
         }
+    }
+    /// What a fourth parameter leaves open together with the first, the first determines by itself.
+    #[test]
+    fn the_first_parameters_by_themselves_determine_what_another_shares_with_them() {
+        let rows =
+            [[2.0, 0.5, 0.0, -2.0], [1.0, 0.0, 1.0, -1.0], [0.0, 3.0, 1.0, 0.0], [1.0, 1.0, 5.0, -1.0]];
+        for subspace in [
+            Subspace::determined(&partial(&rows), vec![1.0; 4]),
+            Subspace::beyond(&partial(&rows), vec![100.0, 200.0, 300.0, 400.0]),
+        ] {
+            assert_eq!((subspace.rank(), subspace.separable()), (3, vec![false, true, true, false]));
+            let first = subspace.of_first(3);
+            assert_eq!((first.rank(), first.null_space().ncols()), (3, 0));
+        }
+        // Sizes say what counts: by these the rows tell no more of the second than is known.
+        let size = [100.0, 0.01, 300.0, 400.0];
+        let first = Subspace::beyond(&partial(&rows), size.to_vec()).of_first(3);
+        let null = first.null_space();
+        let parts = [0, 1, 2].map(|at| (null[(at, 0)] / size[at]).abs());
+        assert!(first.rank() == 2 && parts[1] > 1e4 * parts[0].max(parts[2]), "{parts:?}");
     }
 }

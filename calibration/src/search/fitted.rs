@@ -76,6 +76,19 @@ impl Fitted {
         }
     }
 
+    /// What the sizes of the declared errors say of their combinations, a row for each error, and how far the error is from where it
+    /// is expected, both in units of its size.
+    pub fn stated(&self, declared: usize) -> (Mat<f64>, Vec<f64>) {
+        let (sizes, nominal) = (self.fit.subspace.size(), self.chain.nominal_values());
+        let stated =
+            Mat::from_fn(declared, self.combinations.ncols(), |i, j| self.combinations[(i, j)] / sizes[i]);
+        let away = |at: usize| {
+            let id = self.fit.parameters[at].index();
+            (nominal[id] - self.fit.values[id]) / sizes[at]
+        };
+        (stated, (0..declared).map(away).collect())
+    }
+
     /// The combinations for columns that may know of no stations.
     pub fn of_errors(&self, columns: &Columns) -> Mat<f64> {
         let errors = columns.declared.ncols();
@@ -104,7 +117,8 @@ impl Fitted {
 /// An orthonormal basis of the declared errors' space without what the fit found undetermined; the rest would only
 /// be seen through products of errors.
 fn determined(fit: &FitResult, declared: usize, of_stations: usize) -> Result<Mat<f64>, ProblemError> {
-    let null = fit.null_space.subrows(0, declared);
+    // What a combination with an effect's coefficients leaves open, the declared errors by themselves may well determine.
+    let null = fit.subspace.of_first(declared).null_space();
     let svd = null.svd().map_err(|_| ProblemError::Singular)?;
     let values = svd.S().column_vector();
     let rank = (0..values.nrows()).filter(|&i| values[i] > 1e-8).count();

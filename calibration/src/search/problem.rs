@@ -73,6 +73,8 @@ pub struct Problem {
     right: Mat<f64>,
     /// What candidates do at the data's poses and further out, if somebody said so.
     reach: Option<Reach>,
+    /// Gram matrix of what is stated of the declared errors, in every set of folds; none where nothing is.
+    prior: Option<Mat<f64>>,
     /// UᵀZ and Uᵀr, u × (K + 1): what the declared columns took of each candidate column and of the residual.
     absorbed: Mat<f64>,
 }
@@ -185,6 +187,7 @@ impl Problem {
             right,
             absorbed,
             reach: None,
+            prior: None,
         };
         problem.form_grams();
         Ok(problem)
@@ -194,6 +197,27 @@ impl Problem {
     #[must_use]
     pub fn with_reach(self, reach: Reach) -> Self {
         Self { reach: Some(reach), ..self }
+    }
+
+    /// The same with rows that state something of the declared columns' coefficients alone, and their residual; they belong to no fold.
+    #[must_use]
+    pub fn with_prior(self, stated: MatRef<'_, f64>, residual: &[f64]) -> Self {
+        let (u, k) = (self.declared, self.rows.ncols() - self.declared - 1);
+        let of_basis = stated * &self.right;
+        let taken = &of_basis * &self.absorbed;
+        let rows = Mat::from_fn(stated.nrows(), u + k + 1, |i, j| match j.checked_sub(u) {
+            None => of_basis[(i, j)],
+            Some(at) if at == k => residual[i] - taken[(i, k)],
+            Some(at) if self.lengths[at] > 0.0 => -taken[(i, at)] / self.lengths[at],
+            Some(_) => 0.0,
+        });
+        Self { prior: Some(rows.transpose() * &rows), ..self }
+    }
+
+    /// The Gram matrix of what is stated of the declared errors, if anything is.
+    #[must_use]
+    pub fn prior(&self) -> Option<MatRef<'_, f64>> {
+        self.prior.as_ref().map(Mat::as_ref)
     }
 
     /// The same with its rows in other folds.
@@ -249,6 +273,7 @@ impl Problem {
             sum += gram;
             count += self.folds.rows_of_fold[fold];
         }
+        self.prior.iter().for_each(|prior| sum += prior);
         (sum, count)
     }
 

@@ -219,7 +219,12 @@ fn problem(
         start..count
     });
     let blocks: Vec<Range<usize>> = blocks.collect();
-    Problem::of_rows(rows, fitted.combinations.ncols(), &blocks, folds)
+    let problem = Problem::of_rows(rows, fitted.combinations.ncols(), &blocks, folds)?;
+    if !whole.request.plan.fit.anchored {
+        return Ok(problem);
+    }
+    let (stated, residual) = fitted.stated(declared(whole).len());
+    Ok(problem.with_prior(stated.as_ref(), &residual))
 }
 
 /// What the candidates of a problem do at the data's poses and further out, each series in units of its noise.

@@ -1,7 +1,7 @@
 //! Selection: forward by familywise p and a penalised likelihood, confirmed by cross-validation, with swaps
 //! and drops.
 
-use faer::Mat;
+use faer::{Mat, MatRef};
 
 use super::confounded::{ConfoundedSet, SetColumns, SetId};
 use super::flips::{Family, familywise};
@@ -225,12 +225,12 @@ impl Search<'_> {
         let residual = self.problem.residual();
         let mut picked = columns.to_vec();
         picked.push(residual);
-        let small = |fold: usize| {
-            let gram = self.problem.fold_gram(fold);
+        let small = |gram: MatRef<'_, f64>| {
             Mat::from_fn(picked.len(), picked.len(), |i, j| gram[(picked[i], picked[j])])
         };
-        let parts: Vec<Mat<f64>> = self.folds.iter().map(|&fold| small(fold)).collect();
-        let mut total = Mat::<f64>::zeros(picked.len(), picked.len());
+        let parts: Vec<Mat<f64>> =
+            self.folds.iter().map(|&fold| small(self.problem.fold_gram(fold))).collect();
+        let mut total = self.problem.prior().map_or_else(|| Mat::zeros(picked.len(), picked.len()), small);
         parts.iter().for_each(|part| total += part);
         parts.iter().map(|part| held_out_rss(&total, part)).sum()
     }

@@ -2,11 +2,14 @@
 #![allow(clippy::unwrap_used)]
 
 use faer::Mat;
+use faer::linalg::solvers::SolveLstsq;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 
+use super::state::State;
 use super::*;
+use crate::candidate::EffectId;
 
 /// A problem of n rows: `p` declared columns, `count` candidates of one or two columns that are smooth functions of
 /// three angles, one of them planted with `amplitude` (in σ), unit noise.
@@ -53,4 +56,40 @@ fn the_false_alarm_rate_is_as_stated() {
     }
     // 200 tries at 5 %: binomial, 10 ± 3.1; three standard deviations either way.
     assert!((1..=20).contains(&alarms), "{alarms} of {tries}");
+}
+
+/// What is stated of declared coefficients counts as rows that every set of folds has.
+#[test]
+fn a_prior_is_rows_that_belong_to_no_fold() {
+    let (n, p) = (60, 4);
+    let mut random = ChaCha8Rng::seed_from_u64(11);
+    let mut normal = |_: usize, _: usize| -> f64 { StandardNormal.sample(&mut random) };
+    let (declared, candidate) = (Mat::from_fn(n, p, &mut normal), Mat::from_fn(n, 1, &mut normal));
+    let stated = Mat::from_fn(3, p, |i, j| 4.0 * normal(i, j));
+    let residual: Vec<f64> = (0..n).map(|i| normal(i, 0)).collect();
+    let known = [0.7, -1.2, 2.0];
+    let groups: Vec<u32> = (0..n as u32).collect();
+    let problem =
+        Problem::new(declared.as_ref(), candidate.as_ref(), &[0..1], &residual, &groups, 5, 3).unwrap();
+    let problem = problem.with_prior(stated.as_ref(), &known);
+    for without in 0..5 {
+        let mut state = State::declared(&problem, |fold| fold != without);
+        let column = problem.block(EffectId(0)).start;
+        state.add(&[column]);
+        let found = state.coefficients().iter().find(|(own, _)| *own == column).unwrap().1;
+        // The same by all columns as they are.
+        let rows = problem.rows_of_folds(|fold| fold != without);
+        let all = Mat::from_fn(rows.len() + 3, p + 1, |i, j| match (i.checked_sub(rows.len()), j < p) {
+            (None, true) => declared[(rows[i], j)],
+            (None, false) => candidate[(rows[i], 0)],
+            (Some(at), true) => stated[(at, j)],
+            (Some(_), false) => 0.0,
+        });
+        let left = Mat::from_fn(rows.len() + 3, 1, |i, _| match i.checked_sub(rows.len()) {
+            None => residual[rows[i]],
+            Some(at) => known[at],
+        });
+        let direct = all.qr().solve_lstsq(&left)[(p, 0)];
+        approx::assert_relative_eq!(found / problem.length(column), direct, epsilon = 1e-10);
+    }
 }

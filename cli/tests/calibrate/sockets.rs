@@ -47,18 +47,20 @@ fn calibrated(folder: &Folder, study: &str) -> Value {
     serde_json::from_str(&run.stdout).expect("JSON")
 }
 
-/// Bounds in mm on placements never seen, declared errors alone and with what the search adds: those of an independent
-/// analysis of the same rows. Its one effect for `panda_1` (0.582 mm, in one fold of three) is not found here.
+/// Bounds in mm on placements never seen, of every row: those of an independent analysis of the same rows, for declared errors by
+/// least squares and with what a search adds.
 #[test]
 fn an_arm_is_calibrated_by_sockets_that_nobody_measured() {
     for (name, rows, declared_mm, amended_mm) in
-        [("panda_1", 182.0, 0.869, 0.869), ("panda_4", 269.0, 0.261, 0.244)]
+        [("panda_1", 182.0, 0.869, 0.582), ("panda_4", 269.0, 0.261, 0.244)]
     {
         let Some(folder) = robot(name, &format!("sockets-{name}")) else { return };
         let report = calibrated(&folder, "panda.toml");
         assert_eq!(number(&report, "/observations/rows"), rows, "{name}");
-        let (before, after) =
-            (number(&report, "/before/held_out_rms") * 1e3, number(&report, "/after/held_out_rms") * 1e3);
+        folder.write("squares.toml", folder.read("panda.toml").replace("[fit]\n", "[fit]\nrobust = false\n"));
+        let squares = calibrated(&folder, "squares.toml");
+        let before = number(&squares, "/before/held_out_rms") * 1e3;
+        let after = number(&report, "/after/held_out_rms") * 1e3;
         assert!(before <= declared_mm && after <= amended_mm, "{name}: {before} and {after} mm");
     }
 }

@@ -85,7 +85,7 @@ pub fn not_shown(diagnosis: &Diagnosis) -> Option<String> {
 }
 
 /// `da1 + dtheta_x3`, `a − 1/2·b`
-fn combination(estimable: &Estimable) -> String {
+pub(super) fn combination(estimable: &Estimable) -> String {
     let mut text = String::new();
     for part in &estimable.combination {
         let (sign, size) = match part.ratio.strip_prefix('-') {

@@ -33,23 +33,35 @@ fn of_proposal(diagnosis: &Diagnosis, proposal: &Proposal, unit: impl Fn(&str) -
         Criterion::D => "to determine all errors together best",
         Criterion::A => "to make the uncertainties small on average",
     };
-    let notes = gained(diagnosis, &proposal.uncertainties);
+    let of_error = |(name, now, then): &(String, f64, f64)| Gain::of_error(diagnosis, name, *now, *then);
+    let notes = gained(proposal.uncertainties.iter().map(of_error).collect());
     let (joints, poses) = in_reading_units(&proposal.joints, &proposal.poses, unit);
     PoseTable { title: title.to_owned(), joints, poses, notes }
 }
 
-/// How surely errors would be known that were known less surely: those that gain most.
-pub(super) fn gained(diagnosis: &Diagnosis, uncertainties: &[(String, f64, f64)]) -> Vec<String> {
-    let unit_of = |name: &str| {
+/// How surely something is known, and would be.
+pub(super) struct Gain {
+    pub what: String,
+    pub unit: SiUnit,
+    pub now: f64,
+    pub then: f64,
+}
+
+impl Gain {
+    /// Of an error.
+    pub fn of_error(diagnosis: &Diagnosis, name: &str, now: f64, then: f64) -> Self {
         let error = diagnosis.errors.iter().find(|error| error.name == name);
-        error.map_or(SiUnit::ONE, |error| error.unit)
-    };
-    let mut gains: Vec<_> =
-        uncertainties.iter().filter(|(_, now, then)| now.is_finite() && then < now).collect();
-    gains.sort_by(|a, b| (a.2 / a.1).total_cmp(&(b.2 / b.1)));
-    let told = gains.into_iter().take(ERRORS).map(|(name, now, then)| {
-        let told = |si| numbers::told(si, unit_of(name));
-        format!("the standard uncertainty of {name} would go from {} to {}", told(*now), told(*then))
+        Self { what: name.to_owned(), unit: error.map_or(SiUnit::ONE, |error| error.unit), now, then }
+    }
+}
+
+/// How surely would be known what was known less surely: what gains most.
+pub(super) fn gained(mut gains: Vec<Gain>) -> Vec<String> {
+    gains.retain(|gain| gain.now.is_finite() && gain.then < gain.now);
+    gains.sort_by(|a, b| (a.then / a.now).total_cmp(&(b.then / b.now)));
+    let told = gains.into_iter().take(ERRORS).map(|Gain { what, unit, now, then }| {
+        let [now, then] = [now, then].map(|si| numbers::told(si, unit));
+        format!("the standard uncertainty of {what} would go from {now} to {then}")
     });
     told.collect()
 }

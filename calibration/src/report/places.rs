@@ -1,6 +1,7 @@
 //! Where to put the next station, wall, target, socket or wire, as tables of what to aim at from there.
 
-use super::next::{PoseTable, gained};
+use super::errors::combination;
+use super::next::{Gain, PoseTable, gained};
 use super::numbers::{self, Reading};
 use crate::data::SiUnit;
 use crate::design::{Addition, Criterion, Place, PlaceProposal};
@@ -12,6 +13,10 @@ const POINTINGS: usize = 12;
 
 /// What gets smaller by less than this is as it was.
 const GAINS: f64 = 0.995;
+
+/// What is determined only together with others is told with them, unless an addition leaves less than this share of its uncertainty
+/// and so determines it by itself.
+const BY_ITSELF: f64 = 0.5;
 
 /// Every proposal; what both rules propose, once.
 pub(super) fn tables_of_places(diagnosis: &Diagnosis, unit: impl Fn(&str) -> SiUnit) -> Vec<PoseTable> {
@@ -75,12 +80,18 @@ fn table(
         notes
             .push(format!("{count} pointings in all, about as they stand here; report.json lists every one"));
     }
-    let shown =
-        |(name, now, then): &&(String, f64, f64)| !proposal.never.contains(name) && *then < GAINS * now;
-    let shown: Vec<_> = proposal.uncertainties.iter().filter(shown).cloned().collect();
-    let gains = gained(diagnosis, &shown);
+    let is_told = |(name, now, then): &&(String, f64, f64)| {
+        let together = diagnosis.errors.iter().any(|error| error.name == *name && !error.separable);
+        !proposal.never.contains(name) && *then < if together { BY_ITSELF } else { 1.0 } * now
+    };
+    let errors = proposal.uncertainties.iter().filter(is_told);
+    let errors = errors.map(|(name, now, then)| Gain::of_error(diagnosis, name, *now, *then));
+    let together = diagnosis.estimable.iter().zip(&proposal.combinations);
+    let together =
+        together.map(|(own, &(now, then))| Gain { what: combination(own), unit: own.unit, now, then });
+    let gains = gained(errors.chain(together).filter(|gain| gain.then < GAINS * gain.now).collect());
     if gains.is_empty() {
-        notes.push("no error by itself becomes surer by it".to_owned());
+        notes.push("nothing that is shown becomes surer by it".to_owned());
     }
     notes.extend(gains);
     if !proposal.never.is_empty() {

@@ -13,7 +13,7 @@ mod weigh;
 
 use std::collections::BTreeSet;
 
-use model_core::Chain;
+use model_core::{Chain, SymbolId};
 use nalgebra::{DMatrix, Vector3};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -91,6 +91,9 @@ pub struct PlaceProposal {
     pub places: Vec<Place>,
     /// Per error: name, its standard uncertainty now, and with all of these measured, SI.
     pub uncertainties: Vec<(String, f64, f64)>,
+    /// Of each combination of several errors that is determined, in the order of the fit's: its standard uncertainty now, and with
+    /// all of these measured, SI.
+    pub combinations: Vec<(f64, f64)>,
     /// Errors that are not shown, nor would be.
     pub never: Vec<String>,
     /// What would show some of those.
@@ -255,13 +258,41 @@ impl Setting<'_> {
             (self.chain.symbol(*id).name.clone(), now, now * gain)
         });
         let uncertainties = names.collect();
+        let several = self.fit.estimable.iter().filter(|one| one.combination.len() > 1);
+        let combinations = several.filter_map(|one| {
+            let now = one.standard_uncertainty?;
+            let of = |covariance: &DMatrix<f64>| -> f64 {
+                let parts = || one.combination.iter().map(|(id, factor)| (self.place(*id), factor));
+                let pairs = parts().flat_map(|one| parts().map(move |other| (one, other)));
+                pairs.map(|((i, a), (j, b))| a * b * covariance[(i, j)]).sum()
+            };
+            Some((now, now * (of(&covariance) / of(&before)).max(0.0).sqrt()))
+        });
+        let combinations = combinations.collect();
         let readings = read
             .iter()
             .map(|&at| self.observations.poses.columns[at].0)
             .map(|id| self.chain.symbol(id).name.clone());
         let (never, remedies) = (Vec::new(), Vec::new());
         let readings = readings.collect();
-        Some(PlaceProposal { adds, criterion, readings, places, uncertainties, never, remedies })
+        Some(PlaceProposal {
+            adds,
+            criterion,
+            readings,
+            places,
+            uncertainties,
+            combinations,
+            never,
+            remedies,
+        })
+    }
+
+    /// Where an error stands among those of the fit.
+    fn place(&self, id: SymbolId) -> usize {
+        match self.fit.parameters.iter().position(|known| *known == id) {
+            Some(at) => at,
+            None => unreachable!("what is determined is of errors that were estimated"),
+        }
     }
 
     /// Which columns of the readings are told: those that an instrument is set by.

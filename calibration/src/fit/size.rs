@@ -6,6 +6,9 @@ use model_core::SymbolId;
 /// The size of errors where the data show none of the same kind, rad, m or 1.
 pub const UNSHOWN: f64 = 1e-4;
 
+/// The size of errors beside unknown objects and stations where the study states none: 5 mm, 5 mrad, 0.005.
+pub const BESIDE_OBJECTS: f64 = 5e-3;
+
 /// The size of constants that are estimated, rad, m or 1: they are no errors, and may stand anywhere.
 pub(super) const CONSTANT: f64 = 1.0;
 

@@ -8,7 +8,7 @@ use super::{SearchError, Stage};
 use crate::candidate::EffectId;
 use crate::data::unknowns::Unknowns;
 use crate::fit::noise::Layout;
-use crate::fit::{FitOptions, FitResult, fit};
+use crate::fit::{BESIDE_OBJECTS, FitOptions, FitResult, fit};
 use crate::search::ProblemError;
 use crate::search::columns::{Columns, Probed, places};
 
@@ -50,6 +50,10 @@ impl Fitted {
             let Some((amended, new)) = whole.catalogue[found.effect].add_to(&chain) else { continue };
             chain = amended;
             options.estimate.extend(&new);
+            if options.anchored {
+                // As large as errors may be that are declared: the amended declaration, calibrated again, is the same fit.
+                options.sizes.extend(new.iter().map(|&id| (id, size_like(&chain, &plan.fit.sizes, id))));
+            }
             errors.push(new);
             kept.push(found);
         }
@@ -112,6 +116,14 @@ impl Fitted {
         let combinations = determined(&fit, declared(whole).len(), of_stations)?;
         Ok(Self { chain, found, errors, fit, combinations, probed, layout: Layout::of(observations) })
     }
+}
+
+/// How large an error may be that the data do not show: as the largest of its quantity among those of which it is said.
+fn size_like(chain: &Chain, sizes: &[(SymbolId, f64)], id: SymbolId) -> f64 {
+    let quantity = chain.symbol(id).quantity;
+    let alike =
+        sizes.iter().filter(|(own, _)| chain.symbol(*own).quantity == quantity).map(|(_, size)| *size);
+    alike.reduce(f64::max).unwrap_or(BESIDE_OBJECTS)
 }
 
 /// An orthonormal basis of the declared errors' space without what the fit found undetermined; the rest would only

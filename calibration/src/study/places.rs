@@ -10,10 +10,7 @@ use super::plan::{SourcePlan, si};
 use super::written::{Kind, ObjectTable, Observed, StationTable, Study};
 use crate::data::units::Amount;
 use crate::data::unknowns::{Freedom, Known, Object, Places, Pose, Shape, Station};
-use crate::fit::FitOptions;
-
-/// The size of errors beside unknown objects and stations where the study states none: 5 mm, 5 mrad, 0.005.
-const TOLERANCE: f64 = 5e-3;
+use crate::fit::{BESIDE_OBJECTS, FitOptions};
 
 /// Turns of a station whose shift alone has a stated uncertainty, rad: as good as not known.
 const ANY_TURN_RAD: f64 = 10.0;
@@ -98,7 +95,7 @@ impl Study {
         let of_objects = sources.iter().any(|source| Shape::of(source.measure).is_some());
         let errors = chain.symbols_of(SymbolKind::Error);
         let mut sizes: Vec<(SymbolId, f64)> =
-            if of_objects { errors.map(|id| (id, TOLERANCE)).collect() } else { Vec::new() };
+            if of_objects { errors.map(|id| (id, BESIDE_OBJECTS)).collect() } else { Vec::new() };
         // Patterns first, so that a plain name wins over them.
         let is_pattern = |name: &str| model_core::names::is_pattern(name);
         let (patterns, names): (Vec<_>, Vec<_>) =

@@ -65,6 +65,23 @@ fn an_arm_is_calibrated_by_sockets_that_nobody_measured() {
     }
 }
 
+/// What is found is declared as large as errors may be: the amended declaration, calibrated again, is the same fit, and nothing new is
+/// found.
+#[test]
+fn an_amended_arm_calibrated_again_is_the_same_fit() {
+    let Some(folder) = robot("panda_4", "sockets-again") else { return };
+    folder.write("squares.toml", folder.read("panda.toml").replace("[fit]\n", "[fit]\nrobust = false\n"));
+    let run = run_in(&folder.0, &["calibrate", "squares.toml", "--format", "json", "--out", "first"], "");
+    let first: Value = serde_json::from_str(&run.stdout).expect("JSON");
+    assert!(first["effects"].as_array().is_some_and(|found| !found.is_empty()), "{run}");
+    folder.write("panda.chain", folder.read("first/amended.chain"));
+    let again = calibrated(&folder, "squares.toml");
+    let [was, is] = [(&first, "/after/rms"), (&again, "/before/rms")].map(|(of, at)| number(of, at));
+    assert!((is / was - 1.0).abs() < 1e-6, "{was} and {is}");
+    assert_eq!(first.pointer("/fit/rank"), again.pointer("/fit/rank"));
+    assert_eq!(again["effects"].as_array().map(Vec::len), Some(0));
+}
+
 /// The stand's known distance shows the length of the upper arm, which all others are measured by without it.
 #[test]
 fn sockets_at_a_known_distance_hold_the_scale() {

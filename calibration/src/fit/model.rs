@@ -137,6 +137,12 @@ impl Model {
         Self { turns_by: TurnsBy::Prediction, ..self.clone() }
     }
 
+    /// The same with derivatives where rows would hit what they observe: what a search reads.
+    #[must_use]
+    pub(crate) fn adjusted(self) -> Self {
+        Self { turns_by: TurnsBy::Adjusted, ..self }
+    }
+
     /// The programs of the observables' values alone.
     #[must_use]
     pub fn without_columns(chain: &Chain, poses: &Poses) -> Self {

@@ -1,7 +1,7 @@
 //! The declaration with some effects, fitted.
 
 use faer::Mat;
-use model_core::{Chain, SymbolId};
+use model_core::{Chain, Quantity, SymbolId};
 
 use super::context::{Context, Found, declared};
 use super::{SearchError, Stage};
@@ -11,6 +11,7 @@ use crate::fit::noise::Layout;
 use crate::fit::{BESIDE_OBJECTS, FitOptions, FitResult, fit};
 use crate::search::ProblemError;
 use crate::search::columns::{Columns, Probed, places};
+use crate::study::Plan;
 
 /// A fit of the declaration with the effects accepted so far.
 #[derive(Clone)]
@@ -52,7 +53,8 @@ impl Fitted {
             options.estimate.extend(&new);
             if options.anchored {
                 // As large as errors may be that are declared: the amended declaration, calibrated again, is the same fit.
-                options.sizes.extend(new.iter().map(|&id| (id, size_like(&chain, &plan.fit.sizes, id))));
+                let size = |&id: &SymbolId| (id, tolerance_of(plan, chain.symbol(id).quantity));
+                options.sizes.extend(new.iter().map(size));
             }
             errors.push(new);
             kept.push(found);
@@ -118,12 +120,10 @@ impl Fitted {
     }
 }
 
-/// How large an error may be that the data do not show: as the largest of its quantity among those of which it is said.
-fn size_like(chain: &Chain, sizes: &[(SymbolId, f64)], id: SymbolId) -> f64 {
-    let quantity = chain.symbol(id).quantity;
-    let alike =
-        sizes.iter().filter(|(own, _)| chain.symbol(*own).quantity == quantity).map(|(_, size)| *size);
-    alike.reduce(f64::max).unwrap_or(BESIDE_OBJECTS)
+/// How large an effect may be that the data do not show: as the largest declared error of its quantity of which it is said.
+pub(super) fn tolerance_of(plan: &Plan, quantity: Quantity) -> f64 {
+    let sizes = plan.fit.sizes.iter().filter(|(own, _)| plan.chain.symbol(*own).quantity == quantity);
+    sizes.map(|(_, size)| *size).reduce(f64::max).unwrap_or(BESIDE_OBJECTS)
 }
 
 /// An orthonormal basis of the declared errors' space without what the fit found undetermined; the rest would only

@@ -112,11 +112,11 @@ impl Problem {
         rows.subcols_mut(0, p).copy_from(declared);
         rows.subcols_mut(p, k).copy_from(candidates);
         rows.col_as_slice_mut(p + k).copy_from_slice(residual);
-        Self::of_rows(rows, p, blocks, Folds::deal(groups, folds, seed))
+        Self::of_rows(rows, p, blocks, &vec![0.0; k], Folds::deal(groups, folds, seed))
     }
 
     /// The same from one matrix `[J | Z | r]` with so many declared columns, which it makes its own, and from groups that are dealt
-    /// already.
+    /// already. A candidate's column of which less than its `least` is left, in whitened units for a coefficient of one, shows nothing.
     ///
     /// # Errors
     /// As [`Self::new`].
@@ -124,6 +124,7 @@ impl Problem {
         mut rows: Mat<f64>,
         declared: usize,
         blocks: &[Range<usize>],
+        least: &[f64],
         folds: Folds,
     ) -> Result<Self, ProblemError> {
         let (n, k) = (rows.nrows(), rows.ncols() - declared - 1);
@@ -161,7 +162,7 @@ impl Problem {
         let after: Vec<f64> = (0..k).map(|j| rows.col(u + j).squared_norm_l2()).collect();
         let mut lengths = vec![0.0; k];
         for j in 0..k {
-            let seen = after[j] > VISIBLE * before[j] && after[j] > 0.0;
+            let seen = after[j] > (VISIBLE * before[j]).max(least[j] * least[j]) && after[j] > 0.0;
             lengths[j] = if seen { after[j].sqrt() } else { 0.0 };
             let scale = if seen { 1.0 / lengths[j] } else { 0.0 };
             rows.col_as_slice_mut(u + j).iter_mut().for_each(|value| *value *= scale);

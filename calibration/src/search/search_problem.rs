@@ -13,7 +13,7 @@ use crate::candidate::EffectId;
 use crate::data::{Observations, Poses};
 use crate::search::columns::{Columns, Probed, Seen, keep, places};
 use crate::search::context::{Context, declared};
-use crate::search::fitted::Fitted;
+use crate::search::fitted::{Fitted, tolerance_of};
 use crate::search::reach::{Part, Reach, further_out};
 use crate::search::standardised::MANY;
 use crate::search::{Cells, Folds, Problem, ProblemError};
@@ -30,6 +30,9 @@ const FURTHER_OUT: usize = 1200;
 
 /// Components of the data's poses, or of those further out, at which effects are compared at most.
 const AT_MOST: usize = 4800;
+
+/// Standard deviations by which a column stands out that is as large as an error may be.
+const STANDS_OUT: f64 = 4.0;
 
 /// The whitened problem at a fit, and the rows behind it.
 pub(crate) struct SearchProblem<'a> {
@@ -219,8 +222,16 @@ fn problem(
         start..count
     });
     let blocks: Vec<Range<usize>> = blocks.collect();
-    let problem = Problem::of_rows(rows, fitted.combinations.ncols(), &blocks, folds)?;
-    if !whole.request.plan.fit.anchored {
+    let plan = whole.request.plan;
+    let effects = whole.catalogue.iter().zip(usable).filter(|(_, usable)| **usable).map(|(effect, _)| effect);
+    let least = effects.flat_map(|effect| {
+        // Beside unknown objects, what would have to be larger than any error to stand out is not looked for.
+        let size = tolerance_of(plan, effect.place.freedom.quantity());
+        std::iter::repeat_n(if plan.fit.anchored { STANDS_OUT / size } else { 0.0 }, effect.functions.len())
+    });
+    let least: Vec<f64> = least.collect();
+    let problem = Problem::of_rows(rows, fitted.combinations.ncols(), &blocks, &least, folds)?;
+    if !plan.fit.anchored {
         return Ok(problem);
     }
     let (stated, residual) = fitted.stated(declared(whole).len());

@@ -69,8 +69,9 @@ fn a_prior_is_rows_that_belong_to_no_fold() {
     let residual: Vec<f64> = (0..n).map(|i| normal(i, 0)).collect();
     let known = [0.7, -1.2, 2.0];
     let groups: Vec<u32> = (0..n as u32).collect();
+    let block = std::slice::from_ref(&(0..1));
     let problem =
-        Problem::new(declared.as_ref(), candidate.as_ref(), &[0..1], &residual, &groups, 5, 3).unwrap();
+        Problem::new(declared.as_ref(), candidate.as_ref(), block, &residual, &groups, 5, 3).unwrap();
     let problem = problem.with_prior(stated.as_ref(), &known);
     for without in 0..5 {
         let mut state = State::declared(&problem, |fold| fold != without);

@@ -114,6 +114,24 @@ fn report(folder: &Folder, study: &str) -> Value {
     serde_json::from_str(&run.stdout).expect("JSON")
 }
 
+/// Two faces from one place show the circle that sits off centre. How far off the targets are they cannot show: noise would, if readings
+/// were taken at their word.
+#[test]
+fn one_station_shows_the_circle_and_no_scale() {
+    for station in ["A", "B", "C", "D"] {
+        let name = format!("objects-one-{station}");
+        let folder = changed(&name, "targets.toml", &["scanner.chain", "targets.csv"], |text| text);
+        let all = folder.read("targets.csv");
+        let is_own = |(at, line): &(usize, &str)| *at == 0 || line.starts_with(&format!("{station},"));
+        let own: Vec<&str> = all.lines().enumerate().filter(is_own).map(|(_, line)| line).collect();
+        folder.write("targets.csv", own.join("\n") + "\n");
+        let report = report(&folder, "targets.toml");
+        assert!(first_effect(&report).contains("encoder eccentricity of azimuth"), "{}", report["effects"]);
+        let found = report["effects"].as_array().expect("a list");
+        assert!(found.len() <= 2 && !report["effects"].to_string().contains("range scale"), "{found:?}");
+    }
+}
+
 /// The first screen says what else explains the data, and where to stand next.
 #[test]
 fn the_first_screen_says_where_to_stand_next() {

@@ -1,6 +1,6 @@
 //! What one row makes of what is unknown: its residual, and how that moves with the chain, the object and the station.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use crate::data::unknowns::{OF_OBJECT, Object, Pose, Unknowns, WIDTH, own_numbers, right_jacobian, tilted};
 use crate::data::{Measure, Measured, tangent_frame};
@@ -40,17 +40,39 @@ pub(crate) fn seen(
         jacobian: right_jacobian(&Vector3::new(by[3], by[4], by[5])).transpose(),
     };
     let own: [f64; OF_OBJECT] = own_numbers(state, first[1][at], object.numbers());
-    Some(match (measure, measured) {
-        (Measure::Plane, _) => frame.plane(object, own, predicted),
-        (Measure::Target, _) => frame.target(object, own, predicted, beam),
-        (Measure::Fixed, _) => frame.fixed(object, own, predicted),
-        // A distance is a wire's length that lacks nothing: an object that is a point has no fourth number.
-        (Measure::Wire | Measure::Distance, Measured::Length { length_m }) => {
-            frame.wire(object, own, *length_m, predicted)
-        }
-        (Measure::Sight, _) => frame.sight(object, own, predicted),
-        _ => return None,
-    })
+    let shown = |predicted: &Vector3<f64>| {
+        Some(match (measure, measured) {
+            (Measure::Plane, _) => frame.plane(object, own, predicted),
+            (Measure::Target, _) => frame.target(object, own, predicted, beam),
+            (Measure::Fixed, _) => frame.fixed(object, own, predicted),
+            // A distance is a wire's length that lacks nothing: an object that is a point has no fourth number.
+            (Measure::Wire | Measure::Distance, Measured::Length { length_m }) => {
+                frame.wire(object, own, *length_m, predicted)
+            }
+            (Measure::Sight, _) => frame.sight(object, own, predicted),
+            _ => return None,
+        })
+    };
+    let seen = shown(predicted)?;
+    if turns_by == TurnsBy::Adjusted { adjusted(seen, predicted, shown) } else { Some(seen) }
+}
+
+/// The residual of a row with derivatives at the point that it would have without one. The chain's are turned and stretched by what
+/// takes its point there.
+fn adjusted(
+    (mut components, _): Seen,
+    predicted: &Vector3<f64>,
+    shown: impl Fn(&Vector3<f64>) -> Option<Seen>,
+) -> Option<Seen> {
+    let there =
+        components.iter().fold(*predicted, |point, (residual, gradient)| point + gradient * *residual);
+    let (at_object, columns) = shown(&there)?;
+    let turn = Rotation3::rotation_between(predicted, &there).unwrap_or_else(Rotation3::identity);
+    let stretch = there.norm() / predicted.norm();
+    for ((_, gradient), (_, there)) in components.iter_mut().zip(at_object) {
+        *gradient = turn.inverse() * there * if stretch.is_finite() { stretch } else { 1.0 };
+    }
+    Some((components, columns))
 }
 
 /// What turns with a station when the derivative of a target or a sight is taken.
@@ -64,6 +86,9 @@ pub(crate) enum TurnsBy {
     Object,
     /// What the chain predicts.
     Prediction,
+    /// The object, where the row would hit it. Where everything could be larger the rows' noise would tell how much: a search would find a
+    /// scale, and as surely as the noise is there.
+    Adjusted,
 }
 
 /// Where the station stands, and what its turn does when its numbers change.
@@ -101,7 +126,7 @@ impl Frame {
         let difference = there - p;
         let component = |axis: Vector3<f64>| {
             let outside = self.pose.turn * axis;
-            let arm = if self.by == TurnsBy::Object { there } else { *p };
+            let arm = if self.by == TurnsBy::Prediction { *p } else { there };
             let row = self.row([-outside.x, -outside.y, -outside.z, 0.0], outside, arm.cross(&axis));
             ((difference.dot(&axis), axis), row)
         };
@@ -138,7 +163,7 @@ impl Frame {
         let direction = there / distance;
         let axes = tangent_frame(&direction);
         let components = residual::on_tangent_plane(&direction, beam);
-        let arm = if self.by == TurnsBy::Object { direction } else { beam.normalize() };
+        let arm = if self.by == TurnsBy::Prediction { beam.normalize() } else { direction };
         let row = |axis: Vector3<f64>| {
             let outside = self.pose.turn * axis / distance;
             self.row([-outside.x, -outside.y, -outside.z, 0.0], outside, arm.cross(&axis))
@@ -229,6 +254,55 @@ mod tests {
                     assert!((change - own).abs() < 1e-5, "{measure:?} {component} {number}: {change} {own}");
                 }
             }
+        }
+    }
+    /// Where a chain could be larger with all that it observes, derivatives at the object change no row by it, however far off the row
+    /// is: those at the prediction do, by as much as the residual.
+    #[test]
+    fn noise_shows_no_scale() {
+        let pose = Pose::new(Vector3::new(0.4, -0.7, 0.2), 0.02, 0.3, -0.9);
+        for (measure, normal) in [
+            (Measure::Target, Vector3::zeros()),
+            (Measure::Fixed, Vector3::zeros()),
+            (Measure::Plane, Vector3::y()),
+        ] {
+            let place = Vector3::new(4.0, 7.0, 1.0);
+            let label = "A".to_owned();
+            let object = Object {
+                place,
+                normal,
+                known: Known::Yes,
+                ..Object::unknown(label, Shape::of(measure).unwrap())
+            };
+            let station = Station { pose, known: Known::Yes, ..Station::unknown("S".to_owned()) };
+            let unknowns = Unknowns {
+                objects: vec![object],
+                stations: vec![station],
+                object: vec![Some(0)],
+                station: vec![0],
+            };
+            let first = [unknowns.first_of_stations(), unknowns.first_of_objects()];
+            let state = vec![0.0; unknowns.numbers()];
+            // A row that is off by more than a little, and what its chain would do if all its lengths grew.
+            let p = pose.back(&place) + Vector3::new(0.3, -0.2, 0.1);
+            let change = |by: TurnsBy| {
+                let (components, columns) =
+                    seen(&unknowns, &first, &state, 0, measure, &Measured::Readings, &p, &p, by).unwrap();
+                let of_object = match measure {
+                    // Of a plane its distance grows.
+                    Measure::Plane => vec![0.0, 0.0, normal.dot(&place)],
+                    _ => place.as_slice().to_vec(),
+                };
+                let component = |at: usize| {
+                    let own: f64 = of_object.iter().zip(&columns[at]).map(|(by, column)| by * column).sum();
+                    let of_station: f64 =
+                        (0..3).map(|axis| pose.shift[axis] * columns[at][OF_OBJECT + axis]).sum();
+                    components[at].1.dot(&p) + own + of_station
+                };
+                (0..measure.components()).map(|at| component(at).abs()).fold(0.0, f64::max)
+            };
+            assert!(change(TurnsBy::Object) > 0.1, "{measure:?}: {}", change(TurnsBy::Object));
+            assert!(change(TurnsBy::Adjusted) < 1e-12, "{measure:?}: {}", change(TurnsBy::Adjusted));
         }
     }
 }

@@ -94,7 +94,7 @@ impl Probed {
         let mut values = symbols.to_vec();
         values.resize(probed.symbols.len(), 0.0);
         values.extend(state);
-        let model = Model::new(&probed, poses, &wrt)?;
+        let model = Model::new(&probed, poses, &wrt)?.adjusted();
         let places = places.iter().take(wrt.len() - parameters.len()).copied().collect();
         Ok(Self { model, values, parameters: parameters.len(), places })
     }

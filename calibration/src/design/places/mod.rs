@@ -8,6 +8,7 @@ mod aim;
 mod candidates;
 mod known;
 mod noise;
+mod proposal;
 mod seen;
 mod weigh;
 
@@ -16,19 +17,18 @@ use std::collections::BTreeSet;
 use model_core::{Chain, SymbolId};
 use nalgebra::{DMatrix, Vector3};
 use rayon::prelude::*;
-use serde::Serialize;
 
 use crate::data::unknowns::{Freedom, OF_OBJECT, Object, Shape, Station, Unknowns, WIDTH};
 use crate::data::{Measure, Measured, Observations, Poses, Series};
 use crate::design::Criterion;
 use crate::fit::noise::Layout;
 use crate::fit::{FitError, FitResult, Model};
-use crate::objects::Remedy;
 use crate::study::{NextPlaces, NextPoses, Plan};
 use aim::ranges_of;
 use candidates::{Candidate, Candidates, New, as_the_others};
 use known::{Known, OF_STATION, of_object, roots};
 use noise::Usual;
+pub use proposal::{Addition, Place, PlaceProposal, Pointing};
 use seen::Seen;
 use weigh::{Pointed, badness, chosen, measured};
 
@@ -37,92 +37,6 @@ const ANY_SIZE: f64 = 1.0;
 
 /// An error that is no surer than this share of its tolerance is not shown.
 const NOT_SHOWN: f64 = 0.7;
-
-/// What is added.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Addition {
-    /// A place to stand.
-    Station,
-    /// A wall or a board.
-    Plane,
-    /// A target.
-    Target,
-    /// A socket.
-    Fixed,
-    /// A wire.
-    Wire,
-    /// A pivot.
-    Distance,
-    /// A point to be sighted.
-    Sight,
-}
-
-impl Addition {
-    /// An object by how it is observed; `None` if no object is.
-    #[must_use]
-    pub fn of(measure: Measure) -> Option<Self> {
-        match measure {
-            Measure::Plane => Some(Self::Plane),
-            Measure::Target => Some(Self::Target),
-            Measure::Fixed => Some(Self::Fixed),
-            Measure::Wire => Some(Self::Wire),
-            Measure::Distance => Some(Self::Distance),
-            Measure::Sight => Some(Self::Sight),
-            Measure::Direction
-            | Measure::Point
-            | Measure::Range
-            | Measure::Azimuth
-            | Measure::Orientation => None,
-        }
-    }
-}
-
-/// Additions of one kind to a set-up, and what they promise.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct PlaceProposal {
-    /// What is added.
-    pub adds: Addition,
-    /// What that makes small.
-    pub criterion: Criterion,
-    /// The joints and ranges, in the order of the pointings' readings.
-    pub readings: Vec<String>,
-    /// The additions, the most telling first.
-    pub places: Vec<Place>,
-    /// Per error: name, its standard uncertainty now, and with all of these measured, SI.
-    pub uncertainties: Vec<(String, f64, f64)>,
-    /// Of each combination of several errors that is determined, in the order of the fit's: its standard uncertainty now, and with
-    /// all of these measured, SI.
-    pub combinations: Vec<(f64, f64)>,
-    /// Errors that are not shown, nor would be.
-    pub never: Vec<String>,
-    /// What would show some of those.
-    pub remedies: Vec<(Remedy, Vec<String>)>,
-}
-
-/// One addition.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Place {
-    /// Where in the frame of the stations and objects, m.
-    pub place_m: [f64; 3],
-    /// Of a station: where its frame is turned about the vertical, rad.
-    pub heading_rad: Option<f64>,
-    /// Of a plane: its normal.
-    pub normal: Option<[f64; 3]>,
-    /// What to measure.
-    pub pointings: Vec<Pointing>,
-}
-
-/// One row to measure.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Pointing {
-    /// From where: the label of a station, empty for the new one and where there is none.
-    pub station: String,
-    /// At what: the label of an object, empty for the new one.
-    pub object: String,
-    /// About the readings of the joints and ranges, SI.
-    pub readings: Vec<f64>,
-}
 
 /// What everything that is proposed is judged by.
 struct Setting<'a> {

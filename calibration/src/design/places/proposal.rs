@@ -1,0 +1,93 @@
+//! Additions to a set-up, as they are proposed.
+
+use serde::Serialize;
+
+use crate::data::Measure;
+use crate::design::Criterion;
+use crate::objects::Remedy;
+
+/// What is added.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Addition {
+    /// A place to stand.
+    Station,
+    /// A wall or a board.
+    Plane,
+    /// A target.
+    Target,
+    /// A socket.
+    Fixed,
+    /// A wire.
+    Wire,
+    /// A pivot.
+    Distance,
+    /// A point to be sighted.
+    Sight,
+}
+
+impl Addition {
+    /// An object by how it is observed; `None` if no object is.
+    #[must_use]
+    pub fn of(measure: Measure) -> Option<Self> {
+        match measure {
+            Measure::Plane => Some(Self::Plane),
+            Measure::Target => Some(Self::Target),
+            Measure::Fixed => Some(Self::Fixed),
+            Measure::Wire => Some(Self::Wire),
+            Measure::Distance => Some(Self::Distance),
+            Measure::Sight => Some(Self::Sight),
+            Measure::Direction
+            | Measure::Point
+            | Measure::Range
+            | Measure::Azimuth
+            | Measure::Orientation => None,
+        }
+    }
+}
+
+/// Additions of one kind to a set-up, and what they promise.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PlaceProposal {
+    /// What is added.
+    pub adds: Addition,
+    /// What that makes small.
+    pub criterion: Criterion,
+    /// The joints and ranges, in the order of the pointings' readings.
+    pub readings: Vec<String>,
+    /// The additions, the most telling first.
+    pub places: Vec<Place>,
+    /// Per error: name, its standard uncertainty now, and with all of these measured, SI.
+    pub uncertainties: Vec<(String, f64, f64)>,
+    /// Of each combination of several errors that is determined, in the order of the fit's: its standard uncertainty now, and with
+    /// all of these measured, SI.
+    pub combinations: Vec<(f64, f64)>,
+    /// Errors that are not shown, nor would be.
+    pub never: Vec<String>,
+    /// What would show some of those.
+    pub remedies: Vec<(Remedy, Vec<String>)>,
+}
+
+/// One addition.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Place {
+    /// Where in the frame of the stations and objects, m.
+    pub place_m: [f64; 3],
+    /// Of a station: where its frame is turned about the vertical, rad.
+    pub heading_rad: Option<f64>,
+    /// Of a plane: its normal.
+    pub normal: Option<[f64; 3]>,
+    /// What to measure.
+    pub pointings: Vec<Pointing>,
+}
+
+/// One row to measure.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Pointing {
+    /// From where: the label of a station, empty for the new one and where there is none.
+    pub station: String,
+    /// At what: the label of an object, empty for the new one.
+    pub object: String,
+    /// About the readings of the joints and ranges, SI.
+    pub readings: Vec<f64>,
+}

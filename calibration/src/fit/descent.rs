@@ -230,6 +230,7 @@ impl Solver<'_> {
         let sigma = noise.sigma_without_memory();
         sigma.iter().map(|sigma| (resolution / sigma).powi(2)).sum::<f64>().sqrt()
     }
+
     /// What the residuals say of the noise.
     fn learn_noise(&self, course: &Course) -> Result<Noise, FitError> {
         let (_, weight) = self.norms_and_weights(course);

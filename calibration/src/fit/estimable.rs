@@ -24,6 +24,12 @@ impl Estimable {
     }
 }
 
+/// The variance of a combination of numbers, each by its place with its factor, from the entries of their covariance.
+pub(crate) fn variance_of(combination: &[(usize, f64)], covariance: impl Fn(usize, usize) -> f64) -> f64 {
+    let pairs = combination.iter().flat_map(|one| combination.iter().map(move |other| (one, other)));
+    pairs.map(|((i, a), (j, b))| a * b * covariance(*i, *j)).sum()
+}
+
 /// From here on the quantile of Student's t is that of the normal distribution with one correction, to 1e-8; the library's
 /// search for it does not end at very many degrees of freedom.
 const NEARLY_NORMAL: f64 = 1e4;

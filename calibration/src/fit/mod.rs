@@ -48,6 +48,7 @@ use sweep::Weighting;
 pub(crate) use align::align_robustly;
 pub use block::Block;
 pub use estimable::Estimable;
+pub(crate) use estimable::variance_of;
 pub use model::Model;
 pub use normal::{Rest, Step};
 pub use outcome::{Outcome, Reason, SetAside, Why};

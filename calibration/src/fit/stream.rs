@@ -8,6 +8,7 @@
 use faer::Mat;
 use model_core::{Chain, SymbolId, SymbolKind};
 
+use super::estimable::variance_of;
 use super::fingerprint::fingerprint;
 use super::model::Model;
 use super::normal::Rest;
@@ -89,10 +90,7 @@ impl StreamedResult {
     /// rows or, where those of a file share errors, of files.
     #[must_use]
     pub fn standard_uncertainty(&self, combination: &[(usize, f64)]) -> f64 {
-        let of = |covariance: &Mat<f64>| -> f64 {
-            let pairs = combination.iter().flat_map(|one| combination.iter().map(move |other| (one, other)));
-            pairs.map(|((i, a), (j, b))| a * b * covariance[(*i, *j)]).sum()
-        };
+        let of = |covariance: &Mat<f64>| variance_of(combination, |i, j| covariance[(i, j)]);
         let of_files = self.shared.as_ref().map_or(0.0, |shared| of(&shared.covariance));
         of(&self.covariance).max(of_files).max(0.0).sqrt()
     }

@@ -313,6 +313,7 @@ mod tests {
             }
         }
     }
+
     /// What a fourth parameter leaves open together with the first, the first determines by itself.
     #[test]
     fn the_first_parameters_by_themselves_determine_what_another_shares_with_them() {

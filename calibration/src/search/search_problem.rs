@@ -226,8 +226,8 @@ fn problem(
     let effects = whole.catalogue.iter().zip(usable).filter(|(_, usable)| **usable).map(|(effect, _)| effect);
     let least = effects.flat_map(|effect| {
         // Beside unknown objects, what would have to be larger than any error to stand out is not looked for.
-        let size = tolerance_of(plan, effect.place.freedom.quantity());
-        std::iter::repeat_n(if plan.fit.anchored { STANDS_OUT / size } else { 0.0 }, effect.functions.len())
+        let size = plan.fit.anchored.then(|| tolerance_of(plan, effect.place.freedom.quantity()));
+        std::iter::repeat_n(size.map_or(0.0, |size| STANDS_OUT / size), effect.functions.len())
     });
     let least: Vec<f64> = least.collect();
     let problem = Problem::of_rows(rows, fitted.combinations.ncols(), &blocks, &least, folds)?;

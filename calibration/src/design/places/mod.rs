@@ -22,7 +22,7 @@ use crate::data::unknowns::{Freedom, OF_OBJECT, Object, Shape, Station, Unknowns
 use crate::data::{Measure, Measured, Observations, Poses, Series};
 use crate::design::Criterion;
 use crate::fit::noise::Layout;
-use crate::fit::{FitError, FitResult, Model};
+use crate::fit::{FitError, FitResult, Model, variance_of};
 use crate::study::{NextPlaces, NextPoses, Plan};
 use aim::ranges_of;
 use candidates::{Candidate, Candidates, New, as_the_others};
@@ -175,11 +175,9 @@ impl Setting<'_> {
         let several = self.fit.estimable.iter().filter(|one| one.combination.len() > 1);
         let combinations = several.filter_map(|one| {
             let now = one.standard_uncertainty?;
-            let of = |covariance: &DMatrix<f64>| -> f64 {
-                let parts = || one.combination.iter().map(|(id, factor)| (self.place(*id), factor));
-                let pairs = parts().flat_map(|one| parts().map(move |other| (one, other)));
-                pairs.map(|((i, a), (j, b))| a * b * covariance[(i, j)]).sum()
-            };
+            let parts = one.combination.iter().map(|&(id, factor)| (self.place(id), factor));
+            let parts: Vec<(usize, f64)> = parts.collect();
+            let of = |covariance: &DMatrix<f64>| variance_of(&parts, |i, j| covariance[(i, j)]);
             Some((now, now * (of(&covariance) / of(&before)).max(0.0).sqrt()))
         });
         let combinations = combinations.collect();

@@ -188,6 +188,11 @@ mod tests {
     const KINDS: [Measure; 6] =
         [Measure::Plane, Measure::Target, Measure::Fixed, Measure::Wire, Measure::Distance, Measure::Sight];
 
+    /// One row, which observes this object from this station.
+    fn of_one_row(object: Object, station: Station) -> Unknowns {
+        Unknowns { objects: vec![object], stations: vec![station], object: vec![Some(0)], station: vec![0] }
+    }
+
     /// Every derivative against differences of the residual.
     #[test]
     fn derivatives_are_those_of_the_residual() {
@@ -206,12 +211,7 @@ mod tests {
                 freedom: Freedom::Free,
                 label: "S".to_owned(),
             };
-            let unknowns = Unknowns {
-                objects: vec![object],
-                stations: vec![station],
-                object: vec![Some(0)],
-                station: vec![0],
-            };
+            let unknowns = of_one_row(object, station);
             let first = [unknowns.first_of_stations(), unknowns.first_of_objects()];
             let mut state = vec![0.02, -0.01, 0.03, 0.2, -0.1, 0.3, 0.01, -0.02, 0.03, 0.01];
             state.truncate(unknowns.numbers());
@@ -256,6 +256,7 @@ mod tests {
             }
         }
     }
+
     /// Where a chain could be larger with all that it observes, derivatives at the object change no row by it, however far off the row
     /// is: those at the prediction do, by as much as the residual.
     #[test]
@@ -275,12 +276,7 @@ mod tests {
                 ..Object::unknown(label, Shape::of(measure).unwrap())
             };
             let station = Station { pose, known: Known::Yes, ..Station::unknown("S".to_owned()) };
-            let unknowns = Unknowns {
-                objects: vec![object],
-                stations: vec![station],
-                object: vec![Some(0)],
-                station: vec![0],
-            };
+            let unknowns = of_one_row(object, station);
             let first = [unknowns.first_of_stations(), unknowns.first_of_objects()];
             let state = vec![0.0; unknowns.numbers()];
             // A row that is off by more than a little, and what its chain would do if all its lengths grew.

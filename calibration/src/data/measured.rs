@@ -34,6 +34,9 @@ pub enum Measure {
     Distance,
     /// A direction that is an unknown point's from a station; two residual components across and along, rad.
     Sight,
+    /// The same from a point of the chain that is not the station's own: the beam on which the observed point moves as the range
+    /// grows goes through the unknown point; two residual components across and along, rad.
+    Beam,
 }
 
 /// What the noise of a component is of: that of one varies with the pose in its own way.
@@ -53,7 +56,7 @@ impl Measure {
     #[must_use]
     pub fn components(self) -> usize {
         match self {
-            Self::Direction | Self::Sight => 2,
+            Self::Direction | Self::Sight | Self::Beam => 2,
             Self::Point | Self::Target | Self::Fixed | Self::Orientation => 3,
             Self::Range | Self::Azimuth | Self::Plane | Self::Wire | Self::Distance => 1,
         }
@@ -63,7 +66,7 @@ impl Measure {
     #[must_use]
     pub fn unit(self) -> SiUnit {
         match self {
-            Self::Direction | Self::Azimuth | Self::Sight | Self::Orientation => SiUnit::RAD,
+            Self::Direction | Self::Azimuth | Self::Sight | Self::Beam | Self::Orientation => SiUnit::RAD,
             Self::Point
             | Self::Range
             | Self::Plane
@@ -78,7 +81,7 @@ impl Measure {
     #[must_use]
     pub fn component_names(self) -> &'static [&'static str] {
         match self {
-            Self::Direction | Self::Sight => &["across", "along"],
+            Self::Direction | Self::Sight | Self::Beam => &["across", "along"],
             Self::Point | Self::Fixed => &["x", "y", "z"],
             Self::Range => &["range"],
             Self::Azimuth => &["azimuth"],
@@ -103,7 +106,9 @@ impl Measure {
     #[must_use]
     pub fn bare(self) -> Self {
         match self {
-            Self::Plane | Self::Target | Self::Fixed | Self::Wire | Self::Distance => Self::Point,
+            Self::Plane | Self::Target | Self::Fixed | Self::Wire | Self::Distance | Self::Beam => {
+                Self::Point
+            }
             Self::Sight => Self::Direction,
             Self::Direction | Self::Point | Self::Range | Self::Azimuth | Self::Orientation => self,
         }
@@ -154,7 +159,8 @@ impl Measured {
             | Measure::Fixed
             | Measure::Wire
             | Measure::Distance
-            | Measure::Sight => {
+            | Measure::Sight
+            | Measure::Beam => {
                 unreachable!("poses without observations are bare")
             }
         }

@@ -280,7 +280,7 @@ pub fn rounding(observations: &Observations, fit: &FitResult) -> Option<Caution>
 /// The usual distance that a series measures, m; none for directions.
 fn distance_m(observations: &Observations, series: &Series) -> Option<f64> {
     match series.measure {
-        Measure::Direction | Measure::Azimuth | Measure::Sight | Measure::Orientation => None,
+        Measure::Direction | Measure::Azimuth | Measure::Sight | Measure::Beam | Measure::Orientation => None,
         // Nobody knows where these are.
         Measure::Plane | Measure::Target | Measure::Fixed | Measure::Wire | Measure::Distance => None,
         Measure::Point | Measure::Range => {

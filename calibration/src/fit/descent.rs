@@ -179,6 +179,10 @@ impl Solver<'_> {
                 course.point = next;
                 damping = if damping < 1e-7 { least } else { damping / 10.0 };
             } else {
+                if has_objects && damping == 0.0 && step.length <= ROUGHLY {
+                    // Derivatives leave out what is as small as the residual: no step of theirs leads further down.
+                    return Ok(());
+                }
                 if has_objects && matches!(point.rest, Rest::Prior(_)) {
                     if step.length.powi(2) <= UNRESOLVED * point.objective() {
                         course.stopped = (damping > 0.0).then_some(Reason::NoDescent);

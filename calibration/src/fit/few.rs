@@ -20,9 +20,9 @@ const SUSPECT: f64 = 0.2;
 const PROVEN: f64 = 0.001;
 
 impl Solver<'_> {
-    /// Whether so many determined combinations leave few degrees of freedom.
-    pub(super) fn are_few(&self, rank: usize) -> bool {
-        (self.layout.components() as f64) < FEW + rank as f64
+    /// Whether what a course determines, objects and stations with it, leaves few degrees of freedom.
+    pub(super) fn are_few(&self, course: &Course) -> bool {
+        (self.layout.components() as f64) < FEW + self.used(course)
     }
 
     /// Least squares of the rows that a robust course does not prove wrong.
@@ -39,10 +39,10 @@ impl Solver<'_> {
         self.aside = suspect;
         let kept = self.course(&robust.point.values, Weighting::Full)?;
         let with_kept = self.squares(&kept, &robust, &self.aside);
-        let used = kept.subspace.rank() as f64;
-        let left = with_kept.1 - used;
-        let more = with_all.1 - with_kept.1;
-        if left >= 1.0 && kept.subspace.rank() == all.subspace.rank() {
+        // What the rows leave after the errors, objects and stations.
+        let left = with_kept.1 - self.used(&kept);
+        let more = with_all.1 - self.used(&all) - left;
+        if left >= 1.0 && more >= 1.0 && kept.subspace.rank() == all.subspace.rank() {
             let ratio = (with_all.0 - with_kept.0) / more / (with_kept.0 / left);
             let chance = FisherSnedecor::new(more, left).map_or(1.0, |f| f.sf(ratio.max(0.0)));
             if chance.ln() + ln_binomial(weight.len() as u64, suspects as u64) < PROVEN.ln() {

@@ -4,6 +4,7 @@
 //! [`Outcome`], never a panic.
 
 mod align;
+mod beam;
 mod block;
 mod cluster;
 mod coordinates;
@@ -46,6 +47,7 @@ use crate::fit::noise::{Noise, NoiseOptions};
 use sweep::Weighting;
 
 pub(crate) use align::align_robustly;
+pub(crate) use beam::range_of;
 pub use block::Block;
 pub use estimable::Estimable;
 pub(crate) use estimable::variance_of;

@@ -4,11 +4,12 @@ use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
 use codegen::{Form, Interpreter, NodeId, Op, Program, build_all};
-use model_core::{Chain, Quantity, SymbolId, SymbolKind};
+use model_core::{Chain, SymbolId, SymbolKind};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
 use super::FitError;
+use super::beam::Beam;
 use super::block::Block;
 use super::objects::{self, TurnsBy};
 use super::residual::components;
@@ -33,7 +34,7 @@ pub struct Model {
     /// One per series of the observations: exact value, then the columns of the exact Jacobian.
     programs: Vec<Program>,
     /// One per series: which way its observed point moves as the range grows; none where it is no target's.
-    beams: Vec<Option<Program>>,
+    beams: Vec<Option<Beam>>,
     /// Symbols of the chain; values behind them are those of objects and stations.
     symbols: usize,
     turns_by: TurnsBy,
@@ -118,7 +119,7 @@ impl Model {
             let wrt: Vec<SymbolId> = kept.iter().map(|&parameter| parameters[parameter]).collect();
             programs = build(&wrt);
         }
-        let beams = beams(chain, poses, &programs);
+        let beams = Beam::of_all(chain, poses);
         Ok(Self {
             parameters: parameters.to_vec(),
             column_of,
@@ -148,7 +149,7 @@ impl Model {
     pub fn without_columns(chain: &Chain, poses: &Poses) -> Self {
         let of = |series| program(chain, series, &[Form::ExactValue], &[]);
         let programs: Vec<Program> = poses.series.iter().map(of).collect();
-        let beams = beams(chain, poses, &programs);
+        let beams = Beam::of_all(chain, poses);
         let symbols = chain.symbols.len();
         Self {
             parameters: Vec::new(),
@@ -257,7 +258,7 @@ impl Model {
                             why: "more series than the model has".to_string(),
                         });
                     };
-                    let beam = beam.as_mut();
+                    let beam = self.beams.get(index).and_then(Option::as_ref).zip(beam.as_mut());
                     self.evaluate(interpreter, beam, of, series, rows.clone(), values, block)?;
                     Ok(f(index, rows, block))
                 },
@@ -280,7 +281,9 @@ impl Model {
 
     fn running(&self) -> Running {
         let own = self.programs.iter().zip(&self.beams);
-        let own = own.map(|(value, beam)| (Interpreter::new(value), beam.as_ref().map(Interpreter::new)));
+        let own = own.map(|(value, beam)| {
+            (Interpreter::new(value), beam.as_ref().map(|beam| Interpreter::new(&beam.program)))
+        });
         Running { interpreters: own.collect(), block: Block::default() }
     }
 
@@ -289,7 +292,7 @@ impl Model {
     fn evaluate(
         &self,
         interpreter: &mut Interpreter,
-        beam: Option<&mut Interpreter>,
+        beam: Option<(&Beam, &mut Interpreter)>,
         of: Rows<'_>,
         series: &Series,
         rows: Range<usize>,
@@ -297,7 +300,7 @@ impl Model {
         block: &mut Block,
     ) -> Result<(), FitError> {
         let (count, m) = (rows.len(), series.measure.components());
-        let columns: Vec<(SymbolId, &[f64])> = of
+        let mut columns: Vec<(SymbolId, &[f64])> = of
             .poses
             .columns
             .iter()
@@ -316,6 +319,19 @@ impl Model {
         })?;
         let unknowns = of.observed.and_then(|observed| observed.unknowns.as_ref());
         let first = unknowns.map(|unknowns| [unknowns.first_of_stations(), unknowns.first_of_objects()]);
+        let along = match beam {
+            Some((beam, interpreter)) => {
+                let far = |row: usize, origin: &Vector3<f64>| {
+                    let (unknowns, first) = unknowns.zip(first.as_ref())?;
+                    objects::distance(unknowns, first, state, rows.start + row, origin)
+                };
+                Some(beam.along(interpreter, &columns, values, count, far)?)
+            }
+            None => None,
+        };
+        if let Some((range, ranges)) = along.as_ref().and_then(|along| along.ranges.as_ref()) {
+            columns.iter_mut().filter(|(id, _)| id == range).for_each(|(_, own)| *own = ranges);
+        }
         let mut outputs: Vec<&mut [f64]> = block.outputs.chunks_exact_mut(count.max(1)).collect();
         interpreter
             .eval_batch(&columns, values, &mut outputs)
@@ -336,13 +352,6 @@ impl Model {
             return Ok(());
         }
         let predicted = |row: usize| Vector3::new(outputs[0][row], outputs[1][row], outputs[2][row]);
-        let mut along = vec![0.0; 3 * count];
-        let has_beam = beam.is_some();
-        if let Some(beam) = beam {
-            let mut axes: Vec<&mut [f64]> = along.chunks_exact_mut(count.max(1)).collect();
-            beam.eval_batch(&columns, values, &mut axes)
-                .map_err(|error| FitError::WrongShape { why: error.to_string() })?;
-        }
         for row in 0..count {
             let predicted = predicted(row);
             let measured = match of.observed {
@@ -350,8 +359,7 @@ impl Model {
                 None => Measured::exactly(series.measure, &predicted),
             };
             let seen = unknowns.zip(first.as_ref()).and_then(|(unknowns, first)| {
-                let beam =
-                    if has_beam { [0, 1, 2].map(|axis| along[axis * count + row]).into() } else { predicted };
+                let beam = along.as_ref().map_or(predicted, |along| along.of(row));
                 let row = rows.start + row;
                 let measure = series.measure;
                 let by = self.turns_by;
@@ -396,25 +404,6 @@ fn program(chain: &Chain, series: &Series, forms: &[Form], wrt: &[SymbolId]) -> 
         Measure::Orientation => build_all(&axes_of(chain, series.observable), &AXES, forms, wrt),
         _ => build_all(chain, &[series.observable], forms, wrt),
     }
-}
-
-/// Per series the derivative of a target's point by the one input of length that moves it: the way of the beam, wherever the
-/// frame's origin lies.
-fn beams(chain: &Chain, poses: &Poses, programs: &[Program]) -> Vec<Option<Program>> {
-    let of = |(series, program): (&Series, &Program)| {
-        let is_range = |id: &SymbolId| {
-            let symbol = chain.symbol(*id);
-            symbol.kind == SymbolKind::Input && symbol.quantity == Quantity::Length
-        };
-        let ranges: Vec<SymbolId> = program.inputs().into_iter().map(|(id, _)| id).filter(is_range).collect();
-        match ranges[..] {
-            [range] if series.measure == Measure::Target => {
-                Some(build_all(chain, &[series.observable], &[Form::ExactJacobian], &[range]))
-            }
-            _ => None,
-        }
-    };
-    poses.series.iter().zip(programs).map(of).collect()
 }
 
 /// Which column each parameter has when equal ones are merged and those that are zero left out, and the first parameter of

@@ -68,7 +68,7 @@ impl Solver<'_> {
             course = self.elsewhere(course)?;
         }
         course = self.nearest(course)?;
-        if weighting == Weighting::Biweight && self.are_few(course.subspace.rank()) {
+        if weighting == Weighting::Biweight && self.are_few(&course) {
             course = self.of_few(course)?;
         }
         self.release(&mut course)?;
@@ -102,7 +102,7 @@ impl Solver<'_> {
     fn doubtful(&self, course: &Course) -> Result<bool, FitError> {
         let (_, weight) = self.norms_and_weights(course);
         let lost = weight.iter().filter(|weight| **weight == 0.0).count();
-        let many = !self.are_few(course.subspace.rank()) && lost as f64 > DOUBTFUL * weight.len() as f64;
+        let many = !self.are_few(course) && lost as f64 > DOUBTFUL * weight.len() as f64;
         let plain = self.plain.get_or_init(|| Model::without_columns(self.chain, &self.observations.poses));
         let nominal = residuals(plain, self.observations, &self.nominal())?;
         let worse = self.ln_scale(&course.point.sweep.residual) > self.ln_scale(&nominal);

@@ -1,10 +1,11 @@
 //! The rows that observe objects, each with the point or direction that the chain says.
 
-use model_core::{Chain, exact};
+use model_core::{Chain, SymbolId, exact};
 use nalgebra::Vector3;
 
 use crate::data::unknowns::Unknowns;
-use crate::data::{Measure, Measured, Observations};
+use crate::data::{Measure, Measured, Observations, Series};
+use crate::fit::range_of;
 
 /// A row that observes an object: the point that the chain says.
 pub(crate) struct Row {
@@ -14,6 +15,8 @@ pub(crate) struct Row {
     pub station: usize,
     pub measure: Measure,
     pub point: Vector3<f64>,
+    /// Where the beam of a sight begins, in the chain's frame, m.
+    pub from: Vector3<f64>,
     pub measured: Measured,
 }
 
@@ -29,20 +32,30 @@ pub(crate) fn rows(
     let mut rows = Vec::new();
     for (of, series) in observations.poses.series.iter().enumerate() {
         let path = exact::Path::new(chain, series.observable);
+        let sighted = sighted(chain, series);
         for row in series.rows.clone() {
             let Some(object) = unknowns.object[row] else { continue };
             for (id, readings) in &observations.poses.columns {
                 values[id.index()] = readings[row];
             }
             let point = path.value(&values);
+            let from = sighted.map_or_else(Vector3::zeros, |range| {
+                values[range.index()] = 0.0;
+                path.value(&values)
+            });
             if point.iter().all(|part| part.is_finite()) {
                 let (station, measured) = (unknowns.station[row] as usize, observations.measured[row]);
                 let (object, measure) = (object as usize, series.measure);
-                rows.push(Row { number: row, series: of, object, station, measure, point, measured });
+                rows.push(Row { number: row, series: of, object, station, measure, point, from, measured });
             }
         }
     }
     rows
+}
+
+/// The range of a series' sights, if they are from points of the chain: nobody measures it.
+pub(super) fn sighted(chain: &Chain, series: &Series) -> Option<SymbolId> {
+    if series.measure == Measure::Beam { range_of(chain, series.observable) } else { None }
 }
 
 /// Whether a row tells the place of its object from that of its station, and the other way round.

@@ -7,6 +7,7 @@
 use model_core::{Chain, Quantity, Symbol, SymbolId, SymbolKind, exact};
 use nalgebra::{DMatrix, DVector};
 
+use super::rows::sighted;
 use super::start::StartError;
 use crate::data::unknowns::{Freedom, Unknowns};
 use crate::data::{Measure, Observations, Series};
@@ -54,8 +55,9 @@ fn could_shrink(
     named: impl Fn(&Symbol) -> bool,
 ) -> Result<(), StartError> {
     let Some(unknowns) = &observations.unknowns else { return Ok(()) };
-    let of_points =
-        |series: &&Series| matches!(series.measure, Measure::Plane | Measure::Target | Measure::Fixed);
+    let of_points = |series: &&Series| {
+        matches!(series.measure, Measure::Plane | Measure::Target | Measure::Fixed | Measure::Beam)
+    };
     let turns = |measure: Measure| matches!(measure.bare(), Measure::Direction | Measure::Orientation);
     let shows_none = |series: &Series| of_points(&series) || turns(series.measure);
     let mut points = observations.poses.series.iter().filter(of_points).peekable();
@@ -95,6 +97,7 @@ fn is_sum_of(
     start: &[f64],
 ) -> bool {
     let path = exact::Path::new(chain, series.observable);
+    let sighted = sighted(chain, series);
     let poses = 2 * lengths.len() + 20;
     let mut values = start.to_vec();
     values.truncate(chain.symbols.len());
@@ -105,6 +108,10 @@ fn is_sum_of(
             // Each joint from another row: poses at which nothing was fixed.
             let row = series.rows.start + (pose * (2 * at + 1) + 7 * at) % series.rows.len().max(1);
             values[id.index()] = readings[row];
+        }
+        // Of a sight where it begins: its range is as long as it takes.
+        if let Some(range) = sighted {
+            values[range.index()] = 0.0;
         }
         let point = path.value(&values);
         for axis in 0..3 {

@@ -7,9 +7,9 @@ use model_core::Chain;
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
 
 use super::remark::{Remark, remarks};
-use super::rows::{Row, rows, tells};
+use super::rows::{Row, rows, sighted, tells};
 use crate::data::unknowns::{Known, Object, Pose, Shape, Unknowns};
-use crate::data::{Measure, Measured, Observations};
+use crate::data::{Measure, Measured, Observations, Poses};
 use crate::fit::align_robustly;
 
 /// Singular values below this share of the largest are none: points in a line or a plane.
@@ -91,8 +91,20 @@ pub fn place(
     let Some(mut unknowns) = observations.unknowns.take() else { return Ok(Vec::new()) };
     let rows = rows(chain, observations, &unknowns, values);
     let placed = place_all(&mut unknowns, &rows).map(|()| remarks(observations, &unknowns, &rows));
+    end_sights(chain, observations, &unknowns, &rows);
     observations.unknowns = Some(unknowns);
     placed
+}
+
+/// Sights end where their objects are.
+fn end_sights(chain: &Chain, observations: &mut Observations, unknowns: &Unknowns, rows: &[Row]) {
+    let Poses { series, columns } = &mut observations.poses;
+    for row in rows {
+        let Some(range) = sighted(chain, &series[row.series]) else { continue };
+        let there = unknowns.stations[row.station].pose.back(&unknowns.objects[row.object].place);
+        let own = columns.iter_mut().filter(|(id, _)| *id == range);
+        own.for_each(|(_, ranges)| ranges[row.number] = (there - row.from).norm());
+    }
 }
 
 fn place_all(unknowns: &mut Unknowns, rows: &[Row]) -> Result<(), StartError> {
@@ -230,8 +242,10 @@ fn place_object(object: &mut Object, rows: &[&Row], poses: &[Pose]) -> Result<()
         }
         Shape::Point => {
             // Where the beams come nearest to each other.
-            let sights = rows.iter().zip(poses).filter(|(row, _)| row.measure == Measure::Sight);
-            let beams = sights.map(|(row, pose)| (pose.turn * row.point.normalize(), pose.shift));
+            let sights = rows.iter().zip(poses);
+            let sights = sights.filter(|(row, _)| matches!(row.measure, Measure::Sight | Measure::Beam));
+            let beams = sights
+                .map(|(row, pose)| (pose.turn * (row.point - row.from).normalize(), pose.apply(&row.from)));
             let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
             for (beam, from) in beams {
                 let across = Matrix3::identity() - beam * beam.transpose();

@@ -41,7 +41,7 @@ impl Columns {
         for (_, reading) in &source.readings {
             let names = match reading {
                 Reading::Derived(derived) => derived.columns(),
-                Reading::Column(_) => Vec::new(),
+                Reading::Column(_) | Reading::Sighted => Vec::new(),
             };
             for name in names {
                 let of_symbol = plan

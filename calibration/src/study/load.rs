@@ -249,8 +249,12 @@ impl Plan {
             of_symbol.or_else(|| time().map(|&(_, at)| &rows.numbers[at])).cloned()
         };
         let derived = source.readings.iter().filter_map(|(id, reading)| {
-            let Reading::Derived(derived) = reading else { return None };
-            Some((*id, derived.values(named)?))
+            match reading {
+                Reading::Derived(derived) => Some((*id, derived.values(named)?)),
+                // Until the objects have places.
+                Reading::Sighted => Some((*id, vec![1.0; rows.row_numbers.len()])),
+                Reading::Column(_) => None,
+            }
         });
         let derived: Vec<_> = derived.collect();
         all.extend(derived);

@@ -1,6 +1,6 @@
 //! The columns of `[observed]`: which they are, what they measure, and what they are called where the study does not say.
 
-use model_core::{Axis, Chain, ObservableId, Quantity};
+use model_core::{Axis, Chain, ObservableId, ObservableKind, Quantity};
 use toml::Spanned;
 
 use super::column_plan::{ColumnPlan, column_plan};
@@ -52,6 +52,9 @@ pub(super) fn observed_columns(
         Kind::Fixed => (Measure::Fixed, Quantity::Length, Vec::new()),
         Kind::Wire => (Measure::Wire, Quantity::Length, vec![("length", &observed.length)]),
         Kind::Distance => (Measure::Distance, Quantity::Length, vec![("length", &observed.length)]),
+        Kind::Sight if observable.kind == ObservableKind::Point => {
+            (Measure::Beam, Quantity::Angle, Vec::new())
+        }
         Kind::Sight => (Measure::Sight, Quantity::Angle, Vec::new()),
         Kind::Orientation => {
             let (form, keys) = orientation::form(observed, &place)?;

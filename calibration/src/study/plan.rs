@@ -10,6 +10,7 @@ use super::estimated::{estimable, matching};
 use super::mistakes::{Gathered, Outcome, Several, every, mistake, plain, unknown, within};
 use super::observed::{ObservedColumns, observed_columns};
 use super::orientation;
+use super::places;
 use super::shown::{self, Convention};
 use super::timeless::{Timeless, timeless};
 use super::unsought::{Unsought, unsought};
@@ -157,6 +158,8 @@ pub struct Search {
 pub(super) enum Reading {
     Column(ColumnPlan),
     Derived(Derived),
+    /// Nobody measures it: a sight ends where its object is.
+    Sighted,
 }
 
 /// Sources beside the first.
@@ -260,7 +263,8 @@ impl Study {
                 mistakes.take::<()>(Err(mistake(data.span(), "no data file", "name one, or a list of them")));
             }
             let observable = mistakes.take(self.observable(chain, observable.as_ref()));
-            let readings = mistakes.take(self.readings(chain, observable, columns));
+            let sighted = observable.and_then(|id| places::sighted(chain, id, observed.get_ref().kind));
+            let readings = mistakes.take(self.readings(chain, observable, columns, sighted));
             let shown = observable.and_then(|observable| {
                 mistakes.take(self.check_observed(chain, observable, observed))?;
                 mistakes.take(observed_columns(chain, observable, observed))
@@ -323,6 +327,7 @@ impl Study {
         chain: &Chain,
         observable: Option<ObservableId>,
         columns: &Table<Column>,
+        sighted: Option<SymbolId>,
     ) -> Outcome<Vec<(SymbolId, Reading)>> {
         let mut wanted = observable.map_or_else(Vec::new, |observable| needed(chain, observable));
         let named = every(columns.keys().chain(&self.search.inputs).map(|name| {
@@ -345,6 +350,12 @@ impl Study {
         let reading = |id: SymbolId| {
             let symbol = chain.symbol(id);
             let written = columns.iter().find(|(name, _)| *name.get_ref() == symbol.name);
+            if sighted == Some(id) {
+                return match written {
+                    Some((name, _)) => Err(places::no_range(name)),
+                    None => Ok(Reading::Sighted),
+                };
+            }
             let Some((_, column)) = written else {
                 if let Some((_, derived)) = implied.iter().find(|(name, _)| *name == symbol.name) {
                     return Ok(Reading::Derived(derived.clone()));

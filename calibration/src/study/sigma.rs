@@ -69,7 +69,9 @@ fn is_amount(sigma: &Spanned<Sigma>) -> bool {
 /// What residuals measure.
 pub(super) fn quantity(measure: Measure) -> Quantity {
     match measure {
-        Measure::Direction | Measure::Azimuth | Measure::Sight | Measure::Orientation => Quantity::Angle,
+        Measure::Direction | Measure::Azimuth | Measure::Sight | Measure::Beam | Measure::Orientation => {
+            Quantity::Angle
+        }
         Measure::Point
         | Measure::Range
         | Measure::Plane

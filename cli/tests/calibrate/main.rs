@@ -4,6 +4,7 @@
 mod support;
 
 mod bad_studies;
+mod cameras;
 mod instruments;
 mod many;
 mod noiseless;

@@ -35,7 +35,9 @@ impl Shape {
     pub fn of(measure: Measure) -> Option<Self> {
         match measure {
             Measure::Plane => Some(Self::Plane),
-            Measure::Target | Measure::Fixed | Measure::Distance | Measure::Sight => Some(Self::Point),
+            Measure::Target | Measure::Fixed | Measure::Distance | Measure::Sight | Measure::Beam => {
+                Some(Self::Point)
+            }
             Measure::Wire => Some(Self::Wire),
             Measure::Direction
             | Measure::Point

@@ -36,7 +36,7 @@ impl Addition {
             Measure::Fixed => Some(Self::Fixed),
             Measure::Wire => Some(Self::Wire),
             Measure::Distance => Some(Self::Distance),
-            Measure::Sight => Some(Self::Sight),
+            Measure::Sight | Measure::Beam => Some(Self::Sight),
             Measure::Direction
             | Measure::Point
             | Measure::Range

@@ -13,4 +13,4 @@ mod seen;
 
 pub(crate) use eliminate::{Collected, Eliminated};
 pub(crate) use reduce::Reduction;
-pub(crate) use seen::{TurnsBy, seen};
+pub(crate) use seen::{TurnsBy, distance, seen};

@@ -16,7 +16,7 @@ pub(crate) type Seen = ([(f64, Vector3<f64>); 3], Columns);
 /// What a row shows of its object from its station, the chain saying `predicted`; `None` if it observes nothing unknown.
 ///
 /// `state` holds all numbers that are estimated, `first` where those of each station and of each object begin; `beam` points
-/// the way in which a target was seen, of any length.
+/// the way in which a target was seen, of any length; that of a sight from a point of the chain goes from there to `predicted`.
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn seen(
     unknowns: &Unknowns,
@@ -29,18 +29,14 @@ pub(crate) fn seen(
     beam: &Vector3<f64>,
     turns_by: TurnsBy,
 ) -> Option<Seen> {
-    let at = (*unknowns.object.get(row)?)? as usize;
-    let object = unknowns.objects.get(at)?;
-    let place = *unknowns.station.get(row)? as usize;
-    let station = unknowns.stations.get(place)?;
-    let by: [f64; 6] = own_numbers(state, first[0][place], station.numbers());
+    let (object, own) = object_of(unknowns, first, state, row)?;
+    let (pose, by) = pose_of(unknowns, first, state, row)?;
     let frame = Frame {
         by: turns_by,
-        pose: station.pose.moved(&by),
+        pose,
         jacobian: right_jacobian(&Vector3::new(by[3], by[4], by[5])).transpose(),
     };
-    let own: [f64; OF_OBJECT] = own_numbers(state, first[1][at], object.numbers());
-    let shown = |predicted: &Vector3<f64>| {
+    let shown = |predicted: &Vector3<f64>, beam: &Vector3<f64>| {
         Some(match (measure, measured) {
             (Measure::Plane, _) => frame.plane(object, own, predicted),
             (Measure::Target, _) => frame.target(object, own, predicted, beam),
@@ -50,27 +46,72 @@ pub(crate) fn seen(
                 frame.wire(object, own, *length_m, predicted)
             }
             (Measure::Sight, _) => frame.sight(object, own, predicted),
+            (Measure::Beam, _) => frame.beam(object, own, predicted, beam),
             _ => return None,
         })
     };
-    let seen = shown(predicted)?;
-    if turns_by == TurnsBy::Adjusted { adjusted(seen, predicted, shown) } else { Some(seen) }
+    let seen = shown(predicted, beam)?;
+    if turns_by == TurnsBy::Adjusted { adjusted(seen, predicted, beam, shown) } else { Some(seen) }
+}
+
+/// How far the point that a row observes is from `origin`, which is in the chain's frame, m.
+pub(crate) fn distance(
+    unknowns: &Unknowns,
+    first: &[Vec<usize>; 2],
+    state: &[f64],
+    row: usize,
+    origin: &Vector3<f64>,
+) -> Option<f64> {
+    let (object, own) = object_of(unknowns, first, state, row)?;
+    let (pose, _) = pose_of(unknowns, first, state, row)?;
+    Some((pose.back(&(object.place + Vector3::new(own[0], own[1], own[2]))) - origin).norm())
+}
+
+/// What a row observes, and its numbers.
+fn object_of<'a>(
+    unknowns: &'a Unknowns,
+    first: &[Vec<usize>; 2],
+    state: &[f64],
+    row: usize,
+) -> Option<(&'a Object, [f64; OF_OBJECT])> {
+    let at = (*unknowns.object.get(row)?)? as usize;
+    let object = unknowns.objects.get(at)?;
+    Some((object, own_numbers(state, first[1][at], object.numbers())))
+}
+
+/// Where a row was observed from, and the numbers of that station.
+fn pose_of(
+    unknowns: &Unknowns,
+    first: &[Vec<usize>; 2],
+    state: &[f64],
+    row: usize,
+) -> Option<(Pose, [f64; 6])> {
+    let at = *unknowns.station.get(row)? as usize;
+    let station = unknowns.stations.get(at)?;
+    let by = own_numbers(state, first[0][at], station.numbers());
+    Some((station.pose.moved(&by), by))
+}
+
+/// The way that a point has to go for a residual to be none, by its gradient.
+fn to_no_residual((residual, gradient): &(f64, Vector3<f64>)) -> Vector3<f64> {
+    let square = gradient.norm_squared();
+    if square > 0.0 { gradient * (*residual / square) } else { Vector3::zeros() }
 }
 
 /// The residual of a row with derivatives at the point that it would have without one. The chain's are turned and stretched by what
-/// takes its point there.
+/// takes its point there, and its beam with it.
 fn adjusted(
     (mut components, _): Seen,
     predicted: &Vector3<f64>,
-    shown: impl Fn(&Vector3<f64>) -> Option<Seen>,
+    beam: &Vector3<f64>,
+    shown: impl Fn(&Vector3<f64>, &Vector3<f64>) -> Option<Seen>,
 ) -> Option<Seen> {
-    let there =
-        components.iter().fold(*predicted, |point, (residual, gradient)| point + gradient * *residual);
-    let (at_object, columns) = shown(&there)?;
+    let there = components.iter().fold(*predicted, |point, step| point + to_no_residual(step));
     let turn = Rotation3::rotation_between(predicted, &there).unwrap_or_else(Rotation3::identity);
-    let stretch = there.norm() / predicted.norm();
+    let stretch = Some(there.norm() / predicted.norm()).filter(|stretch| stretch.is_finite()).unwrap_or(1.0);
+    let (at_object, columns) = shown(&there, &(turn * beam * stretch))?;
     for ((_, gradient), (_, there)) in components.iter_mut().zip(at_object) {
-        *gradient = turn.inverse() * there * if stretch.is_finite() { stretch } else { 1.0 };
+        *gradient = turn.inverse() * there * stretch;
     }
     Some((components, columns))
 }
@@ -156,6 +197,23 @@ impl Frame {
         one((length_m + object.offset + own[3] - distance, gradient), row)
     }
 
+    /// The direction of the object from where the beam begins against the beam, which ends as far away, on the tangent plane of the
+    /// first.
+    fn beam(&self, object: &Object, own: [f64; OF_OBJECT], p: &Vector3<f64>, beam: &Vector3<f64>) -> Seen {
+        let there = self.pose.back(&(object.place + Vector3::new(own[0], own[1], own[2])));
+        let from = there - (p - beam);
+        let distance = from.norm();
+        let direction = from / distance;
+        let axes = tangent_frame(&direction);
+        let components = residual::on_tangent_plane(&direction, beam);
+        let arm = if self.by == TurnsBy::Prediction { *p } else { there };
+        let row = |axis: Vector3<f64>| {
+            let outside = self.pose.turn * axis / distance;
+            self.row([-outside.x, -outside.y, -outside.z, 0.0], outside, arm.cross(&axis) / distance)
+        };
+        (components, [row(axes[0]), row(axes[1]), [0.0; WIDTH]])
+    }
+
     /// The direction of the object from the station against the beam, on the tangent plane of the first.
     fn sight(&self, object: &Object, own: [f64; OF_OBJECT], beam: &Vector3<f64>) -> Seen {
         let there = self.pose.back(&(object.place + Vector3::new(own[0], own[1], own[2])));
@@ -185,8 +243,15 @@ mod tests {
 
     use super::*;
 
-    const KINDS: [Measure; 6] =
-        [Measure::Plane, Measure::Target, Measure::Fixed, Measure::Wire, Measure::Distance, Measure::Sight];
+    const KINDS: [Measure; 7] = [
+        Measure::Plane,
+        Measure::Target,
+        Measure::Fixed,
+        Measure::Wire,
+        Measure::Distance,
+        Measure::Sight,
+        Measure::Beam,
+    ];
 
     /// One row, which observes this object from this station.
     fn of_one_row(object: Object, station: Station) -> Unknowns {
@@ -216,6 +281,7 @@ mod tests {
             let mut state = vec![0.02, -0.01, 0.03, 0.2, -0.1, 0.3, 0.01, -0.02, 0.03, 0.01];
             state.truncate(unknowns.numbers());
             let there = unknowns.stations[0].pose.back(&unknowns.objects[0].place);
+            let eye = Vector3::new(0.6, -0.4, 0.3);
             // Where the row hits what it observes, but for little: derivatives leave out what is as small as the residual.
             let p = match measure {
                 Measure::Sight => there.normalize() + Vector3::new(1e-7, 2e-7, -1e-7),
@@ -223,12 +289,13 @@ mod tests {
             };
             let at = |state: &[f64], p: &Vector3<f64>| {
                 let length = Measured::Length { length_m: 0.3 };
-                seen(&unknowns, &first, state, 0, measure, &length, p, p, TurnsBy::Object).unwrap()
+                let beam = if measure == Measure::Beam { p - eye } else { *p };
+                seen(&unknowns, &first, state, 0, measure, &length, p, &beam, TurnsBy::Object).unwrap()
             };
             // The point that the row would have at no residual.
             let p = (0..20).fold(p, |p, _| {
                 let (components, _) = at(&state, &p);
-                components.iter().fold(p, |p, (r, gradient)| p + gradient * *r)
+                components.iter().fold(p, |p, step| p + to_no_residual(step))
             });
             let p = if measure == Measure::Sight { p.normalize() } else { p };
             let (components, columns) = at(&state, &p);
@@ -255,6 +322,60 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// A beam that begins at the station is a sight, but for the length of what the chain says.
+    #[test]
+    fn a_beam_from_the_station_is_a_sight() {
+        let object = Object {
+            place: Vector3::new(4.0, 7.0, 1.0),
+            known: Known::Yes,
+            ..Object::unknown("A".to_owned(), Shape::Point)
+        };
+        let pose = Pose::new(Vector3::new(0.4, -0.7, 0.2), 0.02, 0.3, -0.9);
+        let station = Station { pose, known: Known::Yes, ..Station::unknown("S".to_owned()) };
+        let there = pose.back(&object.place);
+        let unknowns = of_one_row(object, station);
+        let first = [unknowns.first_of_stations(), unknowns.first_of_objects()];
+        let state = vec![0.0; unknowns.numbers()];
+        let sight = (there.normalize() + Vector3::new(2e-5, -3e-5, 1e-5)).normalize();
+        let beam = sight * there.norm();
+        for by in [TurnsBy::Object, TurnsBy::Prediction, TurnsBy::Adjusted] {
+            let at = |measure, p| seen(&unknowns, &first, &state, 0, measure, &Measured::Readings, p, p, by);
+            let (sights, of_sight) = at(Measure::Sight, &sight).unwrap();
+            let (beams, of_beam) = at(Measure::Beam, &beam).unwrap();
+            for component in 0..2 {
+                let [(one, by_sight), (other, by_beam)] = [sights[component], beams[component]];
+                assert!((one - other).abs() < 1e-15, "{by:?}: {one} {other}");
+                let apart = (by_sight - by_beam * there.norm()).norm();
+                assert!(apart < 1e-8, "{by:?}: {by_sight} {by_beam}");
+                for (one, other) in of_sight[component].iter().zip(of_beam[component]) {
+                    assert!((one - other).abs() < 1e-8, "{by:?}: {of_sight:?} {of_beam:?}");
+                }
+            }
+        }
+    }
+
+    /// A range takes the point along the beam, past the object or not: nobody measures it, and the residual does not tell of it.
+    #[test]
+    fn noise_shows_no_range_of_a_sight() {
+        let (eye, place) = (Vector3::new(0.6, -0.4, 0.3), Vector3::new(4.0, 7.0, 1.0));
+        let label = "A".to_owned();
+        let object = Object { place, known: Known::Yes, ..Object::unknown(label, Shape::Point) };
+        let pose = Pose::new(Vector3::new(0.4, -0.7, 0.2), 0.02, 0.3, -0.9);
+        let station = Station { pose, known: Known::Yes, ..Station::unknown("S".to_owned()) };
+        let unknowns = of_one_row(object, station);
+        let first = [unknowns.first_of_stations(), unknowns.first_of_objects()];
+        let state = vec![0.0; unknowns.numbers()];
+        let to = pose.back(&place) - eye;
+        let beam = (to.normalize() + Vector3::new(2e-4, -3e-4, 1e-4)).normalize() * to.norm();
+        let change = |by| {
+            let (measure, measured) = (Measure::Beam, Measured::Readings);
+            let of = seen(&unknowns, &first, &state, 0, measure, &measured, &(eye + beam), &beam, by);
+            of.unwrap().0.iter().map(|(_, gradient)| gradient.dot(&beam).abs()).fold(0.0, f64::max)
+        };
+        assert!(change(TurnsBy::Object) > 1e-5, "{}", change(TurnsBy::Object));
+        assert!(change(TurnsBy::Adjusted) < 1e-6, "{}", change(TurnsBy::Adjusted));
     }
 
     /// Where a chain could be larger with all that it observes, derivatives at the object change no row by it, however far off the row

@@ -4,7 +4,7 @@
 It shares no code with trueaxis. NumPy alone is needed. Both instruments have the errors of their declarations and one thing
 that these lack: the shoulder's encoder of the arm, and the horizontal circle of the theodolite, sit off centre.
 
-    python3 simulate_wires_and_sights.py            writes wires.csv, bars.csv and sights.csv beside this file
+    python3 simulate_wires_and_sights.py            writes wires.csv, bars.csv, rings.csv and sights.csv beside this file
 """
 
 import pathlib
@@ -15,6 +15,7 @@ ARCSEC = np.pi / 180 / 3600
 ARM = {"zero2": 0.8e-3, "length2": 0.7e-3, "zero3": -1.1e-3, "length3": -0.5e-3, "aside": 0.9e-3}
 SHOULDER_ECCENTRIC, SHOULDER_PHASE = 600e-6, 0.4
 WIRE_NOISE = 0.1e-3
+RADIUS = 0.25
 PIVOTS = {"P1": (1.1, 0.4, -0.3), "P2": (-0.9, 1.2, 0.1), "P3": (-0.7, -1.3, 1.4), "P4": (0.8, -1.0, 0.6)}
 SIGHTS = {"trunnion": 12 * ARCSEC, "index": -18 * ARCSEC, "collimation": 25 * ARCSEC}
 CIRCLE_ECCENTRIC, CIRCLE_PHASE = 20 * ARCSEC, -0.9
@@ -63,6 +64,35 @@ def bars(random):
             yield f"{name},{q[0]:.7f},{q[1]:.7f},{q[2]:.7f},{length * 1e3:.3f}\n"
 
 
+def rings(random):
+    """The tip holds a ball at the end of a crank that turns about one of four axes; every other crank is 20 mm shorter."""
+    for crank in range(4):
+        around = np.pi / 2 * crank + random.uniform(-0.4, 0.4)
+        centre = np.array([0.65 * np.cos(around), 0.65 * np.sin(around), random.uniform(0.2, 0.8)])
+        axis = random.standard_normal(3)
+        axis /= np.linalg.norm(axis)
+        across = np.cross(axis, [0.3, 0.5, 0.8])
+        across /= np.linalg.norm(across)
+        along = np.cross(axis, across)
+        radius = RADIUS - 0.02 * (crank % 2)
+        rows = 0
+        while rows < 60:
+            turned = random.uniform(-np.pi, np.pi)
+            ball = centre + radius * (np.cos(turned) * across + np.sin(turned) * along)
+            ball = ball + WIRE_NOISE * random.standard_normal(3)
+            q = random.uniform([-np.pi, -1.2, -2.4], [np.pi, 2.6, 2.4])
+            for _ in range(30):
+                step = 1e-6
+                columns = [(tip(*(q + step * e)) - tip(*(q - step * e))) / (2 * step) for e in np.eye(3)]
+                change = np.linalg.lstsq(np.array(columns).T, ball - tip(*q), rcond=None)[0]
+                q = q + change * min(1.0, 0.5 / max(np.abs(change).max(), 1e-12))
+            q[0] = (q[0] + np.pi) % (2 * np.pi) - np.pi
+            if np.linalg.norm(tip(*q) - ball) > 1e-9 or not -1.2 < q[1] < 2.6 or not -2.4 < q[2] < 2.4:
+                continue
+            rows += 1
+            yield f"C{crank + 1},{q[0]:.7f},{q[1]:.7f},{q[2]:.7f},{radius * 1e3:.0f}\n"
+
+
 def beam(azimuth, elevation):
     e = SIGHTS
     turned = azimuth + CIRCLE_ECCENTRIC * np.sin(azimuth - CIRCLE_PHASE)
@@ -97,6 +127,9 @@ def main():
     with open(here / "bars.csv", "w", newline="\n") as file:
         file.write("pivot,q1 [rad],q2 [rad],q3 [rad],length [mm]\n")
         file.writelines(bars(np.random.default_rng(5)))
+    with open(here / "rings.csv", "w", newline="\n") as file:
+        file.write("crank,q1 [rad],q2 [rad],q3 [rad],radius [mm]\n")
+        file.writelines(rings(np.random.default_rng(6)))
     with open(here / "sights.csv", "w", newline="\n") as file:
         file.write("station,mark,azimuth [rad],elevation [rad]\n")
         file.writelines(sights(np.random.default_rng(4)))

@@ -29,6 +29,10 @@ pub enum Measure {
     Fixed,
     /// The length of a wire from an unknown anchor to the point; one residual component, in metres.
     Wire,
+    /// A point on an unknown circle; two residual components, in metres: how far off its plane, and how far outside of it.
+    Circle,
+    /// The same where the radius is known.
+    Ring,
     /// The distance of the point from another, which other rows observe, or which is known or not; one residual component, in
     /// metres.
     Distance,
@@ -56,7 +60,7 @@ impl Measure {
     #[must_use]
     pub fn components(self) -> usize {
         match self {
-            Self::Direction | Self::Sight | Self::Beam => 2,
+            Self::Direction | Self::Sight | Self::Beam | Self::Circle | Self::Ring => 2,
             Self::Point | Self::Target | Self::Fixed | Self::Orientation => 3,
             Self::Range | Self::Azimuth | Self::Plane | Self::Wire | Self::Distance => 1,
         }
@@ -72,6 +76,8 @@ impl Measure {
             | Self::Plane
             | Self::Target
             | Self::Fixed
+            | Self::Circle
+            | Self::Ring
             | Self::Wire
             | Self::Distance => SiUnit::METRE,
         }
@@ -87,6 +93,7 @@ impl Measure {
             Self::Azimuth => &["azimuth"],
             Self::Orientation => &["rotation_x", "rotation_y", "rotation_z"],
             Self::Plane => &["off_plane"],
+            Self::Circle | Self::Ring => &["off_plane", "off_circle"],
             Self::Target => &["across", "up", "along"],
             Self::Wire | Self::Distance => &["length"],
         }
@@ -106,9 +113,14 @@ impl Measure {
     #[must_use]
     pub fn bare(self) -> Self {
         match self {
-            Self::Plane | Self::Target | Self::Fixed | Self::Wire | Self::Distance | Self::Beam => {
-                Self::Point
-            }
+            Self::Plane
+            | Self::Target
+            | Self::Fixed
+            | Self::Circle
+            | Self::Ring
+            | Self::Wire
+            | Self::Distance
+            | Self::Beam => Self::Point,
             Self::Sight => Self::Direction,
             Self::Direction | Self::Point | Self::Range | Self::Azimuth | Self::Orientation => self,
         }
@@ -157,6 +169,8 @@ impl Measured {
             Measure::Plane
             | Measure::Target
             | Measure::Fixed
+            | Measure::Circle
+            | Measure::Ring
             | Measure::Wire
             | Measure::Distance
             | Measure::Sight

@@ -282,7 +282,13 @@ fn distance_m(observations: &Observations, series: &Series) -> Option<f64> {
     match series.measure {
         Measure::Direction | Measure::Azimuth | Measure::Sight | Measure::Beam | Measure::Orientation => None,
         // Nobody knows where these are.
-        Measure::Plane | Measure::Target | Measure::Fixed | Measure::Wire | Measure::Distance => None,
+        Measure::Plane
+        | Measure::Target
+        | Measure::Fixed
+        | Measure::Circle
+        | Measure::Ring
+        | Measure::Wire
+        | Measure::Distance => None,
         Measure::Point | Measure::Range => {
             let distance = |row: usize| match observations.measured[row] {
                 Measured::Point(point) => point.norm(),

@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector};
 use super::rows::sighted;
 use super::start::StartError;
 use crate::data::unknowns::{Freedom, Unknowns};
-use crate::data::{Measure, Observations, Series};
+use crate::data::{Measure, Measured, Observations, Series};
 use crate::fit::FitOptions;
 
 /// A part of the points this small is rounding.
@@ -55,8 +55,11 @@ fn could_shrink(
     named: impl Fn(&Symbol) -> bool,
 ) -> Result<(), StartError> {
     let Some(unknowns) = &observations.unknowns else { return Ok(()) };
-    let of_points = |series: &&Series| {
-        matches!(series.measure, Measure::Plane | Measure::Target | Measure::Fixed | Measure::Beam)
+    let of_points = |series: &&Series| match series.measure {
+        Measure::Plane | Measure::Target | Measure::Fixed | Measure::Circle | Measure::Beam => true,
+        // Of a sphere whose radius nobody knows no length is read.
+        Measure::Wire => observations.measured[series.rows.clone()].iter().all(reads_nothing),
+        _ => false,
     };
     let turns = |measure: Measure| matches!(measure.bare(), Measure::Direction | Measure::Orientation);
     let shows_none = |series: &Series| of_points(&series) || turns(series.measure);
@@ -77,6 +80,10 @@ fn could_shrink(
         }
         _ => Ok(()),
     }
+}
+
+fn reads_nothing(measured: &Measured) -> bool {
+    *measured == Measured::Length { length_m: 0.0 }
 }
 
 /// How many stations and objects are where the study says, to within something.

@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
 use super::remark::{Remark, remarks};
 use super::rows::{Row, rows, sighted, tells};
 use crate::data::unknowns::{Known, Object, Pose, Shape, Unknowns};
-use crate::data::{Measure, Measured, Observations, Poses};
+use crate::data::{Measure, Measured, Observations, Poses, tangent_frame};
 use crate::fit::align_robustly;
 
 /// Singular values below this share of the largest are none: points in a line or a plane.
@@ -215,19 +215,9 @@ fn place_object(object: &mut Object, rows: &[&Row], poses: &[Pose]) -> Result<()
     object.known = Known::Yes;
     match object.shape {
         Shape::Plane => {
-            let eigen = squares.symmetric_eigen();
-            let mut order = [0, 1, 2];
-            order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
-            if rows.len() < 3 || eigen.eigenvalues[order[1]] <= FLAT * FLAT * eigen.eigenvalues[order[2]] {
-                return Err(not("observe it at three places at least that are not in a line"));
-            }
-            let normal: Vector3<f64> = eigen.eigenvectors.column(order[0]).into();
-            // Of the two the one whose largest part is positive.
-            let largest = normal
-                .iter()
-                .copied()
-                .fold(0.0, |most: f64, part| if part.abs() > most.abs() { part } else { most });
-            object.normal = normal * largest.signum();
+            object.normal = flattest(squares)
+                .filter(|_| rows.len() >= 3)
+                .ok_or_else(|| not("observe it at three places at least that are not in a line"))?;
             object.place = centre;
         }
         Shape::Point if rows.iter().any(|row| tells(row)) => {
@@ -259,9 +249,16 @@ fn place_object(object: &mut Object, rows: &[&Row], poses: &[Pose]) -> Result<()
                 not("its beams do not cross: sight it from another station, or write where it is")
             })?;
         }
+        Shape::Circle | Shape::Ring => {
+            let (axis, place, radius) = circle(&points.collect::<Vec<_>>(), &centre, squares)
+                .ok_or_else(|| not("observe it at three places at least, spread along the circle"))?;
+            (object.normal, object.place) = (axis, place);
+            object.offset = if object.shape == Shape::Circle { radius } else { 0.0 };
+        }
         Shape::Wire => {
-            let [x, y, z, offset] = trilaterated::<4>(rows, poses)
-                .ok_or_else(|| not("a wire takes five rows at least, at points that are not in a plane"))?;
+            let [x, y, z, offset] = trilaterated::<4>(rows, poses).ok_or_else(|| {
+                not("a wire or a sphere takes five rows at least, at points that are not in a plane")
+            })?;
             object.place = Vector3::new(x, y, z);
             object.offset = offset;
         }
@@ -269,23 +266,66 @@ fn place_object(object: &mut Object, rows: &[&Row], poses: &[Pose]) -> Result<()
     Ok(())
 }
 
+/// The direction in which points are spread least, of its two ways the one whose largest part is positive; `None` for points in a
+/// line.
+fn flattest(squares: Matrix3<f64>) -> Option<Vector3<f64>> {
+    let eigen = squares.symmetric_eigen();
+    let mut order = [0, 1, 2];
+    order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
+    if eigen.eigenvalues[order[1]] <= FLAT * FLAT * eigen.eigenvalues[order[2]] {
+        return None;
+    }
+    let normal: Vector3<f64> = eigen.eigenvectors.column(order[0]).into();
+    let larger = |most: f64, part: f64| if part.abs() > most.abs() { part } else { most };
+    let largest = normal.iter().copied().fold(0.0, larger);
+    Some(normal * largest.signum())
+}
+
+/// The axis, centre and radius of a circle through points with this mean and these squares about it; `None` where they do not say.
+fn circle(
+    points: &[Vector3<f64>],
+    mean: &Vector3<f64>,
+    squares: Matrix3<f64>,
+) -> Option<(Vector3<f64>, Vector3<f64>, f64)> {
+    let axis = flattest(squares).filter(|_| points.len() >= 3)?;
+    let [across, along] = tangent_frame(&axis);
+    // |x|² = 2 x·c + (r² − |c|²) in the plane: linear in c and what is in the brackets.
+    let places = points.iter().map(|point| [(point - mean).dot(&across), (point - mean).dot(&along)]);
+    let places: Vec<[f64; 2]> = places.collect();
+    let matrix = DMatrix::from_fn(places.len(), 3, |i, j| if j < 2 { 2.0 * places[i][j] } else { 1.0 });
+    let right = DVector::from_fn(places.len(), |i, _| places[i].iter().map(|part| part * part).sum());
+    let svd = matrix.svd(true, true);
+    if svd.singular_values.min() <= FLAT * svd.singular_values.max() {
+        return None;
+    }
+    let solved = svd.solve(&right, 0.0).ok()?;
+    let radius = (solved[2] + solved[0] * solved[0] + solved[1] * solved[1]).sqrt();
+    Some((axis, mean + across * solved[0] + along * solved[1], radius))
+}
+
 /// The anchor of lengths to known points, and with a fourth number what each length lacks; `None` where these points do not
 /// say.
 fn trilaterated<const N: usize>(rows: &[&Row], poses: &[Pose]) -> Option<[f64; N]> {
-    let length_m = |i: usize| match rows[i].measured {
-        Measured::Length { length_m } => length_m,
-        _ => unreachable!("the rows measure lengths"),
-    };
-    // |x|² − L² = 2 x·a + 2 L z − (|a|² − z²): linear in a, z and what is in the brackets.
+    let lengths_m: Vec<f64> = rows
+        .iter()
+        .map(|row| match row.measured {
+            Measured::Length { length_m } => length_m,
+            _ => unreachable!("the rows measure lengths"),
+        })
+        .collect();
     let points: Vec<Vector3<f64>> =
         rows.iter().zip(poses).map(|(row, pose)| pose.apply(&row.point)).collect();
-    let matrix = DMatrix::from_fn(rows.len(), N + 1, |i, j| match j {
+    // Lengths that are all one, as those of a sphere, lack what the constant says.
+    let is_one = lengths_m.iter().all(|length| *length == lengths_m[0]);
+    let numbers = if is_one { 3 } else { N };
+    // |x|² − L² = 2 x·a + 2 L z − (|a|² − z²): linear in a, z and what is in the brackets.
+    let matrix = DMatrix::from_fn(rows.len(), numbers + 1, |i, j| match j {
         0..3 => 2.0 * points[i][j],
-        _ if j < N => 2.0 * length_m(i),
+        _ if j < numbers => 2.0 * lengths_m[i],
         _ => -1.0,
     });
-    let right = DVector::from_fn(rows.len(), |i, _| points[i].norm_squared() - length_m(i).powi(2));
-    if rows.len() <= N {
+    let right = DVector::from_fn(rows.len(), |i, _| points[i].norm_squared() - lengths_m[i].powi(2));
+    if rows.len() <= numbers {
         return None;
     }
     let svd = matrix.svd(true, true);
@@ -293,5 +333,9 @@ fn trilaterated<const N: usize>(rows: &[&Row], poses: &[Pose]) -> Option<[f64; N
         return None;
     }
     let solved = svd.solve(&right, 0.0).ok()?;
-    Some(std::array::from_fn(|at| solved[at]))
+    let lacks = || {
+        let squares: f64 = (0..3).map(|axis| solved[axis] * solved[axis]).sum();
+        (squares - solved[3] + lengths_m[0].powi(2)).max(0.0).sqrt() - lengths_m[0]
+    };
+    Some(std::array::from_fn(|at| if at == 3 && is_one { lacks() } else { solved[at] }))
 }

@@ -200,9 +200,11 @@ impl Problem {
         Self { reach: Some(reach), ..self }
     }
 
-    /// The same with rows that state something of the declared columns' coefficients alone, and their residual; they belong to no fold.
+    /// The same with rows that state something of the declared columns' coefficients alone, and their residual, and with the size that each
+    /// candidate's coefficient is expected to have at most; they belong to no fold. Without sizes a fold that hardly sees a candidate
+    /// would take it for anything.
     #[must_use]
-    pub fn with_prior(self, stated: MatRef<'_, f64>, residual: &[f64]) -> Self {
+    pub fn with_prior(self, stated: MatRef<'_, f64>, residual: &[f64], sizes: &[f64]) -> Self {
         let (u, k) = (self.declared, self.rows.ncols() - self.declared - 1);
         let of_basis = stated * &self.right;
         let taken = &of_basis * &self.absorbed;
@@ -212,7 +214,11 @@ impl Problem {
             Some(at) if self.lengths[at] > 0.0 => -taken[(i, at)] / self.lengths[at],
             Some(_) => 0.0,
         });
-        Self { prior: Some(rows.transpose() * &rows), ..self }
+        let mut prior = rows.transpose() * &rows;
+        for (at, size) in sizes.iter().enumerate().filter(|(at, _)| self.lengths[*at] > 0.0) {
+            prior[(u + at, u + at)] += (size * self.lengths[at]).powi(-2);
+        }
+        Self { prior: Some(prior), ..self }
     }
 
     /// The Gram matrix of what is stated of the declared errors, if anything is.

@@ -224,18 +224,20 @@ fn problem(
     let blocks: Vec<Range<usize>> = blocks.collect();
     let plan = whole.request.plan;
     let effects = whole.catalogue.iter().zip(usable).filter(|(_, usable)| **usable).map(|(effect, _)| effect);
-    let least = effects.flat_map(|effect| {
-        // Beside unknown objects, what would have to be larger than any error to stand out is not looked for.
-        let size = plan.fit.anchored.then(|| tolerance_of(plan, effect.place.freedom.quantity()));
-        std::iter::repeat_n(size.map_or(0.0, |size| STANDS_OUT / size), effect.functions.len())
+    let sizes = effects.flat_map(|effect| {
+        let size = tolerance_of(plan, effect.place.freedom.quantity());
+        std::iter::repeat_n(size, effect.functions.len())
     });
-    let least: Vec<f64> = least.collect();
+    let sizes: Vec<f64> = sizes.collect();
+    // Beside unknown objects, what would have to be larger than any error to stand out is not looked for.
+    let least = |size: &f64| if plan.fit.anchored { STANDS_OUT / size } else { 0.0 };
+    let least: Vec<f64> = sizes.iter().map(least).collect();
     let problem = Problem::of_rows(rows, fitted.combinations.ncols(), &blocks, &least, folds)?;
     if !plan.fit.anchored {
         return Ok(problem);
     }
     let (stated, residual) = fitted.stated(declared(whole).len());
-    Ok(problem.with_prior(stated.as_ref(), &residual))
+    Ok(problem.with_prior(stated.as_ref(), &residual, &sizes))
 }
 
 /// What the candidates of a problem do at the data's poses and further out, each series in units of its noise.

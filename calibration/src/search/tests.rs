@@ -58,7 +58,7 @@ fn the_false_alarm_rate_is_as_stated() {
     assert!((1..=20).contains(&alarms), "{alarms} of {tries}");
 }
 
-/// What is stated of declared coefficients counts as rows that every set of folds has.
+/// What is stated of coefficients, of declared columns and of candidates, counts as rows that every set of folds has.
 #[test]
 fn a_prior_is_rows_that_belong_to_no_fold() {
     let (n, p) = (60, 4);
@@ -72,7 +72,8 @@ fn a_prior_is_rows_that_belong_to_no_fold() {
     let block = std::slice::from_ref(&(0..1));
     let problem =
         Problem::new(declared.as_ref(), candidate.as_ref(), block, &residual, &groups, 5, 3).unwrap();
-    let problem = problem.with_prior(stated.as_ref(), &known);
+    let size = 0.3;
+    let problem = problem.with_prior(stated.as_ref(), &known, &[size]);
     for without in 0..5 {
         let mut state = State::declared(&problem, |fold| fold != without);
         let column = problem.block(EffectId(0)).start;
@@ -80,14 +81,16 @@ fn a_prior_is_rows_that_belong_to_no_fold() {
         let found = state.coefficients().iter().find(|(own, _)| *own == column).unwrap().1;
         // The same by all columns as they are.
         let rows = problem.rows_of_folds(|fold| fold != without);
-        let all = Mat::from_fn(rows.len() + 3, p + 1, |i, j| match (i.checked_sub(rows.len()), j < p) {
+        let all = Mat::from_fn(rows.len() + 4, p + 1, |i, j| match (i.checked_sub(rows.len()), j < p) {
             (None, true) => declared[(rows[i], j)],
             (None, false) => candidate[(rows[i], 0)],
+            (Some(3), of_declared) => f64::from(u8::from(!of_declared)) / size,
             (Some(at), true) => stated[(at, j)],
             (Some(_), false) => 0.0,
         });
-        let left = Mat::from_fn(rows.len() + 3, 1, |i, _| match i.checked_sub(rows.len()) {
+        let left = Mat::from_fn(rows.len() + 4, 1, |i, _| match i.checked_sub(rows.len()) {
             None => residual[rows[i]],
+            Some(3) => 0.0,
             Some(at) => known[at],
         });
         let direct = all.qr().solve_lstsq(&left)[(p, 0)];

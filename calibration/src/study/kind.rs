@@ -16,6 +16,8 @@ pub(super) enum Kind {
     Plane,
     Target,
     Fixed,
+    Circle,
+    Sphere,
     Wire,
     Distance,
     Sight,
@@ -34,6 +36,8 @@ impl Kind {
             Self::Plane => "plane",
             Self::Target => "target",
             Self::Fixed => "fixed",
+            Self::Circle => "circle",
+            Self::Sphere => "sphere",
             Self::Wire => "wire",
             Self::Distance => "distance",
             Self::Sight => "sight",
@@ -41,13 +45,17 @@ impl Kind {
         }
     }
 
-    /// What is measured of an object; `None` where none is observed.
-    pub fn of_object(self) -> Option<Measure> {
+    /// What is measured of an object, its radius being known or not; `None` where none is observed.
+    pub fn of_object(self, has_radius: bool) -> Option<Measure> {
         match self {
             Self::Plane => Some(Measure::Plane),
             Self::Target => Some(Measure::Target),
             Self::Fixed => Some(Measure::Fixed),
-            Self::Wire => Some(Measure::Wire),
+            Self::Circle if has_radius => Some(Measure::Ring),
+            Self::Circle => Some(Measure::Circle),
+            // A sphere is a distance from its centre; of an unknown radius, a wire of which nothing is read.
+            Self::Sphere if has_radius => Some(Measure::Distance),
+            Self::Sphere | Self::Wire => Some(Measure::Wire),
             Self::Distance => Some(Measure::Distance),
             Self::Sight => Some(Measure::Sight),
             Self::Direction

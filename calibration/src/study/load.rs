@@ -331,11 +331,15 @@ impl Plan {
                 Kind::Range if at(0, row) < 0.0 => {
                     Err(impossible(row, format!("a range of {} m is negative", at(0, row))))
                 }
-                Kind::Wire | Kind::Distance if at(0, row) < 0.0 => {
+                Kind::Wire | Kind::Distance | Kind::Circle | Kind::Sphere if at(0, row) < 0.0 => {
                     Err(impossible(row, format!("a length of {} m is negative", at(0, row))))
                 }
                 Kind::Range => Ok(Measured::Range { range_m: at(0, row) }),
-                Kind::Wire | Kind::Distance => Ok(Measured::Length { length_m: at(0, row) }),
+                Kind::Circle if observed.is_empty() => Ok(Measured::Readings),
+                // Of a sphere whose radius nobody knows nothing is read.
+                Kind::Wire | Kind::Distance | Kind::Circle | Kind::Sphere => {
+                    Ok(Measured::Length { length_m: at(0, row) })
+                }
                 Kind::Plane | Kind::Target | Kind::Fixed | Kind::Sight => Ok(Measured::Readings),
             })
             .collect()

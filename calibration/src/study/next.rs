@@ -29,10 +29,17 @@ impl Study {
         let observed = std::iter::once(&self.observed).chain(self.also.iter().map(|also| &also.observed));
         let seen: Vec<Seen> = observed
             .filter_map(|observed| {
-                let Observed { kind, station, .. } = observed.get_ref();
-                Some(Seen { kind: *kind, measure: kind.of_object()?, named: !station.0.is_empty() })
+                let Observed { kind, station, radius, .. } = observed.get_ref();
+                let measure = kind.of_object(radius.is_some())?;
+                Some(Seen { kind: *kind, measure, named: !station.0.is_empty() })
             })
             .collect();
+        if let Some(own) = seen.iter().find(|own| matches!(own.kind, Kind::Circle | Kind::Sphere)) {
+            let message =
+                format!("where to measure next is not told beside rows of kind \"{}\"", own.kind.name());
+            let help = "leave `[next]` out: what stays on it cannot be aimed at anything else";
+            return Err(mistake(place, message, help));
+        }
         let of_objects = !seen.is_empty();
         let mut mistakes = Gathered::default();
         let most = if of_objects { MOST_ROWS } else { 10_000 };

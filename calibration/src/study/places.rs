@@ -31,6 +31,8 @@ impl Study {
             Kind::Plane,
             Kind::Target,
             Kind::Fixed,
+            Kind::Circle,
+            Kind::Sphere,
             Kind::Wire,
             Kind::Distance,
             Kind::Sight,
@@ -46,7 +48,7 @@ impl Study {
             (
                 "a point",
                 &of_points[..],
-                "write kind = \"point\", \"range\", \"plane\", \"target\", \"fixed\", \"wire\", \"distance\" or \"sight\", or name another observable",
+                "write kind = \"point\", \"range\", \"plane\", \"target\", \"fixed\", \"circle\", \"sphere\", \"wire\", \"distance\" or \"sight\", or name another observable",
             )
         } else {
             (
@@ -66,14 +68,14 @@ impl Study {
             let help = "observe a point on the beam, as `input range: length; observe sight: point(0, range, 0) of camera;`";
             return Err(mistake(place, message, help));
         }
-        let of_objects = observed.kind.of_object().is_some();
+        let of_objects = observed.kind.of_object(false).is_some();
         if of_objects && observed.object.0.is_empty() {
             let help = "write `object = \"…\"`: the column that names the wall, the target or the socket of each row";
             return Err(mistake(place, "which object does each row observe?", help));
         }
         let names_places = !observed.object.0.is_empty() || !observed.station.0.is_empty();
         if names_places && !of_objects {
-            let help = "leave `object` and `station` out, or write kind = \"plane\", \"target\", \"fixed\", \"wire\", \"distance\" or \"sight\"";
+            let help = "leave `object` and `station` out, or write kind = \"plane\", \"target\", \"fixed\", \"circle\", \"sphere\", \"wire\", \"distance\" or \"sight\"";
             return Err(mistake(place, "what this kind observes is known row by row", help));
         }
         Ok(())
@@ -97,7 +99,7 @@ impl Study {
     pub(super) fn places(&self, sources: &[SourcePlan]) -> Outcome<Places> {
         let said = self.stations.keys().chain(self.objects.keys()).next();
         if let (Some(name), true) = (said, sources.iter().all(|source| Shape::of(source.measure).is_none())) {
-            let help = "write `[observed] kind = \"target\"`, \"plane\", \"fixed\", \"wire\", \"distance\" or \"sight\", or leave it out";
+            let help = "write `[observed] kind = \"target\"`, \"plane\", \"fixed\", \"circle\", \"sphere\", \"wire\", \"distance\" or \"sight\", or leave it out";
             return Err(mistake(name.span(), "no data of this study observe objects from stations", help));
         }
         let stations = every(self.stations.iter().map(|(name, table)| station(name.get_ref(), table)));

@@ -77,6 +77,8 @@ pub(super) fn quantity(measure: Measure) -> Quantity {
         | Measure::Plane
         | Measure::Target
         | Measure::Fixed
+        | Measure::Circle
+        | Measure::Ring
         | Measure::Wire
         | Measure::Distance => Quantity::Length,
     }

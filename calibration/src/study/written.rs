@@ -160,6 +160,7 @@ pub(super) struct Observed {
     #[serde(default)]
     pub station: OneOrMore,
     pub length: Option<Column>,
+    pub radius: Option<Column>,
     pub rotation_x: Option<Column>,
     pub rotation_y: Option<Column>,
     pub rotation_z: Option<Column>,
@@ -180,7 +181,7 @@ pub(super) struct Observed {
 
 impl Observed {
     /// Every column by its key.
-    pub(super) fn columns(&self) -> [(&'static str, &Option<Column>); 27] {
+    pub(super) fn columns(&self) -> [(&'static str, &Option<Column>); 28] {
         [
             ("x", &self.x),
             ("y", &self.y),
@@ -193,6 +194,7 @@ impl Observed {
             ("along", &self.along),
             ("range", &self.range),
             ("length", &self.length),
+            ("radius", &self.radius),
             ("rotation_x", &self.rotation_x),
             ("rotation_y", &self.rotation_y),
             ("rotation_z", &self.rotation_z),

@@ -5,6 +5,7 @@ mod support;
 
 mod bad_studies;
 mod cameras;
+mod circles;
 mod instruments;
 mod many;
 mod noiseless;

@@ -13,7 +13,7 @@ pub use pose::Pose;
 pub(crate) use pose::right_jacobian;
 
 /// The most numbers of one object.
-pub(crate) const OF_OBJECT: usize = 4;
+pub(crate) const OF_OBJECT: usize = 6;
 
 /// The numbers of an object and of a station that a residual component can hang on.
 pub(crate) const WIDTH: usize = OF_OBJECT + 6;
@@ -27,6 +27,10 @@ pub enum Shape {
     Point,
     /// A wire from an anchor to the observed point, wound off a drum: the anchor, and the length that the reading lacks.
     Wire,
+    /// A circle: two numbers tilt its axis, three shift its centre, one is its radius.
+    Circle,
+    /// A circle whose radius is known.
+    Ring,
 }
 
 impl Shape {
@@ -39,6 +43,8 @@ impl Shape {
                 Some(Self::Point)
             }
             Measure::Wire => Some(Self::Wire),
+            Measure::Circle => Some(Self::Circle),
+            Measure::Ring => Some(Self::Ring),
             Measure::Direction
             | Measure::Point
             | Measure::Range
@@ -53,6 +59,8 @@ impl Shape {
         match self {
             Self::Plane | Self::Point => 3,
             Self::Wire => 4,
+            Self::Ring => 5,
+            Self::Circle => 6,
         }
     }
 }
@@ -109,11 +117,11 @@ pub struct Object {
     pub freedom: Freedom,
     /// Whether `place` and `normal` mean anything yet.
     pub known: Known,
-    /// A point of the plane, the point, or the anchor, in the objects' frame, m; the numbers count from it.
+    /// A point of the plane, the point, the anchor, or the centre, in the objects' frame, m; the numbers count from it.
     pub place: Vector3<f64>,
-    /// The normal of a plane; else zero.
+    /// The normal of a plane, the axis of a circle; else zero.
     pub normal: Vector3<f64>,
-    /// What a wire's reading lacks, m; else zero.
+    /// What a wire's reading lacks, or the radius of a circle as far as no reading says it, m; else zero.
     pub offset: f64,
 }
 
@@ -141,6 +149,11 @@ impl Object {
             Shape::Point | Shape::Wire => {
                 self.place += Vector3::new(own[0], own[1], own[2]);
                 self.offset += own[3];
+            }
+            Shape::Circle | Shape::Ring => {
+                (self.normal, _) = tilted(&self.normal, [own[0], own[1]]);
+                self.place += Vector3::new(own[2], own[3], own[4]);
+                self.offset += own[5];
             }
         }
     }

@@ -43,9 +43,9 @@ pub(super) fn roots(freedom: Freedom, turns: [bool; 6], extent_m: f64) -> [f64; 
 /// Which numbers of a station are turns.
 pub(super) const OF_STATION: [bool; 6] = [false, false, false, true, true, true];
 
-/// Which numbers of an object are turns; the last two are none's.
+/// Which numbers of an object are turns.
 pub(super) fn of_object(shape: Shape) -> [bool; 6] {
-    let tilts = shape == Shape::Plane;
+    let tilts = matches!(shape, Shape::Plane | Shape::Circle | Shape::Ring);
     [tilts, tilts, false, false, false, false]
 }
 

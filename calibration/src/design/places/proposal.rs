@@ -37,7 +37,10 @@ impl Addition {
             Measure::Wire => Some(Self::Wire),
             Measure::Distance => Some(Self::Distance),
             Measure::Sight | Measure::Beam => Some(Self::Sight),
-            Measure::Direction
+            // A new circle would have to be hit, and is no place to aim at.
+            Measure::Circle
+            | Measure::Ring
+            | Measure::Direction
             | Measure::Point
             | Measure::Range
             | Measure::Azimuth

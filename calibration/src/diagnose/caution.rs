@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::noise::NoiseFound;
 use super::rms::{BeforeAfter, Worse, worse};
+use super::uneven::Uneven;
 use crate::data::{Measure, Measured, Observations, Series, SiUnit};
 use crate::fit::noise::Layout;
 use crate::fit::{FitResult, robust};
@@ -101,8 +102,20 @@ pub enum Caution {
         from: f64,
         /// To where, SI.
         to: f64,
+        /// Its unit.
+        unit: SiUnit,
         /// Rows set aside there, of how many there.
         rows: [usize; 2],
+    },
+    /// The rows of an object or a station scatter more than the others'.
+    #[serde(rename = "rows scatter more")]
+    Scatters {
+        /// What it is.
+        what: Uneven,
+        /// Its label.
+        label: String,
+        /// So many times as much.
+        times: f64,
     },
     /// Rows of one file share an error: the ± count files.
     #[serde(rename = "rows of one file share something")]

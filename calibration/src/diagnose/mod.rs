@@ -19,6 +19,7 @@ pub(crate) mod remaining;
 pub(crate) mod rms;
 pub(crate) mod shown;
 pub(crate) mod trace;
+mod uneven;
 mod units;
 mod verdict;
 
@@ -61,6 +62,8 @@ pub use remaining::{Looked, Remaining, Where};
 pub use rms::{Beside, Rms};
 pub use shown::Shown;
 pub use trace::Trace;
+use uneven::Scatter;
+pub use uneven::Uneven;
 pub use verdict::Verdict;
 
 /// What a calibration comes to, and everything that it found: `report.json`, whose keys are a promise.
@@ -218,9 +221,12 @@ pub(crate) fn diagnose(
     let aside: Vec<usize> = fit.set_aside.iter().map(|aside| aside.row).collect();
     let of_aside = shared(&observations.poses, &aside, whole.options.seed);
     cautions.extend(of_aside.map(|Shared { reading, from, to, rows }| {
+        let unit = units::of_reading(&whole.setting, &last.chain, reading);
         let reading = last.chain.symbol(reading).name.clone();
-        Caution::SetAsideShare { reading, from, to, rows }
+        Caution::SetAsideShare { reading, from, to, unit, rows }
     }));
+    let scatters = uneven::uneven(observations, fit).into_iter();
+    cautions.extend(scatters.map(|Scatter { what, label, times }| Caution::Scatters { what, label, times }));
     let remaining = found.remaining.as_ref();
     let alone = found
         .effects

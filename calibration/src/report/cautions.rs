@@ -1,8 +1,8 @@
 //! Cautions in words.
 
-use super::numbers::{short, times, told};
+use super::numbers::{reading, short, times, told, told_in};
 use crate::data::SiUnit;
-use crate::diagnose::Caution;
+use crate::diagnose::{Caution, Uneven};
 
 /// A caution in a sentence.
 #[must_use]
@@ -40,10 +40,32 @@ pub fn caution(caution: &Caution) -> String {
              place each. What a place shares is in the ±{}.",
             if *beside_groups { ", and what your groups share is in the noise" } else { "" }
         ),
-        Caution::SetAsideShare { reading, from, to, rows: [aside, there] } => format!(
-            "{aside} of the {there} rows with {reading} from {from:.3} to {to:.3} (SI) were set aside: they share \
-             something that the declaration lacks."
-        ),
+        Caution::SetAsideShare { reading: name, from, to, unit, rows: [aside, there] } => {
+            let own = reading(*unit, from.abs().max(to.abs()));
+            format!(
+                "{aside} of the {there} rows with {name} from {} to {} were set aside: they share something that the \
+                 declaration lacks.",
+                told_in(*from, &own),
+                told_in(*to, &own)
+            )
+        }
+        Caution::Scatters { what, label, times: ratio } => {
+            let times = times(*ratio);
+            match what {
+                Uneven::Station => format!(
+                    "The rows from station `{label}` scatter {times} as much as the others': did it move meanwhile?"
+                ),
+                Uneven::Plane => format!(
+                    "The rows of `{label}` scatter {times} as much as the others': is it flat, and did it stay where it was?"
+                ),
+                Uneven::Circle => format!(
+                    "The rows of `{label}` scatter {times} as much as the others': is it round, and did it stay where it was?"
+                ),
+                Uneven::Point | Uneven::Wire => format!(
+                    "The rows of `{label}` scatter {times} as much as the others': did it move, or are labels swapped?"
+                ),
+            }
+        }
         Caution::FilesShareErrors { files, ratio } => format!(
             "Rows of one file share an error: what the {files} files say scatters with {} the variance that their rows explain. The ± \
              count each file as one.",

@@ -22,6 +22,7 @@ mod orientation;
 mod places;
 mod plan;
 mod shown;
+mod sights;
 mod sigma;
 mod syntax;
 mod timeless;

@@ -5,12 +5,13 @@ use nalgebra::Vector3;
 use toml::Spanned;
 
 use super::estimated::matching;
-use super::mistakes::{Outcome, Several, every, mistake};
+use super::mistakes::{Outcome, every, mistake};
 use super::plan::{SourcePlan, si};
+use super::sights::check_sight;
 use super::written::{Kind, ObjectTable, Observed, StationTable, Study};
 use crate::data::units::Amount;
 use crate::data::unknowns::{Freedom, Known, Object, Places, Pose, Shape, Station};
-use crate::fit::{BESIDE_OBJECTS, FitOptions, range_of};
+use crate::fit::{BESIDE_OBJECTS, FitOptions};
 
 /// Turns of a station whose shift alone has a stated uncertainty, rad: as good as not known.
 const ANY_TURN_RAD: f64 = 10.0;
@@ -61,13 +62,7 @@ impl Study {
             let message = format!("`{}` is {what}, which this kind does not measure", observable.name);
             return Err(mistake(place, message, help));
         }
-        let is_point = observable.kind == model_core::ObservableKind::Point;
-        if is_point && observed.kind == Kind::Sight && range_of(chain, id).is_none() {
-            let message =
-                format!("`{}` has no beam: no input of length, or more than one, moves it", observable.name);
-            let help = "observe a point on the beam, as `input range: length; observe sight: point(0, range, 0) of camera;`";
-            return Err(mistake(place, message, help));
-        }
+        check_sight(chain, id, written)?;
         let of_objects = observed.kind.of_object(false).is_some();
         if of_objects && observed.object.0.is_empty() {
             let help = "write `object = \"…\"`: the column that names the wall, the target or the socket of each row";
@@ -138,18 +133,6 @@ impl Study {
         }
         Ok(sizes)
     }
-}
-
-/// The range of a sight from a point of the chain, which nobody measures.
-pub(super) fn sighted(chain: &Chain, id: ObservableId, kind: Kind) -> Option<SymbolId> {
-    let is_point = chain.observable(id).kind == model_core::ObservableKind::Point;
-    if is_point && kind == Kind::Sight { range_of(chain, id) } else { None }
-}
-
-/// A column is named for the range of a sight.
-pub(super) fn no_range(name: &Spanned<String>) -> Several {
-    let message = format!("a sight reads no `{}`: it ends where its object is", name.get_ref());
-    mistake(name.span(), message, "leave the column out, or write kind = \"target\"")
 }
 
 type Placed<'a, T> = &'a Spanned<T>;

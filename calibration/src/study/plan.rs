@@ -10,8 +10,8 @@ use super::estimated::{estimable, matching};
 use super::mistakes::{Gathered, Outcome, Several, every, mistake, plain, unknown, within};
 use super::observed::{ObservedColumns, observed_columns};
 use super::orientation;
-use super::places;
 use super::shown::{self, Convention};
+use super::sights;
 use super::timeless::{Timeless, timeless};
 use super::unsought::{Unsought, unsought};
 use super::unstated::{Unstated, unstated};
@@ -263,7 +263,7 @@ impl Study {
                 mistakes.take::<()>(Err(mistake(data.span(), "no data file", "name one, or a list of them")));
             }
             let observable = mistakes.take(self.observable(chain, observable.as_ref()));
-            let sighted = observable.and_then(|id| places::sighted(chain, id, observed.get_ref().kind));
+            let sighted = observable.and_then(|id| sights::sighted(chain, id, observed.get_ref().kind));
             let readings = mistakes.take(self.readings(chain, observable, columns, sighted));
             let shown = observable.and_then(|observable| {
                 mistakes.take(self.check_observed(chain, observable, observed))?;
@@ -352,7 +352,7 @@ impl Study {
             let written = columns.iter().find(|(name, _)| *name.get_ref() == symbol.name);
             if sighted == Some(id) {
                 return match written {
-                    Some((name, _)) => Err(places::no_range(name)),
+                    Some((name, _)) => Err(sights::no_range(name)),
                     None => Ok(Reading::Sighted),
                 };
             }

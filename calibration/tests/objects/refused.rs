@@ -60,7 +60,16 @@ fn studies_that_cannot_be_meant_are_refused() {
     let cases = [
         (good.replace("object  = \"object\"\n", ""), "which object"),
         (good.replace("kind    = \"target\"", "kind    = \"point\""), "known row by row"),
-        (good.replace("kind    = \"target\"", "kind    = \"sight\""), "is a point"),
+        (good.replace("kind    = \"target\"", "kind    = \"offset\""), "is a point"),
+        (
+            good.replace("kind    = \"target\"", "kind    = \"circle\"") + "[next]\nposes = 3\n",
+            "kind \"circle\"",
+        ),
+        (
+            good.replace("kind    = \"target\"", "kind    = \"sphere\"")
+                .replace("[observed]", "[observed]\nlength = \"d\""),
+            "`length` is no column of this kind",
+        ),
         (good.replace("kind    = \"target\"", "kind    = \"wire\""), "no column is named for `length`"),
         (good.clone() + "[hold_out]\nfile = \"more.csv\"\n", "objects of its own"),
         (

@@ -14,6 +14,7 @@ mod observations;
 mod orientations;
 mod ranges;
 mod readings;
+mod scatter;
 mod sockets;
 mod survey;
 mod unusable;

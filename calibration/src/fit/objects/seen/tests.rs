@@ -1,3 +1,5 @@
+//! What one row makes of what is unknown, held to differences and to what it must not show.
+
 #![allow(clippy::unwrap_used)]
 
 use crate::data::unknowns::{Freedom, Known, Shape, Station};

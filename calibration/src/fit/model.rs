@@ -33,7 +33,7 @@ pub struct Model {
     columns: usize,
     /// One per series of the observations: exact value, then the columns of the exact Jacobian.
     programs: Vec<Program>,
-    /// One per series: which way its observed point moves as the range grows; none where it is no target's.
+    /// One per series: which way its observed point moves as the range grows; none where rows are seen along no beam.
     beams: Vec<Option<Beam>>,
     /// Symbols of the chain; values behind them are those of objects and stations.
     symbols: usize,

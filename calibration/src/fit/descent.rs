@@ -39,6 +39,9 @@ const UNRESOLVED: f64 = 1e-8;
 /// The damping that stays of such steps, once one without any was refused.
 const DAMPED: f64 = 1e-8;
 
+/// Where a step changes the objective by no more than this share, the bottom is level.
+const LEVEL: f64 = 1e-6;
+
 /// How often the noise is learned anew.
 const NOISE_ROUNDS: usize = 8;
 
@@ -179,7 +182,8 @@ impl Solver<'_> {
                 course.point = next;
                 damping = if damping < 1e-7 { least } else { damping / 10.0 };
             } else {
-                if has_objects && damping == 0.0 && step.length <= ROUGHLY {
+                let is_level = next.objective() <= point.objective() * (1.0 + LEVEL);
+                if has_objects && damping == 0.0 && step.length <= ROUGHLY && is_level {
                     // Derivatives leave out what is as small as the residual: no step of theirs leads further down.
                     return Ok(());
                 }

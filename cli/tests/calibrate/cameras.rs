@@ -107,6 +107,22 @@ fn a_beam_from_the_station_is_a_direction() {
     }
 }
 
+/// The ranges of a scanner left unread: its lengths grow with a room of which no length is known.
+#[test]
+fn directions_of_a_scanner_show_no_length() {
+    let folder = Folder::new("scanner-sights");
+    for file in ["scanner.chain", "targets.toml", "targets.csv", "walls.toml"] {
+        folder.copy(&format!("examples/objects/{file}"));
+    }
+    let walls = folder.read("walls.toml");
+    let (_, stations) = walls.split_once("[stations]").expect("rough poses");
+    let study = folder.read("targets.toml").replace("\"target\"", "\"sight\"") + "\n[stations]" + stations;
+    folder.write("sights.toml", &study);
+    let run = run_in(&folder.0, &["calibrate", "sights.toml"], "");
+    assert_eq!(run.code, 2, "{run}");
+    assert!(run.stderr.contains("nothing holds the scale: `axes_apart`, `beam_aside`"), "{run}");
+}
+
 /// The amended declaration, calibrated again, is the same fit; a mark to be added is told with the range that it would be at.
 #[test]
 fn an_amended_camera_calibrated_again_finds_nothing_new() {

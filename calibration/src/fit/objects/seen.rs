@@ -228,9 +228,15 @@ impl Frame {
         let from = there - (p - beam);
         let distance = from.norm();
         let direction = from / distance;
-        let axes = tangent_frame(&direction);
-        let components = residual::on_tangent_plane(&direction, beam);
-        let arm = if self.by == TurnsBy::Prediction { *p } else { there };
+        let mut axes = tangent_frame(&direction);
+        let mut components = residual::on_tangent_plane(&direction, beam);
+        let mut arm = there;
+        if self.by == TurnsBy::Prediction {
+            // Along the beam nothing is determined: an eye that moves away from all that it sees makes every residual small, by a share of
+            // itself.
+            (arm, axes) = (*p, tangent_frame(&beam.normalize()));
+            components.iter_mut().zip(axes).for_each(|(own, axis)| own.1 = axis / beam.norm());
+        }
         let row = |axis: Vector3<f64>| {
             let outside = self.pose.turn * axis / distance;
             self.row([-outside.x, -outside.y, -outside.z], outside, arm.cross(&axis) / distance)

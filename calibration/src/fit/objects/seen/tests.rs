@@ -113,10 +113,12 @@ fn a_beam_from_the_station_is_a_sight() {
         for component in 0..2 {
             let [(one, by_sight), (other, by_beam)] = [sights[component], beams[component]];
             assert!((one - other).abs() < 1e-15, "{by:?}: {one} {other}");
+            // What a row determines is asked by the beam, of a sight by the object.
+            let most = if by == TurnsBy::Prediction { 1e-4 } else { 1e-8 };
             let apart = (by_sight - by_beam * there.norm()).norm();
-            assert!(apart < 1e-8, "{by:?}: {by_sight} {by_beam}");
+            assert!(apart < most, "{by:?}: {by_sight} {by_beam}");
             for (one, other) in of_sight[component].iter().zip(of_beam[component]) {
-                assert!((one - other).abs() < 1e-8, "{by:?}: {of_sight:?} {of_beam:?}");
+                assert!((one - other).abs() < most, "{by:?}: {of_sight:?} {of_beam:?}");
             }
         }
     }
@@ -142,6 +144,7 @@ fn noise_shows_no_range_of_a_sight() {
     };
     assert!(change(TurnsBy::Object) > 1e-5, "{}", change(TurnsBy::Object));
     assert!(change(TurnsBy::Adjusted) < 1e-6, "{}", change(TurnsBy::Adjusted));
+    assert!(change(TurnsBy::Prediction) < 1e-15, "{}", change(TurnsBy::Prediction));
 }
 
 /// Where a chain could be larger with all that it observes, derivatives at the object change no row by it, however far off the row

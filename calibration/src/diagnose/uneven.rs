@@ -54,14 +54,19 @@ struct Sum {
     squares: f64,
     components: f64,
     largest: (f64, f64),
+    /// The same of the rows that are no outliers.
+    kept: (f64, f64),
 }
 
 impl Sum {
-    fn add(&mut self, squares: f64, components: f64) {
-        self.squares += squares;
-        self.components += components;
-        if squares > self.largest.0 {
-            self.largest = (squares, components);
+    fn add(&mut self, row: &Row) {
+        self.squares += row.squares;
+        self.components += row.components;
+        if row.squares > self.largest.0 {
+            self.largest = (row.squares, row.components);
+        }
+        if row.is_kept {
+            self.kept = (self.kept.0 + row.squares, self.kept.1 + row.components);
         }
     }
 
@@ -150,24 +155,16 @@ fn rows(observations: &Observations, unknowns: &Unknowns, fit: &FitResult) -> Ve
 /// The group whose scatter is the most unlikely one, and how much larger it is; `None` if chance explains each, or it is hardly larger.
 fn most_unlikely(rows: &[Row], unknowns: &Unknowns, left: f64) -> Option<(Group, f64)> {
     let mut groups: BTreeMap<Group, Sum> = BTreeMap::new();
-    let mut kept: BTreeMap<Group, (f64, f64)> = BTreeMap::new();
-    let mut all = (0.0, 0.0);
+    let mut all = Sum::default();
     for row in rows {
         for group in [Group::Object(row.object), Group::Station(row.station)] {
-            groups.entry(group).or_default().add(row.squares, row.components);
-            if row.is_kept {
-                let own = kept.entry(group).or_default();
-                *own = (own.0 + row.squares, own.1 + row.components);
-            }
+            groups.entry(group).or_default().add(row);
         }
-        if row.is_kept {
-            all = (all.0 + row.squares, all.1 + row.components);
-        }
+        all.add(row);
     }
     let tests = groups.len() as f64;
     let judged = groups.iter().filter_map(|(&group, sum)| {
-        let own = kept.get(&group).copied().unwrap_or_default();
-        let (rest, of_rest) = (all.0 - own.0, (all.1 - own.1) * left);
+        let (rest, of_rest) = (all.kept.0 - sum.kept.0, (all.kept.1 - sum.kept.1) * left);
         let (squares, components) = sum.without_largest();
         let freedom = components - group.numbers(unknowns) as f64;
         if freedom < 1.0 || of_rest < KNOWN {

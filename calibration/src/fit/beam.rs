@@ -68,23 +68,24 @@ impl Beam {
         rows: usize,
         far: impl Fn(usize, &Vector3<f64>) -> Option<f64>,
     ) -> Result<Along, FitError> {
+        // Of a sight where it begins is asked, at no range.
+        let none = vec![0.0; rows];
+        let reading = |&(id, own)| (id, if self.sighted == Some(id) { none.as_slice() } else { own });
+        let columns: Vec<(SymbolId, &[f64])> = columns.iter().map(reading).collect();
         let mut outputs = vec![0.0; self.program.outputs().len() * rows];
         let mut arrays: Vec<&mut [f64]> = outputs.chunks_exact_mut(rows.max(1)).collect();
         interpreter
-            .eval_batch(columns, values, &mut arrays)
+            .eval_batch(&columns, values, &mut arrays)
             .map_err(|error| FitError::WrongShape { why: error.to_string() })?;
         let Some(range) = self.sighted else { return Ok(Along { axes: outputs, rows, ranges: None }) };
-        let readings = columns.iter().find(|(id, _)| *id == range).map(|(_, own)| *own).unwrap_or_default();
-        let at = |first: usize, row: usize| {
-            Vector3::from_fn(|axis, _| outputs.get((first + axis) * rows + row).copied().unwrap_or(f64::NAN))
-        };
+        let at = |first: usize, row: usize| Vector3::from_fn(|axis, _| outputs[(first + axis) * rows + row]);
         let mut along = Along { axes: vec![0.0; 3 * rows], rows, ranges: None };
         let mut ranges = Vec::with_capacity(rows);
         for row in 0..rows {
-            let by_range = at(3, row);
-            let reading = readings.get(row).copied().unwrap_or(0.0);
-            let origin = at(0, row) - by_range * reading;
-            let far = far(row, &origin).unwrap_or(reading);
+            let (origin, by_range) = (at(0, row), at(3, row));
+            let far = far(row, &origin).ok_or_else(|| FitError::WrongShape {
+                why: "a row sights an object that is none".to_owned(),
+            })?;
             (0..3).for_each(|axis| along.axes[axis * rows + row] = by_range[axis] * far / by_range.norm());
             ranges.push(far / by_range.norm());
         }

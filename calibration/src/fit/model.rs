@@ -319,7 +319,8 @@ impl Model {
         })?;
         let unknowns = of.observed.and_then(|observed| observed.unknowns.as_ref());
         let first = unknowns.map(|unknowns| [unknowns.first_of_stations(), unknowns.first_of_objects()]);
-        let along = match beam {
+        // Bare poses are seen as they are read: nothing stands at the end of a beam.
+        let along = match beam.filter(|_| unknowns.is_some()) {
             Some((beam, interpreter)) => {
                 let far = |row: usize, origin: &Vector3<f64>| {
                     let (unknowns, first) = unknowns.zip(first.as_ref())?;

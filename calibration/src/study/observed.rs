@@ -37,7 +37,10 @@ pub(super) fn observed_columns(
     let has_pair = !observable.is_vector() && observable.shown.len() == 2;
     let only_azimuth = azimuth.1.is_some() && elevation.1.is_none() && !has_pair;
     let mut orientation = None;
-    let of_object = observed.kind.of_object(observed.radius.is_some()).unwrap_or(Measure::Point);
+    let of_object = || match observed.kind.of_object(observed.radius.is_some()) {
+        Some(measure) => measure,
+        None => unreachable!("rows of this kind observe an object"),
+    };
     let (measure, quantity, keys) = match observed.kind {
         Kind::Direction => (Measure::Direction, Quantity::Number, xyz.to_vec()),
         Kind::Point => (Measure::Point, Quantity::Length, xyz.to_vec()),
@@ -48,16 +51,16 @@ pub(super) fn observed_columns(
             (Measure::Direction, Quantity::Angle, keys)
         }
         Kind::Range => (Measure::Range, Quantity::Length, vec![("range", &observed.range)]),
-        Kind::Plane | Kind::Target | Kind::Fixed => (of_object, Quantity::Length, Vec::new()),
+        Kind::Plane | Kind::Target | Kind::Fixed => (of_object(), Quantity::Length, Vec::new()),
         Kind::Circle | Kind::Sphere => {
             let radius = [("radius", &observed.radius)].into_iter().filter(|(_, own)| own.is_some());
-            (of_object, Quantity::Length, radius.collect())
+            (of_object(), Quantity::Length, radius.collect())
         }
-        Kind::Wire | Kind::Distance => (of_object, Quantity::Length, vec![("length", &observed.length)]),
+        Kind::Wire | Kind::Distance => (of_object(), Quantity::Length, vec![("length", &observed.length)]),
         Kind::Sight if observable.kind == ObservableKind::Point => {
             (Measure::Beam, Quantity::Angle, Vec::new())
         }
-        Kind::Sight => (of_object, Quantity::Angle, Vec::new()),
+        Kind::Sight => (of_object(), Quantity::Angle, Vec::new()),
         Kind::Orientation => {
             let (form, keys) = orientation::form(observed, &place)?;
             orientation = Some(form);

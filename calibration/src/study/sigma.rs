@@ -12,7 +12,7 @@ use super::column_plan::{ColumnPlan, column_plan};
 use super::mistakes::{Outcome, every, mistake};
 use super::plan::{SourcePlan, si};
 use super::written::{Sigma, Study};
-use crate::data::Measure;
+use crate::data::{Measure, SiUnit};
 
 impl Study {
     /// The standard deviation of every residual component, SI, if the study states one.
@@ -68,20 +68,7 @@ fn is_amount(sigma: &Spanned<Sigma>) -> bool {
 
 /// What residuals measure.
 pub(super) fn quantity(measure: Measure) -> Quantity {
-    match measure {
-        Measure::Direction | Measure::Azimuth | Measure::Sight | Measure::Beam | Measure::Orientation => {
-            Quantity::Angle
-        }
-        Measure::Point
-        | Measure::Range
-        | Measure::Plane
-        | Measure::Target
-        | Measure::Fixed
-        | Measure::Circle
-        | Measure::Ring
-        | Measure::Wire
-        | Measure::Distance => Quantity::Length,
-    }
+    if measure.unit() == SiUnit::RAD { Quantity::Angle } else { Quantity::Length }
 }
 
 fn planned(

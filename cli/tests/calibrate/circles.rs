@@ -1,11 +1,10 @@
 //! Points that stay on circles and spheres that nobody surveyed. What was planted stands in
 //! `examples/objects/simulate_wires_and_sights.py`, which shares no code with ours.
 
-use serde_json::Value;
-
+use crate::figures::{calibrated, holds};
 use crate::support::{Folder, run_in};
 
-/// The arm's errors, and the first two harmonics of its shoulder's encoder.
+/// The arm's errors.
 const PLANTED: [(&str, f64); 5] =
     [("zero2", 0.8e-3), ("length2", 0.7e-3), ("zero3", -1.1e-3), ("length3", -0.5e-3), ("aside", 0.9e-3)];
 
@@ -17,19 +16,6 @@ fn cranks(name: &str) -> Folder {
     folder
 }
 
-fn calibrated(folder: &Folder, study: &str) -> Value {
-    let run = run_in(&folder.0, &["calibrate", study, "--format", "json"], "");
-    assert_eq!(run.code, 0, "{run}");
-    serde_json::from_str(&run.stdout).expect("JSON")
-}
-
-/// Value and standard uncertainty of an error, SI.
-fn error(report: &Value, name: &str) -> [f64; 2] {
-    let errors = report["errors"].as_array().expect("a list");
-    let own = errors.iter().find(|error| error["name"] == name).unwrap_or_else(|| panic!("no {name}"));
-    ["value", "standard_uncertainty"].map(|key| own[key].as_f64().unwrap_or_else(|| panic!("{own}")))
-}
-
 /// Circles of known radius hold the scale: every length of the arm is estimated. Which of three causes turns the shoulder they do not
 /// say, and the report does not either.
 #[test]
@@ -38,10 +24,7 @@ fn cranks_of_known_radius_show_the_arm_with_its_lengths() {
     let causes = report["effects"][0].to_string();
     assert!(causes.contains("encoder eccentricity of q2") && causes.contains("gravity"), "{causes}");
     assert_eq!(report["effects"].as_array().map(Vec::len), Some(1));
-    for (name, planted) in PLANTED {
-        let [value, sigma] = error(&report, name);
-        assert!((value - planted).abs() < 4.0 * sigma, "{name}: {value} ± {sigma}, not {planted}");
-    }
+    holds(&report, &PLANTED);
 }
 
 /// Circles whose radius nobody knows show no scale: with the upper arm taken as declared, 0.6 m in place of 0.6007 m, the forearm
@@ -58,11 +41,7 @@ fn cranks_of_unknown_radius_show_the_arm_but_for_its_scale() {
     folder.write("held.toml", format!("{free}[fit]\nfix = {{ length2 = 0 }}\n"));
     let report = calibrated(&folder, "held.toml");
     let scale = 0.6 / 0.6007;
-    for (name, planted) in [("length3", 0.4995 * scale - 0.5), ("aside", 0.9e-3 * scale), ("zero3", -1.1e-3)]
-    {
-        let [value, sigma] = error(&report, name);
-        assert!((value - planted).abs() < 4.0 * sigma, "{name}: {value} ± {sigma}, not {planted}");
-    }
+    holds(&report, &[("length3", 0.4995 * scale - 0.5), ("aside", 0.9e-3 * scale), ("zero3", -1.1e-3)]);
 }
 
 /// A sphere of known radius is a distance from its centre; of an unknown one it shows no scale.

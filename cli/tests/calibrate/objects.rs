@@ -3,6 +3,7 @@
 
 use serde_json::Value;
 
+use crate::figures::{error, first_effect, holds};
 use crate::support::{Folder, Run, root, run_in, trueaxis};
 
 const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;
@@ -11,24 +12,6 @@ fn example(study: &str) -> Value {
     let run = trueaxis(&["calibrate", &format!("examples/{study}.toml"), "--format", "json"]);
     assert_eq!(run.code, 0, "{run}");
     serde_json::from_str(&run.stdout).expect("JSON")
-}
-
-/// Value and standard uncertainty of an error, SI.
-fn error(report: &Value, name: &str) -> [f64; 2] {
-    let errors = report["errors"].as_array().expect("a list");
-    let own = errors.iter().find(|error| error["name"] == name).unwrap_or_else(|| panic!("no {name}"));
-    ["value", "standard_uncertainty"].map(|key| own[key].as_f64().unwrap_or_else(|| panic!("{own}")))
-}
-
-fn holds(report: &Value, planted: &[(&str, f64)]) {
-    for (name, planted) in planted {
-        let [value, sigma] = error(report, name);
-        assert!((value - planted).abs() < 4.0 * sigma, "{name}: {value} ± {sigma}, not {planted}");
-    }
-}
-
-fn first_effect(report: &Value) -> String {
-    report["effects"][0]["names"].to_string()
 }
 
 /// What was planted stands in `simulate_wires_and_sights.py`.

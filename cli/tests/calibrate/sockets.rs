@@ -4,6 +4,7 @@
 
 use serde_json::Value;
 
+use crate::figures::calibrated;
 use crate::support::{Folder, root, run_in};
 
 const STUDY: &str = "examples/ball-sockets/panda.toml";
@@ -39,12 +40,6 @@ fn robot(name: &str, folder: &str) -> Option<Folder> {
 
 fn number(report: &Value, path: &str) -> f64 {
     report.pointer(path).and_then(Value::as_f64).unwrap_or_else(|| panic!("no {path}"))
-}
-
-fn calibrated(folder: &Folder, study: &str) -> Value {
-    let run = run_in(&folder.0, &["calibrate", study, "--format", "json"], "");
-    assert_eq!(run.code, 0, "{run}");
-    serde_json::from_str(&run.stdout).expect("JSON")
 }
 
 /// Bounds in mm on placements never seen, of every row: those of an independent analysis of the same rows, for declared errors by

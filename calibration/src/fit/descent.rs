@@ -179,7 +179,13 @@ impl Solver<'_> {
                 // The plain step is tried next, from the same point.
                 mixing = Some(Mixing::default());
             } else if next.objective() <= point.objective() * (1.0 + 1e-9) {
+                let gained = point.objective() - next.objective();
                 course.point = next;
+                if least > 0.0 && gained <= UNRESOLVED * course.point.objective() {
+                    // Steps as long as the rows promise were refused, and shorter ones only creep.
+                    course.stopped = Some(Reason::NoDescent);
+                    return Ok(());
+                }
                 damping = if damping < 1e-7 { least } else { damping / 10.0 };
             } else {
                 let is_level = next.objective() <= point.objective() * (1.0 + LEVEL);

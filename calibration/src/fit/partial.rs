@@ -10,6 +10,9 @@ use faer::{Mat, MatRef};
 /// Numbers that are multiplied at once.
 const LANES: usize = 8;
 
+/// Columns that are multiplied by one at once.
+const AT_ONCE: usize = 4;
+
 /// The triangular factor R of [J | r] for all rows so far, with counts: QᵀQ = 1, [J | r] = Q R.
 ///
 /// p parameters, so R is (p + 1) × (p + 1); the last column belongs to the residual.
@@ -254,28 +257,89 @@ impl vector::Work for Reflections<'_> {
     fn run<A: Arithmetic>(self, _: A) {
         let Self { packed, side, leading, rows } = self;
         let stride = rows.stride.max(1);
-        for column in 0..leading {
-            let end = ((column + 1) * stride).min(rows.values.len());
-            let (done, others) = rows.values.split_at_mut(end);
-            let below = done.get(column * stride..).unwrap_or_default();
-            let square = dot(below, below);
-            let corner = column * (column + 1) / 2 + column;
-            if square < f64::MIN_POSITIVE {
-                continue;
+        let mut turns: Vec<Option<Turn>> = Vec::with_capacity(leading);
+        // Few columns at a time meet all before them: they stay in the first-level cache, and one sum does not wait for another.
+        for first in (0..side).step_by(AT_ONCE) {
+            let start = (first * stride).min(rows.values.len());
+            let (done, others) = rows.values.split_at_mut(start);
+            let end = (AT_ONCE * stride).min(others.len());
+            let several = &mut others[..end];
+            for (column, (turn, below)) in turns.iter().zip(done.chunks_exact(stride)).enumerate() {
+                let Some(turn) = turn else { continue };
+                let products = dots(below, several);
+                for (at, target) in several.chunks_exact_mut(stride).enumerate() {
+                    turn.apply(column, first + at, packed, products[at], below, target);
+                }
             }
-            let old = packed[corner];
-            // The sign that does not cancel.
-            let new = -(old * old + square).sqrt().copysign(old);
-            let head = old - new;
-            packed[corner] = new;
-            for (other, target) in (column + 1..side).zip(others.chunks_exact_mut(stride)) {
-                let at = other * (other + 1) / 2 + column;
-                let share = (head * packed[at] + dot(below, target)) / (new * head);
-                packed[at] += share * head;
-                add(target, share, below);
+            for column in first..(first + AT_ONCE).min(leading) {
+                let (own, others) = several.split_at_mut(((column - first + 1) * stride).min(end));
+                let below = own.get((column - first) * stride..).unwrap_or_default();
+                let turn = Turn::of(dot(below, below), &mut packed[column * (column + 1) / 2 + column]);
+                for (target, other) in others.chunks_exact_mut(stride).zip(column + 1..) {
+                    let product = dot(below, target);
+                    turn.iter().for_each(|turn| turn.apply(column, other, packed, product, below, target));
+                }
+                turns.push(turn);
             }
         }
     }
+}
+
+/// The reflection that turns a column into its corner.
+struct Turn {
+    corner: f64,
+    head: f64,
+}
+
+impl Turn {
+    /// Of a column with this sum of squares below its corner, which becomes what it is then; none where nothing is below.
+    #[inline(always)]
+    fn of(square: f64, corner: &mut f64) -> Option<Self> {
+        if square < f64::MIN_POSITIVE {
+            return None;
+        }
+        let old = *corner;
+        // The sign that does not cancel.
+        *corner = -(old * old + square).sqrt().copysign(old);
+        Some(Self { corner: *corner, head: old - *corner })
+    }
+
+    /// Reflects another column, of which the product with this one is given.
+    #[inline(always)]
+    fn apply(
+        &self,
+        own: usize,
+        other: usize,
+        packed: &mut [f64],
+        product: f64,
+        below: &[f64],
+        target: &mut [f64],
+    ) {
+        let at = other * (other + 1) / 2 + own;
+        let share = (self.head * packed[at] + product) / (self.corner * self.head);
+        packed[at] += share * self.head;
+        add(target, share, below);
+    }
+}
+
+/// The sum of products of a column with each of several, at most as many as are taken at once.
+#[inline(always)]
+fn dots(a: &[f64], several: &[f64]) -> [f64; AT_ONCE] {
+    let mut others = several.chunks_exact(a.len());
+    if others.len() < AT_ONCE {
+        return std::array::from_fn(|_| others.next().map_or(0.0, |other| dot(a, other)));
+    }
+    let [b, c, d, e] = std::array::from_fn(|_| others.next().unwrap_or_default().as_chunks::<LANES>().0);
+    let mut sums = [[0.0; LANES]; AT_ONCE];
+    for ((((a, b), c), d), e) in a.as_chunks::<LANES>().0.iter().zip(b).zip(c).zip(d).zip(e) {
+        for lane in 0..LANES {
+            sums[0][lane] += a[lane] * b[lane];
+            sums[1][lane] += a[lane] * c[lane];
+            sums[2][lane] += a[lane] * d[lane];
+            sums[3][lane] += a[lane] * e[lane];
+        }
+    }
+    sums.map(|sums| sums.iter().sum())
 }
 
 /// The sum of products, lane by lane.
@@ -298,9 +362,8 @@ fn add(a: &mut [f64], factor: f64, b: &[f64]) {
     let (a, _) = a.as_chunks_mut::<LANES>();
     let (b, _) = b.as_chunks::<LANES>();
     for (a, b) in a.iter_mut().zip(b) {
-        for lane in 0..LANES {
-            a[lane] += factor * b[lane];
-        }
+        // All lanes are read before one is written: lane by lane the compiler would take one column for part of the other.
+        *a = std::array::from_fn(|lane| a[lane] + factor * b[lane]);
     }
 }
 

@@ -10,7 +10,9 @@ use std::io::Write as _;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use calibration::data::{Measure, Measured, Observations, Origins, Poses, Series, direction_from_offset};
+use calibration::data::{
+    Grouping, Measure, Measured, Observations, Origins, Poses, Series, direction_from_offset,
+};
 use calibration::fit::{FitOptions, Next, Streamed, StreamedResult, fit};
 use model_core::{Chain, SymbolId, SymbolKind, exact};
 use rand::{RngExt, SeedableRng};
@@ -60,7 +62,8 @@ fn simulate(chain: &Chain, observable: &str, joints: &[(&str, f64, f64)], rows: 
         sigma: Vec::new(),
         groups: (0..).take(rows).collect(),
         together: Vec::new(),
-        by_place: false,
+        grouping: Grouping::Declared,
+        converted: Default::default(),
         crossed: Vec::new(),
         in_sequence: false,
         row_numbers: (1..).take(rows).collect(),

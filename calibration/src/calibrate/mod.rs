@@ -4,7 +4,8 @@
 //! Rounds go on until one changes nothing (`rounds`). Then rows that were set aside together are reconsidered (`outliers`),
 //! a memory of the noise competes with the effects (`memory`), shapes of the library compete with them (`functions`), the
 //! search is repeated without each fold (`held_out`), effects that do not help there are left out (`confirm`), and shapes are taken
-//! up where they help (`choice`). [`crate::diagnose`] says what it means, [`crate::report`] in words.
+//! up where they help (`choice`). Where rows beside unknown objects that follow each other are off alike even so, all of it is done
+//! once more with stretches of them for groups (`stretches`). [`crate::diagnose`] says what it means, [`crate::report`] in words.
 
 mod choice;
 mod confirm;
@@ -16,6 +17,7 @@ mod memory;
 mod outliers;
 mod places;
 mod rounds;
+mod stretches;
 
 use std::cell::OnceCell;
 
@@ -33,7 +35,7 @@ use crate::search::SearchError;
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
-use crate::study::{Loaded, Open, Study};
+use crate::study::{Loaded, Open, Plan, Study};
 use choice::{Chosen, chosen};
 use confirm::{Judged, judged};
 use rounds::rounds;
@@ -137,9 +139,8 @@ pub fn calibrate_telling(
     let observables: Vec<_> =
         request.observations.poses.series.iter().map(|series| series.observable).collect();
     check_scale_of_ranges(&request.plan.chain, request.observations, &request.plan.fit)?;
-    // Studies with functions that the library found live as long as the loops that read them.
-    let studies = choice::Studies::default();
-    let (remembering, by_place) = (OnceCell::new(), OnceCell::new());
+    let loops = [Loop::default(), Loop::default()];
+    let (by_place, by_stretch) = (OnceCell::new(), OnceCell::new());
     let whole = Context { tell, ..Context::new(request, &observables, HELD)? };
 
     let (whole, first) = places::grouped(whole, &by_place)?;
@@ -151,12 +152,21 @@ pub fn calibrate_telling(
     let round = Round::at(&whole, first)?;
     // What rounding leaves has a structure of its own; there is nothing to search in it.
     let is_rounding = rounding(request.observations, &before).is_some();
-    let Chosen { whole, judged, as_good } = if is_rounding {
-        Chosen { judged: judged(&whole, &before, round)?, whole, as_good: Vec::new() }
+    let (before, Chosen { whole, judged, as_good }) = if is_rounding {
+        let judged = judged(&whole, &before, round)?;
+        (before, Chosen { judged, whole, as_good: Vec::new() })
     } else {
-        let round = outliers::reconsidered(&whole, rounds(&whole, round)?)?;
-        let (whole, round) = memory::settled(whole, &remembering, round)?;
-        chosen(&whole, &before, round, &studies)?
+        let found = searched(&whole, before, round, &loops[0])?;
+        match stretches::alike(&found.1.whole, &found.1.judged.round.fitted)? {
+            None => found,
+            Some(stretches) => {
+                let observations = by_stretch.get_or_init(|| stretches.of(whole.request.observations));
+                let whole = Context { request: Request { observations, ..whole.request }, ..whole };
+                let first = Fitted::first(&whole)?;
+                let before = first.fit.clone();
+                searched(&whole, before, Round::at(&whole, first)?, &loops[1])?
+            }
+        }
     };
     let Judged { round, held_out, rms, left_out } = judged;
     let confirmed = Confirmed { round: &round, held_out: &held_out, rms, as_good: &as_good, left_out };
@@ -174,6 +184,26 @@ pub fn calibrate_telling(
         amended = Some(text);
     }
     Ok(Calibration { diagnosis, amended, drawn, traces, chain, before, after: round.fitted.fit })
+}
+
+/// Where the studies live that one loop of searches makes for itself: with a memory of the noise, with functions of the library.
+#[derive(Default)]
+struct Loop {
+    remembering: OnceCell<Plan>,
+    studies: choice::Studies,
+}
+
+/// From the first round to what the report is about; the fit before, as it was.
+fn searched<'a>(
+    whole: &Context<'a>,
+    before: FitResult,
+    first: Round<'a>,
+    own: &'a Loop,
+) -> Result<(FitResult, Chosen<'a>), CalibrateError> {
+    let round = outliers::reconsidered(whole, rounds(whole, first)?)?;
+    let (whole, round) = memory::settled(whole.clone(), &own.remembering, round)?;
+    let chosen = chosen(&whole, &before, round, &own.studies)?;
+    Ok((before, chosen))
 }
 
 /// What a first fit that cannot be gone on with comes to.

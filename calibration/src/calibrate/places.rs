@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
-use crate::data::{Observations, places};
+use crate::data::{Grouping, Observations, places};
 use crate::search::SearchError;
 use crate::search::context::{Context, Request};
 use crate::search::fitted::Fitted;
@@ -46,8 +46,12 @@ pub(super) fn grouped<'a>(
     if !share(&all, first.fit.rank) || places.is_sorted() && remember(&all) {
         return Ok((whole, first));
     }
-    let observations =
-        own.get_or_init(|| Observations { groups: places, by_place: true, crossed, ..observations.clone() });
+    let observations = own.get_or_init(|| Observations {
+        groups: places,
+        grouping: Grouping::Places,
+        crossed,
+        ..observations.clone()
+    });
     let whole = Context { request: Request { observations, ..whole.request }, ..whole };
     let first = Fitted::first(&whole)?;
     Ok((whole, first))

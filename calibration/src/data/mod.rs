@@ -27,7 +27,25 @@ pub use poses::{Poses, Series};
 pub use si_unit::SiUnit;
 pub use tangent::{direction_from_offset, direction_from_spherical, tangent_frame};
 
+use std::collections::BTreeSet;
+
+use model_core::SymbolId;
 use unknowns::Unknowns;
+
+/// What the groups of rows are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Grouping {
+    /// What the study says: each row by itself if it says nothing.
+    #[default]
+    Declared,
+    /// Places that rows were found to share something at.
+    Places,
+    /// Rows that follow each other, so many together: they were found to be off alike.
+    Stretches {
+        /// Rows of a stretch.
+        rows: usize,
+    },
+}
 
 /// Observations as a structure of arrays; rows are in order of acquisition where [`Self::in_sequence`] says so.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -44,13 +62,15 @@ pub struct Observations {
     /// The site of each row, which is held out as a whole and is one unit to the ±, though noise does not hang together there; empty
     /// where groups alone count.
     pub together: Vec<u32>,
-    /// Whether groups are places that rows were found to share something at, and nobody declared them.
-    pub by_place: bool,
+    /// What groups are.
+    pub grouping: Grouping,
     /// The groups that somebody declared, where places that cross them count as groups: what their rows share is taken out of the
     /// noise; empty elsewhere.
     pub crossed: Vec<u32>,
     /// Whether the order of the rows is their order of acquisition.
     pub in_sequence: bool,
+    /// Joints and inputs of which some file has the readings in another unit than rad or m.
+    pub converted: BTreeSet<SymbolId>,
     /// Number of each row in its file, counted from 1 without the header; empty where no file was read.
     pub row_numbers: Numbers,
     /// Where each row stands.
@@ -97,9 +117,10 @@ impl Observations {
             sigma: rows.iter().filter_map(|&row| self.sigma.get(row).copied()).collect(),
             groups: rows.iter().filter_map(|&row| self.groups.get(row).copied()).collect(),
             together: rows.iter().filter_map(|&row| self.together.get(row).copied()).collect(),
-            by_place: self.by_place,
+            grouping: self.grouping,
             crossed: rows.iter().filter_map(|&row| self.crossed.get(row).copied()).collect(),
             in_sequence: self.in_sequence,
+            converted: self.converted.clone(),
             row_numbers: self.row_numbers.select(&rows),
             origins: self.origins.select(&rows),
             unknowns: self.unknowns.as_ref().map(|unknowns| unknowns.select(&rows)),

@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::noise::NoiseFound;
 use super::rms::{BeforeAfter, Worse, worse};
 use super::uneven::Uneven;
-use crate::data::{Measure, Measured, Observations, Series, SiUnit};
+use crate::data::{Grouping, Measure, Measured, Observations, Series, SiUnit};
 use crate::fit::noise::Layout;
 use crate::fit::{FitResult, robust};
 
@@ -92,6 +92,16 @@ pub enum Caution {
         places: usize,
         /// Whether groups were declared, which the places cross.
         beside_groups: bool,
+    },
+    /// Rows beside unknown objects that follow each other are off alike: a stretch of them counts as a group.
+    #[serde(rename = "rows that follow each other are off alike")]
+    OffAlike {
+        /// Rows.
+        rows: usize,
+        /// Rows of a stretch.
+        of_stretch: usize,
+        /// Stretches.
+        stretches: usize,
     },
     /// Rows that were set aside have something in common.
     #[serde(rename = "rows set aside share something")]
@@ -235,10 +245,17 @@ pub(super) fn of_rms(rms: &[BeforeAfter]) -> impl Iterator<Item = Caution> {
 #[must_use]
 pub fn of_data(chain: &Chain, observations: &Observations, fit: &FitResult) -> Vec<Caution> {
     let mut cautions = Vec::new();
-    if observations.by_place {
-        let places = observations.groups.iter().max().map_or(0, |last| *last as usize + 1);
-        let beside_groups = !observations.crossed.is_empty();
-        cautions.push(Caution::OfOnePlace { rows: observations.rows(), places, beside_groups });
+    let rows = observations.rows();
+    let groups = || observations.groups.iter().max().map_or(0, |last| *last as usize + 1);
+    match observations.grouping {
+        Grouping::Declared => {}
+        Grouping::Places => {
+            let beside_groups = !observations.crossed.is_empty();
+            cautions.push(Caution::OfOnePlace { rows, places: groups(), beside_groups });
+        }
+        Grouping::Stretches { rows: of_stretch } => {
+            cautions.push(Caution::OffAlike { rows, of_stretch, stretches: groups() });
+        }
     }
     for series in &observations.poses.series {
         cautions.extend(of_joints(chain, observations, series));
@@ -268,7 +285,10 @@ fn of_joints(chain: &Chain, observations: &Observations, series: &Series) -> Vec
         let (source, joint) = (series.source.clone(), symbol.name.clone());
         if largest_rad > FURTHEST_RAD {
             cautions.push(Caution::DegreesAsRadians { source, joint, largest_rad });
-        } else if readings.len() > 10 && largest_rad > 0.0 && largest_rad < NEAREST_RAD {
+        } else if observations.converted.contains(id)
+            && readings.len() > 10
+            && (f64::MIN_POSITIVE..NEAREST_RAD).contains(&largest_rad)
+        {
             cautions.push(Caution::RadiansAsDegrees { source, joint, largest_rad });
         }
     }

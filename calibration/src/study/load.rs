@@ -16,7 +16,7 @@ use crate::data::unknowns::{Shape, Station, Unknowns};
 use crate::data::{
     Measured, Numbers, Observations, Places, Series, direction_from_offset, direction_from_spherical,
 };
-use crate::formats::{self, Cells, DataError, TableReader};
+use crate::formats::{self, Cells, DataError, Form, TableReader};
 use crate::objects::{Remark, StartError, check_named, check_scale, place};
 
 /// Opens a data file of a study by its path as the study writes it.
@@ -51,6 +51,8 @@ struct Rows {
     labels: Vec<Vec<String>>,
     row_numbers: Numbers,
     places: Places,
+    /// Of each column of numbers whether all files so far give it in SI.
+    in_si: Vec<bool>,
     /// Memory that these take, in bytes.
     bytes: usize,
 }
@@ -119,6 +121,7 @@ impl Plan {
             labels: vec![Vec::new(); columns.labels.len()],
             row_numbers: Numbers::default(),
             places: Places::default(),
+            in_si: vec![true; columns.plans.len()],
             bytes: 0,
         };
         for path in paths {
@@ -133,6 +136,8 @@ impl Plan {
             // The column of the order is the last label.
             rows.sort_by_label(columns.labels.len() - 1);
         }
+        let converted = columns.readings.iter().filter(|(_, at)| !rows.in_si[*at]).map(|(id, _)| *id);
+        all.converted.extend(converted);
         let start = all.rows();
         let count = rows.row_numbers.len();
         if u32::try_from(start + count).is_err() {
@@ -374,6 +379,9 @@ impl Rows {
         doubtful: &mut Vec<BareColumn>,
     ) -> Result<(), DataError> {
         let (wanted, mut bare) = columns.wanted(plan, source, reader)?;
+        for (in_si, column) in self.in_si.iter_mut().zip(&wanted) {
+            *in_si &= matches!(column.form, Form::Number(1.0));
+        }
         let before = self.row_numbers.last().unwrap_or_default();
         loop {
             let chunk = reader.read(&wanted, CHUNK)?;

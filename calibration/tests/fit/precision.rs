@@ -97,7 +97,17 @@ fn wrong_units_and_signs_are_hinted_at() {
         }
     };
     any(&said(&column(0, 57.295_779_513)), |caution| matches!(caution, Caution::DegreesAsRadians { .. }));
-    any(&said(&column(1, 0.017_453_292_5)), |caution| matches!(caution, Caution::RadiansAsDegrees { .. }));
+    let hardly_moves = |converted: bool| {
+        said(&move |observations| {
+            column(1, 0.017_453_292_5)(observations);
+            let id = observations.poses.columns[1].0;
+            observations.converted.extend(converted.then_some(id));
+        })
+    };
+    let is_of_unit = |caution: &Caution| matches!(caution, Caution::RadiansAsDegrees { .. });
+    any(&hardly_moves(true), is_of_unit);
+    // What the file has in radians was not read as degrees.
+    assert!(!hardly_moves(false).iter().any(is_of_unit));
     any(&said(&column(0, -1.0)), |caution| {
         matches!(caution, Caution::OutOfPlace { .. } | Caution::ErrorNotSmall { .. })
     });

@@ -1,6 +1,8 @@
 //! Instruments with known errors at random poses, observed with known noise.
 
-use calibration::data::{Measure, Measured, Observations, Origins, Poses, Series, direction_from_offset};
+use calibration::data::{
+    Grouping, Measure, Measured, Observations, Origins, Poses, Series, direction_from_offset,
+};
 use model_core::{Chain, SymbolId, SymbolKind, exact, names};
 use nalgebra::Vector3;
 use rand::{Rng, RngExt, SeedableRng};
@@ -120,7 +122,8 @@ impl Simulation {
             sigma: Vec::new(),
             groups: (0..).take(rows).collect(),
             together: Vec::new(),
-            by_place: false,
+            grouping: Grouping::Declared,
+            converted: Default::default(),
             crossed: Vec::new(),
             in_sequence: false,
             row_numbers: (1..).take(rows).collect(),

@@ -6,6 +6,7 @@ mod support;
 mod bad_studies;
 mod cameras;
 mod circles;
+mod drift;
 mod figures;
 mod instruments;
 mod many;

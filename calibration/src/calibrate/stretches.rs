@@ -1,9 +1,10 @@
-//! Rows beside unknown objects that follow each other and are off alike: a trajectory that drifts, a tripod that sinks.
+//! Rows beside unknown objects that follow each other and are off alike: a trajectory that drifts, a tripod that sinks, an
+//! encoder that warms.
 //!
 //! Nobody asks them for a memory from residual to residual: one row sees the road and the next a wall, and what a drift does to
-//! the one it does not do to the other. Asked is which way each row would have the station move. Where rows of a stretch agree
-//! in that more than chance explains, with all effects that were found, they do not speak for anything independently: a stretch
-//! counts as one group, in the ± and in the flips of the search.
+//! the one it does not do to the other. Asked is which way each row would have its station move, and each of its readings. Where
+//! rows of a stretch agree in that more than chance explains, with all effects that were found, they do not speak for anything
+//! independently: a stretch counts as one group, in the ± and in the flips of the search.
 
 use std::ops::Range;
 
@@ -32,6 +33,9 @@ const AT_ONCE: usize = 4;
 /// Stretches that there are at least: fewer say nothing of how they scatter.
 const FEWEST: usize = 10;
 
+/// By how much a reading is moved to see what it does: rad or m.
+const MOVED: f64 = 1e-6;
+
 /// How rows go together.
 pub(super) struct Stretches {
     /// Rows of one.
@@ -53,15 +57,18 @@ pub(super) fn alike(whole: &Context<'_>, fitted: &Fitted) -> Result<Option<Stret
         && observations.rows_are_alone()
         && observations.together.is_empty()
         && fitted.fit.outcome.is_usable();
-    if !is_asked {
+    let longest = observations.rows() / FEWEST;
+    if !is_asked || longest < 2 * NEAREST {
         return Ok(None);
     }
-    let pulls = pulls(whole, fitted)?;
+    let mut pulls = of_station(observations, fitted)?.to_vec();
+    for number in 0..observations.poses.columns.len() {
+        pulls.push(of_reading(observations, fitted, number)?);
+    }
     let agree = |distance: usize| {
-        (0..2).map(|part| agreement(&pulls, part, distance)).fold(f64::NEG_INFINITY, f64::max)
+        pulls.iter().map(|pulls| agreement(pulls, distance)).fold(f64::NEG_INFINITY, f64::max)
     };
-    let longest = pulls.len() / FEWEST;
-    if longest < 2 * NEAREST || agree(NEAREST) < ALIKE {
+    if agree(NEAREST) < ALIKE {
         return Ok(None);
     }
     let mut distance = 2 * NEAREST;
@@ -75,11 +82,11 @@ pub(super) fn alike(whole: &Context<'_>, fitted: &Fitted) -> Result<Option<Stret
 ///
 /// Where they do not, a product of two is as likely positive as negative, and products of different rows hang together in nothing:
 /// their sum is off zero by about the root of the sum of their squares.
-fn agreement(pulls: &[[Vector3<f64>; 2]], part: usize, distance: usize) -> f64 {
+fn agreement(pulls: &[Vector3<f64>], distance: usize) -> f64 {
     let (mut sum, mut squares) = (0.0, 0.0);
     for apart in (0..AT_ONCE).map(|at| distance + at * distance / AT_ONCE) {
         for (one, other) in pulls.iter().zip(pulls.iter().skip(apart)) {
-            let product = one[part].dot(&other[part]);
+            let product = one.dot(other);
             sum += product;
             squares += product * product;
         }
@@ -88,12 +95,11 @@ fn agreement(pulls: &[[Vector3<f64>; 2]], part: usize, distance: usize) -> f64 {
 }
 
 /// Of each row which way it would have its station shifted, and turned.
-fn pulls(whole: &Context<'_>, fitted: &Fitted) -> Result<Vec<[Vector3<f64>; 2]>, SearchError> {
-    let observations = whole.request.observations;
+fn of_station(observations: &Observations, fitted: &Fitted) -> Result<[Vec<Vector3<f64>>; 2], SearchError> {
     let model = Model::without_columns(&fitted.chain, &observations.poses);
     let Fitted { layout, fit, .. } = fitted;
     let sigma = fit.noise.sigma_without_memory();
-    let mut pulls = Vec::with_capacity(observations.rows());
+    let mut pulls = [Vec::new(), Vec::new()];
     let of_block = |_: usize, rows: Range<usize>, block: &Block| {
         let (residual, first) = (block.by_row(&block.residual), layout.first(rows.start));
         let of_row = |row: usize| {
@@ -109,6 +115,36 @@ fn pulls(whole: &Context<'_>, fitted: &Fitted) -> Result<Vec<[Vector3<f64>; 2]>,
         };
         (0..block.rows).map(of_row).collect::<Vec<_>>()
     };
-    model.each_block(observations, &fit.values, of_block, |own| pulls.extend(own))?;
+    model.each_block(observations, &fit.values, of_block, |own| {
+        for [shift, turn] in own {
+            pulls[0].push(shift);
+            pulls[1].push(turn);
+        }
+    })?;
     Ok(pulls)
+}
+
+/// Of each row which way it would have one of its readings moved, along the first axis.
+fn of_reading(
+    observations: &Observations,
+    fitted: &Fitted,
+    number: usize,
+) -> Result<Vec<Vector3<f64>>, SearchError> {
+    let Fitted { layout, fit, .. } = fitted;
+    let mut moved = observations.clone();
+    moved.poses.columns[number].1.iter_mut().for_each(|reading| *reading += MOVED);
+    let model = Model::without_columns(&fitted.chain, &moved.poses);
+    let mut there = Vec::with_capacity(layout.components());
+    let own = |_: usize, _: Range<usize>, block: &Block| block.by_row(&block.residual);
+    model.each_block(&moved, &fit.values, own, |own| there.extend(own))?;
+    let sigma = fit.noise.sigma_without_memory();
+    let of_row = |row: usize| {
+        let own = layout.of_rows(row..row + 1);
+        let pull = own.map(|at| {
+            let here = fit.residuals.raw[at];
+            here * (there[at] - here) / MOVED / sigma[at].powi(2)
+        });
+        Vector3::new(fit.residuals.weight[row] * pull.sum::<f64>(), 0.0, 0.0)
+    };
+    Ok((0..observations.rows()).map(of_row).collect())
 }

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use statrs::distribution::{ContinuousCDF, FisherSnedecor};
+use statrs::distribution::{ContinuousCDF, FisherSnedecor, Normal};
 
 use crate::data::Observations;
 use crate::data::unknowns::{Shape, Unknowns};
@@ -19,6 +19,10 @@ const LARGER: f64 = 1.5;
 
 /// Degrees of freedom of the others from which on their scatter is known.
 const KNOWN: f64 = 20.0;
+
+/// Mean squares of a row beyond this, in units of the noise, count as this much: how far off an outlier is says nothing of how many
+/// there are.
+const CLIP: f64 = 9.0;
 
 /// So many are named at most.
 const MOST: usize = 5;
@@ -56,6 +60,8 @@ struct Sum {
     largest: (f64, f64),
     /// The same of the rows that are no outliers.
     kept: (f64, f64),
+    /// How many rows there are, and the sums of their clipped mean squares and of the squares of these.
+    clipped: [f64; 3],
 }
 
 impl Sum {
@@ -68,6 +74,20 @@ impl Sum {
         if row.is_kept {
             self.kept = (self.kept.0 + row.squares, self.kept.1 + row.components);
         }
+        let own = row.clipped();
+        self.clipped = [self.clipped[0] + 1.0, self.clipped[1] + own, self.clipped[2] + own * own];
+    }
+
+    /// The chance of rows, but the one that is furthest off, to be off so much more than the others as `all` with them scatter: whatever
+    /// the noise is like, heavy tails and outliers included.
+    fn chance_among(&self, all: &Self) -> f64 {
+        let [count, sum, _] = self.clipped;
+        let (count, sum) = (count - 1.0, sum - (self.largest.0 / self.largest.1).min(CLIP));
+        let [others, of_others, squares] = std::array::from_fn(|at| all.clipped[at] - self.clipped[at]);
+        let mean = of_others / others;
+        let variance = squares / others - mean * mean;
+        let further = (sum / count - mean) / (variance * (1.0 / count + 1.0 / others)).sqrt();
+        if further.is_nan() { 1.0 } else { Normal::standard().sf(further) }
     }
 
     /// Without the row that is furthest off: a single one is an outlier, and says nothing of the others.
@@ -83,6 +103,12 @@ struct Row {
     squares: f64,
     components: f64,
     is_kept: bool,
+}
+
+impl Row {
+    fn clipped(&self) -> f64 {
+        (self.squares / self.components).min(CLIP)
+    }
 }
 
 /// Those whose rows scatter more than the others', the most unlikely first; each is judged without the rows of those before it.
@@ -171,7 +197,8 @@ fn most_unlikely(rows: &[Row], unknowns: &Unknowns, left: f64) -> Option<(Group,
             return None;
         }
         let ratio = squares / freedom / (rest / of_rest);
-        let chance = FisherSnedecor::new(freedom, of_rest).ok()?.sf(ratio) * tests;
+        let of_normal = FisherSnedecor::new(freedom, of_rest).ok()?.sf(ratio);
+        let chance = of_normal.max(sum.chance_among(&all)) * tests;
         (ratio.sqrt() > LARGER && chance < UNLIKELY).then_some((chance, group, ratio.sqrt()))
     });
     judged

@@ -157,12 +157,9 @@ pub fn calibrate_telling(
         (before, Chosen { judged, whole, as_good: Vec::new() })
     } else {
         let found = searched(&whole, before, round, &loops[0])?;
-        match stretches::alike(&found.1.whole, &found.1.judged.round.fitted)? {
+        match stretches::grouped(whole, &found.1, &by_stretch)? {
             None => found,
-            Some(stretches) => {
-                let observations = by_stretch.get_or_init(|| stretches.of(whole.request.observations));
-                let whole = Context { request: Request { observations, ..whole.request }, ..whole };
-                let first = Fitted::first(&whole)?;
+            Some((whole, first)) => {
                 let before = first.fit.clone();
                 searched(&whole, before, Round::at(&whole, first)?, &loops[1])?
             }

@@ -6,15 +6,17 @@
 //! rows of a stretch agree in that more than chance explains, with all effects that were found, they do not speak for anything
 //! independently: a stretch counts as one group, in the ± and in the flips of the search.
 
+use std::cell::OnceCell;
 use std::ops::Range;
 
 use nalgebra::Vector3;
 
+use super::choice::Chosen;
 use crate::data::unknowns::OF_OBJECT;
 use crate::data::{Grouping, Observations};
-use crate::fit::{Block, Model};
+use crate::fit::{Block, Model, Outcome};
 use crate::search::SearchError;
-use crate::search::context::Context;
+use crate::search::context::{Context, Request};
 use crate::search::fitted::Fitted;
 
 /// The first distance, in rows, at which rows have to agree. Neighbours of a path through the joints agree where a
@@ -24,8 +26,8 @@ const NEAREST: usize = 4;
 /// Standard deviations of chance by which they have to.
 const ALIKE: f64 = 4.0;
 
-/// The same for a stretch to go on.
-const STILL_ALIKE: f64 = 2.0;
+/// A stretch is twice as long as the distance at which less than this share is left of what rows have in common there.
+const LEFT: f64 = 1.0 / 3.0;
 
 /// Distances looked at from one on to twice as far.
 const AT_ONCE: usize = 4;
@@ -36,23 +38,29 @@ const FEWEST: usize = 10;
 /// By how much a reading is moved to see what it does: rad or m.
 const MOVED: f64 = 1e-6;
 
-/// How rows go together.
-pub(super) struct Stretches {
-    /// Rows of one.
-    rows: usize,
-}
-
-impl Stretches {
-    /// The observations with a group for each stretch.
-    pub fn of(&self, observations: &Observations) -> Observations {
-        let groups = (0..observations.rows()).map(|row| (row / self.rows) as u32).collect();
-        Observations { groups, grouping: Grouping::Stretches { rows: self.rows }, ..observations.clone() }
-    }
-}
-
-/// How long the stretches are in which rows are off alike at a fit; none where they are not, or somebody declared groups.
-pub(super) fn alike(whole: &Context<'_>, fitted: &Fitted) -> Result<Option<Stretches>, SearchError> {
+/// The study with a group for each stretch and its first fit, where rows are off alike beside all that was found and nobody declared
+/// groups; `own` is where the observations live then.
+pub(super) fn grouped<'a>(
+    whole: Context<'a>,
+    found: &Chosen<'_>,
+    own: &'a OnceCell<Observations>,
+) -> Result<Option<(Context<'a>, Fitted)>, SearchError> {
     let observations = whole.request.observations;
+    let Some(rows) = alike(observations, &found.judged.round.fitted)? else { return Ok(None) };
+    let stretches = || Observations {
+        groups: (0..observations.rows()).map(|row| (row / rows) as u32).collect(),
+        grouping: Grouping::Stretches { rows },
+        ..observations.clone()
+    };
+    let whole =
+        Context { request: Request { observations: own.get_or_init(stretches), ..whole.request }, ..whole };
+    let first = Fitted::first(&whole)?;
+    let has_converged = matches!(first.fit.outcome, Outcome::Converged { .. });
+    Ok(has_converged.then_some((whole, first)))
+}
+
+/// How many rows the stretches have in which rows are off alike at a fit; none where they are not.
+fn alike(observations: &Observations, fitted: &Fitted) -> Result<Option<usize>, SearchError> {
     let is_asked = observations.unknowns.is_some()
         && observations.rows_are_alone()
         && observations.together.is_empty()
@@ -65,33 +73,45 @@ pub(super) fn alike(whole: &Context<'_>, fitted: &Fitted) -> Result<Option<Stret
     for number in 0..observations.poses.columns.len() {
         pulls.push(of_reading(observations, fitted, number)?);
     }
-    let agree = |distance: usize| {
-        pulls.iter().map(|pulls| agreement(pulls, distance)).fold(f64::NEG_INFINITY, f64::max)
-    };
-    if agree(NEAREST) < ALIKE {
-        return Ok(None);
-    }
-    let mut distance = 2 * NEAREST;
-    while distance < longest && agree(distance) > STILL_ALIKE {
-        distance *= 2;
-    }
-    Ok(Some(Stretches { rows: (2 * distance).min(longest) }))
+    let lengths = pulls.iter().filter_map(|pulls| {
+        let near = Agreement::of(pulls, NEAREST);
+        let mut distance = 2 * NEAREST;
+        while distance < longest && Agreement::of(pulls, distance).mean > LEFT * near.mean {
+            distance *= 2;
+        }
+        (near.by_chance > ALIKE).then_some((2 * distance).min(longest))
+    });
+    Ok(lengths.max())
 }
 
-/// By how many standard deviations of chance rows agree that are so far apart, up to twice as far.
-///
-/// Where they do not, a product of two is as likely positive as negative, and products of different rows hang together in nothing:
-/// their sum is off zero by about the root of the sum of their squares.
-fn agreement(pulls: &[Vector3<f64>], distance: usize) -> f64 {
-    let (mut sum, mut squares) = (0.0, 0.0);
-    for apart in (0..AT_ONCE).map(|at| distance + at * distance / AT_ONCE) {
-        for (one, other) in pulls.iter().zip(pulls.iter().skip(apart)) {
-            let product = one.dot(other);
-            sum += product;
-            squares += product * product;
+/// How rows agree that are so far apart, up to twice as far.
+struct Agreement {
+    /// The mean product of two.
+    mean: f64,
+    /// By how many standard deviations of chance it is off zero.
+    by_chance: f64,
+}
+
+impl Agreement {
+    /// Where rows do not agree, a product of two is as likely positive as negative, and products of different rows hang together in
+    /// nothing: their sum is off zero by about the root of the sum of their squares.
+    fn of(pulls: &[Vector3<f64>], distance: usize) -> Self {
+        let (mut count, mut sum, mut squares) = (0.0, 0.0, 0.0);
+        for apart in (0..AT_ONCE).map(|at| distance + at * distance / AT_ONCE) {
+            for (one, other) in pulls.iter().zip(pulls.iter().skip(apart)) {
+                let product = one.dot(other);
+                count += 1.0;
+                sum += product;
+                squares += product * product;
+            }
+        }
+        // A reading that nothing hangs on pulls nowhere.
+        if squares > 0.0 {
+            Self { mean: sum / count, by_chance: sum / squares.sqrt() }
+        } else {
+            Self { mean: 0.0, by_chance: 0.0 }
         }
     }
-    if squares > 0.0 { sum / squares.sqrt() } else { 0.0 }
 }
 
 /// Of each row which way it would have its station shifted, and turned.

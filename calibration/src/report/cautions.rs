@@ -41,8 +41,8 @@ pub fn caution(caution: &Caution) -> String {
             if *beside_groups { ", and what your groups share is in the noise" } else { "" }
         ),
         Caution::OffAlike { rows, of_stretch, stretches } => format!(
-            "Rows that follow each other are off alike, as a trajectory that drifts makes them: the {rows} rows count as {stretches} \
-             stretches of {of_stretch}. The ± are larger for it, and an effect has to show in most stretches."
+            "Rows that follow each other are off alike: something drifts, or a surface is not what it is taken for. The {rows} rows count \
+             as {stretches} stretches of {of_stretch}: the ± are larger for it, and an effect has to show in most stretches."
         ),
         Caution::SetAsideShare { reading: name, from, to, unit, rows: [aside, there] } => {
             let own = reading(*unit, from.abs().max(to.abs()));

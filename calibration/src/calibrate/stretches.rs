@@ -45,6 +45,9 @@ pub(super) fn grouped<'a>(
     found: &Chosen<'_>,
     own: &'a OnceCell<Observations>,
 ) -> Result<Option<(Context<'a>, Fitted)>, SearchError> {
+    if !whole.request.plan.fit.noise.stretches {
+        return Ok(None);
+    }
     let observations = whole.request.observations;
     let Some(rows) = alike(observations, &found.judged.round.fitted)? else { return Ok(None) };
     let stretches = || Observations {

@@ -409,6 +409,7 @@ impl Study {
             stated: None,
             variance: self.noise.variance,
             serial: self.noise.serial,
+            stretches: self.noise.serial,
             beside_effects: true,
         };
         let rest = FitOptions::for_chain(chain);

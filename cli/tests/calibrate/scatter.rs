@@ -64,3 +64,15 @@ fn neither_noise_nor_a_single_outlier_names_anything() {
     let (scatter, ..) = cautions("scatter-one", one);
     assert_eq!(scatter.len(), 0, "{scatter:?}");
 }
+
+/// One row in eight is wrong, whatever it observes: of no target and no station more than of others.
+#[test]
+fn outliers_everywhere_name_nothing() {
+    let wrong = |_: &str, _: &str, number: usize, range_m| match number * 37 % 101 {
+        0..12 => range_m + if number.is_multiple_of(2) { -0.02 } else { 0.02 },
+        _ => range_m,
+    };
+    let (scatter, report, _) = cautions("scatter-outliers", wrong);
+    assert_eq!(scatter.len(), 0, "{scatter:?}");
+    assert!(report["observations"]["set_aside"].as_array().is_some_and(|aside| aside.len() > 15));
+}

@@ -39,6 +39,8 @@ pub struct NoiseOptions {
     pub variance: bool,
     /// Whether to look for serial correlation: in order of acquisition, or where none is declared in that of the file.
     pub serial: bool,
+    /// Whether rows beside unknown objects that are found to be off alike count as stretches.
+    pub stretches: bool,
     /// Whether what smooth functions of the readings follow as well is taken for effects that the chain lacks, not for memory.
     pub beside_effects: bool,
 }
@@ -59,7 +61,14 @@ impl NoiseOptions {
 
 impl Default for NoiseOptions {
     fn default() -> Self {
-        Self { sigma: None, stated: None, variance: true, serial: true, beside_effects: true }
+        Self {
+            sigma: None,
+            stated: None,
+            variance: true,
+            serial: true,
+            stretches: true,
+            beside_effects: true,
+        }
     }
 }
 

@@ -148,20 +148,19 @@ pub fn calibrate_telling(
         // What a failed fit leaves is no residual to search.
         return unusable(&whole, first);
     }
-    let before = first.fit.clone();
+    let mut before = first.fit.clone();
     let round = Round::at(&whole, first)?;
     // What rounding leaves has a structure of its own; there is nothing to search in it.
     let is_rounding = rounding(request.observations, &before).is_some();
-    let (before, Chosen { whole, judged, as_good }) = if is_rounding {
-        let judged = judged(&whole, &before, round)?;
-        (before, Chosen { judged, whole, as_good: Vec::new() })
+    let Chosen { whole, judged, as_good } = if is_rounding {
+        Chosen { judged: judged(&whole, &before, round)?, whole, as_good: Vec::new() }
     } else {
-        let found = searched(&whole, before, round, &loops[0])?;
-        match stretches::grouped(whole, &found.1, &by_stretch)? {
+        let found = searched(&whole, &before, round, &loops[0])?;
+        match stretches::grouped(whole, &found, &by_stretch)? {
             None => found,
             Some((whole, first)) => {
-                let before = first.fit.clone();
-                searched(&whole, before, Round::at(&whole, first)?, &loops[1])?
+                before = first.fit.clone();
+                searched(&whole, &before, Round::at(&whole, first)?, &loops[1])?
             }
         }
     };
@@ -190,17 +189,16 @@ struct Loop {
     studies: choice::Studies,
 }
 
-/// From the first round to what the report is about; the fit before, as it was.
+/// From the first round to what the report is about.
 fn searched<'a>(
     whole: &Context<'a>,
-    before: FitResult,
+    before: &FitResult,
     first: Round<'a>,
     own: &'a Loop,
-) -> Result<(FitResult, Chosen<'a>), CalibrateError> {
+) -> Result<Chosen<'a>, CalibrateError> {
     let round = outliers::reconsidered(whole, rounds(whole, first)?)?;
     let (whole, round) = memory::settled(whole.clone(), &own.remembering, round)?;
-    let chosen = chosen(&whole, &before, round, &own.studies)?;
-    Ok((before, chosen))
+    Ok(chosen(&whole, before, round, &own.studies)?)
 }
 
 /// What a first fit that cannot be gone on with comes to.

@@ -14,7 +14,7 @@ use nalgebra::Vector3;
 use super::choice::Chosen;
 use crate::data::unknowns::OF_OBJECT;
 use crate::data::{Grouping, Observations};
-use crate::fit::{Block, Model, Outcome};
+use crate::fit::{Block, Model, Outcome, residuals};
 use crate::search::SearchError;
 use crate::search::context::{Context, Request};
 use crate::search::fitted::Fitted;
@@ -72,17 +72,26 @@ fn alike(observations: &Observations, fitted: &Fitted) -> Result<Option<usize>, 
     if !is_asked || longest < 2 * NEAREST {
         return Ok(None);
     }
-    let mut pulls = of_station(observations, fitted)?.to_vec();
+    let model = Model::without_columns(&fitted.chain, &observations.poses);
+    let sigma = fitted.fit.noise.sigma_without_memory();
+    let mut pulls = of_station(&model, observations, fitted, &sigma)?.to_vec();
+    let mut moved = observations.clone();
     for number in 0..observations.poses.columns.len() {
-        pulls.push(of_reading(observations, fitted, number)?);
+        moved.poses.columns[number].1.iter_mut().for_each(|reading| *reading += MOVED);
+        let there = residuals(&model, &moved, &fitted.fit.values)?;
+        moved.poses.columns[number].1.clone_from(&observations.poses.columns[number].1);
+        pulls.push(of_reading(fitted, &sigma, &there));
     }
     let lengths = pulls.iter().filter_map(|pulls| {
         let near = Agreement::of(pulls, NEAREST);
+        if near.by_chance.is_nan() || near.by_chance <= ALIKE {
+            return None;
+        }
         let mut distance = 2 * NEAREST;
         while distance < longest && Agreement::of(pulls, distance).mean > LEFT * near.mean {
             distance *= 2;
         }
-        (near.by_chance > ALIKE).then_some((2 * distance).min(longest))
+        Some((2 * distance).min(longest))
     });
     Ok(lengths.max())
 }
@@ -118,10 +127,13 @@ impl Agreement {
 }
 
 /// Of each row which way it would have its station shifted, and turned.
-fn of_station(observations: &Observations, fitted: &Fitted) -> Result<[Vec<Vector3<f64>>; 2], SearchError> {
-    let model = Model::without_columns(&fitted.chain, &observations.poses);
+fn of_station(
+    model: &Model,
+    observations: &Observations,
+    fitted: &Fitted,
+    sigma: &[f64],
+) -> Result<[Vec<Vector3<f64>>; 2], SearchError> {
     let Fitted { layout, fit, .. } = fitted;
-    let sigma = fit.noise.sigma_without_memory();
     let mut pulls = [Vec::new(), Vec::new()];
     let of_block = |_: usize, rows: Range<usize>, block: &Block| {
         let (residual, first) = (block.by_row(&block.residual), layout.first(rows.start));
@@ -147,27 +159,15 @@ fn of_station(observations: &Observations, fitted: &Fitted) -> Result<[Vec<Vecto
     Ok(pulls)
 }
 
-/// Of each row which way it would have one of its readings moved, along the first axis.
-fn of_reading(
-    observations: &Observations,
-    fitted: &Fitted,
-    number: usize,
-) -> Result<Vec<Vector3<f64>>, SearchError> {
+/// Of each row which way it would have a reading moved, along the first axis; `there` are the residuals where it is.
+fn of_reading(fitted: &Fitted, sigma: &[f64], there: &[f64]) -> Vec<Vector3<f64>> {
     let Fitted { layout, fit, .. } = fitted;
-    let mut moved = observations.clone();
-    moved.poses.columns[number].1.iter_mut().for_each(|reading| *reading += MOVED);
-    let model = Model::without_columns(&fitted.chain, &moved.poses);
-    let mut there = Vec::with_capacity(layout.components());
-    let own = |_: usize, _: Range<usize>, block: &Block| block.by_row(&block.residual);
-    model.each_block(&moved, &fit.values, own, |own| there.extend(own))?;
-    let sigma = fit.noise.sigma_without_memory();
     let of_row = |row: usize| {
-        let own = layout.of_rows(row..row + 1);
-        let pull = own.map(|at| {
+        let pull = layout.of_rows(row..row + 1).map(|at| {
             let here = fit.residuals.raw[at];
             here * (there[at] - here) / MOVED / sigma[at].powi(2)
         });
         Vector3::new(fit.residuals.weight[row] * pull.sum::<f64>(), 0.0, 0.0)
     };
-    Ok((0..observations.rows()).map(of_row).collect())
+    (0..layout.rows()).map(of_row).collect()
 }

@@ -74,7 +74,7 @@ impl Sum {
         if row.is_kept {
             self.kept = (self.kept.0 + row.squares, self.kept.1 + row.components);
         }
-        let own = row.clipped();
+        let own = clipped(row.squares, row.components);
         self.clipped = [self.clipped[0] + 1.0, self.clipped[1] + own, self.clipped[2] + own * own];
     }
 
@@ -82,7 +82,7 @@ impl Sum {
     /// the noise is like, heavy tails and outliers included.
     fn chance_among(&self, all: &Self) -> f64 {
         let [count, sum, _] = self.clipped;
-        let (count, sum) = (count - 1.0, sum - (self.largest.0 / self.largest.1).min(CLIP));
+        let (count, sum) = (count - 1.0, sum - clipped(self.largest.0, self.largest.1));
         let [others, of_others, squares] = std::array::from_fn(|at| all.clipped[at] - self.clipped[at]);
         let mean = of_others / others;
         let variance = squares / others - mean * mean;
@@ -105,10 +105,9 @@ struct Row {
     is_kept: bool,
 }
 
-impl Row {
-    fn clipped(&self) -> f64 {
-        (self.squares / self.components).min(CLIP)
-    }
+/// The mean square of a row, clipped.
+fn clipped(squares: f64, components: f64) -> f64 {
+    (squares / components).min(CLIP)
 }
 
 /// Those whose rows scatter more than the others', the most unlikely first; each is judged without the rows of those before it.

@@ -320,10 +320,9 @@ impl Model {
         let unknowns = of.observed.and_then(|observed| observed.unknowns.as_ref());
         let first = unknowns.map(|unknowns| [unknowns.first_of_stations(), unknowns.first_of_objects()]);
         // Bare poses are seen as they are read: nothing stands at the end of a beam.
-        let along = match beam.filter(|_| unknowns.is_some()) {
-            Some((beam, interpreter)) => {
+        let along = match beam.zip(unknowns.zip(first.as_ref())) {
+            Some(((beam, interpreter), (unknowns, first))) => {
                 let far = |row: usize, origin: &Vector3<f64>| {
-                    let (unknowns, first) = unknowns.zip(first.as_ref())?;
                     objects::distance(unknowns, first, state, rows.start + row, origin)
                 };
                 Some(beam.along(interpreter, &columns, values, count, far)?)

@@ -326,10 +326,11 @@ impl Turn {
 #[inline(always)]
 fn dots(a: &[f64], several: &[f64]) -> [f64; AT_ONCE] {
     let mut others = several.chunks_exact(a.len());
-    if others.len() < AT_ONCE {
-        return std::array::from_fn(|_| others.next().map_or(0.0, |other| dot(a, other)));
-    }
-    let [b, c, d, e] = std::array::from_fn(|_| others.next().unwrap_or_default().as_chunks::<LANES>().0);
+    let mut next = || others.next().map(|other| other.as_chunks::<LANES>().0);
+    let (Some(b), Some(c), Some(d), Some(e)) = (next(), next(), next(), next()) else {
+        let mut fewer = several.chunks_exact(a.len());
+        return std::array::from_fn(|_| fewer.next().map_or(0.0, |other| dot(a, other)));
+    };
     let mut sums = [[0.0; LANES]; AT_ONCE];
     for ((((a, b), c), d), e) in a.as_chunks::<LANES>().0.iter().zip(b).zip(c).zip(d).zip(e) {
         for lane in 0..LANES {

@@ -24,6 +24,11 @@ const LONG: usize = 10;
 const FOUND_APART: usize = 64;
 const FOUND_TOGETHER: usize = 500;
 
+/// Rows of a sample that tell whether places of a size are worth looking for, and the share of them that is near to another row at
+/// least: less than the half that it takes, by more than chance.
+const SAMPLE: usize = 4096;
+const NEAR: f64 = 0.4;
+
 /// The golden section: readings weighed by its powers add up to the same for hardly any two rows of a grid.
 const SECTION: f64 = 0.618_033_988_749_894_9;
 
@@ -37,8 +42,14 @@ pub fn places(chain: &Chain, poses: &Poses) -> Option<Vec<u32>> {
     let rows = readings.first()?.len();
     let line = Line::through(&readings);
     let mut best: Option<(usize, Vec<u32>)> = None;
-    let mut apart = NEAREST;
-    while apart <= FURTHEST {
+    let mut apart = NEAREST / 2.0;
+    while 2.0 * apart <= FURTHEST {
+        apart *= 2.0;
+        match line.may_have_places(apart) {
+            None => break,
+            Some(false) => continue,
+            Some(true) => {}
+        }
         let Some((linked, links)) = linked(&line, apart) else { break };
         // A link brings two rows together at most.
         if 4 * links >= rows {
@@ -47,7 +58,6 @@ pub fn places(chain: &Chain, poses: &Poses) -> Option<Vec<u32>> {
                 best = Some((shared, of_row));
             }
         }
-        apart *= 2.0;
     }
     best.map(|(_, of_row)| of_row)
 }
@@ -94,6 +104,35 @@ impl Line {
         let (at, readings) = (ordered(&at), readings.iter().map(ordered).collect());
         Self { order, at, readings, stretch: weights.iter().sum() }
     }
+
+    /// Whether two rows are no further than a distance from each other in every reading.
+    fn are_near(&self, a: usize, b: usize, distance: f64) -> bool {
+        self.readings.iter().all(|values| (values[b] - values[a]).abs() <= distance)
+    }
+
+    /// Whether half of the rows may be that near to another, by a sample of them; surely where there are few. `None` where rows lie
+    /// too dense.
+    fn may_have_places(&self, distance: f64) -> Option<bool> {
+        let (rows, reach) = (self.at.len(), self.stretch * distance);
+        if rows <= 4 * SAMPLE {
+            return Some(true);
+        }
+        let (mut near, mut compared) = (0, 0);
+        for sample in 0..SAMPLE {
+            // Steps of an irrational length, so that no period of the rows is favoured.
+            let row = ((sample as f64 * SECTION).fract() * rows as f64) as usize;
+            let start = self.at.partition_point(|at| self.at[row] - at > reach);
+            let end = self.at.partition_point(|at| at - self.at[row] <= reach);
+            compared += end - row - 1;
+            // Of those that a row would be compared with at most, on either side.
+            let most = FOUND_APART + FOUND_TOGETHER;
+            let mut others = (row + 1..end).take(most).chain((start..row).rev().take(most));
+            near += usize::from(others.any(|other| self.are_near(row, other, distance)));
+        }
+        // Twice as many as are compared, so that a sample does not decide a close case.
+        let too_dense = compared > 2 * (FOUND_APART + FOUND_TOGETHER) * SAMPLE;
+        (!too_dense).then_some(near as f64 >= NEAR * SAMPLE as f64)
+    }
 }
 
 /// Rows in chains, link by link no further than a distance from the next in every reading, and how many links it took; `None` where
@@ -108,7 +147,7 @@ fn linked(line: &Line, distance: f64) -> Option<(Joined, usize)> {
             if line.at[other] - line.at[row] > reach {
                 break;
             }
-            if line.readings.iter().all(|values| (values[other] - values[row]).abs() <= distance) {
+            if line.are_near(row, other, distance) {
                 together = together.checked_sub(1)?;
                 links += usize::from(linked.join(line.order[row] as usize, line.order[other] as usize));
             } else {
@@ -189,6 +228,17 @@ mod tests {
         assert_eq!(of(|row| target(row / 5), 200), Some(read));
         // Six poses, four hundred times.
         assert_eq!(of(|row| target(row % 6), 2400), Some((0..2400).map(|row| row % 6).collect()));
+    }
+
+    /// Where a sample tells of which size places may be.
+    #[test]
+    fn places_of_many_rows_are_those_of_few() {
+        let rows = 5 * SAMPLE;
+        let target = |row: usize| [even(row % 8000, 0.754_877_666), even(row % 8000, 0.569_840_291)];
+        let aimed = |row: usize| target(row).map(|q| q + 1e-5 * even(row * row, 0.618_033_99));
+        let rounds: Vec<u32> = (0..rows).map(|row| (row % 8000) as u32).collect();
+        assert!(of(aimed, rows) == Some(rounds), "five rounds of 8000 targets");
+        assert!(of(|row| [even(row, 0.754_877_666), even(row, 0.569_840_291)], rows).is_none(), "a cloud");
     }
 
     #[test]

@@ -129,10 +129,11 @@ impl Solver<'_> {
         for _ in 0..NOISE_ROUNDS {
             let noise = course.noise.clone();
             self.descend(course, &noise, ROUGHLY)?;
-            if self.kept_components(course) as f64 <= self.used(course) {
+            let (_, weight) = self.norms_and_weights(course);
+            if self.kept_components(&weight) as f64 <= self.used(course) {
                 break;
             }
-            let learned = self.learn_noise(course)?;
+            let learned = self.learn_noise(course, &weight)?;
             let known = same(&learned, &course.noise, NOISE_KNOWN);
             if !same(&learned, &course.noise, SAME_NOISE) {
                 let values = std::mem::take(&mut course.point.values);
@@ -245,16 +246,15 @@ impl Solver<'_> {
         sigma.iter().map(|sigma| (resolution / sigma).powi(2)).sum::<f64>().sqrt()
     }
 
-    /// What the residuals say of the noise.
-    fn learn_noise(&self, course: &Course) -> Result<Noise, FitError> {
-        let (_, weight) = self.norms_and_weights(course);
+    /// What the residuals say of the noise, each row with its weight.
+    fn learn_noise(&self, course: &Course, weight: &[f64]) -> Result<Noise, FitError> {
         let sweep = &course.point.sweep;
         let followed = match &self.observations.unknowns {
             None => Followed::Evenly { used: self.used(course) },
             // An object seen closely takes its place from the sights across it, which leave little of their own.
             Some(_) => {
                 let root = course.subspace.covariance_root(&self.partial(sweep), &course.point.rest);
-                let Coordinates { q, mut followed, .. } = self.coordinates(course, &weight, &root)?;
+                let Coordinates { q, mut followed, .. } = self.coordinates(course, weight, &root)?;
                 for column in q.col_iter() {
                     followed.iter_mut().zip(column.iter()).for_each(|(sum, value)| *sum += value * value);
                 }
@@ -268,7 +268,7 @@ impl Solver<'_> {
             self.observations,
             &self.layout,
             &sweep.residual,
-            &weight,
+            weight,
             &followed,
         ))
     }

@@ -128,7 +128,7 @@ impl Solver<'_> {
         let rank = course.subspace.rank();
         let of_objects = course.point.sweep.eliminated.as_ref().map_or(0, |own| own.taken as usize);
         let (norms, weight) = self.norms_and_weights(&course);
-        let kept = self.layout.row_of_each().filter(|&row| weight[row] > 0.0).count();
+        let kept = self.kept_components(&weight);
         let (uncertainty, shared) = self.uncertainty(&course, &weight)?;
         let far_off = self.is_far_off(&course).then_some(Reason::FarOff);
         let Course { point, noise, subspace, stopped, .. } = course;

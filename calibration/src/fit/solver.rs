@@ -4,6 +4,7 @@ use std::cell::OnceCell;
 use std::sync::Arc;
 
 use model_core::{Chain, SymbolKind};
+use rayon::prelude::*;
 
 use super::normal::Rest;
 use super::size::Size;
@@ -12,6 +13,9 @@ use super::{FitError, FitOptions, Model, Partial, Reason, Subspace};
 use crate::data::Observations;
 use crate::data::unknowns::Unknowns;
 use crate::fit::noise::{self, Layout, Noise};
+
+/// Rows at least that one processor looks through.
+const AT_ONCE: usize = 4096;
 
 /// One fit in progress.
 pub(super) struct Solver<'a> {
@@ -179,16 +183,16 @@ impl Solver<'_> {
     /// Per row the norm of its whitened components and its weight; rows without a value have none.
     pub(super) fn norms_and_weights(&self, course: &Course) -> (Vec<f64>, Vec<f64>) {
         let sigma = course.noise.sigma_without_memory();
-        let sweep = &course.point.sweep;
-        let rows = self.layout.by_row(&sweep.residual).zip(self.layout.by_row(&sigma)).zip(&sweep.defined);
-        rows.enumerate()
-            .map(|(row, ((residual, sigma), &defined))| {
-                let white = residual.iter().zip(sigma).map(|(residual, sigma)| residual / sigma);
-                let norm = white.map(|value| value * value).sum::<f64>().sqrt();
-                let counts = defined && self.aside.get(row) != Some(&true);
-                (norm, if counts { course.weighting.weight(norm, residual.len()) } else { 0.0 })
-            })
-            .unzip()
+        let (layout, aside, sweep, weighting) =
+            (&self.layout, &self.aside, &course.point.sweep, course.weighting);
+        let of_row = |row: usize| {
+            let own = layout.of_rows(row..row + 1);
+            let white = sweep.residual[own.clone()].iter().zip(&sigma[own.clone()]);
+            let norm = white.map(|(residual, sigma)| (residual / sigma).powi(2)).sum::<f64>().sqrt();
+            let counts = sweep.defined[row] && aside.get(row) != Some(&true);
+            (norm, if counts { weighting.weight(norm, own.len()) } else { 0.0 })
+        };
+        (0..layout.rows()).into_par_iter().with_min_len(AT_ONCE).map(of_row).unzip()
     }
 
     /// The residual at the end of a course, whitened but for memory, each row times its weight.
@@ -198,9 +202,8 @@ impl Solver<'_> {
         residual.map(|((residual, row), sigma)| residual * weight[row] / sigma).collect()
     }
 
-    /// The number of components with weight.
-    pub(super) fn kept_components(&self, course: &Course) -> usize {
-        let (_, weight) = self.norms_and_weights(course);
+    /// The number of components of rows with weight.
+    pub(super) fn kept_components(&self, weight: &[f64]) -> usize {
         self.layout.row_of_each().filter(|&row| weight[row] > 0.0).count()
     }
 

@@ -69,7 +69,7 @@ impl Solver<'_> {
         weight: &[f64],
     ) -> Result<(Uncertainty, Shared), FitError> {
         let (subspace, rest, tally) = (&course.subspace, &course.point.rest, &course.point.sweep.tally);
-        let left = self.kept_components(course) as f64 - self.used(course);
+        let left = self.kept_components(weight) as f64 - self.used(course);
         let full = self.unweighted_at(course)?;
         let known = self.options.noise.known();
         // Of variances, what was found over what the weights assume.

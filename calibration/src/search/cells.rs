@@ -39,10 +39,16 @@ pub struct ByCell {
 }
 
 impl CellsOfGroups {
+    /// The cell of a group, as the folds number them.
+    #[must_use]
+    pub fn cell(&self, group: u32) -> usize {
+        self.0[group as usize] as usize
+    }
+
     /// The order of some rows, whose groups are given as the folds number them.
     #[must_use]
     pub fn sorted(&self, group_of_row: &[u32]) -> ByCell {
-        let cell = |row: usize| self.0[group_of_row[row] as usize] as usize;
+        let cell = |row: usize| self.cell(group_of_row[row]);
         let mut order: Vec<usize> = (0..group_of_row.len()).collect();
         order.sort_by_key(|&row| cell(row));
         let mut cells: Vec<(usize, Range<usize>)> = Vec::new();
@@ -86,16 +92,18 @@ impl Cells {
         (cells, cell_of_group)
     }
 
-    /// Takes in rows, put in the order of their cells.
-    pub fn add(&mut self, rows: MatRef<'_, f64>, by_cell: &ByCell) {
-        let (width, mut own) = (self.width, vec![0..0; self.fold_of_cell.len()]);
-        for (cell, places) in &by_cell.cells {
-            own[*cell] = places.clone();
+    /// Takes in parts of the rows, each put in the order of its cells.
+    pub fn add(&mut self, parts: &[(MatRef<'_, f64>, &ByCell)]) {
+        let (width, mut own) = (self.width, vec![Vec::new(); self.fold_of_cell.len()]);
+        for (rows, by_cell) in parts {
+            for (cell, places) in &by_cell.cells {
+                own[*cell].push(rows.subrows(places.start, places.len()));
+            }
         }
         let cells = self.products.par_chunks_mut(width * width).zip(own);
         cells.filter(|(_, own)| !own.is_empty()).for_each(|(products, own)| {
-            let products = MatMut::from_column_major_slice_mut(products, width, width);
-            add_products(products, rows.subrows(own.start, own.len()));
+            let mut products = MatMut::from_column_major_slice_mut(products, width, width);
+            own.into_iter().for_each(|rows| add_products(products.as_mut(), rows));
         });
     }
 
@@ -209,7 +217,8 @@ mod tests {
             for start in (0..60).step_by(chunk) {
                 let end = (start + chunk).min(60);
                 let by_cell = of_groups.sorted(&folds.group_of_row[start..end]);
-                cells.add(picked(rows.subrows(start, end - start), &by_cell.order).as_ref(), &by_cell);
+                let part = picked(rows.subrows(start, end - start), &by_cell.order);
+                cells.add(&[(part.as_ref(), &by_cell)]);
             }
             let (merged, of_merged) = cells.merged(&[0, 1, 2, 3, 4]);
             prop_assert!(merged.nrows() <= 4 * of_merged.groups());

@@ -17,6 +17,8 @@ pub(crate) struct Chunk {
     pub columns: Mat<f64>,
     /// Which of its components belong to which cell.
     pub by_cell: ByCell,
+    /// How many rows of the data it has.
+    pub rows: usize,
     pub seen: Seen,
 }
 
@@ -34,7 +36,12 @@ impl Chunk {
         if noise.mixes_rows() || observations.unknowns.is_some() {
             // Whitening makes more of a component than a multiple of itself.
             let rows = RowSet::of(whole, fitted, stretches, |_| true)?;
-            return Ok(Self { columns: rows.whitened_in(&by_cell.order), by_cell, seen: rows.seen });
+            return Ok(Self {
+                columns: rows.whitened_in(&by_cell.order),
+                by_cell,
+                rows: rows.observations.rows(),
+                seen: rows.seen,
+            });
         }
         let components = components(fitted, stretches).into_iter();
         let weight = &fitted.fit.residuals.weight;
@@ -72,6 +79,6 @@ impl Chunk {
             of_effect[effect.0].clone().map(|column| columns.col_as_slice(column))
         });
         columns.col_as_slice_mut(width - 1).copy_from_slice(&without);
-        Ok(Self { columns, by_cell, seen: seen.with_probes(&bare) })
+        Ok(Self { columns, by_cell, rows: own.rows(), seen: seen.with_probes(&bare) })
     }
 }

@@ -94,16 +94,22 @@ impl Folds {
         self.group_of_row.len()
     }
 
+    /// The group of a row.
+    #[must_use]
+    pub fn group(&self, row: usize) -> u32 {
+        self.group_of_row[row]
+    }
+
     /// The groups of some rows.
     #[must_use]
     pub fn groups_of(&self, rows: &[usize]) -> Vec<u32> {
-        rows.iter().map(|&row| self.group_of_row[row]).collect()
+        rows.iter().map(|&row| self.group(row)).collect()
     }
 
     /// The fold that a row lies in.
     #[must_use]
     pub fn of_row(&self, row: usize) -> usize {
-        self.fold_of_group[self.group_of_row[row] as usize] as usize
+        self.fold_of_group[self.group(row) as usize] as usize
     }
 }
 

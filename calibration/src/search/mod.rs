@@ -42,6 +42,7 @@ pub mod signs;
 mod stage;
 mod standardised;
 pub mod state;
+pub(crate) mod stretches;
 pub mod sweep;
 pub mod tail;
 

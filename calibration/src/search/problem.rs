@@ -12,6 +12,7 @@ use std::sync::Arc;
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
+use rayon::prelude::*;
 
 use super::folds::Folds;
 use super::products::{add_products, mirrored, picked};
@@ -245,6 +246,7 @@ impl Problem {
     fn form_grams(&mut self) {
         let width = self.rows.ncols();
         self.grams = (0..self.folds())
+            .into_par_iter()
             .map(|fold| {
                 let mut gram = Mat::zeros(width, width);
                 let members = self.rows_of_folds(|f| f == fold);

@@ -5,26 +5,16 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use faer::Mat;
-use rand::RngExt;
-use rand::seq::SliceRandom;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 
 use crate::candidate::EffectId;
 use crate::data::Observations;
-use crate::data::unknowns::{Object, Unknowns};
+use crate::data::unknowns::Object;
 use crate::fit::noise::{Layout, Noise, Run};
 use crate::fit::objects::Reduction;
 use crate::search::columns::{Columns, Probed, Seen, keep};
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
 use crate::search::{Folds, SearchError};
-
-/// Rows of a chunk.
-const CHUNK: usize = 1024;
-
-/// Consecutive rows of a sample that stay together, so that what follows each other can still be compared.
-const STRETCH: usize = 64;
 
 /// Some rows, with their columns at a fit.
 pub(crate) struct RowSet<'a> {
@@ -225,101 +215,7 @@ pub(crate) fn dealt(observations: &Observations, noise: &Noise, folds: usize, se
     dealt
 }
 
-/// All rows, one stretch a series.
-pub(crate) fn all_rows(observations: &Observations) -> Vec<Range<usize>> {
-    let rows = observations.poses.series.iter().map(|series| series.rows.clone());
-    rows.filter(|rows| !rows.is_empty()).collect()
-}
-
 /// The number of each component of some stretches of rows.
 pub(crate) fn components(fitted: &Fitted, stretches: &[Range<usize>]) -> Vec<usize> {
     stretches.iter().flat_map(|stretch| fitted.layout.of_rows(stretch.clone())).collect()
-}
-
-/// All rows chunk by chunk, each of some stretches; rows of one object lie in one chunk.
-pub(crate) fn chunks(observations: &Observations) -> Vec<Vec<Range<usize>>> {
-    match &observations.unknowns {
-        None => pieces(observations, CHUNK).into_iter().map(|piece| vec![piece]).collect(),
-        Some(unknowns) => by_object(observations, unknowns, &(0..unknowns.objects.len()).collect::<Vec<_>>())
-            .chain(pieces(observations, CHUNK).into_iter().map(|piece| bare(unknowns, piece)))
-            .filter(|stretches| !stretches.is_empty())
-            .collect(),
-    }
-}
-
-/// Rows of some objects, whole objects together until they fill a chunk.
-fn by_object<'a>(
-    observations: &'a Observations,
-    unknowns: &Unknowns,
-    objects: &[usize],
-) -> impl Iterator<Item = Vec<Range<usize>>> + use<'a> {
-    let mut place = vec![usize::MAX; unknowns.objects.len()];
-    objects.iter().enumerate().for_each(|(at, &object)| place[object] = at);
-    let mut rows: Vec<Vec<usize>> = vec![Vec::new(); objects.len()];
-    for (row, object) in unknowns.object.iter().enumerate() {
-        if let Some(own) = object.and_then(|object| rows.get_mut(place[object as usize])) {
-            own.push(row);
-        }
-    }
-    let mut full: Vec<Vec<usize>> = Vec::new();
-    for own in rows {
-        match full.last_mut() {
-            Some(last) if last.len() < CHUNK => last.extend(own),
-            _ => full.push(own),
-        }
-    }
-    full.into_iter().map(|mut rows| {
-        rows.sort_unstable();
-        stretches(observations, &rows)
-    })
-}
-
-/// The rows of a piece that observe no object.
-fn bare(unknowns: &Unknowns, piece: Range<usize>) -> Vec<Range<usize>> {
-    let rows: Vec<usize> = piece.filter(|&row| unknowns.object[row].is_none()).collect();
-    rows.chunk_by(|a, b| a + 1 == *b).map(|own| own[0]..own[0] + own.len()).collect()
-}
-
-/// Rows in order as stretches, each within one series.
-fn stretches(observations: &Observations, rows: &[usize]) -> Vec<Range<usize>> {
-    let series = &observations.poses.series;
-    let ends = |row: usize| series.iter().any(|series| series.rows.end == row);
-    rows.chunk_by(|&a, &b| a + 1 == b && !ends(b)).map(|own| own[0]..own[0] + own.len()).collect()
-}
-
-/// About so many rows from all over the data: of each of equally long parts, one stretch from a random place in it; or whole
-/// objects.
-pub(crate) fn sample(observations: &Observations, rows: usize, seed: u64) -> Vec<Range<usize>> {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    if let Some(unknowns) = &observations.unknowns {
-        let mut objects: Vec<usize> = (0..unknowns.objects.len()).collect();
-        objects.shuffle(&mut random);
-        let share = rows as f64 / observations.rows().max(1) as f64;
-        objects.truncate(((objects.len() as f64 * share).ceil() as usize).max(1));
-        let mut all: Vec<usize> = by_object(observations, unknowns, &objects).flatten().flatten().collect();
-        let bare = unknowns.object.iter().enumerate().filter(|(_, object)| object.is_none());
-        all.extend(bare.map(|(row, _)| row).filter(|_| random.random_bool(share.min(1.0))));
-        all.sort_unstable();
-        return stretches(observations, &all);
-    }
-    let part = observations.rows().div_ceil((rows / STRETCH).max(1)).max(STRETCH);
-    pieces(observations, part)
-        .into_iter()
-        .map(|part| {
-            let length = part.len().min(STRETCH);
-            let start = part.start + random.random_range(0..=part.len() - length);
-            start..start + length
-        })
-        .collect()
-}
-
-/// Each series cut into pieces of so many rows.
-fn pieces(observations: &Observations, length: usize) -> Vec<Range<usize>> {
-    let series = observations.poses.series.iter().map(|series| series.rows.clone());
-    series
-        .flat_map(|rows| {
-            let end = rows.end;
-            rows.step_by(length).map(move |start| start..(start + length).min(end))
-        })
-        .collect()
 }

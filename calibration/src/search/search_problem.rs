@@ -8,9 +8,10 @@ use model_core::SymbolKind;
 use rayon::prelude::*;
 
 use super::chunk::Chunk;
-use super::row_set::{RowSet, all_rows, chunks, components, dealt, sample};
+use super::row_set::{RowSet, components, dealt};
+use super::stretches::{Chunks, all_rows, sample};
 use crate::candidate::EffectId;
-use crate::data::{Observations, Poses};
+use crate::data::Poses;
 use crate::search::columns::{Columns, Probed, Seen, keep, places};
 use crate::search::context::{Context, declared};
 use crate::search::fitted::{Fitted, tolerance_of};
@@ -87,16 +88,24 @@ impl<'a> SearchProblem<'a> {
             let room = rooms().pop().unwrap_or_else(|| Mat::zeros(0, 0));
             Chunk::of(whole, fitted, stretches, by_cell, room)
         };
+        // Where whitening leaves rows alone, a chunk is of few cells: products of few rows each would cost several times as much.
+        let chunks = match fitted.fit.noise.mixes_rows() {
+            true => Chunks::in_order(observations),
+            false => Chunks::by(observations, |row| of_groups.cell(folds.group(fitted.layout.first(row)))),
+        };
         let mut rows = 0;
-        each_chunk(observations, made, |stretches, chunk| {
+        each_chunk(&chunks, made, |some: Vec<Chunk>| {
             (whole.tell)(Stage::Columns { rows, of: observations.rows() });
-            rows += stretches.iter().map(ExactSizeIterator::len).sum::<usize>();
-            cells.add(chunk.columns.as_ref(), &chunk.by_cell);
-            match &mut seen {
-                None => seen = Some(chunk.seen),
-                Some(seen) => seen.merge(&chunk.seen),
+            let parts = some.iter().map(|chunk| (chunk.columns.as_ref(), &chunk.by_cell));
+            cells.add(&parts.collect::<Vec<_>>());
+            for chunk in some {
+                rows += chunk.rows;
+                match &mut seen {
+                    None => seen = Some(chunk.seen),
+                    Some(seen) => seen.merge(&chunk.seen),
+                }
+                rooms().push(chunk.columns);
             }
-            rooms().push(chunk.columns);
         })?;
         drop(room);
         let usable = seen.map_or_else(Vec::new, |seen| seen.usable(&whole.catalogue));
@@ -179,7 +188,8 @@ impl<'a> SearchProblem<'a> {
             row_set.keep(&self.usable);
             Ok(f(&components(fitted, stretches), &row_set))
         };
-        each_chunk(whole.request.observations, made, |_, made| take(made))
+        let chunks = Chunks::in_order(whole.request.observations);
+        each_chunk(&chunks, made, |some| some.into_iter().for_each(&mut take))
     }
 }
 
@@ -191,18 +201,19 @@ fn cells(fill: usize, folds: usize) -> usize {
     CELLS.min(most)
 }
 
-/// Lets `take` have what `make` makes of all rows, one chunk after another, each of some stretches. Some chunks are made at once, and
-/// taken in their order: the number of processors changes no bit.
+/// Lets `take` have what `make` makes of all rows, some chunks at a time. Those are far from each other, so that they are of different
+/// cells, and always the same: the number of processors changes no bit.
 fn each_chunk<T: Send>(
-    observations: &Observations,
+    chunks: &Chunks<'_>,
     make: impl Fn(&[Range<usize>]) -> Result<T, SearchError> + Sync,
-    mut take: impl FnMut(&[Range<usize>], T),
+    mut take: impl FnMut(Vec<T>),
 ) -> Result<(), SearchError> {
-    for some in chunks(observations).chunks(AT_ONCE) {
-        let made: Vec<Result<T, SearchError>> = some.par_iter().map(|stretches| make(stretches)).collect();
-        for (stretches, made) in some.iter().zip(made) {
-            take(stretches, made?);
-        }
+    let apart = chunks.count().div_ceil(AT_ONCE);
+    for first in 0..apart {
+        let some: Vec<usize> = (first..chunks.count()).step_by(apart).collect();
+        let made: Vec<Result<T, SearchError>> =
+            some.into_par_iter().map(|chunk| make(&chunks.stretches(chunk))).collect();
+        take(made.into_iter().collect::<Result<_, _>>()?);
     }
     Ok(())
 }

@@ -4,8 +4,11 @@ use model_core::Chain;
 use rayon::prelude::*;
 
 use super::{Layout, Noise, NoiseOptions, pools, variance};
-use crate::data::{Measured, Observations};
+use crate::data::Observations;
 use crate::fit::robust;
+
+/// Rows at least that one processor looks through.
+const AT_ONCE: usize = 4096;
 
 /// Floors from medians alone: what a fit starts from, before it has weights.
 #[must_use]
@@ -92,16 +95,17 @@ pub fn estimate(
         }
     };
     let pools = pools(observations, layout, used);
+    let strides = layout.runs.iter().flat_map(|run| std::iter::repeat_n(run.stride, run.stride));
+    let consistency: Vec<f64> =
+        strides.map(|stride| if robust_weights { robust::consistency(stride) } else { 1.0 }).collect();
     let floors = |spread: &[f64]| -> Vec<f64> {
         let mut sums = vec![[0.0; 2]; layout.kinds];
         let of_each = layout.row_of_each().zip(layout.kind_of_each());
         let residuals = residual.iter().zip(each(spread)).zip(left.iter().cycle());
         for ((row, kind), ((residual, spread), left)) in of_each.zip(residuals) {
-            let stride = layout.of_rows(row..row + 1).len();
-            let consistency = if robust_weights { robust::consistency(stride) } else { 1.0 };
             let [weights, squares] = &mut sums[pools[kind]];
             *weights += weight[row] * left;
-            *squares += weight[row] * consistency * (residual / spread).powi(2);
+            *squares += weight[row] * consistency[kind] * (residual / spread).powi(2);
         }
         let floor = |pool: &usize| {
             let [weights, squares] = sums[*pool];
@@ -163,7 +167,8 @@ fn finish(mut noise: Noise, observations: &Observations, layout: &Layout, spread
 pub fn resolution(observations: &Observations) -> f64 {
     let objects = observations.unknowns.iter().flat_map(|unknowns| &unknowns.objects);
     let places = objects.flat_map(|object| object.place.iter().copied());
-    let numbers = observations.measured.iter().map(Measured::largest).chain(places);
-    let largest = numbers.fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    let measured =
+        observations.measured.par_iter().with_min_len(AT_ONCE).map(|measured| measured.largest().abs());
+    let largest = places.fold(measured.reduce(|| 0.0, f64::max), |largest, value| largest.max(value.abs()));
     8.0 * f64::EPSILON * largest.max(f64::MIN_POSITIVE / f64::EPSILON)
 }

@@ -3,6 +3,7 @@
 use calibration::diagnose::Harmonics;
 use calibration::report::{self as words, numbers};
 use maud::{Markup, PreEscaped, html};
+use rayon::prelude::*;
 
 use super::card::{CARD, card};
 use super::rows::{Column, Component, Rows, axis_size, trace_reading};
@@ -25,6 +26,15 @@ pub fn residuals(reported: &Reported<'_>, rows: &Rows) -> Markup {
     let found = &reported.calibration.diagnosis.effects;
     let mut effects: Vec<usize> = (0..reported.calibration.traces.len()).collect();
     effects.sort_by(|&a, &b| found[b].standing.total_cmp(&found[a].standing));
+    let (maps, of_components) = rayon::join(
+        || map::maps(reported, rows),
+        || {
+            rows.components
+                .par_iter()
+                .map(|component| OfComponent::of(reported, rows, component))
+                .collect::<Vec<_>>()
+        },
+    );
     html! {
         section id="residuals" {
             h2 { "Residuals" }
@@ -51,10 +61,10 @@ pub fn residuals(reported: &Reported<'_>, rows: &Rows) -> Markup {
             }
             div.grid {
                 @for &at in effects.iter().take(OPEN) { (effect(reported, rows, at)) }
-                (map::maps(reported, rows))
+                (maps)
                 @if let [across, along, ..] = rows.components.as_slice() { (against(rows, across, along)) }
-                @for component in &rows.components { (distribution::histogram(component, rows.changed)) (distribution::quantiles(component, rows.changed)) }
-                (order(reported, rows))
+                @for own in &of_components { (own.histogram) (own.quantiles) }
+                @for own in &of_components { (own.order) }
             }
             @if effects.len() > OPEN {
                 details {
@@ -65,11 +75,29 @@ pub fn residuals(reported: &Reported<'_>, rows: &Rows) -> Markup {
             details open[rows.readings.len() * rows.components.len() <= 6] {
                 summary { "Every residual against every reading (" (rows.readings.len() * rows.components.len()) " pictures)" }
                 div.grid {
-                    @for component in &rows.components {
-                        @for reading in &rows.readings { (over(reported, rows, reading, component)) }
-                    }
+                    @for over in of_components.iter().flat_map(|own| &own.over) { (over) }
                 }
             }
+        }
+    }
+}
+
+/// The pictures of one residual component.
+struct OfComponent {
+    histogram: Markup,
+    quantiles: Markup,
+    order: Markup,
+    /// Over each reading.
+    over: Vec<Markup>,
+}
+
+impl OfComponent {
+    fn of(reported: &Reported<'_>, rows: &Rows, component: &Component) -> Self {
+        Self {
+            histogram: distribution::histogram(component, rows.changed),
+            quantiles: distribution::quantiles(component, rows.changed),
+            order: order(reported, rows, component),
+            over: rows.readings.par_iter().map(|reading| over(reported, rows, reading, component)).collect(),
         }
     }
 }
@@ -221,16 +249,14 @@ fn means(picture: &mut Picture, low: f64, high: f64, points: impl Iterator<Item 
     picture.marks("after", Mark::Diamond, marks.into_iter());
 }
 
-/// Each component of the residual row by row, in two drawings: one for a broad window, one for a narrow one.
-fn order(reported: &Reported<'_>, rows: &Rows) -> Markup {
+/// A component of the residual row by row, in two drawings: one for a broad window, one for a narrow one.
+fn order(reported: &Reported<'_>, rows: &Rows, component: &Component) -> Markup {
     let numbers: Vec<Option<f64>> = rows.numbers.iter().map(|&number| Some(number as f64)).collect();
     html! {
-        @for component in &rows.components {
-            section.card.wide {
-                h3 { "In the order of the file: " (component.name) }
-                @for (class, size) in [("broad", BROAD), ("narrow", CARD)] {
-                    div class=(class) { (PreEscaped(in_order(reported, rows, component, &numbers, size))) }
-                }
+        section.card.wide {
+            h3 { "In the order of the file: " (component.name) }
+            @for (class, size) in [("broad", BROAD), ("narrow", CARD)] {
+                div class=(class) { (PreEscaped(in_order(reported, rows, component, &numbers, size))) }
             }
         }
     }

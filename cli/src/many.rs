@@ -75,10 +75,14 @@ pub fn read(
     Ok((studied.with_data(loaded), Some(Others { files })))
 }
 
-/// Whether a part of the rows can stand for all: not where they observe what nobody knows, or several things.
+/// Whether a part of the rows can stand for all: not where they observe what nobody knows, or several things, or where readings are
+/// uncertain, which rows that are read chunk by chunk do not follow.
 fn may_be_drawn(plan: &Plan) -> bool {
     let has_objects = |source: &SourcePlan| Shape::of(source.measure).is_some();
-    plan.sources.len() == 1 && plan.hold_out.file.is_none() && !plan.sources.iter().any(has_objects)
+    plan.sources.len() == 1
+        && plan.hold_out.file.is_none()
+        && !plan.sources.iter().any(has_objects)
+        && !plan.has_uncertain_readings()
 }
 
 /// Which rows of files with so many rows to draw, evenly from all: of as many parts of the rows, a stretch somewhere in each. Every row

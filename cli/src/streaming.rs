@@ -169,6 +169,12 @@ fn load(studied: &Studied, rows: Rows<'_>) -> Result<Loaded, Failure> {
             "the fit over many files is of one table: name one file in `data`, which the others stand for",
         );
     }
+    if studied.plan.has_uncertain_readings() {
+        return refused(
+            "rows that are read chunk by chunk take their readings as exact: leave `sigma` out under [columns], or calibrate on one \
+             machine",
+        );
+    }
     let place = match &rows {
         Rows::Table(table) => table.source().to_owned(),
         Rows::File(file) => (*file).to_owned(),

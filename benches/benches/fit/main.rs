@@ -59,6 +59,7 @@ fn simulate(chain: &Chain, observable: &str, joints: &[(&str, f64, f64)], rows: 
             columns,
         },
         measured,
+        reading_sigma: Vec::new(),
         sigma: Vec::new(),
         groups: (0..).take(rows).collect(),
         together: Vec::new(),

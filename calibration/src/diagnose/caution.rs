@@ -103,6 +103,12 @@ pub enum Caution {
         /// Stretches.
         stretches: usize,
     },
+    /// Readings are not as uncertain as the study states: so many times.
+    #[serde(rename = "readings not as uncertain as stated")]
+    ReadingsNotAsStated {
+        /// What was found over what is stated.
+        ratio: f64,
+    },
     /// Rows that were set aside have something in common.
     #[serde(rename = "rows set aside share something")]
     SetAsideShare {
@@ -229,6 +235,14 @@ pub(super) fn of_noise(noise: &NoiseFound, degrees_of_freedom: f64) -> Option<Ca
     } else {
         None
     }
+}
+
+/// What the residuals say of how uncertain readings are stated to be.
+pub(super) fn of_readings(noise: &NoiseFound) -> Option<Caution> {
+    let ratio = noise.readings_over_stated?;
+    // Of a component of the noise that others hide it takes more than of the whole.
+    let is_far = !(SMALLER.powi(2)..=LARGER.powi(2)).contains(&ratio);
+    is_far.then_some(Caution::ReadingsNotAsStated { ratio })
 }
 
 /// What effects do to rows that no stage saw.

@@ -56,7 +56,7 @@ pub use instrument::{
     BodyShown, ErrorShown, ErrorState, Instrument, JointShown, ObservedShown, ReadingShown,
 };
 pub(crate) use noise::expected_rms;
-pub use noise::{NoiseFound, SerialFound, SeriesNoise, VarianceFound};
+pub use noise::{NoiseFound, SerialFound, SeriesNoise, UncertainReading, VarianceFound};
 pub use precision::{Determined, NotSeparable, Precision, precision};
 pub use remaining::{Looked, Remaining, Where};
 pub use rms::{Beside, Rms};
@@ -217,6 +217,7 @@ pub(crate) fn diagnose(
     }
     cautions.extend(confirmed.iter().flat_map(|confirmed| confirmed.left_out.clone()));
     cautions.extend(caution::of_noise(&noise, fit.degrees_of_freedom));
+    cautions.extend(caution::of_readings(&noise));
     cautions.extend(of_data(&last.chain, observations, fit));
     let aside: Vec<usize> = fit.set_aside.iter().map(|aside| aside.row).collect();
     let of_aside = shared(&observations.poses, &aside, whole.options.seed);

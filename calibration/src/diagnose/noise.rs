@@ -20,6 +20,11 @@ pub struct NoiseFound {
     pub over_stated: Option<f64>,
     /// How the logarithm of the variance depends on joints and ranges: of angles, of lengths and across a beam a sum of these.
     pub variance: Vec<VarianceFound>,
+    /// The joints and inputs whose readings are not exact, and how uncertain the study says they are. What readings bring into the
+    /// residuals is beside the standard deviations above.
+    pub readings: Vec<UncertainReading>,
+    /// How many times as uncertain readings were found to be; none where all are exact.
+    pub readings_over_stated: Option<f64>,
     /// What a row keeps of the row before, if the rows remember.
     pub serial: Option<SerialFound>,
     /// Whether rows remember in the order of the file, which nobody declared to be that of acquisition. Without
@@ -40,6 +45,17 @@ pub struct SeriesNoise {
     pub unit: SiUnit,
     /// Whether it is a factor on the standard uncertainties that the data state.
     pub of_stated: bool,
+}
+
+/// How uncertain the readings of a joint or input are.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct UncertainReading {
+    /// The joint or input.
+    pub name: String,
+    /// Root mean square over the rows that state any, SI.
+    pub sigma: f64,
+    /// `rad`, `m`, or `1`.
+    pub unit: SiUnit,
 }
 
 /// A term of the logarithm of the variance.
@@ -109,6 +125,8 @@ pub(super) fn noise(
         stated,
         over_stated,
         variance: variance.collect(),
+        readings: observations.reading_sigma.iter().filter_map(|own| uncertain(chain, own)).collect(),
+        readings_over_stated: (!observations.reading_sigma.is_empty()).then_some(fit.noise.of_readings),
         serial: fit.noise.serial.map(|serial| SerialFound {
             autoregressive: serial.autoregressive,
             moving_average: serial.moving_average,
@@ -117,6 +135,18 @@ pub(super) fn noise(
         undeclared_order: fit.noise.undeclared_order,
         series,
     }
+}
+
+fn uncertain(chain: &Chain, (id, sigma): &(SymbolId, Vec<f64>)) -> Option<UncertainReading> {
+    let stated = || sigma.iter().filter(|sigma| **sigma > 0.0);
+    let symbol = chain.symbol(*id);
+    let squares: f64 = stated().map(|sigma| sigma * sigma).sum();
+    let rms = (squares / stated().count() as f64).sqrt();
+    (squares > 0.0).then(|| UncertainReading {
+        name: symbol.name.clone(),
+        sigma: rms,
+        unit: symbol.quantity.into(),
+    })
 }
 
 /// Root mean square over components of what was found over what is stated.

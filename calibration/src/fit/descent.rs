@@ -58,6 +58,7 @@ impl Solver<'_> {
     /// From some values to the bottom, undetermined combinations still; robustly by degrees, from Huber's loss at the scale of
     /// the medians to Tukey's at that of the noise.
     pub(super) fn course(&mut self, start: &[f64], weighting: Weighting) -> Result<Course, FitError> {
+        self.brought = self.brought_at(start)?;
         let noise = Arc::new(self.first_noise(start)?);
         let subspace = self.determined(start, &noise)?;
         let values = self.with_smallest(start, &subspace);
@@ -79,6 +80,7 @@ impl Solver<'_> {
 
     /// The same from values that are near the bottom already.
     pub(super) fn course_from(&mut self, near: &[f64], weighting: Weighting) -> Result<Course, FitError> {
+        self.brought = self.brought_at(near)?;
         let noise = Arc::new(self.first_noise(near)?);
         let subspace = self.determined(near, &noise)?;
         let values = self.with_smallest(near, &subspace);
@@ -270,6 +272,7 @@ impl Solver<'_> {
             &sweep.residual,
             weight,
             &followed,
+            &self.brought,
         ))
     }
 }

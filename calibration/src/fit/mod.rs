@@ -22,7 +22,8 @@ mod orientation;
 mod outcome;
 mod partial;
 mod prior;
-pub(crate) mod residual;
+pub(crate) mod readings;
+mod residual;
 pub mod robust;
 mod shared;
 mod size;
@@ -219,6 +220,15 @@ pub enum FitError {
     WrongShape {
         /// What differs.
         why: String,
+    },
+    /// Readings are not exact, where rows are fitted chunk by chunk.
+    #[error(
+        "the readings of `{name}` state how uncertain they are: rows that are read chunk by chunk are weighed by what is measured \
+         alone. Leave out its `sigma`, or calibrate with all rows in memory"
+    )]
+    UncertainReadings {
+        /// The joint or input.
+        name: String,
     },
     /// A joint or input that the observable depends on has no readings.
     #[error("no readings of `{name}`, which `{observable}` depends on")]

@@ -44,6 +44,7 @@ pub fn fit(chain: &Chain, observations: &Observations, options: &FitOptions) -> 
         plain: OnceCell::new(),
         layout: Layout::of(observations),
         aside: Vec::new(),
+        brought: Vec::new(),
         prior_sizes: Vec::new(),
         iterations: 0,
     };
@@ -103,8 +104,7 @@ impl Solver<'_> {
         let (_, weight) = self.norms_and_weights(course);
         let lost = weight.iter().filter(|weight| **weight == 0.0).count();
         let many = !self.are_few(course) && lost as f64 > DOUBTFUL * weight.len() as f64;
-        let plain = self.plain.get_or_init(|| Model::without_columns(self.chain, &self.observations.poses));
-        let nominal = residuals(plain, self.observations, &self.nominal())?;
+        let nominal = residuals(self.plain(), self.observations, &self.nominal())?;
         let worse = self.ln_scale(&course.point.sweep.residual) > self.ln_scale(&nominal);
         Ok(course.stopped.is_some() || many || worse)
     }

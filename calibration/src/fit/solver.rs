@@ -28,6 +28,8 @@ pub(super) struct Solver<'a> {
     pub layout: Layout,
     /// Rows that count for nothing, where they are few and chosen one by one; empty where all may count.
     pub aside: Vec<bool>,
+    /// Per component what uncertain readings bring, rad or m, where the course began; empty where all are exact.
+    pub brought: Vec<f64>,
     /// How large a parameter may be that the data do not show.
     pub prior_sizes: Vec<Size>,
     pub iterations: usize,
@@ -161,18 +163,16 @@ impl Solver<'_> {
 
     pub(super) fn first_noise(&self, values: &[f64]) -> Result<Noise, FitError> {
         // A noise that is known has no use for residuals.
-        let plain =
-            || self.plain.get_or_init(|| Model::without_columns(self.chain, &self.observations.poses));
         let residual = match self.options.noise.known() {
             Some(_) => Vec::new(),
-            None => residuals(plain(), self.observations, values)?,
+            None => residuals(self.plain(), self.observations, values)?,
         };
         Ok(self.noise_of(&residual))
     }
 
     /// Floors from the medians of residuals.
     pub(super) fn noise_of(&self, residual: &[f64]) -> Noise {
-        noise::from_medians(&self.options.noise, self.observations, &self.layout, residual)
+        noise::from_medians(&self.options.noise, self.observations, &self.layout, residual, &self.brought)
     }
 
     /// The logarithm of how large residuals are by their medians, the mean over all components.

@@ -120,6 +120,9 @@ impl Streamed {
             let why = format!("the sample has no rows of series {} ({source})", at + 1);
             return Err(FitError::WrongShape { why });
         }
+        if let Some((id, _)) = sample.reading_sigma.first() {
+            return Err(FitError::UncertainReadings { name: chain.symbol(*id).name.clone() });
+        }
         let options = FitOptions { noise: streamed(&options.noise), ..options.clone() };
         let start = fit(chain, sample, &options)?;
         let model = Model::new(chain, &sample.poses, &options.estimate)?;

@@ -44,6 +44,13 @@ pub fn caution(caution: &Caution) -> String {
             "Rows that follow each other are off alike: something drifts, or a surface is not what it is taken for. The {rows} rows count \
              as {stretches} stretches of {of_stretch}: the ± are larger for it, and an effect has to show in most stretches."
         ),
+        Caution::ReadingsNotAsStated { ratio } if *ratio < 1.0 => format!(
+            "Readings are less uncertain than your study states under [columns], {} less.",
+            times(1.0 / ratio)
+        ),
+        Caution::ReadingsNotAsStated { ratio } => {
+            format!("Readings are {} as uncertain as your study states under [columns].", times(*ratio))
+        }
         Caution::SetAsideShare { reading: name, from, to, unit, rows: [aside, there] } => {
             let own = reading(*unit, from.abs().max(to.abs()));
             format!(

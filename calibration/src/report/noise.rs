@@ -26,6 +26,14 @@ pub fn noise(diagnosis: &Diagnosis) -> Vec<String> {
              missing"
         ));
     }
+    if let Some(factor) = noise.readings_over_stated {
+        let each = noise.readings.iter().map(|own| format!("{} {}", own.name, told(own.sigma, own.unit)));
+        said.push(format!(
+            "readings are {} as uncertain as the study states ({}): the standard deviations above are what the rows have beside it",
+            times(factor),
+            each.collect::<Vec<_>>().join(", ")
+        ));
+    }
     for own in noise.variance.chunk_by(|one, next| one.noise_of == next.noise_of) {
         let terms: Vec<String> = own.iter().map(term).collect();
         let of = match own[0].noise_of {

@@ -33,7 +33,7 @@ impl Chunk {
     ) -> Result<Self, SearchError> {
         let observations = whole.request.observations;
         let noise = &fitted.fit.noise;
-        if noise.mixes_rows() || observations.unknowns.is_some() {
+        if noise.mixes_rows() || observations.unknowns.is_some() || fitted.adjusted.is_some() {
             // Whitening makes more of a component than a multiple of itself.
             let rows = RowSet::of(whole, fitted, stretches, |_| true)?;
             return Ok(Self {

@@ -4,6 +4,7 @@ use faer::Mat;
 use model_core::{Chain, Quantity, SymbolId};
 
 use super::context::{Context, Found, declared};
+use super::readings::adjusted;
 use super::{SearchError, Stage};
 use crate::candidate::EffectId;
 use crate::data::unknowns::Unknowns;
@@ -30,6 +31,8 @@ pub(crate) struct Fitted {
     pub probed: Probed,
     /// How the components of all rows lie.
     pub layout: Layout,
+    /// Where uncertain readings stand as far as the residuals say, at which effects are judged; `None` where all are exact.
+    pub adjusted: Option<Vec<(SymbolId, Vec<f64>)>>,
 }
 
 impl Fitted {
@@ -116,7 +119,9 @@ impl Fitted {
         let probed = Probed::new(&chain, &observations.poses, declared(whole), &fit.values, &places)?;
         let of_stations = observations.unknowns.as_ref().map_or(0, Unknowns::of_stations);
         let combinations = determined(&fit, declared(whole).len(), of_stations)?;
-        Ok(Self { chain, found, errors, fit, combinations, probed, layout: Layout::of(observations) })
+        let layout = Layout::of(observations);
+        let adjusted = adjusted(&chain, observations, &layout, &fit)?;
+        Ok(Self { chain, found, errors, fit, combinations, probed, layout, adjusted })
     }
 }
 

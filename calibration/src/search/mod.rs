@@ -32,6 +32,7 @@ pub mod nested;
 pub mod problem;
 pub(crate) mod products;
 pub mod reach;
+mod readings;
 pub mod remains;
 pub(crate) mod round;
 pub(crate) mod row_set;

@@ -58,12 +58,23 @@ impl<'a> RowSet<'a> {
     ) -> Result<Self, SearchError> {
         let all = whole.request.observations;
         let rows: usize = stretches.iter().map(ExactSizeIterator::len).sum();
-        let observations = if rows == all.rows() {
+        let mut observations = if rows == all.rows() {
             Cow::Borrowed(all)
         } else {
             Cow::Owned(all.select(&stretches.iter().flat_map(Clone::clone).collect::<Vec<_>>()))
         };
+        if let Some(adjusted) = &fitted.adjusted {
+            let of_rows =
+                |values: &[f64]| stretches.iter().flat_map(|own| &values[own.clone()]).copied().collect();
+            observations.to_mut().poses.columns =
+                adjusted.iter().map(|(id, values)| (*id, of_rows(values))).collect();
+        }
         let mut columns = probed.columns(&observations)?;
+        if fitted.adjusted.is_some() {
+            // The residual is that of the readings as they are.
+            let raw = &fitted.fit.residuals.raw;
+            columns.residual = components(fitted, stretches).into_iter().map(|at| raw[at]).collect();
+        }
         columns.declared = &columns.declared * &fitted.combinations;
         let values = &fitted.fit.values;
         let wanted = |effect| wanted(effect) || fitted.found.iter().any(|found| found.effect == effect);

@@ -36,6 +36,13 @@ pub(super) fn column_plan(
             "leave `meaning` out",
         ));
     }
+    if let (Some(sigma), false) = (&column.sigma, of_input) {
+        return Err(mistake(
+            sigma.span(),
+            "only a joint or an input states here how uncertain it is",
+            "state the noise of what is measured under `[noise]`, as `sigma`",
+        ));
+    }
     match &column.column {
         Some(name) => Ok(ColumnPlan { name: name.clone(), unit, quantity, declared: false, named: true }),
         None => Err(mistake(place.clone(), "this column is measured, not derived", "write `column = \"…\"`")),

@@ -4,6 +4,7 @@ use model_core::SymbolId;
 
 use super::column_plan::ColumnPlan;
 use super::plan::{Plan, Reading, SourcePlan};
+use super::sigma::Uncertain;
 use crate::data::units::{BareColumn, Plausible};
 use crate::formats::{
     DataError, Form, ReadAs, TableReader, Wanted, declared_columns, find_column, find_reading,
@@ -18,6 +19,8 @@ pub(super) struct Columns {
     pub readings: Vec<(SymbolId, usize)>,
     pub observed: std::ops::Range<usize>,
     pub sigma: std::ops::Range<usize>,
+    /// Columns that say how uncertain a reading is.
+    pub uncertain: Vec<(SymbolId, usize)>,
     pub times: Vec<(String, usize)>,
     pub labels: Vec<String>,
 }
@@ -36,6 +39,13 @@ impl Columns {
         plans.extend(source.observed.iter().cloned());
         let sigma = plans.len()..plans.len() + source.sigma.len();
         plans.extend(source.sigma.iter().cloned());
+        let mut uncertain = Vec::new();
+        for (id, own) in &source.uncertain {
+            if let Uncertain::Column(column) = own {
+                uncertain.push((*id, plans.len()));
+                plans.push(column.clone());
+            }
+        }
         // Names in derivations that are no joint or input of the chain are columns of the file: a time.
         let mut times = Vec::new();
         for (_, reading) in &source.readings {
@@ -59,7 +69,7 @@ impl Columns {
         let of_objects = source.object.iter().chain(&source.station);
         let of_folds = plan.hold_out.together.iter().chain(&plan.order);
         let labels = plan.group.iter().chain(&plan.id).chain(of_objects).chain(of_folds).cloned().collect();
-        Self { plans, readings, observed, sigma, times, labels }
+        Self { plans, readings, observed, sigma, uncertain, times, labels }
     }
 
     /// The columns of a file, and those whose unit nothing says, each with its place among the numbers.
@@ -87,7 +97,7 @@ impl Columns {
             let symbol = self.readings.iter().find(|(_, reading)| *reading == at).map(|(symbol, _)| *symbol);
             let plausible = if let Some(symbol) = symbol {
                 Plausible::readings(&plan.chain, symbol)
-            } else if self.sigma.contains(&at) {
+            } else if self.sigma.contains(&at) || self.uncertain.iter().any(|(_, own)| *own == at) {
                 Plausible::noise(&plan.chain)
             } else {
                 Plausible::measured(&plan.chain, source.observable)

@@ -9,14 +9,14 @@ use super::columns::Columns;
 use super::labels::{Numbered, number};
 use super::orientation::UNIT_TOLERANCE;
 use super::plan::{Plan, Reading, SourcePlan};
+use super::rows::Rows;
+use super::stated::{of_components, of_readings};
 use super::written::Kind;
 use crate::data::orientation::Turned;
 use crate::data::units::BareColumn;
 use crate::data::unknowns::{Shape, Station, Unknowns};
-use crate::data::{
-    Measured, Numbers, Observations, Places, Series, direction_from_offset, direction_from_spherical,
-};
-use crate::formats::{self, Cells, DataError, Form, TableReader};
+use crate::data::{Measured, Observations, Series, direction_from_offset, direction_from_spherical};
+use crate::formats::{self, DataError, TableReader};
 use crate::objects::{Remark, StartError, check_named, check_scale, place};
 
 /// Opens a data file of a study by its path as the study writes it.
@@ -25,12 +25,6 @@ pub type Open<'a> = dyn FnMut(&str) -> Result<Box<dyn Read>, DataError> + 'a;
 /// Opens a table of a study by its name, read as the study says.
 pub type OpenTable<'a> =
     dyn FnMut(&str, &formats::Options) -> Result<Box<dyn TableReader + 'a>, DataError> + 'a;
-
-/// Rows that are read at a time.
-const CHUNK: usize = 1 << 16;
-
-/// Memory that a number takes while a file is read: it is held as read, and among what was observed with a mark of what it is.
-const BYTES_A_NUMBER: usize = 3 * size_of::<f64>();
 
 /// What the data files of a plan hold.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,18 +37,6 @@ pub struct Loaded {
     pub doubtful: Vec<BareColumn>,
     /// What is doubtful of rows that observe objects.
     pub remarks: Vec<Remark>,
-}
-
-/// The columns of one source as numbers and labels, in the order of [`Columns`].
-struct Rows {
-    numbers: Vec<Vec<f64>>,
-    labels: Vec<Vec<String>>,
-    row_numbers: Numbers,
-    places: Places,
-    /// Of each column of numbers whether all files so far give it in SI.
-    in_si: Vec<bool>,
-    /// Memory that these take, in bytes.
-    bytes: usize,
 }
 
 /// Appends values; to nothing without a copy.
@@ -116,14 +98,7 @@ impl Plan {
         doubtful: &mut Vec<BareColumn>,
     ) -> Result<(), DataError> {
         let columns = Columns::of(self, source);
-        let mut rows = Rows {
-            numbers: vec![Vec::new(); columns.plans.len()],
-            labels: vec![Vec::new(); columns.labels.len()],
-            row_numbers: Numbers::default(),
-            places: Places::default(),
-            in_si: vec![true; columns.plans.len()],
-            bytes: 0,
-        };
+        let mut rows = Rows::of(&columns);
         for path in paths {
             let file = all.origins.file(path);
             rows.append((self, source), &mut *open(path, &self.format)?, file, &columns, doubtful)?;
@@ -147,23 +122,12 @@ impl Plan {
         append(&mut all.measured, self.measured(source, &columns, &rows, &readings, &file)?);
         // Of many rows these are most of what is held.
         rows.numbers[columns.observed.clone()].fill_with(Vec::new);
-        for (id, values) in readings {
-            match all.poses.columns.binary_search_by_key(&id, |(known, _)| *known) {
-                Ok(at) => all.poses.columns[at].1.extend(values),
-                Err(at) => {
-                    let mut padded = vec![0.0; start];
-                    append(&mut padded, values);
-                    all.poses.columns.insert(at, (id, padded));
-                }
-            }
-        }
-        for (_, values) in &mut all.poses.columns {
-            // A source that does not have the column has no use for it either.
-            values.resize(start + count, 0.0);
-        }
+        // A source that does not have a column has no use for it either; and a reading that states nothing is exact.
+        append_columns(&mut all.poses.columns, start, count, readings);
+        append_columns(&mut all.reading_sigma, start, count, of_readings(source, &columns, &rows, &file)?);
         if !columns.sigma.is_empty() {
             all.sigma.resize(start, None);
-            all.sigma.extend(sigma(&columns, &rows, &file)?.into_iter().map(Some));
+            all.sigma.extend(of_components(&columns, &rows, &file)?.into_iter().map(Some));
         } else if !all.sigma.is_empty() {
             all.sigma.resize(start + count, None);
         }
@@ -351,95 +315,22 @@ impl Plan {
     }
 }
 
-/// Standard uncertainties of the components of each row.
-fn sigma(columns: &Columns, rows: &Rows, file: &str) -> Result<Vec<[f64; 3]>, DataError> {
-    let stated: Vec<&Vec<f64>> = columns.sigma.clone().filter_map(|at| rows.numbers.get(at)).collect();
-    (0..rows.row_numbers.len())
-        .map(|row| {
-            let of = |component: usize| stated[component.min(stated.len() - 1)][row];
-            let sigma = [of(0), of(1), of(2)];
-            if sigma.iter().all(|&sigma| sigma > 0.0) {
-                return Ok(sigma);
+/// Appends the columns of a source, whose rows are `count` behind `start`; zero where a source has none.
+fn append_columns(
+    all: &mut Vec<(SymbolId, Vec<f64>)>,
+    start: usize,
+    count: usize,
+    own: Vec<(SymbolId, Vec<f64>)>,
+) {
+    for (id, values) in own {
+        match all.binary_search_by_key(&id, |(known, _)| *known) {
+            Ok(at) => all[at].1.extend(values),
+            Err(at) => {
+                let mut padded = vec![0.0; start];
+                append(&mut padded, values);
+                all.insert(at, (id, padded));
             }
-            let why = "a standard uncertainty must be positive".to_string();
-            let (line, row) = (rows.places.line(row), rows.number(row));
-            Err(DataError::Impossible { file: file.to_string(), line, row, why })
-        })
-        .collect()
-}
-
-impl Rows {
-    /// Appends all rows of one file, and the columns of it that are doubtful.
-    fn append(
-        &mut self,
-        (plan, source): (&Plan, &SourcePlan),
-        reader: &mut dyn TableReader,
-        file: u32,
-        columns: &Columns,
-        doubtful: &mut Vec<BareColumn>,
-    ) -> Result<(), DataError> {
-        let (wanted, mut bare) = columns.wanted(plan, source, reader)?;
-        for (in_si, column) in self.in_si.iter_mut().zip(&wanted) {
-            *in_si &= matches!(column.form, Form::Number(1.0));
         }
-        let before = self.row_numbers.last().unwrap_or_default();
-        loop {
-            let chunk = reader.read(&wanted, CHUNK)?;
-            if chunk.rows.is_empty() {
-                break;
-            }
-            self.row_numbers.extend(chunk.rows.iter().map(|row| before + row));
-            let lines = chunk.lines.iter().copied().chain(std::iter::repeat(0));
-            self.places.extend(file, lines.take(chunk.rows.len()));
-            let (mut numbers, mut labels) = (self.numbers.iter_mut().enumerate(), self.labels.iter_mut());
-            for cells in chunk.columns {
-                match cells {
-                    Cells::Numbers(values) => {
-                        let Some((at, column)) = numbers.next() else { continue };
-                        if let Some((_, bare)) = bare.iter_mut().find(|(column, _)| *column == at) {
-                            bare.see(&values);
-                        }
-                        self.bytes += values.len() * BYTES_A_NUMBER;
-                        column.extend(&values);
-                    }
-                    Cells::Labels(values) => {
-                        let values = values.iter().map(|label| label.trim().to_owned());
-                        let Some(column) = labels.next() else { continue };
-                        for label in values {
-                            self.bytes += label.len() + size_of::<String>();
-                            column.push(label);
-                        }
-                    }
-                    Cells::Kept(_) => unreachable!("a study wants numbers and labels"),
-                }
-            }
-            plan.format.holds(self.bytes, reader.source())?;
-        }
-        doubtful.extend(bare.into_iter().map(|(_, bare)| bare).filter(BareColumn::is_doubtful));
-        Ok(())
     }
-
-    /// Brings the rows into the order of a label: by number if all are numbers, else by text. Equal rows keep theirs.
-    fn sort_by_label(&mut self, label: usize) {
-        let Some(labels) = self.labels.get(label) else { return };
-        let numbers: Option<Vec<f64>> = labels.iter().map(|label| label.parse().ok()).collect();
-        let mut order: Vec<usize> = (0..labels.len()).collect();
-        match numbers {
-            Some(numbers) => order.sort_by(|&a, &b| numbers[a].total_cmp(&numbers[b])),
-            None => order.sort_by(|&a, &b| labels[a].cmp(&labels[b])),
-        }
-        for column in &mut self.numbers {
-            *column = order.iter().map(|&row| column[row]).collect();
-        }
-        for column in &mut self.labels {
-            *column = order.iter().map(|&row| column[row].clone()).collect();
-        }
-        self.row_numbers = self.row_numbers.select(&order);
-        self.places = self.places.select(&order);
-    }
-
-    /// The number of a row in its file.
-    fn number(&self, row: usize) -> u64 {
-        self.row_numbers.get(row).unwrap_or_default()
-    }
+    all.iter_mut().for_each(|(_, values)| values.resize(start + count, 0.0));
 }

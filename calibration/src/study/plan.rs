@@ -12,6 +12,7 @@ use super::observed::{ObservedColumns, observed_columns};
 use super::orientation;
 use super::shown::{self, Convention};
 use super::sights;
+use super::sigma::{Uncertain, uncertain};
 use super::timeless::{Timeless, timeless};
 use super::unsought::{Unsought, unsought};
 use super::unstated::{Unstated, unstated};
@@ -62,6 +63,12 @@ impl Plan {
     #[must_use]
     pub fn options(&self) -> &Options {
         &self.format
+    }
+
+    /// Whether some readings state how uncertain they are.
+    #[must_use]
+    pub fn has_uncertain_readings(&self) -> bool {
+        self.sources.iter().any(|source| !source.uncertain.is_empty())
     }
 
     /// The same of one file alone, with as many sources.
@@ -125,6 +132,8 @@ pub struct SourcePlan {
     /// How an orientation is written, where one is observed.
     pub(super) orientation: Option<orientation::Form>,
     pub(super) sigma: Vec<ColumnPlan>,
+    /// Of joints and inputs that are not exact, how uncertain their readings are.
+    pub(super) uncertain: Vec<(SymbolId, Uncertain)>,
     /// The columns that name what was observed, and where from.
     pub(super) object: Vec<String>,
     pub(super) station: Vec<String>,
@@ -279,14 +288,16 @@ impl Study {
                 let first = *first_measure.get_or_insert(shown.measure);
                 mistakes.take(self.sigma_columns(own.as_ref(), shown.measure, first))
             });
+            let uncertain = mistakes.take(uncertain(chain, columns));
             mistakes.none()?;
             let (
                 Some(observable),
                 Some(readings),
+                Some(uncertain),
                 Some(ObservedColumns { measure, columns, orientation }),
                 Some(convention),
                 Some(sigma),
-            ) = (observable, readings, shown, convention, sigma)
+            ) = (observable, readings, uncertain, shown, convention, sigma)
             else {
                 unreachable!("what is missing comes with a mistake")
             };
@@ -300,6 +311,7 @@ impl Study {
                 convention,
                 orientation,
                 sigma,
+                uncertain,
                 object,
                 station,
             })

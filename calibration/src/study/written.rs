@@ -128,7 +128,7 @@ pub(super) struct OwnEffect {
 pub struct OneOrMore(pub Vec<String>);
 
 /// Where the readings of a joint or input are.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields, remote = "Self")]
 pub(super) struct Column {
     pub column: Option<String>,
@@ -136,6 +136,8 @@ pub(super) struct Column {
     pub derive: Option<String>,
     /// What the input is: `temperature`, `direction of beta`.
     pub meaning: Option<Spanned<String>>,
+    /// How uncertain a reading is.
+    pub sigma: Option<Spanned<Sigma>>,
 }
 
 /// `[observed]`.
@@ -375,6 +377,10 @@ impl<'de> Visitor<'de> for Short<Column> {
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Column, A::Error> {
         let column = Column::deserialize(MapAccessDeserializer::new(map))?;
+        if column.derive.is_some() && column.sigma.is_some() {
+            let help = "what is derived is as uncertain as what it is derived from: leave out `sigma`";
+            return Err(Error::custom(help));
+        }
         match (&column.column, &column.unit, &column.derive) {
             (Some(_), _, None) | (None, None, Some(_)) => Ok(column),
             (Some(_), _, Some(_)) => {

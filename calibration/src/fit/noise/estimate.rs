@@ -3,6 +3,7 @@
 use model_core::Chain;
 use rayon::prelude::*;
 
+use super::brought::{self, Component};
 use super::{Layout, Noise, NoiseOptions, pools, variance};
 use crate::data::Observations;
 use crate::fit::robust;
@@ -17,13 +18,55 @@ pub fn from_medians(
     observations: &Observations,
     layout: &Layout,
     residual: &[f64],
+    brought: &[f64],
 ) -> Noise {
     let stated = stated(options, observations, layout);
     let floor = match options.known() {
         Some(sigma) => vec![sigma; layout.kinds],
-        None => medians(observations, layout, residual, &stated),
+        None => {
+            let alone = medians(observations, layout, residual, &stated);
+            if brought.is_empty() {
+                alone
+            } else {
+                let pools = pools(observations, layout, 0.0);
+                let of_pools = of_pools(layout, &pools, residual, &stated, brought, |_, _, _| [1.0; 2]);
+                let alone = by_pool(&pools, &alone).into_iter();
+                let floors: Vec<f64> = of_pools
+                    .iter()
+                    .zip(alone)
+                    .map(|(own, alone)| brought::floor_of_median(own, alone))
+                    .collect();
+                pools.iter().map(|&pool| floors[pool]).collect()
+            }
+        }
     };
-    finish(Noise { floor, ..Noise::default() }, observations, layout, &stated)
+    finish(Noise { floor, of_readings: 1.0, ..Noise::default() }, observations, layout, &stated, brought)
+}
+
+/// Of each pool its components, each with its weight and what it leaves of that.
+fn of_pools(
+    layout: &Layout,
+    pools: &[usize],
+    residual: &[f64],
+    stated: &[f64],
+    brought: &[f64],
+    weights: impl Fn(usize, usize, usize) -> [f64; 2],
+) -> Vec<Vec<Component>> {
+    let mut of_pools = vec![Vec::new(); pools.iter().max().map_or(0, |most| most + 1)];
+    let of_each = layout.row_of_each().zip(layout.kind_of_each());
+    let components = residual.iter().zip(brought).zip(each(stated)).enumerate();
+    for ((row, kind), (at, ((&residual, &brought), stated))) in of_each.zip(components) {
+        let [weight, left] = weights(at, row, kind);
+        of_pools[pools[kind]].push(Component { residual, stated, brought, weight, left });
+    }
+    of_pools
+}
+
+/// Of each pool what is told kind by kind.
+fn by_pool(pools: &[usize], of_kinds: &[f64]) -> Vec<f64> {
+    let mut by_pool = vec![0.0; pools.iter().max().map_or(0, |most| most + 1)];
+    pools.iter().zip(of_kinds).for_each(|(&pool, own)| by_pool[pool] = *own);
+    by_pool
 }
 
 /// Per kind of component the standard deviation that the median of its residuals suggests.
@@ -49,7 +92,7 @@ pub fn ln_scale(observations: &Observations, layout: &Layout, residual: &[f64]) 
     sum / (layout.components() as f64).max(1.0)
 }
 
-/// The noise that has these floors and nothing else.
+/// The noise that has these floors and nothing else; of readings that are exact.
 #[must_use]
 pub fn of_floors(
     floor: Vec<f64>,
@@ -58,7 +101,7 @@ pub fn of_floors(
     layout: &Layout,
 ) -> Noise {
     let stated = stated(options, observations, layout);
-    finish(Noise { floor, ..Noise::default() }, observations, layout, &stated)
+    finish(Noise { floor, of_readings: 1.0, ..Noise::default() }, observations, layout, &stated, &[])
 }
 
 /// How much of residuals the estimates follow.
@@ -73,7 +116,9 @@ pub enum Followed {
     Each(Vec<f64>),
 }
 
-/// The noise model from raw residuals, the weights of the rows, and what the estimates followed of them.
+/// The noise model from raw residuals, the weights of the rows, what the estimates followed of them, and per component what uncertain
+/// readings bring, rad or m (empty where all are exact).
+#[allow(clippy::too_many_arguments)]
 #[must_use]
 pub fn estimate(
     chain: &Chain,
@@ -83,6 +128,7 @@ pub fn estimate(
     residual: &[f64],
     weight: &[f64],
     followed: &Followed,
+    brought: &[f64],
 ) -> Noise {
     let stated = stated(options, observations, layout);
     // Weights between none and all are those of a robust fit.
@@ -98,7 +144,7 @@ pub fn estimate(
     let strides = layout.runs.iter().flat_map(|run| std::iter::repeat_n(run.stride, run.stride));
     let consistency: Vec<f64> =
         strides.map(|stride| if robust_weights { robust::consistency(stride) } else { 1.0 }).collect();
-    let floors = |spread: &[f64]| -> Vec<f64> {
+    let floors = |spread: &[f64], brought: &[f64]| -> (Vec<f64>, f64) {
         let mut sums = vec![[0.0; 2]; layout.kinds];
         let of_each = layout.row_of_each().zip(layout.kind_of_each());
         let residuals = residual.iter().zip(each(spread)).zip(left.iter().cycle());
@@ -111,24 +157,40 @@ pub fn estimate(
             let [weights, squares] = sums[*pool];
             if weights > 0.0 { (squares / weights).sqrt() } else { 0.0 }
         };
-        pools.iter().map(floor).collect()
+        let alone: Vec<f64> = pools.iter().map(floor).collect();
+        if brought.is_empty() {
+            return (alone, 1.0);
+        }
+        let weights = |at: usize, row: usize, kind: usize| {
+            [weight[row] * consistency[kind], weight[row] * left[at % left.len()]]
+        };
+        let of_pools = of_pools(layout, &pools, residual, spread, brought, weights);
+        let (floors, factor) = brought::floors(&of_pools, &by_pool(&pools, &alone));
+        (pools.iter().map(|&pool| floors[pool]).collect(), factor)
     };
-    let floor = options.known().map_or_else(|| floors(&stated), |sigma| vec![sigma; layout.kinds]);
-    let mut noise = finish(Noise { floor, ..Noise::default() }, observations, layout, &stated);
+    let (floor, of_readings) =
+        options.known().map_or_else(|| floors(&stated, brought), |sigma| (vec![sigma; layout.kinds], 1.0));
+    let mut noise =
+        finish(Noise { floor, of_readings, ..Noise::default() }, observations, layout, &stated, brought);
     if options.variance && options.sigma.is_none() {
         let scaled: Vec<f64> = residual.iter().zip(&noise.sigma).map(|(r, sigma)| r / sigma).collect();
         let found = variance::fit(chain, observations, layout, &scaled, weight, &left);
         if !found.is_empty() {
             let of_kinds = observations.noise_of_kinds();
             let mut spread: Vec<f64> = each(&stated).take(layout.components()).collect();
+            let mut brought = brought.to_vec();
             for (model, factor) in &found {
-                let of_each = layout.row_of_each().zip(layout.kind_of_each());
-                let own = spread.iter_mut().zip(of_each).filter(|(_, (_, kind))| of_kinds[*kind] == model.of);
-                own.for_each(|(spread, (row, _))| *spread *= factor[row]);
+                for values in [&mut spread, &mut brought] {
+                    let of_each = layout.row_of_each().zip(layout.kind_of_each());
+                    let own = values.iter_mut().zip(of_each);
+                    let own = own.filter(|(_, (_, kind))| of_kinds[*kind] == model.of);
+                    own.for_each(|(value, (row, _))| *value *= factor[row]);
+                }
             }
             let variance = found.into_iter().map(|(model, _)| model).collect();
-            noise = Noise { floor: floors(&spread), variance, ..Noise::default() };
-            noise = finish(noise, observations, layout, &spread);
+            let (floor, of_readings) = floors(&spread, &brought);
+            noise = Noise { floor, variance, of_readings, ..Noise::default() };
+            noise = finish(noise, observations, layout, &spread, &brought);
         }
     }
     noise
@@ -153,11 +215,22 @@ pub(in crate::fit) fn each(spread: &[f64]) -> impl Iterator<Item = f64> {
     spread.iter().copied().chain(std::iter::repeat_n(1.0, ones))
 }
 
-/// Spreads the floors over the components. No standard deviation is smaller than what the numbers resolve.
-fn finish(mut noise: Noise, observations: &Observations, layout: &Layout, spread: &[f64]) -> Noise {
+/// Spreads the floors over the components, with what readings bring. No standard deviation is smaller than what the numbers resolve.
+fn finish(
+    mut noise: Noise,
+    observations: &Observations,
+    layout: &Layout,
+    spread: &[f64],
+    brought: &[f64],
+) -> Noise {
     let resolution = resolution(observations);
-    let of_each = layout.kind_of_each().zip(each(spread));
-    noise.sigma = of_each.map(|(kind, spread)| (noise.floor[kind] * spread).max(resolution)).collect();
+    let of_each = layout.kind_of_each().zip(each(spread)).enumerate();
+    let sigma = of_each.map(|(at, (kind, spread))| {
+        let own = noise.floor[kind] * spread;
+        let whole = brought.get(at).map_or(own, |brought| own.hypot(noise.of_readings * brought));
+        whole.max(resolution)
+    });
+    noise.sigma = sigma.collect();
     noise.runs.clone_from(&layout.runs);
     noise
 }

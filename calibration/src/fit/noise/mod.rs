@@ -4,6 +4,7 @@
 //! `σ²` of a component = floor² of its kind · exp(variance model of the joints); in order of acquisition the values
 //! so scaled follow ARMA(1,1). Each part is taken up only if the data bear it out.
 
+mod brought;
 mod estimate;
 mod layout;
 mod pool;
@@ -78,6 +79,8 @@ pub struct Noise {
     /// Standard deviation of each kind of component (series by series, component by component): rad or m, or a
     /// factor on the standard uncertainties that the data state.
     pub floor: Vec<f64>,
+    /// How many times as uncertain readings were found to be as the data state; 1 where nothing tells.
+    pub of_readings: f64,
     /// The dependence of the variance on the joints: of angles, of lengths and across a beam, where one was found.
     pub variance: Vec<VarianceModel>,
     /// The serial correlation, if one was found.
@@ -199,6 +202,7 @@ impl Noise {
     pub fn without_memory(&self) -> Self {
         Self {
             floor: self.floor.clone(),
+            of_readings: self.of_readings,
             variance: self.variance.clone(),
             serial: None,
             in_space: None,
@@ -230,6 +234,7 @@ impl Noise {
         let parts = runs.iter().map(|run| run.start..run.end);
         Self {
             floor: self.floor.clone(),
+            of_readings: self.of_readings,
             variance: self.variance.clone(),
             serial: self.serial,
             in_space: self.in_space.as_ref().and_then(|filter| filter.of_runs(runs, &own)),

@@ -1,0 +1,69 @@
+//! Uncertain readings: where they stand as far as the residuals say.
+//!
+//! A reading that is off moves its row's residual, and every function of the reading alike: noise looks like a function of the very
+//! readings that it is in, as a line through noisy abscissas is too flat. So effects are judged at readings without what the residual
+//! says of their noise, its conditional expectation: what is left of the noise there has no part in the residual.
+//!
+//! Source: W. A. Fuller, Measurement Error Models (1987), sections 1.2 and 2.2.
+
+use model_core::{Chain, SymbolId};
+use nalgebra::{Matrix3, Vector3};
+
+use crate::data::Observations;
+use crate::fit::noise::Layout;
+use crate::fit::{FitError, FitResult, Model, residuals};
+
+/// Of a component's variance the share that is its own at least.
+const LEAST: f64 = 1e-6;
+
+/// The readings of all rows at a fit, those that are uncertain without what the residuals say of their noise; `None` where all are
+/// exact.
+pub(super) fn adjusted(
+    chain: &Chain,
+    observations: &Observations,
+    layout: &Layout,
+    fit: &FitResult,
+) -> Result<Option<Vec<(SymbolId, Vec<f64>)>>, FitError> {
+    if observations.reading_sigma.is_empty() {
+        return Ok(None);
+    }
+    let model = Model::without_columns(chain, &observations.poses);
+    let factor = fit.noise.of_readings;
+    let mut moved = observations.clone();
+    // What a reading that is off by its standard uncertainty does to the residual.
+    let mut pulls: Vec<(usize, &[f64], Vec<f64>)> = Vec::new();
+    for (id, sigma) in &observations.reading_sigma {
+        let Some(at) = moved.poses.columns.iter().position(|(own, _)| own == id) else { continue };
+        let read = &observations.poses.columns[at].1;
+        let mut there = |share: f64| {
+            let column = moved.poses.columns[at].1.iter_mut();
+            column.zip(read).zip(sigma).for_each(|((to, read), sigma)| *to = read + share * sigma);
+            residuals(&model, &moved, &fit.values)
+        };
+        let (more, less) = (there(1.0)?, there(-1.0)?);
+        moved.poses.columns[at].1.clone_from(read);
+        let pull = more.iter().zip(less).map(|(more, less)| 0.5 * factor * (more - less)).collect();
+        pulls.push((at, sigma, pull));
+    }
+    let sigma = fit.noise.sigma_without_memory();
+    let mut columns = observations.poses.columns.clone();
+    for row in 0..observations.rows() {
+        let own = layout.of_rows(row..row + 1);
+        let vector = |values: &[f64]| Vector3::from_iterator(values.iter().copied().chain([0.0; 3]).take(3));
+        let brought: Vec<Vector3<f64>> = pulls.iter().map(|(.., pull)| vector(&pull[own.clone()])).collect();
+        let mut covariance = Matrix3::identity();
+        for (at, component) in own.clone().enumerate() {
+            // Beside what readings bring the row has noise of its own, as little as it may be.
+            let of_readings: f64 = brought.iter().map(|pull| pull[at] * pull[at]).sum();
+            let variance = sigma[component] * sigma[component];
+            covariance[(at, at)] = (variance - of_readings).max(LEAST * variance);
+        }
+        brought.iter().for_each(|pull| covariance += pull * pull.transpose());
+        let Some(inverse) = covariance.try_inverse() else { continue };
+        let said = inverse * vector(&fit.residuals.raw[own]) * fit.residuals.weight[row];
+        for ((at, sigma, _), pull) in pulls.iter().zip(&brought) {
+            columns[*at].1[row] -= factor * sigma[row] * pull.dot(&said);
+        }
+    }
+    Ok(Some(columns))
+}

@@ -1,0 +1,113 @@
+//! The rows of one source on their way from its files.
+
+use super::columns::Columns;
+use super::plan::{Plan, SourcePlan};
+use crate::data::units::BareColumn;
+use crate::data::{Numbers, Places};
+use crate::formats::{Cells, DataError, Form, TableReader};
+
+/// Rows that are read at a time.
+const CHUNK: usize = 1 << 16;
+
+/// Memory that a number takes while a file is read: it is held as read, and among what was observed with a mark of what it is.
+const BYTES_A_NUMBER: usize = 3 * size_of::<f64>();
+
+/// The columns of one source as numbers and labels, in the order of [`Columns`].
+pub(super) struct Rows {
+    pub numbers: Vec<Vec<f64>>,
+    pub labels: Vec<Vec<String>>,
+    pub row_numbers: Numbers,
+    pub places: Places,
+    /// Of each column of numbers whether all files so far give it in SI.
+    pub in_si: Vec<bool>,
+    /// Memory that these take, in bytes.
+    bytes: usize,
+}
+
+impl Rows {
+    /// None yet, of these columns.
+    pub fn of(columns: &Columns) -> Self {
+        Self {
+            numbers: vec![Vec::new(); columns.plans.len()],
+            labels: vec![Vec::new(); columns.labels.len()],
+            row_numbers: Numbers::default(),
+            places: Places::default(),
+            in_si: vec![true; columns.plans.len()],
+            bytes: 0,
+        }
+    }
+
+    /// Appends all rows of one file, and the columns of it that are doubtful.
+    pub fn append(
+        &mut self,
+        (plan, source): (&Plan, &SourcePlan),
+        reader: &mut dyn TableReader,
+        file: u32,
+        columns: &Columns,
+        doubtful: &mut Vec<BareColumn>,
+    ) -> Result<(), DataError> {
+        let (wanted, mut bare) = columns.wanted(plan, source, reader)?;
+        for (in_si, column) in self.in_si.iter_mut().zip(&wanted) {
+            *in_si &= matches!(column.form, Form::Number(1.0));
+        }
+        let before = self.row_numbers.last().unwrap_or_default();
+        loop {
+            let chunk = reader.read(&wanted, CHUNK)?;
+            if chunk.rows.is_empty() {
+                break;
+            }
+            self.row_numbers.extend(chunk.rows.iter().map(|row| before + row));
+            let lines = chunk.lines.iter().copied().chain(std::iter::repeat(0));
+            self.places.extend(file, lines.take(chunk.rows.len()));
+            let (mut numbers, mut labels) = (self.numbers.iter_mut().enumerate(), self.labels.iter_mut());
+            for cells in chunk.columns {
+                match cells {
+                    Cells::Numbers(values) => {
+                        let Some((at, column)) = numbers.next() else { continue };
+                        if let Some((_, bare)) = bare.iter_mut().find(|(column, _)| *column == at) {
+                            bare.see(&values);
+                        }
+                        self.bytes += values.len() * BYTES_A_NUMBER;
+                        column.extend(&values);
+                    }
+                    Cells::Labels(values) => {
+                        let values = values.iter().map(|label| label.trim().to_owned());
+                        let Some(column) = labels.next() else { continue };
+                        for label in values {
+                            self.bytes += label.len() + size_of::<String>();
+                            column.push(label);
+                        }
+                    }
+                    Cells::Kept(_) => unreachable!("a study wants numbers and labels"),
+                }
+            }
+            plan.format.holds(self.bytes, reader.source())?;
+        }
+        doubtful.extend(bare.into_iter().map(|(_, bare)| bare).filter(BareColumn::is_doubtful));
+        Ok(())
+    }
+
+    /// Brings the rows into the order of a label: by number if all are numbers, else by text. Equal rows keep theirs.
+    pub fn sort_by_label(&mut self, label: usize) {
+        let Some(labels) = self.labels.get(label) else { return };
+        let numbers: Option<Vec<f64>> = labels.iter().map(|label| label.parse().ok()).collect();
+        let mut order: Vec<usize> = (0..labels.len()).collect();
+        match numbers {
+            Some(numbers) => order.sort_by(|&a, &b| numbers[a].total_cmp(&numbers[b])),
+            None => order.sort_by(|&a, &b| labels[a].cmp(&labels[b])),
+        }
+        for column in &mut self.numbers {
+            *column = order.iter().map(|&row| column[row]).collect();
+        }
+        for column in &mut self.labels {
+            *column = order.iter().map(|&row| column[row].clone()).collect();
+        }
+        self.row_numbers = self.row_numbers.select(&order);
+        self.places = self.places.select(&order);
+    }
+
+    /// The number of a row in its file.
+    pub fn number(&self, row: usize) -> u64 {
+        self.row_numbers.get(row).unwrap_or_default()
+    }
+}

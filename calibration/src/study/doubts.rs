@@ -23,6 +23,18 @@ impl Study {
                 meant,
             ));
         }
+        let also = self.also.iter().flat_map(|also| &also.columns);
+        for (name, column) in self.columns.iter().chain(also) {
+            let Some(Sigma::Amount(sigma)) = column.get_ref().sigma.as_ref().map(|sigma| sigma.get_ref())
+            else {
+                continue;
+            };
+            let Some(id) = chain.find_symbol(name.get_ref()) else { continue };
+            let (noise, number) = (Plausible::noise(chain), sigma.number);
+            let meant = |unit: &str| format!("sigma = \"{number} {unit}\"");
+            let written = format!("sigma = {number} of `{}`", name.get_ref());
+            doubts.extend(noise.doubt(chain.symbol(id).quantity, &[*sigma], &written, meant));
+        }
         for (name, amount) in self.fit.start.iter().chain(&self.fit.fix) {
             let (name, number) = (name.get_ref(), amount.get_ref().number);
             let Some(id) = chain.find_symbol(name) else { continue };

@@ -42,6 +42,23 @@ fn refused(name: &str, from: &str, to: &str) -> String {
     run.stderr
 }
 
+/// How uncertain readings are is a positive figure, or a column of its own, and said of joints and inputs alone.
+#[test]
+fn uncertain_readings() {
+    let column = "azimuth = { column = \"az\", unit = \"deg\" }";
+    let with = |sigma: &str| format!("azimuth = {{ column = \"az\", unit = \"deg\", sigma = {sigma} }}");
+    let said = |name: &str, sigma: &str| refused(name, column, &with(sigma));
+    assert_snapshot!(said("sigma-negative", "\"-1 arcsec\""));
+    assert_snapshot!(said("sigma-unit", "\"1 mm\""));
+    assert_snapshot!(said("sigma-column", "{ column = \"std\", unit = \"deg\" }"));
+    assert_snapshot!(said("sigma-two", "[\"a\", \"b\"]"));
+    assert_snapshot!(said("sigma-below", "{ column = \"x\", unit = \"deg\" }"));
+    assert_snapshot!(said("sigma-twice", "{ column = \"x\", unit = \"deg\", sigma = \"1 arcsec\" }"));
+    assert_snapshot!(refused("sigma-observed", "x = \"x\"", "x = { column = \"x\", sigma = \"1 arcsec\" }"));
+    let derived = "azimuth = { derive = \"turns(az)\", sigma = \"1 arcsec\" }";
+    assert_snapshot!(refused("sigma-derived", column, derived));
+}
+
 #[test]
 fn misspelt_key() {
     assert_snapshot!(refused("key", "observable =", "observble ="));

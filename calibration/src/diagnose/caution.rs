@@ -109,6 +109,16 @@ pub enum Caution {
         /// What was found over what is stated.
         ratio: f64,
     },
+    /// What was found hangs on readings, and noise in them would look like that.
+    #[serde(rename = "noise in readings looks like it")]
+    NoisyReadings {
+        /// The joint or input.
+        reading: String,
+        /// The standard deviation of that noise, SI.
+        sigma: f64,
+        /// `rad`, `m`, or `1`.
+        unit: SiUnit,
+    },
     /// Rows that were set aside have something in common.
     #[serde(rename = "rows set aside share something")]
     SetAsideShare {

@@ -14,6 +14,7 @@ mod harmonics;
 mod instrument;
 mod next;
 mod noise;
+mod noisy;
 mod precision;
 pub(crate) mod remaining;
 pub(crate) mod rms;
@@ -23,7 +24,7 @@ mod uneven;
 mod units;
 mod verdict;
 
-use model_core::Chain;
+use model_core::{Chain, SymbolId};
 use serde::Serialize;
 
 use crate::candidate::EffectId;
@@ -41,6 +42,7 @@ use crate::search::round::Round;
 use crate::search::{SearchError, Stage};
 use effects::Others;
 use next::{Next, next};
+use noisy::Noisy;
 use rms::BeforeAfter;
 use verdict::Evidence;
 
@@ -229,6 +231,7 @@ pub(crate) fn diagnose(
     let scatters = uneven::uneven(observations, fit).into_iter();
     cautions.extend(scatters.map(|Scatter { what, label, times }| Caution::Scatters { what, label, times }));
     let remaining = found.remaining.as_ref();
+    cautions.extend(noisy_readings(whole, before, &found)?);
     let alone = found
         .effects
         .iter()
@@ -274,6 +277,24 @@ pub(crate) fn diagnose(
         unit: rms.first().map_or(SiUnit::RAD, |own| own.unit),
         beside: rms.iter().skip(1).map(|own| beside(observations, &last.chain, own)).collect(),
     })
+}
+
+/// Noise in the readings that what was found hangs on, where it would look like that.
+fn noisy_readings(
+    whole: &Context<'_>,
+    before: &FitResult,
+    found: &Found,
+) -> Result<Vec<Caution>, SearchError> {
+    let chain = &whole.request.plan.chain;
+    let place = found.remaining.iter().filter_map(|remaining| remaining.place.as_ref());
+    let drivers = place.map(|place| &place.driver).chain(found.effects.iter().map(|effect| &effect.driver));
+    let mut readings: Vec<SymbolId> = drivers.filter_map(|name| chain.find_symbol(name)).collect();
+    readings.sort_unstable();
+    readings.dedup();
+    let noisy = readings.into_iter().map(|id| noisy::noisy(chain, whole.request.observations, before, id));
+    let noisy: Vec<Option<Noisy>> = noisy.collect::<Result<_, _>>()?;
+    let caution = |Noisy { reading, sigma, unit }| Caution::NoisyReadings { reading, sigma, unit };
+    Ok(noisy.into_iter().flatten().map(caution).collect())
 }
 
 fn beside(observations: &Observations, chain: &Chain, own: &BeforeAfter) -> Beside {

@@ -44,6 +44,13 @@ pub fn caution(caution: &Caution) -> String {
             "Rows that follow each other are off alike: something drifts, or a surface is not what it is taken for. The {rows} rows count \
              as {stretches} stretches of {of_stretch}: the ± are larger for it, and an effect has to show in most stretches."
         ),
+        Caution::NoisyReadings { reading, sigma, unit } => {
+            let sigma = told(*sigma, *unit);
+            format!(
+                "Noise of about {sigma} in the readings of `{reading}` looks like this as well: what is read too high is followed by a \
+                 residual that says so. If that is it, write `sigma` beside its column under [columns]."
+            )
+        }
         Caution::ReadingsNotAsStated { ratio } if *ratio < 1.0 => format!(
             "Readings are less uncertain than your study states under [columns], {} less.",
             times(1.0 / ratio)

@@ -4,7 +4,7 @@ use faer::Mat;
 use model_core::{Chain, Quantity, SymbolId};
 
 use super::context::{Context, Found, declared};
-use super::readings::adjusted;
+use super::readings::{ByReading, adjusted};
 use super::{SearchError, Stage};
 use crate::candidate::EffectId;
 use crate::data::unknowns::Unknowns;
@@ -32,7 +32,7 @@ pub(crate) struct Fitted {
     /// How the components of all rows lie.
     pub layout: Layout,
     /// Where uncertain readings stand as far as the residuals say, at which effects are judged; `None` where all are exact.
-    pub adjusted: Option<Vec<(SymbolId, Vec<f64>)>>,
+    pub adjusted: Option<ByReading>,
 }
 
 impl Fitted {

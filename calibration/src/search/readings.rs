@@ -13,6 +13,9 @@ use crate::data::Observations;
 use crate::fit::noise::Layout;
 use crate::fit::{FitError, FitResult, Model, residuals};
 
+/// Of each joint and input its readings.
+pub(crate) type ByReading = Vec<(SymbolId, Vec<f64>)>;
+
 /// Of a component's variance the share that is its own at least.
 const LEAST: f64 = 1e-6;
 
@@ -23,7 +26,7 @@ pub(super) fn adjusted(
     observations: &Observations,
     layout: &Layout,
     fit: &FitResult,
-) -> Result<Option<Vec<(SymbolId, Vec<f64>)>>, FitError> {
+) -> Result<Option<ByReading>, FitError> {
     if observations.reading_sigma.is_empty() {
         return Ok(None);
     }

@@ -7,7 +7,7 @@ use crate::figures::first_effect;
 
 /// Poses off by something that the next rows share.
 fn drifting(remembered: f64) -> Off {
-    Off { remembered: Some(remembered), times: |_| 1.0 }
+    Off { remembered: Some(remembered), times: |_| 1.0, stated: 1.0 }
 }
 
 fn off_alike(report: &Value) -> Option<&Value> {
@@ -41,7 +41,8 @@ fn what_the_declaration_lacks_is_found_beside_a_drift() {
 /// Each pose off by something of its own is noise like any other.
 #[test]
 fn poses_that_are_off_one_by_one_make_no_stretches() {
-    let report = report("drift-none", &drive(6, &Off { remembered: None, times: |_| 1.0 }, 0.0), "");
+    let report =
+        report("drift-none", &drive(6, &Off { remembered: None, times: |_| 1.0, stated: 1.0 }, 0.0), "");
     assert!(off_alike(&report).is_none(), "{}", report["cautions"]);
     assert!(report["effects"].as_array().is_some_and(Vec::is_empty), "{}", report["effects"]);
 }

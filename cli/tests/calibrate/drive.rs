@@ -68,6 +68,8 @@ pub struct Off {
     pub remembered: Option<f64>,
     /// How many times as far as usual a row's pose is off.
     pub times: fn(i32) -> f64,
+    /// What the rows say of it, as a share of what there is.
+    pub stated: f64,
 }
 
 /// A drive of three rounds; the encoder of the mirror sits off centre by this angle. Each row says how uncertain its pose is.
@@ -107,7 +109,7 @@ pub fn drive(seed: u64, off: &Off, off_centre_rad: f64) -> String {
         let Some((along, name)) = seen.min_by(|a, b| a.0.total_cmp(&b.0)) else { continue };
         let sigma = OFF.map(|sigma| sigma * (off.times)(row));
         let read = [0, 1, 2, 3, 4, 5].map(|at| format!("{:.6}", pose[at] + sigma[at] * drift[at])).join(",");
-        let stated = sigma.map(|sigma| format!("{sigma:.6}")).join(",");
+        let stated = sigma.map(|sigma| format!("{:.3e}", off.stated * sigma)).join(",");
         let angle = angle - off_centre_rad * (angle - 0.5).sin();
         let range = along + 0.003 * random.normal();
         writeln!(text, "{name},{read},{speed:.3},{angle:.6},{range:.4},{stated}")

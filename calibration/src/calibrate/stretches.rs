@@ -14,7 +14,7 @@ use nalgebra::Vector3;
 use super::choice::Chosen;
 use crate::data::unknowns::OF_OBJECT;
 use crate::data::{Grouping, Observations};
-use crate::fit::{Block, Model, Outcome, residuals};
+use crate::fit::{Block, Model, Outcome, pulled};
 use crate::search::SearchError;
 use crate::search::context::{Context, Request};
 use crate::search::fitted::Fitted;
@@ -75,12 +75,9 @@ fn alike(observations: &Observations, fitted: &Fitted) -> Result<Option<usize>, 
     let model = Model::without_columns(&fitted.chain, &observations.poses);
     let sigma = fitted.fit.noise.sigma_without_memory();
     let mut pulls = of_station(&model, observations, fitted, &sigma)?.to_vec();
-    let mut moved = observations.clone();
     for number in 0..observations.poses.columns.len() {
-        moved.poses.columns[number].1.iter_mut().for_each(|reading| *reading += MOVED);
-        let there = residuals(&model, &moved, &fitted.fit.values)?;
-        moved.poses.columns[number].1.clone_from(&observations.poses.columns[number].1);
-        pulls.push(of_reading(fitted, &sigma, &there));
+        let pulled = pulled(&model, observations, &fitted.fit.values, number, |_| MOVED)?;
+        pulls.push(of_reading(fitted, &sigma, &pulled));
     }
     let lengths = pulls.iter().filter_map(|pulls| {
         let near = Agreement::of(pulls, NEAREST);
@@ -159,14 +156,12 @@ fn of_station(
     Ok(pulls)
 }
 
-/// Of each row which way it would have a reading moved, along the first axis; `there` are the residuals where it is.
-fn of_reading(fitted: &Fitted, sigma: &[f64], there: &[f64]) -> Vec<Vector3<f64>> {
+/// Of each row which way it would have a reading moved, along the first axis; `pulled` is what moving it does to the residuals.
+fn of_reading(fitted: &Fitted, sigma: &[f64], pulled: &[f64]) -> Vec<Vector3<f64>> {
     let Fitted { layout, fit, .. } = fitted;
     let of_row = |row: usize| {
-        let pull = layout.of_rows(row..row + 1).map(|at| {
-            let here = fit.residuals.raw[at];
-            here * (there[at] - here) / MOVED / sigma[at].powi(2)
-        });
+        let own = layout.of_rows(row..row + 1);
+        let pull = own.map(|at| fit.residuals.raw[at] * pulled[at] / MOVED / sigma[at].powi(2));
         Vector3::new(fit.residuals.weight[row] * pull.sum::<f64>(), 0.0, 0.0)
     };
     (0..layout.rows()).map(of_row).collect()

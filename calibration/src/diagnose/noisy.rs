@@ -9,7 +9,7 @@ use model_core::{Chain, SymbolId};
 
 use crate::data::{Observations, SiUnit};
 use crate::fit::noise::Layout;
-use crate::fit::{FitError, FitResult, Model, residuals};
+use crate::fit::{FitError, FitResult, Model, pulled};
 
 /// By how much a reading is moved to see what it does: rad or m.
 const MOVED: f64 = 1e-6;
@@ -48,14 +48,7 @@ pub(super) fn noisy(
         return Ok(None);
     }
     let model = Model::without_columns(chain, &observations.poses);
-    let mut moved = observations.clone();
-    let mut there = |by: f64| {
-        moved.poses.columns[at].1.iter_mut().for_each(|reading| *reading += by);
-        let residual = residuals(&model, &moved, &fit.values);
-        moved.poses.columns[at].1.clone_from(&observations.poses.columns[at].1);
-        residual
-    };
-    let (more, less) = (there(MOVED)?, there(-MOVED)?);
+    let pulled = pulled(&model, observations, &fit.values, at, |_| MOVED)?;
     let (layout, sigma) = (Layout::of(observations), fit.noise.sigma_without_memory());
     let readings = &observations.poses.columns[at].1;
     // Of each component in units of its noise what a unit of the reading does, the reading, and the residual.
@@ -65,8 +58,7 @@ pub(super) fn noisy(
         .filter(|&(_, row)| fit.residuals.weight[row] > 0.0)
         .map(|(at, row)| {
             let scale = fit.residuals.weight[row].sqrt() / sigma[at];
-            let slope = (more[at] - less[at]) / (2.0 * MOVED);
-            [scale * slope, readings[row], scale * fit.residuals.raw[at]]
+            [scale * pulled[at] / MOVED, readings[row], scale * fit.residuals.raw[at]]
         })
         .collect();
     let over = |of: &dyn Fn(&[f64; 3]) -> f64| components.iter().map(of).sum::<f64>();

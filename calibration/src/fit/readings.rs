@@ -3,6 +3,7 @@
 use super::solver::Solver;
 use super::sweep::residuals;
 use super::{FitError, Model};
+use crate::data::Observations;
 
 impl Solver<'_> {
     /// The same model without derivatives.
@@ -18,22 +19,34 @@ impl Solver<'_> {
             return Ok(Vec::new());
         }
         let mut squares = vec![0.0; self.layout.components()];
-        let mut moved = self.observations.clone();
         for (id, sigma) in stated {
             // A reading that no observable hangs on brings nothing.
-            let Some(at) = moved.poses.columns.iter().position(|(own, _)| own == id) else { continue };
-            let read = &self.observations.poses.columns[at].1;
-            let mut there = |share: f64| {
-                let column = moved.poses.columns[at].1.iter_mut();
-                column.zip(read).zip(sigma).for_each(|((to, read), sigma)| *to = read + share * sigma);
-                residuals(self.plain(), &moved, values)
+            let Some(column) = self.observations.poses.columns.iter().position(|(own, _)| own == id) else {
+                continue;
             };
-            let (more, less) = (there(1.0)?, there(-1.0)?);
-            moved.poses.columns[at].1.clone_from(read);
-            for (square, (more, less)) in squares.iter_mut().zip(more.iter().zip(less)) {
-                *square += (0.5 * (more - less)).powi(2);
-            }
+            let pulled = pulled(self.plain(), self.observations, values, column, |row| sigma[row])?;
+            squares.iter_mut().zip(pulled).for_each(|(square, pulled)| *square += pulled * pulled);
         }
         Ok(squares.into_iter().map(f64::sqrt).collect())
     }
+}
+
+/// What it does to each component of the residual, rad or m, to move its row's reading of a column by so much: half of what moving it
+/// to either side does. `model` is one without derivatives.
+pub(crate) fn pulled(
+    model: &Model,
+    observations: &Observations,
+    values: &[f64],
+    column: usize,
+    by: impl Fn(usize) -> f64,
+) -> Result<Vec<f64>, FitError> {
+    let mut moved = observations.clone();
+    let read = &observations.poses.columns[column].1;
+    let mut there = |side: f64| {
+        let own = moved.poses.columns[column].1.iter_mut().zip(read).enumerate();
+        own.for_each(|(row, (to, read))| *to = read + side * by(row));
+        residuals(model, &moved, values)
+    };
+    let (more, less) = (there(1.0)?, there(-1.0)?);
+    Ok(more.iter().zip(less).map(|(more, less)| 0.5 * (more - less)).collect())
 }

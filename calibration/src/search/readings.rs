@@ -11,7 +11,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::data::Observations;
 use crate::fit::noise::Layout;
-use crate::fit::{FitError, FitResult, Model, residuals};
+use crate::fit::{FitError, FitResult, Model, pulled};
 
 /// Of each joint and input its readings.
 pub(crate) type ByReading = Vec<(SymbolId, Vec<f64>)>;
@@ -32,20 +32,11 @@ pub(super) fn adjusted(
     }
     let model = Model::without_columns(chain, &observations.poses);
     let factor = fit.noise.of_readings;
-    let mut moved = observations.clone();
     // What a reading that is off by its standard uncertainty does to the residual.
     let mut pulls: Vec<(usize, &[f64], Vec<f64>)> = Vec::new();
     for (id, sigma) in &observations.reading_sigma {
-        let Some(at) = moved.poses.columns.iter().position(|(own, _)| own == id) else { continue };
-        let read = &observations.poses.columns[at].1;
-        let mut there = |share: f64| {
-            let column = moved.poses.columns[at].1.iter_mut();
-            column.zip(read).zip(sigma).for_each(|((to, read), sigma)| *to = read + share * sigma);
-            residuals(&model, &moved, &fit.values)
-        };
-        let (more, less) = (there(1.0)?, there(-1.0)?);
-        moved.poses.columns[at].1.clone_from(read);
-        let pull = more.iter().zip(less).map(|(more, less)| 0.5 * factor * (more - less)).collect();
+        let Some(at) = observations.poses.columns.iter().position(|(own, _)| own == id) else { continue };
+        let pull = pulled(&model, observations, &fit.values, at, |row| factor * sigma[row])?;
         pulls.push((at, sigma, pull));
     }
     let sigma = fit.noise.sigma_without_memory();

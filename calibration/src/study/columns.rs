@@ -4,7 +4,7 @@ use model_core::SymbolId;
 
 use super::column_plan::ColumnPlan;
 use super::plan::{Plan, Reading, SourcePlan};
-use super::sigma::Uncertain;
+use super::uncertain::Uncertain;
 use crate::data::units::{BareColumn, Plausible};
 use crate::formats::{
     DataError, Form, ReadAs, TableReader, Wanted, declared_columns, find_column, find_reading,

@@ -4,6 +4,7 @@
 //! resolved (`plan`); with the data files the plan becomes [`Observations`](crate::data::Observations)
 //! (`load`). Whatever is wrong with a study is told at once, each mistake with its place (`mistakes`, `syntax`).
 
+mod amount;
 mod column_plan;
 mod columns;
 mod doubts;
@@ -28,6 +29,7 @@ mod sigma;
 mod stated;
 mod syntax;
 mod timeless;
+mod uncertain;
 mod unsought;
 mod unstated;
 mod written;

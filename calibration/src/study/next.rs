@@ -5,8 +5,9 @@ use std::ops::Range;
 use model_core::{Chain, Quantity, SymbolKind};
 use toml::Spanned;
 
+use super::amount::si;
 use super::mistakes::{Gathered, Outcome, every, mistake, unknown, within};
-use super::plan::{NextPlaces, NextPoses, si};
+use super::plan::{NextPlaces, NextPoses};
 use super::written::{Kind, NextTable, Observed, Study};
 use crate::data::Measure;
 use crate::data::units::Amount;

@@ -4,9 +4,10 @@ use model_core::{Chain, ObservableId, Quantity, SymbolId, SymbolKind};
 use nalgebra::Vector3;
 use toml::Spanned;
 
+use super::amount::si;
 use super::estimated::matching;
 use super::mistakes::{Outcome, every, mistake};
-use super::plan::{SourcePlan, si};
+use super::plan::SourcePlan;
 use super::sights::check_sight;
 use super::written::{Kind, ObjectTable, Observed, StationTable, Study};
 use crate::data::units::Amount;

@@ -2,9 +2,10 @@
 
 use std::ops::Range;
 
-use model_core::{Chain, Mistakes, ObservableId, Quantity, SymbolId, SymbolKind};
+use model_core::{Chain, Mistakes, ObservableId, SymbolId, SymbolKind};
 use toml::Spanned;
 
+use super::amount::si;
 use super::column_plan::{ColumnPlan, column_plan};
 use super::estimated::{estimable, matching};
 use super::mistakes::{Gathered, Outcome, Several, every, mistake, plain, unknown, within};
@@ -12,13 +13,13 @@ use super::observed::{ObservedColumns, observed_columns};
 use super::orientation;
 use super::shown::{self, Convention};
 use super::sights;
-use super::sigma::{Uncertain, uncertain};
 use super::timeless::{Timeless, timeless};
+use super::uncertain::{Uncertain, uncertain};
 use super::unsought::{Unsought, unsought};
 use super::unstated::{Unstated, unstated};
 use super::written::{Column, Kind, Study, Table};
 use crate::candidate::Effect;
-use crate::data::units::{Amount, Doubt};
+use crate::data::units::Doubt;
 use crate::data::unknowns::Places;
 use crate::data::{Measure, derive::Derived, derive::parse_derived};
 use crate::fit::FitOptions;
@@ -442,8 +443,4 @@ fn needed(chain: &Chain, observable: ObservableId) -> Vec<SymbolId> {
     let mut symbols = chain.symbols_of_way(observable);
     symbols.retain(|&id| matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input));
     symbols
-}
-
-pub(super) fn si(amount: &Amount, quantity: Quantity, place: &Range<usize>) -> Outcome<f64> {
-    amount.to_si(quantity).map_err(|error| plain(place.clone(), error.to_string()))
 }

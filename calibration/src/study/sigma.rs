@@ -1,18 +1,18 @@
 //! Standard deviations that a study states: one for all, or columns with one for each row.
 //!
 //! Columns under `[noise]` are those of the first series and of others whose residuals are angles, or lengths, as its are;
-//! `[[also]]` may name its own. A series without any is weighed by what its residuals show. A joint or an input says how uncertain its
-//! readings are where it says in which column they stand.
+//! `[[also]]` may name its own. A series without any is weighed by what its residuals show.
 
 use std::ops::Range;
 
-use model_core::{Chain, Quantity, SymbolId};
+use model_core::Quantity;
 use toml::Spanned;
 
+use super::amount::si;
 use super::column_plan::{ColumnPlan, column_plan};
 use super::mistakes::{Outcome, every, mistake};
-use super::plan::{SourcePlan, si};
-use super::written::{Column, Sigma, Study, Table};
+use super::plan::SourcePlan;
+use super::written::{Column, Sigma, Study};
 use crate::data::{Measure, SiUnit};
 
 impl Study {
@@ -61,42 +61,6 @@ impl Study {
             Sigma::Amount(_) => Ok(Vec::new()),
         }
     }
-}
-
-/// How uncertain a reading is.
-#[derive(Debug, Clone)]
-pub(super) enum Uncertain {
-    /// So much in every row, SI.
-    Evenly(f64),
-    /// As much as a column says.
-    Column(ColumnPlan),
-}
-
-/// Of each joint and input that a table of columns says it of, how uncertain its readings are.
-pub(super) fn uncertain(chain: &Chain, columns: &Table<Column>) -> Outcome<Vec<(SymbolId, Uncertain)>> {
-    let stated = columns.iter().filter_map(|(name, column)| {
-        // A name that is none has been told.
-        let id = chain.find_symbol(name.get_ref())?;
-        Some((id, column.get_ref().sigma.as_ref()?))
-    });
-    let planned = |id: SymbolId, sigma: &Spanned<Sigma>| {
-        let (quantity, place) = (chain.symbol(id).quantity, sigma.span());
-        match sigma.get_ref() {
-            Sigma::Amount(amount) => match si(amount, quantity, &place)? {
-                sigma if sigma > 0.0 && sigma.is_finite() => Ok(Uncertain::Evenly(sigma)),
-                _ => Err(mistake(
-                    place,
-                    "a standard deviation is positive",
-                    "leave `sigma` out of what is exact",
-                )),
-            },
-            Sigma::Columns(columns) => match columns.as_slice() {
-                [column] => column_plan(column, quantity, &place, false).map(Uncertain::Column),
-                _ => Err(mistake(place, "a reading has one standard deviation", "name one column")),
-            },
-        }
-    };
-    every(stated.map(|(id, sigma)| Ok((id, planned(id, sigma)?))))
 }
 
 fn is_amount(sigma: &Spanned<Sigma>) -> bool {

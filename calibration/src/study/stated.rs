@@ -5,7 +5,7 @@ use model_core::SymbolId;
 use super::columns::Columns;
 use super::plan::SourcePlan;
 use super::rows::Rows;
-use super::sigma::Uncertain;
+use super::uncertain::Uncertain;
 use crate::formats::DataError;
 
 /// Those of the components of each row.

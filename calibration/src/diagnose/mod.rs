@@ -231,7 +231,7 @@ pub(crate) fn diagnose(
     let scatters = uneven::uneven(observations, fit).into_iter();
     cautions.extend(scatters.map(|Scatter { what, label, times }| Caution::Scatters { what, label, times }));
     let remaining = found.remaining.as_ref();
-    cautions.extend(noisy_readings(whole, before, &found)?);
+    cautions.extend(noisy_readings(whole, last, &found)?);
     let alone = found
         .effects
         .iter()
@@ -280,18 +280,17 @@ pub(crate) fn diagnose(
 }
 
 /// Noise in the readings that what was found hangs on, where it would look like that.
-fn noisy_readings(
-    whole: &Context<'_>,
-    before: &FitResult,
-    found: &Found,
-) -> Result<Vec<Caution>, SearchError> {
-    let chain = &whole.request.plan.chain;
+fn noisy_readings(whole: &Context<'_>, last: &Fitted, found: &Found) -> Result<Vec<Caution>, SearchError> {
+    let (chain, observations) = (&last.chain, whole.request.observations);
     let place = found.remaining.iter().filter_map(|remaining| remaining.place.as_ref());
     let drivers = place.map(|place| &place.driver).chain(found.effects.iter().map(|effect| &effect.driver));
     let mut readings: Vec<SymbolId> = drivers.filter_map(|name| chain.find_symbol(name)).collect();
     readings.sort_unstable();
     readings.dedup();
-    let noisy = readings.into_iter().map(|id| noisy::noisy(chain, whole.request.observations, before, id));
+    // What looks like an effect is in the residual without it.
+    let mut values = last.fit.values.clone();
+    last.errors.iter().flatten().for_each(|error| values[error.index()] = 0.0);
+    let noisy = readings.into_iter().map(|id| noisy::noisy(chain, observations, &last.fit, &values, id));
     let noisy: Vec<Option<Noisy>> = noisy.collect::<Result<_, _>>()?;
     let caution = |Noisy { reading, sigma, unit }| Caution::NoisyReadings { reading, sigma, unit };
     Ok(noisy.into_iter().flatten().map(caution).collect())

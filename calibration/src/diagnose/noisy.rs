@@ -9,7 +9,7 @@ use model_core::{Chain, SymbolId};
 
 use crate::data::{Observations, SiUnit};
 use crate::fit::noise::Layout;
-use crate::fit::{FitError, FitResult, Model, pulled};
+use crate::fit::{FitError, FitResult, Model, pulled, residuals};
 
 /// By how much a reading is moved to see what it does: rad or m.
 const MOVED: f64 = 1e-6;
@@ -32,12 +32,13 @@ pub(super) struct Noisy {
     pub unit: SiUnit,
 }
 
-/// The noise in the readings of a joint or input that would explain how the residuals of a fit follow them; none where they do not, or
-/// not so, and where the readings state how uncertain they are.
+/// The noise in the readings of a joint or input that would explain how residuals follow them, those of a chain at some values, with
+/// the noise and the weights of a fit; none where they do not, or not so, and where the readings state how uncertain they are.
 pub(super) fn noisy(
     chain: &Chain,
     observations: &Observations,
     fit: &FitResult,
+    values: &[f64],
     reading: SymbolId,
 ) -> Result<Option<Noisy>, FitError> {
     let stated = observations.reading_sigma.iter().any(|(id, _)| *id == reading);
@@ -48,7 +49,8 @@ pub(super) fn noisy(
         return Ok(None);
     }
     let model = Model::without_columns(chain, &observations.poses);
-    let pulled = pulled(&model, observations, &fit.values, at, |_| MOVED)?;
+    let pulled = pulled(&model, observations, values, at, |_| MOVED)?;
+    let residual = residuals(&model, observations, values)?;
     let (layout, sigma) = (Layout::of(observations), fit.noise.sigma_without_memory());
     let readings = &observations.poses.columns[at].1;
     // Of each component in units of its noise what a unit of the reading does, the reading, and the residual.
@@ -58,7 +60,7 @@ pub(super) fn noisy(
         .filter(|&(_, row)| fit.residuals.weight[row] > 0.0)
         .map(|(at, row)| {
             let scale = fit.residuals.weight[row].sqrt() / sigma[at];
-            [scale * pulled[at] / MOVED, readings[row], scale * fit.residuals.raw[at]]
+            [scale * pulled[at] / MOVED, readings[row], scale * residual[at]]
         })
         .collect();
     let over = |of: &dyn Fn(&[f64; 3]) -> f64| components.iter().map(of).sum::<f64>();

@@ -64,6 +64,7 @@ pub use stated::{Agreement, Stated};
 pub use stream::{Next, Pass, Streamed, StreamedResult};
 pub use subspace::Subspace;
 pub use sweep::Tally;
+pub(crate) use sweep::residuals;
 pub use units::SharedByUnits;
 pub use validation::{Foretelling, Validation};
 pub use wire::PassError;

@@ -79,7 +79,7 @@ impl OverTable {
     /// # Errors
     /// One of them has a mistake, or the output would replace one.
     pub fn model(&self) -> Result<Model, Failure> {
-        output::refuse_to_replace(&self.out, [self.chain.as_path(), &self.errors])?;
+        output::refuse_to_replace(&self.out, [self.chain.as_path(), &self.errors, &self.data])?;
         let chain = Source::read(&self.chain)?.chain()?;
         let errors = Source::read(&self.errors)?;
         let values = errors_file::values(&errors, &chain)?;

@@ -6,16 +6,16 @@ use faer::Mat;
 
 use super::FitError;
 use super::block::Block;
-use super::objects::Reduction;
+use super::objects::{Eliminated, FollowedShare, Reduction};
 use super::solver::{Course, Solver};
+use super::sweep::collected;
+use crate::data::unknowns::Unknowns;
 
 /// Where the components stand among the determined combinations.
 pub(super) struct Coordinates {
     /// Orthonormal columns, n × k.
     pub q: Mat<f64>,
     pub residual: Vec<f64>,
-    /// The share of each component's own residual that objects and stations follow; empty where there are none.
-    pub followed: Vec<f64>,
 }
 
 impl Solver<'_> {
@@ -27,12 +27,7 @@ impl Solver<'_> {
         root: &Mat<f64>,
     ) -> Result<Coordinates, FitError> {
         let k = root.ncols();
-        let mut by_column = Mat::<f64>::zeros(self.model.columns(), k);
-        for (from, column) in root.row_iter().zip(self.model.column_of()) {
-            if let Some(column) = *column {
-                by_column.row_mut(column).iter_mut().zip(from.iter()).for_each(|(sum, part)| *sum += part);
-            }
-        }
+        let by_column = self.by_column(root);
         let sigma = course.noise.sigma_without_memory();
         let layout = &self.layout;
         let mut whole = Mat::zeros(self.layout.components(), k);
@@ -64,12 +59,49 @@ impl Solver<'_> {
             residual.extend(own);
             unknown.extend(of_objects);
         })?;
-        let followed = self.observations.unknowns.as_ref().map_or_else(Vec::new, |unknowns| {
+        if let Some(unknowns) = &self.observations.unknowns {
             let row: &[u32] = &self.layout.row_of_each().map(|row| row as u32).collect::<Vec<_>>();
             let scale = row.iter().zip(sigma.iter()).map(|(&row, sigma)| weight[row as usize].sqrt() / sigma);
             let reduction = Reduction::new(unknowns, row, &unknown, scale.collect());
-            reduction.project(unknowns, row, &unknown, &mut whole)
-        });
-        Ok(Coordinates { q: whole, residual, followed })
+            reduction.project(unknowns, row, &unknown, &mut whole);
+        }
+        Ok(Coordinates { q: whole, residual })
+    }
+
+    /// Of each component what is followed of a residual of its own, where rows observe objects; the root is that of the
+    /// [coordinates](Self::coordinates).
+    pub(super) fn followed(
+        &self,
+        course: &Course,
+        weight: &[f64],
+        root: &Mat<f64>,
+        (unknowns, eliminated): (&Unknowns, &Eliminated),
+    ) -> Result<Vec<FollowedShare>, FitError> {
+        let sigma = course.noise.sigma_without_memory();
+        let layout = &self.layout;
+        let made = |_: usize, rows: Range<usize>, block: &Block| {
+            let first = layout.first(rows.start);
+            let scale = (0..block.components).flat_map(|component| {
+                let of_row = rows.clone().zip((first + component..).step_by(block.components));
+                let sigma = &sigma;
+                of_row.map(move |(row, at)| weight[row].sqrt() / sigma[at])
+            });
+            collected(block, &scale.collect::<Vec<_>>(), rows.start)
+        };
+        let mut parts = Vec::new();
+        self.model.each_block(self.observations, &course.point.values, made, |part| parts.push(part))?;
+        let first = |row: usize| layout.first(row);
+        Ok(eliminated.followed(unknowns, &parts, &self.by_column(root), first, layout.components()))
+    }
+
+    /// A matrix with a row for each parameter, as one with a row for each column of the model.
+    fn by_column(&self, root: &Mat<f64>) -> Mat<f64> {
+        let mut by_column = Mat::<f64>::zeros(self.model.columns(), root.ncols());
+        for (from, column) in root.row_iter().zip(self.model.column_of()) {
+            if let Some(column) = *column {
+                by_column.row_mut(column).iter_mut().zip(from.iter()).for_each(|(sum, part)| *sum += part);
+            }
+        }
+        by_column
     }
 }

@@ -5,7 +5,6 @@
 
 use std::sync::Arc;
 
-use super::coordinates::Coordinates;
 use super::mixing::Mixing;
 use super::normal::Rest;
 use super::solver::{Course, Solver, same};
@@ -251,16 +250,12 @@ impl Solver<'_> {
     /// What the residuals say of the noise, each row with its weight.
     fn learn_noise(&self, course: &Course, weight: &[f64]) -> Result<Noise, FitError> {
         let sweep = &course.point.sweep;
-        let followed = match &self.observations.unknowns {
+        let followed = match self.objects(sweep) {
             None => Followed::Evenly { used: self.used(course) },
-            // An object seen closely takes its place from the sights across it, which leave little of their own.
-            Some(_) => {
+            Some(objects) => {
                 let root = course.subspace.covariance_root(&self.partial(sweep), &course.point.rest);
-                let Coordinates { q, mut followed, .. } = self.coordinates(course, weight, &root)?;
-                for column in q.col_iter() {
-                    followed.iter_mut().zip(column.iter()).for_each(|(sum, value)| *sum += value * value);
-                }
-                Followed::Each(followed)
+                let shares = self.followed(course, weight, &root, objects)?.into_iter();
+                Followed::Each(shares.map(|share| share.by_unknowns + share.by_errors).collect())
             }
         };
         let options = &self.options.noise;

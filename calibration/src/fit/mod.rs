@@ -23,6 +23,7 @@ mod outcome;
 mod partial;
 mod prior;
 pub(crate) mod readings;
+mod reflections;
 mod residual;
 pub mod robust;
 mod shared;

@@ -4,14 +4,10 @@
 //! number is not squared: which combinations the data determine is decided at 1e-8, where normal equations have
 //! only rounding errors left.
 
-use codegen::vector::{self, Arithmetic};
+use codegen::vector;
 use faer::{Mat, MatRef};
 
-/// Numbers that are multiplied at once.
-const LANES: usize = 8;
-
-/// Columns that are multiplied by one at once.
-const AT_ONCE: usize = 4;
+use super::reflections::{LANES, Reflections};
 
 /// The triangular factor R of [J | r] for all rows so far, with counts: QᵀQ = 1, [J | r] = Q R.
 ///
@@ -100,7 +96,8 @@ impl Rows {
             unreachable!("rows that are split are one at least")
         };
         let mut packed = vec![0.0; side * (side + 1) / 2];
-        let work = Reflections { packed: &mut packed, side, leading: k.min(side), rows: &mut self };
+        let (values, stride) = (self.values.as_mut_slice(), self.stride);
+        let work = Reflections { packed: &mut packed, side, leading: k.min(side), values, stride };
         vector::run(vector::path(), work);
         let at = |row: usize, column: usize| {
             if row > column { 0.0 } else { packed[column * (column + 1) / 2 + row] }
@@ -164,7 +161,8 @@ impl Partial {
     pub fn add(&mut self, mut rows: Rows) {
         self.components += rows.count as u64;
         let (packed, side) = (&mut self.packed, self.parameters + 1);
-        vector::run(vector::path(), Reflections { packed, side, leading: side, rows: &mut rows });
+        let (values, stride) = (rows.values.as_mut_slice(), rows.stride);
+        vector::run(vector::path(), Reflections { packed, side, leading: side, values, stride });
     }
 
     /// Takes in the rows of a matrix.
@@ -236,135 +234,6 @@ impl Partial {
             return 0.0;
         }
         self.packed[column * (column + 1) / 2 + row]
-    }
-}
-
-/// Reflections that turn a triangle on top of rows into a triangle alone. Nothing is fused, so that a factor has the
-/// same bits on every processor.
-///
-/// Source: G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., section 5.1; rows go in block by block as in
-/// J. Demmel et al., Communication-optimal Parallel and Sequential QR and LU Factorizations (2012), section 4.
-struct Reflections<'a> {
-    packed: &'a mut [f64],
-    side: usize,
-    /// So many columns are turned into the triangle; the rows keep what is left of the others.
-    leading: usize,
-    rows: &'a mut Rows,
-}
-
-impl vector::Work for Reflections<'_> {
-    #[inline(always)]
-    fn run<A: Arithmetic>(self, _: A) {
-        let Self { packed, side, leading, rows } = self;
-        let stride = rows.stride.max(1);
-        let mut turns: Vec<Option<Turn>> = Vec::with_capacity(leading);
-        // Few columns at a time meet all before them: they stay in the first-level cache, and one sum does not wait for another.
-        for first in (0..side).step_by(AT_ONCE) {
-            let start = (first * stride).min(rows.values.len());
-            let (done, others) = rows.values.split_at_mut(start);
-            let end = (AT_ONCE * stride).min(others.len());
-            let several = &mut others[..end];
-            for (column, (turn, below)) in turns.iter().zip(done.chunks_exact(stride)).enumerate() {
-                let Some(turn) = turn else { continue };
-                let products = dots(below, several);
-                for (at, target) in several.chunks_exact_mut(stride).enumerate() {
-                    turn.apply(column, first + at, packed, products[at], below, target);
-                }
-            }
-            for column in first..(first + AT_ONCE).min(leading) {
-                let (own, others) = several.split_at_mut(((column - first + 1) * stride).min(end));
-                let below = own.get((column - first) * stride..).unwrap_or_default();
-                let turn = Turn::of(dot(below, below), &mut packed[column * (column + 1) / 2 + column]);
-                for (target, other) in others.chunks_exact_mut(stride).zip(column + 1..) {
-                    let product = dot(below, target);
-                    turn.iter().for_each(|turn| turn.apply(column, other, packed, product, below, target));
-                }
-                turns.push(turn);
-            }
-        }
-    }
-}
-
-/// The reflection that turns a column into its corner.
-struct Turn {
-    corner: f64,
-    head: f64,
-}
-
-impl Turn {
-    /// Of a column with this sum of squares below its corner, which becomes what it is then; none where nothing is below.
-    #[inline(always)]
-    fn of(square: f64, corner: &mut f64) -> Option<Self> {
-        if square < f64::MIN_POSITIVE {
-            return None;
-        }
-        let old = *corner;
-        // The sign that does not cancel.
-        *corner = -(old * old + square).sqrt().copysign(old);
-        Some(Self { corner: *corner, head: old - *corner })
-    }
-
-    /// Reflects another column, of which the product with this one is given.
-    #[inline(always)]
-    fn apply(
-        &self,
-        own: usize,
-        other: usize,
-        packed: &mut [f64],
-        product: f64,
-        below: &[f64],
-        target: &mut [f64],
-    ) {
-        let at = other * (other + 1) / 2 + own;
-        let share = (self.head * packed[at] + product) / (self.corner * self.head);
-        packed[at] += share * self.head;
-        add(target, share, below);
-    }
-}
-
-/// The sum of products of a column with each of several, at most as many as are taken at once.
-#[inline(always)]
-fn dots(a: &[f64], several: &[f64]) -> [f64; AT_ONCE] {
-    let mut others = several.chunks_exact(a.len());
-    let mut next = || others.next().map(|other| other.as_chunks::<LANES>().0);
-    let (Some(b), Some(c), Some(d), Some(e)) = (next(), next(), next(), next()) else {
-        let mut fewer = several.chunks_exact(a.len());
-        return std::array::from_fn(|_| fewer.next().map_or(0.0, |other| dot(a, other)));
-    };
-    let mut sums = [[0.0; LANES]; AT_ONCE];
-    for ((((a, b), c), d), e) in a.as_chunks::<LANES>().0.iter().zip(b).zip(c).zip(d).zip(e) {
-        for lane in 0..LANES {
-            sums[0][lane] += a[lane] * b[lane];
-            sums[1][lane] += a[lane] * c[lane];
-            sums[2][lane] += a[lane] * d[lane];
-            sums[3][lane] += a[lane] * e[lane];
-        }
-    }
-    sums.map(|sums| sums.iter().sum())
-}
-
-/// The sum of products, lane by lane.
-#[inline(always)]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (a, _) = a.as_chunks::<LANES>();
-    let (b, _) = b.as_chunks::<LANES>();
-    let mut sums = [0.0; LANES];
-    for (a, b) in a.iter().zip(b) {
-        for lane in 0..LANES {
-            sums[lane] += a[lane] * b[lane];
-        }
-    }
-    sums.iter().sum()
-}
-
-/// Adds a multiple of `b` to `a`.
-#[inline(always)]
-fn add(a: &mut [f64], factor: f64, b: &[f64]) {
-    let (a, _) = a.as_chunks_mut::<LANES>();
-    let (b, _) = b.as_chunks::<LANES>();
-    for (a, b) in a.iter_mut().zip(b) {
-        // All lanes are read before one is written: lane by lane the compiler would take one column for part of the other.
-        *a = std::array::from_fn(|lane| a[lane] + factor * b[lane]);
     }
 }
 

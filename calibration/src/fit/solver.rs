@@ -7,6 +7,7 @@ use model_core::{Chain, SymbolKind};
 use rayon::prelude::*;
 
 use super::normal::Rest;
+use super::objects::Eliminated;
 use super::size::Size;
 use super::sweep::{Sweep, Weighting, residuals, sweep};
 use super::{FitError, FitOptions, Model, Partial, Reason, Subspace};
@@ -205,6 +206,11 @@ impl Solver<'_> {
     /// The number of components of rows with weight.
     pub(super) fn kept_components(&self, weight: &[f64]) -> usize {
         self.layout.row_of_each().filter(|&row| weight[row] > 0.0).count()
+    }
+
+    /// What rows observe, and what was eliminated of it in a sweep; none where they observe no objects.
+    pub(super) fn objects<'s>(&'s self, sweep: &'s Sweep) -> Option<(&'s Unknowns, &'s Eliminated)> {
+        self.observations.unknowns.as_ref().zip(sweep.eliminated.as_ref())
     }
 
     /// How many independent numbers of the data the estimates use up.

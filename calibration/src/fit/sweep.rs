@@ -191,7 +191,7 @@ impl Tally {
 }
 
 /// The rows of a block that count, each component times its factor, with what is unknown of them; `start` is the first row.
-fn collected(block: &Block, root: &[f64], start: usize) -> Collected {
+pub(super) fn collected(block: &Block, root: &[f64], start: usize) -> Collected {
     let mut collected = Collected::default();
     let count = block.rows;
     for (row, component) in (0..count).flat_map(|row| (0..block.components).map(move |c| (row, c))) {

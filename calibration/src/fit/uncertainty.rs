@@ -101,13 +101,15 @@ impl Solver<'_> {
             Spread::Even { factor: 1.0 / level / efficiency, degrees_of_freedom: f64::INFINITY }
         } else if left < 1.0 {
             Spread::Unknown
-        } else if self.observations.unknowns.is_some() && left >= SETS_OF_ROWS as f64 {
+        } else if let Some(objects) =
+            self.objects(&course.point.sweep).filter(|_| left >= SETS_OF_ROWS as f64)
+        {
             // How far off a plane a point is hangs on how it was hit, and across a beam on the range, while along it does not:
             // no variance of the joints is that of every component.
             root = subspace.covariance_root(&self.partial(&course.point.sweep), rest);
-            let Coordinates { q, mut residual, followed } = self.coordinates(course, weight, &root)?;
-            for (value, followed) in residual.iter_mut().zip(followed) {
-                *value /= (1.0 - followed).max(ALONE).sqrt();
+            let Coordinates { q, mut residual } = self.coordinates(course, weight, &root)?;
+            for (value, followed) in residual.iter_mut().zip(self.followed(course, weight, &root, objects)?) {
+                *value /= (1.0 - followed.by_unknowns).max(ALONE).sqrt();
             }
             let of_component = self.layout.row_of_each().map(|row| row % SETS_OF_ROWS).collect();
             let sets = Buckets { of_component, count: SETS_OF_ROWS };

@@ -9,7 +9,7 @@ use super::columns::Seen;
 use super::context::Context;
 use super::error::SearchError;
 use super::fitted::Fitted;
-use super::row_set::{RowSet, components};
+use super::row_set::{RowSet, components, sized};
 
 /// Whitened columns of a chunk, and what its rows show of effects.
 pub(crate) struct Chunk {
@@ -37,7 +37,7 @@ impl Chunk {
             // Whitening makes more of a component than a multiple of itself.
             let rows = RowSet::of(whole, fitted, stretches, |_| true)?;
             return Ok(Self {
-                columns: rows.whitened_in(&by_cell.order),
+                columns: rows.whitened_in(&by_cell.order, room),
                 by_cell,
                 rows: rows.observations.rows(),
                 seen: rows.seen,
@@ -54,8 +54,7 @@ impl Chunk {
         let (count, start) = (white.residual.len(), declared.ncols());
         let functions: usize = whole.catalogue.iter().map(|effect| effect.functions.len()).sum();
         let width = start + functions + 1;
-        let mut columns =
-            if (room.nrows(), room.ncols()) == (count, width) { room } else { Mat::zeros(count, width) };
+        let mut columns = sized(room, count, width);
         columns.subcols_mut(0, start).copy_from(&declared);
         let (mut next, mut of_effect) = (start, vec![start..start; whole.catalogue.len()]);
         let values = &fitted.fit.values;

@@ -169,21 +169,26 @@ impl<'a> RowSet<'a> {
 
     /// Declared combinations, the columns of each effect, and the residual, whitened.
     pub fn whitened(&self) -> Mat<f64> {
-        self.whitened_in(&(0..self.without.len()).collect::<Vec<_>>())
+        self.whitened_in(&(0..self.without.len()).collect::<Vec<_>>(), Mat::new())
     }
 
-    /// The same with the components in another order.
-    pub fn whitened_in(&self, order: &[usize]) -> Mat<f64> {
+    /// The same with the components in another order; `room` is a matrix for its memory.
+    pub fn whitened_in(&self, order: &[usize], room: Mat<f64>) -> Mat<f64> {
         let declared = (0..self.columns.declared.ncols()).map(|j| self.columns.declared.col_as_slice(j));
         let effects = self.effects.iter().flatten().map(Vec::as_slice);
         let columns: Vec<&[f64]> = declared.chain(effects).chain([self.without.as_slice()]).collect();
-        let mut rows = Mat::zeros(self.without.len(), columns.len());
+        let mut rows = sized(room, self.without.len(), columns.len());
         for (j, column) in columns.into_iter().enumerate() {
             let white = self.whiten(column);
             rows.col_as_slice_mut(j).iter_mut().zip(order).for_each(|(to, &from)| *to = white[from]);
         }
         rows
     }
+}
+
+/// A matrix of this size, to be filled: the room that is given where it is as large.
+pub(super) fn sized(room: Mat<f64>, rows: usize, columns: usize) -> Mat<f64> {
+    if room.shape() == (rows, columns) { room } else { Mat::zeros(rows, columns) }
 }
 
 /// The components of some stretches of rows.

@@ -144,6 +144,12 @@ fn nothing_is_written_over_what_the_command_reads() {
         let simulate = "simulate shaft.chain --errors e.toml --poses 3 --noise 1arcsec --seed 1 --out";
         refused(&words(&folder, &format!("{simulate} {out}")), why);
     }
+    let data = folder.read("measured.csv");
+    for command in ["eval", "apply"] {
+        let run = format!("{command} shaft.chain --errors e.toml --data measured.csv --out ./measured.csv");
+        refused(&words(&folder, &run), why);
+    }
+    assert_eq!(folder.read("measured.csv"), data);
     refused(&words(&folder, "generate shaft.chain --language rust --out shaft.chain"), why);
     refused(&words(&folder, "generate shaft.chain --language c --out x.h"), "header");
     refused(&words(&folder, "generate shaft.chain --language c --out x.H"), "header");

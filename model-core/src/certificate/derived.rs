@@ -6,6 +6,7 @@ use super::{Certificate, Refusal, ordinal, vector_to_order};
 use crate::algebra::Poly;
 use crate::chain::ObservableId;
 use crate::expr::Expr;
+use crate::identify::{put_in, special};
 use crate::symbol::SymbolKind;
 
 impl Certificate<'_> {
@@ -23,7 +24,7 @@ impl Certificate<'_> {
             observable: Some(observable),
             order,
             kept: chain.symbols_of(SymbolKind::Error).collect(),
-            zeros: Vec::new(),
+            put_in: Vec::new(),
         };
         let title = format!("The error of {} to {} order", chain.observable(observable).name, ordinal(order));
         let name = self.names.give(&chain.observable(observable).name);
@@ -33,19 +34,18 @@ impl Certificate<'_> {
         }
     }
 
-    /// What is too much for Coq at once, with the constants at zero that are declared so.
+    /// What is too much for Coq at once, with the constants put in that are declared as zero or as quarter turns.
     fn smaller(&mut self, question: Question, title: &str) -> Result<(), Refusal> {
         let chain = self.declared.chain();
         let (observable, order) = (question.observable(), question.order);
-        let zeros = self.zero_constants();
-        let put = |component: &Poly| {
-            zeros.iter().try_fold(component.clone(), |poly, zero| poly.substitute(*zero, &Poly::zero()))
-        };
+        let special = special(chain);
+        let put = |component: &Poly| put_in(component, &special);
         let [x, y, z] = vector_to_order(chain, observable, order)?.each_ref().map(put);
         let derived = self.printed(&[x?, y?, z?])?;
         let name = self.names.give(&format!("{}_as_placed", chain.observable(observable).name));
-        let title = format!("{title}, with the constants at zero that are declared so");
-        self.whole_vector(&Question { zeros, ..question }, &name, &title, &derived)
+        let title =
+            format!("{title}, with the constants put in that are declared as zero or as quarter turns");
+        self.whole_vector(&Question { put_in: special, ..question }, &name, &title, &derived)
     }
 
     /// States that a formula is the error of a vector, and proves it.

@@ -25,7 +25,7 @@ impl Certificate<'_> {
         }
         let printed = claim.formulas().map(|formula| without_places(&formula.expression));
         self.only_symbols_of_the_chain(&printed)?;
-        let question = Question { observable: None, order: 1, kept: Vec::new(), zeros: Vec::new() };
+        let question = Question { observable: None, order: 1, kept: Vec::new(), put_in: Vec::new() };
         let holds = verdict.difference.is_zero();
         let name = self.names.give(title);
         let said = if holds { "holds" } else { "differs" };

@@ -7,7 +7,8 @@ use super::{Certificate, Refusal, vector_to_order};
 use crate::algebra::Poly;
 use crate::chain::ObservableId;
 use crate::identify::Ratio;
-use crate::symbol::{SymbolId, SymbolKind};
+use crate::identify::{put_in, special};
+use crate::symbol::SymbolId;
 
 /// A theorem on what one error does, the others being zero, to first order.
 #[derive(Debug, Clone)]
@@ -59,7 +60,7 @@ impl Certificate<'_> {
             observable: Some(observable),
             order: 1,
             kept: vec![first, other],
-            zeros: self.zero_constants(),
+            put_in: special(chain),
         };
         let certificate = &*self;
         let formulas = [&ratio.numerator, &ratio.denominator];
@@ -105,14 +106,11 @@ impl Certificate<'_> {
             return Ok(found.clone());
         }
         let chain = self.declared.chain();
-        let zeros = self.zero_constants();
+        let special = special(chain);
         let form = vector_to_order(chain, observable, 1)?;
         let only = |component: &Poly| {
             let others = |symbol: SymbolId| self.declared.is_error(symbol) && symbol != error;
-            let alone = component.graded_part(others, 0);
-            zeros.iter().try_fold(alone, |poly, zero| {
-                poly.substitute(*zero, &Poly::zero()).map_err(|_| Refusal::Divisor)
-            })
+            put_in(&component.graded_part(others, 0), &special).map_err(|_| Refusal::Divisor)
         };
         let [x, y, z] = form.each_ref().map(only);
         let components = [x?, y?, z?];
@@ -128,7 +126,8 @@ impl Certificate<'_> {
         symbols.sort_unstable();
         symbols.dedup();
         let module = self.names.give(&format!("{name}_on_{shown}"));
-        let question = Question { observable: Some(observable), order: 1, kept: vec![error], zeros };
+        let question =
+            Question { observable: Some(observable), order: 1, kept: vec![error], put_in: special };
         let mut section = Section::new(self, &question, &formula.each_ref())?;
         section.open(&module, &title)?;
         section.formula("derived", &formula);
@@ -139,14 +138,5 @@ impl Certificate<'_> {
         let influence = Influence { observable, error, module, symbols };
         self.influences.push(influence.clone());
         Ok(influence)
-    }
-
-    /// Constants that are declared as zero: [`crate::identify`] counts them as zero.
-    pub(super) fn zero_constants(&self) -> Vec<SymbolId> {
-        let chain = self.declared.chain();
-        chain
-            .symbols_of(SymbolKind::Constant)
-            .filter(|symbol| chain.symbol(*symbol).value == Some(0.0))
-            .collect()
     }
 }

@@ -31,6 +31,11 @@ pub(super) fn ramp(ramp: &Ramp, symbol: &dyn Fn(SymbolId) -> Term) -> Term {
     Term::new(format!("ramp {of} ({from}) ({to})"), Level::Application)
 }
 
+/// The value that is put in for a constant.
+pub(super) fn value(value: &Poly, symbol: &dyn Fn(SymbolId) -> Term) -> Term {
+    if value.is_zero() { Term::word("0") } else { Term::new(polynomial(value, symbol), Level::Sum) }
+}
+
 /// A formula without angles.
 fn polynomial(poly: &Poly, symbol: &dyn Fn(SymbolId) -> Term) -> String {
     match Expanded::new(poly) {

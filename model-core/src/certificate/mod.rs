@@ -198,7 +198,7 @@ impl<'a> Certificate<'a> {
             observable: Some(claim.observable),
             order,
             kept: claim.kept.clone(),
-            zeros: Vec::new(),
+            put_in: Vec::new(),
         };
         let name = self.names.give(title);
         let title = format!(

@@ -37,7 +37,7 @@ impl Certificate<'_> {
             observable: Some(observable),
             order,
             kept: chain.symbols_of(SymbolKind::Error).collect(),
-            zeros: Vec::new(),
+            put_in: Vec::new(),
         };
         let title =
             format!("What {} shows: its error to {} order", self.observable(observable), ordinal(order));
@@ -77,7 +77,7 @@ impl Certificate<'_> {
             observable: Some(claim.observable),
             order,
             kept: claim.kept.clone(),
-            zeros: Vec::new(),
+            put_in: Vec::new(),
         };
         let words: Vec<&str> = chosen.iter().map(|reading| reading.word).collect();
         let title_of = |verdict: &str| {

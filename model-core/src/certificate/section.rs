@@ -14,6 +14,7 @@ use super::{Certificate, Refusal};
 use crate::algebra::Poly;
 use crate::chain::{BodyId, ObservableId, ObservableKind};
 use crate::expr::Expr;
+use crate::identify::put_in;
 use crate::symbol::SymbolId;
 
 /// What a statement is about.
@@ -24,8 +25,8 @@ pub(super) struct Question {
     pub order: u32,
     /// The errors that are not zero, in order.
     pub kept: Vec<SymbolId>,
-    /// Constants that are zero.
-    pub zeros: Vec<SymbolId>,
+    /// Constants whose values are put in, with these.
+    pub put_in: Vec<(SymbolId, Poly)>,
 }
 
 impl Question {
@@ -34,6 +35,11 @@ impl Question {
             Some(observable) => observable,
             None => unreachable!("what an instrument shows is only asked for in statements about one"),
         }
+    }
+
+    /// What is put in for a symbol.
+    fn value(&self, symbol: SymbolId) -> Option<&Poly> {
+        self.put_in.iter().find(|(own, _)| *own == symbol).map(|(_, value)| value)
     }
 }
 
@@ -98,7 +104,7 @@ impl<'c> Section<'c> {
         for mut factor in passage::factors(declared, &section.path) {
             let is_error = |symbol| declared.is_error(symbol);
             let is_kept = |symbol| section.is_kept(symbol);
-            let amount = put_zeros(question, &factor.amount)?;
+            let amount = put_values(question, &factor.amount)?;
             factor.jet = jets::amount(&amount, question.order, is_error, is_kept);
             angles.add_all(&lower, &factor.written, &name)?;
             expression::divisors(&factor.written, &mut divisors);
@@ -110,7 +116,7 @@ impl<'c> Section<'c> {
         }
         section.used.sort_unstable();
         section.used.dedup();
-        section.used.retain(|symbol| !question.zeros.contains(symbol));
+        section.used.retain(|symbol| question.value(*symbol).is_none());
         section.angles = angles;
         for divisor in divisors {
             section.add_divisor(&divisor)?;
@@ -147,7 +153,7 @@ impl<'c> Section<'c> {
         }
         section.used.sort_unstable();
         section.used.dedup();
-        section.used.retain(|symbol| !question.zeros.contains(symbol));
+        section.used.retain(|symbol| question.value(*symbol).is_none());
         for divisor in divisors {
             section.add_divisor(&divisor)?;
         }
@@ -162,7 +168,7 @@ impl<'c> Section<'c> {
     fn run(&mut self) -> Result<(), Refusal> {
         let chain = self.certificate.declared.chain();
         let components = &chain.observable(self.question.observable()).components;
-        let [x, y, z] = components.each_ref().map(|component| put_zeros(self.question, component));
+        let [x, y, z] = components.each_ref().map(|component| put_values(self.question, component));
         self.states.push([x?, y?, z?].map(|component| jets::constant(&component, self.question.order)));
         for factor in self.factors.iter().rev() {
             let Some(before) = self.states.last() else {
@@ -326,10 +332,10 @@ impl<'c> Section<'c> {
     }
 }
 
-/// What stands for a symbol: nothing for what is zero.
+/// What stands for a symbol: its value where that is put in.
 fn section_term(certificate: &Certificate<'_>, question: &Question, symbol: SymbolId) -> Term {
-    if question.zeros.contains(&symbol) {
-        return Term::word("0");
+    if let Some(value) = question.value(symbol) {
+        return leaf::value(value, &|symbol| certificate.term(symbol));
     }
     match certificate.declared.chain().ramp(symbol) {
         Some(ramp) => leaf::ramp(ramp, &|symbol| section_term(certificate, question, symbol)),
@@ -342,18 +348,16 @@ fn section_leaf(certificate: &Certificate<'_>, question: &Question, expression: 
     leaf::leaf(certificate.declared, expression, &|symbol| section_term(certificate, question, symbol))
 }
 
-/// What an expression says, with zero for what is zero.
+/// What an expression says, with the values that are put in.
 pub(super) fn lower(
     certificate: &Certificate<'_>,
     question: &Question,
     expression: &Expr<()>,
 ) -> Result<Poly, Refusal> {
-    put_zeros(question, &certificate.declared.lower(expression).ok_or(Refusal::Divisor)?)
+    put_values(question, &certificate.declared.lower(expression).ok_or(Refusal::Divisor)?)
 }
 
-/// A formula with zero for what is zero.
-fn put_zeros(question: &Question, poly: &Poly) -> Result<Poly, Refusal> {
-    question.zeros.iter().try_fold(poly.clone(), |poly, symbol| {
-        poly.substitute(*symbol, &Poly::zero()).map_err(|_| Refusal::Divisor)
-    })
+/// A formula with the values that are put in.
+fn put_values(question: &Question, formula: &Poly) -> Result<Poly, Refusal> {
+    put_in(formula, &question.put_in).map_err(|_| Refusal::Divisor)
 }

@@ -4,8 +4,8 @@
 //! columns, and functions are told apart by their coefficients in the basis of the canonical form; so each basis
 //! function gives one exact linear equation between the errors and what is seen. Elimination then says which
 //! combinations of errors are determined. Constants do not vary while data are taken, so they are coefficients here, not
-//! functions: a shift and a tilt at the end of a constant arm are one. A constant declared as zero counts as zero, any
-//! other counts as a size that no special relation holds for.
+//! functions: a shift and a tilt at the end of a constant arm are one. A constant declared as zero counts as zero, an angle
+//! declared as so many quarter turns as these, any other as a size that no special relation holds for.
 
 mod candidate;
 mod elimination;
@@ -13,16 +13,23 @@ mod modular;
 mod words;
 
 use std::collections::BTreeMap;
+use std::f64::consts::FRAC_PI_2;
 
-use crate::algebra::{BasisFunction, Poly};
+use crate::algebra::{AlgebraError, BasisFunction, Poly, Rational};
 use crate::chain::{Chain, Factor, ObservableId};
 use crate::forms::{self, FormError};
-use crate::symbol::{SymbolId, SymbolKind};
+use crate::symbol::{Quantity, SymbolId, SymbolKind};
 use elimination::{Echelon, TooLarge, entry};
 use modular::Row;
 
 pub use candidate::{Candidate, Mistaken, Verdict, mistaken_for};
 pub use words::{mistaken_text, text};
+
+/// What a value is off its own number of quarter turns at most, as a share of it, where only rounding is between them.
+const ROUNDED: f64 = 4.0 * f64::EPSILON;
+
+/// Quarter turns at most that count as such: beyond, any number is near some.
+const MOST_QUARTERS: f64 = 16.0;
 
 /// What can be told apart from an observable, or from several together, to first order.
 #[derive(Debug, Clone, PartialEq)]
@@ -167,6 +174,7 @@ fn equations(
     mut echelon: Echelon,
 ) -> Result<Echelon, IdentifyError> {
     let mut equations: Vec<Row> = Vec::new();
+    let special = special(chain);
     let varies = |symbol: SymbolId| {
         matches!(chain.symbol(symbol).kind, SymbolKind::Joint | SymbolKind::Input | SymbolKind::Ramp)
     };
@@ -177,7 +185,9 @@ fn equations(
             for (index, error) in errors.iter().enumerate() {
                 let column = columns.iter().find(|(symbol, _)| symbol == error);
                 let Some((_, components)) = column else { continue };
-                for (function, coefficient) in without_zeros(chain, &components[axis]).split_by(varies) {
+                for (function, coefficient) in
+                    put_in_where_possible(&components[axis], &special).split_by(varies)
+                {
                     rows.entry(function).or_default().push((index, coefficient));
                 }
             }
@@ -212,17 +222,40 @@ fn without_placement(chain: &Chain, observable: ObservableId) -> Chain {
     chain
 }
 
-/// Constants that are declared as zero are zero, where the algebra can put that in.
-fn without_zeros(chain: &Chain, column: &Poly) -> Poly {
-    let zero = |symbol: &SymbolId| {
-        let symbol = chain.symbol(*symbol);
-        symbol.kind == SymbolKind::Constant && symbol.value == Some(0.0)
+/// The constants for whose declared values special relations hold, with what they are: zero, and of angles quarter turns, as a
+/// body is turned onto the next axis.
+pub(crate) fn special(chain: &Chain) -> Vec<(SymbolId, Poly)> {
+    let value = |id: SymbolId| {
+        let symbol = chain.symbol(id);
+        let value = symbol.value?;
+        if value == 0.0 {
+            return Some(Poly::zero());
+        }
+        if symbol.quantity != Quantity::Angle {
+            return None;
+        }
+        let quarters = (value / FRAC_PI_2).round();
+        let is_quarters = (value - quarters * FRAC_PI_2).abs() <= ROUNDED * value.abs();
+        let count =
+            if is_quarters && quarters.abs() <= MOST_QUARTERS { quarters as i64 } else { return None };
+        Some(Poly::symbol(SymbolId::PI).scale(&Rational::new(count, 2)?))
     };
-    column
-        .symbols()
-        .iter()
-        .filter(|symbol| zero(symbol))
-        .fold(column.clone(), |column, symbol| column.substitute(*symbol, &Poly::zero()).unwrap_or(column))
+    chain.symbols_of(SymbolKind::Constant).filter_map(|id| Some((id, value(id)?))).collect()
+}
+
+/// A formula with values put in for constants.
+///
+/// # Errors
+/// They make a divisor zero.
+pub(crate) fn put_in(formula: &Poly, values: &[(SymbolId, Poly)]) -> Result<Poly, AlgebraError> {
+    values.iter().try_fold(formula.clone(), |formula, (symbol, value)| formula.substitute(*symbol, value))
+}
+
+/// The same with those values that the algebra can put in.
+fn put_in_where_possible(formula: &Poly, values: &[(SymbolId, Poly)]) -> Poly {
+    values.iter().fold(formula.clone(), |formula, (symbol, value)| {
+        formula.substitute(*symbol, value).unwrap_or(formula)
+    })
 }
 
 /// The influence of an error as a combination of the pivots' influences.

@@ -202,6 +202,25 @@ fn what_identify_says_of_single_errors_is_proved() {
     accepted("identify", &text, 6);
 }
 
+/// Where a constant turns one axis onto the next, two errors are one that would be two about axes that are skew.
+#[test]
+fn what_a_quarter_turn_makes_alike_is_proved() {
+    let declared = declared(
+        "chain C {
+            const twist: angle = -90 deg;
+            body a on ground { motion: Rz(q1); motion_error: Ry(skew); }
+            body b on a { position: Rx(twist); motion: Rz(q2); motion_error: Rz(zero); }
+            observe o: direction(1, 0, 0) of b;
+        }",
+    );
+    let mut certificate = Certificate::new(&declared);
+    let id = observable(&declared, "o");
+    let found = identify::identify(declared.chain(), &[id]).expect("a closed form");
+    let [one, other] = &found.alike[0][..] else { panic!("{found:?}") };
+    certificate.alike(id, one.error, other.error, &other.ratio).expect("a certificate");
+    accepted("quarter", &certificate.finish("test"), 3);
+}
+
 /// A wrong term beside a ramp is refuted; a wrong ramp is not: no numbers are put into it.
 #[test]
 fn ramps_are_certified_as_functions_of_their_own() {

@@ -101,3 +101,36 @@ fn twelve_joints_and_a_hundred_and_twenty_errors_are_told_apart_in_time() {
     assert!(found.estimable.len() < 120);
     assert!(seconds < 10.0, "{seconds} s, which loaded machines take too");
 }
+
+/// An arm whose second axis is turned against the first by a constant.
+fn twisted(twist: &str) -> Chain {
+    Chain::from_text(&format!(
+        "chain Arm {{
+            const twist: angle = {twist};
+            body link1 on ground {{ motion: Rz(q1); motion_error: Ry(skew), Rz(zero1); }}
+            body link2 on link1 {{ position: Rx(twist); motion: Rz(q2); motion_error: Rz(zero2); }}
+            body link3 on link2 {{ position: Rx(twist), Ry(twist); motion: Ry(q3); motion_error: Ry(zero3), Rx(lean); }}
+            observe tool: direction(1, 0, 0) of link3;
+        }}"
+    ))
+    .unwrap()
+}
+
+/// A quarter turn is known exactly however it is written, and what it makes one is one; an angle near it makes two.
+#[test]
+fn what_quarter_turns_make_one_is_one() {
+    let turns = ["pi/2", "-pi/2", "90 deg", "270 deg", "pi", "-1.5*pi", "0"];
+    let mut fewer = 0;
+    for twist in turns {
+        let chain = twisted(twist);
+        let found = identify(&chain, &[ObservableId(0)]).unwrap();
+        assert_eq!(found.estimable.len(), rank_of_numbers(&chain), "{twist}");
+        fewer += usize::from(found.estimable.len() < found.declared);
+    }
+    assert!(fewer >= 4, "{fewer}");
+    for twist in ["89.9 deg", "1.5", "60 deg"] {
+        let chain = twisted(twist);
+        let found = identify(&chain, &[ObservableId(0)]).unwrap();
+        assert_eq!(found.estimable.len(), rank_of_numbers(&chain), "{twist}");
+    }
+}

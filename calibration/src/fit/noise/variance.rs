@@ -3,6 +3,8 @@
 //!
 //! The functions are made anew block by block whenever they are asked for: of many rows they would need more memory than the rows.
 //!
+//! Each joint and each range has to earn its functions.
+//!
 //! Source: A. C. Harvey, Estimating Regression Models with Multiplicative Heteroscedasticity, Econometrica 44 (1976):
 //! maximum likelihood by Fisher scoring.
 
@@ -65,43 +67,39 @@ fn of_components<I: Iterator<Item = (f64, f64)>>(
     rows: usize,
     own: impl Fn(usize) -> I + Sync,
 ) -> Option<(VarianceModel, Vec<f64>)> {
-    let terms: Vec<VarianceTerm> = sources.iter().flat_map(Source::terms).collect();
     // Components of a row share its functions, so a row counts once, with how many it has and the sum of their squares.
     let add = |[count, sum]: [f64; 2], (left, value): (f64, f64)| [count + left, sum + value * value];
     let rows: Vec<[f64; 2]> = (0..rows).map(|row| own(row).fold([0.0; 2], add)).collect();
     let [count, squares] =
         rows.iter().fold([0.0; 2], |[count, sum], [own, square]| [count + own, sum + square]);
-    if terms.is_empty() || count < (COMPONENTS_PER_TERM * terms.len()) as f64 {
+    if sources.is_empty() || count < COMPONENTS_PER_TERM as f64 || squares <= 0.0 {
         return None;
     }
-    let level = squares / count;
-    if level <= 0.0 {
-        return None;
-    }
-    let model = Scoring { sources, rows: &rows, means: means(sources, rows.len()), level: level.ln() };
-    let coefficients = model.coefficients();
-    let gain = model.gain(&coefficients);
+    let level = (squares / count).ln();
+    let model = Scoring { sources, rows: &rows, means: means(sources, rows.len()), level };
     // Heavy tails make variances look uneven: the likelihood ratio is scaled by what the fourth moment says.
-    let excess = model.sums(&coefficients, 1, |block, fitted, sum| {
-        for (row, fitted) in block.zip(fitted).filter(|&(row, _)| rows[row][0] > 0.0) {
-            let variance = fitted.exp();
-            let ratio = |(left, value): (f64, f64)| (value * value / variance / left - 1.0).powi(2) * left;
-            sum[0] += own(row).filter(|(left, _)| *left > ALONE).map(ratio).sum::<f64>();
-        }
-    })[0]
-        / count
-        / 2.0;
-    if gain / excess.max(1.0) < terms.len() as f64 * count.ln() {
-        return None;
-    }
+    let excess = |coefficients: &[f64]| {
+        let sum = model.sums(coefficients, 1, |block, fitted, sum| {
+            for (row, fitted) in block.zip(fitted).filter(|&(row, _)| rows[row][0] > 0.0) {
+                let variance = fitted.exp();
+                let ratio =
+                    |(left, value): (f64, f64)| (value * value / variance / left - 1.0).powi(2) * left;
+                sum[0] += own(row).filter(|(left, _)| *left > ALONE).map(ratio).sum::<f64>();
+            }
+        })[0];
+        (sum / count / 2.0).max(1.0)
+    };
+    let Chosen { sources: chosen, coefficients } = model.chosen(count, excess)?;
     let factor = |fitted: f64| ((fitted - coefficients[0]).clamp(-REACH, REACH) / 2.0).exp();
     let factors = blocks(rows.len()).into_par_iter().map(|block| {
         let fitted = model.fitted(&model.functions(&block), &coefficients);
         fitted.into_iter().map(factor).collect::<Vec<f64>>()
     });
     let factors: Vec<Vec<f64>> = factors.collect();
-    let terms = terms.into_iter().zip(coefficients[1..].iter().copied()).collect();
-    Some((VarianceModel { of, terms }, factors.concat()))
+    let of_source = |number: usize| {
+        sources[number].terms().into_iter().zip(coefficients[model.of_source(number)].iter().copied())
+    };
+    Some((VarianceModel { of, terms: chosen.into_iter().flat_map(of_source).collect() }, factors.concat()))
 }
 
 /// Readings with the functions that are made of them.
@@ -120,6 +118,11 @@ impl Source<'_> {
             }
             Self::Range(id, _) => vec![VarianceTerm::LogRange(id)],
         }
+    }
+
+    /// How many there are of them.
+    fn count(&self) -> usize {
+        self.terms().len()
     }
 
     /// The functions over some rows.
@@ -176,6 +179,13 @@ fn added(parts: Vec<Vec<f64>>) -> Vec<f64> {
     parts.into_iter().reduce(add).unwrap_or_default()
 }
 
+/// The readings that a variance depends on, and the coefficients of all functions, zero for those of others.
+struct Chosen {
+    /// By their numbers, in order.
+    sources: Vec<usize>,
+    coefficients: Vec<f64>,
+}
+
 /// Fisher scoring of one set of residuals.
 struct Scoring<'a> {
     sources: &'a [Source<'a>],
@@ -224,9 +234,58 @@ impl Scoring<'_> {
         added(blocks(self.rows.len()).into_par_iter().map(of_block).collect())
     }
 
-    /// The constant and the coefficient of each function at the maximum of the likelihood.
-    fn coefficients(&self) -> Vec<f64> {
-        let independent = Independent::of(&self.factor());
+    /// The readings that the data bear out, one after the other, that which promises most always next: a variance that grows with
+    /// the range shall not follow whatever the joints did by chance. `None` if there are none. The choice among readings costs as
+    /// much as a coefficient.
+    ///
+    /// Source for what one promises: C. R. Rao, Large sample tests of statistical hypotheses concerning several parameters,
+    /// Mathematical Proceedings of the Cambridge Philosophical Society 44 (1948).
+    fn chosen(&self, count: f64, excess: impl Fn(&[f64]) -> f64) -> Option<Chosen> {
+        let factor = self.factor();
+        let mut chosen = Chosen { sources: Vec::new(), coefficients: vec![0.0; factor.ncols()] };
+        chosen.coefficients[0] = self.level;
+        let mut gained = 0.0;
+        let price = |terms: usize| (1 + terms) as f64 * count.ln();
+        loop {
+            let score = self.score(&chosen.coefficients);
+            let active = self.columns(&chosen.sources);
+            let room = count / COMPONENTS_PER_TERM as f64 - (active.len() - 1) as f64;
+            let others = (0..self.sources.len()).filter(|number| !chosen.sources.contains(number));
+            let promising = others.filter(|&number| self.of_source(number).len() as f64 <= room);
+            let promise = |number: usize| {
+                let own = self.of_source(number);
+                let all: Vec<usize> = active.iter().copied().chain(own.clone()).collect();
+                Independent::of(&factor, &all).promise(&score, &own) - price(own.len())
+            };
+            let best = promising.map(|number| (promise(number), number));
+            let best = best.max_by(|(a, _), (b, _)| a.total_cmp(b)).filter(|(promise, _)| *promise > 0.0);
+            let Some((_, next)) = best else { break };
+            let mut sources = chosen.sources.clone();
+            sources.push(next);
+            sources.sort_unstable();
+            let coefficients = self.coefficients(&Independent::of(&factor, &self.columns(&sources)));
+            let gain = self.gain(&coefficients);
+            if (gain - gained) / excess(&coefficients) < price(self.of_source(next).len()) {
+                break;
+            }
+            (gained, chosen) = (gain, Chosen { sources, coefficients });
+        }
+        (!chosen.sources.is_empty()).then_some(chosen)
+    }
+
+    /// Where the functions of a source stand among all, the constant first.
+    fn of_source(&self, number: usize) -> Range<usize> {
+        let before: usize = self.sources[..number].iter().map(Source::count).sum();
+        1 + before..1 + before + self.sources[number].count()
+    }
+
+    /// The constant and the functions of some sources.
+    fn columns(&self, sources: &[usize]) -> Vec<usize> {
+        std::iter::once(0).chain(sources.iter().flat_map(|&number| self.of_source(number))).collect()
+    }
+
+    /// The constant and the coefficient of each function at the maximum of the likelihood; zero for functions that are none of these.
+    fn coefficients(&self, independent: &Independent) -> Vec<f64> {
         let mut coefficients = vec![0.0; independent.width];
         coefficients[0] = self.level;
         for _ in 0..30 {
@@ -299,25 +358,44 @@ struct Independent {
 }
 
 impl Independent {
-    /// Of some columns with their triangular factor.
-    fn of(all: &Mat<f64>) -> Self {
+    /// Of some columns, in their order, of all with their triangular factor.
+    fn of(all: &Mat<f64>, wanted: &[usize]) -> Self {
         let width = all.ncols();
-        let is_own = |&j: &usize| all[(j, j)].abs() > DEPENDENT * all.col(j).norm_l2();
-        let columns: Vec<usize> = (0..width).filter(is_own).collect();
-        let count = columns.len();
-        let own = Mat::from_fn(width, count + 1, |i, j| columns.get(j).map_or(0.0, |&j| all[(i, j)]));
-        let factor = Partial::new(count).with_rows(own.as_ref()).factor();
-        Self { factor: factor.submatrix(0, 0, count, count).to_owned(), columns, width }
+        let triangle = |columns: &[usize]| {
+            let count = columns.len();
+            let own = Mat::from_fn(width, count + 1, |i, j| columns.get(j).map_or(0.0, |&j| all[(i, j)]));
+            let factor = Partial::new(count).with_rows(own.as_ref()).factor();
+            factor.submatrix(0, 0, count, count).to_owned()
+        };
+        let of_wanted = triangle(wanted);
+        let is_own =
+            |&(at, _): &(usize, &usize)| of_wanted[(at, at)].abs() > DEPENDENT * of_wanted.col(at).norm_l2();
+        let columns: Vec<usize> =
+            wanted.iter().enumerate().filter(is_own).map(|(_, &column)| column).collect();
+        Self { factor: triangle(&columns), columns, width }
+    }
+
+    /// What the last of the columns promise to gain in twice the log-likelihood, with this derivative by all.
+    fn promise(&self, score: &[f64], last: &Range<usize>) -> f64 {
+        let own = self.columns.iter().zip(self.halfway(score)).filter(|(column, _)| last.contains(column));
+        own.map(|(_, value)| value * value).sum::<f64>() / 2.0
+    }
+
+    /// The solution of Rᵀx = b.
+    fn halfway(&self, b: &[f64]) -> Vec<f64> {
+        let r = &self.factor;
+        let mut x: Vec<f64> = self.columns.iter().map(|&column| b[column]).collect();
+        for j in 0..self.columns.len() {
+            let before: f64 = (0..j).map(|i| r[(i, j)] * x[i]).sum();
+            x[j] = (x[j] - before) / r[(j, j)];
+        }
+        x
     }
 
     /// The solution of RᵀRx = b, zero for the other columns.
     fn solved(&self, b: &[f64]) -> Vec<f64> {
         let (r, count) = (&self.factor, self.columns.len());
-        let mut x: Vec<f64> = self.columns.iter().map(|&column| b[column]).collect();
-        for j in 0..count {
-            let before: f64 = (0..j).map(|i| r[(i, j)] * x[i]).sum();
-            x[j] = (x[j] - before) / r[(j, j)];
-        }
+        let mut x = self.halfway(b);
         for i in (0..count).rev() {
             let behind: f64 = (i + 1..count).map(|j| r[(i, j)] * x[j]).sum();
             x[i] = (x[i] - behind) / r[(i, i)];
@@ -340,7 +418,7 @@ mod tests {
             rows[(i, 2)] = 3.0 * rows[(i, 0)];
         }
         let factor = Partial::new(4).with_rows(rows.as_ref()).factor();
-        let independent = Independent::of(&factor.submatrix(0, 0, 4, 4).to_owned());
+        let independent = Independent::of(&factor.submatrix(0, 0, 4, 4).to_owned(), &[0, 1, 2, 3]);
         let products = rows.transpose() * &rows;
         let b: Vec<f64> = (0..4).map(|j| products[(j, 4)]).collect();
         let x = independent.solved(&b);

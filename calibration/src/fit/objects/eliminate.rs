@@ -11,7 +11,7 @@
 //! Source: G. H. Golub, V. Pereyra, Separable nonlinear least squares: the variable projection method and its
 //! applications, Inverse Problems 19 (2003) R1-R26; eliminated block by block as in a bundle adjustment.
 
-use faer::Mat;
+use faer::{Mat, MatRef};
 use rayon::prelude::*;
 
 use super::gathered::Gathered;
@@ -135,6 +135,14 @@ impl Eliminated {
         let mut partial = Partial::new(columns).with_rows(rest.as_ref());
         partial.components = components;
         Self { partial, taken, objective, triangles }
+    }
+
+    /// The triangle of the stations' numbers, with the chain's columns and the residual behind them.
+    pub(super) fn of_stations(&self) -> MatRef<'_, f64> {
+        match self.triangles.first() {
+            Some(stations) => stations.factor.as_ref(),
+            None => unreachable!("the stations' triangle comes first, be it empty"),
+        }
     }
 
     /// Where objects and stations come to stand when the chain's columns change so, and all goes `stride` times as far as
@@ -343,7 +351,7 @@ impl Sums {
 }
 
 /// The numbers of a station.
-const OF_STATION: usize = WIDTH - OF_OBJECT;
+pub(super) const OF_STATION: usize = WIDTH - OF_OBJECT;
 
 /// Fills a matrix with some numbers of some rows.
 fn fill(matrix: &mut Rows, rows: &[(u32, &[f64])], chosen: impl Iterator<Item = usize>) {

@@ -4,13 +4,16 @@
 //! explain; the stations' after that, as columns that all objects share. What is left is an ordinary problem of the
 //! declared errors, and steps, uncertainties and the search for missing effects see no other.
 //!
-//! What one row shows stands in `seen`, the elimination in `eliminate`, its rotation of whole columns in `reduce`.
+//! What one row shows stands in `seen`, the elimination in `eliminate`, its rotation of whole columns in `reduce`,
+//! and in `followed` what it leaves to each row.
 
 mod eliminate;
+mod followed;
 mod gathered;
 mod reduce;
 mod seen;
 
 pub(crate) use eliminate::{Collected, Eliminated};
+pub(crate) use followed::FollowedShare;
 pub(crate) use reduce::Reduction;
 pub(crate) use seen::{TurnsBy, distance, seen};

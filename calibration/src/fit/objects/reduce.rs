@@ -107,51 +107,30 @@ impl Reduction {
 }
 
 impl Reduction {
-    /// Takes out of whitened columns what objects and stations explain of them, in place. Returns of each component the share
-    /// of a residual of its own that objects and stations follow.
+    /// Takes out of whitened columns what objects and stations explain of them, in place.
     pub fn project(
         &self,
         unknowns: &Unknowns,
         row: &[u32],
         unknown: &[[f64; WIDTH]],
         columns: &mut Mat<f64>,
-    ) -> Vec<f64> {
+    ) {
         self.take_out(columns);
         let mut stations = unknowns.station_columns(row, unknown);
         for column in stations.col_iter_mut() {
             column.iter_mut().zip(&self.scale).for_each(|(value, scale)| *value *= scale);
         }
         self.take_out(&mut stations);
-        let mut followed = self.followed();
         let root = root(&products(&stations, &stations));
         let taken = &root * (root.transpose() * products(&stations, columns));
-        let parts = in_chunks(stations.nrows(), |rows| {
-            let own = stations.subrows(rows.start, rows.len());
-            (own * &taken, own * &root)
-        });
+        let parts = in_chunks(stations.nrows(), |rows| stations.subrows(rows.start, rows.len()) * &taken);
         let mut at = 0;
-        for (explained, basis) in parts {
+        for explained in parts {
             let count = explained.nrows();
             let mut columns = columns.subrows_mut(at, count);
             columns -= &explained;
-            for column in basis.col_iter() {
-                let own = followed[at..].iter_mut().zip(column.iter());
-                own.for_each(|(share, value)| *share += value * value);
-            }
             at += count;
         }
-        followed
-    }
-
-    /// Of each component the share of a residual of its own that its object follows.
-    fn followed(&self) -> Vec<f64> {
-        let mut followed = vec![0.0; self.scale.len()];
-        for turned in &self.turned {
-            for unit in &turned.units {
-                turned.at.iter().zip(unit).for_each(|(&at, value)| followed[at] += value * value);
-            }
-        }
-        followed
     }
 
     /// Takes out of whitened columns what objects explain of them.
@@ -247,7 +226,7 @@ impl Turned {
 }
 
 /// Whitened unit columns that span what an object moves: what reflections make of the first of their coordinates.
-fn units(reflections: &Mat<f64>, moves: &[bool]) -> Vec<Vec<f64>> {
+pub(super) fn units(reflections: &Mat<f64>, moves: &[bool]) -> Vec<Vec<f64>> {
     let moving = || (0..moves.len()).filter(|&number| moves[number]);
     let unit = |number: usize| {
         let mut unit = vec![0.0; reflections.nrows()];
@@ -263,7 +242,7 @@ fn units(reflections: &Mat<f64>, moves: &[bool]) -> Vec<Vec<f64>> {
 }
 
 /// Turns a matrix into a triangle in place; the reflections, and which columns had anything of their own.
-fn reflected(matrix: &mut Mat<f64>) -> (Mat<f64>, Vec<bool>) {
+pub(super) fn reflected(matrix: &mut Mat<f64>) -> (Mat<f64>, Vec<bool>) {
     let (rows, columns) = matrix.shape();
     let mut reflections = Mat::zeros(rows, columns);
     let mut moves = vec![false; columns];
@@ -315,15 +294,6 @@ mod tests {
         let explained =
             |i: usize| (0..3).map(|j| (1.0 + (i % 2) as f64) * (j as f64 + 1.0) * unknown[i][j]).sum::<f64>();
         let physical: Vec<f64> = (0..12).map(|i| if i == 5 { 3.0 } else { explained(i) }).collect();
-        // What each component's own residual leaves of itself.
-        let followed = reduction.followed();
-        for (at, followed) in followed.iter().enumerate() {
-            let mut unit = Mat::from_fn(12, 1, |row, _| f64::from(u8::from(row == at)));
-            reduction.take_out(&mut unit);
-            assert!((1.0 - unit[(at, 0)] - followed).abs() < 1e-12, "{at}: {unit:?}");
-        }
-        // Sines of three phases are sums of two, for each object.
-        assert!((followed.iter().sum::<f64>() - 4.0).abs() < 1e-12 && followed[5] == 0.0, "{followed:?}");
         let mut white: Vec<f64> = physical.iter().zip(&scale).map(|(value, scale)| value * scale).collect();
         reduction.reduce(&mut white);
         let left: f64 = white.iter().enumerate().filter(|(i, _)| *i != 5).map(|(_, x)| x * x).sum();

@@ -141,6 +141,12 @@ pub enum DataError {
         /// Where.
         cell: Cell,
     },
+    /// A cell that says what a row observes, or from where, without anything in it.
+    #[error("{cell}: the cell is empty: fill in the label, or leave the row out")]
+    NoLabel {
+        /// Where.
+        cell: Cell,
+    },
     /// NaN or an infinity.
     #[error("{cell}: `{text}` is not finite: fill in a number, or leave the row out")]
     NotFinite {

@@ -1,5 +1,5 @@
-//! What is doubtful of rows that observe objects: rows that say nothing, planes seen head-on alone, labels that are likely
-//! swapped.
+//! What is doubtful of rows: that they repeat others; and of those that observe objects, that they say nothing, that they see a
+//! plane head-on alone, that their labels are likely swapped.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -36,6 +36,15 @@ pub enum Remark {
         /// How far from the normal a beam meets it at most, degrees.
         most_deg: f64,
     },
+    /// Rows that repeat others number by number, and were left out.
+    Repeated {
+        /// How many.
+        rows: usize,
+        /// The first of them, counted from 1 without the header.
+        first: u64,
+        /// The row that it repeats.
+        of: u64,
+    },
     /// Rows of one object that lie where another is.
     Swapped {
         /// The label that they bear.
@@ -65,6 +74,14 @@ impl fmt::Display for Remark {
                 f,
                 "the plane `{plane}` was seen head-on alone (at most {most_deg:.1} deg from its normal): it shows ranges and \
                  hardly any angle; aim at it obliquely too"
+            ),
+            Self::Repeated { rows: 1, first, of } => {
+                write!(f, "row {first} repeats row {of} number by number: it was left out")
+            }
+            Self::Repeated { rows, first, of } => write!(
+                f,
+                "{rows} rows repeat others number by number, the first of them row {first}, which is row {of} again: they were left \
+                 out; was the file written twice?"
             ),
             Self::Swapped { one, other, rows: [there, 0], first } => write!(
                 f,

@@ -140,22 +140,20 @@ fn place_stations(unknowns: &mut Unknowns, rows: &[Row]) -> Result<(), StartErro
     };
     let mut there: Vec<Option<Vector3<f64>>> =
         unknowns.objects.iter().map(|object| (object.known == Known::Yes).then_some(object.place)).collect();
-    let is_placed = |unknowns: &Unknowns, at: usize| unknowns.stations[at].known == Known::Yes;
-    let take_over = |unknowns: &Unknowns, there: &mut Vec<Option<Vector3<f64>>>, station: usize| {
-        for (object, place) in there.iter_mut().enumerate() {
-            if let (None, Some(point)) = (&place, seen(station, object)) {
-                *place = Some(unknowns.stations[station].pose.apply(&point));
-            }
-        }
-    };
     for station in 0..stations {
-        if is_placed(unknowns, station) {
-            take_over(unknowns, &mut there, station);
+        if unknowns.stations[station].known == Known::Yes {
+            take_over(unknowns, &mut there, &seen, station);
         }
     }
-    let nothing_known = there.iter().all(Option::is_none)
-        && rows.iter().all(|row| unknowns.stations[row.station].known == Known::No);
+    let laid_on_known = |station: usize| {
+        let known = (0..objects).filter(|&at| there[at].is_some());
+        !is_in_a_line(&known.filter_map(|at| seen(station, at)).collect::<Vec<_>>())
+    };
+    let nothing_known = rows.iter().all(|row| unknowns.stations[row.station].known == Known::No)
+        && !(0..stations).any(laid_on_known);
     if nothing_known && stations > 0 {
+        // Objects that are known, but too few to place a station by, say where all of them are in the end.
+        let known = std::mem::replace(&mut there, vec![None; objects]);
         let watched = |station: &usize| {
             let targets = sums[*station].iter().filter(|(_, count)| *count > 0.0).count();
             let own = rows.iter().filter(|row| row.station == *station).count();
@@ -163,8 +161,41 @@ fn place_stations(unknowns: &mut Unknowns, rows: &[Row]) -> Result<(), StartErro
         };
         let most = (0..stations).max_by_key(watched).unwrap_or(0);
         unknowns.stations[most].known = Known::Yes;
-        take_over(unknowns, &mut there, most);
+        take_over(unknowns, &mut there, &seen, most);
+        place_by_shared(unknowns, &mut there, &seen)?;
+        let (from, to): (Vec<_>, Vec<_>) =
+            there.iter().zip(&known).filter_map(|(from, to)| Some(((*from)?, (*to)?))).unzip();
+        let moved = onto(&from, &to);
+        for station in unknowns.stations.iter_mut() {
+            station.pose =
+                Pose { turn: moved.turn * station.pose.turn, shift: moved.apply(&station.pose.shift) };
+        }
+        return Ok(());
     }
+    place_by_shared(unknowns, &mut there, &seen)
+}
+
+/// The motion that brings points, of which there are few or which lie in a line, onto others: no further turned than it takes.
+fn onto(from: &[Vector3<f64>], to: &[Vector3<f64>]) -> Pose {
+    let centre = |points: &[Vector3<f64>]| points.iter().sum::<Vector3<f64>>() / points.len().max(1) as f64;
+    let (start, end) = (centre(from), centre(to));
+    let furthest = |points: &[Vector3<f64>]| {
+        (0..points.len()).max_by(|&a, &b| (points[a] - start).norm().total_cmp(&(points[b] - start).norm()))
+    };
+    let turn = furthest(from)
+        .and_then(|at| Rotation3::rotation_between(&(from[at] - start), &(to[at] - end)))
+        .unwrap_or_else(Rotation3::identity);
+    Pose { turn, shift: end - turn * start }
+}
+
+/// Stations by the targets that they share with those that are placed.
+fn place_by_shared(
+    unknowns: &mut Unknowns,
+    there: &mut [Option<Vector3<f64>>],
+    seen: &impl Fn(usize, usize) -> Option<Vector3<f64>>,
+) -> Result<(), StartError> {
+    let (stations, objects) = (unknowns.stations.len(), there.len());
+    let is_placed = |unknowns: &Unknowns, at: usize| unknowns.stations[at].known == Known::Yes;
     while let Some((shared, station)) = (0..stations)
         .filter(|&station| !is_placed(unknowns, station))
         .map(|station| {
@@ -185,9 +216,23 @@ fn place_stations(unknowns: &mut Unknowns, rows: &[Row]) -> Result<(), StartErro
         let own = &mut unknowns.stations[station];
         own.pose = Pose { turn: Rotation3::from_matrix_unchecked(turn), shift };
         own.known = Known::Yes;
-        take_over(unknowns, &mut there, station);
+        take_over(unknowns, there, seen, station);
     }
     Ok(())
+}
+
+/// Objects that nothing placed yet are where a station that is placed sees them.
+fn take_over(
+    unknowns: &Unknowns,
+    there: &mut [Option<Vector3<f64>>],
+    seen: &impl Fn(usize, usize) -> Option<Vector3<f64>>,
+    station: usize,
+) {
+    for (object, place) in there.iter_mut().enumerate() {
+        if let (None, Some(point)) = (&place, seen(station, object)) {
+            *place = Some(unknowns.stations[station].pose.apply(&point));
+        }
+    }
 }
 
 /// Whether points leave a turn about their line open.

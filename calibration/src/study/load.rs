@@ -9,6 +9,7 @@ use super::columns::Columns;
 use super::labels::{Numbered, number};
 use super::orientation::UNIT_TOLERANCE;
 use super::plan::{Plan, Reading, SourcePlan};
+use super::repeated::without_repeats;
 use super::rows::Rows;
 use super::stated::{of_components, of_readings};
 use super::written::Kind;
@@ -35,7 +36,7 @@ pub struct Loaded {
     pub held_out: Option<Observations>,
     /// Columns that were taken as SI, since nothing says their unit, and whose numbers are hardly in SI.
     pub doubtful: Vec<BareColumn>,
-    /// What is doubtful of rows that observe objects.
+    /// What is doubtful of rows.
     pub remarks: Vec<Remark>,
 }
 
@@ -77,9 +78,11 @@ impl Plan {
             }
             _ => None,
         };
-        let remarks = self
+        let (mut observations, repeated) = without_repeats(observations);
+        let of_objects = self
             .place_objects(&mut observations)
             .map_err(|error| DataError::NotPlaced { why: error.to_string() })?;
+        let remarks = repeated.into_iter().chain(of_objects).collect();
         Ok(Loaded { observations, held_out, doubtful, remarks })
     }
 

@@ -22,6 +22,7 @@ mod observed;
 mod orientation;
 mod places;
 mod plan;
+mod repeated;
 mod rows;
 mod shown;
 mod sights;

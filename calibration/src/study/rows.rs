@@ -4,7 +4,7 @@ use super::columns::Columns;
 use super::plan::{Plan, SourcePlan};
 use crate::data::units::BareColumn;
 use crate::data::{Numbers, Places};
-use crate::formats::{Cells, DataError, Form, TableReader};
+use crate::formats::{Cell, Cells, DataError, Form, TableReader};
 
 /// Rows that are read at a time.
 const CHUNK: usize = 1 << 16;
@@ -59,7 +59,8 @@ impl Rows {
             self.row_numbers.extend(chunk.rows.iter().map(|row| before + row));
             let lines = chunk.lines.iter().copied().chain(std::iter::repeat(0));
             self.places.extend(file, lines.take(chunk.rows.len()));
-            let (mut numbers, mut labels) = (self.numbers.iter_mut().enumerate(), self.labels.iter_mut());
+            let mut numbers = self.numbers.iter_mut().enumerate();
+            let mut labels = self.labels.iter_mut().zip(&columns.labels);
             for cells in chunk.columns {
                 match cells {
                     Cells::Numbers(values) => {
@@ -71,9 +72,14 @@ impl Rows {
                         column.extend(&values);
                     }
                     Cells::Labels(values) => {
-                        let values = values.iter().map(|label| label.trim().to_owned());
-                        let Some(column) = labels.next() else { continue };
-                        for label in values {
+                        let Some((column, name)) = labels.next() else { continue };
+                        let says_what = source.object.contains(name) || source.station.contains(name);
+                        for (at, label) in values.iter().map(|label| label.trim().to_owned()).enumerate() {
+                            if says_what && label.is_empty() {
+                                let (file, column) = (reader.source().to_owned(), name.clone());
+                                let (line, row) = (chunk.lines.get(at).copied(), chunk.rows[at]);
+                                return Err(DataError::NoLabel { cell: Cell { file, line, row, column } });
+                            }
                             self.bytes += label.len() + size_of::<String>();
                             column.push(label);
                         }

@@ -1,0 +1,130 @@
+//! Rows that repeat others number by number: a file pasted twice, a line that a logger wrote again.
+//!
+//! They are no observations of their own; counted as such they would make the ± of what they say too small, and show a structure
+//! that no instrument has. Where readings have few digits, rows repeat each other by chance; then as many differ in one number
+//! alone, and follow each other in no order.
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use rayon::prelude::*;
+
+use crate::data::{Measured, Observations};
+use crate::objects::Remark;
+
+/// So many rows that follow each other and repeat others that do are no chance.
+const IN_ORDER: usize = 8;
+
+/// Rows at least that one processor looks through.
+const AT_ONCE: usize = 4096;
+
+/// The observations without rows that repeat earlier ones, and what is to be said of these.
+pub(super) fn without_repeats(observations: Observations) -> (Observations, Option<Remark>) {
+    let numbers = Numbers::of(&observations);
+    let repeats = numbers.repeats();
+    let Some(&[of, first]) = repeats.first() else { return (observations, None) };
+    let mut is_repeat = vec![false; observations.rows()];
+    repeats.iter().for_each(|[_, row]| is_repeat[*row] = true);
+    let kept: Vec<usize> = (0..observations.rows()).filter(|&row| !is_repeat[row]).collect();
+    if longest_in_order(&repeats) < IN_ORDER && numbers.differ_in_one(&kept) >= repeats.len() {
+        return (observations, None);
+    }
+    let [of, first] = [of, first].map(|row| observations.row_number(row));
+    let remark = Remark::Repeated { rows: repeats.len(), first, of };
+    (observations.select(&kept), Some(remark))
+}
+
+/// How many repeats follow each other as what they repeat does.
+fn longest_in_order(repeats: &[[usize; 2]]) -> usize {
+    let follows = |a: &[usize; 2], b: &[usize; 2]| a[0] + 1 == b[0] && a[1] + 1 == b[1];
+    repeats.chunk_by(follows).map(<[_]>::len).max().unwrap_or(0)
+}
+
+/// What makes rows the same.
+struct Numbers<'a> {
+    observations: &'a Observations,
+    /// The number of each row's series.
+    series: Vec<u32>,
+    /// Whether a group was declared: rows of different groups are different rows.
+    has_groups: bool,
+}
+
+impl<'a> Numbers<'a> {
+    fn of(observations: &'a Observations) -> Self {
+        let all = observations.poses.series.iter().zip(0..);
+        let series =
+            all.flat_map(|(series, number)| std::iter::repeat_n(number, series.rows.len())).collect();
+        Self { observations, series, has_groups: !observations.rows_are_alone() }
+    }
+
+    /// How many numbers a row has; what was measured counts as one.
+    fn count(&self) -> usize {
+        self.observations.poses.columns.len() + 1
+    }
+
+    /// All that a row is, but for one of its numbers if that is to be left out.
+    fn key(&self, row: usize, without: Option<usize>) -> Vec<u64> {
+        let own = self.observations;
+        let mut key = vec![u64::from(self.series[row])];
+        if let Some(unknowns) = &own.unknowns {
+            key.extend([unknowns.object[row].map_or(u64::MAX, u64::from), u64::from(unknowns.station[row])]);
+        }
+        if self.has_groups {
+            key.push(u64::from(own.groups[row]));
+        }
+        let readings = own.poses.columns.iter().enumerate();
+        let readings = readings.filter(|&(at, _)| without != Some(at));
+        key.extend(readings.map(|(_, (_, values))| values[row].to_bits()));
+        if without != Some(own.poses.columns.len()) {
+            let mut add = |values: &[f64]| key.extend(values.iter().map(|value| value.to_bits()));
+            match &own.measured[row] {
+                Measured::Direction(vector) | Measured::Point(vector) => add(vector.as_slice()),
+                Measured::Orientation(turn) => add(turn.coords.as_slice()),
+                Measured::Range { range_m: value }
+                | Measured::Azimuth { azimuth_rad: value }
+                | Measured::Length { length_m: value } => add(&[*value]),
+                Measured::Readings => {}
+            }
+        }
+        key
+    }
+
+    /// Rows brought together by what they are, each lot in order.
+    fn sorted(
+        &self,
+        rows: impl IntoParallelIterator<Item = usize>,
+        without: Option<usize>,
+    ) -> Vec<(u64, u32)> {
+        let hash = |row: usize| {
+            let mut hasher = DefaultHasher::new();
+            self.key(row, without).hash(&mut hasher);
+            (hasher.finish(), row as u32)
+        };
+        let mut sorted: Vec<(u64, u32)> = rows.into_par_iter().map(hash).collect();
+        sorted.par_sort_unstable();
+        sorted
+    }
+
+    /// Rows that are the same as an earlier one, with the first of these, in order.
+    fn repeats(&self) -> Vec<[usize; 2]> {
+        let rows = self.observations.rows();
+        let all = self.sorted((0..rows).into_par_iter().with_min_len(AT_ONCE), None);
+        let mut repeats = Vec::new();
+        for lot in all.chunk_by(|a, b| a.0 == b.0).filter(|lot| lot.len() > 1) {
+            let first = lot[0].1 as usize;
+            let key = self.key(first, None);
+            let others = lot[1..].iter().map(|&(_, row)| row as usize);
+            repeats.extend(others.filter(|&row| self.key(row, None) == key).map(|row| [first, row]));
+        }
+        repeats.sort_unstable_by_key(|[_, row]| *row);
+        repeats
+    }
+
+    /// How many of some rows differ from another of them in one number alone.
+    fn differ_in_one(&self, rows: &[usize]) -> usize {
+        let alike = |number: usize| {
+            let sorted = self.sorted(rows.par_iter().copied(), Some(number));
+            sorted.chunk_by(|a, b| a.0 == b.0).filter(|lot| lot.len() > 1).map(<[_]>::len).sum::<usize>()
+        };
+        (0..self.count()).map(alike).sum()
+    }
+}

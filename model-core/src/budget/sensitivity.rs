@@ -107,6 +107,9 @@ impl Sensitivity {
         values: &[f64],
         pose: impl Fn() -> String,
     ) -> Result<(), BudgetError> {
+        let mut with_ramps = values.to_vec();
+        chain.set_ramps(&mut with_ramps);
+        let values = with_ramps.as_slice();
         let place = probe.nominal(values);
         let length = match self.kind {
             ObservableKind::Direction => place.norm(),

@@ -267,3 +267,21 @@ fn what_has_no_closed_form_is_measured() {
     assert_relative_eq!(far.rms, 1e-6 * mean.sqrt(), max_relative = 1e-6);
     assert_relative_eq!(measure("off", "yaw").influences[0].summary.sup, 1e-6, max_relative = 1e-9);
 }
+
+/// Beyond a ramp its error is there in full, in the columns as in the curves.
+#[test]
+fn an_error_behind_a_ramp_has_its_column() {
+    let chain = Chain::from_text(
+        "chain M { body az on ground { motion: Rz(a); motion_error: Rz(give*ramp(a, 10 deg, 20 deg)); }
+            observe sight: direction(0, 1, 0) of az; }",
+    )
+    .unwrap();
+    let (a, sight) = (chain.find_symbol("a").unwrap(), observable(&chain, "sight"));
+    let sizes = sizes(&chain, &[("give", 1e-4)]);
+    let readings = [(a, [5.0_f64, 15.0, 45.0].map(f64::to_radians).to_vec())];
+    let found = Sensitivity::at(&chain, sight, &sizes, &readings).unwrap();
+    for (pose, share) in [0.0, 0.5, 1.0].into_iter().enumerate() {
+        let column = nalgebra::Vector3::from(found.at_pose(pose)[0]);
+        assert_relative_eq!(column.norm(), share, epsilon = 1e-12);
+    }
+}

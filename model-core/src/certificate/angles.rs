@@ -41,11 +41,12 @@ impl Angles {
             let highest = self.highest.entry(*id).or_default();
             *highest = multiple.max(*highest);
         }
-        if !matches!(angle.node, Node::Symbol(_)) || sum.is_zero() {
-            let text = expression::argument(angle, leaf);
-            if (sum.is_zero() || !is_multiple(angle)) && self.sums.iter().all(|(other, _)| *other != text) {
-                self.sums.push((text, sum));
-            }
+        // Zero, or quarter turns: what is put in for a constant has no name of its own.
+        let is_number = sum.symbols().iter().all(|id| *id == SymbolId::PI);
+        let has_rules = matches!(angle.node, Node::Symbol(_)) || is_multiple(angle);
+        let text = expression::argument(angle, leaf);
+        if (is_number || !has_rules) && self.sums.iter().all(|(other, _)| *other != text) {
+            self.sums.push((text, sum));
         }
         Ok(())
     }

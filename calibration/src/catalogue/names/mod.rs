@@ -95,7 +95,9 @@ type Shape = [Poly; 3];
 
 /// Whether two shapes are one another's multiples by something that no joint or input moves, and not zero.
 fn proportional(setting: &Setting<'_>, a: &Shape, b: &Shape) -> bool {
-    let moves = |id: SymbolId| matches!(setting.chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input);
+    let moves = |id: SymbolId| {
+        matches!(setting.chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input | SymbolKind::Ramp)
+    };
     let parts = |shape: &Shape| shape.each_ref().map(|part| part.split_by(moves));
     let (a, b) = (parts(a), parts(b));
     let functions = |parts: &[Vec<(BasisFunction, Poly)>; 3]| {

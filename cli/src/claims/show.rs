@@ -107,7 +107,11 @@ fn write_form(out: &mut String, written: &Written<'_>, claim: &NamedClaim, form:
         .collect();
     let place = if roots.is_empty() { String::new() } else { format!(", where {}", roots.join(" and ")) };
     let _ = writeln!(out, "    what the chain implies{place}:");
-    for (label, component) in shown.labels().zip(&form.derived) {
+    // Of one number that is claimed, the others were not derived.
+    let is_claimed = |at: usize| claimed.only.is_none_or(|only| only.index() == at);
+    for (_, (label, component)) in
+        shown.labels().zip(&form.derived).enumerate().filter(|&(at, _)| is_claimed(at))
+    {
         let _ = writeln!(out, "        {label}: {}", component.show_by(chain, style, hand));
     }
 }

@@ -141,6 +141,19 @@ pub enum DataError {
         /// Where.
         cell: Cell,
     },
+    /// What is to be held out is fitted as well.
+    #[error(
+        "{file}: {fitted} of its {rows} rows are rows of the data that are fitted, number by number: held out has to be what nobody \
+         fitted; name another file under [hold_out], or leave `file` out, and the data are held out part by part"
+    )]
+    NotHeldOut {
+        /// The file.
+        file: String,
+        /// Rows of it that are fitted.
+        fitted: usize,
+        /// Its rows.
+        rows: usize,
+    },
     /// A cell that says what a row observes, or from where, without anything in it.
     #[error("{cell}: the cell is empty: fill in the label, or leave the row out")]
     NoLabel {

@@ -9,7 +9,7 @@ use super::columns::Columns;
 use super::labels::{Numbered, number};
 use super::orientation::UNIT_TOLERANCE;
 use super::plan::{Plan, Reading, SourcePlan};
-use super::repeated::without_repeats;
+use super::repeated::{fitted_as_well, without_repeats};
 use super::rows::Rows;
 use super::stated::{of_components, of_readings};
 use super::written::Kind;
@@ -74,6 +74,11 @@ impl Plan {
                 let mut all = self.no_observations();
                 let paths = std::slice::from_ref(path);
                 self.append(&mut all, source, paths, open, &mut Numbered::default(), &mut doubtful)?;
+                let fitted = fitted_as_well(&all, &observations);
+                if 2 * fitted > all.rows() {
+                    let (file, rows) = (path.clone(), all.rows());
+                    return Err(DataError::NotHeldOut { file, fitted, rows });
+                }
                 Some(all)
             }
             _ => None,

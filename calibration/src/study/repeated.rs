@@ -33,6 +33,13 @@ pub(super) fn without_repeats(observations: Observations) -> (Observations, Opti
     (observations.select(&kept), Some(remark))
 }
 
+/// How many rows that are held out are rows of those that are fitted, number by number.
+pub(super) fn fitted_as_well(held_out: &Observations, fitted: &Observations) -> usize {
+    let [held_out, fitted] =
+        [held_out, fitted].map(|own| Numbers { has_groups: false, ..Numbers::of(own) }.sorted_of_all());
+    held_out.iter().filter(|(hash, _)| fitted.binary_search_by_key(hash, |own| own.0).is_ok()).count()
+}
+
 /// How many repeats follow each other as what they repeat does.
 fn longest_in_order(repeats: &[[usize; 2]]) -> usize {
     let follows = |a: &[usize; 2], b: &[usize; 2]| a[0] + 1 == b[0] && a[1] + 1 == b[1];
@@ -104,10 +111,14 @@ impl<'a> Numbers<'a> {
         sorted
     }
 
+    /// All rows, brought together by all that they are.
+    fn sorted_of_all(&self) -> Vec<(u64, u32)> {
+        self.sorted((0..self.observations.rows()).into_par_iter().with_min_len(AT_ONCE), None)
+    }
+
     /// Rows that are the same as an earlier one, with the first of these, in order.
     fn repeats(&self) -> Vec<[usize; 2]> {
-        let rows = self.observations.rows();
-        let all = self.sorted((0..rows).into_par_iter().with_min_len(AT_ONCE), None);
+        let all = self.sorted_of_all();
         let mut repeats = Vec::new();
         for lot in all.chunk_by(|a, b| a.0 == b.0).filter(|lot| lot.len() > 1) {
             let first = lot[0].1 as usize;

@@ -120,6 +120,16 @@ impl Source<'_> {
         }
     }
 
+    /// Components without which nobody asks. That noise grows with the range is expected; few rows with waves of joints in them
+    /// look uneven where an effect is missing.
+    fn takes(&self, all: &[Self]) -> f64 {
+        let terms = match self {
+            Self::Angle(..) => all.iter().map(Self::count).sum(),
+            Self::Range(..) => all.iter().filter(|own| matches!(own, Self::Range(..))).count(),
+        };
+        (COMPONENTS_PER_TERM * terms) as f64
+    }
+
     /// How many there are of them.
     fn count(&self) -> usize {
         self.terms().len()
@@ -249,15 +259,14 @@ impl Scoring<'_> {
         loop {
             let score = self.score(&chosen.coefficients);
             let active = self.columns(&chosen.sources);
-            let room = count / COMPONENTS_PER_TERM as f64 - (active.len() - 1) as f64;
             let others = (0..self.sources.len()).filter(|number| !chosen.sources.contains(number));
-            let promising = others.filter(|&number| self.of_source(number).len() as f64 <= room);
+            let others = others.filter(|&number| count >= self.sources[number].takes(self.sources));
             let promise = |number: usize| {
                 let own = self.of_source(number);
                 let all: Vec<usize> = active.iter().copied().chain(own.clone()).collect();
                 Independent::of(&factor, &all).promise(&score, &own) - price(own.len())
             };
-            let best = promising.map(|number| (promise(number), number));
+            let best = others.map(|number| (promise(number), number));
             let best = best.max_by(|(a, _), (b, _)| a.total_cmp(b)).filter(|(promise, _)| *promise > 0.0);
             let Some((_, next)) = best else { break };
             let mut sources = chosen.sources.clone();

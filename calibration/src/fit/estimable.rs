@@ -6,7 +6,7 @@ use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 /// A combination that the data determine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Estimable {
-    /// Parameters in their order with their factors (SI), the first 1.
+    /// Parameters with their factors (SI), the first 1.
     pub combination: Vec<(SymbolId, f64)>,
     /// Its value, SI, in the unit of the first.
     pub value: f64,

@@ -17,6 +17,10 @@ const ROUNDING: f64 = 1e-14;
 /// Below this share of its largest part, a part of an undetermined combination is rounding.
 const NO_PART: f64 = 1e-6;
 
+/// A part of what sizes alone hold that is this share of the parameter's own standard uncertainty, or less, moves nothing that anybody
+/// would notice: it adds half a percent to that.
+const UNNOTICED: f64 = 0.1;
+
 /// Of the parts of an undetermined combination the last one of at least this share of the largest stands for it.
 const STANDS: f64 = 0.5;
 
@@ -64,7 +68,7 @@ impl Subspace {
             // Only numbers that are none do not factor: nothing is seen then.
             Err(_) => Mat::identity(p, p),
         };
-        Self::without(unseen, scale, partial, false).resized(size)
+        Self::without(unseen, &[], scale, partial, false).resized(size)
     }
 
     /// What the rows tell more of than the sizes do: combinations whose standard uncertainty from the whitened rows is below
@@ -74,22 +78,36 @@ impl Subspace {
         let p = partial.parameters;
         let factor = partial.factor();
         let scaled = Mat::from_fn(p, p, |row, column| factor[(row, column)] * size[column]);
-        let unseen = match scaled.svd() {
+        let (unseen, unnoticed) = match scaled.svd() {
             Ok(svd) => {
                 let values = svd.S().column_vector();
                 let rank = (0..p).filter(|&at| values[at] > 1.0).count();
-                svd.V().subcols(rank, p - rank).to_owned()
+                let variance =
+                    |row| (0..rank).map(|at| (svd.V()[(row, at)] / values[at]).powi(2)).sum::<f64>();
+                let unnoticed = (0..p).map(|row| UNNOTICED * variance(row).sqrt()).collect();
+                (svd.V().subcols(rank, p - rank).to_owned(), unnoticed)
             }
             // Only numbers that are none do not factor: nothing is seen then.
-            Err(_) => Mat::identity(p, p),
+            Err(_) => (Mat::identity(p, p), Vec::new()),
         };
         let scale = size.iter().map(|size| 1.0 / size).collect();
-        Self::without(unseen, scale, partial, true).resized(size)
+        Self::without(unseen, &unnoticed, scale, partial, true).resized(size)
     }
 
-    /// What is left without combinations that are not seen, of parameters times their scale; the sizes are still to be told.
-    fn without(unseen: Mat<f64>, scale: Vec<f64>, partial: &Partial, is_beyond: bool) -> Self {
-        let (unseen, pivots) = echelon(unseen);
+    /// What is left without combinations that are not seen, of parameters times their scale, and without the parts of these that nobody
+    /// would notice; the sizes are still to be told.
+    fn without(
+        unseen: Mat<f64>,
+        unnoticed: &[f64],
+        scale: Vec<f64>,
+        partial: &Partial,
+        is_beyond: bool,
+    ) -> Self {
+        let (mut unseen, pivots) = echelon(unseen);
+        for column in unseen.col_iter_mut() {
+            let parts = column.iter_mut().zip(unnoticed);
+            parts.filter(|(part, unnoticed)| part.abs() <= **unnoticed).for_each(|(part, _)| *part = 0.0);
+        }
         let axes = Mat::zeros(scale.len(), scale.len());
         Self { partial: partial.clone(), is_beyond, scale, unseen, pivots, size: Vec::new(), axes }
     }
@@ -188,7 +206,7 @@ impl Subspace {
     }
 
     /// Independent combinations that the data determine, as many as the rank: parameters in their order with their factors
-    /// (SI), the first 1.
+    /// (SI), the first 1. Where sizes hold the rest, the parameter that a combination is of comes first, and behind it what it hangs on.
     #[must_use]
     pub fn combinations(&self) -> Vec<Vec<(usize, f64)>> {
         let free = (0..self.scale.len()).filter(|row| !self.pivots.contains(row));
@@ -199,7 +217,7 @@ impl Subspace {
             });
             let mut parts: Vec<(usize, f64)> = others.filter(|(_, part)| *part != 0.0).collect();
             parts.push((row, 1.0));
-            parts.sort_by_key(|(parameter, _)| *parameter);
+            parts.sort_by_key(|(parameter, _)| (self.is_beyond && *parameter != row, *parameter));
             let first = parts[0].1;
             parts.iter_mut().for_each(|(_, part)| *part = plain(*part / first));
             parts

@@ -28,6 +28,9 @@ const LARGE_RAD: f64 = 0.5;
 const LARGER: f64 = 1.3;
 const SMALLER: f64 = 0.6;
 
+/// The share of the variance of what is left beyond which it is mostly what rows remember.
+const MOSTLY: f64 = 0.5;
+
 /// Standard deviations of the found noise beyond which chance does not explain it.
 const SURE: f64 = 3.0;
 
@@ -102,6 +105,12 @@ pub enum Caution {
         of_stretch: usize,
         /// Stretches.
         stretches: usize,
+    },
+    /// Most of what is left is what rows remember of those before: something that drifts, in the noise or not.
+    #[serde(rename = "what is left drifts")]
+    Drifts {
+        /// The share of the variance that the rows before explain.
+        share: f64,
     },
     /// Readings are not as uncertain as the study states: so many times.
     #[serde(rename = "readings not as uncertain as stated")]
@@ -245,6 +254,12 @@ pub(super) fn of_noise(noise: &NoiseFound, degrees_of_freedom: f64) -> Option<Ca
     } else {
         None
     }
+}
+
+/// What rows remember, if that is most of what is left.
+pub(super) fn of_memory(fit: &FitResult) -> Option<Caution> {
+    let share = 1.0 - fit.noise.serial?.gain().powi(-2);
+    (share > MOSTLY).then_some(Caution::Drifts { share })
 }
 
 /// What the residuals say of how uncertain readings are stated to be.

@@ -220,6 +220,7 @@ pub(crate) fn diagnose(
     cautions.extend(confirmed.iter().flat_map(|confirmed| confirmed.left_out.clone()));
     cautions.extend(caution::of_noise(&noise, fit.degrees_of_freedom));
     cautions.extend(caution::of_readings(&noise));
+    cautions.extend(caution::of_memory(fit));
     cautions.extend(of_data(&last.chain, observations, fit));
     let aside: Vec<usize> = fit.set_aside.iter().map(|aside| aside.row).collect();
     let of_aside = shared(&observations.poses, &aside, whole.options.seed);

@@ -51,6 +51,11 @@ pub fn caution(caution: &Caution) -> String {
                  residual that says so. If that is it, write `sigma` beside its column under [columns]."
             )
         }
+        Caution::Drifts { share } => format!(
+            "What is left drifts: rows remember those before them, which explains {:.0} % of its variance. The ± allow for it, but an \
+             effect that changes slowly may hide in it. `serial = false` under [noise] searches the drift for a cause.",
+            100.0 * share
+        ),
         Caution::ReadingsNotAsStated { ratio } if *ratio < 1.0 => format!(
             "Readings are less uncertain than your study states under [columns], {} less.",
             times(1.0 / ratio)

@@ -17,8 +17,9 @@ mod noise;
 pub mod numbers;
 mod places;
 mod rows;
+mod steps;
 
-pub use answers::{Answers, Step, Tone, answers};
+pub use answers::{Answers, Tone, answers};
 pub use causes::{cause, form, sentence_case};
 pub use cautions::caution;
 pub use effects::{bias, chance_of, evidence, headline, place};
@@ -30,3 +31,4 @@ pub use next::PoseTable;
 pub use noise::noise;
 pub use places::remedy_would_show;
 pub use rows::row;
+pub use steps::Step;

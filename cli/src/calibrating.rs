@@ -87,7 +87,7 @@ impl Studied {
     /// What is wrong with a table, with its place.
     pub fn load(self, open: &mut OpenTable<'_>) -> Result<Measured, Failure> {
         let loaded = self.plan.load_tables(open).map_err(tables::failure)?;
-        Ok(self.with_data(loaded))
+        Ok(self.with_data(loaded.without_repeats()))
     }
 
     /// With data that were read; warns of what is doubtful.

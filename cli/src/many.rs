@@ -56,7 +56,7 @@ pub fn read(
         plan.load_tables(&mut |path, options| Ok(Box::new(Within::new(open(path, options)?, &budget))));
     if !budget.is_exceeded() {
         let loaded = loaded.map_err(tables::failure)?;
-        return Ok((studied.with_data(loaded), None));
+        return Ok((studied.with_data(loaded.without_repeats()), None));
     }
     drop(loaded);
     let paths = plan.sources.iter().flat_map(|source| &source.paths);

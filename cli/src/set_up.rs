@@ -34,6 +34,7 @@ impl SetUpSeen {
         let chain = source.read_beside(Path::new(study.chain.get_ref()))?.chain()?;
         let plan = study.plan(&chain).map_err(|mistakes| source.mistakes(&mistakes))?;
         let loaded = plan.load(&mut |path| open(path, plan.data_from.as_deref())).map_err(tables::failure)?;
+        let loaded = loaded.without_repeats();
         loaded.doubtful.iter().for_each(terminal::warn);
         loaded.remarks.iter().for_each(terminal::warn);
         let set_up = identify(&plan.chain, &loaded.observations, &plan.fit)

@@ -111,7 +111,7 @@ impl Calibration {
     pub fn of(text: &str, study: &Study, open: &mut Open<'_>, when: &str) -> Result<Self, StudyError> {
         let chain = Chain::from_text(text).map_err(StudyError::Chain)?;
         let plan = study.plan(&chain).map_err(StudyError::Study)?;
-        let Loaded { observations, held_out, doubtful, .. } = plan.load(open)?;
+        let Loaded { observations, held_out, doubtful, .. } = plan.load(open)?.without_repeats();
         if let Some(column) = doubtful.into_iter().next() {
             return Err(StudyError::Doubtful(column));
         }

@@ -40,6 +40,16 @@ pub struct Loaded {
     pub remarks: Vec<Remark>,
 }
 
+impl Loaded {
+    /// The same without rows that repeat others number by number; how many they were stands among the remarks.
+    #[must_use]
+    pub fn without_repeats(self) -> Self {
+        let (observations, repeated) = without_repeats(self.observations);
+        let remarks = repeated.into_iter().chain(self.remarks).collect();
+        Self { observations, remarks, ..self }
+    }
+}
+
 /// Appends values; to nothing without a copy.
 fn append<T>(all: &mut Vec<T>, values: Vec<T>) {
     if all.is_empty() { *all = values } else { all.extend(values) }
@@ -83,11 +93,9 @@ impl Plan {
             }
             _ => None,
         };
-        let (mut observations, repeated) = without_repeats(observations);
-        let of_objects = self
+        let remarks = self
             .place_objects(&mut observations)
             .map_err(|error| DataError::NotPlaced { why: error.to_string() })?;
-        let remarks = repeated.into_iter().chain(of_objects).collect();
         Ok(Loaded { observations, held_out, doubtful, remarks })
     }
 

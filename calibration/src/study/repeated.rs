@@ -25,7 +25,7 @@ pub(super) fn without_repeats(observations: Observations) -> (Observations, Opti
     let mut is_repeat = vec![false; observations.rows()];
     repeats.iter().for_each(|[_, row]| is_repeat[*row] = true);
     let kept: Vec<usize> = (0..observations.rows()).filter(|&row| !is_repeat[row]).collect();
-    if longest_in_order(&repeats) < IN_ORDER && numbers.differ_in_one(&kept) >= repeats.len() {
+    if longest_in_order(&repeats) < IN_ORDER && numbers.differ_in_one() >= repeats.len() {
         return (observations, None);
     }
     let [of, first] = [of, first].map(|row| observations.row_number(row));
@@ -96,17 +96,13 @@ impl<'a> Numbers<'a> {
     }
 
     /// Rows brought together by what they are, each lot in order.
-    fn sorted(
-        &self,
-        rows: impl IntoParallelIterator<Item = usize>,
-        without: Option<usize>,
-    ) -> Vec<(u64, u32)> {
+    fn sorted(&self, rows: impl ParallelIterator<Item = usize>, without: Option<usize>) -> Vec<(u64, u32)> {
         let hash = |row: usize| {
             let mut hasher = DefaultHasher::new();
             self.key(row, without).hash(&mut hasher);
             (hasher.finish(), row as u32)
         };
-        let mut sorted: Vec<(u64, u32)> = rows.into_par_iter().map(hash).collect();
+        let mut sorted: Vec<(u64, u32)> = rows.map(hash).collect();
         sorted.par_sort_unstable();
         sorted
     }
@@ -130,11 +126,16 @@ impl<'a> Numbers<'a> {
         repeats
     }
 
-    /// How many of some rows differ from another of them in one number alone.
-    fn differ_in_one(&self, rows: &[usize]) -> usize {
+    /// How many rows differ from another one in one number alone.
+    fn differ_in_one(&self) -> usize {
+        let rows = || (0..self.observations.rows()).into_par_iter().with_min_len(AT_ONCE);
+        let mut whole = vec![0; self.observations.rows()];
+        self.sorted(rows(), None).into_iter().for_each(|(hash, row)| whole[row as usize] = hash);
+        let differ =
+            |lot: &&[(u64, u32)]| lot.iter().any(|own| whole[own.1 as usize] != whole[lot[0].1 as usize]);
         let alike = |number: usize| {
-            let sorted = self.sorted(rows.par_iter().copied(), Some(number));
-            sorted.chunk_by(|a, b| a.0 == b.0).filter(|lot| lot.len() > 1).map(<[_]>::len).sum::<usize>()
+            let sorted = self.sorted(rows(), Some(number));
+            sorted.chunk_by(|a, b| a.0 == b.0).filter(differ).map(<[_]>::len).sum::<usize>()
         };
         (0..self.count()).map(alike).sum()
     }

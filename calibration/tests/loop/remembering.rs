@@ -58,13 +58,12 @@ fn report(seed: u64, kept: f64, step: f64, eccentric: f64, axes: Axes) -> Diagno
     search(&text, &plan, &observations).diagnosis
 }
 
-/// One in twenty is by chance, and of twenty more than three would be by chance in one of sixty; without regard to memory it was every
-/// one.
+/// One of eight at most; without regard to memory it was every one.
 #[track_caller]
 fn is_no_effect(axes: Axes) {
     let mut accepted = Vec::new();
     for (kept, step) in [(0.5, 0.0), (0.9, 0.0), (0.0, 0.2), (0.0, 0.4)] {
-        for seed in 1..=5 {
+        for seed in [1, 2] {
             let report = report(seed, kept, step, 0.0, axes);
             if report.effects.is_empty() {
                 continue;
@@ -72,7 +71,7 @@ fn is_no_effect(axes: Axes) {
             accepted.push((kept, step, seed, report.effects[0].names[0].clone()));
         }
     }
-    assert!(accepted.len() <= 3, "{accepted:?}");
+    assert!(accepted.len() <= 1, "{accepted:?}");
 }
 
 #[test]

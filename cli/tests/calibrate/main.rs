@@ -18,6 +18,7 @@ mod orientations;
 mod outage;
 mod ranges;
 mod readings;
+mod repeats;
 mod scatter;
 mod sockets;
 mod survey;

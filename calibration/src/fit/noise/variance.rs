@@ -3,7 +3,7 @@
 //!
 //! The functions are made anew block by block whenever they are asked for: of many rows they would need more memory than the rows.
 //!
-//! Each joint and each range has to earn its functions.
+//! Ranges and joints have to earn their functions apart.
 //!
 //! Source: A. C. Harvey, Estimating Regression Models with Multiplicative Heteroscedasticity, Econometrica 44 (1976):
 //! maximum likelihood by Fisher scoring.
@@ -120,16 +120,6 @@ impl Source<'_> {
         }
     }
 
-    /// Components without which nobody asks. That noise grows with the range is expected; few rows with waves of joints in them
-    /// look uneven where an effect is missing.
-    fn takes(&self, all: &[Self]) -> f64 {
-        let terms = match self {
-            Self::Angle(..) => all.iter().map(Self::count).sum(),
-            Self::Range(..) => all.iter().filter(|own| matches!(own, Self::Range(..))).count(),
-        };
-        (COMPONENTS_PER_TERM * terms) as f64
-    }
-
     /// How many there are of them.
     fn count(&self) -> usize {
         self.terms().len()
@@ -191,7 +181,7 @@ fn added(parts: Vec<Vec<f64>>) -> Vec<f64> {
 
 /// The readings that a variance depends on, and the coefficients of all functions, zero for those of others.
 struct Chosen {
-    /// By their numbers, in order.
+    /// By their numbers, ranges first.
     sources: Vec<usize>,
     coefficients: Vec<f64>,
 }
@@ -244,40 +234,28 @@ impl Scoring<'_> {
         added(blocks(self.rows.len()).into_par_iter().map(of_block).collect())
     }
 
-    /// The readings that the data bear out, one after the other, that which promises most always next: a variance that grows with
-    /// the range shall not follow whatever the joints did by chance. `None` if there are none. The choice among readings costs as
-    /// much as a coefficient.
-    ///
-    /// Source for what one promises: C. R. Rao, Large sample tests of statistical hypotheses concerning several parameters,
-    /// Mathematical Proceedings of the Cambridge Philosophical Society 44 (1948).
+    /// The readings that the data bear out: ranges, and then all joints if they gain enough beside them. A variance that grows with
+    /// the range shall not take along whatever the joints do by chance, and few rows in which an effect is missing look as if theirs
+    /// went by some joint. `None` if there are none.
     fn chosen(&self, count: f64, excess: impl Fn(&[f64]) -> f64) -> Option<Chosen> {
         let factor = self.factor();
-        let mut chosen = Chosen { sources: Vec::new(), coefficients: vec![0.0; factor.ncols()] };
-        chosen.coefficients[0] = self.level;
+        let mut chosen = Chosen { sources: Vec::new(), coefficients: Vec::new() };
         let mut gained = 0.0;
-        let price = |terms: usize| (1 + terms) as f64 * count.ln();
-        loop {
-            let score = self.score(&chosen.coefficients);
-            let active = self.columns(&chosen.sources);
-            let others = (0..self.sources.len()).filter(|number| !chosen.sources.contains(number));
-            let others = others.filter(|&number| count >= self.sources[number].takes(self.sources));
-            let promise = |number: usize| {
-                let own = self.of_source(number);
-                let all: Vec<usize> = active.iter().copied().chain(own.clone()).collect();
-                Independent::of(&factor, &all).promise(&score, &own) - price(own.len())
-            };
-            let best = others.map(|number| (promise(number), number));
-            let best = best.max_by(|(a, _), (b, _)| a.total_cmp(b)).filter(|(promise, _)| *promise > 0.0);
-            let Some((_, next)) = best else { break };
-            let mut sources = chosen.sources.clone();
-            sources.push(next);
-            sources.sort_unstable();
-            let coefficients = self.coefficients(&Independent::of(&factor, &self.columns(&sources)));
-            let gain = self.gain(&coefficients);
-            if (gain - gained) / excess(&coefficients) < price(self.of_source(next).len()) {
-                break;
+        for is_range in [true, false] {
+            let is_own = |number: &usize| matches!(self.sources[*number], Source::Range(..)) == is_range;
+            let own: Vec<usize> = (0..self.sources.len()).filter(is_own).collect();
+            let terms: usize = own.iter().map(|&number| self.of_source(number).len()).sum();
+            let sources = [chosen.sources.as_slice(), &own].concat();
+            let columns = self.columns(&sources);
+            if own.is_empty() || count < (COMPONENTS_PER_TERM * (columns.len() - 1)) as f64 {
+                continue;
             }
-            (gained, chosen) = (gain, Chosen { sources, coefficients });
+            let coefficients = self.coefficients(&Independent::of(&factor, &columns));
+            let gain = self.gain(&coefficients);
+            // One term alone would be taken up by chance in one of forty residuals.
+            if (gain - gained) / excess(&coefficients) >= terms.max(2) as f64 * count.ln() {
+                (gained, chosen) = (gain, Chosen { sources, coefficients });
+            }
         }
         (!chosen.sources.is_empty()).then_some(chosen)
     }
@@ -384,27 +362,14 @@ impl Independent {
         Self { factor: triangle(&columns), columns, width }
     }
 
-    /// What the last of the columns promise to gain in twice the log-likelihood, with this derivative by all.
-    fn promise(&self, score: &[f64], last: &Range<usize>) -> f64 {
-        let own = self.columns.iter().zip(self.halfway(score)).filter(|(column, _)| last.contains(column));
-        own.map(|(_, value)| value * value).sum::<f64>() / 2.0
-    }
-
-    /// The solution of Rᵀx = b.
-    fn halfway(&self, b: &[f64]) -> Vec<f64> {
-        let r = &self.factor;
-        let mut x: Vec<f64> = self.columns.iter().map(|&column| b[column]).collect();
-        for j in 0..self.columns.len() {
-            let before: f64 = (0..j).map(|i| r[(i, j)] * x[i]).sum();
-            x[j] = (x[j] - before) / r[(j, j)];
-        }
-        x
-    }
-
     /// The solution of RᵀRx = b, zero for the other columns.
     fn solved(&self, b: &[f64]) -> Vec<f64> {
         let (r, count) = (&self.factor, self.columns.len());
-        let mut x = self.halfway(b);
+        let mut x: Vec<f64> = self.columns.iter().map(|&column| b[column]).collect();
+        for j in 0..count {
+            let before: f64 = (0..j).map(|i| r[(i, j)] * x[i]).sum();
+            x[j] = (x[j] - before) / r[(j, j)];
+        }
         for i in (0..count).rev() {
             let behind: f64 = (i + 1..count).map(|j| r[(i, j)] * x[j]).sum();
             x[i] = (x[i] - behind) / r[(i, i)];

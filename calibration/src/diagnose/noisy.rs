@@ -15,7 +15,7 @@ use crate::fit::{FitError, FitResult, Model, pulled, residuals};
 const MOVED: f64 = 1e-6;
 
 /// Standard deviations by which the slope is off zero at least.
-const SURE: f64 = 5.0;
+const SURE: f64 = 4.0;
 
 /// The share of a reading's variance that is noise at most: more, and it were no reading.
 const MOST: f64 = 0.9;

@@ -275,11 +275,12 @@ fn an_error_behind_a_ramp_has_its_column() {
         "chain M { body az on ground { motion: Rz(a); motion_error: Rz(give*ramp(a, 10 deg, 20 deg)); }
             observe sight: direction(0, 1, 0) of az; }",
     )
-    .unwrap();
-    let (a, sight) = (chain.find_symbol("a").unwrap(), observable(&chain, "sight"));
+    .unwrap_or_else(|error| panic!("{error}"));
+    let (a, sight) =
+        (chain.find_symbol("a").unwrap_or_else(|| panic!("declared")), observable(&chain, "sight"));
     let sizes = sizes(&chain, &[("give", 1e-4)]);
     let readings = [(a, [5.0_f64, 15.0, 45.0].map(f64::to_radians).to_vec())];
-    let found = Sensitivity::at(&chain, sight, &sizes, &readings).unwrap();
+    let found = Sensitivity::at(&chain, sight, &sizes, &readings).unwrap_or_else(|error| panic!("{error}"));
     for (pose, share) in [0.0, 0.5, 1.0].into_iter().enumerate() {
         let column = nalgebra::Vector3::from(found.at_pose(pose)[0]);
         assert_relative_eq!(column.norm(), share, epsilon = 1e-12);

@@ -69,17 +69,18 @@ impl OverTable {
     /// # Errors
     /// One of them has a mistake, or the output would replace one.
     pub fn open(&self) -> Result<Opened, Failure> {
+        output::refuse_to_replace(&self.out, [self.data.as_path()])?;
         let Model { chain, values, found } = self.model()?;
         let table = ReadingsTable::open(&self.data, &chain, self.comment)?;
         Ok(Opened { chain, values, found, table })
     }
 
-    /// Reads the declaration and the errors.
+    /// Reads the declaration and the errors. Data may be replaced: the points of a cloud are corrected in their own place.
     ///
     /// # Errors
     /// One of them has a mistake, or the output would replace one.
     pub fn model(&self) -> Result<Model, Failure> {
-        output::refuse_to_replace(&self.out, [self.chain.as_path(), &self.errors, &self.data])?;
+        output::refuse_to_replace(&self.out, [self.chain.as_path(), &self.errors])?;
         let chain = Source::read(&self.chain)?.chain()?;
         let errors = Source::read(&self.errors)?;
         let values = errors_file::values(&errors, &chain)?;

@@ -96,15 +96,19 @@ impl Rows {
             unreachable!("rows that are split are one at least")
         };
         let mut packed = vec![0.0; side * (side + 1) / 2];
-        let (values, stride) = (self.values.as_mut_slice(), self.stride);
-        let work = Reflections { packed: &mut packed, side, leading: k.min(side), values, stride };
-        vector::run(vector::path(), work);
+        self.reflect(&mut packed, side, k.min(side));
         let at = |row: usize, column: usize| {
             if row > column { 0.0 } else { packed[column * (column + 1) / 2 + row] }
         };
         let own = Mat::from_fn(k, side, at);
         let values = self.values.split_off(k.min(side) * self.stride);
         (own, Self { values, ..self })
+    }
+
+    /// Turns the first of `side` columns, so many, into a triangle above the rows.
+    fn reflect(&mut self, packed: &mut [f64], side: usize, leading: usize) {
+        let (values, stride) = (self.values.as_mut_slice(), self.stride);
+        vector::run(vector::path(), Reflections { packed, side, leading, values, stride });
     }
 
     /// Rows below each other, so many columns of each.
@@ -160,9 +164,8 @@ impl Partial {
     /// The same in place.
     pub fn add(&mut self, mut rows: Rows) {
         self.components += rows.count as u64;
-        let (packed, side) = (&mut self.packed, self.parameters + 1);
-        let (values, stride) = (rows.values.as_mut_slice(), rows.stride);
-        vector::run(vector::path(), Reflections { packed, side, leading: side, values, stride });
+        let side = self.parameters + 1;
+        rows.reflect(&mut self.packed, side, side);
     }
 
     /// Takes in the rows of a matrix.

@@ -133,7 +133,7 @@ fn dots(a: &[f64], several: &[f64]) -> [f64; AT_ONCE] {
     sums.map(|sums| sums.iter().sum())
 }
 
-/// The same of two columns.
+/// The same of two columns; written out, since sums in a list of lists would be kept in memory.
 #[inline(always)]
 fn dots_of_two(a: &[f64], f: &[f64], several: &[f64]) -> [[f64; AT_ONCE]; 2] {
     let mut others = several.chunks_exact(a.len());

@@ -57,12 +57,15 @@ pub fn place(effect: &EffectFound, diagnosis: &Diagnosis) -> String {
     format!("in body {}{side}: a {kind} {}", effect.body, axis(&effect.dof))
 }
 
+/// What happens by chance less often than this hardly does.
+pub(super) const CHANCE: f64 = 0.011;
+
 /// How sure it is: `very unlikely to be chance (p ≤ 0.001); found again in 10 of 10 repeats`.
 #[must_use]
 pub fn chance_of(effect: &EffectFound, diagnosis: &Diagnosis) -> String {
     let words = if effect.p_value < 0.0015 {
         "very unlikely to be chance"
-    } else if effect.p_value < 0.011 {
+    } else if effect.p_value < CHANCE {
         "unlikely to be chance"
     } else {
         "could be chance"

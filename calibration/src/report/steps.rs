@@ -1,11 +1,9 @@
 //! What to do next, step by step.
 
 use super::causes::{cause, sentence_case};
+use super::effects::CHANCE;
 use super::places::told_places;
 use crate::diagnose::{Caution, Diagnosis, EffectFound, Ended, Relation, Verdict};
-
-/// What happens by chance less often than this hardly does.
-const CHANCE: f64 = 0.011;
 
 /// Something to do.
 #[derive(Debug, Clone, PartialEq)]

@@ -22,12 +22,12 @@ pub(super) fn without_repeats(observations: Observations) -> (Observations, Opti
     let numbers = Numbers::of(&observations);
     let repeats = numbers.repeats();
     let Some(&[of, first]) = repeats.first() else { return (observations, None) };
-    let mut is_repeat = vec![false; observations.rows()];
-    repeats.iter().for_each(|[_, row]| is_repeat[*row] = true);
-    let kept: Vec<usize> = (0..observations.rows()).filter(|&row| !is_repeat[row]).collect();
     if longest_in_order(&repeats) < IN_ORDER && numbers.differ_in_one() >= repeats.len() {
         return (observations, None);
     }
+    let mut is_repeat = vec![false; observations.rows()];
+    repeats.iter().for_each(|[_, row]| is_repeat[*row] = true);
+    let kept: Vec<usize> = (0..observations.rows()).filter(|&row| !is_repeat[row]).collect();
     let [of, first] = [of, first].map(|row| observations.row_number(row));
     let remark = Remark::Repeated { rows: repeats.len(), first, of };
     (observations.select(&kept), Some(remark))

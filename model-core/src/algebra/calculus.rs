@@ -49,6 +49,9 @@ impl Poly {
     /// [`AngleSum`]; [`AlgebraError::NotDivisible`] if it occurs in a denominator that the replacement makes zero
     /// or a sine or cosine of several angles; [`AlgebraError::TooLarge`].
     pub fn substitute(&self, symbol: SymbolId, replacement: &Self) -> Result<Self, AlgebraError> {
+        if self.iter().all(|(_, atoms)| atoms.iter().all(|atom| atom.symbol() != symbol)) {
+            return Ok(self.clone());
+        }
         let mut result = Self::zero();
         for (coefficient, atoms) in self.iter() {
             let mut rest = Self::zero();

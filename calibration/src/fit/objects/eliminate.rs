@@ -151,22 +151,30 @@ impl Eliminated {
         let mut by = vec![0.0; state.len()];
         for Triangle { own, stations, factor } in &self.triangles {
             let k = own.len();
-            let mut step = vec![0.0; k];
-            for row in (0..k).rev() {
+            let step = divided_out(factor.as_ref(), k, |row| {
                 let behind = |from: usize, values: &mut dyn Iterator<Item = f64>| -> f64 {
                     values.enumerate().map(|(at, value)| factor[(row, from + at)] * value).sum()
                 };
-                let mut left = stride * factor[(row, factor.ncols() - 1)];
-                left -= behind(k, &mut stations.iter().map(|&at| by[at]));
-                left -= behind(k + stations.len(), &mut change.iter().copied());
-                left -= behind(row + 1, &mut step[row + 1..].iter().copied());
-                let corner = factor[(row, row)];
-                step[row] = if corner == 0.0 { 0.0 } else { left / corner };
-            }
+                let mut right = stride * factor[(row, factor.ncols() - 1)];
+                right -= behind(k, &mut stations.iter().map(|&at| by[at]));
+                right -= behind(k + stations.len(), &mut change.iter().copied());
+                right
+            });
             own.iter().zip(step).for_each(|(&at, step)| by[at] = step);
         }
         state.iter().zip(by).map(|(value, step)| value + step).collect()
     }
+}
+
+/// The numbers whose product with the triangle of the first so many columns is `right`, zero where the triangle has no corner.
+pub(super) fn divided_out(factor: MatRef<'_, f64>, count: usize, right: impl Fn(usize) -> f64) -> Vec<f64> {
+    let mut numbers = vec![0.0; count];
+    for row in (0..count).rev() {
+        let behind: f64 = (row + 1..count).map(|at| factor[(row, at)] * numbers[at]).sum();
+        let corner = factor[(row, row)];
+        numbers[row] = if corner == 0.0 { 0.0 } else { (right(row) - behind) / corner };
+    }
+    numbers
 }
 
 /// What the elimination reads throughout.

@@ -7,7 +7,7 @@
 use faer::{Mat, MatRef};
 use rayon::prelude::*;
 
-use super::eliminate::{Collected, Eliminated, OF_STATION};
+use super::eliminate::{Collected, Eliminated, OF_STATION, divided_out};
 use super::reduce::{reflected, units};
 use crate::data::unknowns::{OF_OBJECT, Unknowns, WIDTH};
 
@@ -69,11 +69,7 @@ impl Eliminated {
                 None => f64::from(u8::from(row == column)),
                 Some(error) => -by_errors[(row, error)],
             };
-            for row in (0..count).rev() {
-                let behind: f64 = (row + 1..count).map(|j| factor[(row, j)] * by[(j, column)]).sum();
-                let corner = factor[(row, row)];
-                by[(row, column)] = if corner == 0.0 { 0.0 } else { (right(row) - behind) / corner };
-            }
+            by.col_as_slice_mut(column).copy_from_slice(&divided_out(factor, count, right));
         }
         by
     }

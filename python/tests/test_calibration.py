@@ -44,7 +44,11 @@ def test_the_main_job(example):
     assert example.effects.rows >= 1 and "beta" in example.effects["driver"]
     # The declared errors, and the coefficients of what was found.
     assert set(example.errors["name"]) == set(example.chain.errors) and len(example.chain.errors) > 30
-    assert example.errors["value"].dtype == np.float64 and example.errors.to_pandas().shape[1] == 5
+    assert example.errors["value"].dtype == np.float64 and example.errors.to_pandas().shape[1] == 6
+    # One of the causes that fit would bring another value of one declared error.
+    by_cause = dict(zip(example.errors["name"], example.errors["moves_by_cause"]))
+    down, up = by_cause.pop("dtheta_z2")
+    assert down < -2e-5 and up == 0.0 and set(by_cause.values()) == {None}
     assert example.report["schema"] == 4
     assert set(example.values) >= set(example.chain.errors)
     assert example.residuals.rows == example.report["observations"]["rows"]

@@ -37,8 +37,10 @@ class Calibration:
 
     @cached_property
     def errors(self) -> Table:
-        """A row an error, those of the effects that were found among them: ``name``, ``value``, ``standard_uncertainty``, ``unit``, ``separable``."""
-        keys = ["name", "value", "standard_uncertainty", "unit", "separable"]
+        """A row an error, those of the effects that were found among them: ``name``, ``value``, ``standard_uncertainty``, ``unit``, ``separable``, and
+        ``moves_by_cause``: how far the value would move, down and up, if another cause that the data fit were the true one; none
+        where that is within its uncertainty."""
+        keys = ["name", "value", "standard_uncertainty", "unit", "separable", "moves_by_cause"]
         return _table(self.report["errors"], keys)
 
     @cached_property

@@ -3,6 +3,7 @@
 use model_core::SymbolId;
 use serde::Serialize;
 
+use super::by_cause::ByCause;
 use super::units::unit_of;
 use crate::data::SiUnit;
 use crate::search::context::Context;
@@ -19,6 +20,10 @@ pub struct ErrorFound {
     pub standard_uncertainty: Option<f64>,
     /// Degrees of freedom behind the uncertainty, for Student's t; absent with it, and where the noise is known.
     pub degrees_of_freedom: Option<f64>,
+    /// How far it would move, at most down and up, if another cause that these data fit were the true one, SI; absent where that is
+    /// within its uncertainty.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub moves_by_cause: Option<[f64; 2]>,
     /// Its SI unit: `rad`, `m`, `1`, `rad/K`, …
     pub unit: SiUnit,
     /// Whether these data determine it by itself.
@@ -36,6 +41,10 @@ pub struct Estimable {
     pub value: f64,
     /// Its standard uncertainty, SI.
     pub standard_uncertainty: f64,
+    /// How far it would move, at most down and up, if another cause that these data fit were the true one, SI; absent where that is
+    /// within its uncertainty.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub moves_by_cause: Option<[f64; 2]>,
     /// Its SI unit, that of the first error.
     pub unit: SiUnit,
     /// Degrees of freedom behind the uncertainty.
@@ -52,7 +61,7 @@ pub struct Part {
 }
 
 /// Every estimated error or constant, in the order of the fit.
-pub(super) fn errors(whole: &Context<'_>, fitted: &Fitted) -> Vec<ErrorFound> {
+pub(super) fn errors(whole: &Context<'_>, fitted: &Fitted, by_cause: &ByCause) -> Vec<ErrorFound> {
     let fit = &fitted.fit;
     fit.parameters
         .iter()
@@ -66,6 +75,7 @@ pub(super) fn errors(whole: &Context<'_>, fitted: &Fitted) -> Vec<ErrorFound> {
                 value: fit.values[id.index()],
                 degrees_of_freedom: standard_uncertainty.map(|_| freedom).filter(|known| known.is_finite()),
                 standard_uncertainty,
+                moves_by_cause: standard_uncertainty.and_then(|own| by_cause.range(&[(id, 1.0)], own)),
                 unit: unit_of(&whole.setting, &fitted.chain, id),
                 separable,
                 shown: fit.shown[at],
@@ -75,7 +85,7 @@ pub(super) fn errors(whole: &Context<'_>, fitted: &Fitted) -> Vec<ErrorFound> {
 }
 
 /// Every combination of several errors that these data determine, in the order of their first errors.
-pub(super) fn estimable(whole: &Context<'_>, fitted: &Fitted) -> Vec<Estimable> {
+pub(super) fn estimable(whole: &Context<'_>, fitted: &Fitted, by_cause: &ByCause) -> Vec<Estimable> {
     let several = fitted.fit.estimable.iter().filter(|one| one.combination.len() > 1);
     let of = |one: &crate::fit::Estimable| {
         let part = |&(id, factor): &(SymbolId, f64)| Part {
@@ -83,10 +93,12 @@ pub(super) fn estimable(whole: &Context<'_>, fitted: &Fitted) -> Vec<Estimable> 
             ratio: fraction(factor),
         };
         let (first, _) = one.combination.first()?;
+        let standard_uncertainty = one.standard_uncertainty?;
         Some(Estimable {
             combination: one.combination.iter().map(part).collect(),
             value: one.value,
-            standard_uncertainty: one.standard_uncertainty?,
+            standard_uncertainty,
+            moves_by_cause: by_cause.range(&one.combination, standard_uncertainty),
             unit: unit_of(&whole.setting, &fitted.chain, *first),
             degrees_of_freedom: one.degrees_of_freedom,
         })

@@ -3,6 +3,7 @@
 //! English is made of it in [`crate::report`]; `report.json` is this data itself.
 
 mod basis;
+mod by_cause;
 mod caution;
 pub(crate) mod detectability;
 mod effects;
@@ -40,6 +41,7 @@ use crate::search::fitted::Fitted;
 use crate::search::library::AsGood;
 use crate::search::round::Round;
 use crate::search::{SearchError, Stage};
+use by_cause::ByCause;
 use effects::Others;
 use next::{Next, next};
 use noisy::Noisy;
@@ -206,12 +208,12 @@ pub(crate) fn diagnose(
     let (observations, fit) = (request.observations, &last.fit);
     let ended = Ended::from(&fit.outcome);
     let noise = noise::noise(&last.chain, observations, fit, request.plan.fit.noise.sigma);
-    let errors = errors::errors(whole, last);
     let precision = precision(&last.chain, observations, fit);
     let found = match &confirmed {
         Ok(confirmed) => Found::of(whole, confirmed)?,
         Err(_) => Found::default(),
     };
+    let errors = errors::errors(whole, last, &found.by_cause);
     let rms = confirmed.as_ref().map_or_else(|rms| rms.as_slice(), |confirmed| &confirmed.rms);
     let mut cautions = cautions(&found, whole, rms);
     if let (Ended::NotConverged { steps }, true) = (Ended::from(&before.outcome), !found.effects.is_empty()) {
@@ -261,7 +263,7 @@ pub(crate) fn diagnose(
         every_row: None,
         instrument: instrument::instrument(&whole.setting, &last.chain, observations, &errors),
         errors,
-        estimable: errors::estimable(whole, last),
+        estimable: errors::estimable(whole, last, &found.by_cause),
         not_separable: precision.not_separable.iter().map(|set| set.names.clone()).collect(),
         next_poses: next.poses,
         next_places: next.places,
@@ -333,6 +335,7 @@ struct Found {
     remaining: Option<Remaining>,
     not_shown: Vec<NotShown>,
     search: Option<Searching>,
+    by_cause: ByCause,
 }
 
 impl Found {
@@ -358,6 +361,7 @@ impl Found {
                 Some(_) => Vec::new(),
                 None => others.iter().enumerate().filter_map(separating).collect(),
             },
+            by_cause: ByCause::of(whole, last, &others),
             effects,
             remaining: Some(remaining::remaining(whole, last)?),
             not_shown: detectability::not_shown(whole, last, &confirmed.rms),

@@ -39,7 +39,9 @@ pub fn estimates(diagnosis: &Diagnosis) -> Estimates {
         .map(|error| EstimateLine {
             what: error.name.clone(),
             estimate: match error.standard_uncertainty {
-                Some(sigma) => numbers::estimate_in(error.value, sigma, &units.reading(error.unit)),
+                Some(sigma) => {
+                    with_causes(error.value, sigma, error.moves_by_cause, &units.reading(error.unit))
+                }
                 None => numbers::told_in(error.value, &units.reading(error.unit)),
             },
             found: effects.contains(&&error.name),
@@ -48,9 +50,10 @@ pub fn estimates(diagnosis: &Diagnosis) -> Estimates {
         .collect();
     lines.extend(diagnosis.estimable.iter().map(|estimable| EstimateLine {
         what: combination(estimable),
-        estimate: numbers::estimate_in(
+        estimate: with_causes(
             estimable.value,
             estimable.standard_uncertainty,
+            estimable.moves_by_cause,
             &units.reading(estimable.unit),
         ),
         found: false,
@@ -60,9 +63,25 @@ pub fn estimates(diagnosis: &Diagnosis) -> Estimates {
     Estimates { lines, notes: notes(diagnosis) }
 }
 
+fn with_causes(value: f64, uncertainty: f64, moves: Option<[f64; 2]>, reading: &Reading) -> String {
+    match moves {
+        Some(moves) => numbers::by_cause_in(value, uncertainty, moves, reading),
+        None => numbers::estimate_in(value, uncertainty, reading),
+    }
+}
+
 /// What these data do not determine.
 fn notes(diagnosis: &Diagnosis) -> Vec<String> {
     let mut notes = Vec::new();
+    let errors = diagnosis.errors.iter().filter_map(|error| error.moves_by_cause);
+    let combinations = diagnosis.estimable.iter().filter_map(|estimable| estimable.moves_by_cause);
+    if errors.chain(combinations).next().is_some() {
+        notes.push(
+            "by cause: where the value would lie with the other causes that these data fit; the ± is for the one that was \
+             added to the declaration"
+                .to_owned(),
+        );
+    }
     for set in diagnosis.not_separable.iter().filter(|set| set.len() > 1) {
         let told = diagnosis
             .estimable
@@ -177,6 +196,7 @@ mod tests {
             combination,
             value: 0.0,
             standard_uncertainty: 0.0,
+            moves_by_cause: None,
             unit: SiUnit::RAD,
             degrees_of_freedom: 1.0,
         };

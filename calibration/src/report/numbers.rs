@@ -70,6 +70,23 @@ pub fn estimate_in(value: f64, uncertainty: f64, reading: &Reading) -> String {
     with_unit(&format!("{value:.places$} ± {uncertainty:.places$}"), reading)
 }
 
+/// An estimate that hangs on which cause is the true one: how far it would move, down and up, is told as the range of its values.
+#[must_use]
+pub fn by_cause(value: f64, uncertainty: f64, moves: [f64; 2], unit: SiUnit) -> String {
+    let [low, high] = moves.map(|own| value + own);
+    let largest = [value, uncertainty, low, high].map(f64::abs).into_iter().fold(0.0, f64::max);
+    by_cause_in(value, uncertainty, moves, &reading(unit, largest))
+}
+
+/// The same in a unit that is given.
+#[must_use]
+pub fn by_cause_in(value: f64, uncertainty: f64, moves: [f64; 2], reading: &Reading) -> String {
+    let places = decimals(uncertainty / reading.in_si, 1);
+    let [low, high] = moves.map(|own| format!("{:.places$}", (value + own) / reading.in_si));
+    let range = with_unit(&format!("{low} to {high}"), reading);
+    format!("{} ({range} by cause)", estimate_in(value, uncertainty, reading))
+}
+
 /// A number with the unit that is given, to three significant digits.
 #[must_use]
 pub fn told_in(value: f64, reading: &Reading) -> String {

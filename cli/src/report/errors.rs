@@ -97,7 +97,10 @@ fn written(value: f64, quantity: Quantity) -> String {
 
 fn remark(error: &ErrorFound) -> String {
     match (error.standard_uncertainty, error.shown) {
-        (Some(sigma), _) => numbers::estimate(error.value, sigma, error.unit),
+        (Some(sigma), _) => match error.moves_by_cause {
+            Some(moves) => numbers::by_cause(error.value, sigma, moves, error.unit),
+            None => numbers::estimate(error.value, sigma, error.unit),
+        },
         (None, true) => {
             format!("{}, determined only together with others", numbers::told(error.value, error.unit))
         }
@@ -174,6 +177,7 @@ mod tests {
                     name: amended.symbol(id).name.clone(),
                     value: value * 10_f64.powi(scale),
                     standard_uncertainty: Some(1e-6),
+                    moves_by_cause: None,
                     degrees_of_freedom: None,
                     unit: SiUnit::RAD.per(SiUnit::KELVIN),
                     separable: true,

@@ -4,6 +4,7 @@
 mod support;
 
 mod bad_studies;
+mod by_cause;
 mod cameras;
 mod circles;
 mod drift;

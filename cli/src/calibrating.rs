@@ -33,6 +33,8 @@ pub struct Measured {
     pub studied: Studied,
     /// The data.
     pub loaded: Loaded,
+    /// What is doubtful of either.
+    warnings: Vec<String>,
 }
 
 /// A calibration with everything that is reported of it.
@@ -50,7 +52,7 @@ impl Studied {
     /// # Errors
     /// What is wrong with either, each with its place.
     pub fn read(study: Source) -> Result<Self, Failure> {
-        let written = Study::from_text(&study.text).map_err(|mistakes| study.mistakes(&mistakes))?;
+        let written = study.study()?;
         let chain_file = written.chain.get_ref().clone();
         let chain = study.read_beside(Path::new(&chain_file))?;
         Self::with(study, &written, chain_file, chain)
@@ -61,7 +63,7 @@ impl Studied {
     /// # Errors
     /// What is wrong with either, each with its place.
     pub fn of(study: Source, chain: Source) -> Result<Self, Failure> {
-        let written = Study::from_text(&study.text).map_err(|mistakes| study.mistakes(&mistakes))?;
+        let written = study.study()?;
         Self::with(study, &written, chain.path.display().to_string(), chain)
     }
 
@@ -92,13 +94,12 @@ impl Studied {
 
     /// With data that were read; warns of what is doubtful.
     pub fn with_data(self, loaded: Loaded) -> Measured {
-        self.plan.doubts.iter().for_each(terminal::warn);
-        self.plan.unstated.iter().for_each(terminal::warn);
-        self.plan.unsought.iter().for_each(terminal::warn);
-        self.plan.timeless.iter().for_each(terminal::warn);
-        loaded.doubtful.iter().for_each(terminal::warn);
-        loaded.remarks.iter().for_each(terminal::warn);
-        Measured { studied: self, loaded }
+        let Plan { doubts, unstated, unsought, timeless, .. } = &self.plan;
+        let mut warnings = texts(doubts);
+        warnings.extend([texts(unstated), texts(unsought), texts(timeless)].concat());
+        warnings.extend([texts(&loaded.doubtful), texts(&loaded.remarks)].concat());
+        warnings.iter().for_each(terminal::warn);
+        Measured { studied: self, loaded, warnings }
     }
 
     /// The study, the declaration and the data with their checksums. What is no file, a pipe or a table in memory, has been
@@ -119,13 +120,17 @@ impl Studied {
     }
 }
 
+fn texts<'a, T: ToString + 'a>(doubts: impl IntoIterator<Item = &'a T>) -> Vec<String> {
+    doubts.into_iter().map(ToString::to_string).collect()
+}
+
 impl Measured {
     /// Runs the loop; `command` says in the report how it was asked for, and `tell` hears of each stage.
     ///
     /// # Errors
     /// The study asks for something that cannot be fitted.
     pub fn calibrate(self, command: String, tell: &(dyn Fn(Stage) + Sync)) -> Result<Calibrated, Failure> {
-        let Self { studied, loaded: Loaded { observations, held_out, .. } } = self;
+        let Self { studied, loaded: Loaded { observations, held_out, .. }, warnings } = self;
         let date = date::today();
         let request = Request {
             text: &studied.chain.text,
@@ -147,6 +152,7 @@ impl Measured {
             date,
             study: studied.study.text.clone(),
             files: files?,
+            warnings,
         };
         Ok(Calibrated { calibration, studied, observations, provenance })
     }

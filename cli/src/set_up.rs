@@ -7,7 +7,6 @@ use std::path::Path;
 use calibration::formats::DataError;
 use calibration::objects::{SetUp, Visible, identify};
 use calibration::report::remedy_would_show;
-use calibration::study::Study;
 use model_core::{Chain, SymbolId};
 use serde_json::{Value, json};
 
@@ -30,7 +29,7 @@ impl SetUpSeen {
     /// # Errors
     /// What is wrong with one of them.
     pub fn of_study(source: &Source, open: &mut OpenData<'_>) -> Result<Self, Failure> {
-        let study = Study::from_text(&source.text).map_err(|mistakes| source.mistakes(&mistakes))?;
+        let study = source.study()?;
         let chain = source.read_beside(Path::new(study.chain.get_ref()))?.chain()?;
         let plan = study.plan(&chain).map_err(|mistakes| source.mistakes(&mistakes))?;
         let loaded = plan.load(&mut |path| open(path, plan.data_from.as_deref())).map_err(tables::failure)?;

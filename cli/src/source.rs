@@ -6,6 +6,7 @@ use std::io::{self, Read as _};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use calibration::study::Study;
 use model_core::mistake::{Mistake, Mistakes};
 use model_core::{Chain, ObservableId, names};
 use serde::de::DeserializeOwned;
@@ -76,7 +77,14 @@ impl Source {
     }
 
     fn cautioned(&self, chain: Result<Chain, Mistakes>) -> Result<Chain, Failure> {
-        let chain = chain.map_err(|mistakes| self.mistakes(&mistakes))?;
+        let chain = chain.map_err(|mistakes| match self.declaration_named() {
+            Some(named) => Failure::Input(format!(
+                "`{}` is no declaration, but names one: give `{}`",
+                self.path.display(),
+                self.beside(Path::new(&named)).display()
+            )),
+            None => self.mistakes(&mistakes),
+        })?;
         for caution in model_core::caution::cautions(&chain) {
             terminal::warn(format_args!("{}: {caution}", self.path.display()));
         }
@@ -88,8 +96,42 @@ impl Source {
     /// # Errors
     /// The first mistake, with its place.
     pub fn toml<T: DeserializeOwned>(&self) -> Result<T, Failure> {
-        toml::from_str(&self.text)
-            .map_err(|error| self.mistake(Mistake::new(error.span().unwrap_or_default(), error.message())))
+        toml::from_str(&self.text).map_err(|error| {
+            let mistake = Mistake::new(error.span().unwrap_or_default(), error.message());
+            self.is_declaration().unwrap_or_else(|| self.mistake(mistake))
+        })
+    }
+
+    /// The text read as a study.
+    ///
+    /// # Errors
+    /// Every mistake of the study, each with its place.
+    pub fn study(&self) -> Result<Study, Failure> {
+        Study::from_text(&self.text)
+            .map_err(|mistakes| self.is_declaration().unwrap_or_else(|| self.mistakes(&mistakes)))
+    }
+
+    /// What to say where a declaration was given for a file that names one.
+    fn is_declaration(&self) -> Option<Failure> {
+        let opens = |line: &str| {
+            let rest = line.trim_start().strip_prefix("chain")?;
+            rest.starts_with(char::is_whitespace).then(|| !rest.contains('=') && rest.contains('{'))
+        };
+        if !self.text.lines().any(|line| opens(line) == Some(true)) {
+            return None;
+        }
+        let file = self.path.display();
+        let name = self.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        Some(Failure::Input(format!(
+            "`{file}` is a declaration; needed here is a file in TOML: a study or claims, which name it by chain = {name:?}, or a \
+             file of errors or sizes"
+        )))
+    }
+
+    /// The declaration that a study or a file of claims names.
+    fn declaration_named(&self) -> Option<String> {
+        let table: toml::Table = toml::from_str(&self.text).ok()?;
+        Some(table.get("chain")?.as_str()?.to_owned())
     }
 
     /// Mistakes in this text, shown where they stand.

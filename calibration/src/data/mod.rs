@@ -132,4 +132,16 @@ impl Observations {
             unknowns: self.unknowns.as_ref().map(|unknowns| unknowns.select(&rows)),
         }
     }
+    /// The same without some of the objects and their rows.
+    #[must_use]
+    pub(crate) fn without_objects(&self, is_left_out: impl Fn(usize) -> bool) -> Self {
+        let Some(unknowns) = &self.unknowns else { return self.clone() };
+        let stays = |row: &usize| unknowns.object[*row].is_none_or(|object| !is_left_out(object as usize));
+        let rows: Vec<usize> = (0..self.rows()).filter(stays).collect();
+        let mut kept = self.select(&rows);
+        if let Some(unknowns) = &mut kept.unknowns {
+            unknowns.remove_objects(is_left_out);
+        }
+        kept
+    }
 }

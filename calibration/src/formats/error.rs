@@ -160,6 +160,12 @@ pub enum DataError {
         /// Where.
         cell: Cell,
     },
+    /// A label with something in it that no reader sees, and that a terminal would obey.
+    #[error("{cell}: a control character stands in the text: take it out; was the file damaged?")]
+    ControlCharacter {
+        /// Where.
+        cell: Cell,
+    },
     /// NaN or an infinity.
     #[error("{cell}: `{text}` is not finite: fill in a number, or leave the row out")]
     NotFinite {

@@ -22,6 +22,17 @@ const NEARER: f64 = 0.2;
 /// Something that a user should look at.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Remark {
+    /// Objects whose rows do not say where they are, and were left out.
+    LeftOut {
+        /// The first of them.
+        object: String,
+        /// How many there are.
+        objects: usize,
+        /// How many rows they have.
+        rows: usize,
+        /// What to do about the first.
+        help: &'static str,
+    },
     /// Objects whose rows do no more than say where they are.
     SaysNothing {
         /// The first of them.
@@ -61,6 +72,16 @@ pub enum Remark {
 impl fmt::Display for Remark {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::LeftOut { object, objects: 1, rows: 1, help } => {
+                write!(f, "the one row of `{object}` does not say where it is and was left out: {help}")
+            }
+            Self::LeftOut { object, objects: 1, rows, help } => {
+                write!(f, "the {rows} rows of `{object}` do not say where it is and were left out: {help}")
+            }
+            Self::LeftOut { object, objects, rows, help } => write!(
+                f,
+                "{rows} rows of {objects} objects do not say where these are and were left out; of `{object}`, the first: {help}"
+            ),
             Self::SaysNothing { object, objects: 1 } => write!(
                 f,
                 "the rows of `{object}` say where it is and nothing of the errors: observe it from more places or poses"
@@ -109,12 +130,13 @@ pub(super) fn remarks(observations: &Observations, unknowns: &Unknowns, rows: &[
     if let Some(first) = idle.first() {
         remarks.push(Remark::SaysNothing { object: first.label.clone(), objects: idle.len() });
     }
-    for (number, plane) in unknowns.objects.iter().enumerate().filter(|(_, own)| own.shape == Shape::Plane) {
-        let from_normal = |row: &Row| {
-            let beam = unknowns.stations[row.station].pose.turn * row.point.normalize();
-            beam.dot(&plane.normal).abs().min(1.0).acos()
-        };
-        let most = rows.iter().filter(|row| row.object == number).map(from_normal).reduce(f64::max);
+    let mut most: Vec<Option<f64>> = vec![None; unknowns.objects.len()];
+    for row in rows.iter().filter(|row| unknowns.objects[row.object].shape == Shape::Plane) {
+        let beam = unknowns.stations[row.station].pose.turn * row.point.normalize();
+        let from_normal = beam.dot(&unknowns.objects[row.object].normal).abs().min(1.0).acos();
+        most[row.object] = Some(most[row.object].map_or(from_normal, |most| most.max(from_normal)));
+    }
+    for (plane, most) in unknowns.objects.iter().zip(most) {
         if let Some(most) = most.filter(|most| *most < HEAD_ON_RAD) {
             remarks.push(Remark::HeadOn { plane: plane.label.clone(), most_deg: most.to_degrees() });
         }

@@ -77,23 +77,45 @@ pub fn check_named<'a>(
     lost.map_or(Ok(()), |label| Err(StartError::NoRows { label: label.to_owned() }))
 }
 
-/// Says where the numbers of all objects and stations count from.
+/// Says where the numbers of all objects and stations count from, and leaves out the rows of objects of which they do not say that.
 ///
 /// `values` are those of all symbols; joints and inputs come from the rows. What is doubtful of the rows is returned.
 ///
 /// # Errors
-/// A station or an object that nothing places.
+/// A station that nothing places, or no object that anything places.
 pub fn place(
     chain: &Chain,
     observations: &mut Observations,
     values: &[f64],
 ) -> Result<Vec<Remark>, StartError> {
     let Some(mut unknowns) = observations.unknowns.take() else { return Ok(Vec::new()) };
-    let rows = rows(chain, observations, &unknowns, values);
-    let placed = place_all(&mut unknowns, &rows).map(|()| remarks(observations, &unknowns, &rows));
+    let mut rows = rows(chain, observations, &unknowns, values);
+    let placed = place_all(&mut unknowns, &rows);
     end_sights(chain, observations, &unknowns, &rows);
     observations.unknowns = Some(unknowns);
-    placed
+    let lost = placed?;
+    let Some(unknowns) = &observations.unknowns else { unreachable!("they were put back") };
+    rows.retain(|row| lost.iter().all(|own| own.object != row.object));
+    let mut all = remarks(observations, unknowns, &rows);
+    if let Some(first) = lost.first() {
+        let count =
+            |own: &Lost| unknowns.object.iter().flatten().filter(|at| **at as usize == own.object).count();
+        let (object, help) = (unknowns.objects[first.object].label.clone(), first.help);
+        all.insert(
+            0,
+            Remark::LeftOut { object, objects: lost.len(), rows: lost.iter().map(count).sum(), help },
+        );
+        *observations = observations.without_objects(|object| lost.iter().any(|own| own.object == object));
+    }
+    Ok(all)
+}
+
+/// An object whose rows do not say where it is.
+struct Lost {
+    object: usize,
+    rows: usize,
+    /// What to do about it.
+    help: &'static str,
 }
 
 /// Sights end where their objects are.
@@ -107,21 +129,29 @@ fn end_sights(chain: &Chain, observations: &mut Observations, unknowns: &Unknown
     }
 }
 
-fn place_all(unknowns: &mut Unknowns, rows: &[Row]) -> Result<(), StartError> {
+/// Places what can be placed; the objects that cannot are returned.
+fn place_all(unknowns: &mut Unknowns, rows: &[Row]) -> Result<Vec<Lost>, StartError> {
     place_stations(unknowns, rows)?;
-    for number in 0..unknowns.objects.len() {
-        if unknowns.objects[number].known == Known::Yes {
+    let mut of_object: Vec<Vec<&Row>> = vec![Vec::new(); unknowns.objects.len()];
+    rows.iter().for_each(|row| of_object[row.object].push(row));
+    let mut lost = Vec::new();
+    for (object, own) in of_object.iter().enumerate() {
+        // Rows without a value say nothing of an object: the fit sets them aside, and says so.
+        if unknowns.objects[object].known == Known::Yes || own.is_empty() {
             continue;
         }
-        let own: Vec<&Row> = rows.iter().filter(|row| row.object == number).collect();
         let poses: Vec<Pose> = own.iter().map(|row| unknowns.stations[row.station].pose).collect();
-        if own.is_empty() {
-            // Rows without a value: the fit sets them aside, and says so.
-            continue;
+        if let Err(help) = place_object(&mut unknowns.objects[object], own, &poses) {
+            lost.push(Lost { object, rows: own.len(), help });
         }
-        place_object(&mut unknowns.objects[number], &own, &poses)?;
     }
-    Ok(())
+    let label = |object: usize| unknowns.objects[object].label.clone();
+    match lost.first() {
+        Some(&Lost { object, rows, help }) if unknowns.objects.iter().all(|own| own.known == Known::No) => {
+            Err(StartError::NotPlaced { object: label(object), rows, help })
+        }
+        _ => Ok(lost),
+    }
 }
 
 /// The stations, one after the other: next that which shares most with what is placed.
@@ -252,17 +282,15 @@ fn spread(points: impl Iterator<Item = Vector3<f64>> + Clone) -> Option<(Vector3
     (count > 0).then_some((centre, squares))
 }
 
-/// An object from its rows, the stations being where they are.
-fn place_object(object: &mut Object, rows: &[&Row], poses: &[Pose]) -> Result<(), StartError> {
-    let not = |help| StartError::NotPlaced { object: object.label.clone(), rows: rows.len(), help };
+/// An object from its rows, the stations being where they are; where they do not say that, what to do about it.
+fn place_object(object: &mut Object, rows: &[&Row], poses: &[Pose]) -> Result<(), &'static str> {
     let points = rows.iter().zip(poses).map(|(row, pose)| pose.apply(&row.point));
     let Some((centre, squares)) = spread(points.clone()) else { return Ok(()) };
-    object.known = Known::Yes;
     match object.shape {
         Shape::Plane => {
             object.normal = flattest(squares)
                 .filter(|_| rows.len() >= 3)
-                .ok_or_else(|| not("observe it at three places at least that are not in a line"))?;
+                .ok_or("observe it at three places at least that are not in a line")?;
             object.place = centre;
         }
         Shape::Point if rows.iter().any(|row| tells(row)) => {
@@ -271,9 +299,9 @@ fn place_object(object: &mut Object, rows: &[&Row], poses: &[Pose]) -> Result<()
             object.place = telling.sum::<Vector3<f64>>() / count;
         }
         Shape::Point if rows.iter().all(|row| row.measure == Measure::Distance) => {
-            object.place = Vector3::from(trilaterated::<3>(rows, poses).ok_or_else(|| {
-                not("observe its distance from four places at least that are not in a plane, or write where it is")
-            })?);
+            object.place = Vector3::from(trilaterated::<3>(rows, poses).ok_or(
+                "observe its distance from four places at least that are not in a plane, or write where it is",
+            )?);
         }
         Shape::Point => {
             // Where the beams come nearest to each other.
@@ -290,24 +318,23 @@ fn place_object(object: &mut Object, rows: &[&Row], poses: &[Pose]) -> Result<()
             let values = normal.symmetric_eigenvalues();
             let flat = values.min() <= FLAT * values.max();
             let solved = if flat { None } else { normal.cholesky().map(|factor| factor.solve(&right)) };
-            object.place = solved.ok_or_else(|| {
-                not("its beams do not cross: sight it from another station, or write where it is")
-            })?;
+            object.place = solved
+                .ok_or("its beams do not cross: sight it from another station, or write where it is")?;
         }
         Shape::Circle | Shape::Ring => {
             let (axis, place, radius) = circle(&points.collect::<Vec<_>>(), &centre, squares)
-                .ok_or_else(|| not("observe it at three places at least, spread along the circle"))?;
+                .ok_or("observe it at three places at least, spread along the circle")?;
             (object.normal, object.place) = (axis, place);
             object.offset = if object.shape == Shape::Circle { radius } else { 0.0 };
         }
         Shape::Wire => {
-            let [x, y, z, offset] = trilaterated::<4>(rows, poses).ok_or_else(|| {
-                not("a wire or a sphere takes five rows at least, at points that are not in a plane")
-            })?;
+            let [x, y, z, offset] = trilaterated::<4>(rows, poses)
+                .ok_or("a wire or a sphere takes five rows at least, at points that are not in a plane")?;
             object.place = Vector3::new(x, y, z);
             object.offset = offset;
         }
     }
+    object.known = Known::Yes;
     Ok(())
 }
 

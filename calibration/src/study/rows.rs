@@ -75,10 +75,16 @@ impl Rows {
                         let Some((column, name)) = labels.next() else { continue };
                         let says_what = source.object.contains(name) || source.station.contains(name);
                         for (at, label) in values.iter().map(|label| label.trim().to_owned()).enumerate() {
-                            if says_what && label.is_empty() {
+                            let cell = || {
                                 let (file, column) = (reader.source().to_owned(), name.clone());
                                 let (line, row) = (chunk.lines.get(at).copied(), chunk.rows[at]);
-                                return Err(DataError::NoLabel { cell: Cell { file, line, row, column } });
+                                Cell { file, line, row, column }
+                            };
+                            if says_what && label.is_empty() {
+                                return Err(DataError::NoLabel { cell: cell() });
+                            }
+                            if label.contains(|letter: char| letter.is_control() && letter != '\t') {
+                                return Err(DataError::ControlCharacter { cell: cell() });
                             }
                             self.bytes += label.len() + size_of::<String>();
                             column.push(label);

@@ -30,7 +30,7 @@ fn a_station_that_nothing_connects_is_named() {
 }
 
 #[test]
-fn a_plane_of_two_rows_is_named() {
+fn a_plane_of_two_rows_is_named_and_left_out() {
     let mut seen = 0;
     let data: String = text_of("examples/objects/walls.csv")
         .lines()
@@ -41,8 +41,18 @@ fn a_plane_of_two_rows_is_named() {
         })
         .map(|line| format!("{line}\n"))
         .collect();
-    let told = refused(&text_of("examples/objects/walls.toml"), &data);
+    let (chain, study) = (text_of("examples/objects/scanner.chain"), text_of("examples/objects/walls.toml"));
+    let loaded = read(&chain, &study, &data).unwrap().1;
+    let told = loaded.remarks[0].to_string();
     assert!(told.contains("the 2 rows of `east`") && told.contains("three places"), "{told}");
+    let unknowns = loaded.observations.unknowns.as_ref().unwrap();
+    assert!(unknowns.objects.iter().all(|object| object.label != "east"));
+    assert_eq!(loaded.observations.rows() + 3, data.lines().count());
+    // Whose the other rows are has not changed.
+    let labels =
+        data.lines().skip(1).filter_map(|line| line.split(',').nth(1)).filter(|label| *label != "east");
+    let kept = (0..loaded.observations.rows()).map(|row| unknowns.labels(row)[1].unwrap());
+    assert!(labels.eq(kept));
 }
 
 #[test]

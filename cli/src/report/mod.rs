@@ -45,6 +45,9 @@ pub struct Provenance {
     pub study: String,
     /// Every file that was read.
     pub files: Vec<FileRead>,
+    /// What the command warned of before it began: what is doubtful of the study and of its data.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
 }
 
 /// A file that was read.

@@ -78,7 +78,7 @@ pub enum Cells<'a> {
     Residuals(Vec<Option<f64>>),
 }
 
-/// One row an observation that is shown: its number; its file, line and name, as far as there are such; the readings, the residual components
+/// One row an observation that is shown: its number; its file, line, name, station and object, as far as there are such; the readings, the residual components
 /// before and after, in SI, and its weight; of a part of the rows, for how many each stands. Each column by its name.
 #[must_use]
 pub fn table<'a>(reported: &'a Reported<'_>, shown: &Shown) -> Vec<(String, Cells<'a>)> {
@@ -106,8 +106,8 @@ pub fn table<'a>(reported: &'a Reported<'_>, shown: &Shown) -> Vec<(String, Cell
         }
         name
     };
-    let [row, file, line, id, weight, stands_for] =
-        ["row", "file", "line", "id", "weight", "stands_for"].map(own);
+    let [row, file, line, id, station, object, weight, stands_for] =
+        ["row", "file", "line", "id", "station", "object", "weight", "stands_for"].map(own);
     let observations = reported.observations;
     let weights = &reported.calibration.after.residuals.weight;
     let rows = || shown.rows.iter().copied();
@@ -124,7 +124,15 @@ pub fn table<'a>(reported: &'a Reported<'_>, shown: &Shown) -> Vec<(String, Cell
             .has_names()
             .then(|| (id, Cells::Texts(rows().map(|row| text(origins.of(row).name)).collect()))),
     ];
-    columns.splice(0..0, places.into_iter().flatten());
+    let labels = |which: usize| {
+        let unknowns = observations.unknowns.as_ref()?;
+        let texts: Vec<String> = rows().map(|row| text(unknowns.labels(row)[which])).collect();
+        texts.iter().any(|label| !label.is_empty()).then_some(Cells::Texts(texts))
+    };
+    let seen = [(station, labels(0)), (object, labels(1))];
+    let seen = seen.into_iter().filter_map(|(name, labels)| Some((name, labels?)));
+    let places: Vec<_> = places.into_iter().flatten().chain(seen).collect();
+    columns.splice(0..0, places);
     let weights = rows().map(|row| weights.get(row).copied().unwrap_or(1.0)).collect();
     columns.push((weight, Cells::Numbers(Cow::Owned(weights))));
     if is_part {

@@ -284,7 +284,7 @@ fn labels_that_are_swapped_are_named() {
     assert_eq!(run.stderr.matches("swapped").count(), 1, "{run}");
 }
 
-/// A wall straight ahead alone; and two rows of a wall, which do not say where it is.
+/// A wall straight ahead alone.
 #[test]
 fn walls_that_say_little_are_named() {
     let table = std::fs::read_to_string(root().join("examples/objects/walls.csv")).expect("it is there");
@@ -299,10 +299,54 @@ fn walls_that_say_little_are_named() {
     let seen = run(&folder, &["identify", "walls.toml"]);
     assert_eq!(seen.code, 0, "{seen}");
     assert!(seen.stderr.contains("the plane `screen` was seen head-on alone"), "{seen}");
-    folder.write("walls.csv", format!("{table}A,door,0.1,0.1,4\nA,door,0.2,0.1,4\n"));
+}
+
+/// Rows of objects that they do not place are left out, whatever stands beside them, and the page says so.
+#[test]
+fn rows_that_do_not_say_where_their_object_is_are_left_out() {
+    let table = std::fs::read_to_string(root().join("examples/objects/walls.csv")).expect("it is there");
+    let (header, rows) = table.split_once('\n').expect("a header");
+    let door = "A,door,0.1,0.1,4\nA,door,0.2,0.1,4\n";
+    let folder = changed("objects-lost", "walls.toml", &["scanner.chain"], |text| text);
+    folder.write("walls.csv", &table);
+    let without = report(&folder, "walls.toml");
+    // Before the others, so that every one of these moves up by one.
+    folder.write("walls.csv", format!("{header}\n{door}{rows}A,sill,0.3,0.1,4\n"));
+    let warning = "3 rows of 2 objects do not say where these are and were left out; of `door`, the first: observe it at three";
     let seen = run(&folder, &["identify", "walls.toml"]);
-    assert_eq!(seen.code, 2, "{seen}");
-    assert!(seen.stderr.contains("the 2 rows of `door` do not say where it is"), "{seen}");
+    assert_eq!(seen.code, 0, "{seen}");
+    assert!(seen.stderr.contains(warning), "{seen}");
+    let made = run(&folder, &["calibrate", "walls.toml", "--out", "result"]);
+    assert_eq!(made.code, 0, "{made}");
+    let with: Value = serde_json::from_str(&folder.read("result/report.json")).expect("JSON");
+    assert_eq!(with["errors"], without["errors"]);
+    assert!(with["provenance"]["warnings"].to_string().contains(warning), "{}", with["provenance"]);
+    assert!(folder.read("result/report.html").contains("3 rows of 2 objects do not say where these are"));
+    let residuals = folder.read("result/residuals.csv");
+    assert!(
+        residuals.starts_with("row,line,station,object,"),
+        "{}",
+        residuals.lines().next().expect("a header")
+    );
+    assert!(residuals.contains("\n3,4,A,") && !residuals.contains("door") && !residuals.contains("sill"));
+}
+
+/// A label is a text that can be read: neither nothing nor what a terminal would obey.
+#[test]
+fn labels_that_cannot_be_read_are_refused_with_their_line() {
+    let table = std::fs::read_to_string(root().join("examples/objects/walls.csv")).expect("it is there");
+    let folder = changed("objects-labels", "walls.toml", &["scanner.chain"], |text| text);
+    for (label, told) in [
+        ("", "the cell is empty: fill in the label"),
+        ("\u{1b}[31mdoor", "a control character stands in the text"),
+        ("do\u{9b}or", "a control character stands in the text"),
+    ] {
+        folder.write("walls.csv", format!("{table}A,{label},0.1,0.1,4\n"));
+        let seen = run(&folder, &["calibrate", "walls.toml"]);
+        assert_eq!(seen.code, 2, "{seen}");
+        assert!(seen.stderr.contains(told) && seen.stderr.contains("line 602, row 601"), "{seen}");
+        assert!(!seen.stderr.contains(['\u{1b}', '\u{9b}']), "{seen}");
+    }
 }
 
 #[test]

@@ -253,6 +253,15 @@ impl Unknowns {
         first(self.objects.iter().map(Object::numbers), self.of_stations())
     }
 
+    /// The labels of the station and of the object of a row; none where it has none.
+    #[must_use]
+    pub fn labels(&self, row: usize) -> [Option<&str>; 2] {
+        let station = self.station.get(row).map(|&own| self.stations[own as usize].label.as_str());
+        let object = self.object.get(row).copied().flatten();
+        let object = object.map(|own| self.objects[own as usize].label.as_str());
+        [station, object].map(|label| label.filter(|label| !label.is_empty()))
+    }
+
     /// The same with objects and stations where these numbers have them: the numbers count from there.
     #[must_use]
     pub fn at(&self, numbers: &[f64]) -> Self {
@@ -277,6 +286,14 @@ impl Unknowns {
             station: rows.iter().filter_map(|&row| self.station.get(row).copied()).collect(),
             ..self.clone()
         }
+    }
+
+    /// Removes objects that no row has to do with.
+    pub(crate) fn remove_objects(&mut self, is_removed: impl Fn(usize) -> bool) {
+        let kept: Vec<usize> = (0..self.objects.len()).filter(|&object| !is_removed(object)).collect();
+        let place = |object: u32| kept.partition_point(|own| *own < object as usize) as u32;
+        self.object.iter_mut().for_each(|own| *own = own.map(place));
+        self.objects = kept.iter().map(|&object| self.objects[object].clone()).collect();
     }
 
     /// The derivatives of components, each of a row, by the stations' numbers that are estimated: one column a number.

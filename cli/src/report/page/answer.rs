@@ -6,9 +6,11 @@ use calibration::report::{self as words, Answers, Tone, numbers};
 use maud::{Markup, PreEscaped, html};
 
 use super::chain;
+use crate::report::Reported;
 
 /// The five answers.
-pub fn first_screen(diagnosis: &Diagnosis, answers: &Answers) -> Markup {
+pub fn first_screen(reported: &Reported<'_>, answers: &Answers) -> Markup {
+    let diagnosis = &reported.calibration.diagnosis;
     let (tone, sign) = match answers.tone {
         // What was found is good news; that several causes fit has a badge of its own.
         Tone::Good | Tone::Ambiguous => ("tone good", "●"),
@@ -44,6 +46,9 @@ pub fn first_screen(diagnosis: &Diagnosis, answers: &Answers) -> Markup {
             }
             @for caution in &diagnosis.cautions {
                 p.caution role="note" { b { "Caution. " } (coded(&words::caution(caution))) }
+            }
+            @for warning in &reported.provenance.warnings {
+                p.caution role="note" { b { "Warning. " } (coded(&words::sentence_case(warning))) }
             }
             div.grid {
                 section.card aria-label="Where it sits" {

@@ -53,7 +53,7 @@ pub fn page(reported: &Reported<'_>) -> String {
                     }
                 }
                 main {
-                    (answer::first_screen(diagnosis, &answers))
+                    (answer::first_screen(reported, &answers))
                     (tables::causes(reported))
                     (pictures::residuals(reported, &rows))
                     (pictures::left(reported))
@@ -77,7 +77,7 @@ pub fn excerpt(reported: &Reported<'_>) -> String {
         &rows,
         html! {
             main {
-                (answer::first_screen(diagnosis, &answers))
+                (answer::first_screen(reported, &answers))
                 (pictures::residuals(reported, &rows))
                 (pictures::left(reported))
             }

@@ -148,7 +148,9 @@ impl OverTable {
         progress.finish_and_clear();
         table.doubtful().for_each(terminal::warn);
         if not_finite > 0 {
-            terminal::warn(format_args!("{not_finite} rows are not finite: the chain has a pole there"));
+            terminal::warn(format_args!(
+                "{not_finite} rows are not finite: the chain has a pole there, or a number too large"
+            ));
         }
         Ok(replaced)
     }

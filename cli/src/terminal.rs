@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use anstyle::{AnsiColor, Style};
+use calibration::report::shell_word;
 use indicatif::ProgressBar;
 
 use crate::failure::Failure;
@@ -131,6 +132,6 @@ pub fn report_failure(failure: &Failure) {
 
 /// The command as it was typed; a letter that is none is shown as such.
 pub fn command_line() -> String {
-    let words = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
+    let words = std::env::args_os().map(|word| shell_word(&word.to_string_lossy()).into_owned());
     words.collect::<Vec<_>>().join(" ")
 }

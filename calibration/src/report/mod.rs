@@ -17,6 +17,7 @@ mod noise;
 pub mod numbers;
 mod places;
 mod rows;
+mod shell;
 mod steps;
 
 pub use answers::{Answers, Tone, answers};
@@ -31,4 +32,5 @@ pub use next::PoseTable;
 pub use noise::noise;
 pub use places::remedy_would_show;
 pub use rows::row;
+pub use shell::shell_word;
 pub use steps::Step;

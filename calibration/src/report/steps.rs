@@ -3,6 +3,7 @@
 use super::causes::{cause, sentence_case};
 use super::effects::CHANCE;
 use super::places::told_places;
+use super::shell::shell_word;
 use crate::diagnose::{Caution, Diagnosis, EffectFound, Ended, Relation, Verdict};
 
 /// Something to do.
@@ -121,8 +122,11 @@ fn correct(diagnosis: &Diagnosis, folder: Option<&str>) -> Step {
         false => ("Correct with it now", text),
     };
     let folder = folder.unwrap_or("DIR").trim_end_matches('/');
+    let [chain, errors] = ["amended.chain", "errors.toml"].map(|file| format!("{folder}/{file}"));
     let command = format!(
-        "trueaxis apply {folder}/amended.chain --errors {folder}/errors.toml --data new.csv --out corrected.csv"
+        "trueaxis apply {} --errors {} --data new.csv --out corrected.csv",
+        shell_word(&chain),
+        shell_word(&errors)
     );
     Step { title: title.to_owned(), text: text.to_owned(), command: Some(command) }
 }

@@ -1,7 +1,7 @@
 //! Verdicts for programs.
 
 use model_core::checker::{Claim, Difference, Means, Outcome, Verdict};
-use model_core::print;
+use model_core::{Axis, print};
 use serde_json::{Value, json};
 
 use super::show::{Checked, place_in_text, product};
@@ -32,13 +32,18 @@ pub fn as_json(file: &ClaimsFile, checked: &Checked<'_>) -> Value {
                 .map(|difference| difference_as_json(file, checked.claim, difference))
                 .collect();
             if !form.differences.is_empty() {
+                let mut only = None;
                 if let Claim::ClosedForm(claimed) = &checked.claim.claim {
+                    only = claimed.only.map(Axis::index);
                     let slips = form.slips.iter();
                     claim["diagnosis"] = slips
                         .map(|slip| Value::from(slip.describe(&file.chain, claimed.observable)))
                         .collect();
                 }
-                claim["corrected"] = form.corrected(&file.printed).into();
+                // Of components that nobody claimed nothing is said.
+                let corrected = form.corrected(&file.printed).into_iter().enumerate();
+                claim["corrected"] =
+                    corrected.map(|(at, text)| only.is_none_or(|only| only == at).then_some(text)).collect();
             }
         }
         Verdict::Equality(equality) => {

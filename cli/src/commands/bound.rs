@@ -118,12 +118,14 @@ fn failure(error: DomainError) -> Failure {
 /// A bound for programs.
 pub fn as_json(chain: &Chain, bound: &Bound, found: &Found) -> serde_json::Value {
     let observable = chain.observable(bound.observable);
+    // What is proven is never exceeded but by rounding, which is not found.
+    let found = (found.value <= bound.value && bound.value > 0.0).then_some(found.value);
     let mut value = json!({
         "observable": observable.name,
         "unit": remainder::unit(bound, chain),
         "bound": bound.value,
-        "largest_found": found.value,
-        "ratio": bound.value / found.value,
+        "largest_found": found,
+        "ratio": found.map(|found| bound.value / found),
     });
     let name = |id| &chain.symbol(id).name;
     match &bound.parts {

@@ -5,6 +5,7 @@ use std::io::{self, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use calibration::formats::{self, DataError, Options};
+use calibration::report::shell_word;
 use calibration::study::Study;
 use model_core::Chain;
 
@@ -92,7 +93,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         template.what,
         chain_file.display(),
         study_file.display(),
-        study_file.display()
+        shell_word(&study_file.display().to_string())
     ))?;
     Ok(Answer::Done)
 }

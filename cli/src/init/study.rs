@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use calibration::report::shell_word;
+
 use super::look::Read;
 use super::words::Part;
 use super::{Draft, Look, Observed};
@@ -11,7 +13,7 @@ const GROUPS: usize = 12;
 
 /// The study of a draft: the paths of its chain and its data as the study names them, and its own.
 pub fn study(draft: &Draft, look: &Look, [chain, data, own]: [&str; 3]) -> String {
-    let mut text = format!("# Begun by trueaxis init: trueaxis calibrate {}\n", one_line(own));
+    let mut text = format!("# Begun by trueaxis init: trueaxis calibrate {}\n", shell_word(&one_line(own)));
     for remark in &draft.remarks {
         let _ = writeln!(text, "# {}", one_line(remark));
     }

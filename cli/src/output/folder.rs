@@ -30,6 +30,10 @@ impl Folder {
             Ok(place) if place.is_dir() => Filling::There(Batch::default()),
             Ok(_) => return Err(fail(io::Error::other("a file has this name; name a folder"))),
             Err(_) => {
+                if let Some(file) = path.ancestors().skip(1).find(|above| above.is_file()) {
+                    let why = format!("`{}` is a file; name a folder", file.display());
+                    return Err(fail(io::Error::other(why)));
+                }
                 if let Some(above) = path.parent() {
                     fs::create_dir_all(above).map_err(fail)?;
                 }

@@ -3,6 +3,7 @@
 use insta::assert_snapshot;
 use serde_json::Value;
 
+use crate::support::Folder;
 use crate::{LIDAR, answered};
 
 #[test]
@@ -58,4 +59,37 @@ fn a_range_makes_a_bound_for_the_target() {
     let range = ["--range", "range=1 m..50 m", "--observable", "target"];
     let answer = answered(&[["bound", LIDAR, "--sizes", sizes].as_slice(), &range].concat());
     assert!(answer.starts_with("target: |exact - first order| is never more than "), "{answer}");
+}
+
+/// A shift along its own axis has no second order; of sizes whose products are below rounding a search sees rounding alone.
+#[test]
+fn what_a_search_finds_is_never_told_above_the_bound() {
+    let folder = Folder::new("bound-of-nothing");
+    folder.write(
+        "slide.chain",
+        "chain Slide {\n\
+         body slide on ground { motion: Tx(x); motion_error: Tx(zero); }\n\
+         body tip on slide { position_error: Rz(tilt); }\n\
+         observe carriage: point(0, 0, 0) of slide; observe tip: point(1, 0, 0) of tip; }\n",
+    );
+    let bound = |sizes: &str, observable: &str, format: &str| {
+        folder.write("box.toml", sizes);
+        let ask =
+            ["bound", "slide.chain", "--sizes", "box.toml", "--observable", observable, "--format", format];
+        let run = folder.trueaxis(&[&ask[..], &["--range", "x=-1 m..3.3 m"]].concat());
+        assert_eq!(run.code, 0, "{run}");
+        run.stdout
+    };
+    let sizes = "zero = \"0.1 mm\"\ntilt = \"10 arcsec\"\n";
+    let text = bound(sizes, "carriage", "text");
+    assert!(text.contains("the first order is exact here") && !text.contains("found"), "{text}");
+    let answer: Value = serde_json::from_str(&bound(sizes, "carriage", "json")).expect("JSON");
+    assert_eq!(answer["bounds"][0]["bound"], 0.0);
+    assert!(answer["bounds"][0]["largest_found"].is_null() && answer["bounds"][0]["ratio"].is_null());
+    // Products of errors far below what numbers hold beside one.
+    let small = "zero = \"0.1 mm\"\ntilt = \"1e-9 rad\"\n";
+    let answer: Value = serde_json::from_str(&bound(small, "tip", "json")).expect("JSON");
+    let [proven, found] = ["bound", "largest_found"].map(|key| answer["bounds"][0][key].as_f64());
+    assert!(proven > Some(0.0) && found <= proven, "{answer}");
+    assert!(bound(sizes, "tip", "text").contains("largest found by search"));
 }

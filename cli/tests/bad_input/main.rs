@@ -9,6 +9,7 @@ mod arguments;
 mod data;
 mod declarations;
 mod errors_files;
+mod wrong_file;
 
 use support::{Folder, Run};
 

@@ -197,3 +197,20 @@ fn a_thousand_claims_are_checked() {
     assert_eq!((run.code, run.stderr.as_str()), (1, ""));
     assert!(run.stdout.ends_with("\n500 of 1000 claims hold\n"));
 }
+
+/// Of one component that is claimed, the correction is of that one; nothing is said of the others.
+#[test]
+fn a_claim_on_one_component_corrects_that_one() {
+    let folder = Folder::new("check_one_component");
+    folder.copy("examples/mobile-lidar/mobile-lidar.chain").write(
+        "claims.toml",
+        "chain = \"mobile-lidar.chain\"\n[[claim]]\nname = \"third\"\nobservable = \"pointing\"\ncomponent = \"z\"\n\
+         keep = [\"dtheta_*\"]\ncomponents = ['dtheta_x1']\n",
+    );
+    let run = folder.trueaxis(&["check", "claims.toml", "--format", "json"]);
+    assert_eq!(run.code, 1, "{run}");
+    let json: Value = serde_json::from_str(&run.stdout).expect("JSON");
+    let corrected = claims(&json)[0]["corrected"].as_array().expect("a list");
+    assert!(corrected[0].is_null() && corrected[1].is_null(), "{run}");
+    assert!(text(&corrected[2]).contains("sin"), "{run}");
+}

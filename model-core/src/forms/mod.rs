@@ -30,11 +30,22 @@ pub struct Form {
     pub positive: Vec<Vec<Poly>>,
 }
 
+/// What to do about a chain that is too long to be multiplied out.
+fn instead(error: &AlgebraError) -> &'static str {
+    match error {
+        AlgebraError::TooLarge => {
+            "; the chain is too long for a closed form, which `bound`, `eval`, `generate` and `calibrate` do not need; or observe a \
+             body further down"
+        }
+        _ => "",
+    }
+}
+
 /// What has no closed form.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum FormError {
     /// A factor of the chain.
-    #[error("R{axis} of body `{body}`: {error}")]
+    #[error("R{axis} of body `{body}`: {error}{}", instead(error))]
     Factor {
         /// The body whose factor it is.
         body: String,

@@ -38,7 +38,12 @@ pub fn text(bound: &Bound, found: Option<&Found>, chain: &Chain) -> String {
             }
         }
     }
-    if let Some(found) = found {
+    if bound.value == 0.0 {
+        lines.push_str("  the first order is exact here: nothing is left out\n");
+    } else if found.is_some_and(|found| found.value > bound.value) {
+        // What is proven is never exceeded but by rounding.
+        lines.push_str("  a search finds nothing above the rounding of its numbers\n");
+    } else if let Some(found) = found {
         let _ = writeln!(lines, "  largest found by search {:.4e}{unit}", found.value);
         if found.value > 0.0 {
             let _ = writeln!(lines, "  bound / found = {:.3}", bound.value / found.value);

@@ -1,0 +1,60 @@
+//! The right command with the wrong one of the files that belong together.
+
+use crate::{mount, refused};
+
+#[test]
+fn a_declaration_where_a_study_claims_or_errors_are_needed() {
+    let folder = mount("declaration-for-a-study");
+    for asked in [
+        &["calibrate", "mount.chain"][..],
+        &["check", "mount.chain"],
+        &["bound", "mount.chain", "--sizes", "mount.chain"],
+    ] {
+        let run = folder.trueaxis(asked);
+        let told = refused(&run);
+        assert!(told.contains("`mount.chain` is a declaration; needed here is a file in TOML"), "{run}");
+        assert!(told.contains("chain = \"mount.chain\""), "{run}");
+        assert_eq!(told.lines().count(), 1, "{run}");
+    }
+}
+
+#[test]
+fn a_study_where_a_declaration_is_needed() {
+    let folder = mount("study-for-a-declaration");
+    folder.write("study.toml", "chain = \"mount.chain\"\ndata = \"poses.csv\"\n");
+    for asked in [
+        &["derive", "study.toml"][..],
+        &["eval", "study.toml", "--errors", "e.toml", "--data", "poses.csv", "--out", "out.csv"],
+    ] {
+        let run = folder.trueaxis(asked);
+        let told = refused(&run);
+        assert!(told.contains("`study.toml` is no declaration, but names one: give `mount.chain`"), "{run}");
+    }
+}
+
+/// A mistake in either is still shown where it stands.
+#[test]
+fn a_mistake_in_the_right_file_has_its_place() {
+    let folder = mount("mistake-in-the-right-file");
+    folder.write("study.toml", "chain = \"mount.chain\"\ndate = \"poses.csv\"\n");
+    assert!(refused(&folder.trueaxis(&["calibrate", "study.toml"])).contains("study.toml:2:1"));
+    folder.write("wrong.chain", crate::MOUNT.replace("Rx(index)", "Rx(index"));
+    assert!(refused(&folder.trueaxis(&["derive", "wrong.chain"])).contains("wrong.chain:"));
+}
+
+/// Sixty bodies have no closed form that anybody would read; what needs none is said.
+#[test]
+fn a_chain_too_long_for_a_closed_form() {
+    let folder = mount("long");
+    let mut text = String::from("chain Long {\n");
+    for body in 0..60 {
+        let below = if body == 0 { "ground".to_owned() } else { format!("b{}", body - 1) };
+        let [turns, off] = [0, 1].map(|more| ["x", "y", "z"][(body + more) % 3]);
+        text.push_str(&format!(
+            "body b{body} on {below} {{ position: Tz(0.1); motion: R{turns}(q{body}); motion_error: R{off}(e{body}); }}\n"
+        ));
+    }
+    folder.write("long.chain", text + "observe tip: point(0, 0, 0) of b59;\n}\n");
+    let run = folder.trueaxis(&["derive", "long.chain"]);
+    assert!(refused(&run).contains("too long for a closed form, which `bound`, `eval`"), "{run}");
+}

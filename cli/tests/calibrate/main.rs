@@ -12,6 +12,7 @@ mod drive;
 mod figures;
 mod instruments;
 mod many;
+mod near;
 mod noiseless;
 mod objects;
 mod observations;

@@ -23,6 +23,9 @@ use crate::fit::partial::{Partial, Rows};
 /// Components per coefficient below which no variance model is looked for.
 const COMPONENTS_PER_TERM: usize = 15;
 
+/// So many components tell a standard deviation to an eighth.
+const COMPONENTS_KNOWN: f64 = 30.0;
+
 /// Rows whose functions are made at a time.
 const BLOCK: usize = 4096;
 
@@ -95,11 +98,27 @@ fn of_components<I: Iterator<Item = (f64, f64)>>(
         let fitted = model.fitted(&model.functions(&block), &coefficients);
         fitted.into_iter().map(factor).collect::<Vec<f64>>()
     });
-    let factors: Vec<Vec<f64>> = factors.collect();
+    let mut factors = factors.collect::<Vec<Vec<f64>>>().concat();
+    let least = surest(&factors, &rows);
+    factors.iter_mut().for_each(|factor| *factor = factor.max(least));
     let of_source = |number: usize| {
         sources[number].terms().into_iter().zip(coefficients[model.of_source(number)].iter().copied())
     };
-    Some((VarianceModel { of, terms: chosen.into_iter().flat_map(of_source).collect() }, factors.concat()))
+    Some((VarianceModel { of, terms: chosen.into_iter().flat_map(of_source).collect() }, factors))
+}
+
+/// The factor that no row goes below: that of the surest rows together whose residuals tell what their noise is. What a model says of
+/// the few rows beyond is extrapolated; a target half a metre away would decide, and its noise would be taken for next to nothing.
+fn surest(factors: &[f64], rows: &[[f64; 2]]) -> f64 {
+    let counted = factors.iter().zip(rows).filter(|(_, [count, _])| *count > 0.0);
+    let mut counted: Vec<(f64, f64)> = counted.map(|(factor, [count, _])| (*factor, *count)).collect();
+    counted.par_sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    let mut told = 0.0;
+    let known = counted.iter().find(|(_, count)| {
+        told += count;
+        told >= COMPONENTS_KNOWN
+    });
+    known.or(counted.last()).map_or(0.0, |(factor, _)| *factor)
 }
 
 /// Readings with the functions that are made of them.
@@ -383,6 +402,21 @@ impl Independent {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Two components a row: the fifteen surest rows that count tell the least factor, and rows without components tell nothing.
+    #[test]
+    fn no_row_is_surer_than_those_that_tell_their_noise() {
+        let mut factors: Vec<f64> = (1..=40).rev().map(f64::from).collect();
+        let mut rows = vec![[2.0, 1.0]; 40];
+        assert_eq!(surest(&factors, &rows), 15.0);
+        factors.extend([1e-9; 100]);
+        rows.extend([[0.0, 0.0]; 100]);
+        assert_eq!(surest(&factors, &rows), 15.0);
+        // Rows that are fitted as they are tell nothing of noise: the next in order do.
+        rows[39] = [0.1, 0.0];
+        assert_eq!(surest(&factors, &rows), 16.0);
+        assert_eq!(surest(&factors[..5], &rows[..5]), 40.0);
+    }
 
     #[test]
     fn columns_that_depend_on_others_get_nothing_and_the_rest_is_least_squares() {

@@ -14,7 +14,7 @@ use crate::fit::robust;
 use crate::search::Request;
 use crate::search::SearchError;
 use crate::search::contest::ln_choices;
-use crate::search::context::Context;
+use crate::search::context::{Context, Found};
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
 use crate::study::Plan;
@@ -38,8 +38,14 @@ pub(super) fn reconsidered<'a>(whole: &Context<'a>, last: Round<'a>) -> Result<R
     if !first.fit.outcome.is_usable() {
         return Ok(last);
     }
-    let found = rounds(&trusting, Round::at(&trusting, first)?)?.fitted;
-    if names(&found.found) == names(&last.fitted.found) {
+    let is_the_same = |found: &[Found]| names(found) == names(&last.fitted.found);
+    let round = Round::at(&trusting, first)?;
+    // Where every row says the same from the start, none was overheard.
+    if is_the_same(&round.search(&trusting)) {
+        return Ok(last);
+    }
+    let found = rounds(&trusting, round)?.fitted;
+    if is_the_same(&found.found) {
         return Ok(last);
     }
     let other = Fitted::with(whole, found.found.clone(), &found)?;

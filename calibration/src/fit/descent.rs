@@ -125,8 +125,9 @@ impl Solver<'_> {
         Ok(())
     }
 
-    /// Descends and learns the noise in turn until neither changes.
+    /// Descends and learns the noise in turn until neither changes, or a noise comes back.
     pub(super) fn settle(&mut self, course: &mut Course) -> Result<(), FitError> {
+        let mut tried: Vec<(Arc<Noise>, f64)> = Vec::new();
         for _ in 0..NOISE_ROUNDS {
             let noise = course.noise.clone();
             self.descend(course, &noise, ROUGHLY)?;
@@ -134,21 +135,44 @@ impl Solver<'_> {
             if self.kept_components(&weight) as f64 <= self.used(course) {
                 break;
             }
-            let learned = self.learn_noise(course, &weight)?;
+            let learned = Arc::new(self.learn_noise(course, &weight)?);
             let known = same(&learned, &course.noise, NOISE_KNOWN);
-            if !same(&learned, &course.noise, SAME_NOISE) {
-                let values = std::mem::take(&mut course.point.values);
-                let rest = course.point.rest.clone();
-                course.point = self.point(values, &learned, course.weighting, rest)?;
-                course.noise = Arc::new(learned);
-            }
             if known {
+                self.take(course, learned)?;
                 break;
             }
+            let unlikely = self.unlikelihood(course, &weight);
+            tried.push((noise, unlikely));
+            // Each of two noises may follow from the residuals that the other one leaves: neither is learned any better.
+            if let Some(back) = tried.iter().position(|(other, _)| same(&learned, other, NOISE_KNOWN)) {
+                let likeliest = tried.drain(back..).min_by(|a, b| a.1.total_cmp(&b.1));
+                let Some((noise, _)) = likeliest else { unreachable!("one of them has come back") };
+                self.take(course, noise)?;
+                break;
+            }
+            self.take(course, learned)?;
         }
         let noise = course.noise.clone();
         let is_free = self.observations.unknowns.is_some();
         self.descend(course, &noise, if is_free { NEGLIGIBLE_IN_A_FREE_FRAME } else { NEGLIGIBLE })
+    }
+
+    /// Goes on with another noise.
+    fn take(&self, course: &mut Course, noise: Arc<Noise>) -> Result<(), FitError> {
+        if !same(&noise, &course.noise, SAME_NOISE) {
+            let values = std::mem::take(&mut course.point.values);
+            let rest = course.point.rest.clone();
+            course.point = self.point(values, &noise, course.weighting, rest)?;
+            course.noise = noise;
+        }
+        Ok(())
+    }
+
+    /// Twice the negative logarithm of how likely the residuals of rows with weight are with the course's noise, but for a constant.
+    fn unlikelihood(&self, course: &Course, weight: &[f64]) -> f64 {
+        let sigma = course.noise.sigma_without_memory();
+        let counted = self.layout.row_of_each().zip(sigma.iter()).filter(|(row, _)| weight[*row] > 0.0);
+        course.point.sweep.tally.objective + 2.0 * counted.map(|(_, sigma)| sigma.ln()).sum::<f64>()
     }
 
     /// Steps with this noise until one is no longer than `negligible`.

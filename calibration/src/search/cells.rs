@@ -175,10 +175,21 @@ struct Taken<'a> {
 impl vector::Work for Taken<'_> {
     #[inline(always)]
     fn run<A: Arithmetic>(self, _: A) {
-        for at in self.pivots {
-            let known = &self.products[at * self.width..(at + 1) * self.width];
-            let factor = known[self.pivot];
-            for (own, known) in self.row.iter_mut().zip(known) {
+        let Self { row, products, width, pivots, pivot } = self;
+        let known = |at: usize| &products[at * width..(at + 1) * width];
+        // Four at a time: the row is read and written a quarter as often, with the same bits.
+        let (fours, others) = pivots.as_chunks::<4>();
+        for four in fours {
+            let [a, b, c, d] = four.map(known);
+            let factor = [a, b, c, d].map(|known| known[pivot]);
+            for ((((own, a), b), c), d) in row.iter_mut().zip(a).zip(b).zip(c).zip(d) {
+                *own = (((*own - factor[0] * a) - factor[1] * b) - factor[2] * c) - factor[3] * d;
+            }
+        }
+        for &at in others {
+            let known = known(at);
+            let factor = known[pivot];
+            for (own, known) in row.iter_mut().zip(known) {
                 *own -= factor * known;
             }
         }

@@ -18,7 +18,8 @@ const SCANNER: &str = "chain Scanner {
     observe hit: point(0, range, 0) of beam;
 }
 ";
-const STUDY: &str = "chain = \"scanner.chain\"\ndata = \"rows.csv\"\n[observed]\nkind = \"target\"\nobject = \"object\"\n";
+const STUDY: &str =
+    "chain = \"scanner.chain\"\ndata = \"rows.csv\"\n[observed]\nkind = \"target\"\nobject = \"object\"\n";
 
 const ASIDE_M: f64 = 0.3e-3;
 const ARCSEC: f64 = PI / 648_000.0;

@@ -6,7 +6,7 @@
 
 Each run draws a scanner's errors, its stations and the room, simulates it with one effect or none by the exact form below, which
 shares no code with the project, and calibrates it with the whole command. Stations that are unknown are told to 0.1 m and 1°, as
-starts. A range scale that is declared, with nothing to hold it, is to be refused. NumPy alone is needed. Intervals are of 95 % (Wilson).
+starts. A range scale that is declared, with nothing to hold it, is to be refused. Beside each draw a control says what F tests say of it. NumPy alone is needed. Intervals are of 95 % (Wilson).
 """
 import argparse
 import concurrent.futures
@@ -21,6 +21,7 @@ import tempfile
 import numpy as np
 
 from blind import ROOT, student, wilson
+from control import smallest_p
 
 ARCSEC = math.pi / 648_000
 RANGE_NOISE, ANGLE_NOISE = 0.5e-3, 8 * ARCSEC
@@ -156,15 +157,18 @@ def study(kind, placed, random, known, more):
 
 
 def calibrated(command, random, kind, effect, rows, known=False, declared=False):
-    """The instrument, and what the command reports of it."""
+    """The instrument, what the command reports of it, and the control's p."""
     scanner, placed = Scanner(random, effect), stations(random)
     # A phase is a column only where a phase meter is suspected.
     cyclic = effect.startswith("cyclic")
     table = f"station,object,azimuth [rad],elevation [rad],range [m]{',phase [rad]' if cyclic else ''}\n"
+    drawn, noise = [], [ANGLE_NOISE, ANGLE_NOISE, RANGE_NOISE]
     for label, name, *readings in {"walls": walls, "targets": targets}[kind](random, scanner, placed, rows):
-        noisy = [value + sigma * random.standard_normal() for value, sigma in zip(readings, [ANGLE_NOISE, ANGLE_NOISE, RANGE_NOISE])]
+        noisy = [value + sigma * random.standard_normal() for value, sigma in zip(readings, noise)]
         last = f",{phase(noisy[2]) % (2 * math.pi):.9f}" if cyclic else ""
         table += f"{label},{name},{noisy[0]:.9f},{noisy[1]:.9f},{noisy[2]:.6f}{last}\n"
+        drawn.append((label, name, readings, noisy))
+    control = smallest_p(scanner, placed, WALLS if kind == "walls" else None, drawn, noise)
     chain = (ROOT / "examples" / "objects" / "scanner.chain").read_text()
     if declared:
         chain = chain.replace("Ty(range_zero)", "Ty(range_zero), Ty(longer*range)")
@@ -180,25 +184,25 @@ def calibrated(command, random, kind, effect, rows, known=False, declared=False)
         asked = [command, "calibrate", "study.toml", "--format", "json", "--dry-run"]
         run = subprocess.run(asked, cwd=folder, capture_output=True, text=True, env={**os.environ, "RAYON_NUM_THREADS": "1"})
     if declared and run.returncode == 2 and "nothing holds the scale" in run.stderr:
-        return scanner, None
+        return scanner, None, control
     if run.returncode not in (0, 1):
         raise RuntimeError(f"{kind}, {effect}: {run.stderr}")
-    return scanner, json.loads(run.stdout)
+    return scanner, json.loads(run.stdout), control
 
 
 def trial(command, kind, cell, run, rows):
     """What one run came to: what was accepted and told, and how many intervals hold what was drawn."""
     effect, known, declared = cell
     random = np.random.default_rng([run, len(kind), list(EFFECTS).index(effect), known, declared])
-    scanner, report = calibrated(command, random, kind, effect, rows, known, declared)
+    scanner, report, control = calibrated(command, random, kind, effect, rows, known, declared)
     if report is None:
-        return {"kind": kind, "cell": cell, "run": run, "verdict": "refused", "accepted": [], "told": [], "effects": 0, "inside": 0, "of": 0}
+        return {"kind": kind, "cell": cell, "run": run, "verdict": "refused", "accepted": [], "told": [], "effects": 0, "control": control, "inside": 0, "of": 0}
     told = lambda one: {cause["name"] for cause in one["causes"]} | set(one["names"])
     result = {
         "kind": kind, "cell": cell, "run": run, "verdict": report["verdict"],
         "accepted": [cause["name"] for one in report["effects"] for cause in one["causes"] if cause["relation"] == "accepted"],
         "told": sorted(set().union(*(told(one) for one in report["effects"]))),
-        "effects": len(report["effects"]), "inside": 0, "of": 0,
+        "effects": len(report["effects"]), "control": control, "inside": 0, "of": 0,
     }  # fmt: skip
     for error in report["errors"]:
         sigma = error["standard_uncertainty"]
@@ -225,8 +229,8 @@ def main():
     command = pathlib.Path(arguments.trueaxis).resolve()
     kinds = [arguments.only] if arguments.only else ["walls", "targets"]
     cells = [(effect, False, False) for effect in EFFECTS] + [("range scale, 1e-3", True, False), ("range scale, 1e-3", False, True)]
-    print("| observed | planted | stations | runs | right | truth in the set | any effect | 95 % intervals that hold the truth | verdicts |")
-    print("|---|---|---|---|---|---|---|---|---|")
+    print("| observed | planted | stations | runs | right | truth in the set | any effect | control below 0.05 | 95 % intervals that hold the truth | verdicts |")
+    print("|---|---|---|---|---|---|---|---|---|---|")
     for kind in kinds:
         for cell in cells:
             effect, known, declared = cell
@@ -245,6 +249,7 @@ def main():
                   f"{'known' if known else 'unknown'} | {runs} | "
                   f"{share(lambda result: name in result['accepted']) if name else ''} | "
                   f"{share(lambda result: name in result['told']) if name else ''} | {share(lambda result: result['effects'] > 0)} | "
+                  f"{share(lambda result: result['control'] < 0.05)} | "
                   f"{wilson(sum(result['inside'] for result in results), sum(result['of'] for result in results))} | "
                   f"{', '.join(f'{one} {verdicts.count(one)}' for one in sorted(set(verdicts)))} |", flush=True)  # fmt: skip
             pulls = {one: [result["pulls"][one] for result in results if one in result.get("pulls", {})] for one in Scanner.NAMES}

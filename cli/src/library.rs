@@ -22,9 +22,9 @@ use crate::tables::{self, ReadingsTable};
 use crate::{claims, errors_file, poses, report, terminal};
 
 pub use crate::calibrating::{Calibrated, Studied};
+pub use crate::draw::stretches;
 pub use crate::evaluation::{Exactness, Quantity};
 pub use crate::failure::Failure;
-pub use crate::many::stretches;
 pub use crate::report::Cells;
 pub use crate::source::Source;
 pub use crate::streaming::{Foretold, Rows, Streaming, accumulated, validated};

@@ -8,6 +8,7 @@ mod identify;
 mod remark;
 mod rows;
 mod scale;
+mod solved;
 mod start;
 
 pub use identify::{Remedy, SetUp, Visible, identify};

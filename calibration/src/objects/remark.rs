@@ -9,6 +9,7 @@ use nalgebra::Vector3;
 use super::rows::{Row, tells};
 use crate::data::Observations;
 use crate::data::unknowns::{Freedom, Object, Shape, Unknowns};
+use crate::fit::robust;
 
 /// A plane that no beam meets at more than this from its normal shows ranges alone, rad.
 const HEAD_ON_RAD: f64 = 0.15;
@@ -18,6 +19,11 @@ const ASTRAY: f64 = 8.0;
 
 /// It lies where another object is when it is this much nearer to that.
 const NEARER: f64 = 0.2;
+
+/// Rows of one object lie as far from each other as objects do from this share of the distance between objects on, of which there are
+/// so many at least.
+const AS_FAR: f64 = 0.3;
+const FEWEST: usize = 3;
 
 /// Something that a user should look at.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,6 +38,13 @@ pub enum Remark {
         rows: usize,
         /// What to do about the first.
         help: &'static str,
+    },
+    /// Places that the study states and no row has to do with.
+    Unseen {
+        /// The first of them.
+        label: String,
+        /// How many there are.
+        labels: usize,
     },
     /// Objects whose rows do no more than say where they are.
     SaysNothing {
@@ -55,6 +68,13 @@ pub enum Remark {
         first: u64,
         /// The row that it repeats.
         of: u64,
+    },
+    /// Rows of one object lie as far from each other as objects do.
+    FarApart {
+        /// How far a row lies from the others of its object, in the middle of all, m.
+        usual_m: f64,
+        /// Whether rows name stations.
+        has_stations: bool,
     },
     /// Rows of one object that lie where another is.
     Swapped {
@@ -82,6 +102,16 @@ impl fmt::Display for Remark {
                 f,
                 "{rows} rows of {objects} objects do not say where these are and were left out; of `{object}`, the first: {help}"
             ),
+            Self::Unseen { label, labels: 1 } => {
+                write!(
+                    f,
+                    "no row has to do with `{label}`, of which the study says where it is: is its name right?"
+                )
+            }
+            Self::Unseen { label, labels } => write!(
+                f,
+                "no row has to do with {labels} of the places that the study states (`{label}` is the first): are their names right?"
+            ),
             Self::SaysNothing { object, objects: 1 } => write!(
                 f,
                 "the rows of `{object}` say where it is and nothing of the errors: observe it from more places or poses"
@@ -103,6 +133,15 @@ impl fmt::Display for Remark {
                 f,
                 "{rows} rows repeat others number by number, the first of them row {first}, which is row {of} again: they were left \
                  out; was the file written twice?"
+            ),
+            Self::FarApart { usual_m, has_stations } => write!(
+                f,
+                "rows of one object lie {usual_m:.2} m from each other, as far as objects do: {}",
+                if *has_stations {
+                    "do `object` and `station` name the right columns, and are units and signs right?"
+                } else {
+                    "were they seen from several places? Then name the column that says from where, station = \"…\" under [observed]"
+                }
             ),
             Self::Swapped { one, other, rows: [there, 0], first } => write!(
                 f,
@@ -141,8 +180,36 @@ pub(super) fn remarks(observations: &Observations, unknowns: &Unknowns, rows: &[
             remarks.push(Remark::HeadOn { plane: plane.label.clone(), most_deg: most.to_degrees() });
         }
     }
-    remarks.extend(swapped(observations, unknowns, rows));
+    match far_apart(unknowns, rows) {
+        Some(far) => remarks.push(far),
+        None => remarks.extend(swapped(observations, unknowns, rows)),
+    }
     remarks
+}
+
+/// Whether rows of one object lie as far from each other as objects do: they are not of one object, or from one place.
+fn far_apart(unknowns: &Unknowns, rows: &[Row]) -> Option<Remark> {
+    let rows: Vec<&Row> = rows.iter().filter(|row| tells(row)).collect();
+    let there = |row: &Row| unknowns.stations[row.station].pose.apply(&row.point);
+    let mut places: Vec<Sum> = vec![(Vector3::zeros(), 0.0); unknowns.objects.len()];
+    for row in &rows {
+        places[row.object].0 += there(row);
+        places[row.object].1 += 1.0;
+    }
+    let centres: Vec<Vector3<f64>> =
+        places.iter().filter(|(_, count)| *count > 0.0).map(|(sum, count)| sum / *count).collect();
+    let away = rows
+        .iter()
+        .filter_map(|row| Some((there(row) - without(places[row.object], (there(row), 1.0))?).norm()));
+    let away: Vec<f64> = away.collect();
+    if centres.len() < FEWEST || away.is_empty() {
+        return None;
+    }
+    let middle = centres.iter().sum::<Vector3<f64>>() / centres.len() as f64;
+    let apart = robust::median(centres.iter().map(|centre| (centre - middle).norm()).collect());
+    let usual_m = robust::median(away);
+    let has_stations = unknowns.stations.iter().any(|station| !station.label.is_empty());
+    (usual_m > AS_FAR * apart).then_some(Remark::FarApart { usual_m, has_stations })
 }
 
 /// A sum of points and how many they are.

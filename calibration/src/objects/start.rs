@@ -4,16 +4,14 @@
 //! known, the station that sees most is the frame of all others.
 
 use model_core::Chain;
-use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::remark::{Remark, remarks};
 use super::rows::{Row, rows, sighted, tells};
+use super::solved::{FLAT, circle, flattest, trilaterated};
 use crate::data::unknowns::{Freedom, Known, Object, Pose, Shape, Unknowns};
-use crate::data::{Measure, Measured, Observations, Poses, tangent_frame};
+use crate::data::{Measure, Observations, Poses};
 use crate::fit::{align_robustly, robust};
-
-/// Singular values below this share of the largest are none: points in a line or a plane.
-const FLAT: f64 = 1e-6;
 
 /// A rough pose is nowhere near where targets come to lie off by more than this share of their distance, while by those of others
 /// they lie off by less than that share of it.
@@ -67,19 +65,29 @@ pub enum StartError {
     },
 }
 
-/// Checks that rows have to do with everything of which the study says where it is: these labels of stations and of objects.
+/// Checks that rows have to do with what the study says of places: these labels of stations and of objects. A list of control points
+/// may be longer than what was observed; what is not is returned.
 ///
 /// # Errors
-/// One that no row names.
+/// None of the stations, or none of the objects, has rows.
 pub fn check_named<'a>(
     unknowns: &Unknowns,
-    mut stations: impl Iterator<Item = &'a str>,
-    mut objects: impl Iterator<Item = &'a str>,
-) -> Result<(), StartError> {
-    let lost = stations
-        .find(|label| unknowns.stations.iter().all(|own| own.label != *label))
-        .or_else(|| objects.find(|label| unknowns.objects.iter().all(|own| own.label != *label)));
-    lost.map_or(Ok(()), |label| Err(StartError::NoRows { label: label.to_owned() }))
+    stations: impl Iterator<Item = &'a str>,
+    objects: impl Iterator<Item = &'a str>,
+) -> Result<Option<Remark>, StartError> {
+    let mut unseen: Vec<String> = Vec::new();
+    let seen_stations: Vec<&str> = unknowns.stations.iter().map(|station| station.label.as_str()).collect();
+    let seen_objects: Vec<&str> = unknowns.objects.iter().map(|object| object.label.as_str()).collect();
+    for (stated, seen) in [(stations.collect::<Vec<_>>(), seen_stations), (objects.collect(), seen_objects)] {
+        let lost: Vec<&str> = stated.iter().copied().filter(|label| !seen.contains(label)).collect();
+        match lost.first() {
+            Some(first) if lost.len() == stated.len() => {
+                return Err(StartError::NoRows { label: (*first).to_owned() });
+            }
+            _ => unseen.extend(lost.into_iter().map(str::to_owned)),
+        }
+    }
+    Ok(unseen.first().cloned().map(|label| Remark::Unseen { label, labels: unseen.len() }))
 }
 
 /// Says where the numbers of all objects and stations count from, and leaves out the rows of objects of which they do not say that.
@@ -366,78 +374,4 @@ fn place_object(object: &mut Object, rows: &[&Row], poses: &[Pose]) -> Result<()
     }
     object.known = Known::Yes;
     Ok(())
-}
-
-/// The direction in which points are spread least, of its two ways the one whose largest part is positive; `None` for points in a
-/// line.
-fn flattest(squares: Matrix3<f64>) -> Option<Vector3<f64>> {
-    let eigen = squares.symmetric_eigen();
-    let mut order = [0, 1, 2];
-    order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
-    if eigen.eigenvalues[order[1]] <= FLAT * FLAT * eigen.eigenvalues[order[2]] {
-        return None;
-    }
-    let normal: Vector3<f64> = eigen.eigenvectors.column(order[0]).into();
-    let larger = |most: f64, part: f64| if part.abs() > most.abs() { part } else { most };
-    let largest = normal.iter().copied().fold(0.0, larger);
-    Some(normal * largest.signum())
-}
-
-/// The axis, centre and radius of a circle through points with this mean and these squares about it; `None` where they do not say.
-fn circle(
-    points: &[Vector3<f64>],
-    mean: &Vector3<f64>,
-    squares: Matrix3<f64>,
-) -> Option<(Vector3<f64>, Vector3<f64>, f64)> {
-    let axis = flattest(squares).filter(|_| points.len() >= 3)?;
-    let [across, along] = tangent_frame(&axis);
-    // |x|² = 2 x·c + (r² − |c|²) in the plane: linear in c and what is in the brackets.
-    let places = points.iter().map(|point| [(point - mean).dot(&across), (point - mean).dot(&along)]);
-    let places: Vec<[f64; 2]> = places.collect();
-    let matrix = DMatrix::from_fn(places.len(), 3, |i, j| if j < 2 { 2.0 * places[i][j] } else { 1.0 });
-    let right = DVector::from_fn(places.len(), |i, _| places[i].iter().map(|part| part * part).sum());
-    let svd = matrix.svd(true, true);
-    if svd.singular_values.min() <= FLAT * svd.singular_values.max() {
-        return None;
-    }
-    let solved = svd.solve(&right, 0.0).ok()?;
-    let radius = (solved[2] + solved[0] * solved[0] + solved[1] * solved[1]).sqrt();
-    Some((axis, mean + across * solved[0] + along * solved[1], radius))
-}
-
-/// The anchor of lengths to known points, and with a fourth number what each length lacks; `None` where these points do not
-/// say.
-fn trilaterated<const N: usize>(rows: &[&Row], poses: &[Pose]) -> Option<[f64; N]> {
-    let lengths_m: Vec<f64> = rows
-        .iter()
-        .map(|row| match row.measured {
-            Measured::Length { length_m } => length_m,
-            _ => unreachable!("the rows measure lengths"),
-        })
-        .collect();
-    let points: Vec<Vector3<f64>> =
-        rows.iter().zip(poses).map(|(row, pose)| pose.apply(&row.point)).collect();
-    // Lengths that are all one, as those of a sphere, lack what the constant says.
-    let is_one = lengths_m.iter().all(|length| *length == lengths_m[0]);
-    let numbers = if is_one { 3 } else { N };
-    // |x|² − L² = 2 x·a + 2 L z − (|a|² − z²): linear in a, z and what is in the brackets.
-    let matrix = DMatrix::from_fn(rows.len(), numbers + 1, |i, j| match j {
-        0..3 => 2.0 * points[i][j],
-        _ if j < numbers => 2.0 * lengths_m[i],
-        _ => -1.0,
-    });
-    let right = DVector::from_fn(rows.len(), |i, _| points[i].norm_squared() - lengths_m[i].powi(2));
-    if rows.len() <= numbers {
-        return None;
-    }
-    let svd = matrix.svd(true, true);
-    if svd.singular_values.min() <= FLAT * svd.singular_values.max() {
-        return None;
-    }
-    let solved = svd.solve(&right, 0.0).ok()?;
-    let lacks = || {
-        let squares: f64 = (0..3).map(|axis| solved[axis] * solved[axis]).sum();
-        (squares - solved[3] + lengths_m[0].powi(2)).max(0.0).sqrt() - lengths_m[0]
-    };
-    Some(std::array::from_fn(|at| if at == 3 && is_one { lacks() } else { solved[at] }))
 }

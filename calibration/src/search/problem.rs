@@ -42,11 +42,14 @@ pub enum ProblemError {
         expected: usize,
     },
     /// A value is not finite.
-    #[error("{what} holds a value that is not finite, in row {row}")]
+    #[error(
+        "{what}: a value is not finite, in component {row} of the search; some row observes what the chain cannot point at; \
+         look at labels, stations, units and signs"
+    )]
     NotFinite {
         /// Which part.
         what: &'static str,
-        /// The first such row, counted from 0.
+        /// The first such component, counted from 0.
         row: usize,
     },
     /// The declared columns have no singular value decomposition.

@@ -178,9 +178,10 @@ impl Plan {
         let Some(unknowns) = &observations.unknowns else { return Ok(Vec::new()) };
         let stations = self.places.stations.iter().map(|station| station.label.as_str());
         let objects = self.places.objects.iter().map(|object| object.label.as_str());
-        check_named(unknowns, stations, objects)?;
+        let unseen = check_named(unknowns, stations, objects)?;
         check_scale(&self.chain, observations, &self.fit)?;
-        place(&self.chain, observations, &self.fit.start)
+        let remarks = place(&self.chain, observations, &self.fit.start)?;
+        Ok(unseen.into_iter().chain(remarks).collect())
     }
 
     /// The objects and stations of the rows of a source, those behind `start`.

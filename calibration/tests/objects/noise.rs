@@ -9,6 +9,8 @@ use super::{read, text_of};
 const RANGE_M: f64 = 0.5e-3;
 const ANGLE_RAD: f64 = 4e-5;
 const RUNS: u64 = 40;
+/// Twice as many as the rows of which two components each are thirty: whose noise is the smallest, a fit tells only nearly.
+const NEAREST: usize = 30;
 const STUDY: &str = "chain = \"c\"\ndata = \"d\"\n[observed]\nkind = \"target\"\nobject = \"object\"\nstation = \"station\"\n";
 const ERRORS: [&str; 6] = ["axes_apart", "trunnion", "index", "beam_aside", "collimation", "range_zero"];
 
@@ -44,14 +46,23 @@ fn noise_along_and_across_a_beam_is_what_it_was_made_and_so_are_the_uncertaintie
     let chain = text_of("examples/objects/scanner.chain");
     // Of near and of far rows: the square of what was found over what it was made, across and along.
     let mut found_over_made = [[0.0; 2]; 2];
+    let mut nearest_over_made = 0.0;
     let mut pulls = [0.0; ERRORS.len()];
     for run in 0..RUNS {
         let (data, ranges) = table(&mut Noise(5000 + 131 * run));
         let (plan, loaded) = read(&chain, STUDY, &data).unwrap();
         let result = fit(&plan.chain, &loaded.observations, &plan.fit).unwrap();
         let sigma = result.noise.sigma_without_memory();
+        // No row is taken for surer than the nearest are together, which tell what their noise is.
+        let mut by_range = ranges.clone();
+        by_range.sort_by(f64::total_cmp);
+        let known = by_range[NEAREST];
+        let nearest = (0..ranges.len()).filter(|&row| ranges[row] < known);
+        let ratios = nearest.map(|row| sigma[3 * row + 1] / (ANGLE_RAD * ranges[row]));
+        nearest_over_made += ratios.sum::<f64>() / NEAREST as f64 / RUNS as f64;
         for is_far in [false, true] {
-            let own: Vec<usize> = (0..ranges.len()).filter(|&row| (ranges[row] > 3.0) == is_far).collect();
+            let own = (0..ranges.len()).filter(|&row| (ranges[row] > 3.0) == is_far && ranges[row] >= known);
+            let own: Vec<usize> = own.collect();
             let mean = |square: &dyn Fn(usize) -> f64| {
                 own.iter().map(|&row| square(row)).sum::<f64>() / own.len() as f64 / RUNS as f64
             };
@@ -70,6 +81,7 @@ fn noise_along_and_across_a_beam_is_what_it_was_made_and_so_are_the_uncertaintie
             "{found_over_made:?}"
         );
     }
+    assert!((0.95..2.0).contains(&nearest_over_made), "{nearest_over_made}");
     // Forty squares of what is normal, of six errors: chi-squared is within these in 999 of 1000 cases each.
     for (pull, name) in pulls.iter().zip(ERRORS) {
         assert!((17.0..77.0).contains(pull), "{name}: {pulls:?}");

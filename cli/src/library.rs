@@ -320,8 +320,9 @@ pub fn residuals<T>(calibrated: &Calibrated, visit: impl FnOnce(Vec<(String, Cel
 /// unless all residuals are asked for.
 ///
 /// # Errors
-/// The folder or a file cannot be written.
+/// The folder or a file cannot be written, or is one that the study reads.
 pub fn write(calibrated: &Calibrated, folder: &Path, all_residuals: bool) -> Result<(), Failure> {
+    calibrated.studied().refuse_to_replace(folder)?;
     let name = folder.display().to_string();
     let reported = calibrated.reported(Some(&name));
     report::write_all(&reported, &report::rows_written(&reported, all_residuals), folder)

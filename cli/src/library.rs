@@ -7,8 +7,9 @@ use std::path::Path;
 
 use calibration::formats::memory::Reader;
 use calibration::formats::{TableReader, open};
-use codegen::Form;
+use codegen::{Form, GenerateError};
 use model_core::expr::Expr;
+use model_core::readings::Measures;
 use model_core::{Chain, ObservableId, SymbolKind, forms, print, syntax};
 use serde_json::{Value, json};
 
@@ -78,10 +79,28 @@ pub fn form_name(form: Form) -> &'static str {
     codegen::form_name(form)
 }
 
+/// Refuses a form that an observable has not.
+///
+/// # Errors
+/// As `generate` says.
+pub fn derivable(chain: &Chain, observable: ObservableId, form: Form) -> Result<(), Failure> {
+    let observable = chain.observable(observable);
+    let is_off_axis = observable.shown.iter().any(|reading| reading.measures == Measures::OffAxis);
+    if is_off_axis && form.is_jacobian() {
+        let error = GenerateError::NoDerivative { name: observable.name.clone(), form };
+        return Err(Failure::Input(error.to_string()));
+    }
+    Ok(())
+}
+
 /// The closed form of an observable's error, component by component.
 pub struct ClosedForm {
     /// What it is, in words.
     pub title: String,
+    /// The names of the components: `pointing_x`, or `sky_azimuth`.
+    pub names: Vec<String>,
+    /// Every component with its name as `derive` prints it, in the plain syntax of amounts and in LaTeX.
+    pub printed: [String; 2],
     /// The components in the plain syntax of amounts.
     pub text: Vec<String>,
     /// The components in LaTeX, in printed symbols.
@@ -106,7 +125,10 @@ pub fn closed_form(chain: &Chain, observable: ObservableId, order: u32) -> Resul
         syntax::parse_amount(text).map_err(|mistakes| Failure::mistakes("the closed form", text, &mistakes))
     });
     let trees = trees.collect::<Result<_, _>>()?;
-    Ok(ClosedForm { title: derive::title_of(chain, &form), trees, text, latex })
+    let shown = chain.observable(observable);
+    let names = shown.labels().map(|label| format!("{}_{label}", shown.name)).collect();
+    let printed = [print::Style::Text, print::Style::Latex].map(|style| print::form(&form, chain, style));
+    Ok(ClosedForm { title: derive::title_of(chain, &form), names, printed, trees, text, latex })
 }
 
 /// What no data can tell apart; as `identify`.

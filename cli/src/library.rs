@@ -16,16 +16,17 @@ use serde_json::{Value, json};
 use crate::budget::Measured;
 use crate::claims::{ClaimsFile, as_json};
 use crate::commands::{bound, budget, check, derive, identify, simulate};
-use crate::evaluation::{self, Evaluator};
+use crate::evaluation;
 use crate::ranges::{self, Range, RangeArgument};
 use crate::source::observables;
-use crate::tables::{self, ReadingsTable};
-use crate::{claims, errors_file, poses, report, terminal};
+use crate::{claims, errors_file, poses, report, tables};
 
+pub use crate::apply::Counted;
 pub use crate::calibrating::{Calibrated, Studied};
 pub use crate::evaluation::{Exactness, Quantity};
 pub use crate::failure::Failure;
 pub use crate::many::stretches;
+pub use crate::over_memory::{Columns, applied, evaluated, warn_of_outside};
 pub use crate::report::Cells;
 pub use crate::source::Source;
 pub use crate::streaming::{Foretold, Rows, Streaming, accumulated, validated};
@@ -241,33 +242,6 @@ pub fn table<'a>(
     Ok(Box::new(Reader::new(name, columns.iter().copied()).map_err(tables::failure)?))
 }
 
-/// The observables over a table of readings, as `eval` and `apply` compute them: names of columns, and the columns in SI.
-///
-/// # Errors
-/// As the commands say of `--data` and `--observable`.
-pub fn evaluated(
-    chain: &Chain,
-    errors: &Source,
-    reader: Box<dyn TableReader + '_>,
-    names: &[String],
-    (form, quantity): (Exactness, Quantity),
-) -> Result<Vec<(String, Vec<f64>)>, Failure> {
-    let values = errors_file::values(errors, chain)?;
-    let mut table = ReadingsTable::of(reader, chain);
-    let chosen = table.with_readings(chain, names)?;
-    let evaluator = Evaluator::new(chain, chosen, form, quantity, &values);
-    table.want(chain, &evaluator.readings)?;
-    let header = evaluation::column_names(chain, &evaluator.observables)?;
-    let mut columns = vec![Vec::new(); header.len()];
-    while let Some(rows) = table.next()? {
-        let readings: Vec<_> = rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
-        let computed = evaluator.columns(&readings, rows.count)?;
-        columns.iter_mut().zip(computed).for_each(|(column, more)| column.extend(more));
-    }
-    table.doubtful().for_each(terminal::warn);
-    Ok(header.into_iter().zip(columns).collect())
-}
-
 /// Reads a study's tables, from memory where `in_memory` has one of that name and else from the files, and calibrates.
 /// `command` says in the report how it was asked for, and `tell` hears of each stage.
 ///
@@ -323,6 +297,14 @@ pub fn estimates(calibrated: &Calibrated) -> Option<Vec<(String, f64)>> {
         _ => false,
     });
     Some(told.map(|((symbol, &value), _)| (symbol.name.clone(), value)).collect())
+}
+
+/// The ranges of the readings that a calibration was found over, SI, if a usable model came out: `[found-over]` of `errors.toml`.
+#[must_use]
+pub fn found_over(calibrated: &Calibrated) -> Option<Vec<(String, f64, f64)>> {
+    let over = report::found_over(&calibrated.reported(None))?;
+    let name = |id| calibrated.calibration.chain.symbol(id).name.clone();
+    Some(over.iter().map(|range| (name(range.symbol), range.low, range.high)).collect())
 }
 
 /// `report.html`; or only its first screen and its pictures.

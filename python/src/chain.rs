@@ -13,7 +13,7 @@ use trueaxis_cli::library::{self, Exactness, Failure, Quantity, Source, Told};
 
 use crate::formula::ClosedForm;
 use crate::tables::Table;
-use crate::{arrays, errors, rows};
+use crate::{arrays, errors, forked, rows};
 
 /// Names of columns and the columns, as Python gets them.
 pub type Columns = Vec<(String, Py<PyArray<f64, numpy::ndarray::Ix1>>)>;
@@ -238,9 +238,11 @@ impl Chain {
             .collect::<PyResult<Vec<(SymbolId, &[f64])>>>()?;
         let into = writable.as_slice_mut()?;
         py.detach(|| {
-            let program = self.program(observable, form, &wrt);
-            rows::evaluate(&program, &slices, &values, into, rows, threads)
-        })
+            forked::with_threads(|| {
+                let program = self.program(observable, form, &wrt);
+                rows::evaluate(&program, &slices, &values, into, rows, threads)
+            })
+        })?
         .map_err(|error| PyValueError::new_err(error.to_string()))?;
         drop(writable);
         Ok(array.into_any())

@@ -4,6 +4,7 @@ mod arrays;
 mod calibration;
 mod chain;
 mod errors;
+mod forked;
 mod formula;
 mod rows;
 mod streaming;
@@ -27,6 +28,7 @@ mod _native {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        forked::loaded();
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

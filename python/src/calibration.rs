@@ -8,7 +8,7 @@ use trueaxis_cli::library::{self, Calibrated, Cells, Source, Stage, Studied};
 
 use crate::chain::{Chain, Columns, as_arrays};
 use crate::errors;
-use crate::tables::Table;
+use crate::tables::{Given, Table};
 
 /// A study with the declaration that it is of, every name resolved.
 #[pyclass(frozen, module = "trueaxis._native")]
@@ -55,7 +55,7 @@ pub struct Calibration(pub(crate) Calibrated);
 pub fn calibrate(
     py: Python<'_>,
     study: &Study,
-    tables: Vec<(String, Vec<(String, Bound<'_, PyAny>)>)>,
+    tables: Vec<(String, Given<'_>)>,
     command: String,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Calibration> {

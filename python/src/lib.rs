@@ -1,5 +1,6 @@
 //! The native part of the Python package: chains, arrays and calibrations. What Python says better is in `trueaxis/`.
 
+mod applying;
 mod arrays;
 mod calibration;
 mod chain;
@@ -15,6 +16,8 @@ use pyo3::prelude::*;
 /// What `trueaxis` is made of; use `trueaxis` itself.
 #[pymodule]
 mod _native {
+    #[pymodule_export]
+    use super::applying::{apply, read_text, warn_of_outside};
     #[pymodule_export]
     use super::calibration::{Calibration, Study, calibrate};
     #[pymodule_export]

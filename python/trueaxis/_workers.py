@@ -129,8 +129,18 @@ def _lost_is_told(client: distributed.Client, address: str) -> Iterator[None]:
 def _connected(address: str) -> distributed.Client:
     import distributed
 
+    class Client(distributed.Client):
+        def __init__(self):
+            try:
+                super().__init__(address, timeout=_SECONDS)
+            except BaseException:
+                # Left open it ends its thread when it is collected: where another one starts meanwhile, each waits for the other.
+                with suppress(Exception):
+                    self.close(timeout=_SECONDS)
+                raise
+
     try:
-        return distributed.Client(address, timeout=_SECONDS)
+        return Client()
     except (OSError, ValueError) as error:
         raise TrueaxisError(f"no scheduler answers at `{address}`: {error}") from None
 

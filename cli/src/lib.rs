@@ -10,6 +10,7 @@ mod cloud;
 mod commands;
 mod curves;
 mod date;
+mod draw;
 mod errors_file;
 mod evaluation;
 mod failure;

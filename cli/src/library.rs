@@ -23,9 +23,9 @@ use crate::{claims, errors_file, poses, report, tables};
 
 pub use crate::apply::Counted;
 pub use crate::calibrating::{Calibrated, Studied};
+pub use crate::draw::stretches;
 pub use crate::evaluation::{Exactness, Quantity};
 pub use crate::failure::Failure;
-pub use crate::many::stretches;
 pub use crate::over_memory::{Columns, applied, evaluated, warn_of_outside};
 pub use crate::report::Cells;
 pub use crate::source::Source;

@@ -3,12 +3,14 @@
 use calibration::calibrate::OfEveryRow;
 use calibration::data::Observations;
 use calibration::fit::{FitOptions, Foretelling, Next, Pass, Streamed, StreamedResult, Tally, Validation};
-use calibration::formats::{DataError, TableReader, open};
+use calibration::formats::part::{Stretches, count};
+use calibration::formats::{DataError, Options, TableReader, open};
 use calibration::study::{Loaded, Plan};
 use model_core::SymbolKind;
 use serde_json::{Value, json};
 
 use crate::calibrating::{Calibrated, Studied};
+use crate::draw::stretches;
 use crate::failure::Failure;
 use crate::source::Source;
 use crate::{errors_file, tables, terminal};
@@ -26,6 +28,8 @@ pub enum Rows<'a> {
     Table(Box<dyn TableReader + 'a>),
     /// The path of a file.
     File(&'a str),
+    /// The paths of some files, and how many rows to draw from all of them, evenly.
+    Drawn(&'a [String], u64),
 }
 
 impl Streaming {
@@ -180,12 +184,28 @@ fn load(studied: &Studied, rows: Rows<'_>) -> Result<Option<Loaded>, Failure> {
              machine",
         );
     }
-    let mut rows = Some(rows);
-    let loaded = studied.plan.load_tables(&mut |path, options| match rows.take() {
-        Some(Rows::Table(table)) => Ok(table),
-        Some(Rows::File(file)) => open(tables::open_beside(&studied.study, file, None)?, file, options),
-        None => unreachable!("one table is read once: {path}"),
-    });
+    let beside =
+        |file: &str, options: &Options| open(tables::open_beside(&studied.study, file, None)?, file, options);
+    let loaded = match rows {
+        Rows::Drawn(files, wanted) => {
+            let options = studied.plan.options();
+            let rows = |file: &String| count(&mut *beside(file, options)?);
+            let counts = files.iter().map(rows).collect::<Result<Vec<u64>, _>>().map_err(tables::failure)?;
+            let mut stretches = stretches(&counts, wanted, studied.plan.hold_out.seed).into_iter();
+            studied.plan.of_files(files).load_tables(&mut |path, options| match stretches.next() {
+                Some(own) => Ok(Box::new(Stretches::new(beside(path, options)?, 0, own))),
+                None => unreachable!("each file is read once: {path}"),
+            })
+        }
+        rows => {
+            let mut rows = Some(rows);
+            studied.plan.load_tables(&mut |path, options| match rows.take() {
+                Some(Rows::Table(table)) => Ok(table),
+                Some(Rows::File(file)) => beside(file, options),
+                _ => unreachable!("one table is read once: {path}"),
+            })
+        }
+    };
     let loaded = match loaded {
         Err(DataError::NoRows { .. }) => return Ok(None),
         loaded => loaded.map_err(tables::failure)?,
@@ -205,7 +225,8 @@ fn as_json(studied: &Studied, result: &StreamedResult) -> Value {
         json!({
             "name": symbol.name,
             "value": result.values[id.index()],
-            "standard_uncertainty": result.standard_uncertainty(&[(at, 1.0)]),
+            // Of what the data do not tell from the rest the prior alone would speak.
+            "standard_uncertainty": result.separable[at].then(|| result.standard_uncertainty(&[(at, 1.0)])),
             "unit": symbol.quantity.unit(),
             "separable": result.separable[at],
         })

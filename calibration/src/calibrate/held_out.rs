@@ -32,6 +32,8 @@ pub(crate) fn rms(
 ) -> Result<Vec<BeforeAfter>, SearchError> {
     let observations = whole.request.observations;
     let layout = &last.fitted.layout;
+    // Where nothing was added, the last fit is that of the declaration, wherever the first one ended.
+    let before = if last.fitted.found.is_empty() { &last.fitted.fit } else { before };
     // What is left of held-out rows before and after, how it lies, and which rows are within reach.
     let held_out = match whole.request.second {
         Some(second) => {

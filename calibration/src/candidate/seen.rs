@@ -70,10 +70,9 @@ fn carried(
 pub(crate) fn moves(setting: &Setting<'_>, place: Place) -> bool {
     setting.observables.iter().any(|&id| {
         let observable = setting.chain.observable(id);
-        let path_to = |body| setting.chain.path(body);
+        let carries = |body| setting.chain.path(body).contains(&place.body);
         // What carries the frame that it is seen in, too, moves nothing.
-        let carries_both = observable.frame.is_some_and(|frame| path_to(frame).contains(&place.body));
-        if carries_both || !path_to(observable.body).contains(&place.body) {
+        if carries(observable.body) == observable.frame.is_some_and(carries) {
             return false;
         }
         match place.freedom.kind {

@@ -52,11 +52,15 @@ impl JointAxis {
 }
 
 impl Setting<'_> {
-    /// Bodies on the way to something observed, from the ground up.
+    /// Bodies that carry something observed or the frame that it is seen in, from the ground up.
     #[must_use]
     pub fn bodies(&self) -> Vec<BodyId> {
-        let mut bodies: Vec<BodyId> =
-            self.observables.iter().flat_map(|&id| self.chain.path(self.chain.observable(id).body)).collect();
+        let of = |&id: &ObservableId| {
+            let observable = self.chain.observable(id);
+            let ends = [Some(observable.body), observable.frame];
+            ends.into_iter().flatten().flat_map(|body| self.chain.path(body))
+        };
+        let mut bodies: Vec<BodyId> = self.observables.iter().flat_map(of).collect();
         bodies.sort_unstable();
         bodies.dedup();
         bodies

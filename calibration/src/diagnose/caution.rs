@@ -34,6 +34,9 @@ const MOSTLY: f64 = 0.5;
 /// Standard deviations of the found noise beyond which chance does not explain it.
 const SURE: f64 = 3.0;
 
+/// Rows out of reach make a figure over every row grow by up to so much by chance, whatever an effect does to the others.
+const FAR_ROWS: f64 = 1.02;
+
 /// Something to be careful about.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "kind")]
@@ -151,6 +154,18 @@ pub enum Caution {
         label: String,
         /// So many times as much.
         times: f64,
+    },
+    /// An object or a station comes out far from where the study states it.
+    #[serde(rename = "not where it is stated")]
+    NotWhereStated {
+        /// What it is.
+        what: Uneven,
+        /// Its label.
+        label: String,
+        /// By so many of its stated standard uncertainties.
+        sigmas: f64,
+        /// How far, m.
+        away_m: f64,
     },
     /// Rows of one file share an error: the ± count files.
     #[serde(rename = "rows of one file share something")]
@@ -270,10 +285,14 @@ pub(super) fn of_readings(noise: &NoiseFound) -> Option<Caution> {
     is_far.then_some(Caution::ReadingsNotAsStated { ratio })
 }
 
-/// What effects do to rows that no stage saw.
+/// What effects do to rows that no stage saw: to those within reach, and to every row where it is more than what chance makes of rows
+/// far out.
 pub(super) fn of_rms(rms: &[BeforeAfter]) -> impl Iterator<Item = Caution> {
-    let held_out = worse(rms, |rms| rms.held_out_rms);
-    let elsewhere = worse(rms, |rms| rms.elsewhere_rms);
+    let clearly = |worse: &Worse| worse.after > FAR_ROWS * worse.before;
+    let held_out = worse(rms, |rms| rms.held_out_rms_kept)
+        .or_else(|| worse(rms, |rms| rms.held_out_rms).filter(clearly));
+    let elsewhere = worse(rms, |rms| rms.elsewhere_rms_kept)
+        .or_else(|| worse(rms, |rms| rms.elsewhere_rms).filter(clearly));
     held_out
         .map(|Worse { before, after, unit }| Caution::WorseHeldOut { before, after, unit })
         .into_iter()

@@ -13,6 +13,7 @@ mod every_row;
 mod function;
 mod harmonics;
 mod instrument;
+mod misplaced;
 mod next;
 mod noise;
 mod noisy;
@@ -43,6 +44,7 @@ use crate::search::round::Round;
 use crate::search::{SearchError, Stage};
 use by_cause::ByCause;
 use effects::Others;
+use misplaced::Misplaced;
 use next::{Next, next};
 use noisy::Noisy;
 use rms::BeforeAfter;
@@ -233,6 +235,13 @@ pub(crate) fn diagnose(
     }));
     let scatters = uneven::uneven(observations, fit).into_iter();
     cautions.extend(scatters.map(|Scatter { what, label, times }| Caution::Scatters { what, label, times }));
+    let misplaced = misplaced::misplaced(observations, fit).into_iter();
+    cautions.extend(misplaced.map(|Misplaced { what, label, sigmas, away_m }| Caution::NotWhereStated {
+        what,
+        label,
+        sigmas,
+        away_m,
+    }));
     let remaining = found.remaining.as_ref();
     cautions.extend(noisy_readings(whole, last, &found)?);
     let alone = found

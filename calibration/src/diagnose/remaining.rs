@@ -20,6 +20,7 @@ use crate::search::context::{Context, declared};
 use crate::search::remains::{Statistic, along, combined, lagged, nearest};
 use crate::search::round::Round;
 use crate::search::scan::{Left, Sheet};
+use crate::search::search_problem::least_seen;
 use crate::search::signs::Signs;
 
 /// Harmonics of each joint that are scanned, unless the study asks for more.
@@ -78,7 +79,9 @@ pub struct Where {
 
 /// Everything that the scans read.
 struct Scanned<'a> {
+    whole: &'a Context<'a>,
     last: &'a Round<'a>,
+    left: &'a Left<'a>,
     columns: Columns,
     drivers: Vec<Driver>,
     /// Functions of two joints together, and their whitened columns.
@@ -114,6 +117,13 @@ fn tabulated(readings: &[f64], functions: impl Fn(f64) -> Vec<f64> + Sync) -> Ma
 /// Looks for structure in the last residual.
 pub(crate) fn remaining(whole: &Context<'_>, last: &Round<'_>) -> Result<Remaining, SearchError> {
     let observations = &*last.search.rows.observations;
+    let blocks = SetColumns::of(last.search.of_rows(), &last.sets);
+    let accepted: Vec<Vec<usize>> =
+        last.accepted_sets().into_iter().map(|set| blocks[set].to_vec()).collect();
+    let options = &whole.options;
+    let signs = Signs::scattered(last.search.of_rows().group_of_row(), options.flips, options.seed);
+    let left = Left::new(last.search.of_rows(), &accepted, &signs);
+
     let mut smooths = smooth(&whole.setting);
     let mut symbols: Vec<SymbolId> = smooths.iter().map(|smooth| smooth.driver).collect();
     symbols.sort_unstable();
@@ -132,20 +142,15 @@ pub(crate) fn remaining(whole: &Context<'_>, last: &Round<'_>) -> Result<Remaini
     let of_tensors = columns.of_effects(&last.fitted.chain, &tensors, &observations.poses, values);
     let tensors = tensors.into_iter().zip(of_tensors).map(|(effect, own)| {
         let white: Vec<Vec<f64>> = own.iter().map(|column| last.search.rows.whiten(column)).collect();
-        (effect, Mat::from_fn(last.search.rows.columns.residual.len(), white.len(), |i, j| white[j][i]))
+        let columns = Mat::from_fn(left.residual.len(), white.len(), |i, j| white[j][i]);
+        let least = least_seen(whole, effect.place.freedom);
+        (effect, left.shown(columns, least))
     });
     let tensors = tensors.filter(|(_, own)| own.ncols() > 0).collect();
-    let mut scanned = Scanned { last, columns, drivers, tensors };
+    let mut scanned = Scanned { whole, last, left: &left, columns, drivers, tensors };
     smooths.retain(|smooth| {
         scanned.columns.probe(smooth.place).is_some() && scanned.driver(smooth.driver).is_some()
     });
-
-    let blocks = SetColumns::of(last.search.of_rows(), &last.sets);
-    let accepted: Vec<Vec<usize>> =
-        last.accepted_sets().into_iter().map(|set| blocks[set].to_vec()).collect();
-    let options = &whole.options;
-    let signs = Signs::scattered(last.search.of_rows().group_of_row(), options.flips, options.seed);
-    let left = Left::new(last.search.of_rows(), &accepted, &signs);
 
     if !last.tells_structure() {
         let (looked, shape) = (Vec::new(), Vec::new());
@@ -181,7 +186,7 @@ pub(crate) fn remaining(whole: &Context<'_>, last: &Round<'_>) -> Result<Remaini
         two_stand_out
             || last.fitted.found.iter().any(|found| whole.catalogue[found.effect].place == of_two.place)
     });
-    let best = scanned.best_function(whole, &smooths, &left);
+    let best = scanned.best_function(&smooths);
     let chain = &last.fitted.chain;
     let place = best.as_ref().map(|function| Where {
         body: chain.body(function.place.body).name.clone(),
@@ -221,35 +226,20 @@ fn harmonics(whole: &Context<'_>) -> Vec<(Place, SymbolId, u32)> {
 impl Scanned<'_> {
     /// A function's columns at a place: the place's derivative times the function's values, whitened.
     fn sheet(&self, place: Place, values: &Mat<f64>) -> Mat<f64> {
-        let row = &self.last.search.rows.columns.row;
-        let mut sheet = Mat::zeros(row.len(), values.ncols());
-        let Some(probe) = self.columns.probe(place) else { return sheet };
-        let mixed = self.last.search.rows.mixes_rows();
-        // Else whitening is a factor to each component.
-        let probe = if mixed { probe.to_vec() } else { self.last.search.rows.whiten(probe) };
-        for j in 0..values.ncols() {
-            let (column, values) = (sheet.col_as_slice_mut(j), values.col_as_slice(j));
-            for ((target, p), &row) in column.iter_mut().zip(&probe).zip(row) {
-                *target = p * values[row as usize];
-            }
-            if mixed {
-                let whitened = self.last.search.rows.whiten(column);
-                column.copy_from_slice(&whitened);
+        match self.columns.probe(place) {
+            None => Mat::zeros(self.left.residual.len(), values.ncols()),
+            Some(probe) => {
+                let sheet = self.last.search.rows.sheet(probe, values);
+                self.left.shown(sheet, least_seen(self.whole, place.freedom))
             }
         }
-        sheet
     }
 
     /// The function that beats the catalogue's model by most; the likelier place of two that are the same.
-    fn best_function(
-        &self,
-        whole: &Context<'_>,
-        smooths: &[SmoothPlace],
-        left: &Left<'_>,
-    ) -> Option<Function> {
-        let places = smooths.len();
+    fn best_function(&self, smooths: &[SmoothPlace]) -> Option<Function> {
+        let (whole, left, places) = (self.whole, self.left, smooths.len());
         let mut each: Vec<Function> =
-            smooths.par_iter().flat_map_iter(|smooth| self.at(whole, *smooth, places, left)).collect();
+            smooths.par_iter().flat_map_iter(|smooth| self.at(*smooth, places)).collect();
         let price = Price { sets: self.last.sets.len(), functions: self.tensors.len(), parameters: 0 };
         each.par_extend(self.tensors.par_iter().map(|(effect, columns)| Function {
             place: effect.place,
@@ -269,7 +259,8 @@ impl Scanned<'_> {
     }
 
     /// The functions at one place of so many.
-    fn at(&self, whole: &Context<'_>, smooth: SmoothPlace, places: usize, left: &Left<'_>) -> Vec<Function> {
+    fn at(&self, smooth: SmoothPlace, places: usize) -> Vec<Function> {
+        let (whole, left) = (self.whole, self.left);
         let Some(driver) = self.driver(smooth.driver) else { return Vec::new() };
         let (basis, sets) = (driver.basis, self.last.sets.len());
         let function = |kind, fitted| Function {

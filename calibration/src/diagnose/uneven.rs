@@ -43,6 +43,18 @@ pub enum Uneven {
     Station,
 }
 
+impl Uneven {
+    /// What an object of a shape is.
+    pub(super) fn of(shape: Shape) -> Self {
+        match shape {
+            Shape::Plane => Self::Plane,
+            Shape::Point => Self::Point,
+            Shape::Circle | Shape::Ring => Self::Circle,
+            Shape::Wire => Self::Wire,
+        }
+    }
+}
+
 /// Something whose rows scatter more than the others'.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Scatter {
@@ -123,12 +135,7 @@ pub(super) fn uneven(observations: &Observations, fit: &FitResult) -> Vec<Scatte
         let (what, label) = match group {
             Group::Object(at) => {
                 let object = &unknowns.objects[at];
-                let what = match object.shape {
-                    Shape::Plane => Uneven::Plane,
-                    Shape::Point => Uneven::Point,
-                    Shape::Circle | Shape::Ring => Uneven::Circle,
-                    Shape::Wire => Uneven::Wire,
-                };
+                let what = Uneven::of(object.shape);
                 (what, object.label.clone())
             }
             Group::Station(at) => (Uneven::Station, unknowns.stations[at].label.clone()),

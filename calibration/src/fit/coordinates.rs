@@ -6,7 +6,7 @@ use faer::Mat;
 
 use super::FitError;
 use super::block::Block;
-use super::objects::{Eliminated, FollowedShare, Reduction};
+use super::objects::{self as places, Eliminated, FollowedShare, Reduction};
 use super::solver::{Course, Solver};
 use super::sweep::collected;
 use crate::data::unknowns::Unknowns;
@@ -16,6 +16,8 @@ pub(super) struct Coordinates {
     /// Orthonormal columns, n × k.
     pub q: Mat<f64>,
     pub residual: Vec<f64>,
+    /// What is stated of objects and stations has part in: its columns' products with each other, k × k; none where nothing is.
+    pub of_stated: Option<Mat<f64>>,
 }
 
 impl Solver<'_> {
@@ -59,13 +61,28 @@ impl Solver<'_> {
             residual.extend(own);
             unknown.extend(of_objects);
         })?;
+        let mut of_stated = None;
         if let Some(unknowns) = &self.observations.unknowns {
-            let row: &[u32] = &self.layout.row_of_each().map(|row| row as u32).collect::<Vec<_>>();
+            let mut row: Vec<u32> = self.layout.row_of_each().map(|row| row as u32).collect();
             let scale = row.iter().zip(sigma.iter()).map(|(&row, sigma)| weight[row as usize].sqrt() / sigma);
-            let reduction = Reduction::new(unknowns, row, &unknown, scale.collect());
-            reduction.project(unknowns, row, &unknown, &mut whole);
+            let mut scale: Vec<f64> = scale.collect();
+            let stated = places::Stated::of(unknowns);
+            if let Some(stated) = &stated {
+                row.extend((unknowns.object.len() as u32..).take(stated.scale.len()));
+                unknown.extend(&stated.unknown);
+                scale.extend(&stated.scale);
+                whole.resize_with(row.len(), k, |_, _| 0.0);
+            }
+            let unknowns = stated.as_ref().map_or(unknowns, |stated| &stated.unknowns);
+            Reduction::new(unknowns, &row, &unknown, scale).project(unknowns, &row, &unknown, &mut whole);
+            if stated.is_some() {
+                let (count, own) = (residual.len(), row.len() - residual.len());
+                let rows = whole.subrows(count, own);
+                of_stated = Some(rows.transpose() * rows);
+                whole.truncate(count, k);
+            }
         }
-        Ok(Coordinates { q: whole, residual })
+        Ok(Coordinates { q: whole, residual, of_stated })
     }
 
     /// Of each component what is followed of a residual of its own, where rows observe objects; the root is that of the

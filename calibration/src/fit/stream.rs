@@ -172,8 +172,11 @@ impl Streamed {
         let used = subspace.used(&partial, &rest);
         let floor = self.floors(tally, used);
         let known = floor.iter().zip(&self.pass.floor).all(|(a, b)| (a - b).abs() <= FLOOR_KNOWN * b);
-        let converged = known && step.length <= NEGLIGIBLE * (subspace.rank() as f64).sqrt();
-        if converged || self.passes >= PASSES {
+        // What as many numbers fit as there are is no estimate.
+        let is_over = partial.components as f64 > used;
+        let settled = known && step.length <= NEGLIGIBLE * (subspace.rank() as f64).sqrt();
+        if settled || self.passes >= PASSES {
+            let converged = settled && is_over;
             return Next::Done(Box::new(self.result(&subspace, tally, files, &partial, converged)));
         }
         for (parameter, change) in self.pass.model.parameters().iter().zip(&step.change) {

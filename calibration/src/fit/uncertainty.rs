@@ -55,8 +55,9 @@ enum Spread {
     Even { factor: f64, degrees_of_freedom: f64 },
     /// The same, pool by pool of components: Q_kᵀQ_k, and the degrees of freedom.
     Pools { factor: f64, pools: Vec<(Mat<f64>, f64)> },
-    /// From whole groups, times a factor; and what groups that cross them add, with its degrees of freedom.
-    Groups { factor: f64, clusters: Clusters, crossed: Option<(Mat<f64>, f64)> },
+    /// From whole groups, times a factor; and what else adds to it, each with its degrees of freedom: groups that cross them, and what
+    /// is stated of places.
+    Groups { factor: f64, clusters: Clusters, beside: Vec<(Mat<f64>, f64)> },
     /// It is this.
     Serial { product: Mat<f64>, degrees_of_freedom: f64 },
 }
@@ -83,17 +84,18 @@ impl Solver<'_> {
         let found_noise = self.shared(course, weight, &root)?;
         let spread = if let Some(groups) = self.buckets(&self.observations.units()) {
             root = subspace.covariance_root(&self.partial(&course.point.sweep), rest);
-            let Coordinates { q, residual, .. } = self.coordinates(course, weight, &root)?;
+            let Coordinates { q, residual, of_stated } = self.coordinates(course, weight, &root)?;
             // Weights move along with residuals, and by so much more the estimates.
             let clusters = Clusters::new(shares(&q, &residual, &groups));
             let crossed = match &found_noise {
                 Shared::Offsets(offsets, own) if offsets.crossed => {
                     let (product, degrees_of_freedom) = offsets.covariance(&q);
-                    Some((product * faer::Scale(own * own), degrees_of_freedom))
+                    Some((product * faer::Scale(own * own * tally.stride().powi(2)), degrees_of_freedom))
                 }
                 _ => None,
             };
-            Spread::Groups { factor: tally.stride().powi(2), clusters, crossed }
+            let beside = crossed.into_iter().chain(of_stated.map(taken_at_their_word)).collect();
+            Spread::Groups { factor: tally.stride().powi(2), clusters, beside }
         } else if let Shared::Memory(memory, _) = &found_noise {
             let degrees_of_freedom = (memory.independent - self.used(course)).max(LEAST);
             Spread::Serial { product: &memory.product * faer::Scale(found.max(1.0)), degrees_of_freedom }
@@ -107,26 +109,29 @@ impl Solver<'_> {
             // How far off a plane a point is hangs on how it was hit, and across a beam on the range, while along it does not:
             // no variance of the joints is that of every component.
             root = subspace.covariance_root(&self.partial(&course.point.sweep), rest);
-            let Coordinates { q, mut residual } = self.coordinates(course, weight, &root)?;
+            let Coordinates { q, mut residual, of_stated } = self.coordinates(course, weight, &root)?;
             for (value, followed) in residual.iter_mut().zip(self.followed(course, weight, &root, objects)?) {
                 *value /= (1.0 - followed.by_unknowns).max(ALONE).sqrt();
             }
             let of_component = self.layout.row_of_each().map(|row| row % SETS_OF_ROWS).collect();
             let sets = Buckets { of_component, count: SETS_OF_ROWS };
             let clusters = Clusters::new(shares(&q, &residual, &sets));
-            Spread::Groups { factor: tally.stride().powi(2), clusters, crossed: None }
+            let beside = of_stated.map(taken_at_their_word).into_iter().collect();
+            Spread::Groups { factor: tally.stride().powi(2), clusters, beside }
         } else if left < MANY && self.layout.kinds > 1 {
             let pool = pools(self.observations, &self.layout, self.used(course));
             let of_component: Vec<usize> = self.layout.kind_of_each().map(|kind| pool[kind]).collect();
             let count = pool.iter().max().map_or(0, |last| last + 1);
             let counted: Vec<f64> = weight.iter().map(|weight| f64::from(u8::from(*weight > 0.0))).collect();
-            let Coordinates { q, residual, .. } = self.coordinates(course, &counted, &root)?;
+            let Coordinates { q, residual, of_stated } = self.coordinates(course, &counted, &root)?;
             let shares = shares(&q, &residual, &Buckets { of_component, count });
             let of = |share: Share| {
                 let used: f64 = (0..share.score.len()).map(|at| share.gram[(at, at)]).sum();
                 (share.gram, (share.count - used).max(1.0))
             };
-            Spread::Pools { factor: found, pools: shares.into_iter().map(of).collect() }
+            // The factor is that of the rows.
+            let stated = of_stated.map(|gram| taken_at_their_word(gram * faer::Scale(1.0 / found)));
+            Spread::Pools { factor: found, pools: shares.into_iter().map(of).chain(stated).collect() }
         } else {
             Spread::Even { factor: found, degrees_of_freedom: left }
         };
@@ -290,13 +295,11 @@ impl Uncertainty {
             Spread::Even { factor, .. } | Spread::Pools { factor, .. } => {
                 &self.root * &self.data * self.root.transpose() * faer::Scale(*factor)
             }
-            Spread::Groups { factor, clusters, crossed } => {
+            Spread::Groups { factor, clusters, beside } => {
                 let own = &self.root * clusters.scores();
-                let mut sum = &own * own.transpose();
-                if let Some((product, _)) = crossed {
-                    sum += &self.root * product * self.root.transpose();
-                }
-                sum * faer::Scale(*factor)
+                let of_groups = &own * own.transpose() * faer::Scale(*factor);
+                let added = beside.iter().map(|(product, _)| &self.root * product * self.root.transpose());
+                added.fold(of_groups, |sum, own| sum + own)
             }
             Spread::Serial { product, .. } => &self.root * product * self.root.transpose(),
         };
@@ -346,19 +349,21 @@ impl Uncertainty {
                 let (sum, free) = together(pools.iter().map(|(gram, own)| (form(gram, &a), *own)));
                 (factor * sum, if sum > 0.0 { free } else { self.left })
             }
-            Spread::Groups { factor, clusters, crossed } => {
+            Spread::Groups { factor, clusters, beside } => {
                 let along = Mat::from_fn(1, a.len(), |_, at| a[at]) * clusters.scores();
-                let own = (along.squared_norm_l2(), clusters.degrees_of_freedom(&a));
-                let (variance, free) = match crossed {
-                    Some((product, free)) => together([own, (form(product, &a), *free)].into_iter()),
-                    None => own,
-                };
-                (factor * variance, free)
+                let own = (factor * along.squared_norm_l2(), clusters.degrees_of_freedom(&a));
+                let beside = beside.iter().map(|(product, free)| (form(product, &a), *free));
+                if beside.len() > 0 { together(std::iter::once(own).chain(beside)) } else { own }
             }
             Spread::Serial { product, degrees_of_freedom } => (form(product, &a), *degrees_of_freedom),
         };
         (by_data + by_prior, degrees_of_freedom)
     }
+}
+
+/// What stated places add to a covariance: as much as is stated, which is as sure as anything here.
+fn taken_at_their_word(gram: Mat<f64>) -> (Mat<f64>, f64) {
+    (gram, f64::INFINITY)
 }
 
 /// The sum of independent estimates of variances, and its degrees of freedom.
@@ -368,5 +373,6 @@ fn together(parts: impl Iterator<Item = (f64, f64)>) -> (f64, f64) {
     let (sum, squares) = parts.fold((0.0, 0.0), |(sum, squares), (part, own)| {
         (sum + part, if part > 0.0 { squares + part * part / own } else { squares })
     });
-    (sum, if squares > 0.0 { sum * sum / squares } else { 0.0 })
+    // What is sure by statement alone has no part that scatters.
+    (sum, if sum > 0.0 { sum * sum / squares } else { 0.0 })
 }

@@ -6,6 +6,7 @@ use std::io::{self, Read};
 use memchr::memchr;
 use rayon::prelude::*;
 
+use super::decimal::{Marks, parse};
 use super::error::clipped;
 use super::header::{ColumnName, unique};
 use super::records::{Dialect, Line, Record, RecordError, Records};
@@ -40,6 +41,7 @@ struct Rows<R> {
     records: Records<R>,
     record: Record,
     row: u64,
+    marks: Marks,
 }
 
 impl<R: Read> Reader<R> {
@@ -80,7 +82,7 @@ impl<R: Read> Reader<R> {
         unique(&header, source)?;
         records.leave_out(options.comment);
         let table = Table { source: source.to_string(), header, separator };
-        Ok(Self { table, rows: Rows { records, record, row: 0 } })
+        Ok(Self { table, rows: Rows { records, record, row: 0, marks: Marks::default() } })
     }
 
     /// Reads lines without quotes, each part of them on any processor.
@@ -93,17 +95,24 @@ impl<R: Read> Reader<R> {
     ) -> Result<(), DataError> {
         let (table, dialect) = (&self.table, self.rows.records.dialect());
         let parts = parts(lines, dialect.line_end);
-        let read = |&part: &&[u8], line: u64, row: u64| {
+        let read = |&part: &&[u8], line: u64, row: u64, marks: Marks| {
             let records = Records::new(part, dialect, line);
-            let mut rows = Rows { records, record: Record::default(), row };
+            let mut rows = Rows { records, record: Record::default(), row, marks };
             let mut chunk = Chunk { columns: super::no_cells(wanted), ..Chunk::default() };
-            table.read(&mut rows, wanted, usize::MAX, &mut chunk).map(|_| (chunk, rows.records.line()))
+            table.read(&mut rows, wanted, usize::MAX, &mut chunk)?;
+            Ok((chunk, rows.records.line(), rows.marks))
         };
-        let each: Vec<_> = parts.par_iter().map(|part| read(part, 0, 0)).collect();
+        let each: Vec<_> = parts.par_iter().map(|part| read(part, 0, 0, Marks::default())).collect();
         let (mut line, mut row) = (line, self.rows.row);
         for (part, outcome) in parts.iter().zip(each) {
             // Read again, a part with a mistake says where in the file it is.
-            let (chunk, lines) = outcome.or_else(|_| read(part, line, row))?;
+            let before = self.rows.marks.clone();
+            let is_mixed = |own: &Marks| before.clone().merge(own.clone());
+            let (chunk, lines, marks) = match outcome {
+                Ok((.., marks)) if is_mixed(&marks) => read(part, line, row, before),
+                outcome => outcome.or_else(|_: DataError| read(part, line, row, before)),
+            }?;
+            self.rows.marks.merge(marks);
             to.append_part(chunk, row, line);
             row = to.rows.last().copied().unwrap_or(row);
             line += lines;
@@ -139,7 +148,7 @@ impl Table {
     ) -> Result<usize, DataError> {
         let mut bytes = 0;
         for _ in 0..at_most {
-            let Rows { records, record, row } = rows;
+            let Rows { records, record, row, marks } = rows;
             if bytes >= CHUNK_BYTES
                 || !records.read(record).map_err(|error| unreadable(&self.source, error))?
             {
@@ -147,7 +156,7 @@ impl Table {
             }
             *row += 1;
             self.check_swallowed(record, wanted)?;
-            bytes += self.take(record, *row, wanted, &mut to.columns).map_err(|error| {
+            bytes += self.take((record, *row), marks, wanted, &mut to.columns).map_err(|error| {
                 if !record.is_like_a_comment {
                     return error;
                 }
@@ -178,11 +187,17 @@ impl Table {
     }
 
     /// The number in a cell.
-    fn number(&self, record: &Record, row: u64, column: usize) -> Result<f64, DataError> {
+    fn number(
+        &self,
+        (record, row): (&Record, u64),
+        marks: &mut Marks,
+        column: usize,
+    ) -> Result<f64, DataError> {
         let text = self.text(record, column)?.trim();
         let cell = || self.cell(record, row, column);
-        match parse(text, self.separator) {
-            Some(number) if number.is_finite() => Ok(number),
+        match marks.read(text, self.separator) {
+            Some(Ok(number)) if number.is_finite() => Ok(number),
+            Some(Err(why)) => Err(DataError::MixedMarks { cell: cell(), why }),
             Some(_) => Err(DataError::NotFinite { cell: cell(), text: clipped(text) }),
             None if text.is_empty() => Err(DataError::EmptyCell { cell: cell() }),
             None => Err(DataError::NotANumber { cell: cell(), text: clipped(text) }),
@@ -192,8 +207,8 @@ impl Table {
     /// Takes a row over; returns its length in bytes.
     fn take(
         &self,
-        record: &Record,
-        row: u64,
+        (record, row): (&Record, u64),
+        marks: &mut Marks,
         wanted: &[Wanted],
         columns: &mut [Cells],
     ) -> Result<usize, DataError> {
@@ -211,7 +226,7 @@ impl Table {
             match (want.form, cells) {
                 (Form::Number(factor), Cells::Numbers(numbers)) => {
                     bytes += size_of::<f64>();
-                    numbers.push(self.number(record, row, want.column)? * factor);
+                    numbers.push(self.number((record, row), marks, want.column)? * factor);
                 }
                 (Form::Label, Cells::Labels(texts)) => {
                     let text = self.text(record, want.column)?;
@@ -254,14 +269,6 @@ impl Table {
         );
         Err(DataError::BadLine { file: self.source.clone(), line: record.line, why })
     }
-}
-
-/// A number as text has it: with a decimal comma where no comma separates.
-fn parse(text: &str, separator: u8) -> Option<f64> {
-    text.parse::<f64>().ok().or_else(|| {
-        let decimal_comma = separator != b',' && text.contains(',') && !text.contains('.');
-        if decimal_comma { text.replacen(',', ".", 1).parse().ok() } else { None }
-    })
 }
 
 impl<R: Read> TableReader for Reader<R> {
@@ -336,6 +343,23 @@ mod tests {
             assert_eq!(chunk.as_ref().map(|chunk| chunk.rows.as_slice()), Ok([1, 2].as_slice()), "{text}");
             assert_eq!(chunk.map(|chunk| chunk.columns), Ok(expected.clone()), "{text}");
         }
+    }
+
+    /// Across parts that are read on several processors, too.
+    #[test]
+    fn both_decimal_marks_in_one_file_are_refused_at_the_first_of_the_other() {
+        let many = |number: &str| format!("{number}\tMars\n").repeat(PART);
+        for (first, other) in [("987.5", "1,234"), ("1,234", "987.5")] {
+            let text = format!("az\tname\n{}{}", many(first), many(other));
+            let message = read(text.as_bytes()).map_err(|error| error.to_string());
+            let place = format!(
+                "data.csv: line {}, row {}, column `az`: `{other}` and, further up, `{first}`",
+                PART + 2,
+                PART + 1
+            );
+            assert!(message.is_err_and(|why| why.starts_with(&place)));
+        }
+        assert!(read(b"az,name\n987.5,\"1,234\"\n").is_ok());
     }
 
     #[test]

@@ -135,6 +135,14 @@ pub enum DataError {
         /// What stands there.
         text: String,
     },
+    /// Numbers with a decimal comma and numbers with a decimal point.
+    #[error("{cell}: {why}")]
+    MixedMarks {
+        /// Where.
+        cell: Cell,
+        /// What stands there and elsewhere, and what to write.
+        why: String,
+    },
     /// A cell without anything in it.
     #[error("{cell}: the cell is empty: fill in a number, or leave the row out")]
     EmptyCell {
@@ -157,6 +165,14 @@ pub enum DataError {
     /// A cell that says what a row observes, or from where, without anything in it.
     #[error("{cell}: the cell is empty: fill in the label, or leave the row out")]
     NoLabel {
+        /// Where.
+        cell: Cell,
+    },
+    /// A cell that says when its row was taken, without anything in it.
+    #[error(
+        "{cell}: the cell is empty, and nothing says where in the order its row belongs: fill it in, or leave the row out"
+    )]
+    NoOrder {
         /// Where.
         cell: Cell,
     },

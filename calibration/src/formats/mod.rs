@@ -10,6 +10,7 @@
 //! Formats are parsed from readers; opening files is the command's part.
 
 pub mod csv;
+mod decimal;
 mod error;
 mod header;
 pub mod memory;

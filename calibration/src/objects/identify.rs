@@ -4,6 +4,7 @@
 use model_core::{Chain, SymbolId, SymbolKind};
 use serde::Serialize;
 
+use super::scale::unheld_scales;
 use crate::data::Observations;
 use crate::data::unknowns::{Freedom, Shape, Station, Unknowns};
 use crate::fit::noise::Layout;
@@ -139,8 +140,12 @@ fn visible(
     values.resize(chain.symbols.len() + observations.unknowns.as_ref().map_or(0, Unknowns::numbers), 0.0);
     let sigma = vec![1.0; layout.components()];
     let tally = tally(model, observations, &layout, &values, &sigma, Weighting::Full)?;
-    let partial = tally.partial.spread(model.column_of());
     let parameters = model.parameters();
+    // What noise tells of a scale that nothing holds is nothing.
+    let unheld = unheld_scales(chain, observations, options);
+    let column = |(id, column): (&SymbolId, &Option<usize>)| column.filter(|_| !unheld.contains(id));
+    let partial =
+        tally.partial.spread(&parameters.iter().zip(model.column_of()).map(column).collect::<Vec<_>>());
     let subspace = Subspace::determined(&partial, vec![1.0; parameters.len()]);
     let pick = |chosen: &[bool]| {
         let all = parameters.iter().zip(chosen).filter(|(_, chosen)| **chosen);

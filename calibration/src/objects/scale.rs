@@ -21,7 +21,7 @@ const ROUNDING: f64 = 1e-9;
 /// # Errors
 /// The lengths that could.
 pub fn check_scale(chain: &Chain, observations: &Observations, fit: &FitOptions) -> Result<(), StartError> {
-    could_shrink(chain, observations, fit, is_length, is_length)
+    refused(chain, &could_shrink(chain, observations, fit, is_length, is_length))
 }
 
 /// Refuses a fit in which everything could shrink to nothing by a scale of measured lengths, as of ranges. What noise tells
@@ -34,7 +34,20 @@ pub fn check_scale_of_ranges(
     observations: &Observations,
     fit: &FitOptions,
 ) -> Result<(), StartError> {
+    refused(chain, &unheld_scales(chain, observations, fit))
+}
+
+/// The scales of measured lengths that nothing holds.
+pub(super) fn unheld_scales(chain: &Chain, observations: &Observations, fit: &FitOptions) -> Vec<SymbolId> {
     could_shrink(chain, observations, fit, |symbol| is_length(symbol) || is_factor(symbol), is_factor)
+}
+
+fn refused(chain: &Chain, unheld: &[SymbolId]) -> Result<(), StartError> {
+    let names: Vec<&str> = unheld.iter().map(|id| chain.symbol(*id).name.as_str()).collect();
+    match names.first() {
+        None => Ok(()),
+        Some(first) => Err(StartError::NoScale { lengths: names.join("`, `"), first: (*first).to_owned() }),
+    }
 }
 
 fn is_length(symbol: &Symbol) -> bool {
@@ -46,15 +59,15 @@ fn is_factor(symbol: &Symbol) -> bool {
     symbol.quantity == Quantity::Number && symbol.kind == SymbolKind::Error
 }
 
-/// Refuses a fit in which what it estimates could take every point to nothing; `named` are those that the message names.
+/// What is estimated that could take every point to nothing; of it those that are `named`.
 fn could_shrink(
     chain: &Chain,
     observations: &Observations,
     fit: &FitOptions,
     may_shrink: impl Fn(&Symbol) -> bool,
     named: impl Fn(&Symbol) -> bool,
-) -> Result<(), StartError> {
-    let Some(unknowns) = &observations.unknowns else { return Ok(()) };
+) -> Vec<SymbolId> {
+    let Some(unknowns) = &observations.unknowns else { return Vec::new() };
     let of_points = |series: &&Series| match series.measure {
         Measure::Plane | Measure::Target | Measure::Fixed | Measure::Circle | Measure::Beam => true,
         // Of a sphere whose radius nobody knows no length is read.
@@ -68,18 +81,14 @@ fn could_shrink(
         || !observations.poses.series.iter().all(shows_none)
         || known_places(unknowns) >= 2
     {
-        return Ok(());
+        return Vec::new();
     }
     let lengths: Vec<SymbolId> =
         fit.estimate.iter().filter(|id| may_shrink(chain.symbol(**id))).copied().collect();
-    let symbols = lengths.iter().map(|id| chain.symbol(*id)).filter(|symbol| named(symbol));
-    let names: Vec<&str> = symbols.map(|symbol| symbol.name.as_str()).collect();
-    match names.first() {
-        Some(first) if points.all(|series| is_sum_of(chain, observations, series, &lengths, &fit.start)) => {
-            Err(StartError::NoScale { lengths: names.join("`, `"), first: (*first).to_owned() })
-        }
-        _ => Ok(()),
-    }
+    let unheld: Vec<SymbolId> = lengths.iter().copied().filter(|id| named(chain.symbol(*id))).collect();
+    let is_free = !unheld.is_empty()
+        && points.all(|series| is_sum_of(chain, observations, series, &lengths, &fit.start));
+    if is_free { unheld } else { Vec::new() }
 }
 
 fn reads_nothing(measured: &Measured) -> bool {

@@ -8,21 +8,26 @@ use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
 
 use super::remark::{Remark, remarks};
 use super::rows::{Row, rows, sighted, tells};
-use crate::data::unknowns::{Known, Object, Pose, Shape, Unknowns};
+use crate::data::unknowns::{Freedom, Known, Object, Pose, Shape, Unknowns};
 use crate::data::{Measure, Measured, Observations, Poses, tangent_frame};
-use crate::fit::align_robustly;
+use crate::fit::{align_robustly, robust};
 
 /// Singular values below this share of the largest are none: points in a line or a plane.
 const FLAT: f64 = 1e-6;
+
+/// A rough pose is nowhere near where targets come to lie off by more than this share of their distance, while by those of others
+/// they lie off by less than that share of it.
+const FAR: f64 = 0.5;
+const NEARER: f64 = 0.1;
 
 /// Why there is nowhere to start from.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum StartError {
     /// Nothing says where a station stood.
     #[error(
-        "nothing says where station `{station}` stood: it shares {shared} targets with stations and objects that are known, and \
-         three that are not in a line are needed; observe more of the others' targets from it, or write where it stood, \
-         roughly: [stations] {station} = {{ x = \"1.2 m\", y = \"0 m\", z = \"0.3 m\", heading = \"30 deg\", rough = true }}"
+        "nothing says where station `{station}` stood: it shares {shared} targets that say where they are with stations and objects \
+         that are known, and three that are not in a line are needed (walls and directions do not say it); observe more of the \
+         others' targets from it, or write where it stood, roughly: [stations] {station} = {{ x = \"1.2 m\", y = \"0 m\", z = \"0.3 m\", heading = \"30 deg\", rough = true }}"
     )]
     NotConnected {
         /// Its label.
@@ -170,10 +175,20 @@ fn place_stations(unknowns: &mut Unknowns, rows: &[Row]) -> Result<(), StartErro
     };
     let mut there: Vec<Option<Vector3<f64>>> =
         unknowns.objects.iter().map(|object| (object.known == Known::Yes).then_some(object.place)).collect();
-    for station in 0..stations {
-        if unknowns.stations[station].known == Known::Yes {
-            take_over(unknowns, &mut there, &seen, station);
+    let stated = |unknowns: &Unknowns, rough: bool| {
+        let own = unknowns.stations.iter().enumerate();
+        let own = own.filter(|(_, own)| own.known == Known::Yes && (own.freedom == Freedom::Free) == rough);
+        own.map(|(station, _)| station).collect::<Vec<usize>>()
+    };
+    for station in stated(unknowns, false) {
+        take_over(unknowns, &mut there, &seen, station);
+    }
+    for station in stated(unknowns, true) {
+        let pairs = (0..objects).filter_map(|at| Some((seen(station, at)?, there[at]?)));
+        if let Some(pose) = far_from_rough(&unknowns.stations[station].pose, &pairs.collect::<Vec<_>>()) {
+            unknowns.stations[station].pose = pose;
         }
+        take_over(unknowns, &mut there, &seen, station);
     }
     let laid_on_known = |station: usize| {
         let known = (0..objects).filter(|&at| there[at].is_some());
@@ -203,6 +218,21 @@ fn place_stations(unknowns: &mut Unknowns, rows: &[Row]) -> Result<(), StartErro
         return Ok(());
     }
     place_by_shared(unknowns, &mut there, &seen)
+}
+
+/// Where a station stood by the targets that it shares with those before it, if that is nowhere near the rough pose that was written:
+/// the fit would find no way back.
+fn far_from_rough(rough: &Pose, pairs: &[(Vector3<f64>, Vector3<f64>)]) -> Option<Pose> {
+    let (from, to): (Vec<_>, Vec<_>) = pairs.iter().copied().unzip();
+    if is_in_a_line(&from) {
+        return None;
+    }
+    let (turn, shift) = align_robustly(&from, &to)?;
+    let pose = Pose { turn: Rotation3::from_matrix_unchecked(turn), shift };
+    let away =
+        |pose: &Pose| robust::median(pairs.iter().map(|(from, to)| (pose.apply(from) - to).norm()).collect());
+    let usual = robust::median(from.iter().map(|point| point.norm()).collect());
+    (away(rough) > FAR * usual && away(&pose) < NEARER * away(rough)).then_some(pose)
 }
 
 /// The motion that brings points, of which there are few or which lie in a line, onto others: no further turned than it takes.

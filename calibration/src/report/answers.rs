@@ -4,9 +4,12 @@ use super::causes::{each_once, sentence_case};
 use super::effects::{chance_of_all, headline, place};
 use super::left::{function_form, remaining};
 use super::numbers::{short, times};
-use super::steps::{Step, is_worse, steps};
+use super::steps::{Step, is_misread, is_worse, steps};
 use crate::data::SiUnit;
 use crate::diagnose::{Caution, Diagnosis, EffectFound, Ended, EveryRow, Rms, Verdict};
+
+/// Rows far out hide what became of the others where a figure over every row is so many times theirs.
+const HIDDEN: f64 = 1.5;
 
 /// How good the news is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -108,7 +111,7 @@ fn tone(diagnosis: &Diagnosis) -> Tone {
     match diagnosis.verdict {
         Verdict::FitFailed | Verdict::TooFewObservations => Tone::Bad,
         _ if is_worse(diagnosis) => Tone::Bad,
-        _ if is_worse_elsewhere(diagnosis) => Tone::Careful,
+        _ if is_misread(diagnosis) || is_worse_elsewhere(diagnosis) => Tone::Careful,
         Verdict::Explained | Verdict::NothingDetectable => Tone::Good,
         Verdict::Confounded | Verdict::FormNotDetermined => Tone::Ambiguous,
         Verdict::UnnamedFunction | Verdict::StructureRemains | Verdict::NoiseExceedsStated => Tone::Careful,
@@ -280,9 +283,18 @@ fn of_unit(diagnosis: &Diagnosis, observed: &str, unit: SiUnit, [before, after]:
             .map_or_else(String::new, |rms| format!("; {} on data that nobody fitted", told(rms)));
         return format!("The {observed} error of the fitted declaration is {}{held_out}.", fitted(after.rms));
     }
+    let without = after.held_out_rows - after.held_out_rows_kept;
+    let hides = |all: f64, kept: f64| without > 0 && all > HIDDEN * kept;
+    let is_hidden =
+        after.held_out_rms.zip(after.held_out_rms_kept).is_some_and(|(all, kept)| hides(all, kept));
+    let rows = if without == 1 { "row" } else { "rows" };
     let pairs = [
-        ("on data that nobody fitted", before.held_out_rms.zip(after.held_out_rms)),
-        ("on the data that were fitted", before.rms.zip(after.rms)),
+        (
+            format!("on data that nobody fitted, without {without} {rows} far out,"),
+            before.held_out_rms_kept.zip(after.held_out_rms_kept).filter(|_| is_hidden),
+        ),
+        ("on data that nobody fitted".to_owned(), before.held_out_rms.zip(after.held_out_rms)),
+        ("on the data that were fitted".to_owned(), before.rms.zip(after.rms)),
     ];
     let Some((where_, from, to)) =
         pairs.into_iter().find_map(|(where_, pair)| pair.map(|(from, to)| (where_, from, to)))

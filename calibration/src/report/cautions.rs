@@ -89,6 +89,17 @@ pub fn caution(caution: &Caution) -> String {
                 ),
             }
         }
+        Caution::NotWhereStated { what, label, sigmas, away_m } => {
+            let (station, stated) = match what {
+                Uneven::Station => ("Station ", "its pose"),
+                _ => ("", "a coordinate"),
+            };
+            let far = short(*away_m, SiUnit::METRE);
+            format!(
+                "{station}`{label}` comes out {far} from where the study states it, {sigmas:.0} of its ±: is {stated} wrong, or the label \
+                 another's?"
+            )
+        }
         Caution::FilesShareErrors { files, ratio } => format!(
             "Rows of one file share an error: what the {files} files say scatters with {} the variance that their rows explain. The ± \
              count each file as one.",

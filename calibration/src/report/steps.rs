@@ -48,8 +48,8 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
     if is_misread(diagnosis) {
         steps.push(step(
             "Do not correct with it yet",
-            "The first thing is what the cautions say of the data: a column in another unit, a sign, an axis. Errors that were estimated \
-             from misread rows are wrong, and so is what was found beside them."
+            "The first thing is what the cautions say of the data: a column in another unit, a sign, an axis, a place that is stated \
+             wrongly. Errors that were estimated from that are wrong, and so is what was found beside them."
                 .to_owned(),
         ));
     } else if is_worse(diagnosis) {
@@ -58,6 +58,11 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
             "On data that nobody fitted the effects make it worse. Measure more poses, or allow fewer effects \
              (`[search] effects`)."
                 .to_owned(),
+        ));
+    } else if shows_nothing(diagnosis) {
+        steps.push(step(
+            "There is nothing to correct with",
+            "These data show none of the declared errors: what would show them is what `identify` says of the study.".to_owned(),
         ));
     } else {
         steps.push(correct(diagnosis, folder));
@@ -172,10 +177,21 @@ fn measure(diagnosis: &Diagnosis) -> Vec<Step> {
     steps
 }
 
+/// Whether the data show no error, alone or together with others, and no effect.
+fn shows_nothing(diagnosis: &Diagnosis) -> bool {
+    diagnosis.effects.is_empty()
+        && !diagnosis.errors.is_empty()
+        && diagnosis.errors.iter().all(|error| !error.shown)
+}
+
 /// Whether data were likely read in a wrong unit, with a wrong sign or along another axis.
-fn is_misread(diagnosis: &Diagnosis) -> bool {
-    let misread =
-        |caution: &Caution| matches!(caution, Caution::OutOfPlace { .. } | Caution::DegreesAsRadians { .. });
+pub(super) fn is_misread(diagnosis: &Diagnosis) -> bool {
+    let misread = |caution: &Caution| {
+        matches!(
+            caution,
+            Caution::OutOfPlace { .. } | Caution::DegreesAsRadians { .. } | Caution::NotWhereStated { .. }
+        )
+    };
     diagnosis.cautions.iter().any(misread)
 }
 

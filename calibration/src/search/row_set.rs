@@ -113,6 +113,25 @@ impl<'a> RowSet<'a> {
         keep(&mut self.effects, usable);
     }
 
+    /// Functions, each a column with a value a row, times the derivative of the components at a place, whitened.
+    pub fn sheet(&self, probe: &[f64], values: &Mat<f64>) -> Mat<f64> {
+        let mut sheet = Mat::zeros(self.columns.row.len(), values.ncols());
+        let mixed = self.mixes_rows();
+        // Else whitening is a factor to each component.
+        let probe = if mixed { probe.to_vec() } else { self.whiten(probe) };
+        for j in 0..values.ncols() {
+            let (column, values) = (sheet.col_as_slice_mut(j), values.col_as_slice(j));
+            for ((target, p), &row) in column.iter_mut().zip(&probe).zip(&self.columns.row) {
+                *target = p * values[row as usize];
+            }
+            if mixed {
+                let whitened = self.whiten(column);
+                column.copy_from_slice(&whitened);
+            }
+        }
+        sheet
+    }
+
     /// A column of residual components, whitened as the fit whitened its own, without what objects explain of it.
     pub fn whiten(&self, column: &[f64]) -> Vec<f64> {
         let mut column = column.to_vec();

@@ -187,6 +187,17 @@ impl<'a> Left<'a> {
         sweep.entry(residual, residual)
     }
 
+    /// A sheet's columns without those of which the known ones leave less than that length: they show nothing.
+    #[must_use]
+    pub fn shown(&self, mut columns: Mat<f64>, least: f64) -> Mat<f64> {
+        if least > 0.0 {
+            let left = &columns - &self.basis * (self.basis.transpose() * &columns);
+            let unseen = (0..columns.ncols()).filter(|&j| left.col(j).norm_l2() < least);
+            unseen.for_each(|j| columns.col_as_slice_mut(j).fill(0.0));
+        }
+        columns
+    }
+
     /// Scans sheets, made one after another by `sheet`.
     pub fn scan(&self, sheets: usize, sheet: impl Fn(usize) -> Sheet + Sync) -> Scan {
         let rows = self.residual.len();

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::chunk::Chunk;
 use super::row_set::{RowSet, components, dealt};
 use super::stretches::{Chunks, all_rows, sample};
-use crate::candidate::EffectId;
+use crate::candidate::{EffectId, Freedom};
 use crate::data::Poses;
 use crate::search::columns::{Columns, Probed, Seen, keep, places};
 use crate::search::context::{Context, declared};
@@ -235,20 +235,24 @@ fn problem(
     let blocks: Vec<Range<usize>> = blocks.collect();
     let plan = whole.request.plan;
     let effects = whole.catalogue.iter().zip(usable).filter(|(_, usable)| **usable).map(|(effect, _)| effect);
-    let sizes = effects.flat_map(|effect| {
-        let size = tolerance_of(plan, effect.place.freedom.quantity());
-        std::iter::repeat_n(size, effect.functions.len())
-    });
-    let sizes: Vec<f64> = sizes.collect();
-    // Beside unknown objects, what would have to be larger than any error to stand out is not looked for.
-    let least = |size: &f64| if plan.fit.anchored { STANDS_OUT / size } else { 0.0 };
-    let least: Vec<f64> = sizes.iter().map(least).collect();
+    let of_function =
+        effects.flat_map(|effect| std::iter::repeat_n(effect.place.freedom, effect.functions.len()));
+    let of_function: Vec<Freedom> = of_function.collect();
+    let least: Vec<f64> = of_function.iter().map(|&freedom| least_seen(whole, freedom)).collect();
     let problem = Problem::of_rows(rows, fitted.combinations.ncols(), &blocks, &least, folds)?;
     if !plan.fit.anchored {
         return Ok(problem);
     }
     let (stated, residual) = fitted.stated(declared(whole).len());
+    let sizes: Vec<f64> = of_function.iter().map(|freedom| tolerance_of(plan, freedom.quantity())).collect();
     Ok(problem.with_prior(stated.as_ref(), &residual, &sizes))
+}
+
+/// How long a whitened column for a coefficient of one has to be, in its degree of freedom, for an effect to be looked for: beside
+/// unknown objects, what would have to be larger than any error to stand out is not.
+pub(crate) fn least_seen(whole: &Context<'_>, freedom: Freedom) -> f64 {
+    let plan = whole.request.plan;
+    if plan.fit.anchored { STANDS_OUT / tolerance_of(plan, freedom.quantity()) } else { 0.0 }
 }
 
 /// What the candidates of a problem do at the data's poses and further out, each series in units of its noise.

@@ -19,6 +19,7 @@ mod memory;
 mod mistakes;
 mod next;
 mod observed;
+mod order;
 mod orientation;
 mod places;
 mod plan;

@@ -72,11 +72,11 @@ impl Plan {
         self.sources.iter().any(|source| !source.uncertain.is_empty())
     }
 
-    /// The same of one file alone, with as many sources.
+    /// The same of these files alone, with as many sources.
     #[must_use]
-    pub fn of_file(&self, path: &str) -> Self {
+    pub fn of_files(&self, paths: &[String]) -> Self {
         let mut plan = self.clone();
-        plan.sources.iter_mut().for_each(|source| source.paths = vec![path.to_owned()]);
+        plan.sources.iter_mut().for_each(|source| source.paths = paths.to_vec());
         plan
     }
 }

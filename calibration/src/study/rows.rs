@@ -1,6 +1,7 @@
 //! The rows of one source on their way from its files.
 
 use super::columns::Columns;
+use super::order::{order_of, says_nothing};
 use super::plan::{Plan, SourcePlan};
 use crate::data::units::BareColumn;
 use crate::data::{Numbers, Places};
@@ -83,6 +84,9 @@ impl Rows {
                             if says_what && label.is_empty() {
                                 return Err(DataError::NoLabel { cell: cell() });
                             }
+                            if plan.order.as_ref() == Some(name) && says_nothing(&label) {
+                                return Err(DataError::NoOrder { cell: cell() });
+                            }
                             if label.contains(|letter: char| letter.is_control() && letter != '\t') {
                                 return Err(DataError::ControlCharacter { cell: cell() });
                             }
@@ -99,15 +103,10 @@ impl Rows {
         Ok(())
     }
 
-    /// Brings the rows into the order of a label: by number if all are numbers, else by text. Equal rows keep theirs.
+    /// Brings the rows into the [order](order_of) of a label.
     pub fn sort_by_label(&mut self, label: usize) {
         let Some(labels) = self.labels.get(label) else { return };
-        let numbers: Option<Vec<f64>> = labels.iter().map(|label| label.parse().ok()).collect();
-        let mut order: Vec<usize> = (0..labels.len()).collect();
-        match numbers {
-            Some(numbers) => order.sort_by(|&a, &b| numbers[a].total_cmp(&numbers[b])),
-            None => order.sort_by(|&a, &b| labels[a].cmp(&labels[b])),
-        }
+        let order = order_of(labels);
         for column in &mut self.numbers {
             *column = order.iter().map(|&row| column[row]).collect();
         }

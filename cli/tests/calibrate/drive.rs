@@ -9,6 +9,7 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use crate::figures::calibrated;
+use crate::random::Random;
 use crate::support::Folder;
 
 type Point = [f64; 3];
@@ -32,20 +33,6 @@ const PLANES: [(&str, Point, f64); 8] = [
 
 /// Standard deviations by which poses are off: east, north, up, m; heading, pitch, roll, rad.
 const OFF: [f64; 6] = [0.01, 0.01, 0.015, 3e-4, 1e-4, 1e-4];
-
-/// Numbers that look random: a congruence of Knuth's, and sums of twelve.
-struct Random(u64);
-
-impl Random {
-    fn even(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        (0..12).map(|_| self.even()).sum::<f64>() - 6.0
-    }
-}
 
 fn turned(axis: usize, angle: f64, point: Point) -> Point {
     let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -74,7 +61,7 @@ pub struct Off {
 
 /// A drive of three rounds; the encoder of the mirror sits off centre by this angle. Each row says how uncertain its pose is.
 pub fn drive(seed: u64, off: &Off, off_centre_rad: f64) -> String {
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
     let (rows, remembered) = (ROWS, off.remembered);
     let mut text =
         "wall,east [m],north [m],up [m],heading [rad],pitch [rad],roll [rad],way [m],angle [rad],range [m],\

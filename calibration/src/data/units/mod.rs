@@ -34,7 +34,9 @@ const UNITS: &[Unit] = &[
     angle("deg", PI / 180.0),
     angle("°", PI / 180.0),
     angle("arcmin", PI / 10_800.0),
+    angle("′", PI / 10_800.0),
     angle("arcsec", PI / 648_000.0),
+    angle("″", PI / 648_000.0),
     angle("mas", PI / 648_000_000.0),
     angle("gon", PI / 200.0),
     angle("mgon", PI / 200_000.0),
@@ -55,6 +57,22 @@ const UNITS: &[Unit] = &[
     number("ppm", 1e-6),
     number("ppb", 1e-9),
 ];
+
+/// What some write for a unit, and what to write instead: the nearest of so few letters may be another unit.
+const MEANT: &[(&[&str], &str)] = &[
+    (&["\"", "''", "as", "asec", "sec", "arcseconds"], "did you mean `arcsec`?"),
+    (&["'", "am", "amin", "min", "arcminutes"], "did you mean `arcmin`?"),
+    (&["s"], "write arcsec for a second of arc; a second of time is 15 arcsec"),
+    (&["h", "hr", "hrs", "hours"], "did you mean `hour`, of which a turn has 24?"),
+    (&["d", "degree", "degrees"], "did you mean `deg`?"),
+    (&["g", "grad", "grads"], "did you mean `gon`?"),
+    (&["r", "radian", "radians"], "did you mean `rad`?"),
+    (&["metre", "metres", "meter", "meters"], "did you mean `m`?"),
+    (&["in"], "did you mean `inch`?"),
+];
+
+/// Letters from which on a unit is suggested because it is written alike.
+const ALIKE: usize = 3;
 
 const fn angle(name: &'static str, in_si: f64) -> Unit {
     Unit { name, quantity: Quantity::Angle, in_si }
@@ -85,13 +103,22 @@ impl Unit {
     /// # Errors
     /// No unit has this name; the message suggests the nearest, and what there is.
     pub fn parse(name: &str) -> Result<Self, UnitError> {
-        Self::find(name).ok_or_else(|| UnitError::Unknown {
-            name: name.to_string(),
-            help: model_core::names::nearest(name, UNITS.iter().map(|unit| unit.name)).map_or_else(
-                || "write rad, deg, arcmin, arcsec, m, mm or um".to_string(),
-                |near| format!("did you mean `{near}`?"),
-            ),
-        })
+        Self::find(name).ok_or_else(|| UnitError::Unknown { name: name.to_string(), help: instead_of(name) })
+    }
+}
+
+/// What to write instead of what is no unit.
+fn instead_of(name: &str) -> String {
+    let written = name.to_lowercase();
+    if let Some((_, instead)) = MEANT.iter().find(|(names, _)| names.contains(&written.as_str())) {
+        return (*instead).to_string();
+    }
+    let alike = || model_core::names::nearest(name, UNITS.iter().map(|unit| unit.name));
+    // Upper and lower case alone tell MM from mm.
+    let is_long = name.chars().count() >= ALIKE || alike().is_some_and(|near| near.to_lowercase() == written);
+    match alike().filter(|_| is_long) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => "write rad, deg, arcmin, arcsec, m, mm or um".to_string(),
     }
 }
 
@@ -285,6 +312,8 @@ mod tests {
             ("30 deg", Quantity::Angle, 0.523_598_775_598_298_8),
             ("-30°", Quantity::Angle, -0.523_598_775_598_298_8),
             ("1e-6 rad", Quantity::Angle, 1e-6),
+            ("30.66″", Quantity::Angle, 30.66 * PI / 648_000.0),
+            ("2 ′", Quantity::Angle, 2.0 * PI / 10_800.0),
             ("0.1 mm", Quantity::Length, 1e-4),
             ("0.1mm", Quantity::Length, 1e-4),
             (" +5e2um ", Quantity::Length, 5e-4),
@@ -294,6 +323,24 @@ mod tests {
             assert_relative_eq!(parse(text, quantity)?, expected, max_relative = 1e-15);
         }
         Ok(())
+    }
+
+    /// A suggestion that is taken changes no number by a factor that nobody notices.
+    #[test]
+    fn no_other_unit_is_suggested_for_few_letters() {
+        for (written, instead) in [
+            ("\"", "did you mean `arcsec`?"),
+            ("as", "did you mean `arcsec`?"),
+            ("h", "did you mean `hour`, of which a turn has 24?"),
+            ("s", "write arcsec for a second of arc; a second of time is 15 arcsec"),
+            ("x", "write rad, deg, arcmin, arcsec, m, mm or um"),
+            ("ym", "write rad, deg, arcmin, arcsec, m, mm or um"),
+            ("MM", "did you mean `mm`?"),
+            ("Degrees", "did you mean `deg`?"),
+            ("arcsecs", "did you mean `arcsec`?"),
+        ] {
+            assert_eq!(instead_of(written), instead, "{written}");
+        }
     }
 
     #[test]

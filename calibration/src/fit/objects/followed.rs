@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::eliminate::{Collected, Eliminated, OF_STATION, divided_out};
 use super::reduce::{reflected, units};
-use crate::data::unknowns::{OF_OBJECT, Unknowns, WIDTH};
+use crate::data::unknowns::{Freedom, OF_OBJECT, Object, Unknowns, WIDTH};
 
 /// What is followed of a component's own residual, as shares of it.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -47,8 +47,7 @@ impl Eliminated {
         let by_stations = self.by_stations(root);
         let own = of_object.par_iter_mut().enumerate().map(|(object, rows)| {
             rows.sort_by_key(|&(_, row, _)| unknowns.station[row as usize]);
-            let numbers = unknowns.objects.get(object).map_or(0, |object| object.numbers());
-            of_rows(unknowns, rows, numbers, by_stations.as_ref(), root)
+            of_rows(unknowns, rows, unknowns.objects.get(object), by_stations.as_ref(), root)
         });
         let own: Vec<Vec<FollowedShare>> = own.collect();
         let mut followed = vec![FollowedShare::default(); components];
@@ -79,7 +78,7 @@ impl Eliminated {
 fn of_rows(
     unknowns: &Unknowns,
     rows: &[Seen<'_>],
-    numbers: usize,
+    object: Option<&Object>,
     by_stations: MatRef<'_, f64>,
     root: &Mat<f64>,
 ) -> Vec<FollowedShare> {
@@ -99,7 +98,23 @@ fn of_rows(
         }
         start += seen.len();
     }
-    let mut of_object = Mat::from_fn(rows.len(), numbers.min(rows.len()), |i, j| rows[i].2[j]);
+    let numbers = object.map_or(0, Object::numbers);
+    // What is stated of the object holds it beside its rows.
+    let stated = match object.map(|object| object.freedom) {
+        Some(Freedom::Within { shift_m, .. }) => (numbers, 1.0 / shift_m),
+        _ => (0, 0.0),
+    };
+    let count = rows.len() + stated.0;
+    let mut of_object = Mat::from_fn(count, numbers.min(count), |i, j| match i.checked_sub(rows.len()) {
+        None => rows[i].2[j],
+        Some(number) => {
+            if number == j {
+                stated.1
+            } else {
+                0.0
+            }
+        }
+    });
     let (reflections, moves) = reflected(&mut of_object);
     let units = units(&reflections, &moves);
     let basis = Mat::from_fn(rows.len(), units.len(), |i, j| units[j][i]);

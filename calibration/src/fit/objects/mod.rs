@@ -5,15 +5,17 @@
 //! declared errors, and steps, uncertainties and the search for missing effects see no other.
 //!
 //! What one row shows stands in `seen`, the elimination in `eliminate`, its rotation of whole columns in `reduce`,
-//! and in `followed` what it leaves to each row.
+//! in `followed` what it leaves to each row, and in `stated` what a study says of places.
 
 mod eliminate;
 mod followed;
 mod gathered;
 mod reduce;
 mod seen;
+mod stated;
 
 pub(crate) use eliminate::{Collected, Eliminated};
 pub(crate) use followed::FollowedShare;
 pub(crate) use reduce::Reduction;
 pub(crate) use seen::{TurnsBy, distance, seen};
+pub(crate) use stated::Stated;

@@ -30,6 +30,7 @@ use crate::search::SearchError;
 use crate::search::columns::Columns;
 use crate::search::context::{Context, declared};
 use crate::search::round::Round;
+use crate::search::search_problem::least_seen;
 
 /// Penalised log-likelihood by which a function must beat what the catalogue made of it: six units of Schwarz's criterion.
 const BETTER: f64 = 3.0;
@@ -196,23 +197,13 @@ impl Library<'_, '_> {
 
     /// A shape's columns at a place: the place's derivative times the function's values, whitened.
     fn sheet(&self, place: Place, values: &Mat<f64>) -> Mat<f64> {
-        let rows = &self.last.search.rows;
-        let mut sheet = Mat::zeros(rows.columns.row.len(), values.ncols());
-        let Some(probe) = self.columns.probe(place) else { return sheet };
-        let mixed = self.last.search.rows.mixes_rows();
-        // Else whitening is a factor to each component.
-        let probe = if mixed { probe.to_vec() } else { rows.whiten(probe) };
-        for j in 0..values.ncols() {
-            let (column, values) = (sheet.col_as_slice_mut(j), values.col_as_slice(j));
-            for ((target, p), &row) in column.iter_mut().zip(&probe).zip(&rows.columns.row) {
-                *target = p * values[row as usize];
-            }
-            if mixed {
-                let whitened = rows.whiten(column);
-                column.copy_from_slice(&whitened);
+        match self.columns.probe(place) {
+            None => Mat::zeros(self.left.residual.len(), values.ncols()),
+            Some(probe) => {
+                let sheet = self.last.search.rows.sheet(probe, values);
+                self.left.shown(sheet, least_seen(self.whole, place.freedom))
             }
         }
-        sheet
     }
 
     /// The scan's functions at a place: steps and bumps one by one, tables as blocks.

@@ -8,6 +8,10 @@ use super::shape::Shape;
 /// How far thresholds are refined, as a share of the readings' range.
 const FINEST: f64 = 1.0 / 4000.0;
 
+/// How often thresholds are moved on at one step: from one end of the readings to the other. What explains a little more with
+/// every step further has no best place.
+const MOVES: usize = 72;
+
 /// What is left of a column's sum of squares below which it is not seen.
 const VISIBLE: f64 = 1e-4;
 
@@ -40,8 +44,10 @@ pub(super) fn refined(
 ) -> (Shape, f64) {
     let of = |shape: &Shape| gain.of(column(shape).col_as_slice(0));
     let mut best = (of(&shape), shape);
+    let mut moves = 0;
     while step > FINEST * driver.span() {
         let mut moved = false;
+        moves += 1;
         for at in 0..best.1.parameters() {
             for sign in [-1.0, 1.0] {
                 let mut to = best.1.thresholds();
@@ -58,8 +64,8 @@ pub(super) fn refined(
                 }
             }
         }
-        if !moved {
-            step /= 2.0;
+        if !moved || moves == MOVES {
+            (step, moves) = (step / 2.0, 0);
         }
     }
     (best.1, best.0)
@@ -91,6 +97,21 @@ mod tests {
     use model_core::SymbolId;
 
     use super::*;
+
+    /// The wider the bump, the more it explains of a parabola.
+    #[test]
+    fn what_explains_ever_more_further_out_comes_to_an_end() {
+        let readings: Vec<f64> = (0..200).map(|i| f64::from(i) / 200.0).collect();
+        let target: Vec<f64> = readings.iter().map(|&x| 1.0 - (x - 0.5).powi(2) / 1e3).collect();
+        let basis = orthonormal(std::iter::empty(), 200);
+        let gain = Gain { basis: &basis, residual: &target };
+        let column = |shape: &Shape| shape.values(&readings);
+        let driver =
+            Driver::of_readings(SymbolId(0), &readings, false).expect("readings to be a function of");
+        let start = Shape::Bump { middle: 0.5, width: 0.1 };
+        let (_, explained) = refined(start, &driver, 1.0 / 36.0, &gain, column);
+        assert!(explained.is_finite());
+    }
 
     #[test]
     fn a_threshold_is_found_between_the_points_of_a_grid() {

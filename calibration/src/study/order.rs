@@ -1,0 +1,224 @@
+//! The order of acquisition, by a column of whatever says it: numbers, points in time, or names that are counted on.
+
+use std::cmp::Ordering;
+
+/// The rows by their labels, equal ones as they stand: by number if all are numbers, by the instant if all are points in time, else
+/// as names are counted on (`IMG_2` before `IMG_10`).
+pub(super) fn order_of(labels: &[String]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..labels.len()).collect();
+    if let Some(numbers) = numbers(labels) {
+        order.sort_by(|&a, &b| numbers[a].total_cmp(&numbers[b]));
+    } else if let Some(instants) = instants(labels) {
+        order.sort_by(|&a, &b| instants[a].seconds.total_cmp(&instants[b].seconds));
+    } else {
+        order.sort_by(|&a, &b| counted(&labels[a], &labels[b]));
+    }
+    order
+}
+
+/// Whether a label says of no row when it was taken.
+pub(super) fn says_nothing(label: &str) -> bool {
+    label.is_empty() || label.eq_ignore_ascii_case("nat") || label.parse().is_ok_and(f64::is_nan)
+}
+
+/// All labels as numbers, with a decimal point or, where no label has one, a decimal comma.
+fn numbers(labels: &[String]) -> Option<Vec<f64>> {
+    let with_points: Option<Vec<f64>> = labels.iter().map(|label| label.parse().ok()).collect();
+    with_points.or_else(|| {
+        let with_comma = |label: &String| label.replacen(',', ".", 1).parse().ok();
+        if labels.iter().any(|label| label.contains('.')) {
+            None
+        } else {
+            labels.iter().map(with_comma).collect()
+        }
+    })
+}
+
+/// A point in time.
+struct Instant {
+    /// Since the year 1970 began, of what the label says of the zone.
+    seconds: f64,
+    has_zone: bool,
+}
+
+/// All labels as points in time by ISO 8601; none where some have a zone and others do not, which nothing can put in order.
+fn instants(labels: &[String]) -> Option<Vec<Instant>> {
+    let instants: Vec<Instant> = labels.iter().map(|label| instant(label)).collect::<Option<_>>()?;
+    let zoned = instants.iter().filter(|instant| instant.has_zone).count();
+    (zoned == 0 || zoned == instants.len()).then_some(instants)
+}
+
+/// `2026-10-25`, or with a time of day behind `T` or a blank, `02:59:30.25`, and with `Z` or `+02:00` behind that.
+fn instant(label: &str) -> Option<Instant> {
+    let (date, clock) = match label.split_once(['T', 't', ' ']) {
+        Some((date, clock)) => (date, Some(clock)),
+        None => (label, None),
+    };
+    let mut parts = date.splitn(3, '-');
+    let mut next = |digits: usize| digits_of(parts.next()?, digits);
+    let (year, month, day) = (next(4)?, next(2)?, next(2)?);
+    if !(1..=12).contains(&month) || !(1..=31).contains(&day) {
+        return None;
+    }
+    let midnight = days(year, month, day) as f64 * 86_400.0;
+    let Some(clock) = clock else { return Some(Instant { seconds: midnight, has_zone: false }) };
+    let clock = clock.trim();
+    let (clock, zone) = match clock.find(['Z', 'z', '+', '-']) {
+        Some(at) => (clock[..at].trim_end(), Some(&clock[at..])),
+        None => (clock, None),
+    };
+    let mut parts = clock.splitn(3, ':');
+    let (hour, minute) = (digits_of(parts.next()?, 2)?, digits_of(parts.next()?, 2)?);
+    let second = match parts.next() {
+        Some(second) if second.bytes().all(|letter| letter.is_ascii_digit() || letter == b'.') => {
+            second.parse().ok()?
+        }
+        Some(_) => return None,
+        None => 0.0,
+    };
+    let own = f64::from(hour * 3600 + minute * 60) + second;
+    let ahead = zone.map_or(Some(0), ahead_of_utc)?;
+    Some(Instant { seconds: midnight + own - f64::from(ahead), has_zone: zone.is_some() })
+}
+
+/// Seconds that a zone is ahead: `Z`, `+02:00`, `-0330`, `+02`.
+fn ahead_of_utc(zone: &str) -> Option<i32> {
+    if zone.eq_ignore_ascii_case("z") {
+        return Some(0);
+    }
+    let sign = if zone.starts_with('-') { -1 } else { 1 };
+    let digits = zone.get(1..)?.replace(':', "");
+    let (hours, minutes) = digits.split_at_checked(2)?;
+    let minutes = if minutes.is_empty() { 0 } else { digits_of(minutes, 2)? };
+    Some(sign * (digits_of(hours, 2)? * 3600 + minutes * 60))
+}
+
+/// A number of so many digits.
+fn digits_of(text: &str, digits: usize) -> Option<i32> {
+    let is_one = text.len() == digits && text.bytes().all(|letter| letter.is_ascii_digit());
+    if is_one { text.parse().ok() } else { None }
+}
+
+/// Days since 1970-01-01 in the calendar that is in use today. Years begin with March here, so that a leap day is the last.
+fn days(year: i32, month: i32, day: i32) -> i64 {
+    let (year, month) = if month > 2 { (year, month - 3) } else { (year - 1, month + 9) };
+    let (year, month, day) = (i64::from(year), i64::from(month), i64::from(day));
+    let leap_days = year.div_euclid(4) - year.div_euclid(100) + year.div_euclid(400);
+    365 * year + leap_days + (153 * month + 2) / 5 + day - 1 - 719_468
+}
+
+/// Two names by their parts: digits by the number that they are, all else as text.
+fn counted(one: &str, other: &str) -> Ordering {
+    let (mut one, mut other) = (one, other);
+    while let (Some(a), Some(b)) = (one.chars().next(), other.chars().next()) {
+        let ordering = if a.is_ascii_digit() && b.is_ascii_digit() {
+            let (left, right) = (digits_ahead(&mut one), digits_ahead(&mut other));
+            // Of the same number, that with fewer zeros ahead is first.
+            let value = |digits: &str| digits.trim_start_matches('0').len();
+            let by_value = value(left).cmp(&value(right));
+            by_value
+                .then_with(|| left.trim_start_matches('0').cmp(right.trim_start_matches('0')))
+                .then(left.len().cmp(&right.len()))
+        } else {
+            (one, other) = (&one[a.len_utf8()..], &other[b.len_utf8()..]);
+            a.cmp(&b)
+        };
+        if ordering.is_ne() {
+            return ordering;
+        }
+    }
+    one.len().cmp(&other.len())
+}
+
+/// Takes the digits with which a text begins.
+fn digits_ahead<'t>(text: &mut &'t str) -> &'t str {
+    let end = text.find(|letter: char| !letter.is_ascii_digit()).unwrap_or(text.len());
+    let (digits, left) = text.split_at(end);
+    *text = left;
+    digits
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// The labels in their order.
+    fn ordered<'t>(labels: &[&'t str]) -> Vec<&'t str> {
+        let own: Vec<String> = labels.iter().map(|label| (*label).to_owned()).collect();
+        order_of(&own).into_iter().map(|at| labels[at]).collect()
+    }
+
+    #[test]
+    fn numbers_go_by_their_size_with_a_point_or_a_comma() {
+        assert_eq!(ordered(&["10", "9", "-1e3", "9.5"]), ["-1e3", "9", "9.5", "10"]);
+        assert_eq!(ordered(&["10,5", "9", "0,25"]), ["0,25", "9", "10,5"]);
+    }
+
+    #[test]
+    fn points_in_time_go_by_the_instant_across_zones() {
+        // Half past two comes twice as summer ends.
+        let told = [
+            "2026-10-25T02:30:00+01:00",
+            "2026-10-25T02:30:00+02:00",
+            "2026-10-25 01:00:00Z",
+            "2026-10-25T02:59:59.5+02:00",
+        ];
+        assert_eq!(ordered(&told), [told[1], told[3], told[2], told[0]]);
+        assert_eq!(
+            ordered(&["2026-03-01", "2024-02-29T23:59", "2024-03-01"]),
+            ["2024-02-29T23:59", "2024-03-01", "2026-03-01"]
+        );
+    }
+
+    /// What Python's `datetime(…).timestamp()` says of these, in UTC.
+    #[test]
+    fn an_instant_is_that_of_the_calendar() {
+        let of = |label: &str| instant(label).map(|instant| instant.seconds);
+        assert_eq!(of("1970-01-01"), Some(0.0));
+        assert_eq!(of("2000-02-29T12:30:15.25Z"), Some(951_827_415.25));
+        assert_eq!(of("1969-12-31T19:00:00-05:00"), Some(0.0));
+        assert_eq!(of("2026-11-24T22:33:00+0330"), Some(1_795_546_980.0));
+        for wrong in [
+            "2026-13-01",
+            "2026-1-1",
+            "25.10.2026",
+            "2026-10-25T2:30",
+            "2026-10-25T02:30+2",
+            "2026-10-25T02:30:xx",
+        ] {
+            assert_eq!(of(wrong), None, "{wrong}");
+        }
+    }
+
+    #[test]
+    fn names_are_counted_on() {
+        assert_eq!(
+            ordered(&["IMG_10", "IMG_9", "IMG_2b", "IMG_2", "IMG"]),
+            ["IMG", "IMG_2", "IMG_2b", "IMG_9", "IMG_10"]
+        );
+        assert_eq!(
+            ordered(&["run 2 row 11", "run 10 row 1", "run 2 row 9"]),
+            ["run 2 row 9", "run 2 row 11", "run 10 row 1"]
+        );
+    }
+
+    #[test]
+    fn what_says_nothing_is_known() {
+        for label in ["", "NaN", "nan", "NaT"] {
+            assert!(says_nothing(label), "{label}");
+        }
+        assert!(!says_nothing("0") && !says_nothing("natural"));
+    }
+
+    proptest! {
+        /// Any texts have one order: sorting fails on what is none.
+        #[test]
+        fn whatever_is_written_has_an_order(labels in prop::collection::vec("[0-9aé._ :TZ+-]{0,8}", 0..60)) {
+            let order = order_of(&labels);
+            for pair in order.windows(2) {
+                prop_assert!(counted(&labels[pair[0]], &labels[pair[1]]).is_le() || numbers(&labels).is_some() || instants(&labels).is_some());
+            }
+        }
+    }
+}

@@ -28,10 +28,10 @@ class Fit:
     @property
     def errors(self) -> Table:
         """A row an error: ``name``, ``value``, ``standard_uncertainty``, ``unit`` (SI), ``separable``: whether the data tell it from
-        the others."""
+        the others. Where they do not, its uncertainty is NaN."""
         rows = self._found["errors"]
         keys = ["name", "value", "standard_uncertainty", "unit", "separable"]
-        columns = {key: [row[key] for row in rows] for key in keys}
+        columns = {key: [np.nan if row[key] is None else row[key] for row in rows] for key in keys}
         return Table({key: np.array(cells) if key in keys[1:3] else cells for key, cells in columns.items()})
 
     @property
@@ -89,7 +89,8 @@ class Fit:
         errors = self.errors
         width = max(len(name) for name in errors["name"])
         for name, value, uncertainty, unit in zip(*(errors[key] for key in list(errors)[:4])):
-            lines.append(f"{name:{width}} {value: .6e} ± {uncertainty:.1e} {unit}")
+            known = "not told from others" if np.isnan(uncertainty) else f"± {uncertainty:.1e} {unit}"
+            lines.append(f"{name:{width}} {value: .6e} {known}")
         return "\n".join(lines)
 
 

@@ -10,9 +10,9 @@ use calibration::formats::sha256;
 use calibration::study::{Loaded, OpenTable, Plan, Study};
 
 use crate::failure::Failure;
-use crate::report::{FileRead, Provenance, Reported};
+use crate::report::{FileRead, NAMES, Provenance, Reported};
 use crate::source::{self, Source};
-use crate::{date, tables, terminal};
+use crate::{date, output, tables, terminal};
 
 /// A study that was read, with the declaration that it names.
 #[derive(Clone)]
@@ -100,6 +100,16 @@ impl Studied {
         warnings.extend([texts(&loaded.doubtful), texts(&loaded.remarks)].concat());
         warnings.iter().for_each(terminal::warn);
         Measured { studied: self, loaded, warnings }
+    }
+
+    /// Refuses to write the files of a calibration over what the study reads.
+    ///
+    /// # Errors
+    /// One of them is a file that the study reads, by whatever names.
+    pub fn refuse_to_replace(&self, folder: &Path) -> Result<(), Failure> {
+        let tables = self.table_files();
+        let read = || tables.iter().chain([&self.study.path, &self.chain.path]).map(PathBuf::as_path);
+        NAMES.iter().try_for_each(|name| output::refuse_to_replace(&folder.join(name), read()))
     }
 
     /// The study, the declaration and the data with their checksums. What is no file, a pipe or a table in memory, has been

@@ -19,6 +19,7 @@ mod letters;
 pub mod library;
 mod many;
 mod output;
+mod over_memory;
 mod over_table;
 mod poses;
 mod ranges;

@@ -7,24 +7,26 @@ use std::path::Path;
 
 use calibration::formats::memory::Reader;
 use calibration::formats::{TableReader, open};
-use codegen::Form;
+use codegen::{Form, GenerateError};
 use model_core::expr::Expr;
+use model_core::readings::Measures;
 use model_core::{Chain, ObservableId, SymbolKind, forms, print, syntax};
 use serde_json::{Value, json};
 
 use crate::budget::Measured;
 use crate::claims::{ClaimsFile, as_json};
 use crate::commands::{bound, budget, check, derive, identify, simulate};
-use crate::evaluation::{self, Evaluator};
+use crate::evaluation;
 use crate::ranges::{self, Range, RangeArgument};
 use crate::source::observables;
-use crate::tables::{self, ReadingsTable};
-use crate::{claims, errors_file, poses, report, terminal};
+use crate::{claims, errors_file, poses, report, tables};
 
+pub use crate::apply::Counted;
 pub use crate::calibrating::{Calibrated, Studied};
 pub use crate::draw::stretches;
 pub use crate::evaluation::{Exactness, Quantity};
 pub use crate::failure::Failure;
+pub use crate::over_memory::{Columns, applied, evaluated, warn_of_outside};
 pub use crate::report::Cells;
 pub use crate::source::Source;
 pub use crate::streaming::{Foretold, Rows, Streaming, accumulated, validated};
@@ -78,10 +80,28 @@ pub fn form_name(form: Form) -> &'static str {
     codegen::form_name(form)
 }
 
+/// Refuses a form that an observable has not.
+///
+/// # Errors
+/// As `generate` says.
+pub fn derivable(chain: &Chain, observable: ObservableId, form: Form) -> Result<(), Failure> {
+    let observable = chain.observable(observable);
+    let is_off_axis = observable.shown.iter().any(|reading| reading.measures == Measures::OffAxis);
+    if is_off_axis && form.is_jacobian() {
+        let error = GenerateError::NoDerivative { name: observable.name.clone(), form };
+        return Err(Failure::Input(error.to_string()));
+    }
+    Ok(())
+}
+
 /// The closed form of an observable's error, component by component.
 pub struct ClosedForm {
     /// What it is, in words.
     pub title: String,
+    /// The names of the components: `pointing_x`, or `sky_azimuth`.
+    pub names: Vec<String>,
+    /// Every component with its name as `derive` prints it, in the plain syntax of amounts and in LaTeX.
+    pub printed: [String; 2],
     /// The components in the plain syntax of amounts.
     pub text: Vec<String>,
     /// The components in LaTeX, in printed symbols.
@@ -106,7 +126,10 @@ pub fn closed_form(chain: &Chain, observable: ObservableId, order: u32) -> Resul
         syntax::parse_amount(text).map_err(|mistakes| Failure::mistakes("the closed form", text, &mistakes))
     });
     let trees = trees.collect::<Result<_, _>>()?;
-    Ok(ClosedForm { title: derive::title_of(chain, &form), trees, text, latex })
+    let shown = chain.observable(observable);
+    let names = shown.labels().map(|label| format!("{}_{label}", shown.name)).collect();
+    let printed = [print::Style::Text, print::Style::Latex].map(|style| print::form(&form, chain, style));
+    Ok(ClosedForm { title: derive::title_of(chain, &form), names, printed, trees, text, latex })
 }
 
 /// What no data can tell apart; as `identify`.
@@ -219,33 +242,6 @@ pub fn table<'a>(
     Ok(Box::new(Reader::new(name, columns.iter().copied()).map_err(tables::failure)?))
 }
 
-/// The observables over a table of readings, as `eval` and `apply` compute them: names of columns, and the columns in SI.
-///
-/// # Errors
-/// As the commands say of `--data` and `--observable`.
-pub fn evaluated(
-    chain: &Chain,
-    errors: &Source,
-    reader: Box<dyn TableReader + '_>,
-    names: &[String],
-    (form, quantity): (Exactness, Quantity),
-) -> Result<Vec<(String, Vec<f64>)>, Failure> {
-    let values = errors_file::values(errors, chain)?;
-    let mut table = ReadingsTable::of(reader, chain);
-    let chosen = table.with_readings(chain, names)?;
-    let evaluator = Evaluator::new(chain, chosen, form, quantity, &values);
-    table.want(chain, &evaluator.readings)?;
-    let header = evaluation::column_names(chain, &evaluator.observables)?;
-    let mut columns = vec![Vec::new(); header.len()];
-    while let Some(rows) = table.next()? {
-        let readings: Vec<_> = rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
-        let computed = evaluator.columns(&readings, rows.count)?;
-        columns.iter_mut().zip(computed).for_each(|(column, more)| column.extend(more));
-    }
-    table.doubtful().for_each(terminal::warn);
-    Ok(header.into_iter().zip(columns).collect())
-}
-
 /// Reads a study's tables, from memory where `in_memory` has one of that name and else from the files, and calibrates.
 /// `command` says in the report how it was asked for, and `tell` hears of each stage.
 ///
@@ -303,6 +299,14 @@ pub fn estimates(calibrated: &Calibrated) -> Option<Vec<(String, f64)>> {
     Some(told.map(|((symbol, &value), _)| (symbol.name.clone(), value)).collect())
 }
 
+/// The ranges of the readings that a calibration was found over, SI, if a usable model came out: `[found-over]` of `errors.toml`.
+#[must_use]
+pub fn found_over(calibrated: &Calibrated) -> Option<Vec<(String, f64, f64)>> {
+    let over = report::found_over(&calibrated.reported(None))?;
+    let name = |id| calibrated.calibration.chain.symbol(id).name.clone();
+    Some(over.iter().map(|range| (name(range.symbol), range.low, range.high)).collect())
+}
+
 /// `report.html`; or only its first screen and its pictures.
 #[must_use]
 pub fn report_html(calibrated: &Calibrated, is_whole: bool) -> String {
@@ -320,8 +324,9 @@ pub fn residuals<T>(calibrated: &Calibrated, visit: impl FnOnce(Vec<(String, Cel
 /// unless all residuals are asked for.
 ///
 /// # Errors
-/// The folder or a file cannot be written.
+/// The folder or a file cannot be written, or is one that the study reads.
 pub fn write(calibrated: &Calibrated, folder: &Path, all_residuals: bool) -> Result<(), Failure> {
+    calibrated.studied().refuse_to_replace(folder)?;
     let name = folder.display().to_string();
     let reported = calibrated.reported(Some(&name));
     report::write_all(&reported, &report::rows_written(&reported, all_residuals), folder)

@@ -33,17 +33,17 @@ pub enum Rows<'a> {
 }
 
 impl Streaming {
-    /// Starts from some of the rows.
+    /// Starts from some of the rows; none where there are none.
     ///
     /// # Errors
     /// A study that asks for more than a streamed fit does; rows that cannot be read, or that are too few to start from.
-    pub fn new(studied: Studied, sample: Rows<'_>) -> Result<Self, Failure> {
-        let loaded = load(&studied, sample)?;
+    pub fn new(studied: Studied, sample: Rows<'_>) -> Result<Option<Self>, Failure> {
+        let Some(loaded) = load(&studied, sample)? else { return Ok(None) };
         loaded.doubtful.iter().for_each(terminal::warn);
         let plan = &studied.plan;
         let streamed =
             Streamed::from_sample(&plan.chain, &loaded.observations, &options(plan)).map_err(input)?;
-        Ok(Self { next: Next::Pass(Box::new(streamed)), studied })
+        Ok(Some(Self { next: Next::Pass(Box::new(streamed)), studied }))
     }
 
     /// The pass to make, as bytes; none when the fit is done.
@@ -55,7 +55,8 @@ impl Streaming {
         }
     }
 
-    /// Takes up what all rows say in that pass: of each file the tallies of its parts, in the order in which they are to be merged.
+    /// Takes up what all rows say in that pass: of each file the tallies of its parts, in the order in which they are to be merged. A
+    /// file without any counts for none.
     ///
     /// # Errors
     /// Bytes that are no tally of this pass.
@@ -66,7 +67,8 @@ impl Streaming {
                 whole.merge(&Tally::from_bytes(bytes).map_err(input)?).map_err(input)
             })
         };
-        let files = files.iter().map(of_file).collect::<Result<Vec<_>, _>>()?;
+        let files =
+            files.iter().filter(|parts| !parts.is_empty()).map(of_file).collect::<Result<Vec<_>, _>>()?;
         Ok(Self { next: streamed.next(&files).map_err(input)?, ..self })
     }
 
@@ -100,15 +102,15 @@ impl Streaming {
     }
 }
 
-/// What some rows say in a pass.
+/// What some rows say in a pass; none where there are none.
 ///
 /// # Errors
 /// The rows cannot be read; the pass is of another declaration or version.
-pub fn accumulated(studied: &Studied, rows: Rows<'_>, pass: &[u8]) -> Result<Vec<u8>, Failure> {
-    let Loaded { observations, .. } = load(studied, rows)?;
+pub fn accumulated(studied: &Studied, rows: Rows<'_>, pass: &[u8]) -> Result<Option<Vec<u8>>, Failure> {
+    let Some(Loaded { observations, .. }) = load(studied, rows)? else { return Ok(None) };
     let plan = &studied.plan;
     let pass = Pass::from_bytes(pass, &plan.chain, &observations, &options(plan)).map_err(input)?;
-    pass.accumulate(&observations).map(|tally| tally.to_bytes()).map_err(input)
+    pass.accumulate(&observations).map(|tally| Some(tally.to_bytes())).map_err(input)
 }
 
 /// A study by a declaration, and its errors.
@@ -142,7 +144,10 @@ impl<'a> Foretold<'a> {
     /// Rows as this declaration reads them, and the values of its symbols.
     fn loaded(self, rows: Rows<'_>) -> Result<(Observations, Vec<f64>), Failure> {
         let values = errors_file::values(self.errors, &self.studied.plan.chain)?;
-        Ok((load(self.studied, rows)?.observations, values))
+        let Some(loaded) = load(self.studied, rows)? else {
+            return Err(Failure::Input("there are no rows to judge".to_owned()));
+        };
+        Ok((loaded.observations, values))
     }
 
     fn foretelling(self, (observations, values): &'a (Observations, Vec<f64>)) -> Foretelling<'a> {
@@ -159,8 +164,8 @@ pub fn input(error: impl ToString) -> Failure {
     Failure::Input(error.to_string())
 }
 
-/// Refuses what a streamed fit would leave undone, and reads the rows.
-fn load(studied: &Studied, rows: Rows<'_>) -> Result<Loaded, Failure> {
+/// Refuses what a streamed fit would leave undone, and reads the rows; none where there are none.
+fn load(studied: &Studied, rows: Rows<'_>) -> Result<Option<Loaded>, Failure> {
     let names: Vec<&str> = studied.tables().collect();
     let refused = |why: &str| Err(Failure::Input(format!("{}: {why}", studied.study.path.display())));
     if studied.plan.hold_out.file.is_some() {
@@ -181,11 +186,6 @@ fn load(studied: &Studied, rows: Rows<'_>) -> Result<Loaded, Failure> {
     }
     let beside =
         |file: &str, options: &Options| open(tables::open_beside(&studied.study, file, None)?, file, options);
-    let place = match &rows {
-        Rows::Table(table) => table.source().to_owned(),
-        Rows::File(file) => (*file).to_owned(),
-        Rows::Drawn(files, _) => files.join(", "),
-    };
     let loaded = match rows {
         Rows::Drawn(files, wanted) => {
             let options = studied.plan.options();
@@ -206,17 +206,16 @@ fn load(studied: &Studied, rows: Rows<'_>) -> Result<Loaded, Failure> {
             })
         }
     };
-    let loaded = loaded.map_err(|error| match error {
-        // The study's table stands for this file.
-        DataError::NoRows { .. } => tables::failure(DataError::NoRows { file: place }),
-        error => tables::failure(error),
-    })?;
+    let loaded = match loaded {
+        Err(DataError::NoRows { .. }) => return Ok(None),
+        loaded => loaded.map_err(tables::failure)?,
+    };
     if loaded.observations.unknowns.is_some() {
         return refused(
             "objects and stations that nobody knows are estimated from all rows at once: calibrate on one machine",
         );
     }
-    Ok(loaded)
+    Ok(Some(loaded))
 }
 
 fn as_json(studied: &Studied, result: &StreamedResult) -> Value {

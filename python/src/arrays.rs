@@ -35,5 +35,14 @@ pub fn column<'py>(name: &str, given: &Bound<'py, PyAny>) -> PyResult<PyReadonly
             format!("numpy.ascontiguousarray({name})"),
         );
     }
+    // Of a masked array the values under the mask are no readings.
+    if let Ok(mask) = given.getattr("mask")
+        && mask.call_method0("any")?.extract::<bool>()?
+    {
+        return wrong(
+            "some of its rows are masked".to_owned(),
+            format!("{name}.filled(numpy.nan), or leave these rows out"),
+        );
+    }
     array.try_readonly().map_err(|error| PyValueError::new_err(format!("`{name}`: {error}")))
 }

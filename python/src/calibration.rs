@@ -8,7 +8,7 @@ use trueaxis_cli::library::{self, Calibrated, Cells, Source, Stage, Studied};
 
 use crate::chain::{Chain, Columns, as_arrays};
 use crate::errors;
-use crate::tables::Table;
+use crate::tables::{Given, Table};
 
 /// A study with the declaration that it is of, every name resolved.
 #[pyclass(frozen, module = "trueaxis._native")]
@@ -55,7 +55,7 @@ pub struct Calibration(pub(crate) Calibrated);
 pub fn calibrate(
     py: Python<'_>,
     study: &Study,
-    tables: Vec<(String, Vec<(String, Bound<'_, PyAny>)>)>,
+    tables: Vec<(String, Given<'_>)>,
     command: String,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Calibration> {
@@ -85,8 +85,8 @@ pub fn calibrate(
 #[pymethods]
 impl Calibration {
     /// The summary, as the command prints it.
-    fn text(&self, is_verbose: bool) -> String {
-        library::text(&self.0, is_verbose)
+    fn text(&self, py: Python<'_>, is_verbose: bool) -> PyResult<String> {
+        errors::run(py, || Ok(library::text(&self.0, is_verbose)))
     }
 
     /// `report.json`.
@@ -95,8 +95,8 @@ impl Calibration {
     }
 
     /// `report.html`, or its first screen and its pictures.
-    fn html(&self, py: Python<'_>, is_whole: bool) -> String {
-        py.detach(|| library::report_html(&self.0, is_whole))
+    fn html(&self, py: Python<'_>, is_whole: bool) -> PyResult<String> {
+        errors::run(py, || Ok(library::report_html(&self.0, is_whole)))
     }
 
     /// The amended declaration, if a usable model came out.
@@ -117,10 +117,16 @@ impl Calibration {
         library::estimates(&self.0)
     }
 
+    /// The ranges of joints and inputs that it was found over: `(name, smallest, largest)`.
+    #[getter]
+    fn found_over(&self) -> Option<Vec<(String, f64, f64)>> {
+        library::found_over(&self.0)
+    }
+
     /// `residuals.csv` of every row as columns; NaN where a row has no such component.
-    fn residuals(&self, py: Python<'_>) -> Columns {
-        let columns = py.detach(|| {
-            library::residuals(&self.0, |columns| {
+    fn residuals(&self, py: Python<'_>) -> PyResult<Columns> {
+        let columns = errors::run(py, || {
+            Ok(library::residuals(&self.0, |columns| {
                 let numbers = |cells: Cells<'_>| match cells {
                     Cells::Rows(rows) => Some(rows.into_iter().map(|row| row as f64).collect()),
                     Cells::Numbers(numbers) => Some(numbers.into_owned()),
@@ -130,9 +136,9 @@ impl Calibration {
                 };
                 let numbers = |(name, cells)| Some((name, numbers(cells)?));
                 columns.into_iter().filter_map(numbers).collect::<Vec<_>>()
-            })
-        });
-        as_arrays(py, columns)
+            }))
+        })?;
+        Ok(as_arrays(py, columns))
     }
 
     /// Writes every file of the calibration into a folder.

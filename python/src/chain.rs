@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use codegen::{Form, Program, build};
-use model_core::{ObservableId, ObservableKind, SymbolId, SymbolKind, names};
+use model_core::{Mistakes, ObservableId, ObservableKind, SymbolId, SymbolKind, names};
 use numpy::{PyArray, PyArrayMethods as _, PyReadwriteArray, PyUntypedArrayMethods as _, ndarray::IxDyn};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -13,15 +13,16 @@ use trueaxis_cli::library::{self, Exactness, Failure, Quantity, Source, Told};
 
 use crate::formula::ClosedForm;
 use crate::tables::Table;
-use crate::{arrays, errors, rows};
+use crate::{arrays, errors, forked, rows};
 
 /// Names of columns and the columns, as Python gets them.
 pub type Columns = Vec<(String, Py<PyArray<f64, numpy::ndarray::Ix1>>)>;
 
 /// A text with the name that mistakes in it are shown with: `(name, text)`.
-type Text = (String, String);
+pub type Text = (String, String);
 
-fn source((name, text): Text) -> Source {
+/// The text as the library reads it.
+pub fn source((name, text): Text) -> Source {
     Source::of_text(name, &text)
 }
 
@@ -35,22 +36,39 @@ pub fn told(told: Told) -> (String, String) {
     (told.text, told.json.to_string())
 }
 
+/// Programs by what they compute.
+type Programs = BTreeMap<(ObservableId, Form, Vec<SymbolId>), Arc<Program>>;
+
+/// A number that an observable shows: its word and its unit.
+type Shown = (&'static str, &'static str);
+
 /// A declared chain.
 #[pyclass(frozen, module = "trueaxis._native")]
 pub struct Chain {
     source: Source,
     chain: model_core::Chain,
-    programs: Mutex<BTreeMap<(ObservableId, Form, Vec<SymbolId>), Arc<Program>>>,
+    /// Why it has no numbers: constants without a value.
+    open: Option<Mistakes>,
+    programs: Mutex<Programs>,
 }
 
 impl Chain {
     fn new(py: Python<'_>, read: impl FnOnce() -> Result<Source, Failure> + Send) -> PyResult<Self> {
-        let (source, chain) = errors::run(py, || {
+        let (source, chain, open) = errors::run(py, || {
             let source = read()?;
-            let chain = source.chain()?;
-            Ok((source, chain))
+            let chain = source.symbolic_chain()?;
+            let open = model_core::Chain::from_text(&source.text).err();
+            Ok((source, chain, open))
         })?;
-        Ok(Self { source, chain, programs: Mutex::default() })
+        Ok(Self { source, chain, open, programs: Mutex::default() })
+    }
+
+    /// The chain for what calculates with numbers.
+    pub fn with_numbers(&self) -> Result<&model_core::Chain, Failure> {
+        match &self.open {
+            Some(mistakes) => Err(self.source.mistakes(mistakes)),
+            None => Ok(&self.chain),
+        }
     }
 
     /// The text that it was read from.
@@ -153,9 +171,9 @@ impl Chain {
             .collect()
     }
 
-    /// `(name, kind, readings that it needs)` of every observable, in order.
+    /// `(name, kind, readings that it needs, what it shows with its unit)` of every observable, in order.
     #[getter]
-    fn observables(&self) -> Vec<(&str, &'static str, Vec<&str>)> {
+    fn observables(&self) -> Vec<(&str, &'static str, Vec<&str>, Vec<Shown>)> {
         (0u16..)
             .map(ObservableId)
             .zip(&self.chain.observables)
@@ -167,12 +185,13 @@ impl Chain {
                 };
                 let readings = library::readings_of(&self.chain, id);
                 let readings = readings.into_iter().map(|id| self.chain.symbol(id).name.as_str()).collect();
-                (observable.name.as_str(), kind, readings)
+                let shown = observable.shown.iter().map(|one| (one.word, one.unit(observable.kind)));
+                (observable.name.as_str(), kind, readings, shown.collect())
             })
             .collect()
     }
 
-    /// Evaluates a form over columns of readings; the result has the shape `(3, rows)`, or `(3, wrt, rows)`.
+    /// Evaluates a form over columns of readings; the result has the shape `(shown, rows)`, or `(shown, wrt, rows)`.
     #[pyo3(signature = (form, observable, readings, constants, errors, wrt, out, threads))]
     #[expect(clippy::too_many_arguments, reason = "the Python package names them all")]
     fn evaluate<'py>(
@@ -188,10 +207,11 @@ impl Chain {
         threads: Option<usize>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let form = form_of(form)?;
-        let chain = &self.chain;
+        let chain = self.with_numbers().map_err(|failure| errors::exception(py, &failure))?;
         let named = |name: &str| self.symbol(name, &[SymbolKind::Joint, SymbolKind::Input], "joint or input");
         let fails = |failure: Failure| errors::exception(py, &failure);
         let observable = library::observable(chain, observable).map_err(fails)?;
+        library::derivable(chain, observable, form).map_err(fails)?;
         let needed = library::readings_of(chain, observable);
 
         let mut columns = Vec::new();
@@ -223,7 +243,8 @@ impl Chain {
             .collect::<Result<_, _>>()
             .map_err(fails)?;
 
-        let shape = if form.is_jacobian() { vec![3, wrt.len(), rows] } else { vec![3, rows] };
+        let shown = chain.observable(observable).shown.len();
+        let shape = if form.is_jacobian() { vec![shown, wrt.len(), rows] } else { vec![shown, rows] };
         let array = match &out {
             Some(out) => taken(out, &shape)?,
             None => PyArray::<f64, _>::zeros(py, IxDyn(&shape), false),
@@ -238,9 +259,11 @@ impl Chain {
             .collect::<PyResult<Vec<(SymbolId, &[f64])>>>()?;
         let into = writable.as_slice_mut()?;
         py.detach(|| {
-            let program = self.program(observable, form, &wrt);
-            rows::evaluate(&program, &slices, &values, into, rows, threads)
-        })
+            forked::with_threads(|| {
+                let program = self.program(observable, form, &wrt);
+                rows::evaluate(&program, &slices, &values, into, rows, threads)
+            })
+        })?
         .map_err(|error| PyValueError::new_err(error.to_string()))?;
         drop(writable);
         Ok(array.into_any())
@@ -274,8 +297,9 @@ impl Chain {
         seed: u64,
     ) -> PyResult<(String, String)> {
         errors::run(py, || {
-            let ranges = library::ranges(&self.chain, &ranges)?;
-            library::bounded(&self.chain, &source(sizes), &observables, &ranges, seed)
+            let chain = self.with_numbers()?;
+            let ranges = library::ranges(chain, &ranges)?;
+            library::bounded(chain, &source(sizes), &observables, &ranges, seed)
         })
         .map(told)
     }
@@ -290,8 +314,9 @@ impl Chain {
         ranges: Vec<(String, String)>,
     ) -> PyResult<(String, String)> {
         errors::run(py, || {
-            let ranges = library::ranges(&self.chain, &ranges)?;
-            library::budgeted(&self.chain, &source(sizes), &observables, path, &ranges)
+            let chain = self.with_numbers()?;
+            let ranges = library::ranges(chain, &ranges)?;
+            library::budgeted(chain, &source(sizes), &observables, path, &ranges)
         })
         .map(told)
     }
@@ -309,9 +334,10 @@ impl Chain {
         observables: Vec<String>,
     ) -> PyResult<Columns> {
         let columns = errors::run(py, || {
-            let ranges = library::ranges(&self.chain, &ranges)?;
+            let chain = self.with_numbers()?;
+            let ranges = library::ranges(chain, &ranges)?;
             let size = (poses as usize, seed);
-            library::simulated(&self.chain, &source(values), &noise, &observables, &ranges, size)
+            library::simulated(chain, &source(values), &noise, &observables, &ranges, size)
         })?;
         Ok(as_arrays(py, columns))
     }
@@ -333,7 +359,7 @@ impl Chain {
         let quantity = if is_value { Quantity::Value } else { Quantity::Error };
         let computed = errors::run(py, || {
             let table = library::table(&name, &columns)?;
-            library::evaluated(&self.chain, &source(values), table, &observables, (form, quantity))
+            library::evaluated(self.with_numbers()?, &source(values), table, &observables, (form, quantity))
         })?;
         Ok(as_arrays(py, computed))
     }

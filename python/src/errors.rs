@@ -1,9 +1,10 @@
 //! What the commands say is wrong, as Python's exceptions, and what they warn of, as its warnings.
 
-use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 use trueaxis_cli::library::{Failure, collecting};
+
+use crate::forked;
 
 /// A class of `trueaxis._errors`.
 fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyType>> {
@@ -28,23 +29,15 @@ pub fn exception(py: Python<'_>, failure: &Failure) -> PyErr {
     made().map_or_else(|error| error, PyErr::from_value)
 }
 
-/// Does some work without holding the interpreter's lock, on this thread; what it warns of becomes warnings of Python, what
-/// fails an exception.
+/// Does some work without holding the interpreter's lock; what it warns of becomes warnings of Python, what fails an
+/// exception.
 pub fn run<T: Send>(py: Python<'_>, work: impl FnOnce() -> Result<T, Failure> + Send) -> PyResult<T> {
-    let (done, warnings) = py.detach(|| collecting(work));
-    warn(py, &warnings)?;
+    let (done, warnings) = py.detach(|| forked::with_threads(|| collecting(work)))?;
+    if !warnings.is_empty() {
+        let warn = py.import("trueaxis._errors")?.getattr("warn")?;
+        for warning in &warnings {
+            warn.call1((warning,))?;
+        }
+    }
     done.map_err(|failure| exception(py, &failure))
-}
-
-fn warn(py: Python<'_>, warnings: &[String]) -> PyResult<()> {
-    if warnings.is_empty() {
-        return Ok(());
-    }
-    let category = class(py, "TrueaxisWarning").unwrap_or_else(|_| py.get_type::<PyUserWarning>());
-    let warn = py.import("warnings")?.getattr("warn")?;
-    for warning in warnings {
-        // The caller of the caller: one function of the package stands between.
-        warn.call1((warning, &category, 3))?;
-    }
-    Ok(())
 }

@@ -11,6 +11,10 @@ use trueaxis_cli::library;
 pub struct ClosedForm {
     /// What it is, in words.
     title: String,
+    /// The names of the components.
+    names: Vec<String>,
+    /// The components with their names, in the plain syntax of amounts and in LaTeX.
+    printed: [String; 2],
     /// Components in the plain syntax of amounts.
     text: Vec<String>,
     /// Components in LaTeX.
@@ -30,7 +34,8 @@ impl From<library::ClosedForm> for ClosedForm {
             steps
         });
         let steps = steps.collect();
-        Self { title: form.title, text: form.text, latex: form.latex, steps }
+        let library::ClosedForm { title, names, printed, text, latex, .. } = form;
+        Self { title, names, printed, text, latex, steps }
     }
 }
 

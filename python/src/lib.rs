@@ -1,9 +1,11 @@
 //! The native part of the Python package: chains, arrays and calibrations. What Python says better is in `trueaxis/`.
 
+mod applying;
 mod arrays;
 mod calibration;
 mod chain;
 mod errors;
+mod forked;
 mod formula;
 mod rows;
 mod streaming;
@@ -14,6 +16,8 @@ use pyo3::prelude::*;
 /// What `trueaxis` is made of; use `trueaxis` itself.
 #[pymodule]
 mod _native {
+    #[pymodule_export]
+    use super::applying::{apply, read_text, warn_of_outside};
     #[pymodule_export]
     use super::calibration::{Calibration, Study, calibrate};
     #[pymodule_export]
@@ -27,6 +31,7 @@ mod _native {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        forked::loaded();
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

@@ -48,14 +48,14 @@ pub struct Fitting {
 
 #[pymethods]
 impl Fitting {
-    /// Starts from some rows. A study without text is read from its file, a declaration that is not given from the file that
-    /// the study names.
+    /// Starts from the first of some samples that has rows. A study without text is read from its file, a declaration that is not
+    /// given from the file that the study names.
     #[new]
     fn new(
         py: Python<'_>,
         study: (PathBuf, Option<String>),
         chain: Option<Text>,
-        sample: Given<'_>,
+        samples: Vec<Given<'_>>,
     ) -> PyResult<Self> {
         let (path, text) = study;
         let studied = errors::run(py, || {
@@ -70,8 +70,13 @@ impl Fitting {
         })?;
         let as_text = |source: &Source| (source.path.display().to_string(), source.text.clone());
         let (study, chain) = (as_text(&studied.study), as_text(&studied.chain));
-        let streaming = with_rows(py, sample, |rows| Streaming::new(studied, rows))?;
-        Ok(Self { study, chain, streaming: Mutex::new(Some(streaming)) })
+        for sample in samples {
+            let studied = studied.clone();
+            if let Some(streaming) = with_rows(py, sample, |rows| Streaming::new(studied, rows))? {
+                return Ok(Self { study, chain, streaming: Mutex::new(Some(streaming)) });
+            }
+        }
+        Err(errors::exception(py, &library::Failure::Input("there are no rows in any file".to_owned())))
     }
 
     /// The same fit, to be made of other rows.
@@ -166,7 +171,7 @@ pub fn validate(
     Ok((rows, kept, squares, squares_kept))
 }
 
-/// What some rows say in a pass, as bytes.
+/// What some rows say in a pass, as bytes; none where there are none.
 #[pyfunction]
 pub fn accumulate<'py>(
     py: Python<'py>,
@@ -174,8 +179,8 @@ pub fn accumulate<'py>(
     chain: Text,
     rows: Given<'py>,
     pass: Vec<u8>,
-) -> PyResult<Bound<'py, PyBytes>> {
+) -> PyResult<Option<Bound<'py, PyBytes>>> {
     let studied = errors::run(py, || Studied::of(source(study), source(chain)))?;
     let bytes = with_rows(py, rows, |rows| library::accumulated(&studied, rows, &pass))?;
-    Ok(PyBytes::new(py, &bytes))
+    Ok(bytes.map(|bytes| PyBytes::new(py, &bytes)))
 }

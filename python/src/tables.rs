@@ -12,6 +12,9 @@ enum Held<'py> {
     Texts(Vec<String>),
 }
 
+/// Names of columns and the columns, as Python hands them over.
+pub type Given<'py> = Vec<(String, Bound<'py, PyAny>)>;
+
 /// A table as Python handed it over: `[(name, array of float64 or list of str)]`.
 pub struct Table<'py> {
     columns: Vec<(String, Held<'py>)>,
@@ -19,7 +22,7 @@ pub struct Table<'py> {
 
 impl<'py> Table<'py> {
     /// Takes the columns over.
-    pub fn of(given: Vec<(String, Bound<'py, PyAny>)>) -> PyResult<Self> {
+    pub fn of(given: Given<'py>) -> PyResult<Self> {
         let held = |(name, column): (String, Bound<'py, PyAny>)| {
             let held = match column.extract::<Vec<String>>() {
                 Ok(texts) => Held::Texts(texts),

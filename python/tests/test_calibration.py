@@ -1,6 +1,7 @@
 """Calibrations: of the example's study, and of tables in memory."""
 
 import json
+import pickle
 
 import numpy as np
 import pandas
@@ -145,3 +146,35 @@ def test_groups_are_texts(mount, table):
     text = STUDY.replace('[noise]', '[noise]\ngroup = "day"')
     calibration = trueaxis.calibrate("study.toml", pandas.DataFrame({**table, "day": days}), text=text, chain=mount)
     assert calibration.verdict
+
+
+def test_what_the_study_reads_is_not_written_over(mount, table, tmp_path):
+    (tmp_path / "amended.chain").write_text(mount.text)
+    table.to_pandas().to_csv(tmp_path / "residuals.csv", index=False)
+    text = STUDY.replace("mount.chain", "amended.chain").replace('"table"', '"residuals.csv"')
+    (tmp_path / "study.toml").write_text(text)
+    before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    calibration = trueaxis.calibrate(tmp_path / "study.toml")
+    with pytest.raises(trueaxis.TrueaxisError, match="amended.chain` would be written over `.*amended.chain`, which this command reads"):
+        calibration.write(tmp_path)
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
+    calibration.write(tmp_path / "result")
+    assert (tmp_path / "result" / "amended.chain").exists()
+
+
+def test_a_calibration_knows_what_it_was_found_over(mount, table, tmp_path):
+    calibration = trueaxis.calibrate("study.toml", table, text=STUDY, chain=mount)
+    # The table has elevations from 10° to 80°.
+    outside = {"azimuth": [0.1, 0.2], "elevation": [0.5, 1.5]}
+    words = "1 of 2 rows is outside what the model was found over.*elevation by up to"
+    values = pickle.loads(pickle.dumps(calibration.values))
+    assert values == calibration.values == dict(values)
+    for apply in [calibration.apply, lambda rows: calibration.chain.apply(rows, values)]:
+        with pytest.warns(trueaxis.TrueaxisWarning, match=words) as told:
+            apply(outside)
+        assert len(told) == 1 and told[0].filename == __file__
+    calibration.apply({"azimuth": [0.1], "elevation": [0.5]})
+    calibration.write(tmp_path / "result")
+    with pytest.warns(trueaxis.TrueaxisWarning, match=words) as by_file:
+        calibration.chain.apply(outside, tmp_path / "result" / "errors.toml")
+    assert str(by_file[0].message) == str(told[0].message)

@@ -11,7 +11,7 @@ import pyarrow.parquet as parquet
 import pytest
 
 import trueaxis
-from trueaxis import _cluster
+from trueaxis import _native, _workers
 
 ERRORS = {"collimation": "30 arcsec", "tilt_x": "20 arcsec"}
 FILES = 64
@@ -28,21 +28,31 @@ def folder(tmp_path_factory):
     return folder
 
 
+def started(*arguments):
+    program = f"from distributed.cli.dask_{arguments[0]} import main; main()"
+    return subprocess.Popen([sys.executable, "-c", program, *arguments[1:]], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
 @pytest.fixture
-def cluster():
-    """The address of a scheduler and its two workers."""
+def scheduler():
+    """The address of a scheduler, and its process."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         address = f"tcp://127.0.0.1:{free.getsockname()[1]}"
-    start = lambda *arguments: subprocess.Popen(
-        [sys.executable, "-c", f"from distributed.cli.dask_{arguments[0]} import main; main()", *arguments[1:]],
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
-    scheduler = start("scheduler", "--host", address, "--no-dashboard")
-    workers = [start("worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard", "--host", "127.0.0.1") for _ in range(2)]
+    process = started("scheduler", "--host", address, "--no-dashboard")
+    yield address, process
+    process.kill()
+    process.wait()
+
+
+@pytest.fixture
+def cluster(scheduler):
+    """The address of a scheduler and its two workers."""
+    address, _ = scheduler
+    options = ["--nthreads", "1", "--no-nanny", "--no-dashboard", "--host", "127.0.0.1"]
+    workers = [started("worker", address, *options) for _ in range(2)]
     yield address, workers
-    for process in [*workers, scheduler]:
+    for process in workers:
         process.kill()
         process.wait()
 
@@ -82,7 +92,7 @@ def test_a_worker_that_dies_costs_no_row(mount, folder, tmp_path, cluster):
 
 def test_a_worker_of_another_version_is_named(mount, folder, tmp_path, cluster, monkeypatch):
     address, _ = cluster
-    monkeypatch.setattr(_cluster, "__version__", "0.0.9")
+    monkeypatch.setattr(_native, "__version__", "0.0.9")
     with pytest.raises(trueaxis.TrueaxisError, match=r"worker tcp://127\.0\.0\.1:\d+ runs trueaxis .* that asks 0\.0\.9"):
         trueaxis.apply(folder, mount, ERRORS, tmp_path / "out", client=address)
     assert not list(tmp_path.iterdir())
@@ -98,7 +108,7 @@ def test_what_is_wrong_is_named_and_nothing_is_left(mount, folder, tmp_path, mon
     empty = tmp_path / "empty"
     empty.mkdir()
     out = tmp_path / "out"
-    monkeypatch.setattr(_cluster, "_SECONDS", 1)
+    monkeypatch.setattr(_workers, "_SECONDS", 1)
     for source, words in [(spoiled, "part-01.parquet"), (empty, "no .parquet file"), (tmp_path / "none", "no such file"), ([], "no files")]:
         with pytest.raises(trueaxis.TrueaxisError, match=words):
             trueaxis.apply(source, mount, ERRORS, out)
@@ -121,7 +131,7 @@ def test_what_is_wrong_is_named_and_nothing_is_left(mount, folder, tmp_path, mon
 
 
 def test_a_scheduler_without_an_answer_is_soon_told(mount, folder, tmp_path, monkeypatch):
-    monkeypatch.setattr(_cluster, "_SECONDS", 1)
+    monkeypatch.setattr(_workers, "_SECONDS", 1)
     began = time.monotonic()
     with pytest.raises(trueaxis.TrueaxisError, match="no scheduler answers at `nonsense`"):
         trueaxis.apply(folder, mount, ERRORS, tmp_path / "out", client="nonsense")
@@ -133,7 +143,37 @@ def test_a_scheduler_without_workers_is_told(mount, folder, tmp_path, cluster, m
     for worker in workers:
         worker.kill()
         worker.wait()
-    monkeypatch.setattr(_cluster, "_WORKER_SECONDS", 2)
+    monkeypatch.setattr(_workers, "_WORKER_SECONDS", 2)
     with pytest.raises(trueaxis.TrueaxisError, match="has no worker: start one with"):
         trueaxis.apply(folder, mount, ERRORS, tmp_path / "out", client=address)
     assert not list(tmp_path.iterdir())
+
+
+def test_all_workers_that_die_are_told(mount, folder, tmp_path, cluster, monkeypatch):
+    address, workers = cluster
+    monkeypatch.setattr(_workers, "_WORKER_SECONDS", 20)
+    died = []
+
+    def kill_all(done, of):
+        if not died:
+            for worker in workers:
+                worker.kill()
+            died.append(time.monotonic())
+
+    with pytest.raises(trueaxis.TrueaxisError, match=f"scheduler at `{address}` has had no worker for 20 s"):
+        trueaxis.apply(folder, mount, ERRORS, tmp_path / "out", client=address, progress=kill_all)
+    assert 15 < time.monotonic() - died[0] < 60 and not list(tmp_path.iterdir())
+
+
+def test_a_scheduler_that_dies_is_told(mount, folder, tmp_path, cluster, scheduler, monkeypatch):
+    address, process = scheduler
+    died = []
+
+    def kill(done, of):
+        if not died:
+            process.kill()
+            died.append(time.monotonic())
+
+    with pytest.raises(trueaxis.TrueaxisError, match=f"scheduler at `{address}` does not answer any more"):
+        trueaxis.apply(folder, mount, ERRORS, tmp_path / "out", client=address, progress=kill)
+    assert time.monotonic() - died[0] < 60 and not list(tmp_path.iterdir())

@@ -6,7 +6,7 @@ import pyarrow.parquet as parquet
 import pytest
 from conftest import MOUNT
 from test_calibration import STUDY, TRUE
-from test_cluster import cluster  # noqa: F401
+from test_cluster import cluster, scheduler  # noqa: F401
 
 import trueaxis
 from trueaxis import _native
@@ -193,9 +193,8 @@ def test_what_is_wrong_is_named(mount, folder, tmp_path):
     cut = spoiled("cut")
     (cut / "part-01.parquet").write_bytes((cut / "part-01.parquet").read_bytes()[:-100])
     refused("part-01.parquet", cut)
-    refused("`elevation` .*part-01.parquet", spoiled("lacking", elevation=None))
+    refused("part-01.parquet: column `elevation` is not there", spoiled("lacking", elevation=None))
     refused("part-01.parquet: column `elevation` holds texts", spoiled("texts", elevation=["x"] * 50))
-    refused("part-01.parquet: there are no rows", written(tmp_path / "none", [good[0], {name: [] for name in good[0]}]))
     refused("no .parquet file", tmp_path)
     refused("no such file", tmp_path / "nowhere")
     two = SEARCHING.replace('data = "table"', 'data = ["one", "two"]')

@@ -13,6 +13,7 @@ import numpy as np
 
 from . import _native
 from ._chain import Chain
+from ._inputs import Found
 from ._tables import Table, columns_of
 
 if TYPE_CHECKING:
@@ -73,9 +74,10 @@ class Calibration:
     @property
     def values(self) -> dict[str, float] | None:
         """The estimates of errors, and of constants that were fitted, by name, in SI: ``errors`` of the methods of
-        ``chain``; none where no usable model came out."""
-        values = self._native.values
-        return None if values is None else dict(values)
+        ``chain``; none where no usable model came out. They know what they were found over: :meth:`Chain.apply` and
+        :func:`trueaxis.apply` warn of rows outside."""
+        values, over = self._native.values, self._native.found_over
+        return None if values is None or over is None else Found(values, over)
 
     def apply(self, table: Any) -> Any:
         """New readings corrected with this calibration, as :meth:`Chain.apply` does."""
@@ -94,11 +96,16 @@ class Calibration:
         return self._native.html(whole)
 
     def write(self, folder: str | os.PathLike[str], *, all_residuals: bool = False) -> None:
-        """Writes every file of the command's ``--out``; they appear together, or not at all.
+        """Writes every file of the command's ``--out``; they appear together, or not at all. What the study reads is not written over.
 
         Of more than 100,000 rows ``residuals.csv`` has a part, unless ``all_residuals``.
         """
         self._native.write(os.fspath(folder), all_residuals)
+
+    def __reduce__(self):
+        raise TypeError(
+            "a calibration cannot be copied or pickled: keep its `report`, `amended` and `errors_toml`, or write(folder) it"
+        )
 
     def __repr__(self) -> str:
         return self.text()
@@ -138,7 +145,8 @@ def calibrate(
     :param study: the path of the study file.
     :param data: tables that stand for files that the study names: a pandas, Polars or Arrow table or a dictionary of columns
         where it names one, else a dictionary from each name to its table. What is not given is read from its file. Or a
-        folder of ``.parquet`` files, one such file, or a list of them, which stand for the one table that the study names.
+        folder of ``.parquet`` or ``.pq`` files, one such file, or a list of them, which stand for the one table that the study names.
+        What a folder holds beside them is warned of, and a file without rows counts for nothing.
     :param text: the text of the study, where it is no file; ``study`` then only says where it would be.
     :param chain: a declaration that stands for the one that the study names.
     :param client: for a folder: a Dask client, or the address of a scheduler, whose workers read a file each and must see the same
@@ -186,4 +194,5 @@ def _is_path(value: Any) -> bool:
 
 def _is_frame(value: Any) -> bool:
     """Whether a value is a table, and no column of one."""
-    return isinstance(value, Mapping) or (hasattr(value, "columns") or hasattr(value, "column_names"))
+    # A stream of Arrow's has a schema and no columns.
+    return isinstance(value, Mapping) or any(hasattr(value, name) for name in ["columns", "column_names", "schema"])

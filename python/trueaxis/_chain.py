@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
 from . import _native
 from ._answers import Answer
-from ._inputs import Amount, Errors, errors_text, names, ranges
-from ._tables import Table, columns_of, with_columns
+from ._inputs import Amount, Errors, errors_and_ranges, errors_text, names, ranges, whole
+from ._tables import Table, columns_of, kept, with_columns
 
 if TYPE_CHECKING:
     import sympy
@@ -36,25 +37,39 @@ class Observable(NamedTuple):
     """What an instrument shows."""
 
     name: str
-    kind: Literal["direction", "point"]
-    """A direction is a unit vector; a point is in m."""
+    kind: Literal["direction", "point", "orientation"]
+    """What its numbers are of: a direction, a point, or how a body is turned."""
     readings: list[str]
     """The joints and inputs that it depends on."""
+    shown: list[str]
+    """The numbers that it shows, one to three: ``x``, ``y``, ``z``; or ``azimuth``, ``elevation``. The first axis of arrays."""
+    units: list[str]
+    """The unit of each: ``rad``, ``m``, or ``1`` for components of directions."""
 
 
 class ClosedForm:
-    """The closed form of an observable's error: components x, y and z.
+    """The closed form of an observable's error: a component for each number that it shows.
 
-    ``text`` has the plain syntax of amounts, ``latex`` the printed symbols, :meth:`sympy` expressions.
+    ``names`` says which they are, ``text`` has the plain syntax of amounts, ``latex`` the printed symbols, :meth:`sympy`
+    expressions.
     """
 
     def __init__(self, native: _native.ClosedForm):
         self._native = native
 
+    def __reduce__(self):
+        fields = ["title", "names", "printed", "text", "latex", "steps"]
+        return type(self), (SimpleNamespace(**{field: getattr(self._native, field) for field in fields}),)
+
     @property
     def title(self) -> str:
         """What it is, in words."""
         return self._native.title
+
+    @property
+    def names(self) -> list[str]:
+        """The names of the components: ``pointing_x``, or ``sky_azimuth``."""
+        return list(self._native.names)
 
     @property
     def text(self) -> list[str]:
@@ -73,12 +88,12 @@ class ClosedForm:
         return [expression(steps) for steps in self._native.steps]
 
     def __repr__(self) -> str:
-        lines = [f"  {axis} = {text}" for axis, text in zip("xyz", self.text)]
-        return "\n".join([self.title, *lines])
+        text, _ = self._native.printed
+        return f"{self.title}\n{text}".rstrip("\n")
 
     def _repr_latex_(self) -> str:
-        rows = r" \\ ".join(f"{axis} &= {latex}" for axis, latex in zip("xyz", self.latex))
-        return rf"$$\begin{{aligned}} {rows} \end{{aligned}}$$"
+        _, latex = self._native.printed
+        return f"$${latex}$$"
 
 
 class Chain:
@@ -93,7 +108,8 @@ class Chain:
 
     @classmethod
     def from_text(cls, text: str, name: str = "declaration") -> Chain:
-        """Reads a declaration. Mistakes in it are shown under ``name``.
+        """Reads a declaration. Mistakes in it are shown under ``name``. Where a constant has no value, :meth:`closed_form` and
+        :meth:`identify` have it as a symbol, and what needs numbers refuses it.
 
         :raises MistakeError: with every mistake of the text.
         """
@@ -101,7 +117,7 @@ class Chain:
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Chain:
-        """Reads a ``.chain`` file.
+        """Reads a ``.chain`` file, as :meth:`from_text` reads a text.
 
         :raises MistakeError: with every mistake of the file.
         :raises TrueaxisError: the file cannot be read.
@@ -161,7 +177,10 @@ class Chain:
     @property
     def observables(self) -> list[Observable]:
         """What the instrument shows."""
-        return [Observable(*observable) for observable in self._native.observables]
+        def observable(name, kind, readings, shown):
+            return Observable(name, kind, readings, [word for word, _ in shown], [unit for _, unit in shown])
+
+        return [observable(*declared) for declared in self._native.observables]
 
     def exact(
         self,
@@ -182,8 +201,9 @@ class Chain:
         :param quantity: what the errors add to the observable, or the observable with its errors.
         :param out: a contiguous array of float64 for the result, which is then not allocated.
         :param threads: how many at most; as many as there are processors where none is given. No bit depends on it.
-        :returns: an array of shape ``(3, rows)``: x, y, z; ``(3,)`` where every reading is one number. Directions have no unit
-            (their error is in rad, to first order); points are in m.
+        :returns: an array of shape ``(shown, rows)``; ``(shown,)`` where every reading is one number. Its first axis has the
+            numbers that the observable shows (:attr:`Observable.shown`): x, y, z unless the declaration names others. Directions
+            have no unit (their error is in rad, to first order); points are in m, angles in rad.
         """
         if quantity not in ("error", "value"):
             raise ValueError(f'quantity: write "error" or "value", not {quantity!r}')
@@ -212,13 +232,13 @@ class Chain:
         out: NDArray[np.float64] | None = None,
         threads: int | None = None,
     ) -> NDArray[np.float64]:
-        """The derivatives of an observable with respect to errors.
+        """The derivatives of an observable with respect to errors. An angle off the axis has none.
 
         :param wrt: names of errors, or of constants; every error, in order, where none is given.
         :param form: ``"first-order"``: where every error is zero, the coefficients of :meth:`first_order`; ``"exact"``: at the
             errors given.
-        :returns: an array of shape ``(3, len(wrt), rows)``, or ``(3, len(wrt))`` where every reading is one number; for an
-            angle in 1/rad times the observable's unit, for a length in 1/m times it.
+        :returns: an array of shape ``(shown, len(wrt), rows)``, or ``(shown, len(wrt))`` where every reading is one number; for
+            an angle in 1/rad times the observable's unit, for a length in 1/m times it.
 
         Other arguments as of :meth:`exact`.
         """
@@ -245,7 +265,7 @@ class Chain:
 
     def closed_form(self, observable: str | None = None, order: int = 1) -> ClosedForm:
         """The closed form of an observable's error, up to products of ``order`` errors (1, 2 or 3)."""
-        return ClosedForm(self._native.closed_form(observable, order))
+        return ClosedForm(self._native.closed_form(observable, whole("order", order, 32)))
 
     def identify(
         self, observables: str | Iterable[str] | None = None, *, candidate: str | None = None
@@ -273,6 +293,7 @@ class Chain:
         :returns: ``answer["bounds"]`` is a list with an entry an observable: ``bound``, ``largest_found`` (a search's),
             ``unit``, ``shares``.
         """
+        seed = whole("seed", seed, 64)
         return Answer._of(self._native.bound(errors_text(sizes), names(observables), _ranges(ranges), seed))
 
     def budget(
@@ -308,7 +329,8 @@ class Chain:
         :param noise: the standard deviation: ``"2 arcsec"`` of directions, ``"0.1 mm"`` of points; both where both are seen.
         :returns: a table of readings and of components of observables, rad and m.
         """
-        noises = [noise] if isinstance(noise, (str, int, float)) else list(noise)
+        poses, seed = whole("poses", poses, 32), whole("seed", seed, 64)
+        noises = [noise] if isinstance(noise, (str, int, float, np.integer, np.floating)) else list(noise)
         noises = [sigma if isinstance(sigma, str) else repr(float(sigma)) for sigma in noises]
         columns = self._native.simulate(
             errors_text(errors), poses, noises, seed, _ranges(ranges), names(observables)
@@ -327,13 +349,16 @@ class Chain:
         """The error, or the value, of observables over a table of readings.
 
         :param table: a pandas, Polars or Arrow table, or a dictionary of columns, with columns named like joints and inputs;
-            their names may carry units, ``"alpha [deg]"``.
-        :returns: the same kind of table (of a dictionary a :class:`Table`) with ``<observable>_x``, ``_y``, ``_z`` added, in SI.
+            their names may carry units, ``"alpha [deg]"``. What speaks Arrow's stream of tables is read once, and becomes an Arrow
+            table.
+        :returns: the same kind of table (of a dictionary a :class:`Table`) with ``<observable>_x``, ``_y``, ``_z`` added, in SI, or
+            the other numbers that an observable shows.
         """
         if form not in ("exact", "first-order"):
             raise ValueError(f'form: write "exact" or "first-order", not {form!r}')
         if quantity not in ("error", "value"):
             raise ValueError(f'quantity: write "error" or "value", not {quantity!r}')
+        table = kept(table)
         added = self._native.over_table(
             ("the table", columns_of(table)),
             errors_text(errors),
@@ -346,9 +371,14 @@ class Chain:
     def apply(self, table: Any, errors: Errors, observables: str | Iterable[str] | None = None) -> Any:
         """New readings corrected with calibrated errors: where the instrument really points, or its points really are.
 
-        Arguments and result as of :meth:`eval`.
+        Arguments and result as of :meth:`eval`. Rows outside of what the errors were found over are warned of, where that is known:
+        by the ``[found-over]`` of a file of errors, and by the :attr:`Calibration.values` of a calibration.
         """
-        return self.eval(table, errors, observables, quantity="value")
+        table, known = kept(table), errors_and_ranges(errors)
+        rows = ("the table", columns_of(table))
+        added, counted = _native.apply(self._native, rows, known, names(observables))
+        _native.warn_of_outside(self._native, known, [counted])
+        return with_columns(table, dict(added))
 
 
 def _ranges(given: Ranges | None) -> list[tuple[str, str]]:

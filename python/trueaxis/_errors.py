@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+import warnings
 from typing import NamedTuple
 
 
@@ -38,3 +40,12 @@ class MistakeError(TrueaxisError):
 
 class TrueaxisWarning(UserWarning):
     """Something doubtful that the command would warn of: a bare number that can hardly be in SI, say."""
+
+
+def warn(text: str) -> None:
+    """Warns at the line of the caller's own program that called the package."""
+    package = __name__.partition(".")[0]
+    frame, level = sys._getframe(), 1
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == package:
+        frame, level = frame.f_back, level + 1
+    warnings.warn(text, TrueaxisWarning, stacklevel=level)

@@ -11,9 +11,9 @@ import numpy as np
 
 from . import _native
 from ._chain import Chain
-from ._cluster import Each, batches, files_of, place_of, require_version, workers
-from ._errors import TrueaxisError
+from ._files import batches, files_of, kind_of, place_of
 from ._tables import Columns, Table, columns_of
+from ._workers import Each, require_version, workers
 
 if TYPE_CHECKING:
     import distributed
@@ -28,10 +28,10 @@ class Fit:
     @property
     def errors(self) -> Table:
         """A row an error: ``name``, ``value``, ``standard_uncertainty``, ``unit`` (SI), ``separable``: whether the data tell it from
-        the others."""
+        the others. Where they do not, its uncertainty is NaN."""
         rows = self._found["errors"]
         keys = ["name", "value", "standard_uncertainty", "unit", "separable"]
-        columns = {key: [row[key] for row in rows] for key in keys}
+        columns = {key: [np.nan if row[key] is None else row[key] for row in rows] for key in keys}
         return Table({key: np.array(cells) if key in keys[1:3] else cells for key, cells in columns.items()})
 
     @property
@@ -89,7 +89,8 @@ class Fit:
         errors = self.errors
         width = max(len(name) for name in errors["name"])
         for name, value, uncertainty, unit in zip(*(errors[key] for key in list(errors)[:4])):
-            lines.append(f"{name:{width}} {value: .6e} ± {uncertainty:.1e} {unit}")
+            known = "not told from others" if np.isnan(uncertainty) else f"± {uncertainty:.1e} {unit}"
+            lines.append(f"{name:{width}} {value: .6e} {known}")
         return "\n".join(lines)
 
 
@@ -107,8 +108,8 @@ def fit(
     these, :func:`calibrate` the same folder.
 
     :param study: the path of the study file. The files stand for the one table that it names.
-    :param data: a folder of ``.parquet`` or ``.csv`` files, one file, or a list of files. The first must have rows enough to start
-        from.
+    :param data: a folder of ``.parquet`` or ``.csv`` files, one file, or a list of files. The first with rows must have enough to start
+        from; a file without rows counts for nothing. Hidden files of a folder are left out; what else is not read is warned of.
     :param text: the text of the study, where it is no file.
     :param chain: a declaration that stands for the one that the study names.
     :param client: a Dask client, or the address of a scheduler: its workers read a file each, and must see the same files. If a
@@ -120,10 +121,7 @@ def fit(
     """
     files = [str(file) for file in files_of(data, [".parquet", ".csv"])]
     declaration = None if chain is None else (chain._native.origin, chain.text)
-    sample = next(chunks(files[0]), None)
-    if sample is None:
-        raise TrueaxisError(f"{files[0]}: there are no rows")
-    fitting = _native.Fitting((os.fspath(study), text), declaration, sample)
+    fitting = _native.Fitting((os.fspath(study), text), declaration, _samples(files))
     with workers(client) as each:
         return of_files(fitting, files, each, progress)
 
@@ -148,23 +146,35 @@ def of_table(fitting: _native.Fitting, rows: tuple[str, Columns]) -> Fit:
     """Makes every pass of a fit over rows in memory."""
     texts = fitting.texts
     while (step := fitting.step()) is not None:
-        fitting.take([[_native.accumulate(*texts, rows, step)]])
+        tally = _native.accumulate(*texts, rows, step)
+        fitting.take([[] if tally is None else [tally]])
     return Fit(json.loads(fitting.found()))
 
 
+def _samples(files: list[str]) -> list[tuple[str, Any]]:
+    """Rows to start from: those of the first that has any."""
+    samples = []
+    for file in files:
+        first = next(chunks(file), None)
+        if first is not None:
+            samples.append(first)
+            _, is_read = first
+            if is_read is not None:
+                break
+    return samples
+
+
 def _accumulate_file(task: tuple) -> tuple[str, list[bytes]]:
-    """What each chunk of a file says in a pass."""
+    """What each chunk of a file says in a pass: nothing where there are no rows."""
     file, study, chain, step, version = task
     require_version(version)
-    tallies = [_native.accumulate(study, chain, rows, step) for rows in chunks(file)]
-    if not tallies:
-        raise TrueaxisError(f"{file}: there are no rows")
-    return file, tallies
+    tallies = (_native.accumulate(study, chain, rows, step) for rows in chunks(file))
+    return file, [tally for tally in tallies if tally is not None]
 
 
 def chunks(file: str) -> Iterator[tuple[str, Any]]:
     """The rows of a file chunk by chunk; a file of separated values as one."""
-    if not file.endswith(".parquet"):
+    if kind_of(file) != ".parquet":
         yield file, None
         return
     for first, batch in batches(file):

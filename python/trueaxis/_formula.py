@@ -46,5 +46,8 @@ def _step(what: str, with_: str, operands: list[sympy.Expr]) -> sympy.Expr:
         return _FUNCTIONS[with_](operands[0])
     if what == "ramp":
         x, start, end = operands
+        if sympy.expand(end - start) == 0:
+            # A step: 0 below the threshold, 1 at it and beyond.
+            return sympy.Heaviside(x - start, 1)
         return sympy.Min(1, sympy.Max(0, (x - start) / (end - start)))
     raise AssertionError(f"internal error: no step `{what}`")

@@ -3,17 +3,34 @@
 from __future__ import annotations
 
 import json
+import operator
 import os
 from collections.abc import Iterable, Mapping
-from pathlib import Path
 from typing import Any, Union
 
 import numpy as np
+
+from . import _native
+from ._errors import TrueaxisError
 
 Amount = Union[float, str]
 """A number in SI, or a text with a unit: ``"10 arcsec"``."""
 Errors = Union[Mapping[str, Amount], "os.PathLike[str]", str, None]
 """Errors by name or pattern (``{"da*": "2 arcsec"}``), or the path of a file of them."""
+
+
+class Found(dict[str, float]):
+    """Values of errors by name that data were fitted for; they know the ranges of readings that these came from."""
+
+    over: list[tuple[str, float, float]]
+    """Joints and inputs with the smallest and the largest reading, rad and m."""
+
+    def __init__(self, values: Iterable[tuple[str, float]], over: list[tuple[str, float, float]]):
+        super().__init__(values)
+        self.over = over
+
+    def __reduce__(self):
+        return type(self), (list(self.items()), self.over)
 
 
 def amount(what: str, value: Any) -> str:
@@ -34,20 +51,27 @@ def errors_text(errors: Errors) -> tuple[str, str]:
         lines = [f"{amount('a name', str(name))} = {amount(str(name), value)}\n" for name, value in errors.items()]
         return "errors", "".join(lines)
     if isinstance(errors, (str, os.PathLike)):
-        return os.fspath(errors), read(errors)
+        return os.fspath(errors), _native.read_text(os.fspath(errors))
     raise TypeError(
         f'errors: write a dictionary, {{"dtheta_y1": "10 arcsec"}}, or the path of a file, not {type(errors).__name__}'
     )
 
 
-def read(path: str | os.PathLike[str]) -> str:
-    """A text file as UTF-8."""
-    from ._errors import TrueaxisError
+def errors_and_ranges(errors: Errors) -> tuple[str, str]:
+    """The same with the ranges that the errors were found over, where they are known."""
+    name, text = errors_text(errors)
+    if isinstance(errors, Found) and errors.over:
+        lines = [f"{amount('a name', reading)} = [{low!r}, {high!r}]\n" for reading, low, high in errors.over]
+        text += "[found-over]\n" + "".join(lines)
+    return name, text
 
-    try:
-        return Path(path).read_text(encoding="utf-8")
-    except UnicodeDecodeError:
-        raise TrueaxisError(f"cannot read `{path}`: it is not UTF-8 text; save it as such") from None
+
+def whole(what: str, value: int, bits: int) -> int:
+    """A whole number that is not negative."""
+    value = operator.index(value)
+    if not 0 <= value < 2**bits:
+        raise TrueaxisError(f"{what}={value}: write a whole number from 0 to {2**bits - 1}")
+    return value
 
 
 def names(one_or_more: str | Iterable[str] | None) -> list[str]:

@@ -83,6 +83,17 @@ class Table(Mapping[str, Any]):
         return f"<table><thead>{row(list(self._columns), 'th')}</thead><tbody>{body}</tbody></table>{more}"
 
 
+def kept(table: Any) -> Any:
+    """The table, or of what can be read only once, an Arrow table of it."""
+    marks = {"pandas": ["iloc"], "polars": ["get_columns", "collect"], "pyarrow": ["column_names"]}.get(_library(table), [])
+    is_held = isinstance(table, Mapping) or any(hasattr(table, mark) for mark in marks)
+    if is_held or not hasattr(table, "__arrow_c_stream__"):
+        return table
+    import pyarrow
+
+    return pyarrow.table(table)
+
+
 def _library(table: Any) -> str:
     """Which library made a table."""
     return type(table).__module__.partition(".")[0]
@@ -102,20 +113,20 @@ def columns_of(table: Any) -> Columns:
     elif library == "pyarrow" and hasattr(table, "column_names"):
         pairs = list(zip(table.column_names, table.columns))
     elif hasattr(table, "__arrow_c_stream__"):
-        import pyarrow
-
-        return columns_of(pyarrow.table(table))
+        return columns_of(kept(table))
     else:
         raise TypeError(
             f"a table is needed, this is a {type(table).__name__}: give a pandas, Polars or Arrow table, or a dictionary "
             "of columns"
         )
-    return [(str(name), _column(str(name), column)) for name, column in pairs]
+    return [(str(name), column_of(str(name), column)) for name, column in pairs]
 
 
-def _column(name: str, column: Any) -> np.ndarray | list[str]:
+def column_of(name: str, column: Any) -> np.ndarray | list[str]:
     """A column as an array of float64, without a copy where it is one, or as a list of texts."""
     array = _array(column)
+    if isinstance(array, np.ma.MaskedArray):
+        array = _unmasked(array)
     if array.ndim != 1:
         raise TypeError(f"column `{name}` has {array.ndim} dimensions: give one number or text a row")
     if array.dtype.kind in "biu":
@@ -131,6 +142,17 @@ def _column(name: str, column: Any) -> np.ndarray | list[str]:
     if array.dtype.kind in "OUST":
         return _mixed([value.decode() if isinstance(value, bytes) else value for value in array.tolist()])
     raise TypeError(f"column `{name}` holds {array.dtype}: give numbers or texts")
+
+
+def _unmasked(array: np.ma.MaskedArray) -> np.ndarray:
+    """The array where what lies under the mask is not there."""
+    if not np.ma.is_masked(array):
+        return array.data
+    if array.dtype.kind in "mM":
+        return array.filled(np.array("NaT", dtype=array.dtype))
+    plain = array.data.astype(object)
+    plain[np.ma.getmaskarray(array)] = None
+    return plain
 
 
 def _array(column: Any) -> np.ndarray:
@@ -160,7 +182,10 @@ def _mixed(values: list[Any]) -> np.ndarray | list[str]:
     def is_number(value: Any) -> bool:
         return isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
 
-    if values and all(is_none(value) or is_number(value) for value in values):
+    def is_truth(value: Any) -> bool:
+        return isinstance(value, (bool, np.bool_))
+
+    if values and any(all(is_none(value) or is_(value) for value in values) for is_ in (is_number, is_truth)):
         return np.array([np.nan if is_none(value) else float(value) for value in values])
 
     def text(value: Any) -> str:
@@ -190,8 +215,4 @@ def with_columns(table: Any, columns: Mapping[str, np.ndarray]) -> Any:
             else:
                 table = table.set_column(at, name, pyarrow.array(column))
         return table
-    if isinstance(table, Mapping):
-        return Table({**table, **columns})
-    import pyarrow
-
-    return with_columns(pyarrow.table(table), columns)
+    return Table({**table, **columns})

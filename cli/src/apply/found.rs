@@ -23,6 +23,18 @@ pub struct Outside {
     outside: usize,
 }
 
+/// What was counted of some rows: how many there are, how many are outside, and of each range how many are outside of it and by
+/// how much at most, SI.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Counted {
+    /// All rows.
+    pub rows: usize,
+    /// Those outside of any range.
+    pub outside: usize,
+    /// Those outside of each range, and the farthest.
+    pub ranges: Vec<(usize, f64)>,
+}
+
 struct Watched {
     found: FoundOver,
     /// Whether a full turn more is the same pose; known when the first rows were seen.
@@ -74,6 +86,23 @@ impl Outside {
         }
         self.outside += is_outside.iter().filter(|is| **is).count();
         Ok(())
+    }
+
+    /// What was counted.
+    #[must_use]
+    pub fn counted(&self) -> Counted {
+        let ranges = self.ranges.iter().map(|watched| (watched.outside, watched.farthest)).collect();
+        Counted { rows: self.rows, outside: self.outside, ranges }
+    }
+
+    /// Adds what was counted of other rows, over the same ranges.
+    pub fn add(&mut self, other: &Counted) {
+        self.rows += other.rows;
+        self.outside += other.outside;
+        for (watched, &(outside, farthest)) in self.ranges.iter_mut().zip(&other.ranges) {
+            watched.outside += outside;
+            watched.farthest = watched.farthest.max(farthest);
+        }
     }
 
     /// Warns of the rows that were outside.

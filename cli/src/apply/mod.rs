@@ -4,6 +4,6 @@ mod found;
 mod seen;
 mod solve;
 
-pub use found::Outside;
+pub use found::{Counted, Outside};
 pub use seen::{As, Seen};
 pub use solve::Solver;

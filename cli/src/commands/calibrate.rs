@@ -1,7 +1,7 @@
 //! `trueaxis calibrate`: fit, residual, trace, amend, report.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use calibration::calibrate::Calibration;
 use calibration::formats;
@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::report::{self, Layout};
 use crate::source::Source;
 use crate::waiting::Waiting;
-use crate::{many, output, tables, terminal};
+use crate::{many, tables, terminal};
 
 /// Fit the errors to measured data, and find what the declaration lacks.
 ///
@@ -55,7 +55,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         if folder.is_file() {
             return Err(Failure::write(folder, &io::Error::other("a file has this name; name a folder")));
         }
-        refuse_to_replace(folder, &studied)?;
+        studied.refuse_to_replace(folder)?;
     }
     let (study, from) = (studied.study.clone(), studied.plan.data_from.clone());
     let progress = terminal::progress();
@@ -128,15 +128,6 @@ fn at_least_one(text: &str) -> Result<usize, String> {
 /// No, where no usable model came out.
 fn answer(calibration: &Calibration) -> Answer {
     if calibration.diagnosis.verdict.is_usable() { Answer::Done } else { Answer::No }
-}
-
-/// Refuses to write the results over what the study reads.
-fn refuse_to_replace(folder: &Path, studied: &Studied) -> Result<(), Failure> {
-    let mut read = studied.table_files();
-    read.extend([studied.study.path.clone(), studied.chain.path.clone()]);
-    report::NAMES
-        .iter()
-        .try_for_each(|name| output::refuse_to_replace(&folder.join(name), read.iter().map(PathBuf::as_path)))
 }
 
 /// `400 observations; fitting 30 errors, searching, and repeating the search in 10 folds`

@@ -12,6 +12,7 @@ use super::errors::{errors_toml, ranges_of};
 use super::page::page;
 use super::residuals::Cells;
 use super::{Provenance, Reported, diff, residuals};
+use crate::errors_file::FoundOver;
 use crate::failure::Failure;
 use crate::output::Folder;
 use crate::{tables, terminal};
@@ -66,15 +67,23 @@ pub fn write_all(reported: &Reported<'_>, shown: &Shown, folder: &Path) -> Resul
 #[must_use]
 pub fn errors(reported: &Reported<'_>) -> Option<String> {
     let calibration = reported.calibration;
+    let date = &reported.provenance.date;
+    let values = &calibration.after.values;
+    let over = found_over(reported)?;
+    Some(errors_toml(&calibration.diagnosis.errors, &calibration.chain, values, date, &over))
+}
+
+/// The ranges of the readings that an amended declaration was found over, if a usable model came out.
+#[must_use]
+pub fn found_over(reported: &Reported<'_>) -> Option<Vec<FoundOver>> {
+    let calibration = reported.calibration;
     let amended = Chain::from_text(calibration.amended.as_ref()?).unwrap_or_else(|mistakes| {
         unreachable!("an amended text is read before it is given out: {mistakes}")
     });
-    let date = &reported.provenance.date;
-    let after = &calibration.after;
-    let mut over = ranges_of(reported.observations, &after.residuals.weight);
+    let mut over = ranges_of(reported.observations, &calibration.after.residuals.weight);
     // A side quantity that no effect needed is none of the amended chain's.
     over.retain(|range| amended.find_symbol(&calibration.chain.symbol(range.symbol).name).is_some());
-    Some(errors_toml(&calibration.diagnosis.errors, &calibration.chain, &after.values, date, &over))
+    Some(over)
 }
 
 /// `report.json`: the diagnosis, and what it was made with.

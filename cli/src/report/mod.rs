@@ -11,7 +11,7 @@ mod text;
 use calibration::calibrate::Calibration;
 use calibration::data::Observations;
 
-pub use files::{NAMES, errors, json, rows_written, write_all};
+pub use files::{NAMES, errors, found_over, json, rows_written, write_all};
 pub use page::{excerpt, page};
 pub use residuals::{Cells, table};
 pub use text::{Layout, as_text, diff};

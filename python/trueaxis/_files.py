@@ -1,0 +1,101 @@
+"""Files of rows: which a folder is made of, and Parquet files chunk by chunk."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ._errors import TrueaxisError, warn
+
+if TYPE_CHECKING:
+    import pyarrow
+
+ROWS = 1 << 18
+"""Rows that are in memory at a time, a file."""
+_NAMED = 5
+"""How many files are named that are not read."""
+
+
+def files_of(source: Any, kinds: list[str], *, told_apart: bool = False) -> list[Path]:
+    """The files of one kind of a folder, one file, or the files of a list: as absolute paths, each once; where they are to be told apart by
+    their names, no two of one name."""
+    if isinstance(source, (str, os.PathLike)):
+        path = Path(source)
+        files = _files_in(path, kinds) if path.is_dir() else [path]
+    else:
+        files = [Path(file) for file in source]
+        if not files:
+            raise TrueaxisError("no files are given")
+    seen: set[Path] = set()
+    names: set[str] = set()
+    for file in files:
+        if not file.is_file():
+            why = "it is a folder; list the files in it" if file.is_dir() else "there is no such file"
+            raise TrueaxisError(f"cannot read `{file}`: {why}")
+        if file.absolute() in seen:
+            raise TrueaxisError(f"`{file}` is given twice")
+        if told_apart and file.name in names:
+            raise TrueaxisError(f"two files are named `{file.name}`: what came of them could not be told apart")
+        seen.add(file.absolute())
+        names.add(file.name)
+    return [file.absolute() for file in files]
+
+
+def kind_of(file: str | Path) -> str:
+    """The ending that says what a file is: ``.parquet``, ``.csv``, …"""
+    ending = Path(file).suffix.lower()
+    return ".parquet" if ending == ".pq" else ending
+
+
+def _files_in(folder: Path, kinds: list[str]) -> list[Path]:
+    """The files of the one kind that a folder holds; warns of what else is in it. What a name hides is not looked at."""
+    try:
+        entries = sorted(entry for entry in folder.iterdir() if not entry.name.startswith((".", "_")))
+    except OSError as error:
+        raise TrueaxisError(f"cannot read `{folder}`: {error.strerror}") from None
+    is_meant = {entry: kind_of(entry) in kinds and not entry.is_dir() for entry in entries}
+    there = [kind for kind in kinds if any(is_meant[entry] and kind_of(entry) == kind for entry in entries)]
+    if len(there) > 1:
+        raise TrueaxisError(f"`{folder}` holds {' and '.join(there)} files: give a list of those that are meant")
+    left = [f"`{entry.name}{'/' if entry.is_dir() else ''}`" for entry in entries if not is_meant[entry]]
+    told = ", ".join(left[:_NAMED]) + (f" and {len(left) - _NAMED} more" if len(left) > _NAMED else "")
+    if not there:
+        held = f"; it holds {told}, which a list of files could name" if left else ""
+        raise TrueaxisError(f"`{folder}`: there is no {' or '.join(kinds)} file in this folder{held}")
+    if left:
+        warn(f"`{folder}`: only its own {there[0]} files are read, not {told}; give a list of files where others are meant")
+    return [entry for entry in entries if is_meant[entry]]
+
+
+@contextmanager
+def opened(file: str) -> Iterator[pyarrow.parquet.ParquetFile]:
+    """A Parquet file; what is wrong with it is told by its name."""
+    import pyarrow
+    import pyarrow.parquet as parquet
+
+    try:
+        with parquet.ParquetFile(file) as open_file:
+            yield open_file
+    except (pyarrow.ArrowException, OSError) as error:
+        raise TrueaxisError(f"{file}: {error}") from None
+
+
+def batches(file: str) -> Iterator[tuple[int, pyarrow.Table]]:
+    """The rows of a Parquet file chunk by chunk, each with the number of rows before it."""
+    import pyarrow
+
+    first = 0
+    with opened(file) as open_file:
+        for batch in open_file.iter_batches(batch_size=ROWS):
+            if batch.num_rows == 0:
+                continue
+            yield first, pyarrow.Table.from_batches([batch])
+            first += batch.num_rows
+
+
+def place_of(file: str, row: int) -> str:
+    """A file and where in it a chunk begins: rows in messages are counted from there."""
+    return f"{file}, behind row {row}" if row else file

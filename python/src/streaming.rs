@@ -46,37 +46,66 @@ pub struct Fitting {
     streaming: Mutex<Option<Streaming>>,
 }
 
+/// A study with its declaration, each from its text or its file.
+fn studied(py: Python<'_>, study: (PathBuf, Option<String>), chain: Option<Text>) -> PyResult<Studied> {
+    let (path, text) = study;
+    errors::run(py, || {
+        let study = match &text {
+            Some(text) => Source::of_text(path, text),
+            None => Source::read(&path)?,
+        };
+        match chain {
+            Some(chain) => Studied::of(study, source(chain)),
+            None => Studied::read(study),
+        }
+    })
+}
+
+impl Fitting {
+    /// With the texts that its passes are made by; an error where there were no rows.
+    fn started(py: Python<'_>, studied: &Studied, streaming: Option<Streaming>) -> PyResult<Self> {
+        let as_text = |source: &Source| (source.path.display().to_string(), source.text.clone());
+        let (study, chain) = (as_text(&studied.study), as_text(&studied.chain));
+        match streaming {
+            Some(_) => Ok(Self { study, chain, streaming: Mutex::new(streaming) }),
+            None => Err(errors::exception(
+                py,
+                &library::Failure::Input("there are no rows in any file".to_owned()),
+            )),
+        }
+    }
+}
+
 #[pymethods]
 impl Fitting {
-    /// Starts from the first of some samples that has rows. A study without text is read from its file, a declaration that is not
-    /// given from the file that the study names.
+    /// Starts from some rows. A study without text is read from its file, a declaration that is not given from the file that the
+    /// study names.
     #[new]
     fn new(
         py: Python<'_>,
         study: (PathBuf, Option<String>),
         chain: Option<Text>,
-        samples: Vec<Given<'_>>,
+        sample: Given<'_>,
     ) -> PyResult<Self> {
-        let (path, text) = study;
-        let studied = errors::run(py, || {
-            let study = match &text {
-                Some(text) => Source::of_text(path, text),
-                None => Source::read(&path)?,
-            };
-            match chain {
-                Some(chain) => Studied::of(study, source(chain)),
-                None => Studied::read(study),
-            }
-        })?;
-        let as_text = |source: &Source| (source.path.display().to_string(), source.text.clone());
-        let (study, chain) = (as_text(&studied.study), as_text(&studied.chain));
-        for sample in samples {
-            let studied = studied.clone();
-            if let Some(streaming) = with_rows(py, sample, |rows| Streaming::new(studied, rows))? {
-                return Ok(Self { study, chain, streaming: Mutex::new(Some(streaming)) });
-            }
-        }
-        Err(errors::exception(py, &library::Failure::Input("there are no rows in any file".to_owned())))
+        let studied = studied(py, study, chain)?;
+        let own = studied.clone();
+        let streaming = with_rows(py, sample, |rows| Streaming::new(own, rows))?;
+        Self::started(py, &studied, streaming)
+    }
+
+    /// Starts from about so many rows of some files, evenly from all.
+    #[staticmethod]
+    fn of_files(
+        py: Python<'_>,
+        study: (PathBuf, Option<String>),
+        chain: Option<Text>,
+        files: Vec<String>,
+        rows: u64,
+    ) -> PyResult<Self> {
+        let studied = studied(py, study, chain)?;
+        let own = studied.clone();
+        let streaming = errors::run(py, || Streaming::new(own, Rows::Drawn(&files, rows)))?;
+        Self::started(py, &studied, streaming)
     }
 
     /// The same fit, to be made of other rows.

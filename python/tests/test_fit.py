@@ -146,3 +146,42 @@ def test_one_row_more_counts(mount, folder, tmp_path):
     good = sorted(folder.iterdir())[0]
     parquet.write_table(pyarrow.table(pointings(mount, 1, 99)), tmp_path / "one.parquet")
     assert fit(mount, [good, tmp_path / "one.parquet"]).rows == ROWS + 1
+
+
+def short_and_long(mount, folder, rows, spoiled=None):
+    """A file for each number of rows; in one of them the azimuth is read off by 10 mrad."""
+    for at, count in enumerate(rows):
+        columns = pointings(mount, count, 700 + at)
+        if at == spoiled:
+            columns["azimuth"] = columns["azimuth"] + 0.01
+        parquet.write_table(pyarrow.table(columns), folder / f"part-{at}.parquet")
+    return folder
+
+
+@pytest.mark.parametrize("first", [1, 2, 3])
+def test_a_short_first_file_decides_nothing(mount, tmp_path, first):
+    found = fit(mount, short_and_long(mount, tmp_path, [first, 500, 500, 500]))
+    assert found.converged and found.rows_kept > 0.9 * found.rows
+    for name, value, uncertainty in zip(*(found.errors[key] for key in ["name", "value", "standard_uncertainty"])):
+        assert 0 < uncertainty < 1e-4 and abs(value - TRUE.get(name, 0.0)) < 5 * uncertainty, name
+
+
+@pytest.mark.parametrize("spoiled", [0, 2])
+def test_the_order_of_files_decides_nothing(mount, tmp_path, spoiled):
+    with pytest.warns(trueaxis.TrueaxisWarning, match="rows count for nothing"):
+        found = fit(mount, short_and_long(mount, tmp_path, [500, 500, 500], spoiled))
+    assert found.converged and 900 < found.rows_kept < 1010
+    assert abs(found.values["azimuth_index"] - TRUE.get("azimuth_index", 0.0)) < 1e-4
+
+
+def test_separated_values_start_from_all_files_too(mount, tmp_path):
+    for at, count in enumerate([2, 400, 400]):
+        columns = pointings(mount, count, 800 + at)
+        lines = [",".join(columns)] + [",".join(map(repr, map(float, row))) for row in zip(*columns.values())]
+        (tmp_path / f"part-{at}.csv").write_text("\n".join(lines))
+    found = fit(mount, tmp_path)
+    assert found.converged and found.rows == 802 and found.rows_kept > 0.9 * found.rows
+
+
+def test_as_many_errors_as_numbers_are_no_estimate(mount, tmp_path):
+    assert not fit(mount, short_and_long(mount, tmp_path, [3])).converged

@@ -11,12 +11,19 @@ import numpy as np
 
 from . import _native
 from ._chain import Chain
+from ._drawn import counted, explained, rows_drawn
+from ._errors import MistakeError, TrueaxisError, warn
 from ._files import batches, files_of, kind_of, place_of
 from ._tables import Columns, Table, columns_of
 from ._workers import Each, require_version, workers
 
 if TYPE_CHECKING:
     import distributed
+
+_START_ROWS = 100_000
+"""Rows of all files that the fit begins with, about."""
+_MOST = 0.75
+"""Where a smaller share of the rows counts, something is wrong with the others."""
 
 
 class Fit:
@@ -108,8 +115,8 @@ def fit(
     these, :func:`calibrate` the same folder.
 
     :param study: the path of the study file. The files stand for the one table that it names.
-    :param data: a folder of ``.parquet`` or ``.csv`` files, one file, or a list of files. The first with rows must have enough to start
-        from; a file without rows counts for nothing. Hidden files of a folder are left out; what else is not read is warned of.
+    :param data: a folder of ``.parquet`` or ``.csv`` files, one file, or a list of files. A file
+        without rows counts for nothing. Hidden files of a folder are left out; what else is not read is warned of.
     :param text: the text of the study, where it is no file.
     :param chain: a declaration that stands for the one that the study names.
     :param client: a Dask client, or the address of a scheduler: its workers read a file each, and must see the same files. If a
@@ -121,9 +128,20 @@ def fit(
     """
     files = [str(file) for file in files_of(data, [".parquet", ".csv"])]
     declaration = None if chain is None else (chain._native.origin, chain.text)
-    fitting = _native.Fitting((os.fspath(study), text), declaration, _samples(files))
+    texts = (os.fspath(study), text)
     with workers(client) as each:
-        return of_files(fitting, files, each, progress)
+        # Files of separated values are read where the fit is; of both kinds together those say where it begins.
+        if separated := [file for file in files if kind_of(file) != ".parquet"]:
+            fitting = _native.Fitting.of_files(texts, declaration, separated, _START_ROWS)
+        else:
+            fitting = _started(each, texts, declaration, files)
+        found = of_files(fitting, files, each, progress)
+    if found.converged and found.rows_kept < _MOST * found.rows:
+        warn(
+            f"{found.rows - found.rows_kept} of {found.rows} rows count for nothing: they are far from what the others say; "
+            "are units, signs and time stamps of every file right?"
+        )
+    return found
 
 
 def of_files(fitting: _native.Fitting, files: list[str], each: Each, progress: Callable[[int, int, int], object] | None) -> Fit:
@@ -151,17 +169,17 @@ def of_table(fitting: _native.Fitting, rows: tuple[str, Columns]) -> Fit:
     return Fit(json.loads(fitting.found()))
 
 
-def _samples(files: list[str]) -> list[tuple[str, Any]]:
-    """Rows to start from: those of the first that has any."""
-    samples = []
-    for file in files:
-        first = next(chunks(file), None)
-        if first is not None:
-            samples.append(first)
-            _, is_read = first
-            if is_read is not None:
-                break
-    return samples
+def _started(each: Each, texts: tuple[str, str | None], declaration: tuple[str, str] | None, files: list[str]) -> _native.Fitting:
+    """A fit from rows of all files: where it begins, no file says more than another."""
+    rows_of = counted(each, files)
+    stretches = _native.stretches(list(rows_of.values()), _START_ROWS, 1)
+    sample, unusable = rows_drawn(each, list(rows_of), stretches)
+    try:
+        return _native.Fitting(texts, declaration, (f"rows of {len(rows_of)} files", sample))
+    except MistakeError:
+        raise
+    except TrueaxisError as error:
+        raise explained(error, unusable) from None
 
 
 def _accumulate_file(task: tuple) -> tuple[str, list[bytes]]:

@@ -11,6 +11,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use trueaxis_cli::library::{self, Exactness, Failure, Quantity, Source, Told};
 
+use crate::compiled::{Asked, Call, FORMS, Loadable};
 use crate::formula::ClosedForm;
 use crate::tables::Table;
 use crate::{arrays, errors, rows};
@@ -91,14 +92,8 @@ impl Chain {
 
 /// Which form is evaluated, by its name.
 fn form_of(name: &str) -> PyResult<Form> {
-    Ok(match name {
-        "exact error" => Form::ExactError,
-        "exact value" => Form::ExactValue,
-        "first-order error" => Form::FirstOrderError,
-        "exact jacobian" => Form::ExactJacobian,
-        "first-order jacobian" => Form::FirstOrderJacobian,
-        _ => return Err(PyValueError::new_err(format!("there is no form `{name}`"))),
-    })
+    let form = FORMS.into_iter().find(|&(known, _)| known == name).map(|(_, form)| form);
+    form.ok_or_else(|| PyValueError::new_err(format!("there is no form `{name}`")))
 }
 
 #[pymethods]
@@ -172,8 +167,28 @@ impl Chain {
             .collect()
     }
 
-    /// Evaluates a form over columns of readings; the result has the shape `(3, rows)`, or `(3, wrt, rows)`.
-    #[pyo3(signature = (form, observable, readings, constants, errors, wrt, out, threads))]
+    /// Generated files: `(ending, text)`.
+    fn generate(
+        &self,
+        py: Python<'_>,
+        language: &str,
+        observables: Vec<String>,
+    ) -> PyResult<Vec<(&'static str, String)>> {
+        errors::run(py, || library::generated(&self.source, &self.chain, language, &observables))
+    }
+
+    /// The C of an observable, to be compiled and loaded.
+    fn loadable(&self, py: Python<'_>, observable: Option<&str>) -> PyResult<Loadable> {
+        errors::run(py, || {
+            let observable = library::observable(&self.chain, observable)?;
+            let c = library::loadable(&self.source, &self.chain, observable)?;
+            Ok(Loadable::new(&self.chain, observable, c))
+        })
+    }
+
+    /// Evaluates a form over columns of readings; the result has the shape `(shown, rows)`, or `(shown, wrt, rows)`. `compiled`
+    /// is the C of the observable and a function that calls an entry of it, `call(form, what)`.
+    #[pyo3(signature = (form, observable, readings, constants, errors, wrt, out, threads, compiled))]
     #[expect(clippy::too_many_arguments, reason = "the Python package names them all")]
     fn evaluate<'py>(
         &self,
@@ -183,15 +198,21 @@ impl Chain {
         readings: Vec<(String, Bound<'py, PyAny>)>,
         constants: Vec<(String, f64)>,
         errors: Text,
-        wrt: Vec<String>,
+        wrt: Option<Vec<String>>,
         out: Option<Bound<'py, PyAny>>,
         threads: Option<usize>,
+        compiled: Option<(PyRef<'py, Loadable>, Bound<'py, PyAny>)>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let form = form_of(form)?;
+        let (form_name, form) = (form, form_of(form)?);
         let chain = &self.chain;
         let named = |name: &str| self.symbol(name, &[SymbolKind::Joint, SymbolKind::Input], "joint or input");
         let fails = |failure: Failure| errors::exception(py, &failure);
-        let observable = library::observable(chain, observable).map_err(fails)?;
+        let observable = match (&compiled, observable) {
+            (Some((loadable, _)), observable) => loadable.only(chain, observable),
+            (None, observable) => library::observable(chain, observable),
+        };
+        let observable = observable.map_err(fails)?;
+        library::derivable(chain, observable, form).map_err(fails)?;
         let needed = library::readings_of(chain, observable);
 
         let mut columns = Vec::new();
@@ -217,13 +238,17 @@ impl Chain {
             let (shown, missing) = (&chain.observable(observable).name, &chain.symbol(missing).name);
             return Err(fails(Failure::Input(format!("`{shown}` needs readings of `{missing}`: give them"))));
         }
-        let wrt: Vec<SymbolId> = wrt
-            .iter()
-            .map(|name| self.symbol(name, &[SymbolKind::Error, SymbolKind::Constant], "error"))
-            .collect::<Result<_, _>>()
-            .map_err(fails)?;
+        let wrt: Vec<SymbolId> = match wrt {
+            None => chain.symbols_of(SymbolKind::Error).collect(),
+            Some(names) => names
+                .iter()
+                .map(|name| self.symbol(name, &[SymbolKind::Error, SymbolKind::Constant], "error"))
+                .collect::<Result<_, _>>()
+                .map_err(fails)?,
+        };
 
-        let shape = if form.is_jacobian() { vec![3, wrt.len(), rows] } else { vec![3, rows] };
+        let shown = chain.observable(observable).shown.len();
+        let shape = if form.is_jacobian() { vec![shown, wrt.len(), rows] } else { vec![shown, rows] };
         let array = match &out {
             Some(out) => taken(out, &shape)?,
             None => PyArray::<f64, _>::zeros(py, IxDyn(&shape), false),
@@ -231,17 +256,31 @@ impl Chain {
         let mut writable: PyReadwriteArray<'_, f64, IxDyn> = array.try_readwrite().map_err(|error| {
             PyValueError::new_err(format!("`out`: {error}: it must be writable, and none of the readings"))
         })?;
-        let slices = columns
-            .iter()
-            .filter(|(id, ..)| needed.contains(id))
-            .map(|(id, _, column)| Ok((*id, column.as_slice()?)))
-            .collect::<PyResult<Vec<(SymbolId, &[f64])>>>()?;
         let into = writable.as_slice_mut()?;
-        py.detach(|| {
-            let program = self.program(observable, form, &wrt);
-            rows::evaluate(&program, &slices, &values, into, rows, threads)
-        })
-        .map_err(|error| PyValueError::new_err(error.to_string()))?;
+        let needed = columns.iter().filter(|(id, ..)| needed.contains(id));
+        match compiled {
+            None => {
+                let slices = needed
+                    .map(|(id, _, column)| Ok((*id, column.as_slice()?)))
+                    .collect::<PyResult<Vec<(SymbolId, &[f64])>>>()?;
+                py.detach(|| {
+                    let program = self.program(observable, form, &wrt);
+                    rows::evaluate(&program, &slices, &values, into, rows, threads)
+                })
+                .map_err(|error| PyValueError::new_err(error.to_string()))?;
+            }
+            Some((loadable, call)) => {
+                let columns: Vec<_> = needed.map(|(id, _, column)| (*id, (**column).clone())).collect();
+                let out = (into.as_mut_ptr().expose_provenance(), array.clone().into_any().unbind());
+                let (values, wrt, is_empty) = (&values, &wrt, into.is_empty());
+                let asked = Asked { columns: &columns, values, wrt, out, rows, threads };
+                let what = Call::new(&loadable, chain, asked).map_err(fails)?;
+                // What has no numbers may have no entry either: Jacobians of a chain without errors.
+                if !is_empty {
+                    call.call1((form_name, what))?;
+                }
+            }
+        }
         drop(writable);
         Ok(array.into_any())
     }

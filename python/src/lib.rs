@@ -3,6 +3,7 @@
 mod arrays;
 mod calibration;
 mod chain;
+mod compiled;
 mod errors;
 mod formula;
 mod rows;
@@ -18,6 +19,8 @@ mod _native {
     use super::calibration::{Calibration, Study, calibrate};
     #[pymodule_export]
     use super::chain::{Chain, check};
+    #[pymodule_export]
+    use super::compiled::{Call, Loadable};
     #[pymodule_export]
     use super::formula::ClosedForm;
     #[pymodule_export]

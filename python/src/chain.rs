@@ -42,6 +42,8 @@ pub struct Chain {
     source: Source,
     chain: model_core::Chain,
     programs: Mutex<BTreeMap<(ObservableId, Form, Vec<SymbolId>), Arc<Program>>>,
+    /// The errors of the last call, with what was read from them.
+    last: Mutex<Option<(Text, Vec<f64>)>>,
 }
 
 impl Chain {
@@ -51,7 +53,7 @@ impl Chain {
             let chain = source.chain()?;
             Ok((source, chain))
         })?;
-        Ok(Self { source, chain, programs: Mutex::default() })
+        Ok(Self { source, chain, programs: Mutex::default(), last: Mutex::default() })
     }
 
     /// The text that it was read from.
@@ -70,6 +72,23 @@ impl Chain {
         // Built without the lock: two threads may build the same, and keep one.
         let program = Arc::new(build(&self.chain, &[observable], form, wrt));
         Arc::clone(programs().entry(key).or_insert(program))
+    }
+
+    /// The values that a text of errors sets. The same text is read once, as long as there is nothing to warn of: many calls
+    /// with one set of errors are the usual case, and reading takes longer than some thousand rows.
+    fn values(&self, py: Python<'_>, errors: Text) -> PyResult<Vec<f64>> {
+        let last = || self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((text, values)) = &*last()
+            && *text == errors
+        {
+            return Ok(values.clone());
+        }
+        let text = source(errors.clone());
+        let (values, is_doubtful) = errors::run_and_tell(py, || library::values(&text, &self.chain))?;
+        if !is_doubtful {
+            *last() = Some((errors, values.clone()));
+        }
+        Ok(values)
     }
 
     /// A symbol of some kinds by its name.
@@ -226,8 +245,7 @@ impl Chain {
             let found = column.len();
             return Err(PyValueError::new_err(format!("`{name}` has {found} rows, `{first}` has {rows}")));
         }
-        let errors = source(errors);
-        let mut values = errors::run(py, || library::values(&errors, chain))?;
+        let mut values = self.values(py, errors)?;
         let mut given: Vec<SymbolId> = columns.iter().map(|&(id, ..)| id).collect();
         for (name, value) in constants {
             let id = named(&name).map_err(fails)?;
@@ -251,7 +269,8 @@ impl Chain {
         let shape = if form.is_jacobian() { vec![shown, wrt.len(), rows] } else { vec![shown, rows] };
         let array = match &out {
             Some(out) => taken(out, &shape)?,
-            None => PyArray::<f64, _>::zeros(py, IxDyn(&shape), false),
+            // Every number of it is written. NumPy asks for large pages here, and for zeros does not.
+            None => taken(&py.import("numpy")?.call_method1("empty", (shape.clone(),))?, &shape)?,
         };
         let mut writable: PyReadwriteArray<'_, f64, IxDyn> = array.try_readwrite().map_err(|error| {
             PyValueError::new_err(format!("`out`: {error}: it must be writable, and none of the readings"))

@@ -31,9 +31,18 @@ pub fn exception(py: Python<'_>, failure: &Failure) -> PyErr {
 /// Does some work without holding the interpreter's lock, on this thread; what it warns of becomes warnings of Python, what
 /// fails an exception.
 pub fn run<T: Send>(py: Python<'_>, work: impl FnOnce() -> Result<T, Failure> + Send) -> PyResult<T> {
+    run_and_tell(py, work).map(|(done, _)| done)
+}
+
+/// The same, with whether it warned of something.
+pub fn run_and_tell<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce() -> Result<T, Failure> + Send,
+) -> PyResult<(T, bool)> {
     let (done, warnings) = py.detach(|| collecting(work));
     warn(py, &warnings)?;
-    done.map_err(|failure| exception(py, &failure))
+    let done = done.map_err(|failure| exception(py, &failure))?;
+    Ok((done, !warnings.is_empty()))
 }
 
 fn warn(py: Python<'_>, warnings: &[String]) -> PyResult<()> {

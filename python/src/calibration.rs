@@ -50,12 +50,15 @@ impl Study {
 #[pyclass(module = "trueaxis._native")]
 pub struct Calibration(pub(crate) Calibrated);
 
+/// Tables by name, each with its columns by name.
+type NamedTables<'py> = Vec<(String, Vec<(String, Bound<'py, PyAny>)>)>;
+
 /// Calibrates; takes the study up. `progress` is called with what is being done.
 #[pyfunction]
 pub fn calibrate(
     py: Python<'_>,
     study: &Study,
-    tables: Vec<(String, Vec<(String, Bound<'_, PyAny>)>)>,
+    tables: NamedTables<'_>,
     command: String,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Calibration> {

@@ -36,12 +36,15 @@ pub fn told(told: Told) -> (String, String) {
     (told.text, told.json.to_string())
 }
 
+/// Programs by observable, form and the symbols that they have derivatives by.
+type Programs = BTreeMap<(ObservableId, Form, Vec<SymbolId>), Arc<Program>>;
+
 /// A declared chain.
 #[pyclass(frozen, module = "trueaxis._native")]
 pub struct Chain {
     source: Source,
     chain: model_core::Chain,
-    programs: Mutex<BTreeMap<(ObservableId, Form, Vec<SymbolId>), Arc<Program>>>,
+    programs: Mutex<Programs>,
     /// The errors of the last call, with what was read from them.
     last: Mutex<Option<(Text, Vec<f64>)>>,
 }

@@ -87,6 +87,12 @@ pub struct Call {
     _arrays: Vec<Py<PyAny>>,
 }
 
+/// Addresses of errors, columns and their steps, and the number of all rows.
+type Before = (usize, usize, usize, usize);
+
+/// The address of the derivatives that are wanted, their number, and the address where the result goes.
+type Behind = (usize, usize, usize);
+
 #[pymethods]
 impl Call {
     /// `(start, end)` of the rows of each thread.
@@ -98,7 +104,7 @@ impl Call {
 
     /// The arguments before `start` and `end`, and those behind.
     #[getter]
-    fn arguments(&self) -> ((usize, usize, usize, usize), (usize, usize, usize)) {
+    fn arguments(&self) -> (Before, Behind) {
         let address = |numbers: &[usize]| numbers.as_ptr().expose_provenance();
         let errors = self.errors.as_ptr().expose_provenance();
         (

@@ -121,26 +121,33 @@ fn components_of_rows(file: &File<'_>, function: &Function) -> String {
     )
 }
 
+/// A few blocks are done before their derivatives are copied out: each derivative lies in pages of its own, and going to many of
+/// them for one block's rows costs more than the arithmetic. Blocks too large for the stack are done one by one.
 fn jacobian_of_blocks(file: &File<'_>, function: &Function) -> String {
     let (prefix, form) = (&file.prefix, form_name(function.form));
     let copies = each_derivative(
         file,
-        &|observable| {
-            format!(
-                "const double *from = block.values[{prefix}_{form}_place.{observable}[component][columns[column]]]"
-            )
-        },
-        "for (row = 0; row < some; row++)
-                    to[row] = from[row];",
+        &|observable| format!("const size_t place = {prefix}_{form}_place.{observable}[component][columns[column]]"),
+        "for (first = 0; first < some; first += TRUEAXIS_ROWS) {
+                    const double *from = blocks[first / TRUEAXIS_ROWS].values[place];
+                    const size_t rest = some - first, rows_of_block = rest < TRUEAXIS_ROWS ? rest : TRUEAXIS_ROWS;
+                    for (row = 0; row < rows_of_block; row++)
+                        to[first + row] = from[row];
+                }",
     );
     let (columns, passed) = (columns(file), passed(file));
     format!(
-        "    for (first = start; first < end; first += TRUEAXIS_ROWS) {{
-        const size_t left = end - first, some = left < TRUEAXIS_ROWS ? left : TRUEAXIS_ROWS;
-        size_t component, column, row;
-        double *to = out + first;
-        TRUEAXIS_ALIGNED {prefix}_{form}_block block;
-{columns}        {prefix}_{form}_rows_of_block(&prepared, some, {passed}&block);
+        "    enum {{ together = sizeof({prefix}_{form}_block) <= 65536 ? 4 : 1 }};
+    size_t group;
+    for (group = start; group < end; group += together * TRUEAXIS_ROWS) {{
+        const size_t left = end - group, some = left < together * TRUEAXIS_ROWS ? left : together * TRUEAXIS_ROWS;
+        size_t component, column, row, block = 0;
+        double *to = out + group;
+        TRUEAXIS_ALIGNED {prefix}_{form}_block blocks[together];
+        for (first = group; first < group + some; first += TRUEAXIS_ROWS, block++) {{
+        const size_t rest = group + some - first, rows_of_block = rest < TRUEAXIS_ROWS ? rest : TRUEAXIS_ROWS;
+{columns}        {prefix}_{form}_rows_of_block(&prepared, rows_of_block, {passed}&blocks[block]);
+        }}
 {copies}    }}
 "
     )

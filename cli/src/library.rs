@@ -7,15 +7,14 @@ use std::path::Path;
 
 use calibration::formats::memory::Reader;
 use calibration::formats::{TableReader, open};
-use codegen::{Form, GenerateError};
+use codegen::Form;
 use model_core::expr::Expr;
-use model_core::readings::Measures;
 use model_core::{Chain, ObservableId, SymbolKind, forms, print, syntax};
 use serde_json::{Value, json};
 
 use crate::budget::Measured;
 use crate::claims::{ClaimsFile, as_json};
-use crate::commands::{bound, budget, check, derive, identify, simulate};
+use crate::commands::{bound, budget, check, derive, generate, identify, simulate};
 use crate::evaluation;
 use crate::ranges::{self, Range, RangeArgument};
 use crate::source::observables;
@@ -34,6 +33,7 @@ pub use crate::terminal::collecting;
 pub use calibration::calibrate::Stage;
 pub use calibration::fit::Validation;
 pub use calibration::formats::memory::Column;
+pub use codegen::Loadable;
 
 /// An answer for reading, and the same for programs.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,18 +80,35 @@ pub fn form_name(form: Form) -> &'static str {
     codegen::form_name(form)
 }
 
+/// Evaluators of some observables, or of all, in a language by its name, as `generate` writes them: the text of each file by its
+/// ending.
+///
+/// # Errors
+/// As the command says, or another language.
+pub fn generated(
+    source: &Source,
+    chain: &Chain,
+    language: &str,
+    names: &[String],
+) -> Result<Vec<(&'static str, String)>, Failure> {
+    let files = generate::files(source, chain, language, names)?;
+    Ok(files.into_iter().map(|file| (file.extension, file.text)).collect())
+}
+
+/// The same of one observable in C, for a program that compiles it and loads it while it runs.
+///
+/// # Errors
+/// As `generate` says.
+pub fn loadable(source: &Source, chain: &Chain, observable: ObservableId) -> Result<Loadable, Failure> {
+    generate::loadable(source, chain, observable)
+}
+
 /// Refuses a form that an observable has not.
 ///
 /// # Errors
 /// As `generate` says.
 pub fn derivable(chain: &Chain, observable: ObservableId, form: Form) -> Result<(), Failure> {
-    let observable = chain.observable(observable);
-    let is_off_axis = observable.shown.iter().any(|reading| reading.measures == Measures::OffAxis);
-    if is_off_axis && form.is_jacobian() {
-        let error = GenerateError::NoDerivative { name: observable.name.clone(), form };
-        return Err(Failure::Input(error.to_string()));
-    }
-    Ok(())
+    codegen::derivable(chain.observable(observable), form).map_err(|error| Failure::Input(error.to_string()))
 }
 
 /// The closed form of an observable's error, component by component.

@@ -12,7 +12,8 @@ pub mod program;
 pub mod vector;
 
 pub use backends::{
-    File, GenerateError, LANGUAGES, Language, Precision, Unit, form_name, generate, snake_case,
+    File, GenerateError, LANGUAGES, Language, Loadable, Precision, Unit, derivable, form_name, generate,
+    generate_loadable, snake_case,
 };
 pub use build::{MatrixProduct, build, build_all, matrix_product};
 pub use interpreter::{Interpreter, ShapeError};

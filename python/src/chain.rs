@@ -11,6 +11,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use trueaxis_cli::library::{self, Exactness, Failure, Quantity, Source, Told};
 
+use crate::compiled::{Asked, Call, FORMS, Loadable};
 use crate::formula::ClosedForm;
 use crate::tables::Table;
 use crate::{arrays, errors, forked, rows};
@@ -36,7 +37,7 @@ pub fn told(told: Told) -> (String, String) {
     (told.text, told.json.to_string())
 }
 
-/// Programs by what they compute.
+/// Programs by observable, form and the symbols that they have derivatives by.
 type Programs = BTreeMap<(ObservableId, Form, Vec<SymbolId>), Arc<Program>>;
 
 /// A number that an observable shows: its word and its unit.
@@ -50,6 +51,8 @@ pub struct Chain {
     /// Why it has no numbers: constants without a value.
     open: Option<Mistakes>,
     programs: Mutex<Programs>,
+    /// The errors of the last call, with what was read from them.
+    last: Mutex<Option<(Text, Vec<f64>)>>,
 }
 
 impl Chain {
@@ -60,7 +63,7 @@ impl Chain {
             let open = model_core::Chain::from_text(&source.text).err();
             Ok((source, chain, open))
         })?;
-        Ok(Self { source, chain, open, programs: Mutex::default() })
+        Ok(Self { source, chain, open, programs: Mutex::default(), last: Mutex::default() })
     }
 
     /// The chain for what calculates with numbers.
@@ -89,6 +92,23 @@ impl Chain {
         Arc::clone(programs().entry(key).or_insert(program))
     }
 
+    /// The values that a text of errors sets. The same text is read once, as long as there is nothing to warn of: many calls
+    /// with one set of errors are the usual case, and reading takes longer than some thousand rows.
+    fn values(&self, py: Python<'_>, errors: Text) -> PyResult<Vec<f64>> {
+        let last = || self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((text, values)) = &*last()
+            && *text == errors
+        {
+            return Ok(values.clone());
+        }
+        let text = source(errors.clone());
+        let (values, is_doubtful) = errors::run_and_tell(py, || library::values(&text, &self.chain))?;
+        if !is_doubtful {
+            *last() = Some((errors, values.clone()));
+        }
+        Ok(values)
+    }
+
     /// A symbol of some kinds by its name.
     fn symbol(&self, name: &str, kinds: &[SymbolKind], what: &str) -> Result<SymbolId, Failure> {
         let declared = || kinds.iter().flat_map(|&kind| self.chain.symbols_of(kind));
@@ -109,14 +129,8 @@ impl Chain {
 
 /// Which form is evaluated, by its name.
 fn form_of(name: &str) -> PyResult<Form> {
-    Ok(match name {
-        "exact error" => Form::ExactError,
-        "exact value" => Form::ExactValue,
-        "first-order error" => Form::FirstOrderError,
-        "exact jacobian" => Form::ExactJacobian,
-        "first-order jacobian" => Form::FirstOrderJacobian,
-        _ => return Err(PyValueError::new_err(format!("there is no form `{name}`"))),
-    })
+    let form = FORMS.into_iter().find(|&(known, _)| known == name).map(|(_, form)| form);
+    form.ok_or_else(|| PyValueError::new_err(format!("there is no form `{name}`")))
 }
 
 #[pymethods]
@@ -191,8 +205,29 @@ impl Chain {
             .collect()
     }
 
-    /// Evaluates a form over columns of readings; the result has the shape `(shown, rows)`, or `(shown, wrt, rows)`.
-    #[pyo3(signature = (form, observable, readings, constants, errors, wrt, out, threads))]
+    /// Generated files: `(ending, text)`.
+    fn generate(
+        &self,
+        py: Python<'_>,
+        language: &str,
+        observables: Vec<String>,
+    ) -> PyResult<Vec<(&'static str, String)>> {
+        errors::run(py, || library::generated(&self.source, self.with_numbers()?, language, &observables))
+    }
+
+    /// The C of an observable, to be compiled and loaded.
+    fn loadable(&self, py: Python<'_>, observable: Option<&str>) -> PyResult<Loadable> {
+        errors::run(py, || {
+            let chain = self.with_numbers()?;
+            let observable = library::observable(chain, observable)?;
+            let c = library::loadable(&self.source, chain, observable)?;
+            Ok(Loadable::new(chain, observable, c))
+        })
+    }
+
+    /// Evaluates a form over columns of readings; the result has the shape `(shown, rows)`, or `(shown, wrt, rows)`. `compiled`
+    /// is the C of the observable and a function that calls an entry of it, `call(form, what)`.
+    #[pyo3(signature = (form, observable, readings, constants, errors, wrt, out, threads, compiled))]
     #[expect(clippy::too_many_arguments, reason = "the Python package names them all")]
     fn evaluate<'py>(
         &self,
@@ -202,15 +237,20 @@ impl Chain {
         readings: Vec<(String, Bound<'py, PyAny>)>,
         constants: Vec<(String, f64)>,
         errors: Text,
-        wrt: Vec<String>,
+        wrt: Option<Vec<String>>,
         out: Option<Bound<'py, PyAny>>,
         threads: Option<usize>,
+        compiled: Option<(PyRef<'py, Loadable>, Bound<'py, PyAny>)>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let form = form_of(form)?;
+        let (form_name, form) = (form, form_of(form)?);
         let chain = self.with_numbers().map_err(|failure| errors::exception(py, &failure))?;
         let named = |name: &str| self.symbol(name, &[SymbolKind::Joint, SymbolKind::Input], "joint or input");
         let fails = |failure: Failure| errors::exception(py, &failure);
-        let observable = library::observable(chain, observable).map_err(fails)?;
+        let observable = match (&compiled, observable) {
+            (Some((loadable, _)), observable) => loadable.only(chain, observable),
+            (None, observable) => library::observable(chain, observable),
+        };
+        let observable = observable.map_err(fails)?;
         library::derivable(chain, observable, form).map_err(fails)?;
         let needed = library::readings_of(chain, observable);
 
@@ -225,8 +265,7 @@ impl Chain {
             let found = column.len();
             return Err(PyValueError::new_err(format!("`{name}` has {found} rows, `{first}` has {rows}")));
         }
-        let errors = source(errors);
-        let mut values = errors::run(py, || library::values(&errors, chain))?;
+        let mut values = self.values(py, errors)?;
         let mut given: Vec<SymbolId> = columns.iter().map(|&(id, ..)| id).collect();
         for (name, value) in constants {
             let id = named(&name).map_err(fails)?;
@@ -237,34 +276,52 @@ impl Chain {
             let (shown, missing) = (&chain.observable(observable).name, &chain.symbol(missing).name);
             return Err(fails(Failure::Input(format!("`{shown}` needs readings of `{missing}`: give them"))));
         }
-        let wrt: Vec<SymbolId> = wrt
-            .iter()
-            .map(|name| self.symbol(name, &[SymbolKind::Error, SymbolKind::Constant], "error"))
-            .collect::<Result<_, _>>()
-            .map_err(fails)?;
+        let wrt: Vec<SymbolId> = match wrt {
+            None => chain.symbols_of(SymbolKind::Error).collect(),
+            Some(names) => names
+                .iter()
+                .map(|name| self.symbol(name, &[SymbolKind::Error, SymbolKind::Constant], "error"))
+                .collect::<Result<_, _>>()
+                .map_err(fails)?,
+        };
 
         let shown = chain.observable(observable).shown.len();
         let shape = if form.is_jacobian() { vec![shown, wrt.len(), rows] } else { vec![shown, rows] };
         let array = match &out {
             Some(out) => taken(out, &shape)?,
-            None => PyArray::<f64, _>::zeros(py, IxDyn(&shape), false),
+            // Every number of it is written. NumPy asks for large pages here, and for zeros does not.
+            None => taken(&py.import("numpy")?.call_method1("empty", (shape.clone(),))?, &shape)?,
         };
         let mut writable: PyReadwriteArray<'_, f64, IxDyn> = array.try_readwrite().map_err(|error| {
             PyValueError::new_err(format!("`out`: {error}: it must be writable, and none of the readings"))
         })?;
-        let slices = columns
-            .iter()
-            .filter(|(id, ..)| needed.contains(id))
-            .map(|(id, _, column)| Ok((*id, column.as_slice()?)))
-            .collect::<PyResult<Vec<(SymbolId, &[f64])>>>()?;
         let into = writable.as_slice_mut()?;
-        py.detach(|| {
-            forked::with_threads(|| {
-                let program = self.program(observable, form, &wrt);
-                rows::evaluate(&program, &slices, &values, into, rows, threads)
-            })
-        })?
-        .map_err(|error| PyValueError::new_err(error.to_string()))?;
+        let needed = columns.iter().filter(|(id, ..)| needed.contains(id));
+        match compiled {
+            None => {
+                let slices = needed
+                    .map(|(id, _, column)| Ok((*id, column.as_slice()?)))
+                    .collect::<PyResult<Vec<(SymbolId, &[f64])>>>()?;
+                py.detach(|| {
+                    forked::with_threads(|| {
+                        let program = self.program(observable, form, &wrt);
+                        rows::evaluate(&program, &slices, &values, into, rows, threads)
+                    })
+                })?
+                .map_err(|error| PyValueError::new_err(error.to_string()))?;
+            }
+            Some((loadable, call)) => {
+                let columns: Vec<_> = needed.map(|(id, _, column)| (*id, (**column).clone())).collect();
+                let out = (into.as_mut_ptr().expose_provenance(), array.clone().into_any().unbind());
+                let (values, wrt, is_empty) = (&values, &wrt, into.is_empty());
+                let asked = Asked { columns: &columns, values, wrt, out, rows, threads };
+                let what = Call::new(&loadable, chain, asked).map_err(fails)?;
+                // What has no numbers may have no entry either: Jacobians of a chain without errors.
+                if !is_empty {
+                    call.call1((form_name, what))?;
+                }
+            }
+        }
         drop(writable);
         Ok(array.into_any())
     }

@@ -32,6 +32,14 @@ pub fn exception(py: Python<'_>, failure: &Failure) -> PyErr {
 /// Does some work without holding the interpreter's lock; what it warns of becomes warnings of Python, what fails an
 /// exception.
 pub fn run<T: Send>(py: Python<'_>, work: impl FnOnce() -> Result<T, Failure> + Send) -> PyResult<T> {
+    run_and_tell(py, work).map(|(done, _)| done)
+}
+
+/// The same, with whether it warned of something.
+pub fn run_and_tell<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce() -> Result<T, Failure> + Send,
+) -> PyResult<(T, bool)> {
     let (done, warnings) = py.detach(|| forked::with_threads(|| collecting(work)))?;
     if !warnings.is_empty() {
         let warn = py.import("trueaxis._errors")?.getattr("warn")?;
@@ -39,5 +47,6 @@ pub fn run<T: Send>(py: Python<'_>, work: impl FnOnce() -> Result<T, Failure> + 
             warn.call1((warning,))?;
         }
     }
-    done.map_err(|failure| exception(py, &failure))
+    let done = done.map_err(|failure| exception(py, &failure))?;
+    Ok((done, !warnings.is_empty()))
 }

@@ -4,6 +4,7 @@ mod applying;
 mod arrays;
 mod calibration;
 mod chain;
+mod compiled;
 mod errors;
 mod forked;
 mod formula;
@@ -22,6 +23,8 @@ mod _native {
     use super::calibration::{Calibration, Study, calibrate};
     #[pymodule_export]
     use super::chain::{Chain, check};
+    #[pymodule_export]
+    use super::compiled::{Call, Loadable};
     #[pymodule_export]
     use super::formula::ClosedForm;
     #[pymodule_export]

@@ -1,4 +1,7 @@
-//! A program over many rows: on one thread or several, each with an interpreter of its own.
+//! Many rows: how they are shared out among threads, and a program over them, each thread with an interpreter of its own.
+
+use std::mem;
+use std::ops::Range;
 
 use codegen::{Interpreter, Program, ShapeError};
 use model_core::SymbolId;
@@ -7,8 +10,19 @@ use rayon::prelude::*;
 /// Rows below which a second thread costs more than it saves.
 const FEW: usize = 1 << 14;
 
-/// Evaluates a program over columns. `out` holds all rows of the first output, then of the next, and so on. `threads` none:
-/// as many as there are processors. Each row's result depends on that row alone, so the number of threads changes no bit.
+/// Rows that vector code works on together. What a thread does begins with such a block.
+const BLOCK: usize = 64;
+
+/// Shares out rows among `threads`, or where there is no such number among as many as there are processors. Every share is a block
+/// of vector code or more, and begins where a block of all rows would: the number of threads changes no bit.
+pub fn shares(rows: usize, threads: Option<usize>) -> Vec<Range<usize>> {
+    let threads = threads.unwrap_or_else(rayon::current_num_threads).min(rows.div_ceil(FEW)).max(1);
+    let start = |share| if share == threads { rows } else { rows / BLOCK * share / threads * BLOCK };
+    (0..threads).map(|share| start(share)..start(share + 1)).collect()
+}
+
+/// Evaluates a program over columns. `out` holds all rows of the first output, then of the next, and so on. `threads` as of
+/// [`shares`].
 pub fn evaluate(
     program: &Program,
     columns: &[(SymbolId, &[f64])],
@@ -17,27 +31,26 @@ pub fn evaluate(
     rows: usize,
     threads: Option<usize>,
 ) -> Result<(), ShapeError> {
-    let mut outputs: Vec<&mut [f64]> =
-        if rows == 0 { Vec::new() } else { out.chunks_exact_mut(rows).collect() };
     if rows == 0 {
         return Ok(());
     }
-    let threads = threads.unwrap_or_else(rayon::current_num_threads).min(rows.div_ceil(FEW)).max(1);
-    if threads == 1 {
-        return Interpreter::new(program).eval_batch(columns, constants, &mut outputs);
-    }
-    let share = rows.div_ceil(threads);
-    let mut parts: Vec<(usize, Vec<&mut [f64]>)> =
-        (0..threads).map(|part| (part * share, Vec::with_capacity(outputs.len()))).collect();
-    for output in outputs {
-        for ((_, part), piece) in parts.iter_mut().zip(output.chunks_mut(share)) {
+    let mut parts: Vec<(Range<usize>, Vec<&mut [f64]>)> =
+        shares(rows, threads).into_iter().map(|share| (share, Vec::new())).collect();
+    for mut output in out.chunks_exact_mut(rows) {
+        for (share, part) in &mut parts {
+            let (piece, rest) = mem::take(&mut output).split_at_mut(share.len());
             part.push(piece);
+            output = rest;
         }
     }
-    parts.into_par_iter().filter(|(_, out)| !out.is_empty()).try_for_each(|(start, mut out)| {
-        let end = rows.min(start + share);
+    let one = |(share, mut out): (Range<usize>, Vec<&mut [f64]>)| {
         let columns: Vec<(SymbolId, &[f64])> =
-            columns.iter().map(|&(symbol, column)| (symbol, &column[start..end])).collect();
+            columns.iter().map(|&(symbol, column)| (symbol, &column[share.clone()])).collect();
         Interpreter::new(program).eval_batch(&columns, constants, &mut out)
-    })
+    };
+    match parts.len() {
+        // On the caller's own thread.
+        1 => parts.into_iter().try_for_each(one),
+        _ => parts.into_par_iter().try_for_each(one),
+    }
 }

@@ -16,6 +16,7 @@ from ._answers import Answer
 from ._calibration import Calibration, calibrate
 from ._chain import Chain, ClosedForm, Observable, Symbol, check
 from ._cluster import apply
+from ._compiled import Compiled
 from ._errors import Mistake, MistakeError, TrueaxisError, TrueaxisWarning
 from ._fit import Fit, fit
 from ._native import __version__
@@ -26,6 +27,7 @@ __all__ = [
     "Calibration",
     "Chain",
     "ClosedForm",
+    "Compiled",
     "Fit",
     "Mistake",
     "MistakeError",

@@ -7,19 +7,16 @@ from collections.abc import Iterable, Mapping
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
-import numpy as np
-
 from . import _native
 from ._answers import Answer
+from ._compiled import Compiled
 from ._inputs import Amount, Errors, errors_and_ranges, errors_text, names, ranges, whole
+from ._over_arrays import OverArrays
 from ._tables import Table, columns_of, kept, with_columns
 
 if TYPE_CHECKING:
     import sympy
-    from numpy.typing import NDArray
 
-Readings = Mapping[str, "NDArray[np.float64] | float"]
-"""Joints and inputs by name: an array with a number a row, or one number for all rows; rad and m."""
 Ranges = Mapping[str, "str | tuple[Amount, Amount]"]
 """Joints and inputs by name: ``("-30 deg", "60 deg")`` or ``"-30 deg..60 deg"``."""
 
@@ -96,7 +93,7 @@ class ClosedForm:
         return f"$${latex}$$"
 
 
-class Chain:
+class Chain(OverArrays):
     """A declared chain; read one with :meth:`from_text` or :meth:`from_file`.
 
     Evaluations hold no lock of the interpreter: several threads may use one chain at once. Arrays must be contiguous and
@@ -105,6 +102,7 @@ class Chain:
 
     def __init__(self, native: _native.Chain):
         self._native = native
+        self._compiled = None
 
     @classmethod
     def from_text(cls, text: str, name: str = "declaration") -> Chain:
@@ -182,86 +180,32 @@ class Chain:
 
         return [observable(*declared) for declared in self._native.observables]
 
-    def exact(
+    def generate(
         self,
-        readings: Readings,
-        errors: Errors = None,
-        observable: str | None = None,
-        *,
-        quantity: Literal["error", "value"] = "error",
-        out: NDArray[np.float64] | None = None,
-        threads: int | None = None,
-    ) -> NDArray[np.float64]:
-        """The exact error of an observable, without cancellation; or its value with errors.
+        language: Literal["rust", "c", "latex", "numpy", "javascript"],
+        observables: str | Iterable[str] | None = None,
+    ) -> dict[str, str]:
+        """Evaluators in another language, as ``trueaxis generate`` writes them: functions for the value, the exact error, the
+        first-order error and both Jacobians, for one pose and (Rust and C) for arrays of poses; rad and m.
 
-        :param readings: joints and inputs by name, rad and m: contiguous arrays of float64 of one length, or numbers that hold
-            for all rows. Names that the observable does not depend on may be given too.
-        :param errors: by name or pattern, numbers in SI or texts with a unit; or the path of a file. Errors not named are zero.
+        :param observables: which; every one where none is given.
+        :returns: the text of each file by its ending: ``{"c": ..., "h": ...}``. C includes its header by the chain's name,
+            ``MobileLidar`` as ``mobile_lidar.h``.
+        """
+        return dict(self._native.generate(language, names(observables)))
+
+    def compiled(
+        self, observable: str | None = None, *, compiler: str | os.PathLike[str] | None = None
+    ) -> Compiled:
+        """The same evaluations of one observable by C that is generated, compiled and loaded now: several times as fast.
+
+        It takes some seconds, and what was loaded stays in memory until the process ends: compile once. Linux and macOS.
+
         :param observable: which, where the chain declares several.
-        :param quantity: what the errors add to the observable, or the observable with its errors.
-        :param out: a contiguous array of float64 for the result, which is then not allocated.
-        :param threads: how many at most; as many as there are processors where none is given. No bit depends on it.
-        :returns: an array of shape ``(shown, rows)``; ``(shown,)`` where every reading is one number. Its first axis has the
-            numbers that the observable shows (:attr:`Observable.shown`): x, y, z unless the declaration names others. Directions
-            have no unit (their error is in rad, to first order); points are in m, angles in rad.
+        :param compiler: a C compiler; ``$CC`` where none is given, else the first of ``cc``, ``gcc`` and ``clang`` that there is.
+        :raises TrueaxisError: there is no compiler, or it fails; another system.
         """
-        if quantity not in ("error", "value"):
-            raise ValueError(f'quantity: write "error" or "value", not {quantity!r}')
-        return self._evaluate(f"exact {quantity}", readings, errors, observable, [], out, threads)
-
-    def first_order(
-        self,
-        readings: Readings,
-        errors: Errors = None,
-        observable: str | None = None,
-        *,
-        out: NDArray[np.float64] | None = None,
-        threads: int | None = None,
-    ) -> NDArray[np.float64]:
-        """The error of an observable to first order in the errors; arguments and result as of :meth:`exact`."""
-        return self._evaluate("first-order error", readings, errors, observable, [], out, threads)
-
-    def jacobian(
-        self,
-        readings: Readings,
-        errors: Errors = None,
-        observable: str | None = None,
-        *,
-        wrt: Iterable[str] | None = None,
-        form: Literal["first-order", "exact"] = "first-order",
-        out: NDArray[np.float64] | None = None,
-        threads: int | None = None,
-    ) -> NDArray[np.float64]:
-        """The derivatives of an observable with respect to errors. An angle off the axis has none.
-
-        :param wrt: names of errors, or of constants; every error, in order, where none is given.
-        :param form: ``"first-order"``: where every error is zero, the coefficients of :meth:`first_order`; ``"exact"``: at the
-            errors given.
-        :returns: an array of shape ``(shown, len(wrt), rows)``, or ``(shown, len(wrt))`` where every reading is one number; for
-            an angle in 1/rad times the observable's unit, for a length in 1/m times it.
-
-        Other arguments as of :meth:`exact`.
-        """
-        if form not in ("first-order", "exact"):
-            raise ValueError(f'form: write "first-order" or "exact", not {form!r}')
-        columns = self.errors if wrt is None else names(wrt)
-        return self._evaluate(f"{form} jacobian", readings, errors, observable, columns, out, threads)
-
-    def _evaluate(self, form, readings, errors, observable, wrt, out, threads):
-        columns, constants = [], []
-        for name, reading in readings.items():
-            is_number = isinstance(reading, (int, float, np.integer, np.floating)) and not isinstance(reading, bool)
-            (constants if is_number else columns).append((name, float(reading) if is_number else reading))
-        if threads is not None and threads < 1:
-            raise ValueError(f"threads: at least one is needed, not {threads}")
-        is_one = not columns
-        given = out.reshape(*out.shape, 1) if is_one and isinstance(out, np.ndarray) else out
-        result = self._native.evaluate(
-            form, observable, columns, constants, errors_text(errors), wrt, given, threads
-        )
-        if out is not None:
-            return out
-        return result[..., 0] if is_one else result
+        return Compiled(self, observable, compiler)
 
     def closed_form(self, observable: str | None = None, order: int = 1) -> ClosedForm:
         """The closed form of an observable's error, up to products of ``order`` errors (1, 2 or 3)."""

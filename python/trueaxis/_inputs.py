@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import operator
 import os
@@ -35,12 +36,20 @@ class Found(dict[str, float]):
 
 def amount(what: str, value: Any) -> str:
     """An amount as TOML has it."""
+    # Most are, and calls over few rows wait for nothing else.
+    if type(value) is float:
+        return repr(value)
     if isinstance(value, str):
-        # JSON's texts are TOML's, but for this one letter.
-        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+        return _quoted(value)
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
         raise TypeError(f'{what}: write a number in SI or a text with a unit, such as "2 arcsec", not {value!r}')
     return repr(float(value))
+
+
+@functools.lru_cache(maxsize=1024)
+def _quoted(text: str) -> str:
+    # JSON's texts are TOML's, but for this one letter.
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def errors_text(errors: Errors) -> tuple[str, str]:
@@ -48,7 +57,7 @@ def errors_text(errors: Errors) -> tuple[str, str]:
     if errors is None:
         return "errors", ""
     if isinstance(errors, Mapping):
-        lines = [f"{amount('a name', str(name))} = {amount(str(name), value)}\n" for name, value in errors.items()]
+        lines = [f"{_quoted(str(name))} = {amount(str(name), value)}\n" for name, value in errors.items()]
         return "errors", "".join(lines)
     if isinstance(errors, (str, os.PathLike)):
         return os.fspath(errors), _native.read_text(os.fspath(errors))

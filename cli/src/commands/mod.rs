@@ -8,7 +8,7 @@ pub mod check;
 mod completions;
 pub mod derive;
 mod eval;
-mod generate;
+pub mod generate;
 pub mod identify;
 mod init;
 mod manual;

@@ -17,13 +17,13 @@ mod unit;
 use std::collections::BTreeSet;
 
 use model_core::readings::Measures;
-use model_core::{Chain, SymbolId, SymbolKind};
+use model_core::{Chain, Observable, SymbolId, SymbolKind};
 
 pub use error::GenerateError;
 pub use names::snake_case;
 pub use unit::{Precision, Unit, form_name};
 
-use crate::program::Op;
+use crate::program::{Form, Op};
 use unit::Shared;
 
 /// The languages that can be written.
@@ -80,6 +80,66 @@ pub struct File {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn generate(unit: &Unit<'_>, language: Language, file_name: &str) -> Result<Vec<File>, GenerateError> {
+    let shared = checked(unit, language, file_name)?;
+    Ok(match language {
+        Language::Rust => vec![file("rs", rust::write(&shared))],
+        Language::C => {
+            let (header, source) = c::write(&shared, file_name);
+            vec![file("c", source), file("h", header)]
+        }
+        Language::Latex => vec![file("tex", latex::write(&shared))],
+        Language::Numpy => vec![file("py", numpy::write(&shared))],
+        Language::Javascript => vec![file("js", javascript::write(&shared))],
+    })
+}
+
+/// C for a program that compiles it and loads it while it runs.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Loadable {
+    /// The file to compile, which includes the others, by their endings; then the others.
+    pub files: Vec<File>,
+    /// The joints and inputs whose columns an entry takes, in order. Errors are all of the chain's, in order.
+    pub pose: Vec<SymbolId>,
+    /// The name of each form's entry:
+    ///
+    /// ```c
+    /// void entry(const double *errors, const double *const *pose, const size_t *steps, size_t rows, size_t start, size_t end,
+    ///            const size_t *columns, size_t count, double *out);
+    /// ```
+    ///
+    /// It does the rows from `start` to before `end` of all `rows`; `start` is a multiple of 64, so that no bit depends on how
+    /// rows are shared out. Column `i` is read at `pose[i][steps[i] * row]`: steps are 1, or 0 for a number that holds for all rows
+    /// and stands [`Loadable::REPEATED`] times at `pose[i]`. `out` holds all rows of the first number that comes out, then
+    /// of the next. A Jacobian puts out the `count` errors with the numbers `columns`, component by component.
+    pub entries: Vec<(Form, String)>,
+}
+
+impl Loadable {
+    /// How many times a number that holds for all rows must stand in memory.
+    pub const REPEATED: usize = c::REPEATED;
+}
+
+/// Writes a unit in C, with an entry for each form that takes errors, columns and results by their places. No error may have
+/// a value in the unit: there would be no place for it.
+///
+/// # Errors
+/// As [`generate`].
+pub fn generate_loadable(unit: &Unit<'_>, file_name: &str) -> Result<Loadable, GenerateError> {
+    let shared = checked(unit, Language::C, file_name)?;
+    let (header, source, entries) = c::write_with_entries(&shared, file_name);
+    Ok(Loadable {
+        files: vec![file("entries.c", entries.source), file("c", source), file("h", header)],
+        pose: shared.pose_symbols().collect(),
+        entries: entries.called,
+    })
+}
+
+fn file(extension: &'static str, text: String) -> File {
+    File { extension, text }
+}
+
+/// The functions of a unit that can be written.
+fn checked<'a>(unit: &'a Unit<'a>, language: Language, file_name: &str) -> Result<Shared<'a>, GenerateError> {
     check(unit, language, file_name)?;
     let shared = Shared::new(unit);
     if shared.functions.is_empty() {
@@ -94,17 +154,7 @@ pub fn generate(unit: &Unit<'_>, language: Language, file_name: &str) -> Result<
             return Err(GenerateError::NotFinite { form: function.form });
         }
     }
-    let file = |extension, text| File { extension, text };
-    Ok(match language {
-        Language::Rust => vec![file("rs", rust::write(&shared))],
-        Language::C => {
-            let (header, source) = c::write(&shared, file_name);
-            vec![file("c", source), file("h", header)]
-        }
-        Language::Latex => vec![file("tex", latex::write(&shared))],
-        Language::Numpy => vec![file("py", numpy::write(&shared))],
-        Language::Javascript => vec![file("js", javascript::write(&shared))],
-    })
+    Ok(shared)
 }
 
 /// Whether a number can be written.
@@ -137,10 +187,7 @@ fn check(unit: &Unit<'_>, language: Language, file_name: &str) -> Result<(), Gen
         if unit.precision == Precision::Single && !observable.has_components_only() {
             return Err(GenerateError::SingleReading { name: name() });
         }
-        let is_off_axis = observable.shown.iter().any(|reading| reading.measures == Measures::OffAxis);
-        if let Some(&form) = unit.forms.iter().find(|form| is_off_axis && form.is_jacobian()) {
-            return Err(GenerateError::NoDerivative { name: name(), form });
-        }
+        unit.forms.iter().try_for_each(|&form| derivable(observable, form))?;
     }
     let mut seen = BTreeSet::new();
     for &(id, value) in unit.values {
@@ -163,6 +210,18 @@ fn check(unit: &Unit<'_>, language: Language, file_name: &str) -> Result<(), Gen
     let is_safe = |c: char| c.is_alphanumeric() || "_-.+ ".contains(c);
     if language == Language::C && !file_name.chars().all(is_safe) {
         return Err(GenerateError::FileName { name: file_name.to_owned() });
+    }
+    Ok(())
+}
+
+/// Whether an observable has a form: no angle off an axis has derivatives where there are no errors.
+///
+/// # Errors
+/// [`GenerateError::NoDerivative`] where it has not.
+pub fn derivable(observable: &Observable, form: Form) -> Result<(), GenerateError> {
+    let is_off_axis = observable.shown.iter().any(|reading| reading.measures == Measures::OffAxis);
+    if is_off_axis && form.is_jacobian() {
+        return Err(GenerateError::NoDerivative { name: observable.name.clone(), form });
     }
     Ok(())
 }

@@ -4,10 +4,12 @@
 //! of the interpreter wherever products and sums are not fused.
 
 mod code;
+mod entries;
 mod rows;
 mod words;
 
 use self::code::{C, real};
+pub(crate) use self::entries::REPEATED;
 use self::words::RULES;
 use super::comments;
 use super::names::{Names, snake_case};
@@ -26,8 +28,23 @@ same bits on every processor, and never with -ffast-math.
 /// The header and the source that includes it as `<file name>.h`.
 pub(crate) fn write(shared: &Shared<'_>, file_name: &str) -> (String, String) {
     let names = Names::new(shared.unit.chain, RULES);
-    let file = File { shared, names: &names, prefix: RULES.letters(&snake_case(&shared.unit.chain.name)) };
+    let file = File::new(shared, &names);
     (file.header(), file.source(file_name))
+}
+
+/// The header and the source, and a third file that includes them and has an entry for each form, with its name.
+pub(crate) fn write_with_entries(shared: &Shared<'_>, file_name: &str) -> (String, String, Entries) {
+    let names = Names::new(shared.unit.chain, RULES);
+    let file = File::new(shared, &names);
+    let called = shared.functions.iter().map(|function| (function.form, entries::name(&file, function)));
+    let entries = Entries { source: entries::source(&file, file_name), called: called.collect() };
+    (file.header(), file.source(file_name), entries)
+}
+
+/// Entries of a file: their text, and what each form's is called.
+pub(crate) struct Entries {
+    pub(crate) source: String,
+    pub(crate) called: Vec<(Form, String)>,
 }
 
 /// One pair of files.
@@ -36,6 +53,12 @@ struct File<'a> {
     names: &'a Names,
     /// What every public name begins with.
     prefix: String,
+}
+
+impl<'a> File<'a> {
+    fn new(shared: &'a Shared<'a>, names: &'a Names) -> Self {
+        Self { shared, names, prefix: RULES.letters(&snake_case(&shared.unit.chain.name)) }
+    }
 }
 
 impl File<'_> {

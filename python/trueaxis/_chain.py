@@ -197,7 +197,7 @@ class Chain(OverArrays):
     def compiled(
         self, observable: str | None = None, *, compiler: str | os.PathLike[str] | None = None
     ) -> Compiled:
-        """The same evaluations of one observable by C that is generated, compiled and loaded now: several times as fast.
+        """The same evaluations of one observable by C that is generated, compiled and loaded now: about three times as fast.
 
         It takes some seconds, and what was loaded stays in memory until the process ends: compile once. Linux and macOS.
 

@@ -28,14 +28,14 @@ same bits on every processor, and never with -ffast-math.
 /// The header and the source that includes it as `<file name>.h`.
 pub(crate) fn write(shared: &Shared<'_>, file_name: &str) -> (String, String) {
     let names = Names::new(shared.unit.chain, RULES);
-    let file = File::new(shared, &names);
+    let file = pair(shared, &names);
     (file.header(), file.source(file_name))
 }
 
 /// The header and the source, and a third file that includes them and has an entry for each form, with its name.
 pub(crate) fn write_with_entries(shared: &Shared<'_>, file_name: &str) -> (String, String, Entries) {
     let names = Names::new(shared.unit.chain, RULES);
-    let file = File::new(shared, &names);
+    let file = pair(shared, &names);
     let called = shared.functions.iter().map(|function| (function.form, entries::name(&file, function)));
     let entries = Entries { source: entries::source(&file, file_name), called: called.collect() };
     (file.header(), file.source(file_name), entries)
@@ -55,10 +55,8 @@ struct File<'a> {
     prefix: String,
 }
 
-impl<'a> File<'a> {
-    fn new(shared: &'a Shared<'a>, names: &'a Names) -> Self {
-        Self { shared, names, prefix: RULES.letters(&snake_case(&shared.unit.chain.name)) }
-    }
+fn pair<'a>(shared: &'a Shared<'a>, names: &'a Names) -> File<'a> {
+    File { shared, names, prefix: RULES.letters(&snake_case(&shared.unit.chain.name)) }
 }
 
 impl File<'_> {

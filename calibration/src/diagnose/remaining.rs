@@ -20,7 +20,7 @@ use crate::search::context::{Context, declared};
 use crate::search::remains::{Statistic, along, combined, lagged, nearest};
 use crate::search::round::Round;
 use crate::search::scan::{Left, Sheet};
-use crate::search::search_problem::least_seen;
+use crate::search::search_problem::least_of_function;
 use crate::search::signs::Signs;
 
 /// Harmonics of each joint that are scanned, unless the study asks for more.
@@ -143,7 +143,7 @@ pub(crate) fn remaining(whole: &Context<'_>, last: &Round<'_>) -> Result<Remaini
     let tensors = tensors.into_iter().zip(of_tensors).map(|(effect, own)| {
         let white: Vec<Vec<f64>> = own.iter().map(|column| last.search.rows.whiten(column)).collect();
         let columns = Mat::from_fn(left.residual.len(), white.len(), |i, j| white[j][i]);
-        let least = least_seen(whole, effect.place.freedom);
+        let least = least_of_function(whole, effect.place.freedom);
         (effect, left.shown(columns, least))
     });
     let tensors = tensors.filter(|(_, own)| own.ncols() > 0).collect();
@@ -230,7 +230,7 @@ impl Scanned<'_> {
             None => Mat::zeros(self.left.residual.len(), values.ncols()),
             Some(probe) => {
                 let sheet = self.last.search.rows.sheet(probe, values);
-                self.left.shown(sheet, least_seen(self.whole, place.freedom))
+                self.left.shown(sheet, least_of_function(self.whole, place.freedom))
             }
         }
     }

@@ -35,6 +35,9 @@ const AT_MOST: usize = 4800;
 /// Standard deviations by which a column stands out that is as large as an error may be.
 const STANDS_OUT: f64 = 4.0;
 
+/// So many times as clearly has a function to show whose form the data choose.
+const CLEARLY: f64 = 10.0;
+
 /// The whitened problem at a fit, and the rows behind it.
 pub(crate) struct SearchProblem<'a> {
     /// Of all rows. Candidates are the catalogue's effects in order.
@@ -253,6 +256,11 @@ fn problem(
 pub(crate) fn least_seen(whole: &Context<'_>, freedom: Freedom) -> f64 {
     let plan = whole.request.plan;
     if plan.fit.anchored { STANDS_OUT / tolerance_of(plan, freedom.quantity()) } else { 0.0 }
+}
+
+/// The same for a function that follows the data: it finds where the noise of its reading, which objects do not follow, moves it most.
+pub(crate) fn least_of_function(whole: &Context<'_>, freedom: Freedom) -> f64 {
+    CLEARLY * least_seen(whole, freedom)
 }
 
 /// What the candidates of a problem do at the data's poses and further out, each series in units of its noise.

@@ -49,10 +49,11 @@ fn rows(random: &mut Random) -> String {
 fn what_carries_the_frame_is_searched_as_well() {
     let folder = Folder::new("in-the-table");
     folder.write("gantry.chain", GANTRY).write("study.toml", STUDY);
-    for seed in 1..=4 {
+    let mut more = 0;
+    for seed in 1..=6 {
         folder.write("rows.csv", rows(&mut Random::new(seed)));
         let report = calibrated(&folder, "study.toml");
-        assert_eq!(report["effects"].as_array().map(Vec::len), Some(1), "{seed}: {}", report["effects"]);
+        more += report["effects"].as_array().map_or(0, Vec::len) - 1;
         assert!(
             first_effect(&report).contains("encoder eccentricity of c"),
             "{seed}: {}",
@@ -66,5 +67,6 @@ fn what_carries_the_frame_is_searched_as_well() {
             held_out("before"),
             held_out("after")
         );
-    }
+    } // One in twenty is a false alarm.
+    assert!(more <= 1, "{more} effects more");
 }

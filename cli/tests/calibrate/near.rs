@@ -55,8 +55,9 @@ fn a_near_target_does_not_decide_by_a_noise_that_nothing_tells() {
             let [value, sigma] = error(&report, name);
             assert!((value - planted).abs() < 4.0 * sigma, "{seed}: {name} {value} ± {sigma}, not {planted}");
         }
-        // Without the near target the others would tell 55 µm: noise of 8 arc seconds, in four rows each.
+        // Without the near target the others would tell 55 µm: noise of 8 arc seconds, in four rows each. By a noise next to nothing it
+        // would tell 2 µm; the ± itself is known to a fifth.
         let [_, sigma] = error(&report, "beam_aside");
-        assert!((15e-6..60e-6).contains(&sigma), "{seed}: {sigma}");
+        assert!((15e-6..80e-6).contains(&sigma), "{seed}: {sigma}");
     }
 }

@@ -60,18 +60,22 @@ fn what_the_declaration_lacks_is_found_beside_outages_and_values_are_surer() {
     assert!(uncertainty(&with, "latency") < 0.7 * uncertainty(&without, "latency"), "{with} {without}");
 }
 
-/// What noise in the heights looks like is told together with how large it would be: it is 53 mm over all rows, and less over those
-/// that weigh most.
+/// Heights that were read with 53 mm of noise look like a function of height: that is no finding, or it is told together with how large
+/// such noise would be.
 #[test]
-fn noise_that_nobody_stated_is_told_of_readings_that_it_looks_like() {
-    for seed in 8..=10 {
+fn noise_that_nobody_stated_is_no_finding_by_itself() {
+    for seed in 8..=13 {
         let report = report(&format!("outage-silent-{seed}"), &drive(seed, &OUTAGES, 0.0), "");
+        let is_found = !report["effects"].as_array().expect("a list").is_empty();
+        let is_placed = report["remaining"]["where"]["driver"] == "up";
         let cautions = report["cautions"].as_array().expect("a list");
         let noisy = cautions.iter().find(|own| own["kind"] == "noise in readings looks like it");
-        let noisy = noisy.unwrap_or_else(|| panic!("{seed}: {}", report["cautions"]));
-        assert_eq!(noisy["reading"], "up", "{noisy}");
-        let sigma = noisy["sigma"].as_f64().expect("a number");
-        assert!((0.015..0.08).contains(&sigma), "{seed}: {sigma} m");
+        assert!(noisy.is_some() || !is_found && !is_placed, "{seed}: {report}");
+        if let Some(noisy) = noisy {
+            assert_eq!(noisy["reading"], "up", "{noisy}");
+            let sigma = noisy["sigma"].as_f64().expect("a number");
+            assert!((0.015..0.08).contains(&sigma), "{seed}: {sigma} m");
+        }
     }
 }
 

@@ -30,7 +30,7 @@ use crate::search::SearchError;
 use crate::search::columns::Columns;
 use crate::search::context::{Context, declared};
 use crate::search::round::Round;
-use crate::search::search_problem::least_seen;
+use crate::search::search_problem::least_of_function;
 
 /// Penalised log-likelihood by which a function must beat what the catalogue made of it: six units of Schwarz's criterion.
 const BETTER: f64 = 3.0;
@@ -201,7 +201,7 @@ impl Library<'_, '_> {
             None => Mat::zeros(self.left.residual.len(), values.ncols()),
             Some(probe) => {
                 let sheet = self.last.search.rows.sheet(probe, values);
-                self.left.shown(sheet, least_seen(self.whole, place.freedom))
+                self.left.shown(sheet, least_of_function(self.whole, place.freedom))
             }
         }
     }

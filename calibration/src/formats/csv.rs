@@ -345,23 +345,6 @@ mod tests {
         }
     }
 
-    /// Across parts that are read on several processors, too.
-    #[test]
-    fn both_decimal_marks_in_one_file_are_refused_at_the_first_of_the_other() {
-        let many = |number: &str| format!("{number}\tMars\n").repeat(PART);
-        for (first, other) in [("987.5", "1,234"), ("1,234", "987.5")] {
-            let text = format!("az\tname\n{}{}", many(first), many(other));
-            let message = read(text.as_bytes()).map_err(|error| error.to_string());
-            let place = format!(
-                "data.csv: line {}, row {}, column `az`: `{other}` and, further up, `{first}`",
-                PART + 2,
-                PART + 1
-            );
-            assert!(message.is_err_and(|why| why.starts_with(&place)));
-        }
-        assert!(read(b"az,name\n987.5,\"1,234\"\n").is_ok());
-    }
-
     #[test]
     fn rows_know_their_lines() {
         let text = "# c\naz,name\n1,Mars\n\n2,\"two\nlines\"\n3,Moon\n";

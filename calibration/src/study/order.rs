@@ -2,14 +2,14 @@
 
 use std::cmp::Ordering;
 
-/// The rows by their labels, equal ones as they stand: by number if all are numbers, by the instant if all are points in time, else
+/// The rows by their labels, equal ones as they stand: by number if all are numbers, by the moment if all are points in time, else
 /// as names are counted on (`IMG_2` before `IMG_10`).
 pub(super) fn order_of(labels: &[String]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..labels.len()).collect();
     if let Some(numbers) = numbers(labels) {
         order.sort_by(|&a, &b| numbers[a].total_cmp(&numbers[b]));
-    } else if let Some(instants) = instants(labels) {
-        order.sort_by(|&a, &b| instants[a].seconds.total_cmp(&instants[b].seconds));
+    } else if let Some(moments) = moments(labels) {
+        order.sort_by(|&a, &b| moments[a].seconds.total_cmp(&moments[b].seconds));
     } else {
         order.sort_by(|&a, &b| counted(&labels[a], &labels[b]));
     }
@@ -35,21 +35,21 @@ fn numbers(labels: &[String]) -> Option<Vec<f64>> {
 }
 
 /// A point in time.
-struct Instant {
+struct Moment {
     /// Since the year 1970 began, of what the label says of the zone.
     seconds: f64,
     has_zone: bool,
 }
 
 /// All labels as points in time by ISO 8601; none where some have a zone and others do not, which nothing can put in order.
-fn instants(labels: &[String]) -> Option<Vec<Instant>> {
-    let instants: Vec<Instant> = labels.iter().map(|label| instant(label)).collect::<Option<_>>()?;
-    let zoned = instants.iter().filter(|instant| instant.has_zone).count();
-    (zoned == 0 || zoned == instants.len()).then_some(instants)
+fn moments(labels: &[String]) -> Option<Vec<Moment>> {
+    let moments: Vec<Moment> = labels.iter().map(|label| moment(label)).collect::<Option<_>>()?;
+    let zoned = moments.iter().filter(|moment| moment.has_zone).count();
+    (zoned == 0 || zoned == moments.len()).then_some(moments)
 }
 
 /// `2026-10-25`, or with a time of day behind `T` or a blank, `02:59:30.25`, and with `Z` or `+02:00` behind that.
-fn instant(label: &str) -> Option<Instant> {
+fn moment(label: &str) -> Option<Moment> {
     let (date, clock) = match label.split_once(['T', 't', ' ']) {
         Some((date, clock)) => (date, Some(clock)),
         None => (label, None),
@@ -61,7 +61,7 @@ fn instant(label: &str) -> Option<Instant> {
         return None;
     }
     let midnight = days(year, month, day) as f64 * 86_400.0;
-    let Some(clock) = clock else { return Some(Instant { seconds: midnight, has_zone: false }) };
+    let Some(clock) = clock else { return Some(Moment { seconds: midnight, has_zone: false }) };
     let clock = clock.trim();
     let (clock, zone) = match clock.find(['Z', 'z', '+', '-']) {
         Some(at) => (clock[..at].trim_end(), Some(&clock[at..])),
@@ -78,7 +78,7 @@ fn instant(label: &str) -> Option<Instant> {
     };
     let own = f64::from(hour * 3600 + minute * 60) + second;
     let ahead = zone.map_or(Some(0), ahead_of_utc)?;
-    Some(Instant { seconds: midnight + own - f64::from(ahead), has_zone: zone.is_some() })
+    Some(Moment { seconds: midnight + own - f64::from(ahead), has_zone: zone.is_some() })
 }
 
 /// Seconds that a zone is ahead: `Z`, `+02:00`, `-0330`, `+02`.
@@ -174,7 +174,7 @@ mod tests {
     /// What Python's `datetime(…).timestamp()` says of these, in UTC.
     #[test]
     fn an_instant_is_that_of_the_calendar() {
-        let of = |label: &str| instant(label).map(|instant| instant.seconds);
+        let of = |label: &str| moment(label).map(|moment| moment.seconds);
         assert_eq!(of("1970-01-01"), Some(0.0));
         assert_eq!(of("2000-02-29T12:30:15.25Z"), Some(951_827_415.25));
         assert_eq!(of("1969-12-31T19:00:00-05:00"), Some(0.0));
@@ -217,7 +217,7 @@ mod tests {
         fn whatever_is_written_has_an_order(labels in prop::collection::vec("[0-9aé._ :TZ+-]{0,8}", 0..60)) {
             let order = order_of(&labels);
             for pair in order.windows(2) {
-                prop_assert!(counted(&labels[pair[0]], &labels[pair[1]]).is_le() || numbers(&labels).is_some() || instants(&labels).is_some());
+                prop_assert!(counted(&labels[pair[0]], &labels[pair[1]]).is_le() || numbers(&labels).is_some() || moments(&labels).is_some());
             }
         }
     }

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod amended;
+mod marks;
 
 use std::io::Read;
 

@@ -187,11 +187,13 @@ impl<'a> Left<'a> {
         sweep.entry(residual, residual)
     }
 
-    /// A sheet's columns without those of which the known ones leave less than that length: they show nothing.
+    /// A sheet's columns without those of which the declared ones, which are orthonormal, leave less than that length: they show nothing.
+    /// What accepted effects take of them they may as well take of those effects.
     #[must_use]
     pub fn shown(&self, mut columns: Mat<f64>, least: f64) -> Mat<f64> {
         if least > 0.0 {
-            let left = &columns - &self.basis * (self.basis.transpose() * &columns);
+            let declared = self.known.subcols(0, self.declared);
+            let left = &columns - declared * (declared.transpose() * &columns);
             let unseen = (0..columns.ncols()).filter(|&j| left.col(j).norm_l2() < least);
             unseen.for_each(|j| columns.col_as_slice_mut(j).fill(0.0));
         }

@@ -99,15 +99,17 @@ fn of_components<I: Iterator<Item = (f64, f64)>>(
         fitted.into_iter().map(factor).collect::<Vec<f64>>()
     });
     let mut factors = factors.collect::<Vec<Vec<f64>>>().concat();
-    let least = surest(&factors, &rows);
-    factors.iter_mut().for_each(|factor| *factor = factor.max(least));
+    if chosen.iter().any(|&number| matches!(sources[number], Source::Range(..))) {
+        let least = surest(&factors, &rows);
+        factors.iter_mut().for_each(|factor| *factor = factor.max(least));
+    }
     let of_source = |number: usize| {
         sources[number].terms().into_iter().zip(coefficients[model.of_source(number)].iter().copied())
     };
     Some((VarianceModel { of, terms: chosen.into_iter().flat_map(of_source).collect() }, factors))
 }
 
-/// The factor that no row goes below: that of the surest rows together whose residuals tell what their noise is. What a model says of
+/// The factor that no row goes below where noise grows with a range: that of the surest rows together whose residuals tell what their noise is. What a model says of
 /// the few rows beyond is extrapolated; a target half a metre away would decide, and its noise would be taken for next to nothing.
 fn surest(factors: &[f64], rows: &[[f64; 2]]) -> f64 {
     let counted = factors.iter().zip(rows).filter(|(_, [count, _])| *count > 0.0);

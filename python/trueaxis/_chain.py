@@ -7,6 +7,8 @@ from collections.abc import Iterable, Mapping
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
+import numpy as np
+
 from . import _native
 from ._answers import Answer
 from ._compiled import Compiled

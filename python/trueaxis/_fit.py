@@ -130,11 +130,13 @@ def fit(
     declaration = None if chain is None else (chain._native.origin, chain.text)
     texts = (os.fspath(study), text)
     with workers(client) as each:
-        # Files of separated values are read where the fit is; of both kinds together those say where it begins.
-        if separated := [file for file in files if kind_of(file) != ".parquet"]:
-            fitting = _native.Fitting.of_files(texts, declaration, separated, _START_ROWS)
+        # Files of separated values are read where the fit is; of both kinds together Parquet files say where it begins, if they can.
+        separated = [file for file in files if kind_of(file) != ".parquet"]
+        rows_of = counted(each, [file for file in files if file not in separated])
+        if rows_of or not separated:
+            fitting = _started(each, texts, declaration, rows_of)
         else:
-            fitting = _started(each, texts, declaration, files)
+            fitting = _native.Fitting.of_files(texts, declaration, separated, _START_ROWS)
         found = of_files(fitting, files, each, progress)
     if found.converged and found.rows_kept < _MOST * found.rows:
         warn(
@@ -169,9 +171,12 @@ def of_table(fitting: _native.Fitting, rows: tuple[str, Columns]) -> Fit:
     return Fit(json.loads(fitting.found()))
 
 
-def _started(each: Each, texts: tuple[str, str | None], declaration: tuple[str, str] | None, files: list[str]) -> _native.Fitting:
+def _started(
+    each: Each, texts: tuple[str, str | None], declaration: tuple[str, str] | None, rows_of: dict[str, int]
+) -> _native.Fitting:
     """A fit from rows of all files: where it begins, no file says more than another."""
-    rows_of = counted(each, files)
+    if not rows_of:
+        raise TrueaxisError("there are no rows in any file")
     stretches = _native.stretches(list(rows_of.values()), _START_ROWS, 1)
     sample, unusable = rows_drawn(each, list(rows_of), stretches)
     try:

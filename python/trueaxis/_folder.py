@@ -12,7 +12,7 @@ import numpy as np
 from . import _native
 from ._calibration import Calibration
 from ._chain import Chain
-from ._drawn import Stretch, counted, explained, rows_drawn
+from ._drawn import counted, explained, rows_drawn
 from ._errors import MistakeError, TrueaxisError
 from ._files import batches, files_of, place_of
 from ._fit import of_files, of_table
@@ -46,6 +46,8 @@ def calibrate_folder(
         raise TrueaxisError(f"the files of a folder stand for the one table that a study names; this one names {listed}")
     with workers(client) as each:
         rows_of = counted(each, files)
+        if not rows_of:
+            raise TrueaxisError("there are no rows in any file")
         rows, files = sum(rows_of.values()), list(rows_of)
         stretches = _native.stretches(list(rows_of.values()), search_rows, seed)
         drawn = sum(end - start for own in stretches for start, end in own)

@@ -1,5 +1,6 @@
 """Paths and declarations that several tests use."""
 
+import threading
 from pathlib import Path
 
 import pytest
@@ -25,6 +26,25 @@ chain Mount {
     observe pointing: direction(0, 1, 0) of telescope;
 }
 """
+
+
+def counted_while(work):
+    """How far another thread counts while some work is done. With the interpreter's lock held it would stand still but for the few
+    steps before and after."""
+    counted, done = [0], threading.Event()
+
+    def count():
+        while not done.is_set():
+            counted[0] += 1
+
+    counter = threading.Thread(target=count)
+    counter.start()
+    before = counted[0]
+    work()
+    after = counted[0]
+    done.set()
+    counter.join()
+    return after - before
 
 
 @pytest.fixture

@@ -12,7 +12,7 @@ import pytest
 import trueaxis
 from trueaxis import _compiler
 
-from conftest import EXAMPLES, MOUNT
+from conftest import EXAMPLES, MOUNT, counted_while
 
 ERRORS = {"tilt_x": 3e-4, "azimuth_index": 5e-4, "nonperpendicularity": "80 arcsec", "collimation": 1e-3}
 TESTED = EXAMPLES.parent / "codegen" / "tests" / "chains"
@@ -189,20 +189,7 @@ def test_several_callers_at_once(chain, compiled):
 
 def test_the_interpreter_goes_on_meanwhile(chain, compiled):
     readings = readings_of(chain, 3_000_000)
-    counted, done = [0], threading.Event()
-
-    def count():
-        while not done.is_set():
-            counted[0] += 1
-
-    counter = threading.Thread(target=count)
-    counter.start()
-    before = counted[0]
-    compiled.jacobian(readings, ERRORS, form="exact", threads=1)
-    after = counted[0]
-    done.set()
-    counter.join()
-    assert after - before > 1000
+    assert counted_while(lambda: compiled.jacobian(readings, ERRORS, form="exact", threads=1)) > 1000
 
 
 @pytest.mark.parametrize(

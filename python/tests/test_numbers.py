@@ -4,6 +4,7 @@ import threading
 
 import numpy as np
 import pytest
+from conftest import counted_while
 
 import trueaxis
 
@@ -189,21 +190,7 @@ def test_threads_change_no_bit(scanner):
 def test_the_interpreter_goes_on_meanwhile(scanner):
     """Python runs while a chain is evaluated: the lock is released."""
     readings = {name: np.linspace(0, 3, 2_000_000) for name in scanner.joints}
-    counted, done = [0], threading.Event()
-
-    def count():
-        while not done.is_set():
-            counted[0] += 1
-
-    counter = threading.Thread(target=count)
-    counter.start()
-    before = counted[0]
-    scanner.jacobian(readings, observable="pointing", wrt=scanner.errors[:8], threads=1)
-    after = counted[0]
-    done.set()
-    counter.join()
-    # With the lock held, the counter would stand still but for the few steps before and after.
-    assert after - before > 1000
+    assert counted_while(lambda: scanner.jacobian(readings, observable="pointing", wrt=scanner.errors[:8], threads=1)) > 1000
 
 
 def test_names_are_checked(mount, scanner):

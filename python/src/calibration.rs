@@ -8,7 +8,7 @@ use trueaxis_cli::library::{self, Calibrated, Cells, Source, Stage, Studied};
 
 use crate::chain::{Chain, Columns, as_arrays};
 use crate::errors;
-use crate::tables::Table;
+use crate::tables::{Given, Table};
 
 /// A study with the declaration that it is of, every name resolved.
 #[pyclass(frozen, module = "trueaxis._native")]
@@ -50,15 +50,12 @@ impl Study {
 #[pyclass(module = "trueaxis._native")]
 pub struct Calibration(pub(crate) Calibrated);
 
-/// Tables by name, each with its columns by name.
-type NamedTables<'py> = Vec<(String, Vec<(String, Bound<'py, PyAny>)>)>;
-
 /// Calibrates; takes the study up. `progress` is called with what is being done.
 #[pyfunction]
 pub fn calibrate(
     py: Python<'_>,
     study: &Study,
-    tables: NamedTables<'_>,
+    tables: Vec<(String, Given<'_>)>,
     command: String,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Calibration> {

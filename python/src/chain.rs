@@ -13,7 +13,7 @@ use trueaxis_cli::library::{self, Exactness, Failure, Quantity, Source, Told};
 
 use crate::compiled::{Asked, Call, FORMS, Loadable};
 use crate::formula::ClosedForm;
-use crate::tables::Table;
+use crate::tables::{Given, Table};
 use crate::{arrays, errors, forked, rows};
 
 /// Names of columns and the columns, as Python gets them.
@@ -234,7 +234,7 @@ impl Chain {
         py: Python<'py>,
         form: &str,
         observable: Option<&str>,
-        readings: Vec<(String, Bound<'py, PyAny>)>,
+        readings: Given<'py>,
         constants: Vec<(String, f64)>,
         errors: Text,
         wrt: Option<Vec<String>>,
@@ -403,7 +403,7 @@ impl Chain {
     fn over_table(
         &self,
         py: Python<'_>,
-        table: (String, Vec<(String, Bound<'_, PyAny>)>),
+        table: (String, Given<'_>),
         values: Text,
         observables: Vec<String>,
         is_exact: bool,

@@ -9,13 +9,13 @@ use trueaxis_cli::library::{self, Foretold, Rows, Source, Streaming, Studied, Va
 
 use crate::calibration::Calibration;
 use crate::errors;
-use crate::tables::Table;
+use crate::tables::{Given, Table};
 
 /// A text with the name that mistakes in it are shown with: `(name, text)`.
 type Text = (String, String);
 
 /// A table in memory, or the path of a file: `(name, columns or none)`.
-type Given<'py> = (String, Option<Vec<(String, Bound<'py, PyAny>)>>);
+type Sample<'py> = (String, Option<Given<'py>>);
 
 fn source((name, text): Text) -> Source {
     Source::of_text(name, &text)
@@ -24,7 +24,7 @@ fn source((name, text): Text) -> Source {
 /// Does something with rows that were given, without the interpreter's lock.
 fn with_rows<T: Send>(
     py: Python<'_>,
-    (name, columns): Given<'_>,
+    (name, columns): Sample<'_>,
     work: impl FnOnce(Rows<'_>) -> Result<T, library::Failure> + Send,
 ) -> PyResult<T> {
     let table = columns.map(Table::of).transpose()?;
@@ -85,7 +85,7 @@ impl Fitting {
         py: Python<'_>,
         study: (PathBuf, Option<String>),
         chain: Option<Text>,
-        sample: Given<'_>,
+        sample: Sample<'_>,
     ) -> PyResult<Self> {
         let studied = studied(py, study, chain)?;
         let own = studied.clone();
@@ -177,7 +177,7 @@ pub fn validate(
     study: Text,
     before: (Text, Text),
     after: (Text, Text),
-    rows: (String, Vec<(String, Bound<'_, PyAny>)>),
+    rows: (String, Given<'_>),
     floor: Vec<f64>,
 ) -> PyResult<(u64, u64, [f64; 2], [f64; 2])> {
     let (name, columns) = rows;
@@ -206,7 +206,7 @@ pub fn accumulate<'py>(
     py: Python<'py>,
     study: Text,
     chain: Text,
-    rows: Given<'py>,
+    rows: Sample<'py>,
     pass: Vec<u8>,
 ) -> PyResult<Option<Bound<'py, PyBytes>>> {
     let studied = errors::run(py, || Studied::of(source(study), source(chain)))?;

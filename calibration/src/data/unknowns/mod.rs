@@ -81,6 +81,16 @@ pub enum Freedom {
     },
 }
 
+impl Freedom {
+    /// The standard uncertainty that is stated of a number of a station, m for a shift and rad for a turn; none where nothing is.
+    pub(crate) fn of_station(self, number: usize) -> Option<f64> {
+        match self {
+            Self::Within { shift_m, turn_rad } => Some(if number < 3 { shift_m } else { turn_rad }),
+            Self::Free | Self::Given => None,
+        }
+    }
+}
+
 /// How the place came about that the numbers of an object or station count from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Known {

@@ -407,14 +407,13 @@ fn held(layout: &Layout<'_>, whole: &mut Partial, objective: &mut f64) -> Vec<bo
     for (station, &start) in layout.unknowns.stations.iter().zip(&layout.first_of_station) {
         for number in 0..station.numbers() {
             let at = start + number;
-            match station.freedom {
-                Freedom::Within { shift_m, turn_rad } => {
-                    let sigma = if number < 3 { shift_m } else { turn_rad };
+            match station.freedom.of_station(number) {
+                Some(sigma) => {
                     columns[at][at] = 1.0 / sigma;
                     columns[last][at] = -layout.state[at] / sigma;
                     *objective += (layout.state[at] / sigma).powi(2);
                 }
-                Freedom::Free | Freedom::Given => {
+                None => {
                     let length = whole.length(at);
                     columns[at][at] = HOLD * if length > 0.0 { length } else { 1.0 };
                     free[at] = true;

@@ -23,9 +23,8 @@ impl Stated {
             }
         }
         for (number, station) in (0..).zip(&unknowns.stations) {
-            if let Freedom::Within { shift_m, turn_rad } = station.freedom {
-                for place in 0..station.numbers() {
-                    let sigma = if place < 3 { shift_m } else { turn_rad };
+            for place in 0..station.numbers() {
+                if let Some(sigma) = station.freedom.of_station(place) {
                     stated.push(None, number, OF_OBJECT + place, sigma);
                 }
             }

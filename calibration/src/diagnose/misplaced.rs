@@ -34,10 +34,11 @@ pub(super) fn misplaced(observations: &Observations, fit: &FitResult) -> Vec<Mis
     let state = &fit.values[fit.values.len() - unknowns.numbers()..];
     let mut found = Vec::new();
     let mut numbers = 0;
-    let mut judge = |what, label: &str, own: &[f64], sigma: [f64; 2]| {
-        numbers += own.len();
+    // The shift comes first, whatever turns are behind it.
+    let mut judge = |what, label: &str, own: &[f64], stated: &[f64]| {
+        numbers += stated.len();
         let shift = &own[..own.len().min(3)];
-        let in_sigmas = own.iter().enumerate().map(|(at, value)| value.abs() / sigma[usize::from(at >= 3)]);
+        let in_sigmas = own.iter().zip(stated).map(|(value, sigma)| value.abs() / sigma);
         found.push(Misplaced {
             what,
             label: label.to_owned(),
@@ -46,15 +47,17 @@ pub(super) fn misplaced(observations: &Observations, fit: &FitResult) -> Vec<Mis
         });
     };
     for (station, start) in unknowns.stations.iter().zip(unknowns.first_of_stations()) {
-        if let Freedom::Within { shift_m, turn_rad } = station.freedom {
-            let own: [f64; 6] = own_numbers(state, start, station.numbers());
-            judge(Uneven::Station, &station.label, &own, [shift_m, turn_rad]);
+        let numbers = station.numbers();
+        let stated: Vec<f64> = (0..numbers).filter_map(|at| station.freedom.of_station(at)).collect();
+        if !stated.is_empty() {
+            let own: [f64; 6] = own_numbers(state, start, numbers);
+            judge(Uneven::Station, &station.label, &own, &stated);
         }
     }
     for (object, start) in unknowns.objects.iter().zip(unknowns.first_of_objects()) {
         if let Freedom::Within { shift_m, .. } = object.freedom {
             let own: [f64; 3] = own_numbers(state, start, object.numbers().min(3));
-            judge(Uneven::of(object.shape), &object.label, &own, [shift_m; 2]);
+            judge(Uneven::of(object.shape), &object.label, &own, &[shift_m; 3]);
         }
     }
     let chance = |sigmas: f64| 2.0 * Normal::standard().sf(sigmas) * numbers as f64;

@@ -12,6 +12,14 @@ fn with_comma(text: &str, separator: u8) -> Option<f64> {
     if decimal_comma { text.replacen(',', ".", 1).parse().ok() } else { None }
 }
 
+/// All of some cells as numbers, with one decimal mark among them; none where one is no number, or where both marks stand. What
+/// separated the cells is gone from them, so that a comma in one separates nothing.
+pub(crate) fn numbers(cells: &[String]) -> Option<Vec<f64>> {
+    const NO_COMMA: u8 = b'\n';
+    let mut marks = Marks::default();
+    cells.iter().map(|cell| marks.read(cell, NO_COMMA)?.ok()).collect()
+}
+
 /// The first number with each mark. A file with both has commas between thousands, and which are which is not for us to guess.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Marks {

@@ -2,6 +2,8 @@
 
 use std::cmp::Ordering;
 
+use crate::formats::numbers;
+
 /// The rows by their labels, equal ones as they stand: by number if all are numbers, by the moment if all are points in time, else
 /// as names are counted on (`IMG_2` before `IMG_10`).
 pub(super) fn order_of(labels: &[String]) -> Vec<usize> {
@@ -14,24 +16,6 @@ pub(super) fn order_of(labels: &[String]) -> Vec<usize> {
         order.sort_by(|&a, &b| counted(&labels[a], &labels[b]));
     }
     order
-}
-
-/// Whether a label says of no row when it was taken.
-pub(super) fn says_nothing(label: &str) -> bool {
-    label.is_empty() || label.eq_ignore_ascii_case("nat") || label.parse().is_ok_and(f64::is_nan)
-}
-
-/// All labels as numbers, with a decimal point or, where no label has one, a decimal comma.
-fn numbers(labels: &[String]) -> Option<Vec<f64>> {
-    let with_points: Option<Vec<f64>> = labels.iter().map(|label| label.parse().ok()).collect();
-    with_points.or_else(|| {
-        let with_comma = |label: &String| label.replacen(',', ".", 1).parse().ok();
-        if labels.iter().any(|label| label.contains('.')) {
-            None
-        } else {
-            labels.iter().map(with_comma).collect()
-        }
-    })
 }
 
 /// A point in time.
@@ -153,6 +137,8 @@ mod tests {
     fn numbers_go_by_their_size_with_a_point_or_a_comma() {
         assert_eq!(ordered(&["10", "9", "-1e3", "9.5"]), ["-1e3", "9", "9.5", "10"]);
         assert_eq!(ordered(&["10,5", "9", "0,25"]), ["0,25", "9", "10,5"]);
+        // Of both marks nobody knows which parts thousands.
+        assert_eq!(ordered(&["1,234", "10.5", "9"]), ["1,234", "9", "10.5"]);
     }
 
     #[test]
@@ -201,14 +187,6 @@ mod tests {
             ordered(&["run 2 row 11", "run 10 row 1", "run 2 row 9"]),
             ["run 2 row 9", "run 2 row 11", "run 10 row 1"]
         );
-    }
-
-    #[test]
-    fn what_says_nothing_is_known() {
-        for label in ["", "NaN", "nan", "NaT"] {
-            assert!(says_nothing(label), "{label}");
-        }
-        assert!(!says_nothing("0") && !says_nothing("natural"));
     }
 
     proptest! {

@@ -1,7 +1,8 @@
 //! The rows of one source on their way from its files.
 
 use super::columns::Columns;
-use super::order::{order_of, says_nothing};
+use super::labels::says_nothing;
+use super::order::order_of;
 use super::plan::{Plan, SourcePlan};
 use crate::data::units::BareColumn;
 use crate::data::{Numbers, Places};

@@ -168,6 +168,15 @@ pub enum DataError {
         /// Where.
         cell: Cell,
     },
+    /// A cell that says with which rows its row belongs together, without anything in it.
+    #[error(
+        "{cell}: the cell is empty, and rows without a label are no group of their own: fill in which group this row belongs to, or leave \
+         the row out"
+    )]
+    NoGroup {
+        /// Where.
+        cell: Cell,
+    },
     /// A cell that says when its row was taken, without anything in it.
     #[error(
         "{cell}: the cell is empty, and nothing says where in the order its row belongs: fill it in, or leave the row out"

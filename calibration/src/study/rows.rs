@@ -76,14 +76,19 @@ impl Rows {
                     Cells::Labels(values) => {
                         let Some((column, name)) = labels.next() else { continue };
                         let says_what = source.object.contains(name) || source.station.contains(name);
+                        let says_with_whom =
+                            plan.group.contains(name) || plan.hold_out.together.contains(name);
                         for (at, label) in values.iter().map(|label| label.trim().to_owned()).enumerate() {
                             let cell = || {
                                 let (file, column) = (reader.source().to_owned(), name.clone());
                                 let (line, row) = (chunk.lines.get(at).copied(), chunk.rows[at]);
                                 Cell { file, line, row, column }
                             };
-                            if says_what && label.is_empty() {
+                            if says_what && says_nothing(&label) {
                                 return Err(DataError::NoLabel { cell: cell() });
+                            }
+                            if says_with_whom && says_nothing(&label) {
+                                return Err(DataError::NoGroup { cell: cell() });
                             }
                             if plan.order.as_ref() == Some(name) && says_nothing(&label) {
                                 return Err(DataError::NoOrder { cell: cell() });

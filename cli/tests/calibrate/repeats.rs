@@ -120,6 +120,26 @@ fn a_known_target_is_no_hindrance() {
 }
 
 /// The same errors, apart by no more than this share of their ±.
+/// A row without a label of its group is of no group: such rows together are none either.
+#[test]
+fn a_row_says_to_which_group_it_belongs() {
+    let (folder, lines) = targets("repeats-groups");
+    let study = folder.read(STUDY);
+    for (cell, key) in [("", "[noise]\ngroup"), ("NaN", "[noise]\ngroup"), ("", "[hold_out]\ntogether")] {
+        let rows = lines.iter().enumerate().map(|(at, line)| match at {
+            0 => format!("{line},day\n"),
+            7 => format!("{line},{cell}\n"),
+            at => format!("{line},{}\n", at / 20),
+        });
+        folder.write(DATA, rows.collect::<String>());
+        folder.write(STUDY, format!("{study}\n{key} = \"day\"\n"));
+        let run = run_in(&folder.0, &["calibrate", STUDY], "");
+        assert_eq!(run.code, 2, "{run}");
+        let place = "targets.csv: line 8, row 7, column `day`: the cell is empty";
+        assert!(run.stderr.contains(place) && run.stderr.contains("which group"), "{run}");
+    }
+}
+
 fn agree(report: &Value, other: &Value, share: f64) {
     let errors = |report: &Value| report["errors"].as_array().cloned().expect("a list");
     assert_eq!(errors(report).len(), errors(other).len());

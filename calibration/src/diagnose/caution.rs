@@ -34,6 +34,9 @@ const MOSTLY: f64 = 0.5;
 /// Standard deviations of the found noise beyond which chance does not explain it.
 const SURE: f64 = 3.0;
 
+/// Degrees of freedom below which a fit runs through its rows, whatever their noise.
+const SOME_FREEDOM: f64 = 1.0;
+
 /// Rows out of reach make a figure over every row grow by up to so much by chance, whatever an effect does to the others.
 const FAR_ROWS: f64 = 1.02;
 
@@ -259,12 +262,19 @@ pub enum Caution {
 }
 
 /// What the noise says about what was stated of it.
+///
+/// Source: E. B. Wilson and M. M. Hilferty, "The distribution of chi-square", PNAS 17 (1931) 684: its cube root is nearly normal, of so
+/// few degrees of freedom too that no ratio, however small, is beyond chance.
 pub(super) fn of_noise(noise: &NoiseFound, degrees_of_freedom: f64) -> Option<Caution> {
     let ratio = noise.over_stated?;
-    let chance = SURE / (2.0 * degrees_of_freedom.max(1.0)).sqrt();
-    if ratio > LARGER && ratio * (1.0 - chance) > 1.0 {
+    if degrees_of_freedom < SOME_FREEDOM {
+        return None;
+    }
+    let variance = 2.0 / (9.0 * degrees_of_freedom);
+    let deviations = ((ratio * ratio).cbrt() - (1.0 - variance)) / variance.sqrt();
+    if ratio > LARGER && deviations > SURE {
         Some(Caution::NoiseExceedsStated { ratio })
-    } else if ratio < SMALLER && ratio * (1.0 + chance) < 1.0 {
+    } else if ratio < SMALLER && deviations < -SURE {
         Some(Caution::StatedTooLarge { ratio })
     } else {
         None
@@ -361,7 +371,10 @@ pub fn rounding(observations: &Observations, fit: &FitResult) -> Option<Caution>
         (rms_of(series, observations, fit), measured, series.measure.unit())
     };
     let all: Vec<(f64, f64, SiUnit)> = observations.poses.series.iter().map(of_series).collect();
-    if all.is_empty() || all.iter().any(|(rms, measured, _)| rms.is_nan() || *rms > ROUNDING * measured) {
+    if all.is_empty()
+        || fit.degrees_of_freedom < SOME_FREEDOM
+        || all.iter().any(|(rms, measured, _)| rms.is_nan() || *rms > ROUNDING * measured)
+    {
         return None;
     }
     let largest = all.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));

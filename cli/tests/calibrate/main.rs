@@ -9,6 +9,7 @@ mod cameras;
 mod circles;
 mod drift;
 mod drive;
+mod few;
 mod figures;
 mod frames;
 mod instruments;
@@ -103,6 +104,7 @@ fn the_errors_written_correct_the_measured_data() {
         "measured.csv",
         "--observable",
         "pointing",
+        "--replace",
         "--out",
         "corrected.csv",
     ];

@@ -5,7 +5,7 @@ use std::ops::Range;
 use model_core::{Chain, Quantity, SymbolKind};
 use toml::Spanned;
 
-use super::amount::si;
+use super::amount::{si, si_with_unit};
 use super::mistakes::{Gathered, Outcome, every, mistake, unknown, within};
 use super::plan::{NextPlaces, NextPoses};
 use super::written::{Kind, NextTable, Observed, Study};
@@ -61,7 +61,8 @@ impl Study {
                 let what = if of_objects { "joint or range" } else { "joint" };
                 unknown(name.span(), what, name.get_ref(), names.iter().copied())
             })?;
-            Ok((id, ends(range, chain.symbol(id).quantity)?))
+            let quantity = chain.symbol(id).quantity;
+            Ok((id, ends(range, |end| si(end, quantity, &range.span()))?))
         })));
         let places = mistakes.take(next.places(&seen));
         mistakes.none()?;
@@ -142,7 +143,8 @@ impl NextTable {
                 )));
                 continue;
             };
-            bounds[at] = mistakes.take(ends(range, BOUNDS[at].1));
+            let (name, quantity) = BOUNDS[at];
+            bounds[at] = mistakes.take(ends(range, |end| si_with_unit(name, end, quantity, &range.span())));
         }
         mistakes.none()?;
         objects.extend(asked.into_iter().flatten());
@@ -152,9 +154,9 @@ impl NextTable {
 }
 
 /// The ends of a range, SI.
-fn ends(range: &Spanned<[Amount; 2]>, quantity: Quantity) -> Outcome<Range<f64>> {
+fn ends(range: &Spanned<[Amount; 2]>, si: impl Fn(&Amount) -> Outcome<f64>) -> Outcome<Range<f64>> {
     let [low, high] = range.get_ref();
-    let (low, high) = (si(low, quantity, &range.span())?, si(high, quantity, &range.span())?);
+    let (low, high) = (si(low)?, si(high)?);
     if low > high {
         return Err(mistake(range.span(), "the range ends before it starts", "swap the two"));
     }

@@ -4,7 +4,7 @@ use model_core::{Chain, ObservableId, Quantity, SymbolId, SymbolKind};
 use nalgebra::Vector3;
 use toml::Spanned;
 
-use super::amount::si;
+use super::amount::{si, si_with_unit};
 use super::estimated::matching;
 use super::mistakes::{Outcome, every, mistake};
 use super::plan::SourcePlan;
@@ -140,13 +140,16 @@ type Placed<'a, T> = &'a Spanned<T>;
 
 fn station(label: &str, written: Placed<'_, StationTable>) -> Outcome<Station> {
     let (table, place) = (written.get_ref(), written.span());
-    let of = |amount: &Option<Amount>, quantity| {
-        amount.as_ref().map_or(Ok(0.0), |amount| si(amount, quantity, &place))
+    let of = |name: &str, amount: &Option<Amount>, quantity| {
+        amount.as_ref().map_or(Ok(0.0), |amount| si_with_unit(name, amount, quantity, &place))
     };
-    let (length, angle) = (|amount| of(amount, Quantity::Length), |amount| of(amount, Quantity::Angle));
-    let shift = Vector3::new(length(&table.x)?, length(&table.y)?, length(&table.z)?);
-    let pose = Pose::new(shift, angle(&table.roll)?, angle(&table.pitch)?, angle(&table.heading)?);
-    let sigma = (length(&table.sigma)?, angle(&table.sigma_angle)?);
+    let length = |name, amount| of(name, amount, Quantity::Length);
+    let angle = |name, amount| of(name, amount, Quantity::Angle);
+    let shift = Vector3::new(length("x", &table.x)?, length("y", &table.y)?, length("z", &table.z)?);
+    let turns = [("roll", &table.roll), ("pitch", &table.pitch), ("heading", &table.heading)];
+    let [roll, pitch, heading] = turns.map(|(name, amount)| angle(name, amount));
+    let pose = Pose::new(shift, roll?, pitch?, heading?);
+    let sigma = (length("sigma", &table.sigma)?, angle("sigma_angle", &table.sigma_angle)?);
     let freedom = match (table.rough, &table.sigma, &table.sigma_angle) {
         (true, None, None) => Freedom::Free,
         (true, ..) => {
@@ -170,8 +173,8 @@ fn station(label: &str, written: Placed<'_, StationTable>) -> Outcome<Station> {
 
 fn object(label: &str, written: Placed<'_, ObjectTable>) -> Outcome<Object> {
     let (table, place) = (written.get_ref(), written.span());
-    let length = |amount: &Amount| si(amount, Quantity::Length, &place);
-    let at = Vector3::new(length(&table.x)?, length(&table.y)?, length(&table.z)?);
+    let length = |name: &str, amount: &Amount| si_with_unit(name, amount, Quantity::Length, &place);
+    let at = Vector3::new(length("x", &table.x)?, length("y", &table.y)?, length("z", &table.z)?);
     let freedom = match (table.rough, &table.sigma) {
         (true, None) => Freedom::Free,
         (true, Some(_)) => {
@@ -180,7 +183,7 @@ fn object(label: &str, written: Placed<'_, ObjectTable>) -> Outcome<Object> {
         }
         (false, None) => Freedom::Given,
         (false, Some(sigma)) => {
-            Freedom::Within { shift_m: positive(length(sigma)?, &place)?, turn_rad: ANY_TURN_RAD }
+            Freedom::Within { shift_m: positive(length("sigma", sigma)?, &place)?, turn_rad: ANY_TURN_RAD }
         }
     };
     Ok(Object { freedom, known: Known::Yes, place: at, ..Object::unknown(label.to_owned(), Shape::Point) })

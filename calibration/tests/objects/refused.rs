@@ -90,6 +90,17 @@ fn studies_that_cannot_be_meant_are_refused() {
             good.clone() + "[objects]\nT1 = { x = \"1 m\", y = \"0 m\", z = \"0 m\", sigma = \"0 mm\" }\n",
             "is positive",
         ),
+        (
+            good.clone() + "[stations]\nA = { x = \"1 m\", heading = 0.797, rough = true }\n",
+            "write heading = \"0.797 deg\", \"0.797 gon\" or \"0.797 rad\"",
+        ),
+        (good.clone() + "[stations]\nA = { y = 4.2 }\n", "write y = \"4.2 m\" or \"4.2 mm\""),
+        (
+            good.clone() + "[stations]\nA = { sigma = \"2 mm\", sigma_angle = 20 }\n",
+            "`sigma_angle` is 20 without a unit",
+        ),
+        (good.clone() + "[objects]\nT1 = { x = 7.231, y = 0, z = 0 }\n", "`x` is 7.231 without a unit"),
+        (good.clone() + "[next]\nplace = { heading = [-90, 90] }\n", "`heading` is -90 without a unit"),
         (good.clone() + "[fit]\ntolerance = { trunnion = \"-1 mrad\" }\n", "tolerance is positive"),
         (
             good.clone() + "[next]\nobjects = { plane = 1 }\n",
@@ -108,8 +119,14 @@ fn studies_that_cannot_be_meant_are_refused() {
             good.replace("station = \"station\"\n", "") + "[next]\nstations = 1\n",
             "no row of this study names a station",
         ),
-        (good + "[fit]\ntolerance = { trunion = \"1 mrad\" }\n", "no error or constant is called `trunion`"),
+        (
+            good.clone() + "[fit]\ntolerance = { trunion = \"1 mrad\" }\n",
+            "no error or constant is called `trunion`",
+        ),
     ];
+    // Zero is zero in every unit.
+    let bare = good.clone() + "[stations]\nA = { x = 0, heading = 0.0, rough = true }\n";
+    assert!(Study::from_text(&bare).and_then(|study| study.plan(&chain)).is_ok());
     for (study, expected) in cases {
         let mistakes = match Study::from_text(&study).and_then(|study| study.plan(&chain)) {
             Err(mistakes) => mistakes.render("study", &study),

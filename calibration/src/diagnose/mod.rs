@@ -2,6 +2,7 @@
 //!
 //! English is made of it in [`crate::report`]; `report.json` is this data itself.
 
+mod at_zero;
 mod basis;
 mod by_cause;
 mod caution;
@@ -50,6 +51,7 @@ use noisy::Noisy;
 use rms::BeforeAfter;
 use verdict::Evidence;
 
+pub use at_zero::AtZero;
 pub use caution::{Caution, of_data, rounding};
 pub use detectability::NotShown;
 pub use effects::{Cause, EffectFound, Relation, Side};
@@ -90,6 +92,9 @@ pub struct Diagnosis {
     pub errors: Vec<ErrorFound>,
     /// Combinations that these data determine of errors that they do not determine one by one.
     pub estimable: Vec<Estimable>,
+    /// Errors that stand for zero of an input from which the data lie far.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub at_zero: Vec<AtZero>,
     /// Errors that these data cannot tell apart: only combinations of those in one list are determined.
     pub not_separable: Vec<Vec<String>>,
     /// How well each error is determined, and which rows carry the fit.
@@ -273,6 +278,7 @@ pub(crate) fn diagnose(
         instrument: instrument::instrument(&whole.setting, &last.chain, observations, &errors),
         errors,
         estimable: errors::estimable(whole, last, &found.by_cause),
+        at_zero: at_zero::at_zero(&whole.setting, &last.chain, observations, fit),
         not_separable: precision.not_separable.iter().map(|set| set.names.clone()).collect(),
         next_poses: next.poses,
         next_places: next.places,

@@ -2,7 +2,7 @@
 
 use super::numbers::{self, Reading};
 use crate::data::SiUnit;
-use crate::diagnose::{Diagnosis, ErrorFound, Estimable};
+use crate::diagnose::{AtZero, Diagnosis, ErrorFound, Estimable};
 
 /// A line of the table of estimates.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,6 +82,7 @@ fn notes(diagnosis: &Diagnosis) -> Vec<String> {
                 .to_owned(),
         );
     }
+    notes.extend(diagnosis.at_zero.iter().map(at_zero));
     for set in diagnosis.not_separable.iter().filter(|set| set.len() > 1) {
         let told = diagnosis
             .estimable
@@ -93,6 +94,18 @@ fn notes(diagnosis: &Diagnosis) -> Vec<String> {
     }
     notes.extend(not_shown(diagnosis));
     notes
+}
+
+/// `index is that at temperature 0; these data have 18.2 to 24.1 K`
+fn at_zero(AtZero { errors, input, from, to, unit }: &AtZero) -> String {
+    let own = numbers::reading(*unit, from.abs().max(to.abs()));
+    let are = if errors.len() == 1 { "is the value" } else { "are the values" };
+    format!(
+        "{} {are} at {input} = 0; these data have {} to {}",
+        sorted(errors).join(", "),
+        numbers::told_in(*from, &own),
+        numbers::told_in(*to, &own)
+    )
 }
 
 /// The declared errors that these data do not show, in a sentence; `None` if they show all.

@@ -3,6 +3,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod at_zero;
 mod bad_studies;
 mod by_cause;
 mod cameras;

@@ -1,0 +1,81 @@
+//! Errors that stand for zero of an input from which the data lie far: `index` beside `drift*temperature` is the index at 0 degrees.
+
+use model_core::algebra::Poly;
+use model_core::{Chain, SymbolId, SymbolKind};
+use serde::Serialize;
+
+use super::units::of_reading;
+use crate::candidate::Setting;
+use crate::data::{Observations, SiUnit};
+use crate::fit::FitResult;
+
+/// Standard deviations of an input that its mean is from zero where the data lie far from there.
+const FAR: f64 = 3.0;
+
+/// Errors whose values are those at zero of an input, and where the data lie.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct AtZero {
+    /// The errors.
+    pub errors: Vec<String>,
+    /// The input.
+    pub input: String,
+    /// The least that was read of it, in rows with weight, SI.
+    pub from: f64,
+    /// The most.
+    pub to: f64,
+    /// Its SI unit.
+    pub unit: SiUnit,
+}
+
+/// Those of a chain that was fitted, input by input.
+pub(super) fn at_zero(
+    setting: &Setting<'_>,
+    chain: &Chain,
+    observations: &Observations,
+    fit: &FitResult,
+) -> Vec<AtZero> {
+    let inputs = observations.poses.columns.iter();
+    let inputs = inputs.filter(|(id, _)| chain.symbol(*id).kind == SymbolKind::Input);
+    let of_input = |(id, values): &(SymbolId, Vec<f64>)| {
+        let counted = values.iter().zip(&fit.residuals.weight).filter(|(_, weight)| **weight > 0.0);
+        let counted: Vec<f64> = counted.map(|(value, _)| *value).collect();
+        let rows = counted.len() as f64;
+        let mean = counted.iter().sum::<f64>() / rows;
+        let variance = counted.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / rows;
+        let is_far = mean.abs() > FAR * variance.sqrt();
+        let errors = if is_far { beside(chain, fit, *id) } else { Vec::new() };
+        let from = counted.iter().copied().fold(f64::INFINITY, f64::min);
+        let to = counted.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let symbol = chain.symbol(*id);
+        let (input, unit) = (symbol.name.clone(), of_reading(setting, chain, *id));
+        (!errors.is_empty()).then_some(AtZero { errors, input, from, to, unit })
+    };
+    inputs.filter_map(of_input).collect()
+}
+
+/// The errors that the data tell apart and that move what another error times the input moves.
+fn beside(chain: &Chain, fit: &FitResult, input: SymbolId) -> Vec<String> {
+    let told = fit.parameters.iter().zip(&fit.separable);
+    let told: Vec<SymbolId> = told.filter(|(_, separable)| **separable).map(|(id, _)| *id).collect();
+    let mut names = Vec::new();
+    for body in &chain.bodies {
+        for factor in &body.factors {
+            let at_place = body.factors.iter().filter(|other| {
+                (other.role, other.kind, other.axis) == (factor.role, factor.kind, factor.axis)
+            });
+            let columns: Vec<Poly> = at_place
+                .flat_map(|other| told.iter().map(|&error| other.amount.derivative(error)))
+                .filter(|column| !column.is_zero())
+                .collect();
+            let input = Poly::symbol(input);
+            for &error in &told {
+                let own = factor.amount.derivative(error);
+                let name = &chain.symbol(error).name;
+                if !own.is_zero() && columns.contains(&(&own * &input)) && !names.contains(name) {
+                    names.push(name.clone());
+                }
+            }
+        }
+    }
+    names
+}

@@ -47,18 +47,23 @@ pub(crate) fn encoder_harmonic(setting: &Setting<'_>, joint: &JointAxis, order: 
 fn effects(setting: &Setting<'_>) -> Vec<Effect> {
     let mut effects = Vec::new();
     for joint in setting.joints() {
-        let name = setting.name(joint.symbol);
         if joint.turns() {
             effects.extend((1..=setting.harmonics).map(|order| encoder_harmonic(setting, &joint, order)));
+            effects.push(scale(FAMILY.name, setting, &joint));
         }
-        effects.push(Effect {
-            family: FAMILY.name,
-            name: format!("encoder scale of {name}"),
-            place: joint.place(),
-            functions: vec![Function::new(Poly::symbol(joint.symbol), format!("scale_{name}"))],
-            driver: name.to_owned(),
-            form: Dependence::Linear,
-        });
     }
     effects
+}
+
+/// The scale of what reads a joint.
+pub(super) fn scale(family: &'static str, setting: &Setting<'_>, joint: &JointAxis) -> Effect {
+    let name = setting.name(joint.symbol);
+    Effect {
+        family,
+        name: format!("encoder scale of {name}"),
+        place: joint.place(),
+        functions: vec![Function::new(Poly::symbol(joint.symbol), format!("scale_{name}"))],
+        driver: name.to_owned(),
+        form: Dependence::Linear,
+    }
 }

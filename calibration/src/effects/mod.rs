@@ -16,6 +16,7 @@ mod high_harmonic;
 mod index_step;
 pub(crate) mod joint_motion;
 mod latency;
+mod linear_scale;
 mod mirror;
 mod own;
 mod parallax;
@@ -53,6 +54,7 @@ pub const FAMILIES: &[Family] = &[
     high_harmonic::FAMILY,
     assembly::FAMILY,
     encoder::FAMILY,
+    linear_scale::FAMILY,
     sub_division::FAMILY,
     index_step::FAMILY,
     gravity::FAMILY,

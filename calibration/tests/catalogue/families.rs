@@ -45,7 +45,8 @@ fn every_family_has_members() {
     directions.observables.push(directions.plan.chain.find_observable("mark").unwrap());
     // Levers that change with the joints behind: an arm.
     let arm = Asked::of(ARM, "tip", "point", "");
-    let found = [points.catalogue(), directions.catalogue(), arm.catalogue()].concat();
+    let gantry = Asked::of(GANTRY, "tip", "point", "");
+    let found = [points.catalogue(), directions.catalogue(), arm.catalogue(), gantry.catalogue()].concat();
     // Shapes and high harmonics are taken up in the course of a calibration.
     let listed = |name| !["shape", "high harmonic"].contains(&name);
     for family in FAMILIES.iter().filter(|family| listed(family.name)) {
@@ -76,6 +77,24 @@ const ARM: &str = "chain Arm {
     body hand on forearm { position: Tx(0.4); position_error: Tx(dx); }
     observe tip: point(0.1, 0, 0) of hand;
 }";
+
+const GANTRY: &str = "chain Gantry {
+    body bridge on ground { motion: Tx(x); motion_error: Tx(dx); }
+    body head on bridge { motion: Rz(turn); motion_error: Rz(dturn); }
+    observe tip: point(0.1, 0, 0) of head;
+}";
+
+/// What shifts has no disc, whose second head would be on the other side.
+#[test]
+fn a_scale_of_a_joint_that_shifts_is_no_encoder_of_a_turn() {
+    let asked = Asked::of(GANTRY, "tip", "point", "");
+    let family =
+        |name: &str| asked.catalogue().into_iter().find(|effect| effect.name == name).unwrap().family;
+    assert_eq!(family("encoder scale of x"), "linear scale");
+    assert_eq!(family("encoder scale of turn"), "encoder");
+    let checks = FAMILIES.iter().find(|family| family.name == "linear scale").unwrap().check;
+    assert!(checks.contains("interferometer") && !checks.contains("disc"), "{checks}");
+}
 
 /// The lever of a weight is how far out it stands, level: by plain trigonometry. A base of unknown tilt counts as upright.
 #[test]

@@ -78,6 +78,7 @@ fn tell_panics_of_readers_as_errors() {
 pub fn main() -> ExitCode {
     #[cfg(any(feature = "parquet", feature = "point-clouds"))]
     tell_panics_of_readers_as_errors();
+    output::clean_up_when_interrupted();
     let arguments = Arguments::parse();
     if arguments.quiet {
         terminal::be_quiet();

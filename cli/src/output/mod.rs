@@ -1,15 +1,19 @@
 //! Output files: each appears whole or not at all, and those of one command together. `-` is standard output.
 
 mod folder;
+mod interrupted;
 mod partial;
 mod place;
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::PoisonError;
 
 use crate::failure::Failure;
 pub use folder::Folder;
+use interrupted::TAKING_NAMES;
+pub use interrupted::clean_up_when_interrupted;
 use partial::Partial;
 use place::Place;
 pub use place::refuse_to_replace;
@@ -138,6 +142,7 @@ impl Batch {
     /// # Errors
     /// A place cannot be written.
     pub fn finish(mut self) -> Result<(), Failure> {
+        let _whole = TAKING_NAMES.lock().unwrap_or_else(PoisonError::into_inner);
         // One file alone needs no second name for what it replaces: renaming is one step.
         let alone = self.staged.len() == 1;
         for at in 0..self.staged.len() {

@@ -1,12 +1,27 @@
 //! What is being written, under a name of its own until it is complete.
 //!
-//! The name is random and taken exclusively, and the file is locked while its writer lives: what an interrupted run left
-//! behind is told from what another run is writing, and removed.
+//! The name is random and taken exclusively, and the file is locked while its writer lives: what a run left behind that was killed is
+//! told from what another run is writing, and removed. A run that is interrupted removes its own.
 
 use std::fs::{self, File};
 use std::hash::{BuildHasher as _, RandomState};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// Where this process is writing: what an interrupted run removes.
+static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
+    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes what this process is writing, which is to end now: while the guard lives nothing is begun, and nothing takes its name.
+pub fn remove_unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
+    let unfinished = unfinished();
+    unfinished.iter().for_each(|path| remove(path));
+    unfinished
+}
 
 /// How often another name is tried when one is taken.
 const TRIES: usize = 100;
@@ -53,7 +68,9 @@ impl Partial {
     pub fn take_name(&mut self, target: &Path) -> io::Result<()> {
         // Some systems rename nothing that is open.
         self.lock = None;
+        let mut unfinished = unfinished();
         fs::rename(&self.path, target)?;
+        unfinished.retain(|path| *path != self.path);
         self.kept = true;
         Ok(())
     }
@@ -63,8 +80,11 @@ impl Partial {
         for _ in 0..TRIES {
             let path =
                 target.with_file_name(name(target, &format!("{:016x}", RandomState::new().hash_one(0))));
+            let mut unfinished = unfinished();
             match make(&path) {
                 Ok(made) => {
+                    unfinished.push(path.clone());
+                    drop(unfinished);
                     let lock = File::open(&path).ok().filter(|lock| lock.try_lock().is_ok());
                     let partial = Self { path, lock, kept: false };
                     // Another run may have taken it for left behind before it was locked.
@@ -85,6 +105,7 @@ impl Drop for Partial {
         if !self.kept {
             self.lock = None;
             remove(&self.path);
+            unfinished().retain(|path| *path != self.path);
         }
     }
 }

@@ -236,3 +236,39 @@ mod links {
         assert_eq!(folder.read("kept.csv"), "kept");
     }
 }
+
+/// Interrupted between two rows, a command leaves what it found: neither a part of its output, nor what it writes that into.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_command_leaves_nothing_behind() {
+    use std::io::Write as _;
+    use std::process::{Command, Stdio};
+    use std::time::{Duration, Instant};
+
+    for (signal, command) in [("INT", "apply"), ("TERM", "apply"), ("TERM", "eval")] {
+        let folder = shaft(&format!("interrupted_{signal}_{command}"));
+        folder.write("out.csv", "what stood there\n");
+        let before = folder.names();
+        let mut running = Command::new(env!("CARGO_BIN_EXE_trueaxis"))
+            .args([command, "shaft.chain", "--errors", "e.toml", "--data", "-", "--out", "out.csv"])
+            .current_dir(&folder.0)
+            .stdin(Stdio::piped())
+            .spawn()
+            .expect("a command");
+        let rows = format!("reading [deg]\n{}", "10.25\n".repeat(100_000));
+        let mut stdin = running.stdin.take().expect("piped");
+        stdin.write_all(rows.as_bytes()).expect("it reads");
+        let began = Instant::now();
+        while folder.names() == before {
+            assert!(began.elapsed() < Duration::from_secs(60), "it writes");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        let id = running.id().to_string();
+        let sent = Command::new("kill").args([&format!("-{signal}"), &id]).status().expect("kill");
+        assert!(sent.success());
+        let ended = running.wait().expect("it ends");
+        assert_eq!(ended.code(), Some(130), "{signal}");
+        assert_eq!(folder.names(), before, "{signal}");
+        assert_eq!(folder.read("out.csv"), "what stood there\n");
+    }
+}

@@ -6,15 +6,16 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use codegen::{Form, Program, build};
 use model_core::{Mistakes, ObservableId, ObservableKind, SymbolId, SymbolKind, names};
-use numpy::{PyArray, PyArrayMethods as _, PyReadwriteArray, PyUntypedArrayMethods as _, ndarray::IxDyn};
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use numpy::PyArray;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use trueaxis_cli::library::{self, Exactness, Failure, Quantity, Source, Told};
 
-use crate::compiled::{Asked, Call, FORMS, Loadable};
+use crate::compiled::{FORMS, Loadable};
+use crate::errors;
+use crate::evaluating::{self, Evaluation, Readings};
 use crate::formula::ClosedForm;
 use crate::tables::{Given, Table};
-use crate::{arrays, errors, forked, rows};
 
 /// Names of columns and the columns, as Python gets them.
 pub type Columns = Vec<(String, Py<PyArray<f64, numpy::ndarray::Ix1>>)>;
@@ -124,6 +125,13 @@ impl Chain {
             }
         };
         Err(Failure::Input(format!("chain {} has no {what} `{name}`; {instead}", self.chain.name)))
+    }
+
+    /// The symbols that derivatives are taken by: those named, or every error.
+    fn derived_by(&self, names: Option<Vec<String>>) -> Result<Vec<SymbolId>, Failure> {
+        let Some(names) = names else { return Ok(self.chain.symbols_of(SymbolKind::Error).collect()) };
+        let named = |name: &String| self.symbol(name, &[SymbolKind::Error, SymbolKind::Constant], "error");
+        names.iter().map(named).collect()
     }
 }
 
@@ -242,82 +250,37 @@ impl Chain {
         threads: Option<usize>,
         compiled: Option<(PyRef<'py, Loadable>, Bound<'py, PyAny>)>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (form_name, form) = (form, form_of(form)?);
-        let chain = self.with_numbers().map_err(|failure| errors::exception(py, &failure))?;
-        let named = |name: &str| self.symbol(name, &[SymbolKind::Joint, SymbolKind::Input], "joint or input");
         let fails = |failure: Failure| errors::exception(py, &failure);
-        let observable = match (&compiled, observable) {
-            (Some((loadable, _)), observable) => loadable.only(chain, observable),
-            (None, observable) => library::observable(chain, observable),
+        let (form_name, form) = (form, form_of(form)?);
+        let chain = self.with_numbers().map_err(fails)?;
+        let observable = match &compiled {
+            Some((loadable, _)) => loadable.only(chain, observable),
+            None => library::observable(chain, observable),
         };
         let observable = observable.map_err(fails)?;
         library::derivable(chain, observable, form).map_err(fails)?;
-        let needed = library::readings_of(chain, observable);
 
-        let mut columns = Vec::new();
-        for (name, column) in &readings {
-            let id = named(name).map_err(fails)?;
-            columns.push((id, name, arrays::column(name, column)?));
-        }
-        let rows = columns.first().map_or(1, |(.., column)| column.len());
-        let longer = columns.iter().find(|(.., column)| column.len() != rows);
-        if let (Some((_, first, _)), Some((_, name, column))) = (columns.first(), longer) {
-            let found = column.len();
-            return Err(PyValueError::new_err(format!("`{name}` has {found} rows, `{first}` has {rows}")));
-        }
-        let mut values = self.values(py, errors)?;
-        let mut given: Vec<SymbolId> = columns.iter().map(|&(id, ..)| id).collect();
-        for (name, value) in constants {
-            let id = named(&name).map_err(fails)?;
-            values[id.index()] = value;
-            given.push(id);
-        }
-        if let Some(&missing) = needed.iter().find(|id| !given.contains(id)) {
-            let (shown, missing) = (&chain.observable(observable).name, &chain.symbol(missing).name);
-            return Err(fails(Failure::Input(format!("`{shown}` needs readings of `{missing}`: give them"))));
-        }
-        let wrt: Vec<SymbolId> = match wrt {
-            None => chain.symbols_of(SymbolKind::Error).collect(),
-            Some(names) => names
-                .iter()
-                .map(|name| self.symbol(name, &[SymbolKind::Error, SymbolKind::Constant], "error"))
-                .collect::<Result<_, _>>()
-                .map_err(fails)?,
+        let named = |name: &str| self.symbol(name, &[SymbolKind::Joint, SymbolKind::Input], "joint or input");
+        let columns = Readings::columns(py, &readings, named)?;
+        let values = self.values(py, errors)?;
+        let with = |readings: Readings<'py>, (name, value): (String, f64)| {
+            Ok(readings.with_number(named(&name)?, value))
         };
+        let readings = constants.into_iter().try_fold(columns, with).map_err(fails)?;
+        let wrt = self.derived_by(wrt).map_err(fails)?;
+        let asked = Evaluation::new(chain, (form, observable), readings, values, (wrt, threads));
+        let asked = asked.map_err(fails)?;
 
-        let shown = chain.observable(observable).shown.len();
-        let shape = if form.is_jacobian() { vec![shown, wrt.len(), rows] } else { vec![shown, rows] };
-        let array = match &out {
-            Some(out) => taken(out, &shape)?,
-            // Every number of it is written. NumPy asks for large pages here, and for zeros does not.
-            None => taken(&py.import("numpy")?.call_method1("empty", (shape.clone(),))?, &shape)?,
-        };
-        let mut writable: PyReadwriteArray<'_, f64, IxDyn> = array.try_readwrite().map_err(|error| {
-            PyValueError::new_err(format!("`out`: {error}: it must be writable, and none of the readings"))
-        })?;
+        let array = evaluating::result(py, out.as_ref(), &asked.shape(chain))?;
+        let mut writable = evaluating::writable(&array)?;
         let into = writable.as_slice_mut()?;
-        let needed = columns.iter().filter(|(id, ..)| needed.contains(id));
         match compiled {
-            None => {
-                let slices = needed
-                    .map(|(id, _, column)| Ok((*id, column.as_slice()?)))
-                    .collect::<PyResult<Vec<(SymbolId, &[f64])>>>()?;
-                py.detach(|| {
-                    forked::with_threads(|| {
-                        let program = self.program(observable, form, &wrt);
-                        rows::evaluate(&program, &slices, &values, into, rows, threads)
-                    })
-                })?
-                .map_err(|error| PyValueError::new_err(error.to_string()))?;
-            }
+            None => asked.interpreted(py, || self.program(observable, form, &asked.wrt), into)?,
             Some((loadable, call)) => {
-                let columns: Vec<_> = needed.map(|(id, _, column)| (*id, (**column).clone())).collect();
                 let out = (into.as_mut_ptr().expose_provenance(), array.clone().into_any().unbind());
-                let (values, wrt, is_empty) = (&values, &wrt, into.is_empty());
-                let asked = Asked { columns: &columns, values, wrt, out, rows, threads };
-                let what = Call::new(&loadable, chain, asked).map_err(fails)?;
+                let what = asked.call(chain, &loadable, out).map_err(fails)?;
                 // What has no numbers may have no entry either: Jacobians of a chain without errors.
-                if !is_empty {
+                if !into.is_empty() {
                     call.call1((form_name, what))?;
                 }
             }
@@ -426,19 +389,4 @@ impl Chain {
 #[pyfunction]
 pub fn check(py: Python<'_>, claims: PathBuf) -> PyResult<(String, String)> {
     errors::run(py, || library::checked(&claims)).map(told)
-}
-
-/// The array that somebody gave for the result.
-fn taken<'py>(given: &Bound<'py, PyAny>, shape: &[usize]) -> PyResult<Bound<'py, PyArray<f64, IxDyn>>> {
-    let array = given
-        .cast::<PyArray<f64, IxDyn>>()
-        .ok()
-        .filter(|array| array.shape() == shape && array.is_c_contiguous());
-    let Some(array) = array else {
-        return Err(PyTypeError::new_err(format!(
-            "`out`: a contiguous NumPy array of float64 with the shape {shape:?} is needed; write \
-             numpy.empty({shape:?})"
-        )));
-    };
-    Ok(array.clone())
 }

@@ -6,6 +6,7 @@ mod calibration;
 mod chain;
 mod compiled;
 mod errors;
+mod evaluating;
 mod forked;
 mod formula;
 mod rows;

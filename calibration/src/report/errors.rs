@@ -96,9 +96,11 @@ fn notes(diagnosis: &Diagnosis) -> Vec<String> {
     notes
 }
 
-/// `index is that at temperature 0; these data have 18.2 to 24.1 K`
+/// `index is the value at air = 0; these data have 18.2 to 24.1`
 fn at_zero(AtZero { errors, input, from, to, unit }: &AtZero) -> String {
-    let own = numbers::reading(*unit, from.abs().max(to.abs()));
+    // A temperature may be in degrees Celsius, which only differences are in kelvin of.
+    let unit = if *unit == SiUnit::KELVIN { SiUnit::ONE } else { *unit };
+    let own = numbers::reading(unit, from.abs().max(to.abs()));
     let are = if errors.len() == 1 { "is the value" } else { "are the values" };
     format!(
         "{} {are} at {input} = 0; these data have {} to {}",

@@ -130,6 +130,9 @@ def test_what_is_wrong_is_named_with_its_place(mount, table):
     assert raised.value.mistakes
     with pytest.raises(TypeError, match="a table is needed"):
         calibrate(3)
+    for several in [[frame, frame], (frame for _ in range(2)), iter([])]:
+        with pytest.raises(TypeError, match="several tables are no data of a study: .*pandas.concat.*paths of Parquet files"):
+            calibrate(several)
 
 
 def test_too_few_observations_are_an_outcome(mount, table):

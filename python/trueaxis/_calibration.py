@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 import json
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -158,7 +158,14 @@ def calibrate(
     :raises MistakeError: mistakes in the study or the declaration.
     :raises TrueaxisError: a file or a table that cannot be read, with the row and the column.
     """
-    if _is_path(data) or (isinstance(data, (list, tuple)) and data and all(_is_path(path) for path in data)):
+    if isinstance(data, Iterator) and not hasattr(data, "__arrow_c_stream__"):
+        data = list(data)
+    if isinstance(data, (list, tuple)) and not (data and all(_is_path(path) for path in data)):
+        raise TypeError(
+            "several tables are no data of a study: give one for each table that it names (pandas.concat, polars.concat or "
+            "pyarrow.concat_tables make one of several), or a list of paths of Parquet files"
+        )
+    if _is_path(data) or isinstance(data, (list, tuple)):
         from ._folder import calibrate_folder
 
         return calibrate_folder(study, data, text, chain, client, search_rows, seed, progress)

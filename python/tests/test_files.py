@@ -108,8 +108,40 @@ def test_names_may_repeat_where_nothing_goes_by_them(mount, tables, tmp_path):
     assert fit(mount, files).rows == calibrate(mount, files).report["observations"]["rows"] == 2 * ROWS
     with pytest.raises(trueaxis.TrueaxisError, match="is given twice"):
         fit(mount, [files[0], files[0]])
+    (tmp_path / "link.parquet").symlink_to(files[0])
+    for again in [tmp_path / "link.parquet", tmp_path / "y" / ".." / "x" / "p.parquet"]:
+        for ask in [fit, calibrate]:
+            with pytest.raises(trueaxis.TrueaxisError, match="is given twice"):
+                ask(mount, [files[0], again])
     with pytest.raises(trueaxis.TrueaxisError, match="two files are named `p.parquet`"):
         trueaxis.apply(files, mount, {}, tmp_path / "out")
+
+
+def test_paths_may_come_one_by_one(mount, tables, tmp_path):
+    folder = written(tmp_path / "scan", a__parquet=tables[0], b__parquet=tables[1])
+    for ask in [lambda data: fit(mount, data).values, lambda data: calibrate(mount, data).values]:
+        assert ask(path for path in sorted(folder.iterdir())) == ask(sorted(folder.iterdir()))
+
+
+def test_a_copy_of_a_file_is_told(mount, tables, tmp_path):
+    folder = written(tmp_path / "scan", a__parquet=tables[0], b__parquet=tables[1], c__parquet=tables[0])
+    with pytest.warns(trueaxis.TrueaxisWarning, match=r"c\.parquet` has the rows of `.*a\.parquet`, which count twice") as told:
+        assert fit(mount, folder).rows == 3 * ROWS
+    assert len(told) == 1
+
+
+@pytest.mark.parametrize("ending", ["parquet", "csv"])
+def test_bare_degrees_of_any_file_are_told(mount, tables, tmp_path, ending):
+    degrees = {**tables[1], "azimuth": np.rad2deg(tables[1]["azimuth"])}
+    for name, table in [("a", tables[0]), ("b", degrees)]:
+        if ending == "csv":
+            lines = [",".join(table), *(",".join(map(repr, map(float, row))) for row in zip(*table.values()))]
+            (tmp_path / f"{name}.csv").write_text("\n".join(lines))
+        else:
+            parquet.write_table(pyarrow.table(dict(table)), tmp_path / f"{name}.parquet")
+    with pytest.warns(trueaxis.TrueaxisWarning) as told:
+        fit(mount, sorted(tmp_path.glob(f"*.{ending}")))
+    assert any("column `azimuth` reaches" in str(one.message) for one in told)
 
 
 def test_columns_that_nobody_asks_for_may_differ(mount, tables, tmp_path):

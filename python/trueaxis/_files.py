@@ -35,11 +35,12 @@ def files_of(source: Any, kinds: list[str], *, told_apart: bool = False) -> list
         if not file.is_file():
             why = "it is a folder; list the files in it" if file.is_dir() else "there is no such file"
             raise TrueaxisError(f"cannot read `{file}`: {why}")
-        if file.absolute() in seen:
+        # A link, or a way with `..` in it, is another name of the same file.
+        if file.resolve() in seen:
             raise TrueaxisError(f"`{file}` is given twice")
         if told_apart and file.name in names:
             raise TrueaxisError(f"two files are named `{file.name}`: what came of them could not be told apart")
-        seen.add(file.absolute())
+        seen.add(file.resolve())
         names.add(file.name)
     return [file.absolute() for file in files]
 

@@ -158,8 +158,19 @@ def of_files(fitting: _native.Fitting, files: list[str], each: Each, progress: C
             tallies[file] = of_file
             if progress is not None:
                 progress(number, len(tallies), len(files))
+        if number == 1:
+            _tell_of_copies(files, tallies)
         fitting.take([tallies[file] for file in files])
     return Fit(json.loads(fitting.found()))
+
+
+def _tell_of_copies(files: list[str], tallies: dict[str, list[bytes]]) -> None:
+    """Warns of files that say the same to the last bit, as only the same rows do."""
+    known: dict[tuple[bytes, ...], str] = {}
+    for file in files:
+        said = tuple(tallies[file])
+        if said and (of := known.setdefault(said, file)) != file:
+            warn(f"`{file}` has the rows of `{of}`, which count twice: the ± are too small; leave the copy out")
 
 
 def of_table(fitting: _native.Fitting, rows: tuple[str, Columns]) -> Fit:

@@ -94,7 +94,9 @@ def test_tables_of_every_library(mount, table, kind):
     for name, value in TRUE.items():
         found, uncertainty = rows[name]
         assert abs(found - value) < 5 * uncertainty and uncertainty < 3 * ARCSEC
-    corrected = calibration.apply(data)
+    with pytest.raises(trueaxis.TrueaxisError, match="replace=True"):
+        calibration.apply(data)
+    corrected = calibration.apply(data, replace=True)
     assert isinstance(corrected, trueaxis.Table if kind == "dictionary" else type(data))
 
 

@@ -31,6 +31,9 @@ const NOISE_KNOWN: f64 = 1e-3;
 /// What changes by less than this share is the same noise: all rows are asked again for any other.
 const SAME_NOISE: f64 = 1e-12;
 
+/// Standard deviations that differ by no more than this share let the data determine the same.
+const SIMILAR_NOISE: f64 = 0.1;
+
 /// Beside unknown objects, a step along what the data do not determine that promises less than this share of the objective, and
 /// does not keep it, is beyond what the sums resolve.
 const UNRESOLVED: f64 = 1e-8;
@@ -63,7 +66,7 @@ impl Solver<'_> {
         let values = self.with_smallest(start, &subspace);
         let first = if weighting == Weighting::Full { Weighting::Full } else { Weighting::Huber };
         let point = self.point(values, &noise, first, Rest::Still)?;
-        let mut course = Course { point, noise, subspace, weighting: first, stopped: None };
+        let mut course = Course { point, noise: noise.clone(), subspace, weighting: first, stopped: None };
         if weighting == Weighting::Biweight {
             self.approach(&mut course)?;
             course.weighting = weighting;
@@ -74,7 +77,7 @@ impl Solver<'_> {
             }
             course.point = self.point(course.point.values, &course.noise, weighting, Rest::Still)?;
         }
-        self.settled(course)
+        self.settled(course, noise)
     }
 
     /// The same from values that are near the bottom already.
@@ -84,18 +87,23 @@ impl Solver<'_> {
         let subspace = self.determined(near, &noise)?;
         let values = self.with_smallest(near, &subspace);
         let point = self.point(values, &noise, weighting, Rest::Still)?;
-        self.settled(Course { point, noise, subspace, weighting, stopped: None })
+        let course = Course { point, noise: noise.clone(), subspace, weighting, stopped: None };
+        self.settled(course, noise)
     }
 
-    /// A course to the bottom, of what is determined there.
-    fn settled(&mut self, mut course: Course) -> Result<Course, FitError> {
+    /// A course to the bottom, of what is determined there; so far it was asked with some noise.
+    fn settled(&mut self, mut course: Course, mut asked_with: Arc<Noise>) -> Result<Course, FitError> {
         self.settle(&mut course)?;
-        // What is determined is asked where constants that are estimated came to stand.
+        // What is determined is asked where constants that are estimated came to stand, and with another noise.
         for _ in 0..3 {
+            if !self.determined_by_values() && same(&asked_with, &course.noise, SIMILAR_NOISE) {
+                break;
+            }
             let subspace = self.determined(&course.point.values, &course.noise)?;
             if subspace.rank() == course.subspace.rank() {
                 break;
             }
+            asked_with = course.noise.clone();
             course.subspace = subspace;
             self.settle(&mut course)?;
         }
@@ -152,6 +160,11 @@ impl Solver<'_> {
             }
             self.take(course, learned)?;
         }
+        self.descend_to_the_bottom(course)
+    }
+
+    /// Descends with the course's noise until a step means nothing.
+    fn descend_to_the_bottom(&mut self, course: &mut Course) -> Result<(), FitError> {
         let noise = course.noise.clone();
         let is_free = self.observations.unknowns.is_some();
         self.descend(course, &noise, if is_free { NEGLIGIBLE_IN_A_FREE_FRAME } else { NEGLIGIBLE })
@@ -256,12 +269,23 @@ impl Solver<'_> {
         let rest = Rest::Prior(course.subspace.strain(&self.deviation(&values)));
         course.point = self.point(values, &course.noise, course.weighting, rest)?;
         let still = course.clone();
-        self.settle(course)?;
+        self.descend_to_the_bottom(course)?;
+        if !self.leaves_as_much(course, &still) {
+            self.settle(course)?;
+        }
         if course.stopped.is_some() && still.stopped.is_none() {
             // Products of what is open bend too much for the residual: it stays where it is expected, as uncertain as it is.
             *course = still;
         }
         Ok(())
+    }
+
+    /// Whether the residuals of both would teach the same noise, as far as it is ever known.
+    fn leaves_as_much(&self, one: &Course, other: &Course) -> bool {
+        let left = |course: &Course| course.point.sweep.tally.objective;
+        let components = self.layout.components() as f64;
+        (left(one) - left(other)).abs() <= NOISE_KNOWN * left(other)
+            && (self.used(one) - self.used(other)).abs() <= NOISE_KNOWN * components
     }
 
     /// The length of a step that only moves the last bits of the prediction.

@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 use std::sync::Arc;
 
-use model_core::{Chain, SymbolKind};
+use model_core::{Chain, SymbolId, SymbolKind};
 use rayon::prelude::*;
 
 use super::normal::Rest;
@@ -143,6 +143,12 @@ impl Solver<'_> {
         }
         let partial = self.partial(&swept(&values)?);
         Ok(Subspace::determined(&partial, self.first_sizes()))
+    }
+
+    /// Whether what the data determine hangs on where a course ended: not on errors, which are zero where it is asked.
+    pub(super) fn determined_by_values(&self) -> bool {
+        let is_error = |&id: &SymbolId| self.chain.symbol(id).kind == SymbolKind::Error;
+        self.options.anchored || !self.model.parameters().iter().all(is_error)
     }
 
     /// How far each parameter is from where it is expected: an error from zero, a constant from its nominal value; SI.

@@ -83,13 +83,36 @@ impl Cells {
             (first[fold] + (seen[fold] - 1) * size[fold].min(in_fold) / size[fold]) as u32
         });
         let cell_of_group = CellsOfGroups(cell_of_group.collect());
-        let cells = Self {
-            width,
-            rows_of_fold: folds.rows_of_fold.clone(),
-            products: vec![0.0; fold_of_cell.len() * width * width],
-            fold_of_cell,
-        };
+        let mut products = vec![0.0; fold_of_cell.len() * width * width];
+        // Memory that is written before it is read is cheaper: what is read first has to be moved as soon as it is written, and every
+        // processor told of it.
+        products.par_chunks_mut(width * width).for_each(|own| own.fill(0.0));
+        let cells = Self { width, rows_of_fold: folds.rows_of_fold.clone(), products, fold_of_cell };
         (cells, cell_of_group)
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.fold_of_cell.len()
+    }
+
+    /// Lets each cell take in rows of its own: `give` gives those of a cell, some after others. Each is of one processor, which
+    /// still has in its cache what it made.
+    ///
+    /// # Errors
+    /// Those of `give`.
+    pub fn filled<T: Send, E: Send>(
+        &mut self,
+        give: impl Fn(usize, &mut dyn FnMut(MatRef<'_, f64>)) -> Result<T, E> + Sync,
+    ) -> Result<Vec<T>, E> {
+        let width = self.width;
+        let cells = self.products.par_chunks_mut(width * width).enumerate();
+        let filled = cells.map(|(cell, products)| {
+            let mut products = MatMut::from_column_major_slice_mut(products, width, width);
+            give(cell, &mut |rows| add_products(products.as_mut(), rows))
+        });
+        filled.collect()
     }
 
     /// Takes in parts of the rows, each put in the order of its cells.

@@ -1,10 +1,9 @@
-//! A chunk of many rows on its way into cells: whitened, in the order of the cells, and forgotten again.
+//! A chunk of many rows on its way into cells: whitened, and forgotten again.
 
 use std::ops::Range;
 
 use faer::Mat;
 
-use super::cells::ByCell;
 use super::columns::Seen;
 use super::context::Context;
 use super::error::SearchError;
@@ -15,41 +14,46 @@ use super::row_set::{RowSet, components, sized};
 pub(crate) struct Chunk {
     /// Declared combinations, the columns of each effect of the catalogue, and the residual without the accepted effects.
     pub columns: Mat<f64>,
-    /// Which of its components belong to which cell.
-    pub by_cell: ByCell,
     /// How many rows of the data it has.
     pub rows: usize,
     pub seen: Seen,
 }
 
+/// Whether whitening makes of each component a multiple of itself, whatever the other rows.
+pub(crate) fn rows_are_alone(whole: &Context<'_>, fitted: &Fitted) -> bool {
+    let has_objects = whole.request.observations.unknowns.is_some();
+    !fitted.fit.noise.mixes_rows() && !has_objects && fitted.adjusted.is_none()
+}
+
 impl Chunk {
-    /// Of some stretches of rows; `room` is the matrix of an earlier chunk, for its memory.
-    pub fn of(
+    /// Of some stretches of rows, the components in another order; `room` is the matrix of an earlier chunk, for its memory.
+    pub fn in_order(
         whole: &Context<'_>,
         fitted: &Fitted,
         stretches: &[Range<usize>],
-        by_cell: ByCell,
+        order: &[usize],
         room: Mat<f64>,
     ) -> Result<Self, SearchError> {
-        let observations = whole.request.observations;
-        let noise = &fitted.fit.noise;
-        if noise.mixes_rows() || observations.unknowns.is_some() || fitted.adjusted.is_some() {
-            // Whitening makes more of a component than a multiple of itself.
-            let rows = RowSet::of(whole, fitted, stretches, |_| true)?;
-            return Ok(Self {
-                columns: rows.whitened_in(&by_cell.order, room),
-                by_cell,
-                rows: rows.observations.rows(),
-                seen: rows.seen,
-            });
-        }
-        let components = components(fitted, stretches).into_iter();
+        let rows = RowSet::of(whole, fitted, stretches, |_| true)?;
+        let columns = rows.whitened_in(order, room);
+        Ok(Self { columns, rows: rows.observations.rows(), seen: rows.seen })
+    }
+
+    /// Of some stretches of [rows that are alone](rows_are_alone): columns are made whitened, where they are to lie.
+    pub fn alone(
+        whole: &Context<'_>,
+        fitted: &Fitted,
+        stretches: &[Range<usize>],
+        room: Mat<f64>,
+    ) -> Result<Self, SearchError> {
         let weight = &fitted.fit.residuals.weight;
-        let factor: Vec<f64> =
-            components.map(|at| weight[fitted.layout.row(at)].sqrt() / noise.sigma[at]).collect();
-        let own = observations.select(&stretches.iter().flat_map(Clone::clone).collect::<Vec<_>>());
-        let bare = fitted.probed.columns(&own)?;
-        let white = bare.scaled_in(&by_cell.order, &factor);
+        let whitening = |at: usize| weight[fitted.layout.row(at)].sqrt() / fitted.fit.noise.sigma[at];
+        let factor: Vec<f64> = components(fitted, stretches).into_iter().map(whitening).collect();
+        let own = whole.request.observations;
+        let own = own.select(&stretches.iter().flat_map(Clone::clone).collect::<Vec<_>>());
+        let mut white = fitted.probed.columns(&own)?;
+        let of_probes = white.seen_of_probes();
+        white.scale(&factor);
         let declared = &white.declared * &fitted.combinations;
         let (count, start) = (white.residual.len(), declared.ncols());
         let functions: usize = whole.catalogue.iter().map(|effect| effect.functions.len()).sum();
@@ -78,6 +82,6 @@ impl Chunk {
             of_effect[effect.0].clone().map(|column| columns.col_as_slice(column))
         });
         columns.col_as_slice_mut(width - 1).copy_from_slice(&without);
-        Ok(Self { columns, by_cell, rows: own.rows(), seen: seen.with_probes(&bare) })
+        Ok(Self { columns, rows: own.rows(), seen: seen.with_probes(of_probes) })
     }
 }

@@ -1,30 +1,26 @@
 //! The search's problem at a fit: row by row, or from merged rows where they are many.
 
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
 
 use faer::Mat;
 use model_core::SymbolKind;
 use rayon::prelude::*;
 
-use super::chunk::Chunk;
+use super::filling::{each_chunk, filled};
 use super::row_set::{RowSet, components, dealt};
 use super::stretches::{Chunks, all_rows, sample};
 use crate::candidate::{EffectId, Freedom};
 use crate::data::Poses;
-use crate::search::columns::{Columns, Probed, Seen, keep, places};
+use crate::search::SearchError;
+use crate::search::columns::{Columns, Probed, keep, places};
 use crate::search::context::{Context, declared};
 use crate::search::fitted::{Fitted, tolerance_of};
 use crate::search::reach::{Part, Reach, further_out};
 use crate::search::standardised::MANY;
 use crate::search::{Cells, Folds, Problem, ProblemError};
-use crate::search::{SearchError, Stage};
 
 /// Cells of merged rows at most: as many as sign flips tell apart.
 const CELLS: usize = 400;
-
-/// Chunks of rows that are made at once.
-const AT_ONCE: usize = 4;
 
 /// Poses further out at which effects are judged.
 const FURTHER_OUT: usize = 1200;
@@ -82,35 +78,7 @@ impl<'a> SearchProblem<'a> {
         let observations = whole.request.observations;
         let cells = cells(whole.held / (width * width), folds.count());
         let (mut cells, of_groups) = Cells::new(&folds, cells, width);
-        let mut seen: Option<Seen> = None;
-        // Matrices of chunks that were taken in: a new one each time would cost as much as filling it.
-        let room: Mutex<Vec<Mat<f64>>> = Mutex::default();
-        let rooms = || room.lock().unwrap_or_else(PoisonError::into_inner);
-        let made = |stretches: &[Range<usize>]| {
-            let by_cell = of_groups.sorted(&folds.groups_of(&components(fitted, stretches)));
-            let room = rooms().pop().unwrap_or_else(|| Mat::zeros(0, 0));
-            Chunk::of(whole, fitted, stretches, by_cell, room)
-        };
-        // Where whitening leaves rows alone, a chunk is of few cells: products of few rows each would cost several times as much.
-        let chunks = match fitted.fit.noise.mixes_rows() {
-            true => Chunks::in_order(observations),
-            false => Chunks::by(observations, |row| of_groups.cell(folds.group(fitted.layout.first(row)))),
-        };
-        let mut rows = 0;
-        each_chunk(&chunks, made, |some: Vec<Chunk>| {
-            (whole.tell)(Stage::Columns { rows, of: observations.rows() });
-            let parts = some.iter().map(|chunk| (chunk.columns.as_ref(), &chunk.by_cell));
-            cells.add(&parts.collect::<Vec<_>>());
-            for chunk in some {
-                rows += chunk.rows;
-                match &mut seen {
-                    None => seen = Some(chunk.seen),
-                    Some(seen) => seen.merge(&chunk.seen),
-                }
-                rooms().push(chunk.columns);
-            }
-        })?;
-        drop(room);
+        let seen = filled(whole, fitted, &folds, &mut cells, &of_groups)?;
         let usable = seen.map_or_else(Vec::new, |seen| seen.usable(&whole.catalogue));
         let functions = whole
             .catalogue
@@ -202,23 +170,6 @@ fn cells(fill: usize, folds: usize) -> usize {
     let plain = MANY.div_ceil(folds.saturating_sub(1).max(1)) * folds;
     let most = if fill < plain && plain <= 2 * fill { plain } else { fill };
     CELLS.min(most)
-}
-
-/// Lets `take` have what `make` makes of all rows, some chunks at a time. Those are far from each other, so that they are of different
-/// cells, and always the same: the number of processors changes no bit.
-fn each_chunk<T: Send>(
-    chunks: &Chunks<'_>,
-    make: impl Fn(&[Range<usize>]) -> Result<T, SearchError> + Sync,
-    mut take: impl FnMut(Vec<T>),
-) -> Result<(), SearchError> {
-    let apart = chunks.count().div_ceil(AT_ONCE);
-    for first in 0..apart {
-        let some: Vec<usize> = (first..chunks.count()).step_by(apart).collect();
-        let made: Vec<Result<T, SearchError>> =
-            some.into_par_iter().map(|chunk| make(&chunks.stretches(chunk))).collect();
-        take(made.into_iter().collect::<Result<_, _>>()?);
-    }
-    Ok(())
 }
 
 /// The problem of some whitened rows, which hold the columns of usable effects alone.

@@ -83,8 +83,7 @@ impl<'a> Chunks<'a> {
     /// The rows of one.
     pub fn stretches(&self, chunk: usize) -> Vec<Range<usize>> {
         let start = chunk.checked_sub(1).map_or(0, |before| self.ends[before]);
-        let rows: Vec<usize> = self.rows[start..self.ends[chunk]].iter().map(|&row| row as usize).collect();
-        stretches(self.observations, &rows)
+        stretches(self.observations, &self.rows[start..self.ends[chunk]])
     }
 }
 
@@ -109,10 +108,11 @@ fn by_object(unknowns: &Unknowns, objects: &[usize]) -> Vec<Vec<usize>> {
 }
 
 /// Rows in order as stretches, each within one series.
-fn stretches(observations: &Observations, rows: &[usize]) -> Vec<Range<usize>> {
+pub(crate) fn stretches(observations: &Observations, rows: &[u32]) -> Vec<Range<usize>> {
     let series = &observations.poses.series;
-    let ends = |row: usize| series.iter().any(|series| series.rows.end == row);
-    rows.chunk_by(|&a, &b| a + 1 == b && !ends(b)).map(|own| own[0]..own[0] + own.len()).collect()
+    let ends = |row: u32| series.iter().any(|series| series.rows.end == row as usize);
+    let runs = rows.chunk_by(|&a, &b| a + 1 == b && !ends(b));
+    runs.map(|own| own[0] as usize..own[0] as usize + own.len()).collect()
 }
 
 /// About so many rows from all over the data: of each of equally long parts, one stretch from a random place in it; or whole
@@ -127,6 +127,7 @@ pub(crate) fn sample(observations: &Observations, rows: usize, seed: u64) -> Vec
         let mut all: Vec<usize> = by_object(unknowns, &objects).into_iter().flatten().collect();
         let bare = unknowns.object.iter().enumerate().filter(|(_, object)| object.is_none());
         all.extend(bare.map(|(row, _)| row).filter(|_| random.random_bool(share.min(1.0))));
+        let mut all: Vec<u32> = all.into_iter().map(|row| row as u32).collect();
         all.sort_unstable();
         return stretches(observations, &all);
     }

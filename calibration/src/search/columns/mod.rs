@@ -9,6 +9,7 @@ mod seen;
 
 use std::ops::Range;
 
+use codegen::vector::{self, Arithmetic};
 use faer::Mat;
 use model_core::algebra::Poly;
 use model_core::{Chain, SymbolId, SymbolKind};
@@ -226,7 +227,7 @@ impl Columns {
         mut take: impl FnMut(EffectId, &dyn Fn(&mut [f64])),
     ) -> Seen {
         let mut readings = Functions::new(chain, poses, values);
-        let mut seen = Seen::of_probes(&self.places, &self.probes);
+        let mut seen = self.seen_of_probes();
         // Many effects have the same functions at other places; each is spread over the components of its rows once.
         let mut known: Vec<(&Poly, Option<Vec<f64>>, Extent)> = Vec::new();
         for (number, effect) in effects.iter().enumerate() {
@@ -261,15 +262,7 @@ impl Columns {
                 let present = parts.iter().filter_map(|&(probe, at)| Some((probe, known[at].1.as_deref()?)));
                 let present: Vec<(&[f64], &[f64])> = present.collect();
                 take(EffectId(number), &|column| {
-                    let Some((&(probe, function), others)) = present.split_first() else {
-                        return column.fill(0.0);
-                    };
-                    let moved = probe.iter().zip(function);
-                    column.iter_mut().zip(moved).for_each(|(sum, (probe, value))| *sum = probe * value);
-                    for (probe, function) in others {
-                        let moved = probe.iter().zip(*function);
-                        column.iter_mut().zip(moved).for_each(|(sum, (probe, value))| *sum += probe * value);
-                    }
+                    vector::run(vector::path(), Summed { column, parts: &present })
                 });
             }
             seen.effects.push(extents);
@@ -277,25 +270,41 @@ impl Columns {
         seen
     }
 
-    /// The same with the components in another order, each times its factor: whitened, where that is all that whitening does.
-    /// What a part [shows](Seen) of probes is for the columns before that to say.
-    pub(crate) fn scaled_in(&self, order: &[usize], factor: &[f64]) -> Self {
-        let scaled =
-            |column: &[f64]| -> Vec<f64> { order.iter().map(|&at| column[at] * factor[at]).collect() };
-        let each = |columns: &Mat<f64>| {
-            let mut new = Mat::zeros(order.len(), columns.ncols());
-            for j in 0..columns.ncols() {
-                new.col_as_slice_mut(j).copy_from_slice(&scaled(columns.col_as_slice(j)));
+    /// What these rows [show](Seen) of probes: to be asked before anything is whitened.
+    pub(crate) fn seen_of_probes(&self) -> Seen {
+        Seen::of_probes(&self.places, &self.probes)
+    }
+
+    /// Each component times its factor: whitens, where that is all that whitening does.
+    pub(crate) fn scale(&mut self, factor: &[f64]) {
+        let of_matrices = self.declared.col_iter_mut().chain(self.probes.col_iter_mut());
+        let columns = of_matrices
+            .filter_map(|column| column.try_as_col_major_mut())
+            .map(|column| column.as_slice_mut());
+        for column in columns.chain([self.residual.as_mut_slice()]) {
+            column.iter_mut().zip(factor).for_each(|(value, factor)| *value *= factor);
+        }
+    }
+}
+
+/// The column of a function: derivatives, each times what it is multiplied by, added up.
+struct Summed<'a> {
+    column: &'a mut [f64],
+    parts: &'a [(&'a [f64], &'a [f64])],
+}
+
+impl vector::Work for Summed<'_> {
+    #[inline(always)]
+    fn run<A: Arithmetic>(self, _: A) {
+        let Self { column, parts } = self;
+        let Some((&(probe, function), others)) = parts.split_first() else { return column.fill(0.0) };
+        for ((sum, probe), value) in column.iter_mut().zip(probe).zip(function) {
+            *sum = probe * value;
+        }
+        for (probe, function) in others {
+            for ((sum, probe), value) in column.iter_mut().zip(*probe).zip(*function) {
+                *sum += probe * value;
             }
-            new
-        };
-        Self {
-            residual: scaled(&self.residual),
-            declared: each(&self.declared),
-            row: order.iter().map(|&at| self.row[at]).collect(),
-            unknown: Vec::new(),
-            places: self.places.clone(),
-            probes: each(&self.probes),
         }
     }
 }

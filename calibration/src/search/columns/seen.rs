@@ -3,7 +3,7 @@
 use faer::Mat;
 use model_core::TransformKind;
 
-use super::{Columns, UNSEEN};
+use super::UNSEEN;
 use crate::candidate::{Effect, Place};
 
 /// Values of a function more than this many times its RMS make the column hang on a single observation.
@@ -72,9 +72,9 @@ impl Seen {
         Self { places: places.to_vec(), squares, effects: Vec::new() }
     }
 
-    /// The same as columns show the probes that were not whitened.
-    pub(crate) fn with_probes(self, columns: &Columns) -> Self {
-        Self { effects: self.effects, ..Self::of_probes(&columns.places, &columns.probes) }
+    /// The same with what others show of probes.
+    pub(crate) fn with_probes(self, others: Self) -> Self {
+        Self { effects: self.effects, ..others }
     }
 
     /// Adds what another part shows, of the same effects at the same places.

@@ -1,0 +1,129 @@
+//! All rows on their way into cells: of each the columns are made, whitened, and forgotten again.
+
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use faer::Mat;
+use rayon::prelude::*;
+
+use super::cells::{ByCell, Cells, CellsOfGroups};
+use super::chunk::{Chunk, rows_are_alone};
+use super::columns::Seen;
+use super::context::Context;
+use super::fitted::Fitted;
+use super::folds::Folds;
+use super::row_set::components;
+use super::stretches::{Chunks, stretches};
+use super::{SearchError, Stage};
+
+/// Rows of one cell whose columns are made at a time: what a processor just made is still near it when their products are taken.
+const PORTION: usize = 128;
+
+/// Chunks of rows that are made at once.
+const AT_ONCE: usize = 4;
+
+/// Fills cells with all rows; returns what they show.
+pub(super) fn filled(
+    whole: &Context<'_>,
+    fitted: &Fitted,
+    folds: &Folds,
+    cells: &mut Cells,
+    of_groups: &CellsOfGroups,
+) -> Result<Option<Seen>, SearchError> {
+    let cell = |row: usize| of_groups.cell(folds.group(fitted.layout.first(row)));
+    if rows_are_alone(whole, fitted) {
+        return filled_alone(whole, fitted, cells, cell);
+    }
+    filled_in_order(whole, fitted, cells, |components| of_groups.sorted(&folds.groups_of(components)), cell)
+}
+
+/// Fills cells with rows that are alone, each cell's by one processor; returns what they show.
+fn filled_alone(
+    whole: &Context<'_>,
+    fitted: &Fitted,
+    cells: &mut Cells,
+    cell: impl Fn(usize) -> usize + Sync,
+) -> Result<Option<Seen>, SearchError> {
+    let observations = whole.request.observations;
+    let mut of_cell = vec![Vec::new(); cells.count()];
+    (0..observations.rows()).for_each(|row| of_cell[cell(row)].push(row as u32));
+    let done = AtomicUsize::new(0);
+    let parts = cells.filled(|cell, add| {
+        let (mut seen, mut room) = (None, Mat::new());
+        for rows in of_cell[cell].chunks(PORTION) {
+            let chunk = Chunk::alone(whole, fitted, &stretches(observations, rows), room)?;
+            add(chunk.columns.as_ref());
+            merge(&mut seen, chunk.seen);
+            room = chunk.columns;
+            let rows = rows.len() + done.fetch_add(rows.len(), Ordering::Relaxed);
+            (whole.tell)(Stage::Columns { rows, of: observations.rows() });
+        }
+        Ok::<_, SearchError>(seen)
+    })?;
+    let mut seen = None;
+    parts.into_iter().flatten().for_each(|part| merge(&mut seen, part));
+    Ok(seen)
+}
+
+/// Fills cells with rows of which whitening mixes some, in the order that `sorted` puts the components of a chunk in; returns what
+/// they show.
+fn filled_in_order(
+    whole: &Context<'_>,
+    fitted: &Fitted,
+    cells: &mut Cells,
+    sorted: impl Fn(&[usize]) -> ByCell + Sync,
+    cell: impl Fn(usize) -> usize + Sync,
+) -> Result<Option<Seen>, SearchError> {
+    let observations = whole.request.observations;
+    // Matrices of chunks that were taken in: a new one each time would cost as much as filling it.
+    let room: Mutex<Vec<Mat<f64>>> = Mutex::default();
+    let rooms = || room.lock().unwrap_or_else(PoisonError::into_inner);
+    let made = |stretches: &[Range<usize>]| {
+        let by_cell = sorted(&components(fitted, stretches));
+        let room = rooms().pop().unwrap_or_else(Mat::new);
+        Ok((Chunk::in_order(whole, fitted, stretches, &by_cell.order, room)?, by_cell))
+    };
+    // Of objects a chunk is of few cells: products of few rows each would cost several times as much.
+    let chunks = match fitted.fit.noise.mixes_rows() {
+        true => Chunks::in_order(observations),
+        false => Chunks::by(observations, cell),
+    };
+    let (mut rows, mut seen) = (0, None);
+    each_chunk(&chunks, made, |some: Vec<(Chunk, ByCell)>| {
+        (whole.tell)(Stage::Columns { rows, of: observations.rows() });
+        let parts = some.iter().map(|(chunk, by_cell)| (chunk.columns.as_ref(), by_cell));
+        cells.add(&parts.collect::<Vec<_>>());
+        for (chunk, _) in some {
+            rows += chunk.rows;
+            merge(&mut seen, chunk.seen);
+            rooms().push(chunk.columns);
+        }
+    })?;
+    Ok(seen)
+}
+
+/// Adds what more rows show.
+fn merge(seen: &mut Option<Seen>, more: Seen) {
+    match seen {
+        None => *seen = Some(more),
+        Some(seen) => seen.merge(&more),
+    }
+}
+
+/// Lets `take` have what `make` makes of all rows, some chunks at a time. Those are far from each other, so that they are of different
+/// cells, and always the same: the number of processors changes no bit.
+pub(super) fn each_chunk<T: Send>(
+    chunks: &Chunks<'_>,
+    make: impl Fn(&[Range<usize>]) -> Result<T, SearchError> + Sync,
+    mut take: impl FnMut(Vec<T>),
+) -> Result<(), SearchError> {
+    let apart = chunks.count().div_ceil(AT_ONCE);
+    for first in 0..apart {
+        let some: Vec<usize> = (first..chunks.count()).step_by(apart).collect();
+        let made: Vec<Result<T, SearchError>> =
+            some.into_par_iter().map(|chunk| make(&chunks.stretches(chunk))).collect();
+        take(made.into_iter().collect::<Result<_, _>>()?);
+    }
+    Ok(())
+}

@@ -44,6 +44,10 @@ const DAMPED: f64 = 1e-8;
 /// Where a step changes the objective by no more than this share, the bottom is level.
 const LEVEL: f64 = 1e-6;
 
+/// So many times as many steps may be taken beside unknown objects: off a ridge of robust weights a step is hardly longer than the
+/// one before.
+const SLOWER: usize = 3;
+
 /// How often the noise is learned anew.
 const NOISE_ROUNDS: usize = 8;
 
@@ -197,7 +201,10 @@ impl Solver<'_> {
         let has_objects = self.observations.unknowns.is_some();
         let mut mixing = has_objects.then(Mixing::default);
         let mut least = 0.0;
-        for _ in 0..self.options.max_iterations {
+        let most = if has_objects { SLOWER * self.options.max_iterations } else { self.options.max_iterations };
+        let mut steps = 0;
+        while steps < most {
+            steps += 1;
             let point = &course.point;
             let tally = &point.sweep.tally;
             let step = course.subspace.step(&self.partial(&point.sweep), damping, &point.rest);
@@ -217,6 +224,7 @@ impl Solver<'_> {
             if is_mixed && next.objective() > point.objective() * (1.0 + ROUNDING) {
                 // The plain step is tried next, from the same point.
                 mixing = Some(Mixing::default());
+                steps -= 1;
             } else if next.objective() <= point.objective() * (1.0 + 1e-9) {
                 let gained = point.objective() - next.objective();
                 course.point = next;

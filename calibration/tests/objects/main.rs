@@ -9,6 +9,7 @@ mod frames;
 mod next;
 mod noise;
 mod refused;
+mod ridge;
 mod room;
 mod visible;
 

@@ -8,6 +8,7 @@ use std::cell::OnceCell;
 use super::confirm::{Judged, judged};
 use super::functions::{MOST, Settled, settled};
 use super::heard::{Places, are_any, heard};
+use super::whole_objects::are_cut_across;
 use crate::diagnose::Rms;
 use crate::diagnose::rms::share;
 use crate::fit::FitResult;
@@ -84,7 +85,12 @@ fn judge<'a>(settled: Settled<'a>, before: &FitResult) -> Result<Chosen<'a>, Sea
 ///
 /// Which rows are kept is for each model to say: one that explains rows which the other sets aside keeps more, and gains over
 /// every row.
+///
+/// Objects that are left out saw the same drift as the others: of stretches they confirm nothing.
 fn is_confirmed(whole: &Context<'_>, told: &Judged<'_>, taken_up: &Judged<'_>) -> bool {
+    if are_cut_across(whole.request.observations) {
+        return false;
+    }
     let ratio = |of: fn(&Rms) -> Option<f64>| share(&taken_up.rms, &told.rms, of);
     let elsewhere = ratio(|rms| rms.elsewhere_rms_kept);
     let (kept, every) = match whole.request.second {

@@ -5,7 +5,7 @@
 //! another one each time, or none, and predicts the rows left out worse than the declaration does. Where rows are few, the errors
 //! that are fitted beside such an effect are as wrong as it is.
 
-use super::held_out;
+use super::{held_out, whole_objects};
 use crate::diagnose::Caution;
 use crate::diagnose::rms::{BeforeAfter, Worse, worse};
 use crate::fit::FitResult;
@@ -40,7 +40,7 @@ pub(super) fn judged<'a>(
         return of_declaration(whole, before, round, left_out);
     }
     let held_out = nested(&round.search.problem, &round.sets, &whole.options);
-    let rms = held_out::rms(whole, before, &round, &held_out)?;
+    let rms = figures(whole, before, &round, &held_out)?;
     let Some(refused) = refused(whole, &round, &rms) else {
         return Ok(Judged { round, held_out, rms, left_out });
     };
@@ -57,8 +57,21 @@ fn of_declaration<'a>(
     left_out: Vec<Caution>,
 ) -> Result<Judged<'a>, SearchError> {
     let held_out = HeldOut::of_declared(&round.search.problem);
-    let rms = held_out::rms(whole, before, &round, &held_out)?;
+    let rms = figures(whole, before, &round, &held_out)?;
     Ok(Judged { round, held_out, rms, left_out })
+}
+
+/// Figures of rows left out: of whole objects where nothing else can be.
+fn figures(
+    whole: &Context<'_>,
+    before: &FitResult,
+    round: &Round<'_>,
+    held_out: &HeldOut,
+) -> Result<Vec<BeforeAfter>, SearchError> {
+    match whole_objects::left_out(whole, before, round)? {
+        Some(figures) => Ok(figures),
+        None => held_out::rms(whole, before, round, held_out),
+    }
 }
 
 /// The round without effects that hang on few observations, and what is told of them.

@@ -201,7 +201,8 @@ impl Solver<'_> {
         let has_objects = self.observations.unknowns.is_some();
         let mut mixing = has_objects.then(Mixing::default);
         let mut least = 0.0;
-        let most = if has_objects { SLOWER * self.options.max_iterations } else { self.options.max_iterations };
+        let most =
+            if has_objects { SLOWER * self.options.max_iterations } else { self.options.max_iterations };
         let mut steps = 0;
         while steps < most {
             steps += 1;

@@ -42,7 +42,8 @@ pub fn caution(caution: &Caution) -> String {
         ),
         Caution::OffAlike { rows, of_stretch, stretches } => format!(
             "Rows that follow each other are off alike: something drifts, or a surface is not what it is taken for. The {rows} rows count \
-             as {stretches} stretches of {of_stretch}: the ± are larger for it, and an effect has to show in most stretches."
+             as {stretches} stretches of {of_stretch}: the ± are larger for it, and an effect has to show in most stretches. What nobody \
+             fitted are whole objects, which were seen in the same stretches."
         ),
         Caution::NoisyReadings { reading, sigma, unit } => {
             let sigma = told(*sigma, *unit);

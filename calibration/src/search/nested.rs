@@ -27,6 +27,20 @@ impl HeldOut {
         Self { chosen: vec![Vec::new(); before.len()], after: before.clone(), before }
     }
 
+    /// What no search was repeated for: the declared columns alone, and with these of the candidates, which were chosen before.
+    #[must_use]
+    pub fn of_columns(problem: &Problem, columns: &[usize]) -> Self {
+        let with_columns = |fold: usize| {
+            let mut state = State::declared(problem, |f| f != fold);
+            state.add(columns);
+            state.coefficients()
+        };
+        Self {
+            after: (0..problem.folds()).into_par_iter().map(with_columns).collect(),
+            ..Self::of_declared(problem)
+        }
+    }
+
     /// In what share of the folds a set was chosen.
     #[must_use]
     pub fn share(&self, set: SetId) -> f64 {

@@ -10,6 +10,10 @@ fn drifting(remembered: f64) -> Off {
     Off { remembered: Some(remembered), times: |_| 1.0, stated: 1.0 }
 }
 
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
 fn off_alike(report: &Value) -> Option<&Value> {
     let cautions = report["cautions"].as_array().expect("a list");
     cautions.iter().find(|own| own["kind"] == "rows that follow each other are off alike")
@@ -24,6 +28,14 @@ fn a_trajectory_that_drifts_is_no_effect_and_is_in_the_uncertainties() {
         let alike = off_alike(&report).unwrap_or_else(|| panic!("{seed}: {}", report["cautions"]));
         assert!(alike["stretches"].as_u64().is_some_and(|stretches| stretches >= 10), "{alike}");
         assert!(report["effects"].as_array().is_some_and(Vec::is_empty), "{seed}: {}", report["effects"]);
+        // Objects are left out one after the other; six numbers explain next to nothing of what they leave.
+        let [before, after] = [&report["before"], &report["after"]].map(|own| number(&own["held_out_rms"]));
+        assert!(
+            (0.95..1.2).contains(&(after / number(&report["after"]["rms"]))),
+            "{seed}: {}",
+            report["after"]
+        );
+        assert!((after / before - 1.0).abs() < 1e-9, "{seed}: nothing was added: {before} and {after}");
         let [own, held] = held(&report);
         (all, within) = (all + own, within + held);
     }
@@ -36,6 +48,8 @@ fn what_the_declaration_lacks_is_found_beside_a_drift() {
     assert!(off_alike(&report).is_some(), "{}", report["cautions"]);
     assert_eq!(report["effects"].as_array().map(Vec::len), Some(1), "{}", report["effects"]);
     assert!(first_effect(&report).contains("encoder eccentricity of angle"), "{}", report["effects"]);
+    let [before, after] = [&report["before"], &report["after"]].map(|own| number(&own["held_out_rms"]));
+    assert!(after < 0.9 * before, "objects left out: {before} and {after}");
 }
 
 /// Each pose off by something of its own is noise like any other.

@@ -1,6 +1,6 @@
 //! Readings in, more columns out: what `eval` and `apply` both do with a table.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use model_core::Chain;
@@ -8,7 +8,7 @@ use model_core::Chain;
 use crate::errors_file::{self, FoundOver};
 use crate::evaluation::{Evaluator, Exactness, Quantity, column_names};
 use crate::failure::Failure;
-use crate::source::{Source, listed};
+use crate::source::Source;
 use crate::tables::{self, Column, ReadingsTable, Rows};
 use crate::{output, terminal};
 
@@ -32,9 +32,6 @@ pub struct OverTable {
     /// Where to write: a .csv or .parquet file, or - for standard output
     #[arg(long, value_name = "OUT")]
     pub out: PathBuf,
-    /// Let go of columns of the data that have the name of one that is written, and of what was measured there
-    #[arg(long)]
-    pub replace: bool,
 }
 
 fn comment_mark(text: &str) -> Result<u8, &'static str> {
@@ -91,49 +88,45 @@ impl OverTable {
         Ok(Model { chain, values, found })
     }
 
-    /// Writes the table with a quantity of each observable.
+    /// Writes the table with a quantity of each observable; returns which columns of the input these replace.
     ///
     /// # Errors
     /// The declaration, the errors or the readings have a mistake, or the place cannot be written.
-    pub fn evaluate(&self, form: Exactness, quantity: Quantity) -> Result<(), Failure> {
+    pub fn evaluate(&self, form: Exactness, quantity: Quantity) -> Result<Vec<String>, Failure> {
         let Opened { chain, values, mut table, .. } = self.open()?;
         let chosen = table.with_readings(&chain, &self.observable)?;
         let evaluator = Evaluator::new(&chain, chosen, form, quantity, &values);
         table.want(&chain, &evaluator.readings)?;
         let added = column_names(&chain, &evaluator.observables)?;
-        self.write(table, &added, &[], |rows| {
+        self.write(table, &added, |rows| {
             let readings: Vec<_> =
                 rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
             evaluator.columns(&readings, rows.count)
         })
     }
 
-    /// Writes the table with the columns that `compute` makes of its rows. Columns of the names `anew` were read to be written anew.
+    /// Writes the table with the columns that `compute` makes of its rows; returns which columns of the input these replace.
     ///
     /// # Errors
-    /// Another column of the data has the name of one that is written, a row cannot be read or computed, or the place cannot be
-    /// written.
+    /// A row cannot be read or computed, or the place cannot be written.
     pub fn write(
         &self,
         mut table: ReadingsTable<'_>,
         added: &[String],
-        anew: &[&str],
         mut compute: impl FnMut(&Rows) -> Result<Vec<Vec<f64>>, Failure>,
-    ) -> Result<(), Failure> {
+    ) -> Result<Vec<String>, Failure> {
         // A unit in brackets is not part of the name.
-        let named: Vec<&str> = added.iter().filter_map(|name| name.split(" [").next()).collect();
-        let is_one_of = |names: &[&str], column| names.iter().any(|name| table.means(column, name));
-        let is_replaced: Vec<bool> = table.header().iter().map(|column| is_one_of(&named, column)).collect();
+        let bare = |name: &str| name.split(" [").next().map(str::to_owned);
+        let named: Vec<String> = added.iter().filter_map(|name| bare(name)).collect();
+        let is_replaced: Vec<bool> =
+            table.header().iter().map(|column| named.iter().any(|name| table.means(column, name))).collect();
         let is_kept: Vec<bool> = is_replaced.iter().map(|replaced| !replaced).collect();
-        let replaced = table.header().iter().zip(&is_replaced).filter(|(_, is)| **is);
-        let lost = replaced.filter(|(column, _)| !is_one_of(anew, column)).map(|(column, _)| &column.full);
-        let lost: Vec<&str> = lost.map(String::as_str).collect();
-        if !self.replace && !lost.is_empty() {
-            return Err(would_be_lost(&self.data, &lost));
-        }
-        let kept = table.header().iter().zip(&is_kept).filter(|(_, kept)| **kept);
-        let header: Vec<String> =
-            kept.map(|(column, _)| column.full.clone()).chain(added.iter().cloned()).collect();
+        let names = |replaced: bool| {
+            let header = table.header().iter().zip(&is_replaced);
+            header.filter(move |(_, is)| **is == replaced).map(|(column, _)| column.full.clone())
+        };
+        let replaced: Vec<String> = names(true).collect();
+        let header: Vec<String> = names(false).chain(added.iter().cloned()).collect();
         let mut not_finite = 0;
         let mut done = 0_usize;
         let (progress, began) = (terminal::progress(), Instant::now());
@@ -159,17 +152,8 @@ impl OverTable {
                 "{not_finite} rows are not finite: the chain has a pole there, or a number too large"
             ));
         }
-        Ok(())
+        Ok(replaced)
     }
-}
-
-/// Columns of the data that what is written would take the place of.
-fn would_be_lost(data: &Path, columns: &[&str]) -> Failure {
-    let names = listed(columns.iter().copied());
-    Failure::Input(format!(
-        "`{}` has {names} already, which would be replaced by what is computed: rename what was measured, or say --replace to let go of it",
-        data.display()
-    ))
 }
 
 /// What is done, and how long the rest takes, as far as that is known.

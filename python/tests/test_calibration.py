@@ -94,9 +94,7 @@ def test_tables_of_every_library(mount, table, kind):
     for name, value in TRUE.items():
         found, uncertainty = rows[name]
         assert abs(found - value) < 5 * uncertainty and uncertainty < 3 * ARCSEC
-    with pytest.raises(trueaxis.TrueaxisError, match="replace=True"):
-        calibration.apply(data)
-    corrected = calibration.apply(data, replace=True)
+    corrected = calibration.apply(data)
     assert isinstance(corrected, trueaxis.Table if kind == "dictionary" else type(data))
 
 

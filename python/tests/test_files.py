@@ -44,9 +44,7 @@ def test_endings_in_capitals_and_short(mount, tables, tmp_path):
     a, b, c = tables
     folder = written(tmp_path / "scan", a__parquet=a, b__PARQUET=b, c__pq=c)
     assert fit(mount, folder).rows == calibrate(mount, folder).report["observations"]["rows"] == 3 * ROWS
-    with pytest.raises(trueaxis.TrueaxisError, match="a.parquet has `pointing_x`.*replace=True"):
-        trueaxis.apply(folder, mount, {}, tmp_path / "out")
-    done = trueaxis.apply(folder, mount, {}, tmp_path / "out", replace=True)
+    done = trueaxis.apply(folder, mount, {}, tmp_path / "out")
     assert done["rows"] == [ROWS] * 3 and {path.name for path in (tmp_path / "out").iterdir()} == {"a.parquet", "b.PARQUET", "c.pq"}
 
 
@@ -70,7 +68,7 @@ def test_what_is_left_out_is_told(mount, tables, tmp_path):
         calibrate(mount, folder)
     (folder / "b.csv").touch()
     with pytest.warns(trueaxis.TrueaxisWarning, match="not `2024/`, `b.csv`"):
-        trueaxis.apply(folder, mount, {}, tmp_path / "out", replace=True)
+        trueaxis.apply(folder, mount, {}, tmp_path / "out")
     with pytest.raises(trueaxis.TrueaxisError, match="holds .parquet and .csv files"):
         fit(mount, folder)
     with pytest.raises(trueaxis.TrueaxisError, match="x.parquet`: it is a folder; list the files in it"):
@@ -94,7 +92,7 @@ def test_files_without_rows_count_for_nothing(mount, tables, tmp_path):
     assert (one.rows, one.values) == (other.rows, other.values)
     one, other = calibrate(mount, folder, search_rows=500), calibrate(mount, without, search_rows=500)
     assert one.values == other.values and one.report["every_row"] == other.report["every_row"]
-    done = trueaxis.apply(folder, mount, {}, tmp_path / "out", replace=True)
+    done = trueaxis.apply(folder, mount, {}, tmp_path / "out")
     assert done["rows"] == [0, ROWS, 0, ROWS]
     schemas = [parquet.read_schema(tmp_path / "out" / f"{name}.parquet") for name in "ab"]
     assert schemas[0].equals(schemas[1]) and parquet.read_table(tmp_path / "out" / "a.parquet").num_rows == 0

@@ -79,13 +79,13 @@ class Calibration:
         values, over = self._native.values, self._native.found_over
         return None if values is None or over is None else Found(values, over)
 
-    def apply(self, table: Any, *, replace: bool = False) -> Any:
+    def apply(self, table: Any) -> Any:
         """New readings corrected with this calibration, as :meth:`Chain.apply` does."""
         from ._errors import TrueaxisError
 
         if self.chain is None or self.values is None:
             raise TrueaxisError(f"no usable model came out ({self.verdict}): there is nothing to apply")
-        return self.chain.apply(table, self.values, replace=replace)
+        return self.chain.apply(table, self.values)
 
     def text(self, *, verbose: bool = False) -> str:
         """The summary as the command prints it."""

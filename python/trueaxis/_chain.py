@@ -291,15 +291,12 @@ class Chain(OverArrays):
         *,
         form: Literal["exact", "first-order"] = "exact",
         quantity: Literal["error", "value"] = "error",
-        replace: bool = False,
     ) -> Any:
         """The error, or the value, of observables over a table of readings.
 
         :param table: a pandas, Polars or Arrow table, or a dictionary of columns, with columns named like joints and inputs;
             their names may carry units, ``"alpha [deg]"``. What speaks Arrow's stream of tables is read once, and becomes an Arrow
             table.
-        :param replace: let go of columns of the table that have the name of one that is added, as after an earlier call. Without it
-            such a table is refused: what stands there may be what was measured.
         :returns: the same kind of table (of a dictionary a :class:`Table`) with ``<observable>_x``, ``_y``, ``_z`` added, in SI, or
             the other numbers that an observable shows.
         """
@@ -315,11 +312,9 @@ class Chain(OverArrays):
             form == "exact",
             quantity == "value",
         )
-        return with_columns(table, dict(added), replace=replace)
+        return with_columns(table, dict(added))
 
-    def apply(
-        self, table: Any, errors: Errors, observables: str | Iterable[str] | None = None, *, replace: bool = False
-    ) -> Any:
+    def apply(self, table: Any, errors: Errors, observables: str | Iterable[str] | None = None) -> Any:
         """New readings corrected with calibrated errors: where the instrument really points, or its points really are.
 
         Arguments and result as of :meth:`eval`. Rows outside of what the errors were found over are warned of, where that is known:
@@ -328,9 +323,8 @@ class Chain(OverArrays):
         table, known = kept(table), errors_and_ranges(errors)
         rows = ("the table", columns_of(table))
         added, counted = _native.apply(self._native, rows, known, names(observables))
-        corrected = with_columns(table, dict(added), replace=replace)
         _native.warn_of_outside(self._native, known, [counted])
-        return corrected
+        return with_columns(table, dict(added))
 
 
 def _ranges(given: Ranges | None) -> list[tuple[str, str]]:

@@ -31,7 +31,6 @@ def apply(
     out: str | os.PathLike[str],
     *,
     observables: str | Iterable[str] | None = None,
-    replace: bool = False,
     client: distributed.Client | str | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> Table:
@@ -40,7 +39,6 @@ def apply(
     :param source: a folder of ``.parquet`` or ``.pq`` files, one file, or a list of files. Hidden files of a folder are left out; what
         else is not read is warned of.
     :param out: a folder that is not there yet. It appears with a file for each, of the same name, when all are done.
-    :param replace: let go of columns of the files that have the name of one that is added, as at :meth:`Chain.eval`.
     :param client: a Dask client, or the address of a scheduler: its workers do a file each, and must see the same folders. If a
         worker dies, others do its files again. Without one, the processors of this machine do them.
     :param progress: called with how many files are done, of how many.
@@ -62,7 +60,7 @@ def apply(
         staged.mkdir()
     except OSError as error:
         raise TrueaxisError(f"cannot write `{out}`: {error.strerror}") from None
-    tasks = [(str(file), str(staged / file.name), chain, known, chosen, replace, _native.__version__) for file in files]
+    tasks = [(str(file), str(staged / file.name), chain, known, chosen, _native.__version__) for file in files]
     rows: dict[str, int] = {}
     outside: list[Any] = []
     try:
@@ -87,7 +85,7 @@ def apply(
 
 def _apply_file(task: tuple) -> tuple[str, int, list]:
     """Corrects one file, chunk by chunk; the result takes its name when it is whole. What each chunk says of rows outside comes back."""
-    source, out, chain, known, observables, replace, version = task
+    source, out, chain, known, observables, version = task
     require_version(version)
     import pyarrow
     import pyarrow.parquet as parquet
@@ -100,13 +98,13 @@ def _apply_file(task: tuple) -> tuple[str, int, list]:
             place = place_of(source, first)
             added, counted = _native.apply(chain._native, (place, columns_of(table)), known, observables)
             outside.append(counted)
-            corrected = with_columns(table, dict(added), replace=replace, what=source)
+            corrected = with_columns(table, dict(added))
             if writer is None:
                 writer = parquet.ParquetWriter(partial, corrected.schema)
             writer.write_table(corrected)
             rows = first + table.num_rows
         if writer is None:
-            parquet.write_table(_without_rows(source, chain, known, observables, replace), partial)
+            parquet.write_table(_without_rows(source, chain, known, observables), partial)
         else:
             writer.close()
         os.replace(partial, out)
@@ -118,12 +116,10 @@ def _apply_file(task: tuple) -> tuple[str, int, list]:
     return source, rows, outside
 
 
-def _without_rows(
-    source: str, chain: Chain, known: tuple[str, str], observables: list[str], replace: bool
-) -> pyarrow.Table:
+def _without_rows(source: str, chain: Chain, known: tuple[str, str], observables: list[str]) -> pyarrow.Table:
     """A file without rows, corrected: it has the columns that one row would have."""
     with opened(source) as open_file:
         table = open_file.schema_arrow.empty_table()
     one_row = [(name, np.array([0.5])) for name in table.column_names]
     added, _ = _native.apply(chain._native, (source, one_row), known, observables)
-    return with_columns(table, {name: column[:0] for name, column in added}, replace=replace, what=source)
+    return with_columns(table, {name: column[:0] for name, column in added})

@@ -12,8 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from ._errors import TrueaxisError
-
 Columns = list[tuple[str, "np.ndarray | list[str]"]]
 
 _ROWS_SHOWN = 10
@@ -198,17 +196,9 @@ def _mixed(values: list[Any]) -> np.ndarray | list[str]:
     return [text(value) for value in values]
 
 
-def with_columns(table: Any, columns: Mapping[str, np.ndarray], *, replace: bool, what: str = "the table") -> Any:
-    """The table, of the library that made it, with columns added, or replaced where that was asked for."""
+def with_columns(table: Any, columns: Mapping[str, np.ndarray]) -> Any:
+    """The table, of the library that made it, with columns added or replaced."""
     library = _library(table)
-    if not replace:
-        own = table if isinstance(table, Mapping) else table.column_names if library == "pyarrow" else list(table.columns)
-        lost = ", ".join(f"`{name}`" for name in columns if name in own)
-        if lost:
-            raise TrueaxisError(
-                f"{what} has {lost} already, which would be replaced by what is computed: rename what was measured, or say replace=True "
-                "to let go of it"
-            )
     if library == "pandas" and not isinstance(table, Mapping):
         return table.assign(**columns)
     if library == "polars" and hasattr(table, "with_columns"):

@@ -23,8 +23,7 @@ use crate::{tables, terminal};
 ///
 /// Reads columns named like the chain's joints and inputs and writes every column of the input, with the corrected
 /// `<observable>_x`, `_y`, `_z`: where the instrument with its calibrated errors really points, or where its points
-/// really are. Columns of these names in the input are refused: they may be measured. Where they were computed without the errors,
-/// or corrected before, --replace replaces them.
+/// really are. Columns of these names in the input, computed without the errors, are replaced.
 ///
 /// With --solve it goes the other way: it reads where the instrument is to point, in the columns that it would write
 /// without, and writes the readings of the joints that do so, with the angle or distance that remains. Columns of the
@@ -104,7 +103,6 @@ fn correct_cloud(arguments: &Arguments) -> Result<(), Failure> {
         ("--as", arguments.form != As::Vector),
         ("--correction", arguments.correction),
         ("--solve", arguments.solve),
-        ("--replace", table.replace),
     ];
     if let Some((option, _)) = of_tables.iter().find(|(_, is_given)| *is_given) {
         return Err(Failure::Input(format!(
@@ -146,7 +144,7 @@ fn correct(arguments: &Arguments) -> Result<(), Failure> {
     let added: Vec<String> =
         seen.iter().flat_map(|seen| seen.headers(&chain, arguments.correction)).collect();
     let mut outside = Outside::new(found);
-    arguments.table.write(table, &added, &[], |rows| {
+    arguments.table.write(table, &added, |rows| {
         let readings: Vec<(SymbolId, &[f64])> =
             rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
         outside.see(&chain, &readings, &value)?;
@@ -195,7 +193,7 @@ fn solve(arguments: &Arguments) -> Result<(), Failure> {
     let mut ideal =
         arguments.correction.then(|| Solver::new(&chain, observable, &without, &found, true)).transpose()?;
     let unit = |joint: SymbolId| chain.symbol(joint).quantity;
-    let name = |joint: SymbolId| chain.symbol(joint).name.as_str();
+    let name = |joint: SymbolId| &chain.symbol(joint).name;
     // A reading beyond a turn would be doubted without its unit.
     let with_unit = |name: &str, quantity: Measures| match quantity {
         Measures::Number => name.to_owned(),
@@ -214,9 +212,7 @@ fn solve(arguments: &Arguments) -> Result<(), Failure> {
     let mut outside = Outside::new(found.clone());
     let checked = Evaluator::new(&chain, vec![observable], Exactness::Exact, Quantity::Value, &values);
     let (mut missed, mut farthest, mut count) = (0, 0.0_f64, 0);
-    // Where the search starts stands in the columns that say where it ends.
-    let starts: Vec<&str> = solver.joints.iter().map(|&joint| name(joint)).collect();
-    arguments.table.write(table, &added, &starts, |rows| {
+    arguments.table.write(table, &added, |rows| {
         let columns: Vec<&[f64]> = rows.others.iter().map(Vec::as_slice).collect();
         let wanted: Vec<[f64; 3]> = (0..rows.count).map(|row| seen.vector(&columns, row)).collect();
         let solved = solver.solve(&rows.readings, &wanted)?;

@@ -4,6 +4,8 @@ use super::Answer;
 use crate::evaluation::{Exactness, Quantity};
 use crate::failure::Failure;
 use crate::over_table::OverTable;
+use crate::source::listed;
+use crate::terminal;
 
 /// Evaluate the error of each observable over a table of readings.
 ///
@@ -13,7 +15,7 @@ use crate::over_table::OverTable;
 ///
 /// Reads columns named like the chain's joints and inputs (`alpha [deg]`, `range [mm]`; without a unit: SI) and
 /// writes every column of the input, with three more for each observable: what the errors add to it (the
-/// default), or the observable itself. Columns of these names in the input are refused, or replaced with --replace.
+/// default), or the observable itself.
 ///
 /// Example: trueaxis eval examples/mobile-lidar/mobile-lidar.chain --errors examples/mobile-lidar/errors.toml
 /// --data poses.csv --observable pointing --out errors.csv
@@ -31,6 +33,10 @@ pub struct Arguments {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    arguments.table.evaluate(arguments.form, arguments.quantity)?;
+    let replaced = arguments.table.evaluate(arguments.form, arguments.quantity)?;
+    if !replaced.is_empty() {
+        let names = listed(replaced.iter().map(String::as_str));
+        terminal::warn(format_args!("the input's own columns {names} were replaced"));
+    }
     Ok(Answer::Done)
 }

@@ -30,7 +30,7 @@ fn the_independent_simulator_and_the_chain_agree_up_to_the_noise() {
     let errors = "examples/mobile-lidar/off-centre.errors.toml";
     let measured = "examples/mobile-lidar/measured.csv";
     let arguments = ["apply", OFF_CENTRE, "--errors", errors, "--data", measured, "--out", "-"];
-    let corrected = answered(&[arguments.as_slice(), &["--observable", "pointing", "--replace"]].concat());
+    let corrected = answered(&[arguments.as_slice(), &["--observable", "pointing"]].concat());
     let measured = std::fs::read_to_string(root().join(measured)).expect("the example's data");
     let variance = variance(&corrected, &measured);
     // 800 independent normal amounts of 2 arcsec: their variance has a standard deviation of 5 %.
@@ -61,19 +61,8 @@ fn simulated_noise_is_what_was_asked_for_and_the_seed_fixes_it() {
     let table = simulate("7");
     assert_eq!(table, simulate("7"), "the same seed");
     assert_ne!(table, simulate("8"), "another seed");
-    let arguments = [
-        "apply",
-        LIDAR,
-        "--errors",
-        errors,
-        "--observable",
-        "pointing",
-        "--replace",
-        "--data",
-        "-",
-        "--out",
-        "-",
-    ];
+    let arguments =
+        ["apply", LIDAR, "--errors", errors, "--observable", "pointing", "--data", "-", "--out", "-"];
     let exact = run_in(root(), &arguments, &table);
     assert_eq!(exact.code, 0, "{exact}");
     let variance = variance(&exact.stdout, &table);
@@ -183,35 +172,26 @@ fn value_is_the_value_without_errors_and_the_error() {
 }
 
 #[test]
-fn what_was_measured_is_replaced_only_where_that_is_said() {
-    let folder = Folder::new("replaced");
-    let out = folder.0.join("out.csv");
-    let data = "examples/mobile-lidar/measured.csv";
-    for command in ["eval", "apply"] {
-        let arguments = [
-            command,
-            LIDAR,
-            "--errors",
-            "examples/mobile-lidar/errors.toml",
-            "--data",
-            data,
-            "--observable",
-            "pointing",
-            "--out",
-            out.to_str().expect("UTF-8"),
-        ];
-        let run = trueaxis(&arguments);
-        assert_eq!(run.code, 2, "{run}");
-        let columns = "`pointing_x`, `pointing_y`, `pointing_z`";
-        assert!(run.stderr.contains(data) && run.stderr.contains(columns), "{run}");
-        assert!(run.stderr.contains("rename what was measured, or say --replace"), "{run}");
-        assert!(folder.names().is_empty(), "nothing is written");
-        let run = trueaxis(&[&arguments[..], &["--replace"]].concat());
-        assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{run}");
-        let written = folder.read("out.csv");
-        assert_eq!(written.lines().next().expect("a header").matches("pointing_x").count(), 1);
-        std::fs::remove_file(&out).expect("it was written");
-    }
+fn columns_of_the_input_that_are_computed_anew_are_replaced_with_a_word() {
+    let arguments = [
+        "eval",
+        LIDAR,
+        "--errors",
+        "examples/mobile-lidar/errors.toml",
+        "--data",
+        "examples/mobile-lidar/measured.csv",
+        "--observable",
+        "pointing",
+        "--out",
+        "-",
+    ];
+    let run = trueaxis(&arguments);
+    assert_eq!(run.code, 0, "{run}");
+    assert_eq!(
+        run.stderr,
+        "warning: the input's own columns `pointing_x`, `pointing_y`, `pointing_z` were replaced\n"
+    );
+    assert_eq!(run.stdout.lines().next().expect("a header").matches("pointing_x").count(), 1);
 }
 
 #[test]

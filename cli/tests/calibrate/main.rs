@@ -105,7 +105,6 @@ fn the_errors_written_correct_the_measured_data() {
         "measured.csv",
         "--observable",
         "pointing",
-        "--replace",
         "--out",
         "corrected.csv",
     ];

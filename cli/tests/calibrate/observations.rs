@@ -264,18 +264,11 @@ fn parquet_is_read_and_written_as_separated_values_are() {
         let simulated = ["--poses", "50", "--noise", "2 arcsec", "--seed", "3", "--out", &run];
         done(&[&["simulate", "encoder.chain"], &errors[..], &simulated[..]].concat());
         let evaluated = format!("evaluated.{ending}");
-        done(
-            &[&["eval", "encoder.chain"], &errors[..], &["--data", &run, "--replace", "--out", &evaluated]]
-                .concat(),
-        );
+        done(&[&["eval", "encoder.chain"], &errors[..], &["--data", &run, "--out", &evaluated]].concat());
         let corrected = format!("corrected-{ending}.csv");
         done(
-            &[
-                &["apply", "encoder.chain"],
-                &errors[..],
-                &["--data", &evaluated, "--replace", "--out", &corrected],
-            ]
-            .concat(),
+            &[&["apply", "encoder.chain"], &errors[..], &["--data", &evaluated, "--out", &corrected]]
+                .concat(),
         );
         let kind = "[observed]\nkind = \"direction\"\n";
         folder.write("study.toml", format!("chain = \"encoder.chain\"\ndata = \"{run}\"\n{kind}"));

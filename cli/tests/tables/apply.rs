@@ -71,7 +71,7 @@ fn solved_readings_point_at_what_was_wanted() {
     assert!(remaining[3] > 1e-5, "{remaining:?}");
     let text: Vec<String> = rows.iter().map(|row| row.join(",")).collect();
     folder.write("solved.csv", text.join("\n") + "\n");
-    let (_, again, _) = apply(&folder, "solved.csv", &["--as", "azimuth-elevation", "--replace"]);
+    let (_, again, _) = apply(&folder, "solved.csv", &["--as", "azimuth-elevation"]);
     for (name, expected) in
         [("sight_azimuth [deg]", [120.0, 300.0, 10.0]), ("sight_elevation [deg]", [45.0, 5.0, 88.0])]
     {

@@ -25,8 +25,8 @@ fn gantry(name: &str, header: &str, rows: &[&str]) -> Folder {
 }
 
 const COMMANDS: [&str; 3] = [
-    "eval gantry.chain --errors e.toml --data data.csv --replace --out out.csv",
-    "apply gantry.chain --errors e.toml --data data.csv --replace --out out.csv",
+    "eval gantry.chain --errors e.toml --data data.csv --out out.csv",
+    "apply gantry.chain --errors e.toml --data data.csv --out out.csv",
     "calibrate study.toml --out out",
 ];
 

@@ -10,7 +10,7 @@ const SHAFT: &str = "chain Shaft {
     observe mark: direction(0, 1, 0) of shaft;
 }
 ";
-const APPLY: &str = "apply shaft.chain --errors e.toml --data in.csv --replace --out";
+const APPLY: &str = "apply shaft.chain --errors e.toml --data in.csv --out";
 
 fn shaft(name: &str, table: &str) -> Folder {
     let folder = Folder::new(name);
@@ -122,7 +122,7 @@ proptest! {
         let cell = |label: &String| if label.starts_with('"') { label.clone() } else { label.replace([',', '"'], "_") };
         let rows: String = labels.iter().map(|label| format!("{},0.5\n", cell(label))).collect();
         let folder = shaft("as-many", "");
-        let arguments = ["apply", "shaft.chain", "--errors", "e.toml", "--data", "-", "--replace", "--out", "-"];
+        let arguments = ["apply", "shaft.chain", "--errors", "e.toml", "--data", "-", "--out", "-"];
         let once = run_in(&folder.0, &arguments, &format!("label,q\n{rows}"));
         prop_assert_eq!(once.code, 0, "{}", once);
         let twice = run_in(&folder.0, &arguments, &once.stdout);

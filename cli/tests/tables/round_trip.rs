@@ -135,9 +135,9 @@ proptest! {
         let exact = folder.read("simulated.csv");
         // Each of these reads what the one before it wrote, in its format, and computes the same again.
         for (command, data, out) in [
-            ("eval named.chain --quantity value --replace", &simulated, &evaluated),
-            ("apply named.chain --replace", &evaluated, &applied),
-            ("apply named.chain --replace", &applied, &"last.csv".to_owned()),
+            ("eval named.chain --quantity value", &simulated, &evaluated),
+            ("apply named.chain", &evaluated, &applied),
+            ("apply named.chain", &applied, &"last.csv".to_owned()),
         ] {
             done(&words(&folder, &format!("{command} --errors e.toml --data {data} --out {out}")));
         }
@@ -165,7 +165,7 @@ proptest! {
         ));
         done(&words(&folder, "calibrate study.toml --out result"));
         done(&words(&folder, &format!(
-            "apply result/amended.chain --errors result/errors.toml --data {applied} --observable tip --replace --out told.csv"
+            "apply result/amended.chain --errors result/errors.toml --data {applied} --observable tip --out told.csv"
         )));
         let told = folder.read("told.csv");
         for axis in ["tip_x", "tip_y", "tip_z"] {
@@ -204,10 +204,7 @@ fn a_far_range_is_written_with_its_unit_and_read_without_a_word() {
     assert_eq!(done(&run), "");
     assert!(folder.read("far.csv").starts_with("t,turn [rad],slide [m],"), "{}", folder.read("far.csv"));
     assert_eq!(
-        done(&words(
-            &folder,
-            "apply named.chain --errors e.toml --data far.csv --observable beam --replace --out -"
-        )),
+        done(&words(&folder, "apply named.chain --errors e.toml --data far.csv --observable beam --out -")),
         ""
     );
 }

@@ -90,8 +90,12 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let folder = arguments.out.as_ref().map(|folder| folder.display().to_string());
     let reported = calibrated.reported(folder.as_deref());
     if arguments.dry_run {
+        let change = report::diff(&reported);
+        if change.is_empty() {
+            terminal::note(format_args!("the declaration would not change"));
+        }
         terminal::print(&match arguments.format {
-            TextOrJson::Text => report::diff(&reported),
+            TextOrJson::Text => change,
             TextOrJson::Json => report::json(&reported)?,
         })?;
         return Ok(answer(reported.calibration));

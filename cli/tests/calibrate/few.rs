@@ -54,3 +54,17 @@ fn one_to_three_rows_say_nothing_against_what_is_stated() {
     assert_eq!(cautions(&folder, 8, "20 arcsec", 1), ["noise exceeds stated"]);
     assert!(cautions(&folder, 3, "0", 1).contains(&"residual is rounding".to_owned()));
 }
+
+#[test]
+fn a_dry_run_says_where_nothing_would_change() {
+    let folder = Folder::new("few-dry-run");
+    folder.write("pan.chain", PAN).write("errors.toml", "index = \"30 arcsec\"\nsag = \"20 arcsec\"\n");
+    folder.write(
+        "study.toml",
+        "chain = \"pan.chain\"\ndata = \"data.csv\"\n[observed]\nkind = \"direction\"\n",
+    );
+    assert!(cautions(&folder, 40, "5 arcsec", 1).is_empty());
+    let run = folder.trueaxis(&["calibrate", "study.toml", "--dry-run"]);
+    assert_eq!((run.code, run.stdout.as_str()), (0, ""), "{run}");
+    assert!(run.stderr.contains("the declaration would not change"), "{run}");
+}

@@ -119,7 +119,6 @@ fn a_known_target_is_no_hindrance() {
     agree(&held, &free, 0.01);
 }
 
-/// The same errors, apart by no more than this share of their ±.
 /// A row without a label of its group is of no group: such rows together are none either.
 #[test]
 fn a_row_says_to_which_group_it_belongs() {
@@ -140,6 +139,7 @@ fn a_row_says_to_which_group_it_belongs() {
     }
 }
 
+/// The same errors, apart by no more than this share of their ±.
 fn agree(report: &Value, other: &Value, share: f64) {
     let errors = |report: &Value| report["errors"].as_array().cloned().expect("a list");
     assert_eq!(errors(report).len(), errors(other).len());

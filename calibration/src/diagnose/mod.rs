@@ -31,6 +31,7 @@ use model_core::{Chain, SymbolId};
 use serde::Serialize;
 
 use crate::candidate::EffectId;
+use crate::data::unknowns::Unknowns;
 use crate::data::{Observations, Origin, SiUnit};
 use crate::design::discrimination::separation;
 use crate::design::{PlaceProposal, Proposal, Separation};
@@ -153,6 +154,9 @@ pub struct Used {
     pub used: usize,
     /// Groups of rows that are not independent.
     pub groups: usize,
+    /// Observed objects whose place the study does not say; absent where there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unknown_objects: Option<usize>,
     /// The others.
     pub set_aside: Vec<SetAsideRow>,
 }
@@ -413,6 +417,7 @@ fn used(whole: &Context<'_>, fit: &FitResult) -> Used {
         rows: observations.rows(),
         used: observations.rows() - fit.set_aside.len(),
         groups: groups.len(),
+        unknown_objects: observations.unknowns.as_ref().and_then(Unknowns::unknown_objects),
         set_aside: fit
             .set_aside
             .iter()

@@ -112,7 +112,16 @@ fn correct(diagnosis: &Diagnosis, folder: Option<&str>) -> Step {
         .flat_map(|effect| &effect.causes)
         .any(|cause| cause.relation == Relation::Competing);
     let several = diagnosis.effects.iter().any(|effect| effect.causes.len() > 1);
+    let are_unknown = diagnosis.observations.unknown_objects.is_some();
     let text = match (diagnosis.effects.is_empty(), competing, several) {
+        (false, true, _) if are_unknown => {
+            "Each cause that fits explains what was observed about as well. With another one place and size of everything may differ: \
+             nobody knows those of the objects."
+        }
+        (false, false, true) if are_unknown => {
+            "Each cause explains what was observed the same. With another one place and size of everything may differ: nobody knows those \
+             of the objects."
+        }
         (true, ..) => "The declared errors were estimated; nothing was added.",
         (false, true, _) => "Where these data lie, the causes that fit make about the same correction.",
         (false, false, true) => "The correction is the same whichever cause it is, where these data lie.",

@@ -64,6 +64,19 @@ fn a_sphere_is_a_distance_from_its_centre() {
     assert!(run.stderr.contains("nothing holds the scale"), "{run}");
 }
 
+/// Where nobody knows the objects, a scale may be of the joints or of the lengths: rows fit either, and points lie elsewhere.
+#[test]
+fn causes_that_fit_alike_are_not_said_to_correct_alike() {
+    let run = run_in(&cranks("cranks-causes").0, &["calibrate", "rings.toml"], "");
+    assert_eq!(run.code, 0, "{run}");
+    let text = run.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        text.contains("place and size of everything may differ: nobody knows those of the objects"),
+        "{run}"
+    );
+    assert!(!text.contains("same correction") && !text.contains("The correction is the same"), "{run}");
+}
+
 #[test]
 fn what_is_wrong_with_a_study_of_circles_is_named() {
     let folder = cranks("cranks-wrong");

@@ -251,6 +251,13 @@ impl Unknowns {
         self.stations.iter().map(Station::numbers).sum()
     }
 
+    /// Of how many objects the study says nothing but a start at most; none where it says something of all.
+    #[must_use]
+    pub fn unknown_objects(&self) -> Option<usize> {
+        let unknown = self.objects.iter().filter(|object| object.freedom == Freedom::Free).count();
+        (unknown > 0).then_some(unknown)
+    }
+
     /// Where the numbers of each station begin.
     #[must_use]
     pub fn first_of_stations(&self) -> Vec<usize> {

@@ -48,7 +48,8 @@ fn filled_alone(
     let observations = whole.request.observations;
     let mut of_cell = vec![Vec::new(); cells.count()];
     (0..observations.rows()).for_each(|row| of_cell[cell(row)].push(row as u32));
-    let done = AtomicUsize::new(0);
+    let (done, of) = (AtomicUsize::new(0), observations.rows());
+    (whole.tell)(Stage::Columns { rows: 0, of });
     let parts = cells.filled(|cell, add| {
         let (mut seen, mut room) = (None, Mat::new());
         for rows in of_cell[cell].chunks(PORTION) {
@@ -57,7 +58,7 @@ fn filled_alone(
             merge(&mut seen, chunk.seen);
             room = chunk.columns;
             let rows = rows.len() + done.fetch_add(rows.len(), Ordering::Relaxed);
-            (whole.tell)(Stage::Columns { rows, of: observations.rows() });
+            (whole.tell)(Stage::Columns { rows, of });
         }
         Ok::<_, SearchError>(seen)
     })?;

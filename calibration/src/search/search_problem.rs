@@ -295,16 +295,17 @@ fn reach(
 mod tests {
     use std::fmt::Write as _;
     use std::io::Read;
+    use std::sync::Mutex;
 
     use approx::assert_relative_eq;
     use model_core::{Chain, exact};
 
     use super::*;
     use crate::formats::DataError;
-    use crate::search::Request;
     use crate::search::context::Found;
     use crate::search::nested;
     use crate::search::round::Round;
+    use crate::search::{Request, Stage};
     use crate::study::Study;
 
     const MOUNT: &str = include_str!("../../../examples/alt-azimuth/alt-azimuth.chain");
@@ -367,7 +368,18 @@ mod tests {
         let observables = [observations.poses.series[0].observable];
         let [all, merged] = [1 << 24, 1 << 19].map(|held| Context::new(request, &observables, held).unwrap());
         let of_all = Round::at(&all, Fitted::first(&all).unwrap()).unwrap();
+        let told = Mutex::new(Vec::new());
+        let tell = |stage| told.lock().unwrap().push(stage);
+        let merged = Context { tell: &tell, ..merged };
         let of_merged = Round::at(&merged, Fitted::first(&merged).unwrap()).unwrap();
+        let columns = |rows| Stage::Columns { rows, of: ROWS };
+        let is_of_columns = |stage: &&Stage| matches!(stage, Stage::Columns { .. });
+        {
+            // How long the rest takes is told from where it begins.
+            let told = told.lock().unwrap();
+            assert_eq!(told.iter().find(is_of_columns), Some(&columns(0)));
+            assert!(told.contains(&columns(ROWS)));
+        }
         assert!(of_merged.search.problem.rows().nrows() < ROWS / 2);
         assert!(of_merged.search.rows.observations.rows() < ROWS / 4);
 

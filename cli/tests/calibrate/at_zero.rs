@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use crate::figures::simulate_pan;
 use crate::support::Folder;
 
 const CHAIN: &str = "chain Pan {
@@ -17,26 +18,7 @@ fn an_error_that_stands_for_zero_of_a_far_input_is_said_to() {
         let folder = Folder::new(&format!("at_zero_{is_told}"));
         folder.write("pan.chain", CHAIN);
         folder.write("errors.toml", "index = \"30 arcsec\"\ndrift = \"5 arcsec\"\nsag = \"20 arcsec\"\n");
-        let air = format!("air={air}");
-        let made = folder.trueaxis(&[
-            "simulate",
-            "pan.chain",
-            "--errors",
-            "errors.toml",
-            "--poses",
-            "60",
-            "--noise",
-            "2 arcsec",
-            "--seed",
-            "1",
-            "--range",
-            "tilt=-60..60 deg",
-            "--range",
-            &air,
-            "--out",
-            "data.csv",
-        ]);
-        assert_eq!(made.code, 0, "{made}");
+        simulate_pan(&folder, 60, "2 arcsec", 1, &["--range", &format!("air={air}")]);
         folder.write(
             "study.toml",
             "chain = \"pan.chain\"\ndata = \"data.csv\"\n[observed]\nkind = \"direction\"\n[search]\neffects = [\"encoder\"]\n",

@@ -3,15 +3,11 @@
 use serde_json::Value;
 
 use crate::drive::{Off, drive, held, report};
-use crate::figures::first_effect;
+use crate::figures::{first_effect, number};
 
 /// Poses off by something that the next rows share.
 fn drifting(remembered: f64) -> Off {
     Off { remembered: Some(remembered), times: |_| 1.0, stated: 1.0 }
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
 }
 
 fn off_alike(report: &Value) -> Option<&Value> {

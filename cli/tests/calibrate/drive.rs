@@ -8,7 +8,7 @@ use std::fmt::Write;
 
 use serde_json::Value;
 
-use crate::figures::calibrated;
+use crate::figures::{calibrated, number};
 use crate::random::Random;
 use crate::support::Folder;
 
@@ -128,7 +128,6 @@ pub fn held(report: &Value) -> [usize; 2] {
         "boresight_z" => BORESIGHT_RAD[2],
         other => panic!("{other} is no error of the vehicle"),
     };
-    let number = |value: &Value| value.as_f64().unwrap_or_else(|| panic!("{value} is no number"));
     let own = report["errors"].as_array().expect("a list").iter();
     let own = own.filter(|error| !error["standard_uncertainty"].is_null());
     let each = own.map(|error| (error, planted(error["name"].as_str().expect("a name"))));

@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use crate::figures::simulate_pan;
 use crate::support::Folder;
 
 const PAN: &str = "chain Pan {
@@ -12,24 +13,7 @@ const PAN: &str = "chain Pan {
 
 /// The kinds of caution on so many poses, with noise of this size beside 5 arcsec that are stated.
 fn cautions(folder: &Folder, poses: usize, noise: &str, seed: usize) -> Vec<String> {
-    let (poses, seed) = (poses.to_string(), seed.to_string());
-    let made = folder.trueaxis(&[
-        "simulate",
-        "pan.chain",
-        "--errors",
-        "errors.toml",
-        "--poses",
-        &poses,
-        "--noise",
-        noise,
-        "--seed",
-        &seed,
-        "--range",
-        "tilt=-60..60 deg",
-        "--out",
-        "data.csv",
-    ]);
-    assert_eq!(made.code, 0, "{made}");
+    simulate_pan(folder, poses, noise, seed, &[]);
     let run = folder.trueaxis(&["calibrate", "study.toml", "--format", "json"]);
     let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
     let cautions = report["cautions"].as_array().expect("a list");

@@ -11,6 +11,22 @@ pub fn calibrated(folder: &Folder, study: &str) -> Value {
     serde_json::from_str(&run.stdout).expect("JSON")
 }
 
+/// What has to be a number.
+pub fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+/// Data of `pan.chain` with `errors.toml` in a folder, at tilts of up to 60°; `more` are more options.
+pub fn simulate_pan(folder: &Folder, poses: usize, noise: &str, seed: usize, more: &[&str]) {
+    let (poses, seed) = (poses.to_string(), seed.to_string());
+    let mut arguments =
+        vec!["simulate", "pan.chain", "--errors", "errors.toml", "--range", "tilt=-60..60 deg"];
+    arguments.extend(["--poses", &poses, "--noise", noise, "--seed", &seed, "--out", "data.csv"]);
+    arguments.extend(more);
+    let made = folder.trueaxis(&arguments);
+    assert_eq!(made.code, 0, "{made}");
+}
+
 /// Value and standard uncertainty of an error, SI.
 pub fn error(report: &Value, name: &str) -> [f64; 2] {
     let errors = report["errors"].as_array().expect("a list");

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
+use crate::figures::number;
 use crate::support::{Folder, root};
 
 const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;
@@ -37,10 +38,6 @@ fn planted() -> BTreeMap<String, f64> {
     planted.insert("ecc_sin_q4".to_owned(), eccentric * phase.cos());
     planted.insert("ecc_cos_q4".to_owned(), -eccentric * phase.sin());
     planted
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
 }
 
 /// The probe's centre lies on the axis of the wrist: the orientation alone shows that the wrist's circle sits off centre.

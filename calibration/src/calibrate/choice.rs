@@ -64,7 +64,9 @@ pub(super) fn chosen<'a>(
     }
     let told = settled(whole, &[], round)?;
     let may_gain = || told.winner_leaves.is_some_and(|share| share < WORTH_TRYING) || are_any(&told);
-    if functions == Some(false) || told.round.fitted.found.len() > NAMED || !may_gain() {
+    // Objects that are left out saw the same drift as the others: of stretches they confirm nothing.
+    let confirms_nothing = are_cut_across(whole.request.observations);
+    if functions == Some(false) || confirms_nothing || told.round.fitted.found.len() > NAMED || !may_gain() {
         return judge(told, before);
     }
     let fitted = told.round.fitted.clone();
@@ -85,12 +87,7 @@ fn judge<'a>(settled: Settled<'a>, before: &FitResult) -> Result<Chosen<'a>, Sea
 ///
 /// Which rows are kept is for each model to say: one that explains rows which the other sets aside keeps more, and gains over
 /// every row.
-///
-/// Objects that are left out saw the same drift as the others: of stretches they confirm nothing.
 fn is_confirmed(whole: &Context<'_>, told: &Judged<'_>, taken_up: &Judged<'_>) -> bool {
-    if are_cut_across(whole.request.observations) {
-        return false;
-    }
     let ratio = |of: fn(&Rms) -> Option<f64>| share(&taken_up.rms, &told.rms, of);
     let elsewhere = ratio(|rms| rms.elsewhere_rms_kept);
     let (kept, every) = match whole.request.second {

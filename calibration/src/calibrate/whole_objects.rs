@@ -2,7 +2,7 @@
 //!
 //! Stretches cut across objects, so that nothing is left to search without some of both. The errors and the effects that were found are
 //! fitted to the other objects' rows alone, and each object that is left out is estimated anew from its own. Which effects
-//! those are was found with all rows, and what drifts was the same for all objects: the figure is for the reader, and chooses nothing.
+//! those are was found with all rows, and what drifts was the same for all objects: the figure takes nothing up.
 
 use super::held_out;
 use crate::data::{Grouping, Observations};

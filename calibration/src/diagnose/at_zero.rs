@@ -37,18 +37,21 @@ pub(super) fn at_zero(
     let inputs = observations.poses.columns.iter();
     let inputs = inputs.filter(|(id, _)| chain.symbol(*id).kind == SymbolKind::Input);
     let of_input = |(id, values): &(SymbolId, Vec<f64>)| {
+        let errors = beside(chain, fit, *id);
+        if errors.is_empty() {
+            return None;
+        }
         let counted = values.iter().zip(&fit.residuals.weight).filter(|(_, weight)| **weight > 0.0);
         let counted: Vec<f64> = counted.map(|(value, _)| *value).collect();
         let rows = counted.len() as f64;
         let mean = counted.iter().sum::<f64>() / rows;
         let variance = counted.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / rows;
         let is_far = mean.abs() > FAR * variance.sqrt();
-        let errors = if is_far { beside(chain, fit, *id) } else { Vec::new() };
         let from = counted.iter().copied().fold(f64::INFINITY, f64::min);
         let to = counted.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let symbol = chain.symbol(*id);
         let (input, unit) = (symbol.name.clone(), of_reading(setting, chain, *id));
-        (!errors.is_empty()).then_some(AtZero { errors, input, from, to, unit })
+        is_far.then_some(AtZero { errors, input, from, to, unit })
     };
     inputs.filter_map(of_input).collect()
 }

@@ -20,7 +20,7 @@ pub(crate) struct Chunk {
 }
 
 /// Whether whitening makes of each component a multiple of itself, whatever the other rows.
-pub(crate) fn rows_are_alone(whole: &Context<'_>, fitted: &Fitted) -> bool {
+pub(crate) fn whitening_scales(whole: &Context<'_>, fitted: &Fitted) -> bool {
     let has_objects = whole.request.observations.unknowns.is_some();
     !fitted.fit.noise.mixes_rows() && !has_objects && fitted.adjusted.is_none()
 }
@@ -39,8 +39,8 @@ impl Chunk {
         Ok(Self { columns, rows: rows.observations.rows(), seen: rows.seen })
     }
 
-    /// Of some stretches of [rows that are alone](rows_are_alone): columns are made whitened, where they are to lie.
-    pub fn alone(
+    /// Of some stretches of rows that [whitening only scales](whitening_scales): columns are made whitened, where they are to lie.
+    pub fn scaled(
         whole: &Context<'_>,
         fitted: &Fitted,
         stretches: &[Range<usize>],

@@ -8,7 +8,7 @@ use faer::Mat;
 use rayon::prelude::*;
 
 use super::cells::{ByCell, Cells, CellsOfGroups};
-use super::chunk::{Chunk, rows_are_alone};
+use super::chunk::{Chunk, whitening_scales};
 use super::columns::Seen;
 use super::context::Context;
 use super::fitted::Fitted;
@@ -32,14 +32,14 @@ pub(super) fn filled(
     of_groups: &CellsOfGroups,
 ) -> Result<Option<Seen>, SearchError> {
     let cell = |row: usize| of_groups.cell(folds.group(fitted.layout.first(row)));
-    if rows_are_alone(whole, fitted) {
-        return filled_alone(whole, fitted, cells, cell);
+    if whitening_scales(whole, fitted) {
+        return filled_by_cell(whole, fitted, cells, cell);
     }
     filled_in_order(whole, fitted, cells, |components| of_groups.sorted(&folds.groups_of(components)), cell)
 }
 
-/// Fills cells with rows that are alone, each cell's by one processor; returns what they show.
-fn filled_alone(
+/// Fills cells with rows that whitening only scales, each cell by one processor; returns what they show.
+fn filled_by_cell(
     whole: &Context<'_>,
     fitted: &Fitted,
     cells: &mut Cells,
@@ -53,7 +53,7 @@ fn filled_alone(
     let parts = cells.filled(|cell, add| {
         let (mut seen, mut room) = (None, Mat::new());
         for rows in of_cell[cell].chunks(PORTION) {
-            let chunk = Chunk::alone(whole, fitted, &stretches(observations, rows), room)?;
+            let chunk = Chunk::scaled(whole, fitted, &stretches(observations, rows), room)?;
             add(chunk.columns.as_ref());
             merge(&mut seen, chunk.seen);
             room = chunk.columns;

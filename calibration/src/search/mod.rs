@@ -5,8 +5,8 @@
 //! place in the chain, a degree of freedom, a function) lives in [`crate::effects`]; the loop around the search
 //! (fit, whiten, search, amend, fit again) in [`crate::calibrate`].
 //!
-//! The pipeline reads from one place: deal groups to folds (`folds`), merge rows where they are many (`filling` of `cells`, `chunk` by chunk), project
-//! (`problem`), merge what coincides (`confounded`), test
+//! The pipeline reads from one place: deal groups to folds (`folds`), merge rows where they are many (`filling` of
+//! `cells`, `chunk` by chunk), project (`problem`), merge what coincides (`confounded`), test
 //! (`tail`, `flips`), select (`select`, within what `guards` allow), name the competing models (`competing`), confirm on held-out folds
 //! (`nested`) and elsewhere (`elsewhere`), let a memory of the noise (`memory`) and a library of shapes (`library`) compete, and look for structure that no candidate explains (`remains`, `scan`, `contest`).
 

@@ -22,23 +22,14 @@ impl HeldOut {
     /// What no search was made for: the declared columns alone, before and after.
     #[must_use]
     pub fn of_declared(problem: &Problem) -> Self {
-        let alone = |fold: usize| State::declared(problem, |f| f != fold).coefficients();
-        let before: Vec<_> = (0..problem.folds()).into_par_iter().map(alone).collect();
+        let before = without_each(problem, &[]);
         Self { chosen: vec![Vec::new(); before.len()], after: before.clone(), before }
     }
 
     /// What no search was repeated for: the declared columns alone, and with these of the candidates, which were chosen before.
     #[must_use]
     pub fn of_columns(problem: &Problem, columns: &[usize]) -> Self {
-        let with_columns = |fold: usize| {
-            let mut state = State::declared(problem, |f| f != fold);
-            state.add(columns);
-            state.coefficients()
-        };
-        Self {
-            after: (0..problem.folds()).into_par_iter().map(with_columns).collect(),
-            ..Self::of_declared(problem)
-        }
+        Self { after: without_each(problem, columns), ..Self::of_declared(problem) }
     }
 
     /// In what share of the folds a set was chosen.
@@ -56,6 +47,16 @@ impl HeldOut {
         };
         (sum(&self.before), sum(&self.after))
     }
+}
+
+/// Per fold the coefficients, fitted without it, of the declared columns and of these candidates.
+fn without_each(problem: &Problem, columns: &[usize]) -> Vec<Vec<(usize, f64)>> {
+    let of_fold = |fold: usize| {
+        let mut state = State::declared(problem, |f| f != fold);
+        state.add(columns);
+        state.coefficients()
+    };
+    (0..problem.folds()).into_par_iter().map(of_fold).collect()
 }
 
 /// The sum of squares that coefficients leave in a fold.

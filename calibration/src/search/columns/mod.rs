@@ -277,12 +277,11 @@ impl Columns {
 
     /// Each component times its factor: whitens, where that is all that whitening does.
     pub(crate) fn scale(&mut self, factor: &[f64]) {
-        let of_matrices = self.declared.col_iter_mut().chain(self.probes.col_iter_mut());
-        let columns = of_matrices
-            .filter_map(|column| column.try_as_col_major_mut())
-            .map(|column| column.as_slice_mut());
-        for column in columns.chain([self.residual.as_mut_slice()]) {
-            column.iter_mut().zip(factor).for_each(|(value, factor)| *value *= factor);
+        let scale =
+            |column: &mut [f64]| column.iter_mut().zip(factor).for_each(|(value, factor)| *value *= factor);
+        scale(&mut self.residual);
+        for columns in [&mut self.declared, &mut self.probes] {
+            (0..columns.ncols()).for_each(|j| scale(columns.col_as_slice_mut(j)));
         }
     }
 }

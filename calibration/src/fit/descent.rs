@@ -19,7 +19,7 @@ const NEGLIGIBLE: f64 = 1e-7;
 /// The same where rows observe unknown objects: what nothing holds of their frame moves with the last bits of the rows.
 const NEGLIGIBLE_IN_A_FREE_FRAME: f64 = 1e-5;
 
-/// The same while the noise is still being learned.
+/// The same while the noise is still being learned, with few rows.
 const ROUGHLY: f64 = 1e-2;
 
 /// Steps so short change the objective by no more than this share, of which rounding is no small part.
@@ -77,7 +77,7 @@ impl Solver<'_> {
             for factor in GRADUAL {
                 let wide = course.noise.times(factor);
                 course.point = self.point(course.point.values, &wide, weighting, Rest::Still)?;
-                self.descend(&mut course, &wide, ROUGHLY)?;
+                self.descend(&mut course, &wide, self.roughly())?;
             }
             course.point = self.point(course.point.values, &course.noise, weighting, Rest::Still)?;
         }
@@ -142,7 +142,7 @@ impl Solver<'_> {
         let mut tried: Vec<(Arc<Noise>, f64)> = Vec::new();
         for _ in 0..NOISE_ROUNDS {
             let noise = course.noise.clone();
-            self.descend(course, &noise, ROUGHLY)?;
+            self.descend(course, &noise, self.roughly())?;
             let (_, weight) = self.norms_and_weights(course);
             if self.kept_components(&weight) as f64 <= self.used(course) {
                 break;
@@ -172,6 +172,11 @@ impl Solver<'_> {
         let noise = course.noise.clone();
         let is_free = self.observations.unknowns.is_some();
         self.descend(course, &noise, if is_free { NEGLIGIBLE_IN_A_FREE_FRAME } else { NEGLIGIBLE })
+    }
+
+    /// The length of a step that does not change what the residuals say of the noise: its square is shared by all components.
+    fn roughly(&self) -> f64 {
+        (NOISE_KNOWN * (self.layout.components() as f64).sqrt()).max(ROUGHLY)
     }
 
     /// Goes on with another noise.

@@ -22,6 +22,9 @@ use crate::search::{Cells, Folds, Problem, ProblemError};
 /// Cells of merged rows at most: as many as sign flips tell apart.
 const CELLS: usize = 400;
 
+/// The share of such a matrix that a sample of merged rows fills: their columns are held several times over.
+const OF_SAMPLE: usize = 6;
+
 /// Poses further out at which effects are judged.
 const FURTHER_OUT: usize = 1200;
 
@@ -94,7 +97,7 @@ impl<'a> SearchProblem<'a> {
         let (merged, of_merged) = cells.merged(&kept);
         let problem_of_all = problem(whole, fitted, &usable, merged, of_merged)?;
 
-        let few = whole.held / 4 / width * observations.rows() / folds.rows();
+        let few = whole.held / OF_SAMPLE / width * observations.rows() / folds.rows();
         let sample = sample(observations, few, whole.request.plan.hold_out.seed);
         let mut rows = RowSet::of(whole, fitted, &sample, |_| true)?;
         rows.keep(&usable);

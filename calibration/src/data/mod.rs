@@ -59,6 +59,8 @@ pub struct Observations {
     pub sigma: Vec<Option<[f64; 3]>>,
     /// Standard uncertainties of the readings of joints and inputs, SI, one value a row; those that are none are exact.
     pub reading_sigma: Vec<(SymbolId, Vec<f64>)>,
+    /// Correlations of two readings of a row, one value a row; pairs that are none are off independently.
+    pub reading_correlation: Vec<([SymbolId; 2], Vec<f64>)>,
     /// Group of each row: rows of one group are not independent and are held out together.
     pub groups: Vec<u32>,
     /// The site of each row, which is held out as a whole and is one unit to the ±, though noise does not hang together there; empty
@@ -113,14 +115,17 @@ impl Observations {
     #[must_use]
     pub fn select(&self, rows: &[usize]) -> Self {
         let rows: Vec<usize> = rows.iter().copied().filter(|&row| row < self.rows()).collect();
-        let picked = |(id, values): &(SymbolId, Vec<f64>)| {
-            (*id, rows.iter().filter_map(|&row| values.get(row).copied()).collect())
-        };
+        let picked = |values: &[f64]| rows.iter().filter_map(|&row| values.get(row).copied()).collect();
         Self {
             poses: self.poses.select(&rows),
             measured: rows.iter().filter_map(|&row| self.measured.get(row).copied()).collect(),
             sigma: rows.iter().filter_map(|&row| self.sigma.get(row).copied()).collect(),
-            reading_sigma: self.reading_sigma.iter().map(picked).collect(),
+            reading_sigma: self.reading_sigma.iter().map(|(id, own)| (*id, picked(own))).collect(),
+            reading_correlation: self
+                .reading_correlation
+                .iter()
+                .map(|(id, own)| (*id, picked(own)))
+                .collect(),
             groups: rows.iter().filter_map(|&row| self.groups.get(row).copied()).collect(),
             together: rows.iter().filter_map(|&row| self.together.get(row).copied()).collect(),
             grouping: self.grouping,

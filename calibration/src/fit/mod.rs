@@ -57,7 +57,7 @@ pub use model::Model;
 pub use normal::{Rest, Step};
 pub use outcome::{Outcome, Reason, SetAside, Why};
 pub use partial::{Partial, PartialError, Rows};
-pub(crate) use readings::pulled;
+pub(crate) use readings::{correlated, pulled, pulls};
 pub(crate) use size::BESIDE_OBJECTS;
 pub use size::{Size, SizeOrigin};
 pub use solve::fit;

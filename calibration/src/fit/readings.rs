@@ -1,5 +1,7 @@
 //! Readings that are not exact: what they bring into the residuals.
 
+use model_core::SymbolId;
+
 use super::solver::Solver;
 use super::sweep::residuals;
 use super::{FitError, Model};
@@ -19,16 +21,55 @@ impl Solver<'_> {
             return Ok(Vec::new());
         }
         let mut squares = vec![0.0; self.layout.components()];
-        for (id, sigma) in stated {
-            // A reading that no observable hangs on brings nothing.
-            let Some(column) = self.observations.poses.columns.iter().position(|(own, _)| own == id) else {
-                continue;
-            };
-            let pulled = pulled(self.plain(), self.observations, values, column, |row| sigma[row])?;
-            squares.iter_mut().zip(pulled).for_each(|(square, pulled)| *square += pulled * pulled);
+        let pulls = pulls(self.plain(), self.observations, values, 1.0)?;
+        for pull in &pulls {
+            squares.iter_mut().zip(&pull.pulled).for_each(|(square, pulled)| *square += pulled * pulled);
         }
-        Ok(squares.into_iter().map(f64::sqrt).collect())
+        for (one, other, correlation) in correlated(self.observations, &pulls) {
+            let both = pulls[one].pulled.iter().zip(&pulls[other].pulled).zip(self.layout.row_of_each());
+            for (square, ((one, other), row)) in squares.iter_mut().zip(both) {
+                *square += 2.0 * correlation[row] * one * other;
+            }
+        }
+        // What readings that are off together bring may cancel, to rounding.
+        Ok(squares.into_iter().map(|square| square.max(0.0).sqrt()).collect())
     }
+}
+
+/// An uncertain reading and what it brings.
+pub(crate) struct Pull<'a> {
+    id: SymbolId,
+    /// Which column of the poses holds the reading.
+    pub column: usize,
+    /// Its standard uncertainty, one value a row.
+    pub sigma: &'a [f64],
+    /// What it does to each component of the residual to be off by it, times a factor, rad or m.
+    pub pulled: Vec<f64>,
+}
+
+/// What uncertain readings bring that any observable hangs on, at some values, as uncertain as `factor` times what is stated.
+pub(crate) fn pulls<'a>(
+    model: &Model,
+    observations: &'a Observations,
+    values: &[f64],
+    factor: f64,
+) -> Result<Vec<Pull<'a>>, FitError> {
+    let of = |(id, sigma): &'a (SymbolId, Vec<f64>)| {
+        let column = observations.poses.columns.iter().position(|(own, _)| own == id)?;
+        let pulled = pulled(model, observations, values, column, |row| factor * sigma[row]);
+        Some(pulled.map(|pulled| Pull { id: *id, column, sigma, pulled }))
+    };
+    observations.reading_sigma.iter().filter_map(of).collect()
+}
+
+/// Which of them are off together, by their numbers, and how, row by row.
+pub(crate) fn correlated<'a>(
+    observations: &'a Observations,
+    pulls: &[Pull<'_>],
+) -> Vec<(usize, usize, &'a [f64])> {
+    let number = |id| pulls.iter().position(|pull| pull.id == id);
+    let pairs = observations.reading_correlation.iter();
+    pairs.filter_map(|([one, other], own)| Some((number(*one)?, number(*other)?, own.as_slice()))).collect()
 }
 
 /// What it does to each component of the residual, rad or m, to move its row's reading of a column by so much: half of what moving it

@@ -11,7 +11,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::data::Observations;
 use crate::fit::noise::Layout;
-use crate::fit::{FitError, FitResult, Model, pulled};
+use crate::fit::{FitError, FitResult, Model, correlated, pulls};
 
 /// Of each joint and input its readings.
 pub(crate) type ByReading = Vec<(SymbolId, Vec<f64>)>;
@@ -32,31 +32,33 @@ pub(super) fn adjusted(
     }
     let model = Model::without_columns(chain, &observations.poses);
     let factor = fit.noise.of_readings;
-    // What a reading that is off by its standard uncertainty does to the residual.
-    let mut pulls: Vec<(usize, &[f64], Vec<f64>)> = Vec::new();
-    for (id, sigma) in &observations.reading_sigma {
-        let Some(at) = observations.poses.columns.iter().position(|(own, _)| own == id) else { continue };
-        let pull = pulled(&model, observations, &fit.values, at, |row| factor * sigma[row])?;
-        pulls.push((at, sigma, pull));
-    }
+    let pulls = pulls(&model, observations, &fit.values, factor)?;
+    let correlated = correlated(observations, &pulls);
     let sigma = fit.noise.sigma_without_memory();
     let mut columns = observations.poses.columns.clone();
     for row in 0..observations.rows() {
         let own = layout.of_rows(row..row + 1);
         let vector = |values: &[f64]| Vector3::from_iterator(values.iter().copied().chain([0.0; 3]).take(3));
-        let brought: Vec<Vector3<f64>> = pulls.iter().map(|(.., pull)| vector(&pull[own.clone()])).collect();
+        let brought: Vec<Vector3<f64>> = pulls.iter().map(|pull| vector(&pull.pulled[own.clone()])).collect();
+        // What a reading brings together with those that are off with it.
+        let mut together = brought.clone();
+        for &(one, other, correlation) in &correlated {
+            together[one] += brought[other] * correlation[row];
+            together[other] += brought[one] * correlation[row];
+        }
+        let of_readings: Matrix3<f64> =
+            brought.iter().zip(&together).map(|(pull, together)| pull * together.transpose()).sum();
         let mut covariance = Matrix3::identity();
         for (at, component) in own.clone().enumerate() {
             // Beside what readings bring the row has noise of its own, as little as it may be.
-            let of_readings: f64 = brought.iter().map(|pull| pull[at] * pull[at]).sum();
             let variance = sigma[component] * sigma[component];
-            covariance[(at, at)] = (variance - of_readings).max(LEAST * variance);
+            covariance[(at, at)] = (variance - of_readings[(at, at)]).max(LEAST * variance);
         }
-        brought.iter().for_each(|pull| covariance += pull * pull.transpose());
+        covariance += of_readings;
         let Some(inverse) = covariance.try_inverse() else { continue };
         let said = inverse * vector(&fit.residuals.raw[own]) * fit.residuals.weight[row];
-        for ((at, sigma, _), pull) in pulls.iter().zip(&brought) {
-            columns[*at].1[row] -= factor * sigma[row] * pull.dot(&said);
+        for (pull, together) in pulls.iter().zip(&together) {
+            columns[pull.column].1[row] -= factor * pull.sigma[row] * together.dot(&said);
         }
     }
     Ok(Some(columns))

@@ -43,6 +43,13 @@ pub(super) fn column_plan(
             "state the noise of what is measured under `[noise]`, as `sigma`",
         ));
     }
+    if let (Some((other, _)), false) = (column.correlation.first_key_value(), of_input) {
+        return Err(mistake(
+            other.span(),
+            "only readings of joints and inputs have correlations",
+            "leave `correlation` out",
+        ));
+    }
     match &column.column {
         Some(name) => Ok(ColumnPlan { name: name.clone(), unit, quantity, declared: false, named: true }),
         None => Err(mistake(place.clone(), "this column is measured, not derived", "write `column = \"…\"`")),

@@ -21,6 +21,8 @@ pub(super) struct Columns {
     pub sigma: std::ops::Range<usize>,
     /// Columns that say how uncertain a reading is.
     pub uncertain: Vec<(SymbolId, usize)>,
+    /// Columns that say how two readings hang together.
+    pub correlated: Vec<([SymbolId; 2], usize)>,
     pub times: Vec<(String, usize)>,
     pub labels: Vec<String>,
 }
@@ -43,6 +45,13 @@ impl Columns {
         for (id, own) in &source.uncertain {
             if let Uncertain::Column(column) = own {
                 uncertain.push((*id, plans.len()));
+                plans.push(column.clone());
+            }
+        }
+        let mut correlated = Vec::new();
+        for (pair, own) in &source.correlated {
+            if let Uncertain::Column(column) = own {
+                correlated.push((*pair, plans.len()));
                 plans.push(column.clone());
             }
         }
@@ -69,7 +78,7 @@ impl Columns {
         let of_objects = source.object.iter().chain(&source.station);
         let of_folds = plan.hold_out.together.iter().chain(&plan.order);
         let labels = plan.group.iter().chain(&plan.id).chain(of_objects).chain(of_folds).cloned().collect();
-        Self { plans, readings, observed, sigma, uncertain, times, labels }
+        Self { plans, readings, observed, sigma, uncertain, correlated, times, labels }
     }
 
     /// The columns of a file, and those whose unit nothing says, each with its place among the numbers.

@@ -11,7 +11,7 @@ use super::orientation::UNIT_TOLERANCE;
 use super::plan::{Plan, Reading, SourcePlan};
 use super::repeated::{fitted_as_well, without_repeats};
 use super::rows::Rows;
-use super::stated::{of_components, of_readings};
+use super::stated::{of_components, of_pairs, of_readings};
 use super::written::Kind;
 use crate::data::orientation::Turned;
 use crate::data::units::BareColumn;
@@ -141,6 +141,7 @@ impl Plan {
         // A source that does not have a column has no use for it either; and a reading that states nothing is exact.
         append_columns(&mut all.poses.columns, start, count, readings);
         append_columns(&mut all.reading_sigma, start, count, of_readings(source, &columns, &rows, &file)?);
+        append_columns(&mut all.reading_correlation, start, count, of_pairs(source, &columns, &rows, &file)?);
         if !columns.sigma.is_empty() {
             all.sigma.resize(start, None);
             all.sigma.extend(of_components(&columns, &rows, &file)?.into_iter().map(Some));
@@ -333,11 +334,11 @@ impl Plan {
 }
 
 /// Appends the columns of a source, whose rows are `count` behind `start`; zero where a source has none.
-fn append_columns(
-    all: &mut Vec<(SymbolId, Vec<f64>)>,
+fn append_columns<K: Copy + Ord>(
+    all: &mut Vec<(K, Vec<f64>)>,
     start: usize,
     count: usize,
-    own: Vec<(SymbolId, Vec<f64>)>,
+    own: Vec<(K, Vec<f64>)>,
 ) {
     for (id, values) in own {
         match all.binary_search_by_key(&id, |(known, _)| *known) {

@@ -7,6 +7,7 @@
 mod amount;
 mod column_plan;
 mod columns;
+mod correlated;
 mod doubts;
 mod effects;
 mod estimated;

@@ -7,6 +7,7 @@ use toml::Spanned;
 
 use super::amount::si;
 use super::column_plan::{ColumnPlan, column_plan};
+use super::correlated::{Correlated, correlated};
 use super::estimated::{estimable, matching};
 use super::mistakes::{Gathered, Outcome, Several, every, mistake, plain, unknown, within};
 use super::observed::{ObservedColumns, observed_columns};
@@ -135,6 +136,8 @@ pub struct SourcePlan {
     pub(super) sigma: Vec<ColumnPlan>,
     /// Of joints and inputs that are not exact, how uncertain their readings are.
     pub(super) uncertain: Vec<(SymbolId, Uncertain)>,
+    /// Which of them are off together.
+    pub(super) correlated: Vec<Correlated>,
     /// The columns that name what was observed, and where from.
     pub(super) object: Vec<String>,
     pub(super) station: Vec<String>,
@@ -290,15 +293,17 @@ impl Study {
                 mistakes.take(self.sigma_columns(own.as_ref(), shown.measure, first))
             });
             let uncertain = mistakes.take(uncertain(chain, columns));
+            let correlated = mistakes.take(correlated(chain, columns));
             mistakes.none()?;
             let (
                 Some(observable),
                 Some(readings),
                 Some(uncertain),
+                Some(correlated),
                 Some(ObservedColumns { measure, columns, orientation }),
                 Some(convention),
                 Some(sigma),
-            ) = (observable, readings, uncertain, shown, convention, sigma)
+            ) = (observable, readings, uncertain, correlated, shown, convention, sigma)
             else {
                 unreachable!("what is missing comes with a mistake")
             };
@@ -313,6 +318,7 @@ impl Study {
                 orientation,
                 sigma,
                 uncertain,
+                correlated,
                 object,
                 station,
             })

@@ -138,6 +138,16 @@ pub(super) struct Column {
     pub meaning: Option<Spanned<String>>,
     /// How uncertain a reading is.
     pub sigma: Option<Spanned<Sigma>>,
+    /// How its error hangs together with that of other readings of the row.
+    #[serde(default)]
+    pub correlation: Table<Correlation>,
+}
+
+/// A correlation of two readings: of every row, or the name of the column that says it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Correlation {
+    Evenly(f64),
+    Column(String),
 }
 
 /// `[observed]`.
@@ -377,9 +387,10 @@ impl<'de> Visitor<'de> for Short<Column> {
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Column, A::Error> {
         let column = Column::deserialize(MapAccessDeserializer::new(map))?;
-        if column.derive.is_some() && column.sigma.is_some() {
-            let help = "what is derived is as uncertain as what it is derived from: leave out `sigma`";
-            return Err(Error::custom(help));
+        if column.derive.is_some() && (column.sigma.is_some() || !column.correlation.is_empty()) {
+            let key = if column.sigma.is_some() { "sigma" } else { "correlation" };
+            let help = "what is derived is as uncertain as what it is derived from: leave out";
+            return Err(Error::custom(format!("{help} `{key}`")));
         }
         match (&column.column, &column.unit, &column.derive) {
             (Some(_), _, None) | (None, None, Some(_)) => Ok(column),
@@ -389,6 +400,33 @@ impl<'de> Visitor<'de> for Short<Column> {
             (None, Some(_), Some(_)) => Err(Error::custom("a derived column has no unit: leave out `unit`")),
             (None, _, None) => Err(Error::custom("which column? write `column = \"…\"` or `derive = \"…\"`")),
         }
+    }
+}
+
+impl<'de> Deserialize<'de> for Correlation {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer
+            .deserialize_any(Short("a number from -1 to 1, or the name of a column", PhantomData::<Self>))
+    }
+}
+
+impl<'de> Visitor<'de> for Short<Correlation> {
+    type Value = Correlation;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0)
+    }
+
+    fn visit_str<E: Error>(self, name: &str) -> Result<Correlation, E> {
+        Ok(Correlation::Column(name.to_owned()))
+    }
+
+    fn visit_f64<E: Error>(self, number: f64) -> Result<Correlation, E> {
+        Ok(Correlation::Evenly(number))
+    }
+
+    fn visit_i64<E: Error>(self, number: i64) -> Result<Correlation, E> {
+        Ok(Correlation::Evenly(number as f64))
     }
 }
 

@@ -121,6 +121,7 @@ impl Simulation {
             measured,
             sigma: Vec::new(),
             reading_sigma: Vec::new(),
+            reading_correlation: Vec::new(),
             groups: (0..).take(rows).collect(),
             together: Vec::new(),
             grouping: Grouping::Declared,

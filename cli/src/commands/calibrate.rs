@@ -140,5 +140,9 @@ fn what_is_done(plan: &Plan, rows: usize) -> String {
         (Some(file), _) => format!("judging on {file}"),
         (None, folds) => format!("repeating the search in {folds} folds"),
     };
-    format!("{rows} observations; fitting {} errors, searching, and {folds}", plan.fit.estimate.len())
+    let errors = match plan.fit.estimate.len() {
+        1 => "1 error".to_owned(),
+        count => format!("{count} errors"),
+    };
+    format!("{rows} observations; fitting {errors}, searching, and {folds}")
 }

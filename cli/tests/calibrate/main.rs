@@ -29,6 +29,7 @@ mod scatter;
 mod sockets;
 mod stated;
 mod survey;
+mod together;
 mod unusable;
 
 use serde_json::Value;

@@ -50,13 +50,16 @@ pub(super) fn of_readings(
     columns.uncertain.iter().map(of_column).chain(evenly).collect()
 }
 
-/// The correlations of pairs of readings, one value a row.
+/// Two readings and their correlation, one value a row.
+type OfPair = ([SymbolId; 2], Vec<f64>);
+
+/// The correlations of pairs of readings.
 pub(super) fn of_pairs(
     source: &SourcePlan,
     columns: &Columns,
     rows: &Rows,
     file: &str,
-) -> Result<Vec<([SymbolId; 2], Vec<f64>)>, DataError> {
+) -> Result<Vec<OfPair>, DataError> {
     let count = rows.row_numbers.len();
     let of_column = |(pair, at): &([SymbolId; 2], usize)| {
         let stated = &rows.numbers[*at];
@@ -87,7 +90,7 @@ pub(super) fn of_pairs(
 }
 
 /// Whether the correlations of a row are those of anything: no combination of its readings has a negative variance, beyond rounding.
-fn hang_together(pairs: &[([SymbolId; 2], Vec<f64>)], row: usize) -> bool {
+fn hang_together(pairs: &[OfPair], row: usize) -> bool {
     // Of one pair every correlation is.
     if pairs.len() < 2 {
         return true;

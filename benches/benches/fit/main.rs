@@ -60,6 +60,7 @@ fn simulate(chain: &Chain, observable: &str, joints: &[(&str, f64, f64)], rows: 
         },
         measured,
         reading_sigma: Vec::new(),
+        reading_correlation: Vec::new(),
         sigma: Vec::new(),
         groups: (0..).take(rows).collect(),
         together: Vec::new(),

@@ -42,14 +42,14 @@ impl Columns {
         let sigma = plans.len()..plans.len() + source.sigma.len();
         plans.extend(source.sigma.iter().cloned());
         let mut uncertain = Vec::new();
-        for (id, own) in &source.uncertain {
+        for (id, own) in &source.uncertain.sigma {
             if let Uncertain::Column(column) = own {
                 uncertain.push((*id, plans.len()));
                 plans.push(column.clone());
             }
         }
         let mut correlated = Vec::new();
-        for (pair, own) in &source.correlated {
+        for (pair, own) in &source.uncertain.correlated {
             if let Uncertain::Column(column) = own {
                 correlated.push((*pair, plans.len()));
                 plans.push(column.clone());

@@ -7,15 +7,14 @@ use toml::Spanned;
 
 use super::amount::si;
 use super::column_plan::{ColumnPlan, column_plan};
-use super::correlated::{Correlated, correlated};
 use super::estimated::{estimable, matching};
 use super::mistakes::{Gathered, Outcome, Several, every, mistake, plain, unknown, within};
 use super::observed::{ObservedColumns, observed_columns};
+use super::off::{UncertainReadings, uncertain};
 use super::orientation;
 use super::shown::{self, Convention};
 use super::sights;
 use super::timeless::{Timeless, timeless};
-use super::uncertain::{Uncertain, uncertain};
 use super::unsought::{Unsought, unsought};
 use super::unstated::{Unstated, unstated};
 use super::written::{Column, Kind, Study, Table};
@@ -70,7 +69,7 @@ impl Plan {
     /// Whether some readings state how uncertain they are.
     #[must_use]
     pub fn has_uncertain_readings(&self) -> bool {
-        self.sources.iter().any(|source| !source.uncertain.is_empty())
+        self.sources.iter().any(|source| !source.uncertain.sigma.is_empty())
     }
 
     /// The same of these files alone, with as many sources.
@@ -134,10 +133,8 @@ pub struct SourcePlan {
     /// How an orientation is written, where one is observed.
     pub(super) orientation: Option<orientation::Form>,
     pub(super) sigma: Vec<ColumnPlan>,
-    /// Of joints and inputs that are not exact, how uncertain their readings are.
-    pub(super) uncertain: Vec<(SymbolId, Uncertain)>,
-    /// Which of them are off together.
-    pub(super) correlated: Vec<Correlated>,
+    /// How uncertain the readings of joints and inputs are.
+    pub(super) uncertain: UncertainReadings,
     /// The columns that name what was observed, and where from.
     pub(super) object: Vec<String>,
     pub(super) station: Vec<String>,
@@ -293,17 +290,15 @@ impl Study {
                 mistakes.take(self.sigma_columns(own.as_ref(), shown.measure, first))
             });
             let uncertain = mistakes.take(uncertain(chain, columns));
-            let correlated = mistakes.take(correlated(chain, columns));
             mistakes.none()?;
             let (
                 Some(observable),
                 Some(readings),
                 Some(uncertain),
-                Some(correlated),
                 Some(ObservedColumns { measure, columns, orientation }),
                 Some(convention),
                 Some(sigma),
-            ) = (observable, readings, uncertain, correlated, shown, convention, sigma)
+            ) = (observable, readings, uncertain, shown, convention, sigma)
             else {
                 unreachable!("what is missing comes with a mistake")
             };
@@ -318,7 +313,6 @@ impl Study {
                 orientation,
                 sigma,
                 uncertain,
-                correlated,
                 object,
                 station,
             })

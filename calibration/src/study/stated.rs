@@ -43,7 +43,7 @@ pub(super) fn of_readings(
             None => Ok((*id, stated.clone())),
         }
     };
-    let evenly = source.uncertain.iter().filter_map(|(id, own)| match own {
+    let evenly = source.uncertain.sigma.iter().filter_map(|(id, own)| match own {
         Uncertain::Evenly(sigma) => Some(Ok((*id, vec![*sigma; count]))),
         Uncertain::Column(_) => None,
     });
@@ -73,7 +73,7 @@ pub(super) fn of_pairs(
             None => Ok((*pair, stated.clone())),
         }
     };
-    let evenly = source.correlated.iter().filter_map(|(pair, own)| match own {
+    let evenly = source.uncertain.correlated.iter().filter_map(|(pair, own)| match own {
         Uncertain::Evenly(correlation) => Some(Ok((*pair, vec![*correlation; count]))),
         Uncertain::Column(_) => None,
     });

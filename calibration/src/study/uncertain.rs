@@ -17,8 +17,8 @@ pub(super) enum Uncertain {
     Column(ColumnPlan),
 }
 
-/// Of each joint and input that a table of columns says it of, how uncertain its readings are.
-pub(super) fn uncertain(chain: &Chain, columns: &Table<Column>) -> Outcome<Vec<(SymbolId, Uncertain)>> {
+/// Of each joint and input that says it, how uncertain its readings are.
+pub(super) fn sigma(chain: &Chain, columns: &Table<Column>) -> Outcome<Vec<(SymbolId, Uncertain)>> {
     let stated = columns.iter().filter_map(|(name, column)| {
         // A name that is none has been told.
         let id = chain.find_symbol(name.get_ref())?;

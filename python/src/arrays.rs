@@ -29,11 +29,14 @@ pub fn column<'py>(name: &str, given: &Bound<'py, PyAny>) -> PyResult<PyReadonly
             format!("{name}.astype(numpy.float64)"),
         );
     };
-    if !array.is_contiguous() || !array.getattr("flags")?.getattr("aligned")?.extract::<bool>()? {
+    if !array.is_contiguous() {
         return wrong(
             "the array is not contiguous in memory".to_owned(),
             format!("numpy.ascontiguousarray({name})"),
         );
+    }
+    if !array.getattr("flags")?.getattr("aligned")?.extract::<bool>()? {
+        return wrong("the array is not aligned in memory".to_owned(), format!("{name}.copy()"));
     }
     // Of a masked array the values under the mask are no readings.
     if let Ok(mask) = given.getattr("mask")

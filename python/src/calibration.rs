@@ -1,7 +1,7 @@
 //! Studies and calibrations.
 
 use std::path::PathBuf;
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
 
 use pyo3::prelude::*;
 use trueaxis_cli::library::{self, Calibrated, Cells, Source, Stage, Studied};
@@ -71,15 +71,24 @@ pub fn calibrate(
         .iter()
         .map(|(name, table)| Ok((name.as_str(), table.columns()?)))
         .collect::<PyResult<Vec<_>>>()?;
+    // What `progress` raises, an interrupt among it, ends its calls; the caller has it as soon as the search returns.
+    let raised: Mutex<Option<PyErr>> = Mutex::new(None);
     let tell = |stage: Stage| {
         let Some(progress) = &progress else { return };
         Python::attach(|py| {
-            if let Err(error) = progress.call1(py, (stage.to_string(),)) {
-                error.write_unraisable(py, None);
+            // Nothing is locked while Python runs: another thread may be waiting for it.
+            let raised = || raised.lock().unwrap_or_else(PoisonError::into_inner);
+            let has_raised = raised().is_some();
+            if !has_raised && let Err(error) = progress.call1(py, (stage.to_string(),)) {
+                *raised() = Some(error);
             }
         });
     };
-    errors::run(py, || library::calibrated(studied, &columns, command, &tell)).map(Calibration)
+    let calibrated = errors::run(py, || library::calibrated(studied, &columns, command, &tell));
+    match raised.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        Some(error) => Err(error),
+        None => calibrated.map(Calibration),
+    }
 }
 
 #[pymethods]

@@ -106,3 +106,27 @@ def test_numbers_are_not_copied():
     array = np.arange(3.0)
     ((_, column),) = columns_of({"a": array})
     assert column is array or column.base is array or np.shares_memory(column, array)
+
+
+def test_columns_that_do_not_lie_as_numbers_do(mount):
+    """What came over a wire begins anywhere."""
+    unaligned = np.frombuffer(b"." + np.linspace(0.1, 0.9, 50).tobytes(), dtype=np.float64, offset=1)
+    assert not unaligned.flags.aligned
+    columns = {"azimuth": unaligned, "elevation": unaligned}
+    copied = {name: column.copy() for name, column in columns.items()}
+    expected = mount.eval(copied, {})["pointing_y"]
+    for table in (columns, pyarrow.table(columns), pandas.DataFrame(columns)):
+        np.testing.assert_array_equal(np.asarray(mount.eval(table, {})["pointing_y"]), expected)
+    with pytest.raises(TypeError, match=r"not aligned in memory; write azimuth.copy\(\)"):
+        mount.exact(columns, {}, "pointing")
+
+
+def test_rows_of_a_dictionary_are_told_by_their_place(mount):
+    """Whatever pandas calls them."""
+    azimuth = pandas.Series([0.1, 0.2, 0.3])
+    elevation = pandas.Series([0.7, 0.8, 0.9], index=[2, 1, 0])
+    table = mount.eval({"azimuth": azimuth, "elevation": elevation}, {}).to_pandas()
+    np.testing.assert_array_equal(table["elevation"], [0.7, 0.8, 0.9])
+    np.testing.assert_array_equal(
+        table["pointing_y"], mount.eval({"azimuth": azimuth.to_numpy(), "elevation": elevation.to_numpy()}, {})["pointing_y"]
+    )

@@ -134,7 +134,8 @@ def column_of(name: str, column: Any) -> np.ndarray | list[str]:
             return array.astype(np.float64)
         return [str(value) for value in array.tolist()]
     if array.dtype.kind == "f":
-        return np.ascontiguousarray(array, dtype=np.float64)
+        # Columns from a buffer that somebody sent need not lie where numbers of their size do.
+        return np.require(array, dtype=np.float64, requirements=["C", "A"])
     if array.dtype.kind == "M":
         return ["" if np.isnat(value) else str(value) for value in array]
     if array.dtype.kind == "m":
@@ -215,4 +216,6 @@ def with_columns(table: Any, columns: Mapping[str, np.ndarray]) -> Any:
             else:
                 table = table.set_column(at, name, pyarrow.array(column))
         return table
-    return Table({**table, **columns})
+    # The rows of pandas' columns are told by their places, as those of all others are.
+    plain = {name: column.array if _library(column) == "pandas" else column for name, column in table.items()}
+    return Table({**plain, **columns})

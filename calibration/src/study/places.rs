@@ -140,6 +140,13 @@ type Placed<'a, T> = &'a Spanned<T>;
 
 fn station(label: &str, written: Placed<'_, StationTable>) -> Outcome<Station> {
     let (table, place) = (written.get_ref(), written.span());
+    let needed = [("x", &table.x), ("y", &table.y), ("z", &table.z), ("heading", &table.heading)];
+    if let Some((missing, _)) = needed.iter().find(|(_, amount)| amount.is_none() && !table.rough) {
+        let message = format!("what is the `{missing}` of this station? Left out, it would count as zero");
+        let help = "write x, y, z and heading (roll and pitch are zero where they are left out), or `rough = true` where the pose \
+                    is a start alone; leave the station out where nothing is known of it";
+        return Err(mistake(place, message, help));
+    }
     let of = |name: &str, amount: &Option<Amount>, quantity| {
         amount.as_ref().map_or(Ok(0.0), |amount| si_with_unit(name, amount, quantity, &place))
     };

@@ -57,7 +57,8 @@ fn a_plane_of_two_rows_is_named_and_left_out() {
 
 #[test]
 fn a_place_that_no_row_names_is_told() {
-    let study = text_of("examples/objects/targets.toml") + "\n[stations]\nE = { x = \"1 m\" }\n";
+    let study = text_of("examples/objects/targets.toml")
+        + "\n[stations]\nE = { x = \"1 m\", y = 0, z = 0, heading = 0 }\n";
     let told = refused(&study, &text_of("examples/objects/targets.csv"));
     assert!(told.contains("`E`") && told.contains("no row"), "{told}");
 }
@@ -94,9 +95,10 @@ fn studies_that_cannot_be_meant_are_refused() {
             good.clone() + "[stations]\nA = { x = \"1 m\", heading = 0.797, rough = true }\n",
             "write heading = \"0.797 deg\", \"0.797 gon\" or \"0.797 rad\"",
         ),
-        (good.clone() + "[stations]\nA = { y = 4.2 }\n", "write y = \"4.2 m\" or \"4.2 mm\""),
+        (good.clone() + "[stations]\nA = { y = 4.2, rough = true }\n", "write y = \"4.2 m\" or \"4.2 mm\""),
         (
-            good.clone() + "[stations]\nA = { sigma = \"2 mm\", sigma_angle = 20 }\n",
+            good.clone()
+                + "[stations]\nA = { x = 0, y = 0, z = 0, heading = 0, sigma = \"2 mm\", sigma_angle = 20 }\n",
             "`sigma_angle` is 20 without a unit",
         ),
         (good.clone() + "[objects]\nT1 = { x = 7.231, y = 0, z = 0 }\n", "`x` is 7.231 without a unit"),
@@ -124,6 +126,13 @@ fn studies_that_cannot_be_meant_are_refused() {
             "no error or constant is called `trunion`",
         ),
     ];
+    // Zero would be as exact as what is named beside it.
+    for partly in ["x = 0, y = 0, z = 0", "roll = 0, pitch = 0", "heading = 0, sigma = \"1 mm\""] {
+        let mistakes = Study::from_text(&format!("{good}[stations]\nA = {{ {partly} }}\n"))
+            .and_then(|study| study.plan(&chain))
+            .expect_err(partly);
+        assert!(mistakes.to_string().contains("would count as zero"), "{partly}: {mistakes}");
+    }
     // Zero is zero in every unit.
     let bare = good.clone() + "[stations]\nA = { x = 0, heading = 0.0, rough = true }\n";
     assert!(Study::from_text(&bare).and_then(|study| study.plan(&chain)).is_ok());

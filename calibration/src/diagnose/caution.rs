@@ -158,6 +158,16 @@ pub enum Caution {
         /// So many times as much.
         times: f64,
     },
+    /// Nobody declared a scale of a range, and the search could not see it, since it takes stated places for unknown.
+    #[serde(rename = "no scale was looked for")]
+    ScaleNotSought {
+        /// The range.
+        range: String,
+        /// The body along whose axis it is measured.
+        body: String,
+        /// That axis.
+        axis: String,
+    },
     /// An object or a station comes out far from where the study states it.
     #[serde(rename = "not where it is stated")]
     NotWhereStated {

@@ -21,6 +21,7 @@ mod noisy;
 mod precision;
 pub(crate) mod remaining;
 pub(crate) mod rms;
+mod scale_not_sought;
 pub(crate) mod shown;
 pub(crate) mod trace;
 mod uneven;
@@ -50,6 +51,7 @@ use misplaced::Misplaced;
 use next::{Next, next};
 use noisy::Noisy;
 use rms::BeforeAfter;
+use scale_not_sought::scale_not_sought;
 use verdict::Evidence;
 
 pub use at_zero::AtZero;
@@ -244,6 +246,8 @@ pub(crate) fn diagnose(
     }));
     let scatters = uneven::uneven(observations, fit).into_iter();
     cautions.extend(scatters.map(|Scatter { what, label, times }| Caution::Scatters { what, label, times }));
+    let searched = confirmed.as_ref().ok().map(|own| own.round);
+    cautions.extend(searched.into_iter().flat_map(|round| scale_not_sought(whole, round)));
     let misplaced = misplaced::misplaced(observations, fit).into_iter();
     cautions.extend(misplaced.map(|Misplaced { what, label, sigmas, away_m }| Caution::NotWhereStated {
         what,

@@ -1,0 +1,38 @@
+//! Scales of ranges that only places with a standard uncertainty would show: the search takes those for unknown.
+
+use super::caution::Caution;
+use crate::candidate::{Dependence, EffectId};
+use crate::data::unknowns::Freedom;
+use crate::search::context::Context;
+use crate::search::round::Round;
+
+/// Places that show a scale together.
+const SHOW: usize = 2;
+
+/// What is told of each range whose scale nobody declared, where the search cannot see it though places are stated.
+pub(super) fn scale_not_sought(whole: &Context<'_>, last: &Round<'_>) -> Vec<Caution> {
+    let Some(unknowns) = &whole.request.observations.unknowns else { return Vec::new() };
+    let is_within = |freedom: Freedom| matches!(freedom, Freedom::Within { .. });
+    let objects = unknowns.objects.iter().filter(|own| is_within(own.freedom)).count();
+    let stations = unknowns.stations.iter().filter(|own| is_within(own.freedom)).count();
+    if objects.max(stations) < SHOW {
+        return Vec::new();
+    }
+    let chain = &last.fitted.chain;
+    let ranges = whole.setting.ranges().into_iter().filter_map(|(body, axis, input)| {
+        let name = whole.setting.name(input);
+        let mut factors = chain.bodies.iter().flat_map(|body| &body.factors);
+        if factors.any(|factor| chain.symbols_in(&factor.amount).contains(&input)) {
+            return None;
+        }
+        let is_scale = |effect: EffectId| {
+            let effect = &whole.catalogue[effect];
+            (effect.family, effect.driver.as_str(), &effect.form) == ("range", name, &Dependence::Linear)
+        };
+        let scale = last.search.problem.candidates().find(|&effect| is_scale(effect))?;
+        let (range, body) = (name.to_owned(), whole.setting.body_name(body).to_owned());
+        let is_seen = !last.search.problem.columns(scale).is_empty();
+        (!is_seen).then(|| Caution::ScaleNotSought { range, body, axis: axis.to_string() })
+    });
+    ranges.collect()
+}

@@ -96,6 +96,24 @@ fn a_scale_is_no_surer_than_the_control_points_that_hold_it() {
     assert!((0.6..28.0).contains(&squares), "{squares}");
 }
 
+/// The search takes stated points for unknown, so that whoever declares no scale has to be told of it, and who does has not.
+#[test]
+fn a_scale_that_is_not_looked_for_is_told() {
+    let folder = Folder::new("stated-no-scale");
+    let random = &mut Random::new(3);
+    let room = Room::new(random);
+    let study = format!("{STUDY}{}", room.controls(random, 0.0));
+    folder.write("rows.csv", room.rows(random)).write("study.toml", study);
+    for (chain, is_told) in [(TRACKER.to_owned(), false), (TRACKER.replace(", Ty(longer*range)", ""), true)] {
+        folder.write("tracker.chain", chain);
+        let report = calibrated(&folder, "study.toml");
+        let cautions = report["cautions"].as_array().expect("a list");
+        let own: Vec<_> = cautions.iter().filter(|one| one["kind"] == "no scale was looked for").collect();
+        assert_eq!(own.len(), usize::from(is_told), "{cautions:?}");
+        assert!(own.iter().all(|one| one["range"] == "range" && one["body"] == "beam" && one["axis"] == "y"));
+    }
+}
+
 #[test]
 fn a_control_point_that_is_stated_wrongly_is_named() {
     let folder = Folder::new("stated-blunder");

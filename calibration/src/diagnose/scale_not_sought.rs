@@ -3,6 +3,7 @@
 use super::caution::Caution;
 use crate::candidate::{Dependence, EffectId};
 use crate::data::unknowns::Freedom;
+use crate::effects::RANGE;
 use crate::search::context::Context;
 use crate::search::round::Round;
 
@@ -27,7 +28,7 @@ pub(super) fn scale_not_sought(whole: &Context<'_>, last: &Round<'_>) -> Vec<Cau
         }
         let is_scale = |effect: EffectId| {
             let effect = &whole.catalogue[effect];
-            (effect.family, effect.driver.as_str(), &effect.form) == ("range", name, &Dependence::Linear)
+            (effect.family, effect.driver.as_str(), &effect.form) == (RANGE, name, &Dependence::Linear)
         };
         let scale = last.search.problem.candidates().find(|&effect| is_scale(effect))?;
         let (range, body) = (name.to_owned(), whole.setting.body_name(body).to_owned());

@@ -47,6 +47,9 @@ pub(crate) const SHAPE: &str = shape::FAMILY.name;
 /// The family of harmonics that a calibration took up.
 pub(crate) const HIGH_HARMONIC: &str = high_harmonic::FAMILY.name;
 
+/// The family of what is wrong with a measured range.
+pub(crate) const RANGE: &str = range::FAMILY.name;
+
 /// Every family, in the order in which members of one confounded set lend it their name.
 pub const FAMILIES: &[Family] = &[
     own::FAMILY,

@@ -16,8 +16,7 @@ impl Solver<'_> {
     /// Per component the standard deviation, rad or m, that the stated uncertainties of its row's readings bring at some values: each
     /// reading is moved by its own to either side. Empty where all are exact.
     pub(super) fn brought_at(&self, values: &[f64]) -> Result<Vec<f64>, FitError> {
-        let stated = &self.observations.reading_sigma;
-        if stated.is_empty() {
+        if self.observations.reading_sigma.is_empty() {
             return Ok(Vec::new());
         }
         let mut squares = vec![0.0; self.layout.components()];

@@ -22,7 +22,8 @@ use crate::search::{Cells, Folds, Problem, ProblemError};
 /// Cells of merged rows at most: as many as sign flips tell apart.
 const CELLS: usize = 400;
 
-/// The share of such a matrix that a sample of merged rows fills: their columns are held several times over.
+/// A sample of rows that are merged fills one part in so many of what a matrix of the search holds: its columns are held several
+/// times over.
 const OF_SAMPLE: usize = 6;
 
 /// Poses further out at which effects are judged.

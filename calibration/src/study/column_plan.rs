@@ -20,6 +20,13 @@ pub(super) struct ColumnPlan {
     pub named: bool,
 }
 
+impl ColumnPlan {
+    /// A column that a study names, of numbers without a unit.
+    pub fn of_numbers(name: &str) -> Self {
+        Self { name: name.to_owned(), unit: None, quantity: Quantity::Number, declared: true, named: true }
+    }
+}
+
 /// The column that a study names, with its unit; only inputs have a meaning.
 pub(super) fn column_plan(
     column: &Column,

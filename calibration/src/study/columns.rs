@@ -41,20 +41,8 @@ impl Columns {
         plans.extend(source.observed.iter().cloned());
         let sigma = plans.len()..plans.len() + source.sigma.len();
         plans.extend(source.sigma.iter().cloned());
-        let mut uncertain = Vec::new();
-        for (id, own) in &source.uncertain.sigma {
-            if let Uncertain::Column(column) = own {
-                uncertain.push((*id, plans.len()));
-                plans.push(column.clone());
-            }
-        }
-        let mut correlated = Vec::new();
-        for (pair, own) in &source.uncertain.correlated {
-            if let Uncertain::Column(column) = own {
-                correlated.push((*pair, plans.len()));
-                plans.push(column.clone());
-            }
-        }
+        let uncertain = placed(&source.uncertain.sigma, &mut plans);
+        let correlated = placed(&source.uncertain.correlated, &mut plans);
         // Names in derivations that are no joint or input of the chain are columns of the file: a time.
         let mut times = Vec::new();
         for (_, reading) in &source.readings {
@@ -69,9 +57,7 @@ impl Columns {
                     .is_some_and(|id| readings.iter().any(|(known, _)| *known == id));
                 if !of_symbol && !times.iter().any(|(known, _)| known == name) {
                     times.push((name.to_owned(), plans.len()));
-                    let quantity = model_core::Quantity::Number;
-                    let name = name.to_owned();
-                    plans.push(ColumnPlan { name, unit: None, quantity, declared: true, named: true });
+                    plans.push(ColumnPlan::of_numbers(name));
                 }
             }
         }
@@ -121,4 +107,16 @@ impl Columns {
         }
         Ok((wanted, bare))
     }
+}
+
+/// Puts the columns that say something of readings behind those there are; where each of them stands.
+fn placed<K: Copy>(stated: &[(K, Uncertain)], plans: &mut Vec<ColumnPlan>) -> Vec<(K, usize)> {
+    let mut placed = Vec::new();
+    for (of, own) in stated {
+        if let Uncertain::Column(column) = own {
+            placed.push((*of, plans.len()));
+            plans.push(column.clone());
+        }
+    }
+    placed
 }

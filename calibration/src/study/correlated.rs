@@ -1,6 +1,6 @@
 //! Which readings of a row are off together, as those of a trajectory are: the one says it of the other, by its name.
 
-use model_core::{Chain, Quantity, SymbolId};
+use model_core::{Chain, SymbolId};
 use toml::Spanned;
 
 use super::column_plan::ColumnPlan;
@@ -52,7 +52,7 @@ pub(super) fn correlated(chain: &Chain, columns: &Table<Column>) -> Outcome<Vec<
                 "a correlation lies between -1 and 1",
                 "divide a covariance by both standard deviations",
             )),
-            Correlation::Column(name) => Ok((pair, Uncertain::Column(column(name)))),
+            Correlation::Column(name) => Ok((pair, Uncertain::Column(ColumnPlan::of_numbers(name)))),
         }
     }))
 }
@@ -60,8 +60,4 @@ pub(super) fn correlated(chain: &Chain, columns: &Table<Column>) -> Outcome<Vec<
 /// Whether a number can be a correlation.
 pub(super) fn is_correlation(number: f64) -> bool {
     (-1.0..=1.0).contains(&number)
-}
-
-fn column(name: &str) -> ColumnPlan {
-    ColumnPlan { name: name.to_owned(), unit: None, quantity: Quantity::Number, declared: true, named: true }
 }

@@ -35,19 +35,32 @@ pub(super) fn of_readings(
     rows: &Rows,
     file: &str,
 ) -> Result<Vec<(SymbolId, Vec<f64>)>, DataError> {
-    let count = rows.row_numbers.len();
-    let of_column = |(id, at): &(SymbolId, usize)| {
-        let stated = &rows.numbers[*at];
-        match stated.iter().position(|sigma| !(*sigma >= 0.0 && sigma.is_finite())) {
-            Some(row) => Err(impossible(rows, row, file, "a reading's standard uncertainty is zero or more")),
-            None => Ok((*id, stated.clone())),
+    let is_one = |sigma: f64| sigma >= 0.0 && sigma.is_finite();
+    let why = "a reading's standard uncertainty is zero or more";
+    each_row(&source.uncertain.sigma, &columns.uncertain, rows, file, is_one, why)
+}
+
+/// What is stated in columns, as far as it can be, and what is stated of every row; one value a row.
+fn each_row<K: Copy>(
+    stated: &[(K, Uncertain)],
+    placed: &[(K, usize)],
+    rows: &Rows,
+    file: &str,
+    is_one: impl Fn(f64) -> bool,
+    why: &str,
+) -> Result<Vec<(K, Vec<f64>)>, DataError> {
+    let of_column = |(of, at): &(K, usize)| {
+        let values = &rows.numbers[*at];
+        match values.iter().position(|&value| !is_one(value)) {
+            Some(row) => Err(impossible(rows, row, file, why)),
+            None => Ok((*of, values.clone())),
         }
     };
-    let evenly = source.uncertain.sigma.iter().filter_map(|(id, own)| match own {
-        Uncertain::Evenly(sigma) => Some(Ok((*id, vec![*sigma; count]))),
+    let evenly = stated.iter().filter_map(|(of, own)| match own {
+        Uncertain::Evenly(value) => Some(Ok((*of, vec![*value; rows.row_numbers.len()]))),
         Uncertain::Column(_) => None,
     });
-    columns.uncertain.iter().map(of_column).chain(evenly).collect()
+    placed.iter().map(of_column).chain(evenly).collect()
 }
 
 /// Two readings and their correlation, one value a row.
@@ -60,25 +73,9 @@ pub(super) fn of_pairs(
     rows: &Rows,
     file: &str,
 ) -> Result<Vec<OfPair>, DataError> {
-    let count = rows.row_numbers.len();
-    let of_column = |(pair, at): &([SymbolId; 2], usize)| {
-        let stated = &rows.numbers[*at];
-        match stated.iter().position(|&correlation| !is_correlation(correlation)) {
-            Some(row) => Err(impossible(
-                rows,
-                row,
-                file,
-                "a correlation lies between -1 and 1: divide a covariance by both standard deviations",
-            )),
-            None => Ok((*pair, stated.clone())),
-        }
-    };
-    let evenly = source.uncertain.correlated.iter().filter_map(|(pair, own)| match own {
-        Uncertain::Evenly(correlation) => Some(Ok((*pair, vec![*correlation; count]))),
-        Uncertain::Column(_) => None,
-    });
-    let pairs: Vec<_> = columns.correlated.iter().map(of_column).chain(evenly).collect::<Result<_, _>>()?;
-    match (0..count).find(|&row| !hang_together(&pairs, row)) {
+    let why = "a correlation lies between -1 and 1: divide a covariance by both standard deviations";
+    let pairs = each_row(&source.uncertain.correlated, &columns.correlated, rows, file, is_correlation, why)?;
+    match (0..rows.row_numbers.len()).find(|&row| !hang_together(&pairs, row)) {
         Some(row) => Err(impossible(
             rows,
             row,

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use crate::drive::{Off, drive, held, report};
-use crate::figures::{first_effect, number};
+use crate::figures::{cautions, first_effect, number};
 
 /// Poses off by something that the next rows share.
 fn drifting(remembered: f64) -> Off {
@@ -11,8 +11,7 @@ fn drifting(remembered: f64) -> Off {
 }
 
 fn off_alike(report: &Value) -> Option<&Value> {
-    let cautions = report["cautions"].as_array().expect("a list");
-    cautions.iter().find(|own| own["kind"] == "rows that follow each other are off alike")
+    cautions(report, "rows that follow each other are off alike").first().copied()
 }
 
 /// Where every row counted for itself, seven of ten such drives had effects that are none, and 37 of 51 values lay within twice their ±.

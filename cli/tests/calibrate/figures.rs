@@ -11,6 +11,12 @@ pub fn calibrated(folder: &Folder, study: &str) -> Value {
     serde_json::from_str(&run.stdout).expect("JSON")
 }
 
+/// The cautions of a kind.
+pub fn cautions<'a>(report: &'a Value, kind: &str) -> Vec<&'a Value> {
+    let all = report["cautions"].as_array().expect("a list").iter();
+    all.filter(|one| one["kind"] == kind).collect()
+}
+
 /// What has to be a number.
 pub fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))

@@ -5,7 +5,7 @@
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-use crate::figures::{calibrated, error};
+use crate::figures::{calibrated, cautions, error};
 use crate::random::Random;
 use crate::support::Folder;
 
@@ -107,9 +107,8 @@ fn a_scale_that_is_not_looked_for_is_told() {
     for (chain, is_told) in [(TRACKER.to_owned(), false), (TRACKER.replace(", Ty(longer*range)", ""), true)] {
         folder.write("tracker.chain", chain);
         let report = calibrated(&folder, "study.toml");
-        let cautions = report["cautions"].as_array().expect("a list");
-        let own: Vec<_> = cautions.iter().filter(|one| one["kind"] == "no scale was looked for").collect();
-        assert_eq!(own.len(), usize::from(is_told), "{cautions:?}");
+        let own = cautions(&report, "no scale was looked for");
+        assert_eq!(own.len(), usize::from(is_told), "{}", report["cautions"]);
         assert!(own.iter().all(|one| one["range"] == "range" && one["body"] == "beam" && one["axis"] == "y"));
     }
 }
@@ -122,9 +121,8 @@ fn a_control_point_that_is_stated_wrongly_is_named() {
     let study = format!("{STUDY}{}", room.controls(random, 0.05));
     folder.write("tracker.chain", TRACKER).write("rows.csv", room.rows(random)).write("study.toml", study);
     let report = calibrated(&folder, "study.toml");
-    let cautions = report["cautions"].as_array().expect("a list");
-    let named: Vec<_> = cautions.iter().filter(|one| one["kind"] == "not where it is stated").collect();
-    assert_eq!(named.len(), 1, "{cautions:?}");
+    let named = cautions(&report, "not where it is stated");
+    assert_eq!(named.len(), 1, "{}", report["cautions"]);
     assert_eq!(named[0]["label"], "T0");
     assert!((0.02..0.06).contains(&named[0]["away_m"].as_f64().expect("a number")), "{named:?}");
 }

@@ -4,7 +4,6 @@ use model_core::{Chain, Quantity, SymbolKind};
 use serde::Serialize;
 
 use super::noise::NoiseFound;
-use super::rms::{BeforeAfter, Worse, worse};
 use super::uneven::Uneven;
 use crate::data::{Grouping, Measure, Measured, Observations, Series, SiUnit};
 use crate::fit::noise::Layout;
@@ -37,9 +36,6 @@ const SURE: f64 = 3.0;
 /// Degrees of freedom below which a fit runs through its rows, whatever their noise.
 const SOME_FREEDOM: f64 = 1.0;
 
-/// Rows out of reach make a figure over every row grow by up to so much by chance, whatever an effect does to the others.
-const FAR_ROWS: f64 = 1.02;
-
 /// Something to be careful about.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "kind")]
@@ -51,6 +47,24 @@ pub enum Caution {
         before: f64,
         /// RMS after, SI.
         after: f64,
+        /// Their unit.
+        unit: SiUnit,
+    },
+    /// Hardly more numbers than what is estimated from them: nothing is left over to judge the noise by.
+    #[serde(rename = "hardly more numbers than unknowns")]
+    HardlyMoreNumbers {
+        /// Numbers that were measured and count.
+        numbers: usize,
+        /// What is estimated from them: combinations of errors, and what is observed.
+        unknowns: usize,
+    },
+    /// Rows that nobody fitted are far from what the fit of the others foretells, with effects or without.
+    #[serde(rename = "held-out data foretold badly")]
+    ForetoldBadly {
+        /// RMS on the data that were fitted, SI.
+        fitted: f64,
+        /// RMS on those that were not, SI.
+        held_out: f64,
         /// Their unit.
         unit: SiUnit,
     },
@@ -303,20 +317,6 @@ pub(super) fn of_readings(noise: &NoiseFound) -> Option<Caution> {
     // Of a component of the noise that others hide it takes more than of the whole.
     let is_far = !(SMALLER.powi(2)..=LARGER.powi(2)).contains(&ratio);
     is_far.then_some(Caution::ReadingsNotAsStated { ratio })
-}
-
-/// What effects do to rows that no stage saw: to those within reach, and to every row where it is more than what chance makes of rows
-/// far out.
-pub(super) fn of_rms(rms: &[BeforeAfter]) -> impl Iterator<Item = Caution> {
-    let clearly = |worse: &Worse| worse.after > FAR_ROWS * worse.before;
-    let held_out = worse(rms, |rms| rms.held_out_rms_kept)
-        .or_else(|| worse(rms, |rms| rms.held_out_rms).filter(clearly));
-    let elsewhere = worse(rms, |rms| rms.elsewhere_rms_kept)
-        .or_else(|| worse(rms, |rms| rms.elsewhere_rms).filter(clearly));
-    held_out
-        .map(|Worse { before, after, unit }| Caution::WorseHeldOut { before, after, unit })
-        .into_iter()
-        .chain(elsewhere.map(|Worse { before, after, unit }| Caution::WorseElsewhere { before, after, unit }))
 }
 
 /// What the data and the size of the residual suggest: a wrong unit, a sign, swapped axes.

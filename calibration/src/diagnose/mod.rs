@@ -11,6 +11,8 @@ mod effects;
 mod ended;
 mod errors;
 mod every_row;
+pub(crate) mod few;
+mod foretold;
 mod function;
 mod harmonics;
 mod instrument;
@@ -229,6 +231,8 @@ pub(crate) fn diagnose(
     let errors = errors::errors(whole, last, &found.by_cause);
     let rms = confirmed.as_ref().map_or_else(|rms| rms.as_slice(), |confirmed| &confirmed.rms);
     let mut cautions = cautions(&found, whole, rms);
+    cautions.extend(few::hardly_more(observations, fit));
+    cautions.extend(foretold::badly(rms).filter(|_| rounding(observations, fit).is_none()));
     if let (Ended::NotConverged { steps }, true) = (Ended::from(&before.outcome), !found.effects.is_empty()) {
         cautions.push(Caution::DeclarationNotFitted { steps });
     }
@@ -404,7 +408,7 @@ impl Found {
 fn cautions(found: &Found, whole: &Context<'_>, rms: &[BeforeAfter]) -> Vec<Caution> {
     let mut cautions = Vec::new();
     if !found.effects.is_empty() {
-        cautions.extend(caution::of_rms(rms));
+        cautions.extend(foretold::of_rms(rms));
     }
     if found.effects.len() >= whole.options.most {
         cautions.push(Caution::LimitOfEffects { effects: found.effects.len() });

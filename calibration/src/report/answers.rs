@@ -4,7 +4,7 @@ use super::causes::{each_once, sentence_case};
 use super::effects::{chance_of_all, headline, place};
 use super::left::{function_form, remaining};
 use super::numbers::{short, times};
-use super::steps::{Step, is_misread, is_worse, steps};
+use super::steps::{Step, is_misread, is_unconfirmed, is_worse, steps};
 use crate::data::SiUnit;
 use crate::diagnose::{Caution, Diagnosis, EffectFound, Ended, EveryRow, Rms, Verdict};
 
@@ -111,7 +111,12 @@ fn tone(diagnosis: &Diagnosis) -> Tone {
     match diagnosis.verdict {
         Verdict::FitFailed | Verdict::TooFewObservations => Tone::Bad,
         _ if is_worse(diagnosis) => Tone::Bad,
-        _ if is_misread(diagnosis) || is_worse_elsewhere(diagnosis) => Tone::Careful,
+        _ if is_misread(diagnosis)
+            || is_worse_elsewhere(diagnosis)
+            || is_unconfirmed(diagnosis).is_some() =>
+        {
+            Tone::Careful
+        }
         Verdict::Explained | Verdict::NothingDetectable => Tone::Good,
         Verdict::Confounded | Verdict::FormNotDetermined => Tone::Ambiguous,
         Verdict::UnnamedFunction | Verdict::StructureRemains | Verdict::NoiseExceedsStated => Tone::Careful,
@@ -129,6 +134,7 @@ fn badge(diagnosis: &Diagnosis) -> String {
         Verdict::UnnamedFunction => "Place found, cause unknown".to_owned(),
         Verdict::StructureRemains => "Something is left".to_owned(),
         Verdict::NoiseExceedsStated => "Noisier than stated".to_owned(),
+        Verdict::NothingDetectable if is_unconfirmed(diagnosis).is_some() => "Not confirmed".to_owned(),
         Verdict::NothingDetectable => "Nothing missing found".to_owned(),
         Verdict::TooFewObservations => "Too few observations".to_owned(),
         Verdict::FitFailed => "The fit failed".to_owned(),

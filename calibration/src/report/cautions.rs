@@ -13,6 +13,15 @@ pub fn caution(caution: &Caution) -> String {
             short(*before, *unit),
             short(*after, *unit)
         ),
+        Caution::HardlyMoreNumbers { numbers, unknowns } => format!(
+            "{numbers} numbers were measured for {unknowns} unknowns: too few are left over to judge the noise by, or the errors."
+        ),
+        Caution::ForetoldBadly { fitted, held_out, unit } => format!(
+            "Data that nobody fitted are off by {}, {} as much as those that were fitted ({}): single rows decide what comes out.",
+            short(*held_out, *unit),
+            times(held_out / fitted),
+            short(*fitted, *unit)
+        ),
         Caution::NotConfirmed { effects, p_value, before, after, unit } => format!(
             "{} stood out (p = {p_value:.3}), but data that nobody fitted do not confirm it: {} without, {} with. It was \
              left out; measure more to decide.",

@@ -4,6 +4,7 @@ use super::causes::{cause, sentence_case};
 use super::effects::CHANCE;
 use super::places::told_places;
 use super::shell::shell_word;
+use crate::diagnose::few::WANTED;
 use crate::diagnose::{Caution, Diagnosis, EffectFound, Ended, Relation, Verdict};
 
 /// Something to do.
@@ -34,9 +35,8 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
         Verdict::TooFewObservations => {
             let text = match diagnosis.fit.amended {
                 Ended::TooFewObservations { .. } => format!(
-                    "At least {} observations more, at poses spread over the joints; or fix errors that are known \
-                     (`[fit] fix`).",
-                    missing(diagnosis)
+                    "At least {}; or fix errors that are known (`[fit] fix`).",
+                    observations_more(missing(diagnosis, diagnosis.fit.rank[1] + 2))
                 ),
                 _ => "Repeat the observations that the effect rests on.".to_owned(),
             };
@@ -59,6 +59,8 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
              (`[search] effects`)."
                 .to_owned(),
         ));
+    } else if let Some(more) = is_unconfirmed(diagnosis) {
+        steps.push(step("Measure more before you correct with it", more));
     } else if shows_nothing(diagnosis) {
         steps.push(step(
             "There is nothing to correct with",
@@ -98,11 +100,33 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
     steps
 }
 
-/// Observations that are missing for one degree of freedom.
-fn missing(diagnosis: &Diagnosis) -> usize {
+/// Observations that are missing for so many numbers.
+fn missing(diagnosis: &Diagnosis, numbers: usize) -> usize {
     let components = diagnosis.instrument.observed.first().map_or(1, |seen| seen.components.len().max(1));
     let there = diagnosis.observations.used * components;
-    (diagnosis.fit.rank[1] + 2).saturating_sub(there).div_ceil(components).max(1)
+    numbers.saturating_sub(there).div_ceil(components).max(1)
+}
+
+fn observations_more(count: usize) -> String {
+    let observations = if count == 1 { "observation" } else { "observations" };
+    format!("{count} {observations} more, at poses spread over the joints")
+}
+
+/// What to measure where nothing confirms what was estimated: hardly any number is left over, or data that nobody fitted are foretold
+/// badly.
+pub(super) fn is_unconfirmed(diagnosis: &Diagnosis) -> Option<String> {
+    diagnosis.cautions.iter().find_map(|caution| match caution {
+        Caution::HardlyMoreNumbers { numbers, unknowns } => Some(format!(
+            "{numbers} numbers for {unknowns} unknowns leave too few to judge the noise by: add at least {}.",
+            observations_more(missing(diagnosis, unknowns + WANTED.max(*unknowns)))
+        )),
+        Caution::ForetoldBadly { .. } => Some(
+            "Data that nobody fitted are foretold badly, since single rows decide what comes out: add observations at poses spread over \
+             the joints, until each error is seen from several."
+                .to_owned(),
+        ),
+        _ => None,
+    })
 }
 
 fn correct(diagnosis: &Diagnosis, folder: Option<&str>) -> Step {

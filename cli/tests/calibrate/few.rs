@@ -16,9 +16,16 @@ fn cautions(folder: &Folder, poses: usize, noise: &str, seed: usize) -> Vec<Stri
     simulate_pan(folder, poses, noise, seed, &[]);
     let run = folder.trueaxis(&["calibrate", "study.toml", "--format", "json"]);
     let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
+    kinds(&report)
+}
+
+fn kinds(report: &Value) -> Vec<String> {
     let cautions = report["cautions"].as_array().expect("a list");
     cautions.iter().map(|caution| caution["kind"].as_str().expect("a text").to_owned()).collect()
 }
+
+const HARDLY: &str = "hardly more numbers than unknowns";
+const BADLY: &str = "held-out data foretold badly";
 
 #[test]
 fn one_to_three_rows_say_nothing_against_what_is_stated() {
@@ -29,7 +36,8 @@ fn one_to_three_rows_say_nothing_against_what_is_stated() {
     );
     for poses in 1..=3 {
         for seed in 1..=8 {
-            let told = cautions(&folder, poses, "5 arcsec", seed);
+            let mut told = cautions(&folder, poses, "5 arcsec", seed);
+            told.retain(|kind| kind != HARDLY);
             assert!(told.is_empty(), "{poses} poses, seed {seed}: {told:?}");
         }
     }
@@ -51,4 +59,100 @@ fn a_dry_run_says_where_nothing_would_change() {
     let run = folder.trueaxis(&["calibrate", "study.toml", "--dry-run"]);
     assert_eq!((run.code, run.stdout.as_str()), (0, ""), "{run}");
     assert!(run.stderr.contains("the declaration would not change"), "{run}");
+}
+
+const MOUNT: &str = "chain Mount {
+    body azimuth_axis on ground {
+        position_error: Rx(tilt_x), Ry(tilt_y);
+        motion: Rz(-azimuth);
+        motion_error: Rz(azimuth_index);
+    }
+    body elevation_axis on azimuth_axis {
+        position_error: Ry(nonperpendicularity);
+        motion: Rx(elevation);
+        motion_error: Rx(elevation_index);
+    }
+    body telescope on elevation_axis { position_error: Rz(collimation); }
+    observe pointing: direction(0, 1, 0) of telescope;
+    observe tip: point(0, 1, 0) of telescope;
+}";
+
+/// What somebody measured with a mount that has a collimation error of 30 arcsec, worked out by hand: azimuth, elevation, x, y and z, with
+/// noise of 2 arcsec, or 10 µm of a point at 1 m.
+fn rows(count: usize, seed: u64) -> String {
+    let mut state = seed;
+    let mut uniform = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut table = "azimuth,elevation,x,y,z\n".to_owned();
+    for _ in 0..count {
+        let (azimuth, elevation) = (6.0 * uniform() - 3.0, 0.2 + uniform());
+        let mut noise = || 1e-5 * ((0..12).map(|_| uniform()).sum::<f64>() - 6.0);
+        // The line of sight in the telescope is turned about z, lifted by the elevation, and turned by the azimuth.
+        let (across, along) = (30.0 * std::f64::consts::PI / 648_000.0_f64).sin_cos();
+        let (level, up) = (along * elevation.cos(), along * elevation.sin());
+        let x = -across * azimuth.cos() + level * azimuth.sin();
+        let y = across * azimuth.sin() + level * azimuth.cos();
+        let [x, y, z] = [x + noise(), y + noise(), up + noise()];
+        table.push_str(&format!("{azimuth},{elevation},{x},{y},{z}\n"));
+    }
+    table
+}
+
+/// The first screen and the report of so many rows.
+fn calibrated(name: &str, kind: &str, count: usize, seed: u64) -> (String, Value) {
+    let folder = Folder::new(&format!("few-{name}-{count}-{seed}"));
+    let observable = if kind == "point" { "tip" } else { "pointing" };
+    let study = format!(
+        "chain = \"mount.chain\"\nobservable = \"{observable}\"\ndata = \"data.csv\"\n[observed]\nkind = \"{kind}\"\n\
+         x = \"x\"\ny = \"y\"\nz = \"z\"\n"
+    );
+    folder.write("mount.chain", MOUNT).write("data.csv", rows(count, seed)).write("study.toml", &study);
+    let shown = folder.trueaxis(&["calibrate", "study.toml"]);
+    let json = folder.trueaxis(&["calibrate", "study.toml", "--format", "json"]);
+    (shown.stdout, serde_json::from_str(&json.stdout).unwrap_or_else(|_| panic!("{json}")))
+}
+
+const CORRECT: &str = "Correct with it now";
+const MORE: &str = "1. Measure more before you correct with it.";
+
+#[test]
+fn where_hardly_a_number_is_left_over_nobody_is_told_to_correct() {
+    for seed in 1..=3 {
+        for (kind, count, numbers) in [("point", 3, 9), ("direction", 4, 8)] {
+            let (shown, report) = calibrated("hardly", kind, count, seed);
+            assert!(!shown.contains(CORRECT) && shown.contains(MORE), "{shown}");
+            let why =
+                format!("{numbers} numbers for 6 unknowns leave too few to judge the noise by: add at least");
+            assert!(shown.split_whitespace().collect::<Vec<_>>().join(" ").contains(&why), "{shown}");
+            assert!(kinds(&report).contains(&HARDLY.to_owned()), "{shown}");
+            assert!(!shown.contains("NOTHING MISSING FOUND") && shown.contains("NOT CONFIRMED"), "{shown}");
+        }
+    }
+}
+
+#[test]
+fn where_single_rows_decide_nobody_is_told_to_correct() {
+    let mut told = 0;
+    for seed in 1..=6 {
+        let (shown, report) = calibrated("decide", "point", 4, seed);
+        let rms = |key: &str| report["after"][key].as_f64().expect("a number");
+        let is_bad = rms("held_out_rms")
+            > 5.0 * rms("rms").max(report["noise"]["expected_rms"].as_f64().expect("a number"));
+        told += usize::from(is_bad);
+        assert_eq!(kinds(&report).contains(&BADLY.to_owned()), is_bad, "{shown}");
+        assert_eq!(shown.contains(MORE), is_bad, "{shown}");
+        assert_eq!(shown.contains(CORRECT), !is_bad, "{shown}");
+    }
+    assert!(told > 0, "no seed has rows that decide alone");
+}
+
+#[test]
+fn enough_rows_are_corrected_with() {
+    for (kind, count) in [("point", 30), ("direction", 30)] {
+        let (shown, report) = calibrated("enough", kind, count, 1);
+        assert!(shown.contains(CORRECT) && !shown.contains(MORE), "{shown}");
+        assert!(kinds(&report).is_empty(), "{shown}");
+    }
 }

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use super::decimal::{Marks, parse};
 use super::error::clipped;
 use super::header::{ColumnName, unique};
+use super::packed::no_text;
 use super::records::{Dialect, Line, Record, RecordError, Records};
 use super::separator::guess_separator;
 use super::{Cell, Cells, Chunk, DataError, Form, Kept, Options, TableReader, Wanted};
@@ -56,6 +57,9 @@ impl<R: Read> Reader<R> {
             .take(PEEK)
             .read_to_end(&mut head)
             .map_err(|error| DataError::Unreadable { file: source.to_string(), why: error.to_string() })?;
+        if let Some(what) = no_text(&head) {
+            return Err(DataError::NoText { file: source.to_string(), what });
+        }
         if head.starts_with(&[0xFF, 0xFE]) || head.starts_with(&[0xFE, 0xFF]) {
             return Err(DataError::NotUtf8 { file: source.to_string(), line: 1 });
         }

@@ -95,6 +95,14 @@ pub enum DataError {
         /// Line in the file, from 1.
         line: u64,
     },
+    /// A file that is compressed, or of another format.
+    #[error("{file}: {what}")]
+    NoText {
+        /// Name of the file.
+        file: String,
+        /// What it is, and what to do.
+        what: &'static str,
+    },
     /// Two columns of one name.
     #[error("{file}: column `{column}` is there twice: rename one of them")]
     DuplicateColumn {
@@ -102,6 +110,16 @@ pub enum DataError {
         file: String,
         /// Name of the column.
         column: String,
+    },
+    /// A column of a kind that cannot be read as what was wanted.
+    #[error("{file}: column `{column}` {why}")]
+    UnusableColumn {
+        /// Name of the file.
+        file: String,
+        /// Name of the column.
+        column: String,
+        /// What it holds, and what to give instead.
+        why: String,
     },
     /// A column that is not there.
     #[error("{file}: no column `{column}`: {help}")]

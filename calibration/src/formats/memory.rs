@@ -10,6 +10,15 @@ pub enum Column<'a> {
     Numbers(&'a [f64]),
     /// Texts.
     Texts(&'a [String]),
+    /// What is neither.
+    Other {
+        /// What tells the cells apart and puts them in order, where something does.
+        labels: Option<&'a [f64]>,
+        /// How many cells there are.
+        rows: usize,
+        /// What they are, and what to give instead.
+        why: &'a str,
+    },
 }
 
 impl Column<'_> {
@@ -17,6 +26,7 @@ impl Column<'_> {
         match self {
             Self::Numbers(numbers) => numbers.len(),
             Self::Texts(texts) => texts.len(),
+            Self::Other { rows, .. } => *rows,
         }
     }
 }
@@ -83,7 +93,13 @@ impl<'a> Reader<'a> {
                     Err(_) => Err(DataError::NotANumber { cell: cell(), text: clipped(text) }),
                 }
             }
+            Column::Other { why, .. } => Err(self.unusable(column, why)),
         }
+    }
+
+    fn unusable(&self, column: usize, why: &str) -> DataError {
+        let (file, column) = (self.source.clone(), clipped(&self.header[column].full));
+        DataError::UnusableColumn { file, column, why: why.to_string() }
     }
 }
 
@@ -98,10 +114,13 @@ impl TableReader for Reader<'_> {
 
     fn read(&mut self, wanted: &[Wanted], at_most: usize) -> Result<Chunk, DataError> {
         let rows = self.row..self.rows.min(self.row.saturating_add(at_most));
-        let texts = |column: usize| -> Vec<String> {
+        let texts = |column: usize| -> Result<Vec<String>, DataError> {
             match self.columns[column] {
-                Column::Numbers(numbers) => numbers[rows.clone()].iter().map(|n| format!("{n:?}")).collect(),
-                Column::Texts(texts) => texts[rows.clone()].to_vec(),
+                Column::Numbers(numbers) | Column::Other { labels: Some(numbers), .. } => {
+                    Ok(numbers[rows.clone()].iter().map(|n| format!("{n:?}")).collect())
+                }
+                Column::Texts(texts) => Ok(texts[rows.clone()].to_vec()),
+                Column::Other { labels: None, why, .. } => Err(self.unusable(column, why)),
             }
         };
         let columns = wanted
@@ -111,8 +130,8 @@ impl TableReader for Reader<'_> {
                     let numbers = rows.clone().map(|row| Ok(self.number(want.column, row)? * factor));
                     Ok(Cells::Numbers(numbers.collect::<Result<_, DataError>>()?))
                 }
-                Form::Label => Ok(Cells::Labels(texts(want.column))),
-                Form::Kept => Ok(Cells::Kept(Kept::Texts(texts(want.column).iter().collect()))),
+                Form::Label => Ok(Cells::Labels(texts(want.column)?)),
+                Form::Kept => Ok(Cells::Kept(Kept::Texts(texts(want.column)?.iter().collect()))),
             })
             .collect::<Result<_, DataError>>()?;
         self.row = rows.end;
@@ -155,6 +174,24 @@ mod tests {
             }
         );
         assert!(read().rows.is_empty());
+    }
+
+    #[test]
+    fn what_is_no_number_is_refused_where_somebody_wants_it() {
+        let why = "holds truth values: give numbers";
+        let table = |labels| {
+            let other = Column::Other { labels, rows: 2, why };
+            Reader::new("frame", [("az", other), ("el", Column::Numbers(&[1.0, 2.0]))]).unwrap()
+        };
+        let read = |labels, column, form| {
+            table(labels).read(&[Wanted { column, form }], 5).map_err(|error| error.to_string())
+        };
+        let refused = Err("frame: column `az` holds truth values: give numbers".to_string());
+        assert_eq!(read(Some(&[1.0, 0.0]), 0, Form::Number(1.0)), refused);
+        assert_eq!(read(None, 0, Form::Label), refused);
+        assert!(read(None, 1, Form::Number(1.0)).is_ok());
+        let labels = read(Some(&[1.0, 0.0]), 0, Form::Label).unwrap().columns;
+        assert_eq!(labels, [Cells::Labels(vec!["1.0".to_string(), "0.0".to_string()])]);
     }
 
     #[test]

@@ -16,6 +16,7 @@ mod header;
 pub mod memory;
 mod number;
 mod options;
+mod packed;
 #[cfg(feature = "parquet")]
 pub mod parquet;
 pub mod part;

@@ -49,6 +49,13 @@ fn known_format(path: &Path) -> Result<(), Failure> {
         };
         return Err(Failure::Input(format!("{}: {why}", path.display())));
     }
+    if ["gz", "zst", "xz", "bz2", "zip"].contains(&ending(path).as_str()) {
+        let message = format!(
+            "`{}`: tables are read and written as .csv or .parquet, and not compressed: unpack it first, or name a .csv file",
+            path.display()
+        );
+        return Err(Failure::Input(message));
+    }
     if ["xlsx", "xls", "ods", "arrow", "feather"].contains(&ending(path).as_str()) {
         let message = format!(
             "`{}`: tables are read and written as .csv or .parquet; convert it first",

@@ -58,3 +58,33 @@ fn a_chain_too_long_for_a_closed_form() {
     let run = folder.trueaxis(&["derive", "long.chain"]);
     assert!(refused(&run).contains("too long for a closed form, which `bound`, `eval`"), "{run}");
 }
+
+/// What is compressed is named by how, whatever it is called, and says what to do.
+#[test]
+fn a_file_that_is_no_text_is_named_as_what_it_is() {
+    let folder = mount("compressed");
+    folder.write(
+        "study.toml",
+        "chain = \"mount.chain\"\ndata = \"poses.csv\"\n[observed]\nkind = \"direction\"\n",
+    );
+    let eval = ["eval", "mount.chain", "--errors", "e.toml", "--data", "poses.csv", "--out", "out.csv"];
+    for (bytes, words) in [
+        (&b"\x1F\x8B\x08\0\0"[..], "poses.csv: this is compressed with gzip: unpack it first, with `gunzip`"),
+        (b"\x28\xB5\x2F\xFD\0", "this is compressed with zstd"),
+        (b"PK\x03\x04\x14", "this is a ZIP archive, or a spreadsheet"),
+        (b"PAR1\x15\x04", "this is a Parquet file: name it .parquet"),
+    ] {
+        folder.write("poses.csv", bytes);
+        for asked in [&eval[..], &["calibrate", "study.toml"], &["init", "poses.csv", "--out", "new.toml"]] {
+            let run = folder.trueaxis(asked);
+            assert!(refused(&run).contains(words), "{run}");
+        }
+    }
+    folder.write("poses.csv", "azimuth [deg],elevation [deg]\n10,20\n");
+    let out = ["eval", "mount.chain", "--errors", "e.toml", "--data", "poses.csv", "--out", "out.csv.gz"];
+    let told = refused(&folder.trueaxis(&out)).to_owned();
+    assert!(
+        told.contains("`out.csv.gz`: tables are read and written as .csv or .parquet, and not compressed"),
+        "{told}"
+    );
+}

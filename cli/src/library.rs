@@ -6,7 +6,7 @@
 use std::path::Path;
 
 use calibration::formats::memory::Reader;
-use calibration::formats::{TableReader, open};
+use calibration::formats::{ColumnName, TableReader, declared_columns, open};
 use codegen::Form;
 use model_core::expr::Expr;
 use model_core::{Chain, ObservableId, SymbolKind, forms, print, syntax};
@@ -25,7 +25,7 @@ pub use crate::calibrating::{Calibrated, Studied};
 pub use crate::draw::stretches;
 pub use crate::evaluation::{Exactness, Quantity};
 pub use crate::failure::Failure;
-pub use crate::over_memory::{Columns, applied, evaluated, warn_of_outside};
+pub use crate::over_memory::{Columns, Computed, applied, evaluated, warn_of_outside};
 pub use crate::report::Cells;
 pub use crate::source::Source;
 pub use crate::streaming::{Foretold, Rows, Streaming, accumulated, validated};
@@ -72,6 +72,21 @@ pub fn observable(chain: &Chain, name: Option<&str>) -> Result<ObservableId, Fai
 #[must_use]
 pub fn readings_of(chain: &Chain, observable: ObservableId) -> Vec<model_core::SymbolId> {
     evaluation::readings_of(chain, observable)
+}
+
+/// Which columns of these names have readings of joints and inputs.
+#[must_use]
+pub fn are_readings(chain: &Chain, columns: &[String]) -> Vec<bool> {
+    let declared = declared_columns(chain);
+    let declared: Vec<&str> = declared.iter().map(String::as_str).collect();
+    let is_reading =
+        |symbol: &&model_core::Symbol| matches!(symbol.kind, SymbolKind::Joint | SymbolKind::Input);
+    let readings: Vec<_> = chain.symbols.iter().filter(is_reading).collect();
+    let is_one = |name: &String| {
+        let column = ColumnName::parse(name);
+        readings.iter().any(|reading| column.means(&reading.name, &declared))
+    };
+    columns.iter().map(is_one).collect()
 }
 
 /// What a form is called in code that is generated of it.
@@ -244,8 +259,24 @@ pub fn simulated(
 ) -> Result<Vec<(String, Vec<f64>)>, Failure> {
     let values = errors_file::values(errors, chain)?;
     let mut simulation = simulate::Simulation::new(chain, &values, noise, names, ranges, seed)?;
+    if !fit_into_memory(poses, simulation.header.len()) {
+        return Err(Failure::Input(format!(
+            "poses={poses}: so many rows of {} columns do not fit into memory: ask for fewer, or write them into a file with \
+             `trueaxis simulate`",
+            simulation.header.len()
+        )));
+    }
     let columns = simulation.rows(poses)?;
     Ok(simulation.header.into_iter().zip(columns).collect())
+}
+
+/// Whether the system would give memory for a table, rather than end the process.
+fn fit_into_memory(rows: usize, columns: usize) -> bool {
+    let mut numbers: Vec<f64> = Vec::new();
+    let is_had = rows.checked_mul(columns).is_some_and(|all| numbers.try_reserve_exact(all).is_ok());
+    // What nobody looks at would not be asked for.
+    std::hint::black_box(&numbers);
+    is_had
 }
 
 /// A table of a name in memory.
@@ -300,9 +331,9 @@ pub fn errors_toml(calibrated: &Calibrated) -> Option<String> {
     report::errors(&calibrated.reported(None))
 }
 
-/// The values of every error of the amended chain, and of constants that were fitted, in SI, if a usable model came out.
+/// The values of every error of the amended chain, and of constants that were fitted, in SI with its unit, if a usable model came out.
 #[must_use]
-pub fn estimates(calibrated: &Calibrated) -> Option<Vec<(String, f64)>> {
+pub fn estimates(calibrated: &Calibrated) -> Option<Vec<(String, f64, &'static str)>> {
     let calibration = &calibrated.calibration;
     calibration.amended.as_ref()?;
     let chain = &calibration.chain;
@@ -313,7 +344,7 @@ pub fn estimates(calibrated: &Calibrated) -> Option<Vec<(String, f64)>> {
         SymbolKind::Constant => *value != nominal,
         _ => false,
     });
-    Some(told.map(|((symbol, &value), _)| (symbol.name.clone(), value)).collect())
+    Some(told.map(|((symbol, &value), _)| (symbol.name.clone(), value, symbol.quantity.unit())).collect())
 }
 
 /// The ranges of the readings that a calibration was found over, SI, if a usable model came out: `[found-over]` of `errors.toml`.

@@ -7,12 +7,21 @@ use crate::apply::{Counted, Outside};
 use crate::errors_file;
 use crate::evaluation::{self, Evaluator, Exactness, Quantity};
 use crate::failure::Failure;
+use crate::over_table::warn_of_replaced;
 use crate::source::Source;
 use crate::tables::ReadingsTable;
 use crate::terminal;
 
 /// Names of columns, and the columns in SI.
 pub type Columns = Vec<(String, Vec<f64>)>;
+
+/// What is computed over a table.
+pub struct Computed {
+    /// The columns to add.
+    pub added: Columns,
+    /// The names of the table's own columns that these replace.
+    pub replaced: Vec<String>,
+}
 
 /// The observables over a table of readings, as `eval` computes them.
 ///
@@ -24,7 +33,7 @@ pub fn evaluated(
     reader: Box<dyn TableReader + '_>,
     names: &[String],
     quantity: (Exactness, Quantity),
-) -> Result<Columns, Failure> {
+) -> Result<Computed, Failure> {
     over_table(chain, errors, reader, names, quantity, &mut Outside::new(Vec::new()))
 }
 
@@ -38,11 +47,11 @@ pub fn applied(
     errors: &Source,
     reader: Box<dyn TableReader + '_>,
     names: &[String],
-) -> Result<(Columns, Counted), Failure> {
+) -> Result<(Computed, Counted), Failure> {
     let mut outside = Outside::new(errors_file::found_over(errors, chain)?);
     let quantity = (Exactness::Exact, Quantity::Value);
-    let columns = over_table(chain, errors, reader, names, quantity, &mut outside)?;
-    Ok((columns, outside.counted()))
+    let computed = over_table(chain, errors, reader, names, quantity, &mut outside)?;
+    Ok((computed, outside.counted()))
 }
 
 /// Warns as `apply` does of rows outside of what the errors were found over, which were counted table by table.
@@ -63,7 +72,7 @@ fn over_table(
     names: &[String],
     (form, quantity): (Exactness, Quantity),
     outside: &mut Outside,
-) -> Result<Columns, Failure> {
+) -> Result<Computed, Failure> {
     let values = errors_file::values(errors, chain)?;
     let mut table = ReadingsTable::of(reader, chain);
     let chosen = table.with_readings(chain, names)?;
@@ -78,5 +87,7 @@ fn over_table(
         columns.iter_mut().zip(computed).for_each(|(column, more)| column.extend(more));
     }
     table.doubtful().for_each(terminal::warn);
-    Ok(header.into_iter().zip(columns).collect())
+    let is_replaced = table.replaced_by(&header);
+    warn_of_replaced(&table, &is_replaced);
+    Ok(Computed { added: header.into_iter().zip(columns).collect(), replaced: table.names_of(&is_replaced) })
 }

@@ -8,7 +8,7 @@ use model_core::Chain;
 use crate::errors_file::{self, FoundOver};
 use crate::evaluation::{Evaluator, Exactness, Quantity, column_names};
 use crate::failure::Failure;
-use crate::source::Source;
+use crate::source::{Source, listed};
 use crate::tables::{self, Column, ReadingsTable, Rows};
 use crate::{output, terminal};
 
@@ -88,11 +88,11 @@ impl OverTable {
         Ok(Model { chain, values, found })
     }
 
-    /// Writes the table with a quantity of each observable; returns which columns of the input these replace.
+    /// Writes the table with a quantity of each observable.
     ///
     /// # Errors
     /// The declaration, the errors or the readings have a mistake, or the place cannot be written.
-    pub fn evaluate(&self, form: Exactness, quantity: Quantity) -> Result<Vec<String>, Failure> {
+    pub fn evaluate(&self, form: Exactness, quantity: Quantity) -> Result<(), Failure> {
         let Opened { chain, values, mut table, .. } = self.open()?;
         let chosen = table.with_readings(&chain, &self.observable)?;
         let evaluator = Evaluator::new(&chain, chosen, form, quantity, &values);
@@ -105,7 +105,7 @@ impl OverTable {
         })
     }
 
-    /// Writes the table with the columns that `compute` makes of its rows; returns which columns of the input these replace.
+    /// Writes the table with the columns that `compute` makes of its rows; warns of columns of the input that these replace.
     ///
     /// # Errors
     /// A row cannot be read or computed, or the place cannot be written.
@@ -114,19 +114,10 @@ impl OverTable {
         mut table: ReadingsTable<'_>,
         added: &[String],
         mut compute: impl FnMut(&Rows) -> Result<Vec<Vec<f64>>, Failure>,
-    ) -> Result<Vec<String>, Failure> {
-        // A unit in brackets is not part of the name.
-        let bare = |name: &str| name.split(" [").next().map(str::to_owned);
-        let named: Vec<String> = added.iter().filter_map(|name| bare(name)).collect();
-        let is_replaced: Vec<bool> =
-            table.header().iter().map(|column| named.iter().any(|name| table.means(column, name))).collect();
+    ) -> Result<(), Failure> {
+        let is_replaced = table.replaced_by(added);
         let is_kept: Vec<bool> = is_replaced.iter().map(|replaced| !replaced).collect();
-        let names = |replaced: bool| {
-            let header = table.header().iter().zip(&is_replaced);
-            header.filter(move |(_, is)| **is == replaced).map(|(column, _)| column.full.clone())
-        };
-        let replaced: Vec<String> = names(true).collect();
-        let header: Vec<String> = names(false).chain(added.iter().cloned()).collect();
+        let header: Vec<String> = table.names_of(&is_kept).into_iter().chain(added.iter().cloned()).collect();
         let mut not_finite = 0;
         let mut done = 0_usize;
         let (progress, began) = (terminal::progress(), Instant::now());
@@ -147,12 +138,26 @@ impl OverTable {
         })?;
         progress.finish_and_clear();
         table.doubtful().for_each(terminal::warn);
+        warn_of_replaced(&table, &is_replaced);
         if not_finite > 0 {
             terminal::warn(format_args!(
                 "{not_finite} rows are not finite: the chain has a pole there, or a number too large"
             ));
         }
-        Ok(replaced)
+        Ok(())
+    }
+}
+
+/// Warns of columns of the input that are not in the output, since what was computed has their names. Where readings are solved for, those
+/// of the input were read as starts.
+pub fn warn_of_replaced(table: &ReadingsTable<'_>, is_replaced: &[bool]) {
+    let is_lost = is_replaced.iter().enumerate().map(|(at, replaced)| *replaced && !table.reads(at));
+    let columns = table.names_of(&is_lost.collect::<Vec<_>>());
+    let names = listed(columns.iter().map(String::as_str));
+    match columns.len() {
+        0 => {}
+        1 => terminal::warn(format_args!("the input's own column {names} was replaced")),
+        _ => terminal::warn(format_args!("the input's own columns {names} were replaced")),
     }
 }
 

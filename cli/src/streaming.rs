@@ -232,11 +232,12 @@ fn as_json(studied: &Studied, result: &StreamedResult) -> Value {
         })
     });
     let values =
-        chain.symbols.iter().zip(&result.values).filter(|(symbol, _)| symbol.kind == SymbolKind::Error);
+        || chain.symbols.iter().zip(&result.values).filter(|(symbol, _)| symbol.kind == SymbolKind::Error);
     let [rows, kept] = result.rows;
     json!({
         "errors": errors.collect::<Vec<_>>(),
-        "values": values.map(|(symbol, &value)| (symbol.name.clone(), json!(value))).collect::<serde_json::Map<_, _>>(),
+        "values": values().map(|(symbol, &value)| (symbol.name.clone(), json!(value))).collect::<serde_json::Map<_, _>>(),
+        "units": values().map(|(symbol, _)| (symbol.name.clone(), json!(symbol.quantity.unit()))).collect::<serde_json::Map<_, _>>(),
         "rank": result.rank,
         "noise": result.floor,
         "shared_by_files": result.shared.as_ref().map(|shared| json!({

@@ -23,7 +23,7 @@ use crate::{tables, terminal};
 ///
 /// Reads columns named like the chain's joints and inputs and writes every column of the input, with the corrected
 /// `<observable>_x`, `_y`, `_z`: where the instrument with its calibrated errors really points, or where its points
-/// really are. Columns of these names in the input, computed without the errors, are replaced.
+/// really are. Columns of these names in the input, computed without the errors, are replaced, and a warning names them.
 ///
 /// With --solve it goes the other way: it reads where the instrument is to point, in the columns that it would write
 /// without, and writes the readings of the joints that do so, with the angle or distance that remains. Columns of the

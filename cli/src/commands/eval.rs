@@ -4,8 +4,6 @@ use super::Answer;
 use crate::evaluation::{Exactness, Quantity};
 use crate::failure::Failure;
 use crate::over_table::OverTable;
-use crate::source::listed;
-use crate::terminal;
 
 /// Evaluate the error of each observable over a table of readings.
 ///
@@ -33,10 +31,6 @@ pub struct Arguments {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let replaced = arguments.table.evaluate(arguments.form, arguments.quantity)?;
-    if !replaced.is_empty() {
-        let names = listed(replaced.iter().map(String::as_str));
-        terminal::warn(format_args!("the input's own columns {names} were replaced"));
-    }
+    arguments.table.evaluate(arguments.form, arguments.quantity)?;
     Ok(Answer::Done)
 }

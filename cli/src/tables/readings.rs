@@ -207,6 +207,28 @@ impl<'t> ReadingsTable<'t> {
         column.means(name, &self.declared())
     }
 
+    /// Which columns have a name of those that are added.
+    #[must_use]
+    pub fn replaced_by(&self, added: &[String]) -> Vec<bool> {
+        // A unit in brackets is not part of the name.
+        let bare = |name: &str| name.split(" [").next().map(str::to_owned);
+        let named: Vec<String> = added.iter().filter_map(|name| bare(name)).collect();
+        self.header().iter().map(|column| named.iter().any(|name| self.means(column, name))).collect()
+    }
+
+    /// The names of some columns.
+    #[must_use]
+    pub fn names_of(&self, is_one: &[bool]) -> Vec<String> {
+        let header = self.header().iter().zip(is_one);
+        header.filter(|(_, is_one)| **is_one).map(|(column, _)| column.full.clone()).collect()
+    }
+
+    /// Whether the readings of a joint or input come from a column.
+    #[must_use]
+    pub fn reads(&self, column: usize) -> bool {
+        self.readings.iter().any(|reading| reading.column == column)
+    }
+
     /// Whether there is a column, or more, for each of these joints and inputs.
     #[must_use]
     pub fn has(&self, chain: &Chain, readings: &[SymbolId]) -> bool {

@@ -86,7 +86,7 @@ fn bare_degrees_and_millimetres_are_cautioned_by_every_command() {
         }
         let plain = folder.read("data.csv").replace("q,u", "q [rad],u [m]");
         folder.write("data.csv", plain);
-        assert_eq!(done(&words(folder, COMMANDS[1])), "");
+        assert!(!done(&words(folder, COMMANDS[1])).contains("has no unit"));
     }
 }
 

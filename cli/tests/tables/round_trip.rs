@@ -196,7 +196,7 @@ fn an_observable_whose_columns_have_the_name_of_a_joint_is_refused() {
 }
 
 #[test]
-fn a_far_range_is_written_with_its_unit_and_read_without_a_word() {
+fn a_far_range_is_written_with_its_unit_and_read_without_a_doubt() {
     let folder = Folder::new("far");
     folder.write("named.chain", declaration(["turn", "slide", "t"])).write("e.toml", "");
     let simulate = "simulate named.chain --errors e.toml --poses 20 --noise 0 --seed 1 --range slide=0..90m --range t=0..1";
@@ -205,6 +205,6 @@ fn a_far_range_is_written_with_its_unit_and_read_without_a_word() {
     assert!(folder.read("far.csv").starts_with("t,turn [rad],slide [m],"), "{}", folder.read("far.csv"));
     assert_eq!(
         done(&words(&folder, "apply named.chain --errors e.toml --data far.csv --observable beam --out -")),
-        ""
+        "warning: the input's own columns `beam_x`, `beam_y`, `beam_z` were replaced\n"
     );
 }

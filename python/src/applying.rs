@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use trueaxis_cli::library::{self, Source};
+use trueaxis_cli::library::{self, Computed, Source};
 
 use crate::chain::{Chain, Columns, Text, as_arrays, source};
 use crate::errors;
@@ -12,8 +12,8 @@ use crate::tables::{Given, Table};
 /// Of some rows: how many, how many outside of what the errors were found over, and for each range how many and how far.
 type Counted = (usize, usize, Vec<(usize, f64)>);
 
-/// Observables with their errors over a table of readings, `(name, columns)`, and how many rows are outside of what the errors were
-/// found over.
+/// Observables with their errors over a table of readings, `(name, columns)`, the table's own columns that they replace, and how many
+/// rows are outside of what the errors were found over.
 #[pyfunction]
 pub fn apply(
     py: Python<'_>,
@@ -21,7 +21,7 @@ pub fn apply(
     table: (String, Given<'_>),
     errors: Text,
     observables: Vec<String>,
-) -> PyResult<(Columns, Counted)> {
+) -> PyResult<(Columns, Vec<String>, Counted)> {
     let (name, columns) = table;
     let table = Table::of(columns)?;
     let columns = table.columns()?;
@@ -29,7 +29,8 @@ pub fn apply(
         let table = library::table(&name, &columns)?;
         library::applied(chain.with_numbers()?, &source(errors), table, &observables)
     })?;
-    Ok((as_arrays(py, computed), (counted.rows, counted.outside, counted.ranges)))
+    let Computed { added, replaced } = computed;
+    Ok((as_arrays(py, added), replaced, (counted.rows, counted.outside, counted.ranges)))
 }
 
 /// Warns of rows outside of what the errors were found over, counted table by table.

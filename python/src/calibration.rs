@@ -1,14 +1,14 @@
 //! Studies and calibrations.
 
 use std::path::PathBuf;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 use pyo3::prelude::*;
 use trueaxis_cli::library::{self, Calibrated, Cells, Source, Stage, Studied};
 
 use crate::chain::{Chain, Columns, as_arrays};
 use crate::errors;
-use crate::tables::{Given, Table};
+use crate::tables::Table;
 
 /// A study with the declaration that it is of, every name resolved.
 #[pyclass(frozen, module = "trueaxis._native")]
@@ -55,7 +55,7 @@ pub struct Calibration(pub(crate) Calibrated);
 pub fn calibrate(
     py: Python<'_>,
     study: &Study,
-    tables: Vec<(String, Given<'_>)>,
+    tables: Vec<(String, Vec<(String, Py<PyAny>)>)>,
     command: String,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Calibration> {
@@ -63,32 +63,28 @@ pub fn calibrate(
     let Some(studied) = studied else {
         return Err(pyo3::exceptions::PyValueError::new_err("this study has been calibrated already"));
     };
-    let tables = tables
-        .into_iter()
-        .map(|(name, columns)| Ok((name, Table::of(columns)?)))
-        .collect::<PyResult<Vec<_>>>()?;
-    let columns = tables
-        .iter()
-        .map(|(name, table)| Ok((name.as_str(), table.columns()?)))
-        .collect::<PyResult<Vec<_>>>()?;
-    // What `progress` raises, an interrupt among it, ends its calls; the caller has it as soon as the search returns.
-    let raised: Mutex<Option<PyErr>> = Mutex::new(None);
-    let tell = |stage: Stage| {
-        let Some(progress) = &progress else { return };
-        Python::attach(|py| {
-            // Nothing is locked while Python runs: another thread may be waiting for it.
-            let raised = || raised.lock().unwrap_or_else(PoisonError::into_inner);
-            let has_raised = raised().is_some();
-            if !has_raised && let Err(error) = progress.call1(py, (stage.to_string(),)) {
-                *raised() = Some(error);
-            }
-        });
+    let hear = |py: Python<'_>, text: String| match &progress {
+        Some(progress) => progress.call1(py, (text,)).map(|_| ()),
+        None => Ok(()),
     };
-    let calibrated = errors::run(py, || library::calibrated(studied, &columns, command, &tell));
-    match raised.into_inner().unwrap_or_else(PoisonError::into_inner) {
-        Some(error) => Err(error),
-        None => calibrated.map(Calibration),
-    }
+    let calibrated = errors::run_watched(py, &hear, move |listener| {
+        Python::attach(|py| {
+            let bound = |columns: Vec<(String, Py<PyAny>)>| {
+                columns.into_iter().map(|(name, column)| (name, column.into_bound(py))).collect()
+            };
+            let tables = tables
+                .into_iter()
+                .map(|(name, columns)| Ok((name, Table::of(bound(columns))?)))
+                .collect::<PyResult<Vec<_>>>()?;
+            let columns = tables
+                .iter()
+                .map(|(name, table)| Ok((name.as_str(), table.columns()?)))
+                .collect::<PyResult<Vec<_>>>()?;
+            let tell = |stage: Stage| listener.tell(stage.to_string());
+            errors::collected(py, || library::calibrated(studied, &columns, command, &tell))
+        })
+    })?;
+    Ok(Calibration(calibrated))
 }
 
 #[pymethods]
@@ -120,9 +116,9 @@ impl Calibration {
         library::errors_toml(&self.0)
     }
 
-    /// The values of every error of the amended chain, and of constants that were fitted.
+    /// The values of every error of the amended chain, and of constants that were fitted, each with its unit.
     #[getter]
-    fn values(&self) -> Option<Vec<(String, f64)>> {
+    fn values(&self) -> Option<Vec<(String, f64, &'static str)>> {
         library::estimates(&self.0)
     }
 

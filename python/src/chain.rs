@@ -9,7 +9,7 @@ use model_core::{Mistakes, ObservableId, ObservableKind, SymbolId, SymbolKind, n
 use numpy::PyArray;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use trueaxis_cli::library::{self, Exactness, Failure, Quantity, Source, Told};
+use trueaxis_cli::library::{self, Computed, Exactness, Failure, Quantity, Source, Told};
 
 use crate::compiled::{FORMS, Loadable};
 use crate::errors;
@@ -213,6 +213,12 @@ impl Chain {
             .collect()
     }
 
+    /// Which columns of these names have readings of joints and inputs.
+    #[expect(clippy::needless_pass_by_value, reason = "Python hands it over")]
+    fn are_readings(&self, columns: Vec<String>) -> Vec<bool> {
+        library::are_readings(&self.chain, &columns)
+    }
+
     /// Generated files: `(ending, text)`.
     fn generate(
         &self,
@@ -261,6 +267,7 @@ impl Chain {
         library::derivable(chain, observable, form).map_err(fails)?;
 
         let named = |name: &str| self.symbol(name, &[SymbolKind::Joint, SymbolKind::Input], "joint or input");
+        let readings_are_numbers = readings.is_empty();
         let columns = Readings::columns(py, &readings, named)?;
         let values = self.values(py, errors)?;
         let with = |readings: Readings<'py>, (name, value): (String, f64)| {
@@ -271,7 +278,7 @@ impl Chain {
         let asked = Evaluation::new(chain, (form, observable), readings, values, (wrt, threads));
         let asked = asked.map_err(fails)?;
 
-        let array = evaluating::result(py, out.as_ref(), &asked.shape(chain))?;
+        let array = evaluating::result(py, out.as_ref(), &asked.shape(chain), readings_are_numbers)?;
         let mut writable = evaluating::writable(&array)?;
         let into = writable.as_slice_mut()?;
         match compiled {
@@ -362,7 +369,7 @@ impl Chain {
         Ok(as_arrays(py, columns))
     }
 
-    /// Observables over a table of readings.
+    /// Observables over a table of readings, and the table's own columns that they replace.
     fn over_table(
         &self,
         py: Python<'_>,
@@ -371,17 +378,17 @@ impl Chain {
         observables: Vec<String>,
         is_exact: bool,
         is_value: bool,
-    ) -> PyResult<Columns> {
+    ) -> PyResult<(Columns, Vec<String>)> {
         let (name, columns) = table;
         let table = Table::of(columns)?;
         let columns = table.columns()?;
         let form = if is_exact { Exactness::Exact } else { Exactness::FirstOrder };
         let quantity = if is_value { Quantity::Value } else { Quantity::Error };
-        let computed = errors::run(py, || {
+        let Computed { added, replaced } = errors::run(py, || {
             let table = library::table(&name, &columns)?;
             library::evaluated(self.with_numbers()?, &source(values), table, &observables, (form, quantity))
         })?;
-        Ok(as_arrays(py, computed))
+        Ok((as_arrays(py, added), replaced))
     }
 }
 

@@ -5,6 +5,7 @@ use pyo3::types::PyType;
 use trueaxis_cli::library::{Failure, collecting};
 
 use crate::forked;
+use crate::interrupting::{Listener, watched};
 
 /// A class of `trueaxis._errors`.
 fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyType>> {
@@ -40,7 +41,31 @@ pub fn run_and_tell<T: Send>(
     py: Python<'_>,
     work: impl FnOnce() -> Result<T, Failure> + Send,
 ) -> PyResult<(T, bool)> {
-    let (done, warnings) = py.detach(|| forked::with_threads(|| collecting(work)))?;
+    told(py, collected(py, work)?)
+}
+
+/// The same as [`run`] of long work, which `hear` and signals may [end](watched); it [collects](collected) what it warns of.
+pub fn run_watched<T: Send + 'static>(
+    py: Python<'_>,
+    hear: &(impl Fn(Python<'_>, String) -> PyResult<()> + Sync),
+    work: impl FnOnce(&Listener) -> PyResult<Collected<T>> + Send + 'static,
+) -> PyResult<T> {
+    told(py, watched(py, hear, work)??).map(|(done, _)| done)
+}
+
+/// What came of some work, and what it warns of.
+pub type Collected<T> = (Result<T, Failure>, Vec<String>);
+
+/// Does some work without holding the interpreter's lock, and collects what it warns of.
+pub fn collected<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce() -> Result<T, Failure> + Send,
+) -> PyResult<Collected<T>> {
+    py.detach(|| forked::with_threads(|| collecting(work)))
+}
+
+/// What was done, once its warnings have become Python's; whether there were any.
+fn told<T>(py: Python<'_>, (done, warnings): Collected<T>) -> PyResult<(T, bool)> {
     if !warnings.is_empty() {
         let warn = py.import("trueaxis._errors")?.getattr("warn")?;
         for warning in &warnings {

@@ -127,29 +127,39 @@ impl<'py> Evaluation<'py> {
     }
 }
 
-/// The array for a result: the one that somebody gave, or a new one.
+/// The array for a result: the one that somebody gave, or a new one. Where every reading is one number, nobody sees the axis of rows.
 pub fn result<'py>(
     py: Python<'py>,
     given: Option<&Bound<'py, PyAny>>,
     shape: &[usize],
+    is_one: bool,
 ) -> PyResult<Bound<'py, PyArray<f64, IxDyn>>> {
     match given {
-        Some(given) => taken(given, shape),
+        Some(given) => taken(given, shape, is_one),
         // Every number of it is written. NumPy asks for large pages here, and for zeros does not.
-        None => taken(&py.import("numpy")?.call_method1("empty", (shape.to_vec(),))?, shape),
+        None => taken(&py.import("numpy")?.call_method1("empty", (shape.to_vec(),))?, shape, is_one),
     }
 }
 
 /// The array that somebody gave for the result.
-fn taken<'py>(given: &Bound<'py, PyAny>, shape: &[usize]) -> PyResult<Bound<'py, PyArray<f64, IxDyn>>> {
+fn taken<'py>(
+    given: &Bound<'py, PyAny>,
+    shape: &[usize],
+    is_one: bool,
+) -> PyResult<Bound<'py, PyArray<f64, IxDyn>>> {
     let array = given
         .cast::<PyArray<f64, IxDyn>>()
         .ok()
         .filter(|array| array.shape() == shape && array.is_c_contiguous());
     let Some(array) = array else {
+        let seen = &shape[..shape.len() - usize::from(is_one)];
+        let seen = match seen {
+            [only] => format!("({only},)"),
+            several => format!("({})", several.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")),
+        };
         return Err(PyTypeError::new_err(format!(
-            "`out`: a contiguous NumPy array of float64 with the shape {shape:?} is needed; write \
-             numpy.empty({shape:?})"
+            "`out`: a contiguous NumPy array of float64 with the shape {seen} is needed; write \
+             numpy.empty({seen})"
         )));
     };
     Ok(array.clone())

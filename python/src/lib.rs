@@ -9,6 +9,7 @@ mod errors;
 mod evaluating;
 mod forked;
 mod formula;
+mod interrupting;
 mod rows;
 mod streaming;
 mod tables;

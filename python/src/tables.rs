@@ -10,12 +10,13 @@ use crate::arrays;
 enum Held<'py> {
     Numbers(PyReadonlyArray1<'py, f64>),
     Texts(Vec<String>),
+    Other { labels: Option<PyReadonlyArray1<'py, f64>>, rows: usize, why: String },
 }
 
 /// Names of columns and the columns, as Python hands them over.
 pub type Given<'py> = Vec<(String, Bound<'py, PyAny>)>;
 
-/// A table as Python handed it over: `[(name, array of float64 or list of str)]`.
+/// A table as Python handed it over: `[(name, array of float64, list of str or (labels or none, rows, why it is neither))]`.
 pub struct Table<'py> {
     columns: Vec<(String, Held<'py>)>,
 }
@@ -24,6 +25,10 @@ impl<'py> Table<'py> {
     /// Takes the columns over.
     pub fn of(given: Given<'py>) -> PyResult<Self> {
         let held = |(name, column): (String, Bound<'py, PyAny>)| {
+            if let Ok((labels, rows, why)) = column.extract::<(Option<Bound<'py, PyAny>>, usize, String)>() {
+                let labels = labels.map(|labels| arrays::column(&name, &labels)).transpose()?;
+                return Ok((name, Held::Other { labels, rows, why }));
+            }
             let held = match column.extract::<Vec<String>>() {
                 Ok(texts) => Held::Texts(texts),
                 Err(_) => Held::Numbers(arrays::column(&name, &column)?),
@@ -41,6 +46,10 @@ impl<'py> Table<'py> {
                 let column = match held {
                     Held::Numbers(array) => Column::Numbers(array.as_slice()?),
                     Held::Texts(texts) => Column::Texts(texts),
+                    Held::Other { labels, rows, why } => {
+                        let labels = labels.as_ref().map(|labels| labels.as_slice()).transpose()?;
+                        Column::Other { labels, rows: *rows, why }
+                    }
                 };
                 Ok((name.as_str(), column))
             })

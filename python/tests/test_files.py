@@ -10,6 +10,7 @@ from test_folder import pointings
 import trueaxis
 
 ROWS = 400
+REPLACED = pytest.mark.filterwarnings("ignore:the input's own columns")
 
 
 @pytest.fixture(scope="module")
@@ -40,6 +41,7 @@ def written(folder, **tables):
     return folder
 
 
+@REPLACED
 def test_endings_in_capitals_and_short(mount, tables, tmp_path):
     a, b, c = tables
     folder = written(tmp_path / "scan", a__parquet=a, b__PARQUET=b, c__pq=c)
@@ -55,6 +57,7 @@ def test_hidden_files_are_left_out(mount, tables, tmp_path):
     assert fit(mount, folder).rows == ROWS
 
 
+@REPLACED
 def test_what_is_left_out_is_told(mount, tables, tmp_path):
     folder = written(tmp_path / "scan", a__parquet=tables[0])
     (folder / "2024").mkdir()
@@ -83,6 +86,7 @@ def test_a_folder_of_folders_is_told(mount, tables, tmp_path):
     assert fit(mount, sorted((tmp_path / "scan").rglob("*.parquet"))).rows == ROWS
 
 
+@REPLACED
 def test_files_without_rows_count_for_nothing(mount, tables, tmp_path):
     a, b, _ = tables
     none = {name: column[:0] for name, column in a.items()}

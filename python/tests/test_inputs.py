@@ -140,9 +140,9 @@ def test_streams_are_read_once(mount):
             assert ask(stream, ERRORS).equals(expected)
 
 
-def test_truth_with_nothing_in_a_row_is_a_number():
+def test_truth_with_nothing_in_a_row_is_a_label():
     ((_, column),) = columns_of(pyarrow.table({"ok": [True, None, False]}))
-    np.testing.assert_array_equal(column, [1.0, np.nan, 0.0])
+    np.testing.assert_array_equal(column.labels, [1.0, np.nan, 0.0])
 
 
 def test_answers_that_are_no_files_of_the_same_are_not_copied(mount):
@@ -150,3 +150,48 @@ def test_answers_that_are_no_files_of_the_same_are_not_copied(mount):
     for what in [copy.deepcopy, copy.copy, pickle.dumps]:
         with pytest.raises(TypeError, match="cannot be copied or pickled: keep its `report`"):
             what(calibration)
+
+
+def test_what_is_no_table_no_chain_and_no_path_is_told_in_words(mount, tmp_path):
+    readings = {"azimuth": 0.1, "elevation": 0.2}
+    for ask, words in [
+        (lambda: mount.exact("readings.csv"), "readings: write a dictionary of joints and inputs"),
+        (lambda: mount.exact(None), "readings: write a dictionary"),
+        (lambda: mount.exact(readings, threads=1.5), "threads: write a whole number, not 1.5"),
+        (lambda: mount.eval(READINGS, {}, observables=3), "write a name, or a list of names, not 3"),
+        (lambda: mount.bound({"*": 1e-3}, ranges="10 deg"), "ranges: write a dictionary"),
+        (lambda: mount.simulate({}, poses=1.5, noise=1e-5, seed=1), "poses: write a whole number, not 1.5"),
+        (lambda: mount.simulate({}, poses=3, noise=None, seed=1), "noise: write a number in SI or a text with a unit"),
+        (lambda: trueaxis.apply(tmp_path, "mount.chain", {}, tmp_path / "out"), "chain: give a trueaxis.Chain"),
+        (lambda: trueaxis.calibrate("study.toml", tmp_path, chain="mount.chain"), "chain: give a trueaxis.Chain"),
+        (lambda: trueaxis.calibrate("study.toml", 3, text=STUDY_TEXT, chain=mount), "a table is needed, this is a int"),
+        (lambda: trueaxis.calibrate("study.toml", tmp_path, text=STUDY_TEXT, chain=mount, search_rows=1.5), "search_rows: write a whole number"),
+        (lambda: trueaxis.fit("study.toml", tmp_path, chain="mount.chain"), "chain: give a trueaxis.Chain"),
+        (lambda: trueaxis.fit("study.toml", 3), "files: give a folder, a path or a list of paths, not a int"),
+        (lambda: trueaxis.apply(3, mount, {}, tmp_path / "out"), "files: give a folder"),
+    ]:
+        with pytest.raises(TypeError, match=words):
+            ask()
+
+
+STUDY_TEXT = 'chain = "mount.chain"\ndata = "table"\n[observed]\nkind = "direction"\n'
+
+
+def test_counts_that_no_memory_holds_are_refused(mount):
+    """An allocation that fails would end the process, not the call."""
+    for poses, words in [(2**32, "poses=4294967296: write a whole number"), (2**32 - 1, "poses=4294967295: so many rows of 5 columns do not fit")]:
+        with pytest.raises(trueaxis.TrueaxisError, match=words):
+            mount.simulate(ERRORS, poses=poses, noise="2 arcsec", seed=1)
+
+
+def test_estimates_are_in_si_without_a_doubt(mount):
+    """However large they are: a number that somebody wrote without a unit is doubted."""
+    from trueaxis._inputs import Found
+
+    found = Found([("collimation", 1.5)], {"collimation": "rad"}, [])
+    corrected = mount.apply(READINGS, found)
+    with pytest.warns(trueaxis.TrueaxisWarning, match="collimation = 1.5 has no unit"):
+        doubted = mount.apply(READINGS, dict(found))
+    np.testing.assert_array_equal(corrected["pointing_x"], doubted["pointing_x"])
+    again = pickle.loads(pickle.dumps(found))
+    assert again == found and again.units == found.units

@@ -152,8 +152,11 @@ def test_results_go_where_they_are_wanted(mount, readings):
     one = np.empty(3)
     assert mount.exact({"azimuth": 0.1, "elevation": 0.2}, ERRORS, out=one) is one and one.any()
     for wrong in [np.empty((1000, 3)), np.empty((3, 1000), dtype=np.float32), np.empty((3, 1000), order="F"), [0.0]]:
-        with pytest.raises(TypeError, match=r"`out`: .*shape \[3, 1000\]"):
+        with pytest.raises(TypeError, match=r"`out`: .*shape \(3, 1000\)"):
             mount.exact(readings, ERRORS, out=wrong)
+    for wrong in [np.empty((3, 1)), np.empty(4)]:
+        with pytest.raises(TypeError, match=r"shape \(3,\) is needed; write numpy.empty\(\(3,\)\)"):
+            mount.exact({"azimuth": 0.1, "elevation": 0.2}, ERRORS, out=wrong)
     read_only = np.empty((3, 1000))
     read_only.flags.writeable = False
     with pytest.raises(ValueError, match="`out`"):

@@ -37,14 +37,16 @@ def test_simulated_data_are_tables(mount, simulated):
 def test_every_library_gets_its_own_kind_back(mount, simulated):
     expected = mount.exact({name: simulated[name] for name in mount.joints}, ERRORS, quantity="value")
     for table in [simulated.to_pandas(), simulated.to_polars(), simulated.to_arrow(), simulated, dict(simulated)]:
-        corrected = mount.apply(table, ERRORS)
+        with pytest.warns(trueaxis.TrueaxisWarning, match="own columns `pointing_x`, `pointing_y`, `pointing_z` were replaced"):
+            corrected = mount.apply(table, ERRORS)
         assert isinstance(corrected, trueaxis.Table if isinstance(table, dict) else type(table))
         columns = dict(columns_of(corrected))
         assert list(columns) == list(simulated)
         np.testing.assert_array_equal(columns["pointing_x"], expected[0])
     error = mount.eval(simulated.to_polars().drop("pointing_x", "pointing_y", "pointing_z"), ERRORS)
     assert error.columns[2:] == ["pointing_x", "pointing_y", "pointing_z"]
-    first = mount.eval(simulated, ERRORS, form="first-order")
+    readings = {name: simulated[name] for name in mount.joints}
+    first = mount.eval(readings, ERRORS, form="first-order")
     np.testing.assert_allclose(first["pointing_y"], error["pointing_y"].to_numpy(), atol=1e-7)
 
 
@@ -63,6 +65,14 @@ def test_what_is_wrong_with_a_table_is_named_with_its_place(mount):
         ({"azimuth": [0.1], "elevation": good}, "column `elevation` has 2 rows, column `azimuth` has 1"),
         ({"azimut": good, "elevation": good}, "no column `azimuth`"),
         ({"azimuth": [], "elevation": []}, "no rows"),
+        ({"azimuth": np.zeros((2, 2)), "elevation": good}, "column `azimuth` holds 2 dimensions: give one number or text a row"),
+        ({"azimuth": np.zeros(2, dtype=complex), "elevation": good}, "column `azimuth` holds complex128"),
+        ({"azimuth": [True, False], "elevation": good}, "column `azimuth` holds truth values: give numbers"),
+        ({"azimuth": np.array([1, 2], "m8[s]"), "elevation": good}, "column `azimuth` holds durations: give numbers, of seconds by"),
+        ({"azimuth": [datetime.timedelta(1)] * 2, "elevation": good}, "column `azimuth` holds durations"),
+        (pyarrow.table({"azimuth": [b"\xff", b"x"], "elevation": good}), "column `azimuth` holds bytes that are no text"),
+        (pyarrow.table({"azimuth": [[1.0], [2.0, 3.0]], "elevation": good}), "column `azimuth` holds lists or groups"),
+        ({"azimuth": [[1.0], [2.0, 3.0]], "elevation": good}, "column `azimuth` holds"),
         ({}, "no columns"),
         (pandas.DataFrame([[0.1, 0.1]], columns=["azimuth", "azimuth"]), "column `azimuth` is there twice"),
     ]:
@@ -71,8 +81,15 @@ def test_what_is_wrong_with_a_table_is_named_with_its_place(mount):
     for table, words in [
         (3, "a table is needed, this is a int"),
         ([1.0], "this is a list"),
-        ({"azimuth": np.zeros((2, 2)), "elevation": good}, "2 dimensions"),
-        ({"azimuth": np.zeros(2, dtype=complex), "elevation": good}, "complex128"),
+        ("table.csv", "this is a str"),
+        (pandas.Series(good), "this is a Series"),
+        (polars.Series("azimuth", good), "this is a Series"),
+        (pyarrow.chunked_array([good]), "this is a ChunkedArray"),
+        (None, "this is a NoneType"),
+        ({"azimuth": 0.1, "elevation": good}, "column `azimuth` is a float: give one number or text a row"),
+        ({"azimuth": np.array(0.1), "elevation": good}, "column `azimuth` is a single number"),
+        ({"azimuth": "12", "elevation": good}, "column `azimuth` is a str"),
+        ({"azimuth": (number for number in good), "elevation": good}, "column `azimuth` is a generator, which can be read only once"),
         (polars.LazyFrame({"azimuth": good}), "lazy"),
     ]:
         with pytest.raises(TypeError, match=words):
@@ -95,7 +112,9 @@ def test_columns_of_every_type():
     )
     for table in [frame, polars.from_pandas(frame), pyarrow.Table.from_pandas(frame), frame.to_dict("list")]:
         columns = {name: list(column) for name, column in columns_of(table)}
-        assert columns["whole"] == [1, 2] and columns["single"] == [1.5, 2.5] and columns["truth"] == [1, 0]
+        assert columns["whole"] == [1, 2] and columns["single"] == [1.5, 2.5]
+        labels, rows, why = columns["truth"]
+        assert list(labels) == [1, 0] and rows == 2 and why.startswith("holds truth values")
         assert columns["missing"][0] == 1 and np.isnan(columns["missing"][1])
         assert columns["text"] == ["a", ""] and columns["kind"] == ["x", "y"]
         assert columns["time"][0].startswith("2026-03-01T12:00:00")
@@ -130,3 +149,77 @@ def test_rows_of_a_dictionary_are_told_by_their_place(mount):
     np.testing.assert_array_equal(
         table["pointing_y"], mount.eval({"azimuth": azimuth.to_numpy(), "elevation": elevation.to_numpy()}, {})["pointing_y"]
     )
+
+
+def strange(rows):
+    """Columns that nothing can be calculated of, as Arrow has them."""
+    bytes_ = pyarrow.array([b"\xff\x00"] * rows)
+    lists = pyarrow.array([[1.0, 2.0]] * rows)
+    groups = pyarrow.array([{"a": 1}] * rows)
+    maps = pyarrow.array([[("a", 1)]] * rows, pyarrow.map_(pyarrow.string(), pyarrow.int64()))
+    durations = pyarrow.array([3] * rows, pyarrow.duration("s"))
+    return {"bytes": bytes_, "lists": lists, "groups": groups, "maps": maps, "durations": durations, "ok": pyarrow.array([True] * rows)}
+
+
+def test_columns_that_nobody_asks_for_are_carried(mount):
+    table = pyarrow.table({"azimuth": [0.1, 0.2], "elevation": [0.5, 0.6], **strange(2)})
+    expected = mount.exact({"azimuth": np.array([0.1, 0.2]), "elevation": np.array([0.5, 0.6])}, ERRORS, quantity="value")
+    frames = [table, table.to_pandas(), polars.from_arrow(table), {name: table.column(name) for name in table.column_names}]
+    frames += [{"azimuth": [0.1, 0.2], "elevation": [0.5, 0.6], "wave": np.zeros(2, complex), "image": np.zeros((2, 3, 3))}]
+    for frame in frames:
+        corrected = mount.apply(frame, ERRORS)
+        assert frame_names(corrected) == [*frame_names(frame), "pointing_x", "pointing_y", "pointing_z"]
+        np.testing.assert_array_equal(np.asarray(corrected["pointing_y"]), expected[1])
+    assert mount.apply(table, ERRORS).select(table.column_names).equals(table)
+
+
+def frame_names(frame):
+    return list(getattr(frame, "column_names", getattr(frame, "columns", frame)))
+
+
+def test_what_is_derived_from_a_frame_stays_what_it_is(mount):
+    class Frame(pandas.DataFrame):
+        @property
+        def _constructor(self):
+            return Frame
+
+    class Series(pandas.Series):
+        pass
+
+    class PolarsFrame(polars.DataFrame):
+        pass
+
+    columns = {"azimuth": [0.1, 0.2], "elevation": [0.5, 0.6]}
+    assert type(mount.apply(Frame(columns, index=["a", "b"]), ERRORS)) is Frame
+    assert list(mount.apply(Frame(columns, index=["a", "b"]), ERRORS).index) == ["a", "b"]
+    assert isinstance(mount.apply(PolarsFrame(columns), ERRORS), polars.DataFrame)
+    series = {name: Series(column) for name, column in columns.items()}
+    np.testing.assert_array_equal(mount.eval(series, ERRORS)["pointing_x"], mount.eval(columns, ERRORS)["pointing_x"])
+
+
+def test_columns_of_the_table_that_have_a_name_of_the_result(scanner, mount):
+    """Those with a unit in their name are the same column, as for the command; nothing else is touched."""
+    own = {"azimuth": [0.1], "elevation": [0.5], "pointing_x": [7.0], "pointing_y [1]": [8.0], "pointing_w": [9.0]}
+    for table in [own, pandas.DataFrame(own), polars.DataFrame(own), pyarrow.table(own)]:
+        for ask in [mount.eval, mount.apply]:
+            with pytest.warns(trueaxis.TrueaxisWarning, match="own columns `pointing_x`, `pointing_y \\[1\\]` were replaced$") as told:
+                result = ask(table, ERRORS)
+            assert len(told) == 1 and told[0].filename == __file__
+            # What is replaced under its own name keeps its place.
+            names = ["azimuth", "elevation", "pointing_x", "pointing_w", "pointing_y", "pointing_z"]
+            assert frame_names(result) == names and float(np.asarray(result["pointing_x"])[0]) != 7.0
+
+
+def test_cells_that_nobody_reads_are_not_looked_at(mount):
+    """Of very many rows that takes longer than all else."""
+
+    class Dear(list):
+        def __iter__(self):
+            raise AssertionError("somebody read it")
+
+    columns = {"azimuth": [0.1, 0.2], "elevation [rad]": [0.5, 0.6]}
+    native = mount._native
+    read = dict(columns_of({**columns, "remark": Dear(["a", "b"])}, native))
+    assert read["remark"].rows == 2 and list(read["azimuth"]) == [0.1, 0.2] and list(read["elevation [rad]"]) == [0.5, 0.6]
+    with pytest.raises(trueaxis.TrueaxisError, match="column `remark` has 3 rows, column `azimuth` has 2"):
+        mount.eval({**columns, "remark": ["a", "b", "c"]}, ERRORS)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _native
-from ._chain import Chain
+from ._chain import Chain, require_chain
 from ._inputs import Found
 from ._tables import Table, columns_of
 
@@ -77,7 +77,9 @@ class Calibration:
         ``chain``; none where no usable model came out. They know what they were found over: :meth:`Chain.apply` and
         :func:`trueaxis.apply` warn of rows outside."""
         values, over = self._native.values, self._native.found_over
-        return None if values is None or over is None else Found(values, over)
+        if values is None or over is None:
+            return None
+        return Found([(name, value) for name, value, _ in values], {name: unit for name, _, unit in values}, over)
 
     def apply(self, table: Any) -> Any:
         """New readings corrected with this calibration, as :meth:`Chain.apply` does."""
@@ -158,6 +160,8 @@ def calibrate(
     :raises MistakeError: mistakes in the study or the declaration.
     :raises TrueaxisError: a file or a table that cannot be read, with the row and the column.
     """
+    if chain is not None:
+        require_chain(chain)
     if isinstance(data, Iterator) and not hasattr(data, "__arrow_c_stream__"):
         data = list(data)
     if isinstance(data, (list, tuple)) and not (data and all(_is_path(path) for path in data)):

@@ -12,7 +12,7 @@ import numpy as np
 from . import _native
 from ._answers import Answer
 from ._compiled import Compiled
-from ._inputs import Amount, Errors, errors_and_ranges, errors_text, names, ranges, whole
+from ._inputs import Amount, Errors, amount, errors_and_ranges, errors_text, names, ranges, whole
 from ._over_arrays import OverArrays
 from ._tables import Table, columns_of, kept, with_columns
 
@@ -276,8 +276,8 @@ class Chain(OverArrays):
         :returns: a table of readings and of components of observables, rad and m.
         """
         poses, seed = whole("poses", poses, 32), whole("seed", seed, 64)
-        noises = [noise] if isinstance(noise, (str, int, float, np.integer, np.floating)) else list(noise)
-        noises = [sigma if isinstance(sigma, str) else repr(float(sigma)) for sigma in noises]
+        noises = list(noise) if isinstance(noise, Iterable) and not isinstance(noise, str) else [noise]
+        noises = [sigma if isinstance(sigma, str) else amount("noise", sigma) for sigma in noises]
         columns = self._native.simulate(
             errors_text(errors), poses, noises, seed, _ranges(ranges), names(observables)
         )
@@ -305,14 +305,14 @@ class Chain(OverArrays):
         if quantity not in ("error", "value"):
             raise ValueError(f'quantity: write "error" or "value", not {quantity!r}')
         table = kept(table)
-        added = self._native.over_table(
-            ("the table", columns_of(table)),
+        added, replaced = self._native.over_table(
+            ("the table", columns_of(table, self._native)),
             errors_text(errors),
             names(observables),
             form == "exact",
             quantity == "value",
         )
-        return with_columns(table, dict(added))
+        return with_columns(table, dict(added), replaced)
 
     def apply(self, table: Any, errors: Errors, observables: str | Iterable[str] | None = None) -> Any:
         """New readings corrected with calibrated errors: where the instrument really points, or its points really are.
@@ -321,14 +321,20 @@ class Chain(OverArrays):
         by the ``[found-over]`` of a file of errors, and by the :attr:`Calibration.values` of a calibration.
         """
         table, known = kept(table), errors_and_ranges(errors)
-        rows = ("the table", columns_of(table))
-        added, counted = _native.apply(self._native, rows, known, names(observables))
+        rows = ("the table", columns_of(table, self._native))
+        added, replaced, counted = _native.apply(self._native, rows, known, names(observables))
         _native.warn_of_outside(self._native, known, [counted])
-        return with_columns(table, dict(added))
+        return with_columns(table, dict(added), replaced)
 
 
 def _ranges(given: Ranges | None) -> list[tuple[str, str]]:
     return ranges(given)
+
+
+def require_chain(chain: Any) -> None:
+    """Refuses what is no chain: the path of one, most likely."""
+    if not isinstance(chain, Chain):
+        raise TypeError(f"chain: give a trueaxis.Chain, as Chain.from_file reads one, not a {type(chain).__name__}")
 
 
 def check(claims: str | os.PathLike[str]) -> Answer:

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _native
-from ._chain import Chain
-from ._errors import TrueaxisError
+from ._chain import Chain, require_chain
+from ._errors import TrueaxisError, kept_warnings
 from ._files import batches, files_of, opened, place_of
 from ._inputs import Errors, errors_and_ranges, names
 from ._tables import Table, columns_of, with_columns
@@ -46,15 +46,17 @@ def apply(
     :raises TrueaxisError: a file that cannot be read, a worker of another version, a scheduler that does not answer or has had no
         worker for 60 s; each by name. Nothing is left at ``out`` then.
     """
+    require_chain(chain)
     files = files_of(source, [".parquet"], told_apart=True)
     target = Path(out).absolute()
     if target.exists():
         raise TrueaxisError(f"`{out}` is there already: name a folder that is not")
     if not target.parent.is_dir():
         raise TrueaxisError(f"cannot write `{out}`: the folder it would lie in is not there; create it first")
-    # What is wrong with the errors is told before a worker is asked.
+    # What is wrong with the errors is told before a worker is asked; what is doubtful of them, by those.
     known, chosen = errors_and_ranges(errors), names(observables)
-    chain.eval({reading: [0.5] for reading in chain.joints + chain.inputs}, errors, observables)
+    with kept_warnings():
+        chain.eval({reading: [0.5] for reading in chain.joints + chain.inputs}, errors, observables)
     staged = target.with_name(f".{target.name}.{secrets.token_hex(8)}.partial")
     try:
         staged.mkdir()
@@ -96,9 +98,9 @@ def _apply_file(task: tuple) -> tuple[str, int, list]:
     try:
         for first, table in batches(source):
             place = place_of(source, first)
-            added, counted = _native.apply(chain._native, (place, columns_of(table)), known, observables)
+            added, replaced, counted = _native.apply(chain._native, (place, columns_of(table, chain._native)), known, observables)
             outside.append(counted)
-            corrected = with_columns(table, dict(added))
+            corrected = with_columns(table, dict(added), replaced)
             if writer is None:
                 writer = parquet.ParquetWriter(partial, corrected.schema)
             writer.write_table(corrected)
@@ -121,5 +123,5 @@ def _without_rows(source: str, chain: Chain, known: tuple[str, str], observables
     with opened(source) as open_file:
         table = open_file.schema_arrow.empty_table()
     one_row = [(name, np.array([0.5])) for name in table.column_names]
-    added, _ = _native.apply(chain._native, (source, one_row), known, observables)
-    return with_columns(table, {name: column[:0] for name, column in added})
+    added, replaced, _ = _native.apply(chain._native, (source, one_row), known, observables)
+    return with_columns(table, {name: column[:0] for name, column in added}, replaced)

@@ -9,7 +9,7 @@ import numpy as np
 from . import _native
 from ._errors import TrueaxisError
 from ._files import batches, opened
-from ._tables import Columns, column_of
+from ._tables import Column, Columns, Other, column_of
 from ._workers import Each, require_version
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ def rows_drawn(each: Each, files: list[str], stretches: list[list[Stretch]]) -> 
     return columns, unusable
 
 
-def _joined(name: str, parts: dict[str, pyarrow.Table]) -> np.ndarray | list[str]:
+def _joined(name: str, parts: dict[str, pyarrow.Table]) -> Column:
     """One column of all files. What it holds is decided by all of them: nothing in one file goes with anything in others."""
     import pyarrow
 
@@ -71,6 +71,10 @@ def _joined(name: str, parts: dict[str, pyarrow.Table]) -> np.ndarray | list[str
     # Types that Arrow does not join may be alike as what they are read as.
     columns = {file: column_of(name, part.column(name)) for file, part in parts.items()}
     first, *_ = columns
+    other = next(((file, column) for file, column in columns.items() if isinstance(column, Other)), None)
+    if other is not None:
+        file, column = other
+        raise TypeError(f"{file}: column `{name}` {column.why}")
     is_number = {file: isinstance(column, np.ndarray) for file, column in columns.items()}
     odd = next((file for file, is_one in is_number.items() if is_one != is_number[first]), None)
     if odd is not None:

@@ -4,7 +4,12 @@ from __future__ import annotations
 
 import sys
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import NamedTuple
+
+_KEPT: ContextVar[list[str] | None] = ContextVar("trueaxis-warnings", default=None)
 
 
 class Mistake(NamedTuple):
@@ -42,8 +47,23 @@ class TrueaxisWarning(UserWarning):
     """Something doubtful that the command would warn of: a bare number that can hardly be in SI, say."""
 
 
+@contextmanager
+def kept_warnings() -> Iterator[list[str]]:
+    """Keeps what is warned of on this thread meanwhile, for whoever has a line to warn at."""
+    kept: list[str] = []
+    token = _KEPT.set(kept)
+    try:
+        yield kept
+    finally:
+        _KEPT.reset(token)
+
+
 def warn(text: str) -> None:
     """Warns at the line of the caller's own program that called the package."""
+    kept = _KEPT.get()
+    if kept is not None:
+        kept.append(text)
+        return
     package = __name__.partition(".")[0]
     frame, level = sys._getframe(), 1
     while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == package:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -26,6 +26,8 @@ def files_of(source: Any, kinds: list[str], *, told_apart: bool = False) -> list
         path = Path(source)
         files = _files_in(path, kinds) if path.is_dir() else [path]
     else:
+        if not isinstance(source, Iterable):
+            raise TypeError(f"files: give a folder, a path or a list of paths, not a {type(source).__name__}")
         files = [Path(file) for file in source]
         if not files:
             raise TrueaxisError("no files are given")
@@ -81,7 +83,21 @@ def opened(file: str) -> Iterator[pyarrow.parquet.ParquetFile]:
         with parquet.ParquetFile(file) as open_file:
             yield open_file
     except (pyarrow.ArrowException, OSError) as error:
-        raise TrueaxisError(f"{file}: {error}") from None
+        raise TrueaxisError(f"{file}: {_no_parquet(file) or error}") from None
+
+
+def _no_parquet(file: str) -> str | None:
+    """What a file is, and what to do, that does not begin as a Parquet file."""
+    try:
+        with open(file, "rb") as open_file:
+            first = open_file.read(4)
+    except OSError:
+        return None
+    if first == b"PAR1":
+        return None
+    if first[:2] == b"\x1f\x8b":
+        return "this is compressed with gzip, and Parquet files are read as they are: unpack it first, with `gunzip`"
+    return "this is no Parquet file: write its rows as one (pandas.read_csv(...).to_parquet(...)), or give a data frame of them"
 
 
 def batches(file: str) -> Iterator[tuple[int, pyarrow.Table]]:

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _native
-from ._chain import Chain
+from ._chain import Chain, require_chain
 from ._drawn import counted, explained, rows_drawn
 from ._errors import MistakeError, TrueaxisError, warn
 from ._files import batches, files_of, kind_of, place_of
+from ._inputs import Found
 from ._tables import Columns, Table, columns_of
 from ._workers import Each, require_version, workers
 
@@ -44,7 +45,7 @@ class Fit:
     @property
     def values(self) -> dict[str, float]:
         """The value of every error by name, in SI: ``errors`` of the methods of a chain."""
-        return self._found["values"]
+        return Found(self._found["values"].items(), self._found["units"], [])
 
     @property
     def rms(self) -> float:
@@ -126,6 +127,8 @@ def fit(
     :raises MistakeError: mistakes in the study or the declaration.
     :raises TrueaxisError: a file that cannot be read, a worker of another version, a scheduler that does not answer; each by name.
     """
+    if chain is not None:
+        require_chain(chain)
     files = [str(file) for file in files_of(data, [".parquet", ".csv"])]
     declaration = None if chain is None else (chain._native.origin, chain.text)
     texts = (os.fspath(study), text)

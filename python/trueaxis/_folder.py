@@ -35,7 +35,7 @@ def calibrate_folder(
     progress: Callable[[str], object] | None,
 ) -> Calibration:
     """Calibrates a folder of Parquet files; what it is asked for is said at :func:`trueaxis.calibrate`."""
-    if search_rows < 1:
+    if whole("search_rows", search_rows, 64) < 1:
         raise TrueaxisError(f"search_rows={search_rows}: the search needs rows to read")
     seed = whole("seed", seed, 64)
     tell = progress or (lambda _: None)

@@ -21,17 +21,24 @@ Errors = Union[Mapping[str, Amount], "os.PathLike[str]", str, None]
 
 
 class Found(dict[str, float]):
-    """Values of errors by name that data were fitted for; they know the ranges of readings that these came from."""
+    """Values of errors by name that data were fitted for; they know their units, and the ranges of readings that they came from."""
 
+    units: dict[str, str]
+    """The unit of each: ``rad``, ``m`` or ``1``."""
     over: list[tuple[str, float, float]]
     """Joints and inputs with the smallest and the largest reading, rad and m."""
 
-    def __init__(self, values: Iterable[tuple[str, float]], over: list[tuple[str, float, float]]):
+    def __init__(self, values: Iterable[tuple[str, float]], units: dict[str, str], over: list[tuple[str, float, float]]):
         super().__init__(values)
-        self.over = over
+        self.units, self.over = units, over
 
     def __reduce__(self):
-        return type(self), (list(self.items()), self.over)
+        return type(self), (list(self.items()), self.units, self.over)
+
+    def written(self, name: str, value: Any) -> str:
+        """A value as TOML has it: with its unit, which nobody doubts, however large it is."""
+        unit = self.units.get(name, "1")
+        return amount(name, value) if unit == "1" or isinstance(value, str) else _quoted(f"{float(value)!r} {unit}")
 
 
 def amount(what: str, value: Any) -> str:
@@ -57,7 +64,8 @@ def errors_text(errors: Errors) -> tuple[str, str]:
     if errors is None:
         return "errors", ""
     if isinstance(errors, Mapping):
-        lines = [f"{_quoted(str(name))} = {amount(str(name), value)}\n" for name, value in errors.items()]
+        written = errors.written if isinstance(errors, Found) else amount
+        lines = [f"{_quoted(str(name))} = {written(str(name), value)}\n" for name, value in errors.items()]
         return "errors", "".join(lines)
     if isinstance(errors, (str, os.PathLike)):
         return os.fspath(errors), _native.read_text(os.fspath(errors))
@@ -77,7 +85,10 @@ def errors_and_ranges(errors: Errors) -> tuple[str, str]:
 
 def whole(what: str, value: int, bits: int) -> int:
     """A whole number that is not negative."""
-    value = operator.index(value)
+    try:
+        value = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{what}: write a whole number, not {value!r}") from None
     if not 0 <= value < 2**bits:
         raise TrueaxisError(f"{what}={value}: write a whole number from 0 to {2**bits - 1}")
     return value
@@ -87,7 +98,13 @@ def names(one_or_more: str | Iterable[str] | None) -> list[str]:
     """Names of observables, or none."""
     if one_or_more is None:
         return []
-    return [one_or_more] if isinstance(one_or_more, str) else list(one_or_more)
+    if isinstance(one_or_more, str):
+        return [one_or_more]
+    several = list(one_or_more) if isinstance(one_or_more, Iterable) else [one_or_more]
+    odd = next((one for one in several if not isinstance(one, str)), None)
+    if several and odd is not None:
+        raise TypeError(f"write a name, or a list of names, not {odd!r}")
+    return several
 
 
 def ranges(given: Mapping[str, Any] | None) -> list[tuple[str, str]]:
@@ -102,4 +119,6 @@ def ranges(given: Mapping[str, Any] | None) -> list[tuple[str, str]]:
             raise TypeError(f'range of {name}: write ("10 deg", "80 deg"), not {bounds!r}') from None
         return "..".join(b if isinstance(b, str) else amount(f"range of {name}", b) for b in (low, high))
 
+    if given is not None and not isinstance(given, Mapping):
+        raise TypeError(f'ranges: write a dictionary, {{"elevation": ("10 deg", "80 deg")}}, not a {type(given).__name__}')
     return [(str(name), text(str(name), bounds)) for name, bounds in (given or {}).items()]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from . import _native
-from ._inputs import Errors, errors_text, names
+from ._inputs import Errors, errors_text, names, whole
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -90,10 +90,12 @@ class OverArrays:
 
     def _evaluate(self, form, readings, errors, observable, wrt, out, threads):
         columns, constants = [], []
+        if not hasattr(readings, "items"):
+            raise TypeError(f'readings: write a dictionary of joints and inputs, {{"azimuth": 0.1}}, not a {type(readings).__name__}')
         for name, reading in readings.items():
             is_number = isinstance(reading, (int, float, np.integer, np.floating)) and not isinstance(reading, bool)
             (constants if is_number else columns).append((name, float(reading) if is_number else reading))
-        if threads is not None and threads < 1:
+        if threads is not None and whole("threads", threads, 32) < 1:
             raise ValueError(f"threads: at least one is needed, not {threads}")
         is_one = not columns
         given = out.reshape(*out.shape, 1) if is_one and isinstance(out, np.ndarray) else out

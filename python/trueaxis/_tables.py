@@ -1,22 +1,42 @@
 """Tables: what data frames hand over, and what is handed back.
 
-The common denominator is a dictionary of columns: arrays of float64 for numbers, lists of texts for anything else.
+The common denominator is a dictionary of columns: arrays of float64 for numbers, lists of texts, and for what is neither the words
+that refuse it where somebody asks for it.
 """
 
 from __future__ import annotations
 
 import datetime
 import html
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
 import numpy as np
 
-Columns = list[tuple[str, "np.ndarray | list[str]"]]
+if TYPE_CHECKING:
+    from . import _native
+
+
+class Other(NamedTuple):
+    """A column of neither numbers nor texts."""
+
+    labels: np.ndarray | None
+    """Numbers that tell the cells apart and put them in order, where there are such."""
+    rows: int
+    """How many cells there are."""
+    why: str
+    """What they are, and what to give instead."""
+
+
+Column = Union[np.ndarray, list[str], Other]
+Columns = list[tuple[str, Column]]
 
 _ROWS_SHOWN = 10
 # Above this, not every whole number is a float64.
 _WHOLE = 2**53
+# What columns hold that are no numbers although they could be made some, and what to give.
+_TRUTHS = ("truth values", "give numbers")
+_DURATIONS = ("durations", 'give numbers, of seconds by dividing by numpy.timedelta64(1, "s")')
 
 
 class Table(Mapping[str, Any]):
@@ -85,26 +105,38 @@ class Table(Mapping[str, Any]):
 
 def kept(table: Any) -> Any:
     """The table, or of what can be read only once, an Arrow table of it."""
-    marks = {"pandas": ["iloc"], "polars": ["get_columns", "collect"], "pyarrow": ["column_names"]}.get(_library(table), [])
+    marks = {"pandas": ["columns"], "polars": ["get_columns", "collect"], "pyarrow": ["column_names"]}.get(library_of(table), [])
     is_held = isinstance(table, Mapping) or any(hasattr(table, mark) for mark in marks)
     if is_held or not hasattr(table, "__arrow_c_stream__"):
         return table
     import pyarrow
 
-    return pyarrow.table(table)
+    try:
+        return pyarrow.table(table)
+    except pyarrow.ArrowInvalid:
+        # A stream of one column.
+        raise _no_table(table) from None
 
 
-def _library(table: Any) -> str:
-    """Which library made a table."""
-    return type(table).__module__.partition(".")[0]
+def _no_table(table: Any) -> TypeError:
+    return TypeError(
+        f"a table is needed, this is a {type(table).__name__}: give a pandas, Polars or Arrow table, or a dictionary of columns"
+    )
 
 
-def columns_of(table: Any) -> Columns:
-    """The columns of a pandas, Polars or Arrow table, of a dictionary, or of what speaks Arrow's stream of tables."""
-    library = _library(table)
+def library_of(thing: Any) -> str:
+    """Which library made a table or a column, or what it is derived from; nothing where none did."""
+    made = (cls.__module__.partition(".")[0] for cls in type(thing).__mro__)
+    return next((library for library in made if library in ("pandas", "polars", "pyarrow")), "")
+
+
+def columns_of(table: Any, chain: _native.Chain | None = None) -> Columns:
+    """The columns of a pandas, Polars or Arrow table, of a dictionary, or of what speaks Arrow's stream of tables. Where a chain is to read
+    them, the cells of others than its joints and inputs are not looked at."""
+    library = library_of(table)
     if isinstance(table, Mapping):
         pairs = list(table.items())
-    elif library == "pandas" and hasattr(table, "iloc"):
+    elif library == "pandas" and hasattr(table, "columns"):
         pairs = [(name, table.iloc[:, at]) for at, name in enumerate(table.columns)]
     elif library == "polars" and hasattr(table, "get_columns"):
         pairs = [(column.name, column) for column in table.get_columns()]
@@ -113,36 +145,64 @@ def columns_of(table: Any) -> Columns:
     elif library == "pyarrow" and hasattr(table, "column_names"):
         pairs = list(zip(table.column_names, table.columns))
     elif hasattr(table, "__arrow_c_stream__"):
-        return columns_of(kept(table))
+        return columns_of(kept(table), chain)
     else:
-        raise TypeError(
-            f"a table is needed, this is a {type(table).__name__}: give a pandas, Polars or Arrow table, or a dictionary "
-            "of columns"
-        )
-    return [(str(name), column_of(str(name), column)) for name, column in pairs]
+        raise _no_table(table)
+    names = [str(name) for name, _ in pairs]
+    is_read = [True] * len(names) if chain is None else chain.are_readings(names)
+    return [(name, column_of(name, column, is_one)) for name, (_, column), is_one in zip(names, pairs, is_read)]
 
 
-def column_of(name: str, column: Any) -> np.ndarray | list[str]:
-    """A column as an array of float64, without a copy where it is one, or as a list of texts."""
-    array = _array(column)
+def column_of(name: str, column: Any, is_read: bool = True) -> Column:
+    """A column as an array of float64, without a copy where it is one, as a list of texts, or as neither, which it is where nobody reads
+    it."""
+    if isinstance(column, Iterator):
+        raise TypeError(f"column `{name}` is a {type(column).__name__}, which can be read only once: write list(...) of it")
+    if isinstance(column, np.ndarray) and column.ndim == 0:
+        raise TypeError(f"column `{name}` is a single number: give one number or text a row")
+    if isinstance(column, (str, bytes, Mapping)) or not hasattr(column, "__len__"):
+        raise TypeError(f"column `{name}` is a {type(column).__name__}: give one number or text a row")
+
+    def other(what: str, instead: str = "give one number or text a row", labels: np.ndarray | None = None) -> Other:
+        return Other(labels, len(column), f"holds {what}: {instead}")
+
+    if not is_read:
+        return other("what nobody asks for")
+    try:
+        array = _array(column)
+    except MemoryError:
+        raise
+    except Exception as error:
+        # Whatever a library says of a type that it does not convert.
+        return other(f"{getattr(column, 'dtype', getattr(column, 'type', 'what is no column'))} ({error})")
     if isinstance(array, np.ma.MaskedArray):
         array = _unmasked(array)
+    kind = array.dtype.kind
     if array.ndim != 1:
-        raise TypeError(f"column `{name}` has {array.ndim} dimensions: give one number or text a row")
-    if array.dtype.kind in "biu":
-        if array.dtype.kind == "b" or array.size == 0 or (-_WHOLE <= array.min() and array.max() <= _WHOLE):
+        return other(f"{array.ndim} dimensions")
+    if kind == "b":
+        return other(*_TRUTHS, array.astype(np.float64))
+    if kind in "iu":
+        if array.size == 0 or (-_WHOLE <= array.min() and array.max() <= _WHOLE):
             return array.astype(np.float64)
         return [str(value) for value in array.tolist()]
-    if array.dtype.kind == "f":
+    if kind == "f":
         # Columns from a buffer that somebody sent need not lie where numbers of their size do.
         return np.require(array, dtype=np.float64, requirements=["C", "A"])
-    if array.dtype.kind == "M":
+    if kind == "M":
         return ["" if np.isnat(value) else str(value) for value in array]
-    if array.dtype.kind == "m":
-        return array / np.timedelta64(1, "s")
-    if array.dtype.kind in "OUST":
-        return _mixed([value.decode() if isinstance(value, bytes) else value for value in array.tolist()])
-    raise TypeError(f"column `{name}` holds {array.dtype}: give numbers or texts")
+    if kind == "m":
+        return other(*_DURATIONS, array / np.timedelta64(1, "s"))
+    if kind in "OUST":
+        values = array.tolist()
+        if any(hasattr(value, "__len__") and not isinstance(value, (str, bytes)) for value in values):
+            return other("lists or groups")
+        try:
+            values = [value.decode() if isinstance(value, bytes) else value for value in values]
+        except UnicodeDecodeError:
+            return other("bytes that are no text")
+        return _mixed(values, other)
+    return other(str(array.dtype))
 
 
 def _unmasked(array: np.ma.MaskedArray) -> np.ndarray:
@@ -159,7 +219,7 @@ def _unmasked(array: np.ma.MaskedArray) -> np.ndarray:
 def _array(column: Any) -> np.ndarray:
     if isinstance(column, np.ndarray):
         return column
-    library = _library(column)
+    library = library_of(column)
     if library == "pyarrow":
         return column.to_numpy(zero_copy_only=False) if hasattr(column, "chunks") else np.asarray(column)
     if library in ("pandas", "polars"):
@@ -173,21 +233,26 @@ def _array(column: Any) -> np.ndarray:
     return np.asarray(values) if values else np.empty(0)
 
 
-def _mixed(values: list[Any]) -> np.ndarray | list[str]:
-    """Numbers with nothing in some rows are numbers, where NaN says so; all else is texts."""
+def _mixed(values: list[Any], other: Callable[..., Other]) -> Column:
+    """Numbers with nothing in some rows are numbers, where NaN says so; so are truth values and durations, which are none to calculate
+    with; all else is texts."""
 
     def is_none(value: Any) -> bool:
         is_nan = isinstance(value, float) and value != value
         return value is None or is_nan or type(value).__name__ in ("NAType", "NaTType")
 
-    def is_number(value: Any) -> bool:
-        return isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
+    def all_are(kinds: tuple[type, ...], but: tuple[type, ...] = ()) -> bool:
+        return all(is_none(value) or (isinstance(value, kinds) and not isinstance(value, but)) for value in values)
 
-    def is_truth(value: Any) -> bool:
-        return isinstance(value, (bool, np.bool_))
+    def numbers(of: Callable[[Any], float]) -> np.ndarray:
+        return np.array([np.nan if is_none(value) else of(value) for value in values])
 
-    if values and any(all(is_none(value) or is_(value) for value in values) for is_ in (is_number, is_truth)):
-        return np.array([np.nan if is_none(value) else float(value) for value in values])
+    if values and all_are((int, float, np.number), (bool, np.timedelta64)):
+        return numbers(float)
+    if values and all_are((bool, np.bool_)):
+        return other(*_TRUTHS, numbers(float))
+    if values and all_are((datetime.timedelta, np.timedelta64)):
+        return other(*_DURATIONS, numbers(lambda value: value / np.timedelta64(1, "s")))
 
     def text(value: Any) -> str:
         if isinstance(value, (datetime.datetime, datetime.date)):
@@ -197,18 +262,21 @@ def _mixed(values: list[Any]) -> np.ndarray | list[str]:
     return [text(value) for value in values]
 
 
-def with_columns(table: Any, columns: Mapping[str, np.ndarray]) -> Any:
-    """The table, of the library that made it, with columns added or replaced."""
-    library = _library(table)
+def with_columns(table: Any, columns: Mapping[str, np.ndarray], replaced: Sequence[str]) -> Any:
+    """The table, of the library that made it, with columns added; some of its own give way."""
+    library = library_of(table)
+    lost = [name for name in replaced if name not in columns]
     if library == "pandas" and not isinstance(table, Mapping):
-        return table.assign(**columns)
+        kept = table.loc[:, [str(name) not in lost for name in table.columns]] if lost else table
+        return kept.assign(**columns)
     if library == "polars" and hasattr(table, "with_columns"):
         import polars
 
-        return table.with_columns([polars.Series(name, column) for name, column in columns.items()])
+        return table.drop(lost).with_columns([polars.Series(name, column) for name, column in columns.items()])
     if library == "pyarrow":
         import pyarrow
 
+        table = table.drop_columns(lost)
         for name, column in columns.items():
             at = table.column_names.index(name) if name in table.column_names else None
             if at is None:
@@ -217,5 +285,6 @@ def with_columns(table: Any, columns: Mapping[str, np.ndarray]) -> Any:
                 table = table.set_column(at, name, pyarrow.array(column))
         return table
     # The rows of pandas' columns are told by their places, as those of all others are.
-    plain = {name: column.array if _library(column) == "pandas" else column for name, column in table.items()}
+    own = {name: column for name, column in table.items() if str(name) not in lost}
+    plain = {name: column.array if library_of(column) == "pandas" else column for name, column in own.items()}
     return Table({**plain, **columns})

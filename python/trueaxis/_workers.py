@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import functools
 import os
 import secrets
 import time
@@ -11,7 +12,7 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any
 
-from ._errors import TrueaxisError
+from ._errors import TrueaxisError, kept_warnings, warn
 from ._native import __version__
 
 if TYPE_CHECKING:
@@ -27,10 +28,40 @@ _PAUSE = 0.01
 Each = Callable[[Callable[[tuple], Any], list[tuple]], Iterator[Any]]
 """Does a piece of work for each task, and gives what it returns as it is done."""
 
+_TOLD = 5
+"""How many warnings of one stretch of work are told one by one."""
+
 
 @contextmanager
 def workers(client: distributed.Client | str | None) -> Iterator[Each]:
-    """Those who do the work: the processors of this machine, or the workers of a scheduler."""
+    """Those who do the work: the processors of this machine, or the workers of a scheduler. What they warn of is told here, each once."""
+    told: set[str] = set()
+
+    def each(done: Each, work: Callable[[tuple], Any], tasks: list[tuple]) -> Iterator[Any]:
+        kept: dict[int, list[str]] = {}
+        for number, result, warnings in done(functools.partial(_heard, work), list(enumerate(tasks))):
+            kept[number] = warnings
+            yield result
+        new = dict.fromkeys(text for number in sorted(kept) for text in kept[number] if text not in told)
+        told.update(new)
+        for text in list(new)[:_TOLD]:
+            warn(text)
+        if len(new) > _TOLD:
+            warn(f"{len(new) - _TOLD} more warnings like these, of other rows")
+
+    with _doing(client) as done:
+        yield functools.partial(each, done)
+
+
+def _heard(work: Callable[[tuple], Any], numbered: tuple[int, tuple]) -> tuple[int, Any, list[str]]:
+    """What a piece of work returns, with its number and what it warns of: who does it has no line of the caller's to warn at."""
+    number, task = numbered
+    with kept_warnings() as kept:
+        return number, work(task), kept
+
+
+@contextmanager
+def _doing(client: distributed.Client | str | None) -> Iterator[Each]:
     if client is None:
         with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
 

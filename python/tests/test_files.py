@@ -1,5 +1,7 @@
 """Which files a folder is made of, and what files without rows count for."""
 
+import gzip
+
 import numpy as np
 import pyarrow
 import pyarrow.parquet as parquet
@@ -184,3 +186,20 @@ def test_a_place_that_cannot_be_written(mount, tables, tmp_path):
 def test_a_seed_is_a_whole_number(mount, tables, tmp_path):
     with pytest.raises(trueaxis.TrueaxisError, match="seed=-1"):
         calibrate(mount, written(tmp_path / "scan", a__parquet=tables[0]), seed=-1)
+
+
+def test_a_file_of_another_kind_is_named_as_what_it_is(mount, tables, tmp_path):
+    lines = [";".join(tables[0]), *(";".join(map(repr, map(float, row))) for row in zip(*tables[0].values()))]
+    (tmp_path / "scan.csv").write_text("\n".join(lines))
+    (tmp_path / "scan.csv.gz").write_bytes(gzip.compress((tmp_path / "scan.csv").read_bytes()))
+    # Where separated values are read, a semicolon parts them as well as a comma.
+    assert fit(mount, tmp_path / "scan.csv").rows == ROWS
+    with pytest.raises(trueaxis.TrueaxisError, match="scan.csv.gz: this is compressed with gzip: unpack it first, with `gunzip`"):
+        fit(mount, tmp_path / "scan.csv.gz")
+    for ask in [lambda file: calibrate(mount, file), lambda file: trueaxis.apply(file, mount, {}, tmp_path / "out")]:
+        with pytest.raises(trueaxis.TrueaxisError, match=r"scan.csv: this is no Parquet file: write its rows as one"):
+            ask(tmp_path / "scan.csv")
+        with pytest.raises(trueaxis.TrueaxisError, match="scan.csv.gz: this is compressed with gzip"):
+            ask(tmp_path / "scan.csv.gz")
+    with pytest.raises(TypeError, match="client: give a Dask client or the address of a scheduler, not a int"):
+        trueaxis.apply(tmp_path / "scan.csv", mount, {}, tmp_path / "out", client=3)

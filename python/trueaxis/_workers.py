@@ -78,6 +78,8 @@ def _doing(client: distributed.Client | str | None) -> Iterator[Each]:
         return
     import distributed
 
+    if not isinstance(client, (str, distributed.Client)):
+        raise TypeError(f"client: give a Dask client or the address of a scheduler, not a {type(client).__name__}")
     own = None
     if isinstance(client, str):
         client = own = _connected(client)

@@ -172,7 +172,7 @@ pub enum Caution {
         /// So many times as much.
         times: f64,
     },
-    /// Nobody declared a scale of a range, and the search could not see it, since it takes stated places for unknown.
+    /// Nobody declared a scale of a range, and the search could not see it, since it takes stations that are not known exactly for unknown.
     #[serde(rename = "no scale was looked for")]
     ScaleNotSought {
         /// The range.

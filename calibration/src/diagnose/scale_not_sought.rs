@@ -1,4 +1,4 @@
-//! Scales of ranges that only places with a standard uncertainty would show: the search takes those for unknown.
+//! Scales of ranges that only stations with a standard uncertainty would show: the search takes those for unknown.
 
 use super::caution::Caution;
 use crate::candidate::{Dependence, EffectId};
@@ -7,16 +7,15 @@ use crate::effects::RANGE;
 use crate::search::context::Context;
 use crate::search::round::Round;
 
-/// Places that show a scale together.
+/// Stations that show a scale together.
 const SHOW: usize = 2;
 
-/// What is told of each range whose scale nobody declared, where the search cannot see it though places are stated.
+/// What is told of each range whose scale nobody declared, where the search cannot see it though stations are stated.
 pub(super) fn scale_not_sought(whole: &Context<'_>, last: &Round<'_>) -> Vec<Caution> {
     let Some(unknowns) = &whole.request.observations.unknowns else { return Vec::new() };
     let is_within = |freedom: Freedom| matches!(freedom, Freedom::Within { .. });
-    let objects = unknowns.objects.iter().filter(|own| is_within(own.freedom)).count();
     let stations = unknowns.stations.iter().filter(|own| is_within(own.freedom)).count();
-    if objects.max(stations) < SHOW {
+    if stations < SHOW {
         return Vec::new();
     }
     let chain = &last.fitted.chain;

@@ -100,7 +100,7 @@ pub fn caution(caution: &Caution) -> String {
             }
         }
         Caution::ScaleNotSought { range, body, axis } => format!(
-            "No scale of `{range}` was looked for: the search takes places with a `sigma` for unknown, and only they would show it. If \
+            "No scale of `{range}` was looked for: the search takes stations with a `sigma` for unknown, and only they would show it. If \
              there may be one, declare it (T{axis}({range}_scale*{range}) in the motion_error of body {body}), since other errors \
              would take its place."
         ),

@@ -8,7 +8,7 @@ use faer::Mat;
 
 use crate::candidate::EffectId;
 use crate::data::Observations;
-use crate::data::unknowns::Object;
+use crate::data::unknowns::{Freedom, Object, Unknowns};
 use crate::fit::noise::{Layout, Noise, Run};
 use crate::fit::objects::Reduction;
 use crate::search::columns::{Columns, Probed, Seen, keep};
@@ -27,7 +27,7 @@ pub(crate) struct RowSet<'a> {
     pub effects: Vec<Vec<Vec<f64>>>,
     /// Which of them these rows let one use.
     pub seen: Seen,
-    /// Measured minus predicted without the accepted effects, before whitening.
+    /// Measured minus predicted without the accepted effects, with objects of which a place is stated there, before whitening.
     pub without: Vec<f64>,
     noise: Noise,
     /// Root of the robust weight of each component.
@@ -82,13 +82,18 @@ impl<'a> RowSet<'a> {
             columns.of_part(&fitted.chain, &whole.catalogue, &observations.poses, values, wanted);
         let mut without = columns.residual.clone();
         fitted.put_back(&mut without, |effect| effects[effect.0].iter().map(Vec::as_slice));
+        let state = |unknowns: &Unknowns| &values[values.len() - unknowns.numbers()..];
+        let believed = observations.unknowns.as_ref().map(|unknowns| unknowns.believed(state(unknowns)));
+        if let Some(unknowns) = &believed {
+            unknowns.as_if_stated(state(unknowns), &columns.row, &columns.unknown, &mut without);
+        }
         let weight = stretches.iter().flat_map(|stretch| &fitted.fit.residuals.weight[stretch.clone()]);
         let weight: Vec<f64> = weight.map(|weight| weight.sqrt()).collect();
         let root_weight: Vec<f64> = columns.row.iter().map(|&row| weight[row as usize]).collect();
         let noise = fitted.fit.noise.of_runs(&runs(all, &fitted.layout, stretches));
-        let reduction = observations.unknowns.as_ref().map(|unknowns| {
+        let reduction = believed.map(|unknowns| {
             let scale = noise.sigma.iter().zip(&root_weight).map(|(sigma, root)| root / sigma).collect();
-            Reduction::new(unknowns, &columns.row, &columns.unknown, scale)
+            Reduction::as_stated(&unknowns, &columns.row, &columns.unknown, scale)
         });
         let mut end = 0;
         let of_portion = stretches.iter().map(|stretch| {
@@ -237,8 +242,9 @@ pub(crate) fn dealt(observations: &Observations, noise: &Noise, folds: usize, se
     };
     let mut dealt = Folds::deal_together(&of_each(&observations.groups), &of_each(&units), folds, seed);
     let Some(unknowns) = &observations.unknowns else { return dealt };
-    // The components that go into an object's numbers say nothing of anything else.
-    let mut left: Vec<usize> = unknowns.objects.iter().map(Object::numbers).collect();
+    // The components that go into an object's numbers say nothing of anything else; stated places make up for as many.
+    let taken = |object: &Object| if object.freedom == Freedom::Free { object.numbers() } else { 0 };
+    let mut left: Vec<usize> = unknowns.objects.iter().map(taken).collect();
     for (component, row) in layout.row_of_each().enumerate() {
         if let Some(left) = unknowns.object[row].map(|object| &mut left[object as usize])
             && *left > 0

@@ -5,7 +5,7 @@
 //! declared errors, and steps, uncertainties and the search for missing effects see no other.
 //!
 //! What one row shows stands in `seen`, the elimination in `eliminate`, its rotation of whole columns in `reduce`,
-//! in `followed` what it leaves to each row, and in `stated` what a study says of places.
+//! in `followed` what it leaves to each row, and in `stated` what a study says of places, which `within` whitens columns by.
 
 mod eliminate;
 mod followed;
@@ -13,6 +13,7 @@ mod gathered;
 mod reduce;
 mod seen;
 mod stated;
+mod within;
 
 pub(crate) use eliminate::{Collected, Eliminated};
 pub(crate) use followed::FollowedShare;

@@ -9,7 +9,8 @@ use std::ops::Range;
 use faer::{Mat, Side};
 use rayon::prelude::*;
 
-use crate::data::unknowns::{Unknowns, WIDTH};
+use super::within::Within;
+use crate::data::unknowns::{Freedom, Unknowns, WIDTH};
 
 /// A direction of an object of which less than this share is left by those before moves nothing of its own.
 const NOTHING: f64 = 1e-8;
@@ -44,33 +45,33 @@ struct Turned {
 #[derive(Debug, Clone)]
 pub(crate) struct Reduction {
     turned: Vec<Turned>,
+    /// Objects that are stated to within an uncertainty, where that counts.
+    within: Vec<Within>,
     /// What whitening and the robust weight multiply each component by.
     scale: Vec<f64>,
 }
 
 impl Reduction {
     /// Of components that belong to `row`s of the observations, each with its derivatives by what is unknown before
-    /// whitening and what whitening multiplies it by.
+    /// whitening and what whitening multiplies it by. Objects are unknown, whatever is stated of them.
     pub fn new(unknowns: &Unknowns, row: &[u32], unknown: &[[f64; WIDTH]], scale: Vec<f64>) -> Self {
-        let mut components: Vec<Vec<usize>> = vec![Vec::new(); unknowns.objects.len()];
-        for (component, &row) in row.iter().enumerate() {
-            if let Some(object) = unknowns.object[row as usize] {
-                components[object as usize].push(component);
+        let turned = components_of(unknowns, row).into_par_iter().zip(&unknowns.objects);
+        let turned = turned.filter_map(|(at, object)| Turned::new(at, object.numbers(), unknown, &scale));
+        Self { turned: turned.collect(), within: Vec::new(), scale }
+    }
+
+    /// The same, but objects that are stated to within an uncertainty move no further than that lets them.
+    pub fn as_stated(unknowns: &Unknowns, row: &[u32], unknown: &[[f64; WIDTH]], scale: Vec<f64>) -> Self {
+        let (mut turned, mut within) = (Vec::new(), Vec::new());
+        for (at, object) in components_of(unknowns, row).into_iter().zip(&unknowns.objects) {
+            if let Freedom::Within { shift_m, .. } = object.freedom {
+                let columns = Mat::from_fn(at.len(), object.numbers(), |i, j| unknown[at[i]][j]);
+                within.extend(Within::new(at, columns, &scale, shift_m));
+            } else {
+                turned.extend(Turned::new(at, object.numbers(), unknown, &scale));
             }
         }
-        let turned = components.into_par_iter().zip(&unknowns.objects).filter_map(|(at, object)| {
-            let k = object.numbers().min(at.len());
-            if k == 0 {
-                return None;
-            }
-            let columns = Mat::from_fn(at.len(), k, |i, j| unknown[at[i]][j]);
-            let mut matrix = Mat::from_fn(at.len(), k, |i, j| columns[(i, j)] * scale[at[i]]);
-            let (reflections, moves) = reflected(&mut matrix);
-            let factor = Mat::from_fn(k, k, |i, j| if i <= j { matrix[(i, j)] } else { 0.0 });
-            let units = units(&reflections, &moves);
-            Some(Turned { at, reflections, factor, columns, moves, units })
-        });
-        Self { turned: turned.collect(), scale }
+        Self { turned, within, scale }
     }
 
     /// Rotates a whitened and weighted column, and puts to zero what objects explain.
@@ -85,6 +86,7 @@ impl Reduction {
                 .for_each(|(value, _)| *value = 0.0);
             turned.at.iter().zip(&own).for_each(|(&at, value)| column[at] = *value);
         }
+        self.within.iter().for_each(|within| within.reduce(column));
     }
 
     /// Takes out of a column before whitening what the objects, each estimated from its own rows, explain of it.
@@ -103,6 +105,7 @@ impl Reduction {
                     numbers.iter().enumerate().map(|(j, b)| turned.columns[(i, j)] * b).sum::<f64>();
             }
         }
+        self.within.iter().for_each(|within| within.estimate_anew(column, &self.scale));
     }
 }
 
@@ -153,6 +156,17 @@ impl Reduction {
             columns.col_as_slice_mut(j).copy_from_slice(&column);
         }
     }
+}
+
+/// The components of each object.
+fn components_of(unknowns: &Unknowns, row: &[u32]) -> Vec<Vec<usize>> {
+    let mut components: Vec<Vec<usize>> = vec![Vec::new(); unknowns.objects.len()];
+    for (component, &row) in row.iter().enumerate() {
+        if let Some(object) = unknowns.object[row as usize] {
+            components[object as usize].push(component);
+        }
+    }
+    components
 }
 
 /// What `f` makes of some rows at a time, in order.
@@ -210,6 +224,20 @@ fn add(a: &mut [f64], factor: f64, b: &[f64]) {
 }
 
 impl Turned {
+    /// Of the components of an object of so many numbers; none where it has none, or no rows.
+    fn new(at: Vec<usize>, numbers: usize, unknown: &[[f64; WIDTH]], scale: &[f64]) -> Option<Self> {
+        let k = numbers.min(at.len());
+        if k == 0 {
+            return None;
+        }
+        let columns = Mat::from_fn(at.len(), k, |i, j| unknown[at[i]][j]);
+        let mut matrix = Mat::from_fn(at.len(), k, |i, j| columns[(i, j)] * scale[at[i]]);
+        let (reflections, moves) = reflected(&mut matrix);
+        let factor = Mat::from_fn(k, k, |i, j| if i <= j { matrix[(i, j)] } else { 0.0 });
+        let units = units(&reflections, &moves);
+        Some(Self { at, reflections, factor, columns, moves, units })
+    }
+
     /// The object's part of a column.
     fn gather(&self, column: &[f64], own: &mut Vec<f64>) {
         own.clear();

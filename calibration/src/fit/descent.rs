@@ -96,7 +96,11 @@ impl Solver<'_> {
     }
 
     /// A course to the bottom, of what is determined there; so far it was asked with some noise.
-    fn settled(&mut self, mut course: Course, mut asked_with: Arc<Noise>) -> Result<Course, FitError> {
+    pub(super) fn settled(
+        &mut self,
+        mut course: Course,
+        mut asked_with: Arc<Noise>,
+    ) -> Result<Course, FitError> {
         self.settle(&mut course)?;
         // What is determined is asked where constants that are estimated came to stand, and with another noise.
         for _ in 0..3 {

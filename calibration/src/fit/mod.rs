@@ -13,6 +13,7 @@ mod directions;
 mod estimable;
 mod few;
 mod fingerprint;
+mod freed;
 mod mixing;
 mod model;
 pub mod noise;

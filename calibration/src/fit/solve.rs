@@ -69,6 +69,7 @@ impl Solver<'_> {
             course = self.elsewhere(course)?;
         }
         course = self.nearest(course)?;
+        course = self.freed(course)?;
         if weighting == Weighting::Biweight && self.are_few(&course) {
             course = self.of_few(course)?;
         }

@@ -14,7 +14,7 @@ pub struct SmoothPlace {
 }
 
 /// Every such place of a chain, the likelier first: a joint's own freedom, the others of the body that it moves, the
-/// rotations of the other bodies; then inputs, at all rotations.
+/// rotations of the other bodies; then ranges along themselves, and inputs at all rotations.
 #[must_use]
 pub fn smooth(setting: &Setting<'_>) -> Vec<SmoothPlace> {
     let rotations =
@@ -28,6 +28,13 @@ pub fn smooth(setting: &Setting<'_>) -> Vec<SmoothPlace> {
             if setting.moves(place) && !all.contains(&smooth) {
                 all.push(smooth);
             }
+        }
+    }
+    for (body, axis, driver) in setting.ranges() {
+        let place = Place { body, role: Role::MotionError, freedom: Freedom::along(axis) };
+        let smooth = SmoothPlace { place, driver };
+        if setting.moves(place) && !all.contains(&smooth) {
+            all.push(smooth);
         }
     }
     for &driver in setting.inputs {

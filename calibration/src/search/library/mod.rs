@@ -315,14 +315,14 @@ impl Library<'_, '_> {
         let columns = self.sheet(judged.smooth.place, &judged.shape.values(readings));
         let problem = self.last.search.of_rows();
         let rows = problem.rows().nrows();
-        let folds: Vec<Vec<usize>> = match self.whole.setting.chain.symbol(judged.smooth.driver).kind {
-            SymbolKind::Joint => {
-                (0..problem.folds()).map(|fold| problem.rows_of_folds(|other| other == fold)).collect()
-            }
+        let (setting, driver) = (&self.whole.setting, judged.smooth.driver);
+        let is_pose = setting.chain.symbol(driver).kind == SymbolKind::Joint
+            || setting.ranges().iter().any(|(.., range)| *range == driver);
+        let folds: Vec<Vec<usize>> = if is_pose {
+            (0..problem.folds()).map(|fold| problem.rows_of_folds(|other| other == fold)).collect()
+        } else {
             // Whatever drifts with time is a function of a temperature that does, too, but none that returns with it.
-            _ => {
-                (0..STRETCHES).map(|i| (i * rows / STRETCHES..(i + 1) * rows / STRETCHES).collect()).collect()
-            }
+            (0..STRETCHES).map(|i| (i * rows / STRETCHES..(i + 1) * rows / STRETCHES).collect()).collect()
         };
         self.rows_behind(&columns) >= FEWEST_BEHIND
             && predicts(&self.left, columns.as_ref(), &judged.fitted.kept, &folds)

@@ -48,6 +48,9 @@ const LEVEL: f64 = 1e-6;
 /// one before.
 const SLOWER: usize = 3;
 
+/// A step that was refused is followed by one of this length, where rows observe unknown objects.
+const SHORTER: f64 = 0.25;
+
 /// How often the noise is learned anew.
 const NOISE_ROUNDS: usize = 8;
 
@@ -210,6 +213,8 @@ impl Solver<'_> {
         let has_objects = self.observations.unknowns.is_some();
         let mut mixing = has_objects.then(Mixing::default);
         let mut least = 0.0;
+        // Damping holds the errors alone: objects and stations whose step is too long take a share of it.
+        let mut share = 1.0_f64;
         let most =
             if has_objects { SLOWER * self.options.max_iterations } else { self.options.max_iterations };
         let mut steps = 0;
@@ -218,11 +223,11 @@ impl Solver<'_> {
             let point = &course.point;
             let tally = &point.sweep.tally;
             let step = course.subspace.step(&self.partial(&point.sweep), damping, &point.rest);
-            let stride = tally.stride();
-            let step = step.times(stride);
+            let step = step.times(tally.stride());
             if step.length <= negligible && damping < 1e-3 {
                 return Ok(());
             }
+            let (step, stride) = (step.times(share), tally.stride() * share);
             self.iterations += 1;
             let plain = self.moved(point, &step.change, stride);
             let mixed = mixing.as_mut().filter(|_| damping == 0.0);
@@ -244,6 +249,7 @@ impl Solver<'_> {
                     return Ok(());
                 }
                 damping = if damping < 1e-7 { least } else { damping / 10.0 };
+                share = (share / SHORTER).min(1.0);
             } else {
                 let is_level = next.objective() <= point.objective() * (1.0 + LEVEL);
                 if has_objects && damping == 0.0 && step.length <= ROUGHLY && is_level {
@@ -258,6 +264,7 @@ impl Solver<'_> {
                     least = DAMPED;
                 }
                 damping = (damping * 10.0).max(1e-6);
+                share = if has_objects { share * SHORTER } else { share };
                 if damping > 1e8 {
                     course.stopped = Some(Reason::NoDescent);
                     return Ok(());

@@ -25,11 +25,13 @@ mod random;
 mod ranges;
 mod readings;
 mod repeats;
+mod room;
 mod scatter;
 mod sockets;
 mod stated;
 mod survey;
 mod together;
+mod unheld;
 mod unusable;
 
 use serde_json::Value;

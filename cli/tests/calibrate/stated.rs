@@ -7,71 +7,23 @@ use std::fmt::Write;
 
 use crate::figures::{calibrated, cautions, error};
 use crate::random::Random;
+use crate::room::{Room, STUDY, TRACKER};
 use crate::support::Folder;
 
-const TRACKER: &str = "chain Tracker {
-    body alidade on ground { motion: Rz(-azimuth); }
-    body tube on alidade { position_error: Ry(trunnion); motion: Rx(elevation); motion_error: Rx(index); }
-    body beam on tube { position_error: Tx(beam_aside), Rz(collimation), Ty(longer*range); }
-    input range: length;
-    observe hit: point(0, range, 0) of beam;
-}
-";
-const STUDY: &str = "chain = \"tracker.chain\"\ndata = \"rows.csv\"\n[observed]\nkind = \"target\"\nobject = \"object\"\n\
-                     station = \"station\"\n";
-const TARGETS: usize = 30;
 const CONTROLS: usize = 8;
 const LONGER: f64 = 1e-4;
 const STATED_M: f64 = 1e-3;
 
-type Point = [f64; 3];
-
-/// Targets in a room, and where three stations stood: place and heading.
-struct Room {
-    targets: Vec<Point>,
-    stations: [(Point, f64); 3],
-}
-
-impl Room {
-    fn new(random: &mut Random) -> Self {
-        let mut within = |low: f64, high: f64| low + (high - low) * random.even();
-        let targets = (0..TARGETS).map(|_| [within(-8.0, 8.0), within(-8.0, 8.0), within(-1.0, 4.0)]);
-        let targets = targets.collect();
-        let mut station = |x: f64, y: f64| ([x, y, within(1.2, 1.8)], within(-PI, PI));
-        Self { targets, stations: [station(0.0, 0.0), station(4.0, -3.0), station(-3.0, 4.0)] }
+/// The first targets as somebody else measured them; `blunder` is added to the first of all.
+fn controls(room: &Room, random: &mut Random, blunder: f64) -> String {
+    let mut text = String::from("[objects]\n");
+    for (number, place) in room.targets.iter().enumerate().take(CONTROLS) {
+        let [x, y, z] = place.map(|value| value + STATED_M * random.normal());
+        let x = if number == 0 { x + blunder } else { x };
+        writeln!(text, "T{number} = {{ x = \"{x} m\", y = \"{y} m\", z = \"{z} m\", sigma = \"1 mm\" }}")
+            .expect("a string");
     }
-
-    /// Every target in two faces from every station.
-    fn rows(&self, random: &mut Random) -> String {
-        let mut rows = String::from("station,object,azimuth [rad],elevation [rad],range [m]\n");
-        for (number, (from, heading)) in self.stations.iter().enumerate() {
-            for (target, place) in self.targets.iter().enumerate() {
-                let away: Point = std::array::from_fn(|axis| place[axis] - from[axis]);
-                let level = away[0].hypot(away[1]);
-                let (azimuth, elevation) = (away[0].atan2(away[1]) + heading, away[2].atan2(level));
-                for (azimuth, elevation) in [(azimuth, elevation), (azimuth + PI, PI - elevation)] {
-                    let [across, up, along] = [(); 3].map(|()| random.normal());
-                    let (azimuth, elevation) = (azimuth + 1e-5 * across, elevation + 1e-5 * up);
-                    let range = level.hypot(away[2]) / (1.0 + LONGER) + 20e-6 * along;
-                    writeln!(rows, "S{number},T{target},{azimuth:.9},{elevation:.9},{range:.7}")
-                        .expect("a string");
-                }
-            }
-        }
-        rows
-    }
-
-    /// The first targets as somebody else measured them; `blunder` is added to the first of all.
-    fn controls(&self, random: &mut Random, blunder: f64) -> String {
-        let mut text = String::from("[objects]\n");
-        for (number, place) in self.targets.iter().enumerate().take(CONTROLS) {
-            let [x, y, z] = place.map(|value| value + STATED_M * random.normal());
-            let x = if number == 0 { x + blunder } else { x };
-            writeln!(text, "T{number} = {{ x = \"{x} m\", y = \"{y} m\", z = \"{z} m\", sigma = \"1 mm\" }}")
-                .expect("a string");
-        }
-        text
-    }
+    text
 }
 
 /// A millimetre over eight points in a room tells a scale to some 60 ppm, however well the tracker reads.
@@ -83,8 +35,8 @@ fn a_scale_is_no_surer_than_the_control_points_that_hold_it() {
     for seed in 1..=8 {
         let random = &mut Random::new(seed);
         let room = Room::new(random);
-        let study = format!("{STUDY}{}", room.controls(random, 0.0));
-        folder.write("rows.csv", room.rows(random)).write("study.toml", study);
+        let study = format!("{STUDY}{}", controls(&room, random, 0.0));
+        folder.write("rows.csv", room.rows(random, LONGER)).write("study.toml", study);
         let report = calibrated(&folder, "study.toml");
         let [value, sigma] = error(&report, "longer");
         let pull = (value - LONGER) / sigma;
@@ -102,8 +54,8 @@ fn a_scale_that_is_not_looked_for_is_told() {
     let folder = Folder::new("stated-no-scale");
     let random = &mut Random::new(3);
     let room = Room::new(random);
-    let study = format!("{STUDY}{}", room.controls(random, 0.0));
-    folder.write("rows.csv", room.rows(random)).write("study.toml", study);
+    let study = format!("{STUDY}{}", controls(&room, random, 0.0));
+    folder.write("rows.csv", room.rows(random, LONGER)).write("study.toml", study);
     for (chain, is_told) in [(TRACKER.to_owned(), false), (TRACKER.replace(", Ty(longer*range)", ""), true)] {
         folder.write("tracker.chain", chain);
         let report = calibrated(&folder, "study.toml");
@@ -118,8 +70,11 @@ fn a_control_point_that_is_stated_wrongly_is_named() {
     let folder = Folder::new("stated-blunder");
     let random = &mut Random::new(20);
     let room = Room::new(random);
-    let study = format!("{STUDY}{}", room.controls(random, 0.05));
-    folder.write("tracker.chain", TRACKER).write("rows.csv", room.rows(random)).write("study.toml", study);
+    let study = format!("{STUDY}{}", controls(&room, random, 0.05));
+    folder
+        .write("tracker.chain", TRACKER)
+        .write("rows.csv", room.rows(random, LONGER))
+        .write("study.toml", study);
     let report = calibrated(&folder, "study.toml");
     let named = cautions(&report, "not where it is stated");
     assert_eq!(named.len(), 1, "{}", report["cautions"]);
@@ -133,7 +88,7 @@ fn a_rough_pose_that_is_far_off_changes_no_error() {
     let folder = Folder::new("stated-rough");
     let random = &mut Random::new(40);
     let room = Room::new(random);
-    folder.write("tracker.chain", TRACKER).write("rows.csv", room.rows(random));
+    folder.write("tracker.chain", TRACKER).write("rows.csv", room.rows(random, LONGER));
     let of = |poses: &str| {
         folder.write("study.toml", format!("{STUDY}[fit]\nfix = {{ longer = 0 }}\n{poses}"));
         let report = calibrated(&folder, "study.toml");

@@ -275,6 +275,21 @@ impl Unknowns {
         first(self.objects.iter().map(Object::numbers), self.of_stations())
     }
 
+    /// How far from each station the objects of its rows start, on average, m; zero where it has none.
+    #[must_use]
+    pub fn away_m(&self) -> Vec<f64> {
+        let mut sums = vec![(0.0, 0.0); self.stations.len()];
+        for (object, &station) in self.object.iter().zip(&self.station) {
+            if let Some(object) = *object {
+                let from = self.stations[station as usize].pose.shift;
+                let (sum, count) = &mut sums[station as usize];
+                *sum += (self.objects[object as usize].place - from).norm();
+                *count += 1.0;
+            }
+        }
+        sums.into_iter().map(|(sum, count)| if count > 0.0 { sum / count } else { 0.0 }).collect()
+    }
+
     /// The labels of the station and of the object of a row; none where it has none.
     #[must_use]
     pub fn labels(&self, row: usize) -> [Option<&str>; 2] {

@@ -22,6 +22,13 @@ use crate::fit::{Partial, Rows};
 /// move a frame that nothing holds further than a step does.
 const HOLD: f64 = 1e-6;
 
+/// How surely a free station is where it starts: to so many rad, and to this share of how far away its objects are. It decides where
+/// nothing but noise does: walls that all stand upright tell a height by how far noise tips them, to some metres.
+const STARTS_WITHIN: f64 = 0.1;
+
+/// A direction of stations that the rows hold by less than so many times as much as their start does is none that rows determined.
+const BY_START: f64 = 30.0;
+
 /// Parts that the objects are cut into: as many whatever the number of processors, which changes no bit.
 const PARTS: usize = 8;
 
@@ -117,8 +124,8 @@ impl Eliminated {
 
         let factor = whole.factor();
         for (at, free) in free.iter().enumerate() {
-            let length = whole.length(at);
-            taken += f64::from(u8::from(*free && factor[(at, at)].abs() > NOTHING * length));
+            let least = free.map(|by_start| (NOTHING * whole.length(at)).max(BY_START * by_start));
+            taken += f64::from(u8::from(least.is_some_and(|least| factor[(at, at)].abs() > least)));
         }
         let stations = Triangle {
             own: (0..of_stations).collect(),
@@ -394,17 +401,19 @@ fn rows(matrix: &Mat<f64>) -> Rows {
     spread(matrix.nrows(), columns(matrix), 0..matrix.ncols(), matrix.ncols())
 }
 
-/// Adds what is stated of stations, and rows that hold the others where nothing else does; per number whether it is free.
-fn held(layout: &Layout<'_>, whole: &mut Partial, objective: &mut f64) -> Vec<bool> {
+/// Adds what is stated of stations, and rows that hold the others where nothing else does; per number that is free how much its start
+/// holds it.
+fn held(layout: &Layout<'_>, whole: &mut Partial, objective: &mut f64) -> Vec<Option<f64>> {
     let count = layout.of_stations;
     if count == 0 {
         return Vec::new();
     }
     let mut rows = Rows::zeros(count, whole.parameters + 1);
-    let mut free = vec![false; count];
+    let mut free = vec![None; count];
     let mut columns: Vec<&mut [f64]> = rows.columns_mut().collect();
     let last = columns.len() - 1;
-    for (station, &start) in layout.unknowns.stations.iter().zip(&layout.first_of_station) {
+    let stations = layout.unknowns.stations.iter().zip(layout.unknowns.away_m());
+    for ((station, away_m), &start) in stations.zip(&layout.first_of_station) {
         for number in 0..station.numbers() {
             let at = start + number;
             match station.freedom.of_station(number) {
@@ -415,8 +424,14 @@ fn held(layout: &Layout<'_>, whole: &mut Partial, objective: &mut f64) -> Vec<bo
                 }
                 None => {
                     let length = whole.length(at);
-                    columns[at][at] = HOLD * if length > 0.0 { length } else { 1.0 };
-                    free[at] = true;
+                    let held = HOLD * if length > 0.0 { length } else { 1.0 };
+                    let within = STARTS_WITHIN * if number < 3 { away_m } else { 1.0 };
+                    let by_start = if within > 0.0 { 1.0 / within } else { 0.0 };
+                    let weight = held.hypot(by_start);
+                    columns[at][at] = weight;
+                    columns[last][at] = -layout.state[at] * by_start * by_start / weight;
+                    *objective += (layout.state[at] * by_start).powi(2);
+                    free[at] = Some(by_start);
                 }
             }
         }

@@ -6,6 +6,9 @@ use crate::data::unknowns::{OF_OBJECT, Object, Pose, Unknowns, WIDTH, own_number
 use crate::data::{Measure, Measured, tangent_frame};
 use crate::fit::residual;
 
+/// An angle that is its sine to the last digit, rad.
+const SMALL_RAD: f64 = 1e-6;
+
 /// Per component the derivatives of what is predicted by the numbers of the object, then by those of the station.
 pub(crate) type Columns = [[f64; WIDTH]; 3];
 
@@ -109,13 +112,23 @@ fn adjusted(
     shown: impl Fn(&Vector3<f64>, &Vector3<f64>) -> Option<Seen>,
 ) -> Option<Seen> {
     let there = components.iter().fold(*predicted, |point, step| point + to_no_residual(step));
-    let turn = Rotation3::rotation_between(predicted, &there).unwrap_or_else(Rotation3::identity);
+    let turn = turn_between(predicted, &there);
     let stretch = Some(there.norm() / predicted.norm()).filter(|stretch| stretch.is_finite()).unwrap_or(1.0);
     let (at_object, columns) = shown(&there, &(turn * beam * stretch))?;
     for ((_, gradient), (_, there)) in components.iter_mut().zip(at_object) {
         *gradient = turn.inverse() * there * stretch;
     }
     Some((components, columns))
+}
+
+/// The turn from one direction to another. Of directions that differ by rounding alone the arc cosine has no value: a row by which alone an
+/// object is placed has no residual.
+fn turn_between(from: &Vector3<f64>, to: &Vector3<f64>) -> Rotation3<f64> {
+    let sine = from.normalize().cross(&to.normalize());
+    if sine.norm() < SMALL_RAD && from.dot(to) > 0.0 {
+        return Rotation3::new(sine);
+    }
+    Rotation3::rotation_between(from, to).unwrap_or_else(Rotation3::identity)
 }
 
 /// What turns with a station when the derivative of a target or a sight is taken.
@@ -165,9 +178,26 @@ impl Frame {
 
     /// Rᵀ(X − t) − p across, up and along the beam.
     fn target(&self, object: &Object, own: [f64; OF_OBJECT], p: &Vector3<f64>, beam: &Vector3<f64>) -> Seen {
-        let there = self.pose.back(&(object.place + Vector3::new(own[0], own[1], own[2])));
         let beam = beam.normalize();
         let [across, up] = tangent_frame(&beam);
+        self.point(object, own, p, [across, up, beam])
+    }
+
+    /// Rᵀ(X − t) − p along x, y, z of the chain's frame: along those of the objects' frame each would have a noise of its own there, by
+    /// which a frame that nothing holds would turn.
+    fn fixed(&self, object: &Object, own: [f64; OF_OBJECT], p: &Vector3<f64>) -> Seen {
+        self.point(object, own, p, [Vector3::x(), Vector3::y(), Vector3::z()])
+    }
+
+    /// Rᵀ(X − t) − p along some axes of the chain's frame.
+    fn point(
+        &self,
+        object: &Object,
+        own: [f64; OF_OBJECT],
+        p: &Vector3<f64>,
+        axes: [Vector3<f64>; 3],
+    ) -> Seen {
+        let there = self.pose.back(&(object.place + Vector3::new(own[0], own[1], own[2])));
         let difference = there - p;
         let component = |axis: Vector3<f64>| {
             let outside = self.pose.turn * axis;
@@ -175,19 +205,7 @@ impl Frame {
             let row = self.row([-outside.x, -outside.y, -outside.z], outside, arm.cross(&axis));
             ((difference.dot(&axis), axis), row)
         };
-        let [a, b, c] = [across, up, beam].map(component);
-        ([a.0, b.0, c.0], [a.1, b.1, c.1])
-    }
-
-    /// c − (R p + t) along x, y, z of the objects' frame.
-    fn fixed(&self, object: &Object, own: [f64; OF_OBJECT], p: &Vector3<f64>) -> Seen {
-        let difference = object.place + Vector3::new(own[0], own[1], own[2]) - self.pose.apply(p);
-        let component = |axis: Vector3<f64>| {
-            let gradient = self.pose.turn.inverse() * axis;
-            let row = self.row([-axis.x, -axis.y, -axis.z], axis, p.cross(&gradient));
-            ((difference.dot(&axis), gradient), row)
-        };
-        let [a, b, c] = [Vector3::x(), Vector3::y(), Vector3::z()].map(component);
+        let [a, b, c] = axes.map(component);
         ([a.0, b.0, c.0], [a.1, b.1, c.1])
     }
 

@@ -189,10 +189,15 @@ pub enum Caution {
         what: Uneven,
         /// Its label.
         label: String,
-        /// By so many of its stated standard uncertainties.
-        sigmas: f64,
+        /// By so many of its stated standard uncertainties; absent where its rows were set aside together and say so.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        sigmas: Option<f64>,
         /// How far, m.
         away_m: f64,
+        /// How far along x, y and z, m.
+        shift_m: [f64; 3],
+        /// How far a station is turned, rad.
+        turn_rad: f64,
     },
     /// Rows of one file share an error: the ± count files.
     #[serde(rename = "rows of one file share something")]

@@ -49,7 +49,6 @@ use crate::search::round::Round;
 use crate::search::{SearchError, Stage};
 use by_cause::ByCause;
 use effects::Others;
-use misplaced::Misplaced;
 use next::{Next, next};
 use noisy::Noisy;
 use rms::BeforeAfter;
@@ -241,7 +240,11 @@ pub(crate) fn diagnose(
     cautions.extend(caution::of_readings(&noise));
     cautions.extend(caution::of_memory(fit));
     cautions.extend(of_data(&last.chain, observations, fit));
+    let misplaced = misplaced::misplaced(&last.chain, observations, fit);
     let aside: Vec<usize> = fit.set_aside.iter().map(|aside| aside.row).collect();
+    // Of what stands elsewhere rows are off for that.
+    let aside: Vec<usize> =
+        aside.into_iter().filter(|row| !misplaced::explains(&misplaced, observations, *row)).collect();
     let of_aside = shared(&observations.poses, &aside, whole.options.seed);
     cautions.extend(of_aside.map(|Shared { reading, from, to, rows }| {
         let unit = units::of_reading(&whole.setting, &last.chain, reading);
@@ -249,16 +252,11 @@ pub(crate) fn diagnose(
         Caution::SetAsideShare { reading, from, to, unit, rows }
     }));
     let scatters = uneven::uneven(observations, fit).into_iter();
+    let scatters = scatters.filter(|one| !misplaced.iter().any(|own| own.is(one.what, &one.label)));
     cautions.extend(scatters.map(|Scatter { what, label, times }| Caution::Scatters { what, label, times }));
     let searched = confirmed.as_ref().ok().map(|own| own.round);
     cautions.extend(searched.into_iter().flat_map(|round| scale_not_sought(whole, round)));
-    let misplaced = misplaced::misplaced(observations, fit).into_iter();
-    cautions.extend(misplaced.map(|Misplaced { what, label, sigmas, away_m }| Caution::NotWhereStated {
-        what,
-        label,
-        sigmas,
-        away_m,
-    }));
+    cautions.extend(misplaced.into_iter().map(Caution::from));
     let remaining = found.remaining.as_ref();
     cautions.extend(noisy_readings(whole, last, &found)?);
     let alone = found

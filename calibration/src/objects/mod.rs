@@ -13,6 +13,7 @@ mod start;
 
 pub use identify::{Remedy, SetUp, Visible, identify};
 pub use remark::Remark;
-pub(crate) use rows::{Row, rows};
+pub(crate) use rows::{Row, rows, tells};
 pub use scale::{check_scale, check_scale_of_ranges};
+pub(crate) use start::is_in_a_line;
 pub use start::{StartError, check_named, place};

@@ -59,6 +59,6 @@ pub(super) fn sighted(chain: &Chain, series: &Series) -> Option<SymbolId> {
 }
 
 /// Whether a row tells the place of its object from that of its station, and the other way round.
-pub(super) fn tells(row: &Row) -> bool {
+pub(crate) fn tells(row: &Row) -> bool {
     matches!(row.measure, Measure::Target | Measure::Fixed)
 }

@@ -304,7 +304,7 @@ fn take_over(
 }
 
 /// Whether points leave a turn about their line open.
-fn is_in_a_line(points: &[Vector3<f64>]) -> bool {
+pub(crate) fn is_in_a_line(points: &[Vector3<f64>]) -> bool {
     let Some((_, spread)) = spread(points.iter().copied()) else { return true };
     let values = spread.symmetric_eigenvalues();
     let mut values = [values[0], values[1], values[2]];

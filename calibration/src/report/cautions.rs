@@ -104,16 +104,32 @@ pub fn caution(caution: &Caution) -> String {
              there may be one, declare it (T{axis}({range}_scale*{range}) in the motion_error of body {body}), since other errors \
              would take its place."
         ),
-        Caution::NotWhereStated { what, label, sigmas, away_m } => {
-            let (station, stated) = match what {
-                Uneven::Station => ("Station ", "its pose"),
-                _ => ("", "a coordinate"),
+        Caution::NotWhereStated { what, label, sigmas, away_m, shift_m, turn_rad } => {
+            let (station, stated, table) = match what {
+                Uneven::Station => ("Station ", "its pose", "stations"),
+                _ => ("", "a coordinate", "objects"),
             };
             let far = short(*away_m, SiUnit::METRE);
-            format!(
-                "{station}`{label}` comes out {far} from where the study states it, {sigmas:.0} of its ±: is {stated} wrong, or the label \
-                 another's?"
-            )
+            match sigmas {
+                Some(sigmas) => format!(
+                    "{station}`{label}` comes out {far} from where the study states it, {sigmas:.0} of its ±: is {stated} wrong, or the \
+                     label another's?"
+                ),
+                None => {
+                    let own = reading(SiUnit::METRE, *away_m);
+                    let [x, y, z] = shift_m.map(|shift| told_in(shift, &own));
+                    let turn = if *turn_rad > 0.0 {
+                        format!(", turned by {}", short(*turn_rad, SiUnit::RAD))
+                    } else {
+                        String::new()
+                    };
+                    format!(
+                        "{station}`{label}` is {far} from where the study states it (x {x}, y {y}, z {z}{turn}), by all of its rows, which \
+                         were set aside for that: is {stated} wrong, or the label another's? State it rightly, or leave it out of \
+                         [{table}]."
+                    )
+                }
+            }
         }
         Caution::FilesShareErrors { files, ratio } => format!(
             "Rows of one file share an error: what the {files} files say scatters with {} the variance that their rows explain. The ± \

@@ -5,10 +5,10 @@
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-use crate::figures::{calibrated, cautions, error};
+use crate::figures::{calibrated, cautions, error, number};
 use crate::random::Random;
 use crate::room::{Room, STUDY, TRACKER};
-use crate::support::Folder;
+use crate::support::{Folder, run_in};
 
 const CONTROLS: usize = 8;
 const LONGER: f64 = 1e-4;
@@ -116,5 +116,43 @@ fn a_rough_pose_that_is_far_off_changes_no_error() {
         for ([value, sigma], [other, _]) in without.into_iter().zip(of(&poses)) {
             assert!((value - other).abs() < 1e-2 * sigma, "{more}, {away}: {value} and {other} ± {sigma}");
         }
+    }
+}
+
+/// A point of which the study is sure, 8 cm off, and a station whose heading is: all rows are set aside, and say together what is wrong.
+#[test]
+fn an_exact_place_that_is_wrong_is_told_by_its_rows() {
+    let folder = Folder::new("stated-exact");
+    folder.write("tracker.chain", TRACKER);
+    let random = &mut Random::new(7);
+    let room = Room::new(random);
+    folder.write("rows.csv", room.rows(random, LONGER));
+    let mut points = String::from("[objects]\n");
+    for (number, [x, y, z]) in room.targets.iter().enumerate().take(CONTROLS) {
+        let x = if number == 0 { x + 0.08 } else { *x };
+        writeln!(points, "T{number} = {{ x = \"{x} m\", y = \"{y} m\", z = \"{z} m\" }}").expect("a string");
+    }
+    let mut stations = String::from("[stations]\n");
+    for (number, ([x, y, z], heading)) in room.stations.iter().enumerate() {
+        let heading = if number == 2 { heading + 0.02 } else { *heading };
+        let pose = format!("x = \"{x} m\", y = \"{y} m\", z = \"{z} m\", heading = \"{heading} rad\"");
+        writeln!(stations, "S{number} = {{ {pose} }}").expect("a string");
+    }
+    for (study, what, label, shift, turn) in
+        [(points, "point", "T0", -0.08, 0.0), (stations, "station", "S2", 0.0, 0.02)]
+    {
+        folder.write("study.toml", format!("{STUDY}{study}"));
+        let report = calibrated(&folder, "study.toml");
+        let named = cautions(&report, "not where it is stated");
+        assert_eq!(named.len(), 1, "{}", report["cautions"]);
+        assert_eq!((&named[0]["what"], &named[0]["label"]), (&what.into(), &label.into()));
+        assert!((number(&named[0]["shift_m"][0]) - shift).abs() < 0.005, "{named:?}");
+        assert!((number(&named[0]["turn_rad"]) - turn).abs() < 1e-3, "{named:?}");
+        for kind in ["rows scatter more", "rows set aside share something"] {
+            assert!(cautions(&report, kind).is_empty(), "{}", report["cautions"]);
+        }
+        let told = run_in(&folder.0, &["calibrate", "study.toml"], "").stdout;
+        let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(told.contains("by all of its rows") && told.contains("Do not correct with it yet"), "{told}");
     }
 }

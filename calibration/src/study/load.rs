@@ -9,6 +9,7 @@ use super::columns::Columns;
 use super::labels::{Numbered, number};
 use super::orientation::UNIT_TOLERANCE;
 use super::plan::{Plan, Reading, SourcePlan};
+use super::ranges::check_ranges;
 use super::repeated::{fitted_as_well, without_repeats};
 use super::rows::Rows;
 use super::stated::{of_components, of_pairs, of_readings};
@@ -135,6 +136,7 @@ impl Plan {
             return Err(DataError::TooManyRows { file });
         }
         let readings = self.readings(source, &columns, &mut rows);
+        check_ranges(&self.chain, source, &readings, &rows, &file)?;
         append(&mut all.measured, self.measured(source, &columns, &rows, &readings, &file)?);
         // Of many rows these are most of what is held.
         rows.numbers[columns.observed.clone()].fill_with(Vec::new);

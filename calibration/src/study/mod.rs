@@ -24,6 +24,7 @@ mod order;
 mod orientation;
 mod places;
 mod plan;
+mod ranges;
 mod repeated;
 mod rows;
 mod short;

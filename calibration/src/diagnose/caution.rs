@@ -272,6 +272,9 @@ pub enum Caution {
         /// The usual distance that was measured, m; none for directions.
         measured_m: Option<f64>,
     },
+    /// The data are explained by a mistake in reading them.
+    #[serde(rename = "fits otherwise")]
+    FitsOtherwise(super::otherwise::Otherwise),
     /// What is left is the rounding of the numbers: nothing can be searched in it.
     #[serde(rename = "residual is rounding")]
     ResidualIsRounding {

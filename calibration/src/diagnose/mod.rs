@@ -20,6 +20,7 @@ mod misplaced;
 mod next;
 mod noise;
 mod noisy;
+mod otherwise;
 mod precision;
 pub(crate) mod remaining;
 pub(crate) mod rms;
@@ -69,6 +70,7 @@ pub use instrument::{
 };
 pub(crate) use noise::expected_rms;
 pub use noise::{NoiseFound, SerialFound, SeriesNoise, UncertainReading, VarianceFound};
+pub use otherwise::{Misreading, Otherwise, StatedPlaces};
 pub use precision::{Determined, NotSeparable, Precision, precision};
 pub use remaining::{Looked, Remaining, Where};
 pub use rms::{Beside, Rms};
@@ -257,6 +259,13 @@ pub(crate) fn diagnose(
     let searched = confirmed.as_ref().ok().map(|own| own.round);
     cautions.extend(searched.into_iter().flat_map(|round| scale_not_sought(whole, round)));
     cautions.extend(misplaced.into_iter().map(Caution::from));
+    let has_failed = matches!(ended, Ended::NotConverged { .. } | Ended::FarOff { .. });
+    if let Some(otherwise) =
+        otherwise::doubt(&cautions, has_failed).and_then(|doubt| otherwise::otherwise(whole, doubt))
+    {
+        cautions.retain(|caution| !caution.is_of_misreading());
+        cautions.insert(0, Caution::FitsOtherwise(otherwise));
+    }
     let remaining = found.remaining.as_ref();
     cautions.extend(noisy_readings(whole, last, &found)?);
     let alone = found

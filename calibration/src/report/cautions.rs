@@ -1,5 +1,6 @@
 //! Cautions in words.
 
+use super::misreadings::misread;
 use super::numbers::{reading, short, times, told, told_in};
 use crate::data::SiUnit;
 use crate::diagnose::{Caution, Uneven};
@@ -176,6 +177,7 @@ pub fn caution(caution: &Caution) -> String {
                 told(*measured, SiUnit::METRE)
             ),
         },
+        Caution::FitsOtherwise(otherwise) => misread(otherwise),
         Caution::ResidualIsRounding { rms, unit } => format!(
             "What is left, {}, is the rounding of the numbers: these data have no noise, so that no effect was searched for.",
             told(*rms, *unit)

@@ -12,6 +12,7 @@ mod errors;
 mod hidden;
 mod left;
 mod measure;
+mod misreadings;
 mod next;
 mod noise;
 pub mod numbers;

@@ -222,7 +222,10 @@ pub(super) fn is_misread(diagnosis: &Diagnosis) -> bool {
     let misread = |caution: &Caution| {
         matches!(
             caution,
-            Caution::OutOfPlace { .. } | Caution::DegreesAsRadians { .. } | Caution::NotWhereStated { .. }
+            Caution::OutOfPlace { .. }
+                | Caution::DegreesAsRadians { .. }
+                | Caution::NotWhereStated { .. }
+                | Caution::FitsOtherwise(_)
         )
     };
     diagnosis.cautions.iter().any(misread)

@@ -15,6 +15,7 @@ mod figures;
 mod frames;
 mod instruments;
 mod many;
+mod misread;
 mod near;
 mod noiseless;
 mod objects;

@@ -1,0 +1,103 @@
+//! Studies whose data or places are read as they were not meant: the mistake is named, or the row refused.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::fmt::Write;
+
+use serde_json::Value;
+
+use crate::figures::{calibrated, cautions};
+use crate::random::Random;
+use crate::room::{Point, Room, STUDY, TRACKER};
+use crate::support::{Folder, run_in};
+
+/// A room's rows with other numbers, and the first targets as a study has them.
+fn study(name: &str, change: impl Fn([f64; 3]) -> [f64; 3], place: impl Fn(Point) -> Point) -> Folder {
+    let folder = Folder::new(name);
+    let random = &mut Random::new(11);
+    let room = Room::new(random);
+    let text = room.rows(random, 0.0);
+    let mut rows = String::new();
+    for (at, line) in text.lines().enumerate() {
+        let cells: Vec<&str> = line.split(',').collect();
+        let numbers: Vec<f64> = cells[2..].iter().filter_map(|cell| cell.parse().ok()).collect();
+        if at == 0 {
+            writeln!(rows, "{line}").expect("a string");
+        } else {
+            let [azimuth, elevation, range] = change([numbers[0], numbers[1], numbers[2]]);
+            writeln!(rows, "{},{},{azimuth:.9},{elevation:.9},{range:.7}", cells[0], cells[1])
+                .expect("a string");
+        }
+    }
+    let mut text = format!("{STUDY}[objects]\n");
+    for (number, target) in room.targets.iter().enumerate().take(8) {
+        let [x, y, z] = place(*target);
+        writeln!(text, "T{number} = {{ x = \"{x} m\", y = \"{y} m\", z = \"{z} m\" }}").expect("a string");
+    }
+    folder.write("tracker.chain", TRACKER.replace(", Ty(longer*range)", ""));
+    folder.write("rows.csv", rows).write("study.toml", text);
+    folder
+}
+
+/// What the report says is likely wrong.
+fn named(folder: &Folder) -> Vec<Value> {
+    let report = calibrated(folder, "study.toml");
+    let own = cautions(&report, "fits otherwise");
+    assert_eq!(own.len(), 1, "{}", report["cautions"]);
+    assert!(cautions(&report, "residual out of place").is_empty(), "{}", report["cautions"]);
+    let told = run_in(&folder.0, &["calibrate", "study.toml"], "").stdout;
+    assert!(told.contains("Do not correct with it yet") && told.contains("Likely "), "{told}");
+    own[0]["mistakes"].as_array().expect("a list").clone()
+}
+
+#[test]
+fn coordinates_that_are_exchanged_are_named() {
+    let found = named(&study("misread-xy", |row| row, |[x, y, z]| [y, x, z]));
+    assert_eq!(
+        (&found[0]["what"], &found[0]["of"]),
+        (&"exchanged_x_y".into(), &"objects".into()),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn zenith_distances_and_gon_are_named() {
+    let zenith = study(
+        "misread-zenith",
+        |[azimuth, elevation, range]| [azimuth, FRAC_PI_2 - elevation, range],
+        |place| place,
+    );
+    let found = named(&zenith);
+    assert_eq!(
+        (&found[0]["what"], &found[0]["joint"]),
+        (&"from_zenith".into(), &"elevation".into()),
+        "{found:?}"
+    );
+    let gon = study("misread-gon", |[a, e, range]| [a / 0.9, e / 0.9, range], |place| place);
+    let found = named(&gon);
+    assert_eq!(found[0]["unit"], "in gon and read as degrees", "{found:?}");
+    assert_eq!(found[0]["readings"].as_array().map(Vec::len), Some(2), "{found:?}");
+}
+
+#[test]
+fn feet_are_named_where_places_say_the_scale() {
+    let found = named(&study("misread-feet", |[a, e, range]| [a, e, range / 0.3048], |place| place));
+    // Or the places are too large by as much.
+    assert!(found.iter().any(|one| one["unit"] == "in feet and read as m"), "{found:?}");
+}
+
+#[test]
+fn negative_ranges_are_refused_with_their_line() {
+    for (sign, all) in
+        [(|azimuth: f64| if azimuth > 0.98 * PI { -1.0 } else { 1.0 }, false), (|_: f64| -1.0, true)]
+            as [(fn(f64) -> f64, bool); 2]
+    {
+        let folder = study("misread-negative", |[a, e, range]| [a, e, sign(a) * range], |place| place);
+        let run = run_in(&folder.0, &["calibrate", "study.toml"], "");
+        assert_eq!(run.code, 2, "{run}");
+        assert!(run.stderr.contains("a range is not negative"), "{run}");
+        assert!(
+            !all || run.stderr.contains("line 2, row 1") && run.stderr.contains("(180 of 180 rows are)"),
+            "{run}"
+        );
+    }
+}

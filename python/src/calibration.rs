@@ -8,7 +8,7 @@ use trueaxis_cli::library::{self, Calibrated, Cells, Source, Stage, Studied};
 
 use crate::chain::{Chain, Columns, as_arrays};
 use crate::errors;
-use crate::tables::Table;
+use crate::tables::{Sent, Table, received};
 
 /// A study with the declaration that it is of, every name resolved.
 #[pyclass(frozen, module = "trueaxis._native")]
@@ -55,7 +55,7 @@ pub struct Calibration(pub(crate) Calibrated);
 pub fn calibrate(
     py: Python<'_>,
     study: &Study,
-    tables: Vec<(String, Vec<(String, Py<PyAny>)>)>,
+    tables: Vec<(String, Sent)>,
     command: String,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Calibration> {
@@ -69,12 +69,9 @@ pub fn calibrate(
     };
     let calibrated = errors::run_watched(py, &hear, move |listener| {
         Python::attach(|py| {
-            let bound = |columns: Vec<(String, Py<PyAny>)>| {
-                columns.into_iter().map(|(name, column)| (name, column.into_bound(py))).collect()
-            };
             let tables = tables
                 .into_iter()
-                .map(|(name, columns)| Ok((name, Table::of(bound(columns))?)))
+                .map(|(name, columns)| Ok((name, Table::of(received(py, columns))?)))
                 .collect::<PyResult<Vec<_>>>()?;
             let columns = tables
                 .iter()

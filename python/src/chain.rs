@@ -214,7 +214,6 @@ impl Chain {
     }
 
     /// Which columns of these names have readings of joints and inputs.
-    #[expect(clippy::needless_pass_by_value, reason = "Python hands it over")]
     fn are_readings(&self, columns: Vec<String>) -> Vec<bool> {
         library::are_readings(&self.chain, &columns)
     }

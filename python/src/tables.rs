@@ -16,6 +16,14 @@ enum Held<'py> {
 /// Names of columns and the columns, as Python hands them over.
 pub type Given<'py> = Vec<(String, Bound<'py, PyAny>)>;
 
+/// The same, on their way to another thread.
+pub type Sent = Vec<(String, Py<PyAny>)>;
+
+/// Columns that came from another thread.
+pub fn received(py: Python<'_>, sent: Sent) -> Given<'_> {
+    sent.into_iter().map(|(name, column)| (name, column.into_bound(py))).collect()
+}
+
 /// A table as Python handed it over: `[(name, array of float64, list of str or (labels or none, rows, why it is neither))]`.
 pub struct Table<'py> {
     columns: Vec<(String, Held<'py>)>,

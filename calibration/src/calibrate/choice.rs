@@ -6,7 +6,7 @@
 use std::cell::OnceCell;
 
 use super::confirm::{Judged, judged};
-use super::functions::{MOST, Settled, settled};
+use super::functions::{MOST, Settled, Winner, settled};
 use super::heard::{Places, are_any, heard};
 use super::whole_objects::are_cut_across;
 use crate::diagnose::Rms;
@@ -26,6 +26,10 @@ const NO_WORSE: f64 = 1.01;
 
 /// What a function may leave at most of the rows that it was fitted to for the time that the trial takes.
 const WORTH_TRYING: f64 = 0.98;
+
+/// Effects that one function takes the place of are its parts: harmonics follow any step, so many at a time. Then it has to predict
+/// no worse than they do.
+const SEVERAL: usize = 3;
 
 /// Effects beyond which the catalogue has named nothing: it follows the data with whatever it has, and a function more is one of
 /// many.
@@ -63,7 +67,8 @@ pub(super) fn chosen<'a>(
         return judge(with_functions(round, MOST)?, before);
     }
     let told = settled(whole, &[], round)?;
-    let may_gain = || told.winner_leaves.is_some_and(|share| share < WORTH_TRYING) || are_any(&told);
+    let is_worth_it = |winner: Winner| winner.leaves < WORTH_TRYING || winner.stands_for >= SEVERAL;
+    let may_gain = || told.winner.is_some_and(is_worth_it) || are_any(&told);
     // Objects that are left out saw the same drift as the others: of stretches they confirm nothing.
     let confirms_nothing = are_cut_across(whole.request.observations);
     if functions == Some(false) || confirms_nothing || told.round.fitted.found.len() > NAMED || !may_gain() {
@@ -83,7 +88,7 @@ fn judge<'a>(settled: Settled<'a>, before: &FitResult) -> Result<Chosen<'a>, Sea
 }
 
 /// Whether the model with functions predicts better: in random folds by a margin, and no worse in regions that its search did
-/// not see. A second file of the study judges and does not choose; regions alone choose then, by the margin.
+/// not see; or no worse at all where it says with one function what took several effects. A second file of the study judges and does not choose; regions alone choose then, by the margin.
 ///
 /// Which rows are kept is for each model to say: one that explains rows which the other sets aside keeps more, and gains over
 /// every row.
@@ -96,7 +101,9 @@ fn is_confirmed(whole: &Context<'_>, told: &Judged<'_>, taken_up: &Judged<'_>) -
     };
     let gains = |ratio: Option<f64>| ratio.is_some_and(|ratio| ratio < GAINS);
     let no_worse = |ratio: Option<f64>| ratio.is_none_or(|ratio| ratio <= NO_WORSE);
+    let effects = |judged: &Judged<'_>| judged.round.fitted.found.len();
+    let is_simpler = effects(taken_up) + SEVERAL <= effects(told) + 1;
     taken_up.left_out.is_empty()
-        && (gains(kept) || gains(every))
+        && (is_simpler || gains(kept) || gains(every))
         && [kept, every, elsewhere].into_iter().all(no_worse)
 }

@@ -24,14 +24,23 @@ pub(super) struct Settled<'a> {
     pub round: Round<'a>,
     /// Functions that explain the data about as well as accepted effects.
     pub as_good: Vec<AsGood>,
-    /// What the function that won, and was not taken up, leaves of these data over what was accepted, root mean square.
-    pub winner_leaves: Option<f64>,
+    /// The function that won, and was not taken up.
+    pub winner: Option<Winner>,
+}
+
+/// A function that won, and was not taken up.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Winner {
+    /// What it leaves of these data over what was accepted, root mean square.
+    pub leaves: f64,
+    /// Of how many accepted effects it takes the place.
+    pub stands_for: usize,
 }
 
 impl<'a> Settled<'a> {
     /// Where the library was not asked.
     pub fn unasked(whole: Context<'a>, round: Round<'a>) -> Self {
-        Self { whole, round, as_good: Vec::new(), winner_leaves: None }
+        Self { whole, round, as_good: Vec::new(), winner: None }
     }
 }
 
@@ -57,7 +66,8 @@ pub(super) fn settled<'a>(
         settled.as_good = contest.as_good;
         let Some(taken) = contest.taken else { break };
         let Some(place) = place else {
-            settled.winner_leaves = Some(taken.leaves);
+            let stands_for = settled.round.fitted.found.len() - taken.kept.len();
+            settled.winner = Some(Winner { leaves: taken.leaves, stands_for });
             break;
         };
         let Some((plan, name)) = with_function(settled.whole.request.plan, &taken) else { break };

@@ -52,7 +52,10 @@ pub struct Answers {
 pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>) -> Answers {
     let mut effects: Vec<_> = diagnosis.effects.iter().collect();
     effects.sort_by(|a, b| b.standing.total_cmp(&a.standing));
-    let causes = each_once(effects.iter().flat_map(|effect| &effect.causes));
+    let mut causes = each_once(effects.iter().flat_map(|effect| &effect.causes));
+    if let Some((one, of)) = one_for_several(diagnosis) {
+        causes.insert(0, format!("{one}, alone in place of {of} of them"));
+    }
     let usable = diagnosis.verdict.is_usable();
     let what = match (usable, &diagnosis.remaining) {
         (false, _) => Vec::new(),
@@ -141,6 +144,24 @@ fn badge(diagnosis: &Diagnosis) -> String {
     }
 }
 
+/// What explains the data about as well as several effects that were accepted, and of how many it would take the place; the
+/// simplest where there are several such.
+fn one_for_several(diagnosis: &Diagnosis) -> Option<(&str, usize)> {
+    let names = diagnosis.effects.iter().flat_map(|effect| effect.competing_with.iter().flatten());
+    let mut best: Option<(&str, usize)> = None;
+    for name in names {
+        let of = diagnosis
+            .effects
+            .iter()
+            .filter(|effect| effect.competing_with.iter().flatten().any(|other| other == name));
+        let of = of.count();
+        if of > best.map_or(1, |(_, most)| most) {
+            best = Some((name, of));
+        }
+    }
+    best
+}
+
 /// The verdict in a sentence.
 fn happened(diagnosis: &Diagnosis) -> String {
     let count = diagnosis.effects.len();
@@ -162,6 +183,13 @@ fn happened(diagnosis: &Diagnosis) -> String {
                 }
                 (fit, _) => format!("Cause found; these data fit {fit} physical causes equally well."),
             }
+        }
+        Verdict::Confounded | Verdict::UnnamedFunction
+            if count > 1 && one_for_several(diagnosis).is_some() =>
+        {
+            let (one, of) = one_for_several(diagnosis).unwrap_or_default();
+            let of = if of == count { "of all".to_owned() } else { format!("of {of}") };
+            format!("{count} effects found; in place {of} of them these data fit one as well: {one}.")
         }
         Verdict::Confounded => {
             let is_open =

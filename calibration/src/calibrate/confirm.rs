@@ -41,7 +41,9 @@ pub(super) fn judged<'a>(
     }
     let held_out = nested(&round.search.problem, &round.sets, &whole.options);
     let rms = figures(whole, before, &round, &held_out)?;
-    let Some(refused) = refused(whole, &round, &rms) else {
+    let Some(refused) =
+        refused(whole, &round, &rms).filter(|_| !is_confirmed_by_places(whole, &round, &held_out))
+    else {
         return Ok(Judged { round, held_out, rms, left_out });
     };
     left_out.push(refused);
@@ -93,6 +95,15 @@ fn without_few<'a>(
         }));
         round = Round::at(whole, Fitted::with(whole, enough, &round.fitted)?)?;
     }
+}
+
+/// Whether the places that are stated of objects confirm what was found. An object that is left out is estimated anew, and follows whatever
+/// its rows say as far as its uncertainty lets it: how far is in none of its residuals, but in their whitened sum.
+fn is_confirmed_by_places(whole: &Context<'_>, round: &Round<'_>, held_out: &HeldOut) -> bool {
+    let unknowns = whole.request.observations.unknowns.as_ref();
+    let is_stated = unknowns.is_some_and(|own| own.objects.iter().any(|object| object.is_within()));
+    let (before, after) = held_out.sums_of_squares(&round.search.problem);
+    is_stated && after < before
 }
 
 /// What is told of effects that the held-out rows speak against.

@@ -54,7 +54,8 @@ pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>) -> Answers {
     effects.sort_by(|a, b| b.standing.total_cmp(&a.standing));
     let mut causes = each_once(effects.iter().flat_map(|effect| &effect.causes));
     if let Some((one, of)) = one_for_several(diagnosis) {
-        causes.insert(0, format!("{one}, alone in place of {of} of them"));
+        let of = if of == effects.len() { "all".to_owned() } else { of.to_string() };
+        causes.insert(0, format!("{one}, in place of {of} of them"));
     }
     let usable = diagnosis.verdict.is_usable();
     let what = match (usable, &diagnosis.remaining) {
@@ -165,6 +166,12 @@ fn one_for_several(diagnosis: &Diagnosis) -> Option<(&str, usize)> {
 /// The verdict in a sentence.
 fn happened(diagnosis: &Diagnosis) -> String {
     let count = diagnosis.effects.len();
+    if let Verdict::Confounded | Verdict::UnnamedFunction = diagnosis.verdict
+        && let Some((one, of)) = one_for_several(diagnosis)
+    {
+        let of = if of == count { "all".to_owned() } else { of.to_string() };
+        return format!("{count} effects found; in place of {of} of them these data fit one as well: {one}.");
+    }
     match diagnosis.verdict {
         Verdict::Explained if count == 1 => {
             "Cause found; it alone explains what the declaration left over.".to_owned()
@@ -183,13 +190,6 @@ fn happened(diagnosis: &Diagnosis) -> String {
                 }
                 (fit, _) => format!("Cause found; these data fit {fit} physical causes equally well."),
             }
-        }
-        Verdict::Confounded | Verdict::UnnamedFunction
-            if count > 1 && one_for_several(diagnosis).is_some() =>
-        {
-            let (one, of) = one_for_several(diagnosis).unwrap_or_default();
-            let of = if of == count { "of all".to_owned() } else { format!("of {of}") };
-            format!("{count} effects found; in place {of} of them these data fit one as well: {one}.")
         }
         Verdict::Confounded => {
             let is_open =

@@ -32,6 +32,7 @@ mod sockets;
 mod stated;
 mod survey;
 mod together;
+mod unexpected;
 mod unheld;
 mod unusable;
 

@@ -38,6 +38,11 @@ impl Room {
 
     /// Every target in two faces from every station; ranges are read short by a share.
     pub fn rows(&self, random: &mut Random, longer: f64) -> String {
+        self.rows_read(random, |[azimuth, elevation, range]| [azimuth, elevation, range / (1.0 + longer)])
+    }
+
+    /// The same as something reads them: azimuth and elevation, rad, and range, m.
+    pub fn rows_read(&self, random: &mut Random, read: impl Fn([f64; 3]) -> [f64; 3]) -> String {
         let mut rows = String::from("station,object,azimuth [rad],elevation [rad],range [m]\n");
         for (number, (from, heading)) in self.stations.iter().enumerate() {
             for (target, place) in self.targets.iter().enumerate() {
@@ -46,8 +51,9 @@ impl Room {
                 let (azimuth, elevation) = (away[0].atan2(away[1]) + heading, away[2].atan2(level));
                 for (azimuth, elevation) in [(azimuth, elevation), (azimuth + PI, PI - elevation)] {
                     let [across, up, along] = [(); 3].map(|()| random.normal());
+                    let [azimuth, elevation, range] = read([azimuth, elevation, level.hypot(away[2])]);
                     let (azimuth, elevation) = (azimuth + 1e-5 * across, elevation + 1e-5 * up);
-                    let range = level.hypot(away[2]) / (1.0 + longer) + 20e-6 * along;
+                    let range = range + 20e-6 * along;
                     writeln!(rows, "S{number},T{target},{azimuth:.9},{elevation:.9},{range:.7}")
                         .expect("a string");
                 }

@@ -5,7 +5,7 @@
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-use crate::figures::{calibrated, cautions, error, number};
+use crate::figures::{calibrated, cautions, error, first_effect, holds, number};
 use crate::random::Random;
 use crate::room::{Room, STUDY, TRACKER};
 use crate::support::{Folder, run_in};
@@ -48,13 +48,59 @@ fn a_scale_is_no_surer_than_the_control_points_that_hold_it() {
     assert!((0.6..28.0).contains(&squares), "{squares}");
 }
 
-/// The search takes stated points for unknown, so that whoever declares no scale has to be told of it, and who does has not.
+/// Points that are stated to a millimetre show a scale that nobody declared, and what it would have taken with it.
+#[test]
+fn stated_points_show_a_scale_that_nobody_declared() {
+    let folder = Folder::new("stated-scale");
+    folder.write("tracker.chain", TRACKER.replace("longer*range", "range_zero"));
+    for (seed, longer) in [(31, 1e-3), (32, -5e-4), (33, 0.0)] {
+        let random = &mut Random::new(seed);
+        let room = Room::new(random);
+        let study = format!("{STUDY}{}", controls(&room, random, 0.0));
+        folder.write("rows.csv", room.rows(random, longer)).write("study.toml", study);
+        let report = calibrated(&folder, "study.toml");
+        if longer == 0.0 {
+            assert_eq!(report["effects"], serde_json::json!([]));
+        } else {
+            assert!(first_effect(&report).contains("range scale"), "{}", report["effects"]);
+            holds(&report, &[("range_scale", longer)]);
+        }
+        holds(&report, &[("range_zero", 0.0)]);
+        assert!(cautions(&report, "no scale was looked for").is_empty());
+    }
+}
+
+/// A point that is elsewhere altogether hides no scale, and is none.
+#[test]
+fn a_blunder_among_stated_points_hides_no_scale() {
+    let folder = Folder::new("stated-scale-blunder");
+    folder.write("tracker.chain", TRACKER.replace(", Ty(longer*range)", ""));
+    for longer in [0.0, 1e-3] {
+        let random = &mut Random::new(34);
+        let room = Room::new(random);
+        let study = format!("{STUDY}{}", controls(&room, random, 0.08));
+        folder.write("rows.csv", room.rows(random, longer)).write("study.toml", study);
+        let report = calibrated(&folder, "study.toml");
+        let found = report["effects"].as_array().expect("a list");
+        assert_eq!(found.len(), usize::from(longer != 0.0), "{}", report["effects"]);
+        assert!(longer == 0.0 || first_effect(&report).contains("range scale"), "{}", report["effects"]);
+        let named = cautions(&report, "not where it is stated");
+        assert!(named.len() == 1 && named[0]["label"] == "T0", "{}", report["cautions"]);
+    }
+}
+
+/// The search takes stated stations for unknown, so that whoever declares no scale has to be told of it, and who does has not.
 #[test]
 fn a_scale_that_is_not_looked_for_is_told() {
     let folder = Folder::new("stated-no-scale");
     let random = &mut Random::new(3);
     let room = Room::new(random);
-    let study = format!("{STUDY}{}", controls(&room, random, 0.0));
+    let mut study = format!("{STUDY}[stations]\n");
+    for (number, (place, heading)) in room.stations.iter().enumerate() {
+        let [x, y, z] = place.map(|value| value + STATED_M * random.normal());
+        let place = format!("x = \"{x} m\", y = \"{y} m\", z = \"{z} m\", heading = \"{heading} rad\"");
+        writeln!(study, "S{number} = {{ {place}, sigma = \"1 mm\" }}").expect("a string");
+    }
     folder.write("rows.csv", room.rows(random, LONGER)).write("study.toml", study);
     for (chain, is_told) in [(TRACKER.to_owned(), false), (TRACKER.replace(", Ty(longer*range)", ""), true)] {
         folder.write("tracker.chain", chain);

@@ -94,7 +94,7 @@ impl Freedom {
 }
 
 /// An object that moved this many times further than is stated, and than half of the others did, is not where it is stated.
-const ELSEWHERE: f64 = 6.0;
+const ELSEWHERE: f64 = 4.0;
 
 /// How the place came about that the numbers of an object or station count from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -152,6 +152,11 @@ impl Object {
     #[must_use]
     pub fn numbers(&self) -> usize {
         if self.freedom == Freedom::Given { 0 } else { self.shape.numbers() }
+    }
+
+    /// Whether its place is stated to within an uncertainty.
+    pub(crate) fn is_within(&self) -> bool {
+        matches!(self.freedom, Freedom::Within { .. })
     }
 
     /// Moves it by its numbers.
@@ -385,7 +390,7 @@ impl Unknowns {
         let first = self.first_of_objects();
         for ((residual, &row), unknown) in residual.iter_mut().zip(row).zip(unknown) {
             let Some(object) = self.object[row as usize].map(|object| object as usize) else { continue };
-            if let Freedom::Within { .. } = self.objects[object].freedom {
+            if self.objects[object].is_within() {
                 let own = &numbers[first[object]..][..self.objects[object].numbers()];
                 *residual += unknown.iter().zip(own).map(|(by, value)| by * value).sum::<f64>();
             }

@@ -17,6 +17,7 @@ mod function;
 mod harmonics;
 mod instrument;
 mod misplaced;
+mod misread;
 mod next;
 mod noise;
 mod noisy;
@@ -50,6 +51,7 @@ use crate::search::round::Round;
 use crate::search::{SearchError, Stage};
 use by_cause::ByCause;
 use effects::Others;
+use misread::misread;
 use next::{Next, next};
 use noisy::Noisy;
 use rms::BeforeAfter;
@@ -260,12 +262,7 @@ pub(crate) fn diagnose(
     cautions.extend(searched.into_iter().flat_map(|round| scale_not_sought(whole, round)));
     cautions.extend(misplaced.into_iter().map(Caution::from));
     let has_failed = matches!(ended, Ended::NotConverged { .. } | Ended::FarOff { .. });
-    if let Some(otherwise) =
-        otherwise::doubt(&cautions, has_failed).and_then(|doubt| otherwise::otherwise(whole, doubt))
-    {
-        cautions.retain(|caution| !caution.is_of_misreading());
-        cautions.insert(0, Caution::FitsOtherwise(otherwise));
-    }
+    let mut cautions = misread(whole, cautions, has_failed);
     let remaining = found.remaining.as_ref();
     cautions.extend(noisy_readings(whole, last, &found)?);
     let alone = found

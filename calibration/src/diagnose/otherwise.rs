@@ -6,11 +6,10 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use model_core::{Quantity, SymbolId, SymbolKind};
 use serde::Serialize;
 
-use super::caution::Caution;
 use crate::data::unknowns::{Freedom, Pose, Unknowns};
 use crate::data::{Observations, SiUnit};
 use crate::fit::noise::{Layout, NoiseOptions};
-use crate::fit::{FitOptions, fit, range_of, robust};
+use crate::fit::{FitOptions, Model, fit, range_of, residuals, robust};
 use crate::objects::{place, rows};
 use crate::search::context::Context;
 
@@ -28,6 +27,13 @@ const AS_GOOD: f64 = 2.0;
 /// A large error is explained where all angles are small without it, rad, and the residual is hardly larger.
 const SMALL_RAD: f64 = 0.1;
 const HARDLY_LARGER: f64 = 1.5;
+
+/// A mistake is worth a fit where rows start from so much smaller a residual without it, and so many are fitted.
+const NEARER: f64 = 0.5;
+const FITTED: usize = 6;
+
+/// Steps of such a fit.
+const STEPS: usize = 20;
 
 /// So many are named at most.
 const MOST: usize = 3;
@@ -121,9 +127,12 @@ pub enum Misreading {
     },
 }
 
+/// Joints and inputs with their readings.
+type Readings = Vec<(SymbolId, Vec<f64>)>;
+
 /// How to undo it.
 enum Undo {
-    Readings(Box<dyn Fn(&mut Vec<(SymbolId, Vec<f64>)>)>),
+    Readings(Box<dyn Fn(&mut Readings)>),
     Places(Box<dyn Fn(&mut Unknowns)>),
 }
 
@@ -136,32 +145,6 @@ pub(super) enum Doubt {
     Error,
 }
 
-impl Caution {
-    /// Whether a mistake in reading the data would bring it about.
-    pub(super) fn is_of_misreading(&self) -> bool {
-        matches!(
-            self,
-            Self::OutOfPlace { .. }
-                | Self::ErrorNotSmall { .. }
-                | Self::NotWhereStated { .. }
-                | Self::Scatters { .. }
-                | Self::SetAsideShare { .. }
-                | Self::OffAlike { .. }
-        )
-    }
-}
-
-/// What raises a doubt among cautions, and whether the fit failed.
-pub(super) fn doubt(cautions: &[Caution], has_failed: bool) -> Option<Doubt> {
-    let of_rows = |caution: &&Caution| matches!(caution, Caution::NotWhereStated { sigmas: None, .. });
-    let is_far = cautions.iter().any(|caution| matches!(caution, Caution::OutOfPlace { .. }));
-    if has_failed || is_far || cautions.iter().filter(of_rows).count() > 1 {
-        return Some(Doubt::Residual);
-    }
-    let is_large = cautions.iter().any(|caution| matches!(caution, Caution::ErrorNotSmall { .. }));
-    is_large.then_some(Doubt::Error)
-}
-
 /// The mistakes that explain it, where rows observe objects; `None` if none does.
 pub(super) fn otherwise(whole: &Context<'_>, doubt: Doubt) -> Option<Otherwise> {
     let observations = whole.request.observations;
@@ -169,18 +152,37 @@ pub(super) fn otherwise(whole: &Context<'_>, doubt: Doubt) -> Option<Otherwise> 
     let step = observations.rows().div_ceil(ROWS).max(1);
     let chosen: Vec<usize> = (0..observations.rows()).step_by(step).collect();
     let sample = observations.select(&chosen);
-    let before = tried(whole, &sample, None)?;
+    let placed = placed(whole, &sample, None)?;
+    let (from, before) = (placed.relative, left_by(whole, &placed.observations)?);
     let explains = |left: &Left| match doubt {
         Doubt::Residual => left.relative() <= LEFT * before.relative(),
         Doubt::Error => left.largest_rad < SMALL_RAD && left.rms <= HARDLY_LARGER * before.rms,
     };
+    // Where everything starts tells most of them apart, in no time; few are fitted.
+    let starts = mistakes(whole, &sample)
+        .into_iter()
+        .filter_map(|(mistake, undo)| Some((mistake, self::placed(whole, &sample, Some(&undo))?)));
+    let nearer = |placed: &Placed| doubt == Doubt::Error || placed.relative < NEARER * from;
+    let mut starts: Vec<(Misreading, Placed)> = starts.filter(|(_, placed)| nearer(placed)).collect();
+    starts.sort_by(|a, b| a.1.relative.total_cmp(&b.1.relative));
+    starts.truncate(FITTED);
     let mut found: Vec<(Misreading, Left)> = Vec::new();
-    for (mistake, undo) in mistakes(whole, &sample) {
-        // Counted from elsewhere, a joint that runs the other way is no more than that.
-        let is_told = found.iter().any(|(other, _)| matches!((&mistake, other), (Misreading::FromZenith { joint }, Misreading::Reversed { joint: own }) if joint == own));
-        let left = if is_told { None } else { tried(whole, &sample, Some(&undo)) };
+    for (mistake, placed) in starts {
+        let left = left_by(whole, &placed.observations);
         found.extend(left.filter(explains).map(|left| (mistake, left)));
     }
+    // Counted from elsewhere, a joint that runs the other way is no more than that.
+    let reversed = |one: &Misreading| match one {
+        Misreading::FromZenith { joint } => Some(joint.clone()),
+        _ => None,
+    };
+    let is_reversed = |joint: &String| {
+        found.iter().any(|(other, _)| matches!(other, Misreading::Reversed { joint: own } if own == joint))
+    };
+    let twice: Vec<bool> =
+        found.iter().map(|(one, _)| reversed(one).as_ref().is_some_and(is_reversed)).collect();
+    let mut twice = twice.into_iter();
+    found.retain(|_| twice.next() == Some(false));
     let best = found.iter().map(|(_, left)| left.relative()).fold(f64::INFINITY, f64::min);
     found.retain(|(_, left)| left.relative() <= AS_GOOD * best);
     found.truncate(MOST);
@@ -282,7 +284,7 @@ fn of_readings(whole: &Context<'_>, sample: &Observations) -> Vec<(Misreading, U
     let scaled = |value: f64, factor: f64| value * factor;
     let mut all = Vec::new();
     if let [one, other] = joints[..] {
-        let exchange = move |columns: &mut Vec<(SymbolId, Vec<f64>)>| {
+        let exchange = move |columns: &mut Readings| {
             let at = |wanted| columns.iter().position(|(id, _)| *id == wanted);
             if let (Some(a), Some(b)) = (at(one), at(other)) {
                 let own = std::mem::take(&mut columns[a].1);
@@ -336,8 +338,15 @@ impl Left {
     }
 }
 
-/// What is left where a mistake is undone; `None` where there is nowhere to start from.
-fn tried(whole: &Context<'_>, sample: &Observations, undo: Option<&Undo>) -> Option<Left> {
+/// Rows with a mistake undone, objects and stations where they start.
+struct Placed {
+    observations: Observations,
+    /// What is left at the start, in units of how far away things are.
+    relative: f64,
+}
+
+/// `None` where there is nowhere to start from.
+fn placed(whole: &Context<'_>, sample: &Observations, undo: Option<&Undo>) -> Option<Placed> {
     let plan = whole.request.plan;
     let mut observations = sample.clone();
     let unknowns = observations.unknowns.as_mut()?;
@@ -357,21 +366,45 @@ fn tried(whole: &Context<'_>, sample: &Observations, undo: Option<&Undo>) -> Opt
     if observations.rows() < sample.rows() {
         return None;
     }
+    let numbers = observations.unknowns.as_ref()?.numbers();
+    let mut values = plan.fit.start.clone();
+    values.resize(plan.chain.symbols.len() + numbers, 0.0);
+    let model = Model::without_columns(&plan.chain, &observations.poses);
+    let raw = residuals(&model, &observations, &values).ok()?;
+    let relative = trimmed_rms(&observations, &raw)? / away_m(whole, &observations, &values)?;
+    Some(Placed { observations, relative })
+}
+
+/// What a fit of them leaves.
+fn left_by(whole: &Context<'_>, observations: &Observations) -> Option<Left> {
+    let plan = whole.request.plan;
     let noise = NoiseOptions { variance: false, serial: false, ..plan.fit.noise.by_residuals() };
-    let fit = fit(&plan.chain, &observations, &FitOptions { noise, ..plan.fit.clone() }).ok()?;
-    let layout = Layout::of(&observations);
-    let unknowns = observations.unknowns.as_ref()?;
-    let points = rows(&plan.chain, &observations, unknowns, &fit.values);
-    let away_m = robust::median(points.iter().map(|row| row.point.norm()).collect());
-    let mut squares: Vec<f64> = layout.norms(&fit.residuals.raw).map(|norm| norm * norm).collect();
-    squares.retain(|square| square.is_finite());
-    if (squares.len() as f64) < (1.0 - FURTHEST) * sample.rows() as f64 {
-        return None;
-    }
-    squares.sort_by(f64::total_cmp);
-    squares.truncate(squares.len() - (squares.len() as f64 * FURTHEST) as usize);
+    let options =
+        FitOptions { noise, max_iterations: plan.fit.max_iterations.min(STEPS), ..plan.fit.clone() };
+    let fit = fit(&plan.chain, observations, &options).ok()?;
     let is_angle = |id: &&SymbolId| plan.chain.symbol(**id).quantity == Quantity::Angle;
     let angles = fit.parameters.iter().filter(is_angle).map(|id| fit.values[id.index()].abs());
-    let rms = (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt();
-    Some(Left { rms, away_m, largest_rad: angles.fold(0.0, f64::max) })
+    Some(Left {
+        rms: trimmed_rms(observations, &fit.residuals.raw)?,
+        away_m: away_m(whole, observations, &fit.values)?,
+        largest_rad: angles.fold(0.0, f64::max),
+    })
+}
+
+/// How far away what is observed usually is, m.
+fn away_m(whole: &Context<'_>, observations: &Observations, values: &[f64]) -> Option<f64> {
+    let points = rows(&whole.request.plan.chain, observations, observations.unknowns.as_ref()?, values);
+    Some(robust::median(points.iter().map(|row| row.point.norm()).collect()))
+}
+
+/// RMS of the residual without the rows furthest off, SI; `None` where more have none.
+fn trimmed_rms(observations: &Observations, raw: &[f64]) -> Option<f64> {
+    let layout = Layout::of(observations);
+    let mut squares: Vec<f64> = layout.norms(raw).map(|norm| norm * norm).collect();
+    let all = squares.len();
+    squares.retain(|square| square.is_finite());
+    squares.sort_by(f64::total_cmp);
+    let kept = all - (all as f64 * FURTHEST) as usize;
+    squares.truncate(kept);
+    (squares.len() == kept && kept > 0).then(|| (squares.iter().sum::<f64>() / kept as f64).sqrt())
 }

@@ -4,7 +4,7 @@ use super::causes::{each_once, sentence_case};
 use super::effects::{chance_of_all, headline, place};
 use super::left::{function_form, remaining};
 use super::numbers::{short, times};
-use super::steps::{Step, is_misread, is_unconfirmed, is_worse, steps};
+use super::steps::{Step, fits_otherwise, is_misread, is_unconfirmed, is_worse, steps};
 use crate::data::SiUnit;
 use crate::diagnose::{Caution, Diagnosis, EffectFound, Ended, EveryRow, Rms, Verdict};
 
@@ -130,6 +130,7 @@ fn tone(diagnosis: &Diagnosis) -> Tone {
 fn badge(diagnosis: &Diagnosis) -> String {
     let count = diagnosis.effects.len();
     match diagnosis.verdict {
+        _ if fits_otherwise(diagnosis) => "Likely read wrongly".to_owned(),
         _ if is_worse(diagnosis) => "Worse on data that nobody fitted".to_owned(),
         Verdict::Explained if count > 1 => format!("{count} causes found"),
         Verdict::Confounded if count > 1 => format!("{count} effects found"),
@@ -166,6 +167,11 @@ fn one_for_several(diagnosis: &Diagnosis) -> Option<(&str, usize)> {
 /// The verdict in a sentence.
 fn happened(diagnosis: &Diagnosis) -> String {
     let count = diagnosis.effects.len();
+    if fits_otherwise(diagnosis) {
+        let told = "The data, or the places that the study states, are likely read in a way that they were not meant in: no number here \
+                    means anything.";
+        return told.to_owned();
+    }
     if let Verdict::Confounded | Verdict::UnnamedFunction = diagnosis.verdict
         && let Some((one, of)) = one_for_several(diagnosis)
     {

@@ -23,7 +23,7 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
     let step = |title: &str, text: String| Step { title: title.to_owned(), text, command: None };
     let mut steps = Vec::new();
     match diagnosis.verdict {
-        Verdict::FitFailed => {
+        Verdict::FitFailed if !fits_otherwise(diagnosis) => {
             steps.push(step(
                 "Check units, signs and axes",
                 "A fit that reaches no minimum has mostly been given a column in another unit, a sign or an axis the other \
@@ -229,6 +229,11 @@ pub(super) fn is_misread(diagnosis: &Diagnosis) -> bool {
         )
     };
     diagnosis.cautions.iter().any(misread)
+}
+
+/// Whether a mistake in reading explains the data.
+pub(super) fn fits_otherwise(diagnosis: &Diagnosis) -> bool {
+    diagnosis.cautions.iter().any(|caution| matches!(caution, Caution::FitsOtherwise(_)))
 }
 
 /// Whether all that was found may be chance, and most searches without a part of the rows find none of it.

@@ -45,7 +45,12 @@ fn named(folder: &Folder) -> Vec<Value> {
     assert_eq!(own.len(), 1, "{}", report["cautions"]);
     assert!(cautions(&report, "residual out of place").is_empty(), "{}", report["cautions"]);
     let told = run_in(&folder.0, &["calibrate", "study.toml"], "").stdout;
-    assert!(told.contains("Do not correct with it yet") && told.contains("Likely "), "{told}");
+    assert!(
+        told.starts_with("LIKELY READ WRONGLY")
+            && told.contains("Do not correct with it yet")
+            && told.contains("Likely "),
+        "{told}"
+    );
     own[0]["mistakes"].as_array().expect("a list").clone()
 }
 

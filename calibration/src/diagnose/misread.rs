@@ -1,0 +1,39 @@
+//! Cautions that a mistake in reading the data would bring about all at once: where there is one, it is told in their stead.
+
+use super::caution::Caution;
+use super::otherwise::{Doubt, otherwise};
+use crate::search::context::Context;
+
+/// The cautions, with the mistake that explains them first where there is one; `has_failed` says that the fit did.
+pub(super) fn misread(whole: &Context<'_>, mut cautions: Vec<Caution>, has_failed: bool) -> Vec<Caution> {
+    if let Some(mistake) = doubt(&cautions, has_failed).and_then(|doubt| otherwise(whole, doubt)) {
+        cautions.retain(|caution| !follows(caution));
+        cautions.insert(0, Caution::FitsOtherwise(mistake));
+    }
+    cautions
+}
+
+/// What raises a doubt among cautions.
+fn doubt(cautions: &[Caution], has_failed: bool) -> Option<Doubt> {
+    let count = |is: fn(&&Caution) -> bool| cautions.iter().filter(is).count();
+    let is_far = count(|caution| matches!(caution, Caution::OutOfPlace { .. })) > 0;
+    let are_aside = count(|caution| matches!(caution, Caution::NotWhereStated { sigmas: None, .. })) > 1;
+    if has_failed || is_far || are_aside {
+        return Some(Doubt::Residual);
+    }
+    let is_large = count(|caution| matches!(caution, Caution::ErrorNotSmall { .. })) > 0;
+    is_large.then_some(Doubt::Error)
+}
+
+/// Whether a mistake in reading the data would bring a caution about.
+fn follows(caution: &Caution) -> bool {
+    matches!(
+        caution,
+        Caution::OutOfPlace { .. }
+            | Caution::ErrorNotSmall { .. }
+            | Caution::NotWhereStated { .. }
+            | Caution::Scatters { .. }
+            | Caution::SetAsideShare { .. }
+            | Caution::OffAlike { .. }
+    )
+}

@@ -58,7 +58,7 @@ const LENGTHS: [(f64, &str); 4] = [
 /// What explains the residual, and what is left of it then.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Otherwise {
-    /// What is likely wrong: what explains the data about as well, the best first.
+    /// What is likely wrong: what explains the data about as well, the likeliest first.
     pub mistakes: Vec<Misreading>,
     /// RMS of the residual as the data were read, without the rows furthest off, SI.
     pub before: f64,
@@ -163,11 +163,14 @@ pub(super) fn otherwise(whole: &Context<'_>, doubt: Doubt) -> Option<Otherwise> 
         .into_iter()
         .filter_map(|(mistake, undo)| Some((mistake, self::placed(whole, &sample, Some(&undo))?)));
     let nearer = |placed: &Placed| doubt == Doubt::Error || placed.relative < NEARER * from;
-    let mut starts: Vec<(Misreading, Placed)> = starts.filter(|(_, placed)| nearer(placed)).collect();
-    starts.sort_by(|a, b| a.1.relative.total_cmp(&b.1.relative));
+    let starts = starts.filter(|(_, placed)| nearer(placed)).enumerate();
+    let mut starts: Vec<(usize, (Misreading, Placed))> = starts.collect();
+    starts.sort_by(|a, b| a.1.1.relative.total_cmp(&b.1.1.relative));
     starts.truncate(FITTED);
+    // Of those that start as near, rounding alone says which is nearest.
+    starts.sort_by_key(|(likelier, _)| *likelier);
     let mut found: Vec<(Misreading, Left)> = Vec::new();
-    for (mistake, placed) in starts {
+    for (_, (mistake, placed)) in starts {
         let left = left_by(whole, &placed.observations);
         found.extend(left.filter(explains).map(|left| (mistake, left)));
     }

@@ -58,7 +58,7 @@ const LENGTHS: [(f64, &str); 4] = [
 /// What explains the residual, and what is left of it then.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Otherwise {
-    /// What is likely wrong: what explains the data about as well, the likeliest first.
+    /// What is likely wrong: what explains the data about as well, the mistake first that is made most.
     pub mistakes: Vec<Misreading>,
     /// RMS of the residual as the data were read, without the rows furthest off, SI.
     pub before: f64,
@@ -159,18 +159,17 @@ pub(super) fn otherwise(whole: &Context<'_>, doubt: Doubt) -> Option<Otherwise> 
         Doubt::Error => left.largest_rad < SMALL_RAD && left.rms <= HARDLY_LARGER * before.rms,
     };
     // Where everything starts tells most of them apart, in no time; few are fitted.
-    let starts = mistakes(whole, &sample)
-        .into_iter()
-        .filter_map(|(mistake, undo)| Some((mistake, self::placed(whole, &sample, Some(&undo))?)));
+    let starts = mistakes(whole, &sample).into_iter().enumerate().filter_map(|(number, (mistake, undo))| {
+        Some((number, mistake, self::placed(whole, &sample, Some(&undo))?))
+    });
     let nearer = |placed: &Placed| doubt == Doubt::Error || placed.relative < NEARER * from;
-    let starts = starts.filter(|(_, placed)| nearer(placed)).enumerate();
-    let mut starts: Vec<(usize, (Misreading, Placed))> = starts.collect();
-    starts.sort_by(|a, b| a.1.1.relative.total_cmp(&b.1.1.relative));
+    let mut starts: Vec<(usize, Misreading, Placed)> =
+        starts.filter(|(_, _, placed)| nearer(placed)).collect();
+    starts.sort_by(|a, b| a.2.relative.total_cmp(&b.2.relative));
     starts.truncate(FITTED);
-    // Of those that start as near, rounding alone says which is nearest.
-    starts.sort_by_key(|(likelier, _)| *likelier);
+    starts.sort_by_key(|(number, ..)| *number);
     let mut found: Vec<(Misreading, Left)> = Vec::new();
-    for (_, (mistake, placed)) in starts {
+    for (_, mistake, placed) in starts {
         let left = left_by(whole, &placed.observations);
         found.extend(left.filter(explains).map(|left| (mistake, left)));
     }

@@ -341,7 +341,8 @@ impl Library<'_, '_> {
     fn verdict(&self, judged: Vec<Judged>, most: Option<SmoothPlace>, p_value: f64) -> Contest {
         let price = Price { sets: self.last.sets.len(), functions: 1, parameters: 0 };
         let present = criterion(&self.left, price);
-        let expected = likelihood(&self.left).expected();
+        let of_accepted = likelihood(&self.left);
+        let expected = of_accepted.expected();
         let numbers = |of: &[usize]| -> Vec<usize> { of.iter().map(|&at| self.shown[at].0).collect() };
         let replaced = |judged: &Judged| -> Vec<usize> {
             (0..self.shown.len()).filter(|at| !judged.fitted.kept.contains(at)).collect()
@@ -381,7 +382,11 @@ impl Library<'_, '_> {
             // whatever takes more of them than a name of the catalogue does.
             let differs = one.fitted.differs.is_some_and(|share| share > SAME_FORM)
                 && one.fitted.likelihood.expected() >= expected - AS_GOOD;
+            // The same over these data with more to choose, as powers are beside a scale, says nothing else.
+            let is_more_of_the_same = one.fitted.differs.is_some_and(|share| share <= SAME_FORM)
+                && one.fitted.likelihood.parameters > of_accepted.parameters;
             if instead_of.is_empty()
+                || is_more_of_the_same
                 || instead_of.iter().any(of_its_own)
                 || !(differs || one.fitted.criterion >= present - AS_GOOD)
             {

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use super::block::Block;
 use super::model::Model;
-use super::objects::{Collected, Eliminated};
+use super::objects::{Collected, Eliminated, Starts};
 use super::partial::{Partial, PartialError, Rows};
 use super::{FitError, robust};
 use crate::data::{Observations, Poses};
@@ -242,7 +242,7 @@ fn first_kinds(observations: &Observations) -> (Vec<usize>, usize) {
     (first.collect(), kinds)
 }
 
-/// Tallies all rows, whitened by a standard deviation for each component.
+/// Tallies all rows, whitened by a standard deviation for each component, be it that of their noise or none.
 pub fn tally(
     model: &Model,
     observations: &Observations,
@@ -251,7 +251,9 @@ pub fn tally(
     sigma: &[f64],
     weighting: Weighting,
 ) -> Result<Tally, FitError> {
-    let (tally, _) = sweep_with(model, observations, layout, values, sigma, weighting, &[], |_| (), |()| ())?;
+    let starts = Starts::Ignore;
+    let (tally, _) =
+        sweep_with(model, observations, layout, values, sigma, weighting, &[], starts, |_| (), |()| ())?;
     Ok(tally)
 }
 
@@ -273,7 +275,7 @@ pub fn sweep(
         defined.extend(of_rows);
     };
     let (tally, eliminated) =
-        sweep_with(model, observations, layout, values, sigma, weighting, aside, keep, take)?;
+        sweep_with(model, observations, layout, values, sigma, weighting, aside, Starts::Hold, keep, take)?;
     Ok(Sweep { tally, residual, defined, eliminated })
 }
 
@@ -305,6 +307,7 @@ fn sweep_with<T: Send>(
     sigma: &[f64],
     weighting: Weighting,
     aside: &[bool],
+    starts: Starts,
     keep: impl Fn(&Block) -> T + Sync,
     mut take: impl FnMut(T) + Send,
 ) -> Result<(Tally, Option<Eliminated>), FitError> {
@@ -333,7 +336,7 @@ fn sweep_with<T: Send>(
     let eliminated = observations.unknowns.as_ref().map(|unknowns| {
         let components = rows.iter().map(|rows| rows.row.len() as u64).sum();
         let state = model.state(values);
-        let eliminated = Eliminated::of(unknowns, &rows, state, model.columns(), components);
+        let eliminated = Eliminated::of(unknowns, &rows, state, model.columns(), components, starts);
         whole.partial = eliminated.partial.clone();
         whole.objective += eliminated.objective;
         eliminated

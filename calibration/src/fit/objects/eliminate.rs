@@ -26,6 +26,13 @@ const HOLD: f64 = 1e-6;
 /// nothing but noise does: walls that all stand upright tell a height by how far noise tips them, to some metres.
 const STARTS_WITHIN: f64 = 0.1;
 
+/// Whether the start of free stations holds them; it does not where components are in no unit of noise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Starts {
+    Hold,
+    Ignore,
+}
+
 /// A direction of stations that the rows hold by less than so many times as much as their start does is none that rows determined.
 const BY_START: f64 = 30.0;
 
@@ -78,6 +85,7 @@ impl Eliminated {
         state: &[f64],
         columns: usize,
         components: u64,
+        starts: Starts,
     ) -> Self {
         let width = WIDTH + columns + 1;
         // Behind the objects' rows come those that observe none.
@@ -120,7 +128,7 @@ impl Eliminated {
         let places = of_stations..of_stations + columns + 1;
         whole.add(spread(bare.nrows(), self::columns(&bare), places, of_stations + columns + 1));
         let mut whole = whole.into_whole();
-        let free = held(&layout, &mut whole, &mut objective);
+        let free = held(&layout, starts, &mut whole, &mut objective);
 
         let factor = whole.factor();
         for (at, free) in free.iter().enumerate() {
@@ -403,7 +411,7 @@ fn rows(matrix: &Mat<f64>) -> Rows {
 
 /// Adds what is stated of stations, and rows that hold the others where nothing else does; per number that is free how much its start
 /// holds it.
-fn held(layout: &Layout<'_>, whole: &mut Partial, objective: &mut f64) -> Vec<Option<f64>> {
+fn held(layout: &Layout<'_>, starts: Starts, whole: &mut Partial, objective: &mut f64) -> Vec<Option<f64>> {
     let count = layout.of_stations;
     if count == 0 {
         return Vec::new();
@@ -426,7 +434,7 @@ fn held(layout: &Layout<'_>, whole: &mut Partial, objective: &mut f64) -> Vec<Op
                     let length = whole.length(at);
                     let held = HOLD * if length > 0.0 { length } else { 1.0 };
                     let within = STARTS_WITHIN * if number < 3 { away_m } else { 1.0 };
-                    let by_start = if within > 0.0 { 1.0 / within } else { 0.0 };
+                    let by_start = if within > 0.0 && starts == Starts::Hold { 1.0 / within } else { 0.0 };
                     let weight = held.hypot(by_start);
                     columns[at][at] = weight;
                     columns[last][at] = -layout.state[at] * by_start * by_start / weight;

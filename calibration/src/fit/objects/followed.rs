@@ -140,6 +140,7 @@ mod tests {
 
     use super::*;
     use crate::data::unknowns::{Freedom, Object, Shape, Station};
+    use crate::fit::objects::Starts;
 
     const ROWS: usize = 30;
     const COLUMNS: usize = 2;
@@ -184,7 +185,7 @@ mod tests {
         }
         let state = vec![0.0; unknowns.numbers()];
         let parts = [collected];
-        let eliminated = Eliminated::of(&unknowns, &parts, &state, COLUMNS, 2 * ROWS as u64);
+        let eliminated = Eliminated::of(&unknowns, &parts, &state, COLUMNS, 2 * ROWS as u64, Starts::Ignore);
         let factor = eliminated.partial.factor();
         let triangle = factor.submatrix(0, 0, COLUMNS, COLUMNS).to_owned();
         let root = triangle.partial_piv_lu().inverse();

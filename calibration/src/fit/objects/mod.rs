@@ -15,7 +15,7 @@ mod seen;
 mod stated;
 mod within;
 
-pub(crate) use eliminate::{Collected, Eliminated};
+pub(crate) use eliminate::{Collected, Eliminated, Starts};
 pub(crate) use followed::FollowedShare;
 pub(crate) use reduce::Reduction;
 pub(crate) use seen::{TurnsBy, distance, seen};

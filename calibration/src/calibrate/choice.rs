@@ -88,7 +88,8 @@ fn judge<'a>(settled: Settled<'a>, before: &FitResult) -> Result<Chosen<'a>, Sea
 }
 
 /// Whether the model with functions predicts better: in random folds by a margin, and no worse in regions that its search did
-/// not see; or no worse at all where it says with one function what took several effects. A second file of the study judges and does not choose; regions alone choose then, by the margin.
+/// not see; or no worse at all where it says with one function what took several effects. A second file of the study judges and
+/// does not choose; regions alone choose then, by the margin.
 ///
 /// Which rows are kept is for each model to say: one that explains rows which the other sets aside keeps more, and gains over
 /// every row.
@@ -102,6 +103,7 @@ fn is_confirmed(whole: &Context<'_>, told: &Judged<'_>, taken_up: &Judged<'_>) -
     let gains = |ratio: Option<f64>| ratio.is_some_and(|ratio| ratio < GAINS);
     let no_worse = |ratio: Option<f64>| ratio.is_none_or(|ratio| ratio <= NO_WORSE);
     let effects = |judged: &Judged<'_>| judged.round.fitted.found.len();
+    // The function itself is one of those.
     let is_simpler = effects(taken_up) + SEVERAL <= effects(told) + 1;
     taken_up.left_out.is_empty()
         && (is_simpler || gains(kept) || gains(every))

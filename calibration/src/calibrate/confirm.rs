@@ -101,9 +101,11 @@ fn without_few<'a>(
 /// its rows say as far as its uncertainty lets it: how far is in none of its residuals, but in their whitened sum.
 fn is_confirmed_by_places(whole: &Context<'_>, round: &Round<'_>, held_out: &HeldOut) -> bool {
     let unknowns = whole.request.observations.unknowns.as_ref();
-    let is_stated = unknowns.is_some_and(|own| own.objects.iter().any(|object| object.is_within()));
-    let (before, after) = held_out.sums_of_squares(&round.search.problem);
-    is_stated && after < before
+    let is_stated = unknowns.is_some_and(|own| own.objects.iter().any(|object| object.freedom.is_within()));
+    is_stated && {
+        let (before, after) = held_out.sums_of_squares(&round.search.problem);
+        after < before
+    }
 }
 
 /// What is told of effects that the held-out rows speak against.

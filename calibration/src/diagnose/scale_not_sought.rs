@@ -2,7 +2,6 @@
 
 use super::caution::Caution;
 use crate::candidate::{Dependence, EffectId};
-use crate::data::unknowns::Freedom;
 use crate::effects::RANGE;
 use crate::search::context::Context;
 use crate::search::round::Round;
@@ -13,8 +12,7 @@ const SHOW: usize = 2;
 /// What is told of each range whose scale nobody declared, where the search cannot see it though stations are stated.
 pub(super) fn scale_not_sought(whole: &Context<'_>, last: &Round<'_>) -> Vec<Caution> {
     let Some(unknowns) = &whole.request.observations.unknowns else { return Vec::new() };
-    let is_within = |freedom: Freedom| matches!(freedom, Freedom::Within { .. });
-    let stations = unknowns.stations.iter().filter(|own| is_within(own.freedom)).count();
+    let stations = unknowns.stations.iter().filter(|own| own.freedom.is_within()).count();
     if stations < SHOW {
         return Vec::new();
     }

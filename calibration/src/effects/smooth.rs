@@ -20,22 +20,21 @@ pub fn smooth(setting: &Setting<'_>) -> Vec<SmoothPlace> {
     let rotations =
         |body| Freedom::rotations().map(move |freedom| Place { body, role: Role::MotionError, freedom });
     let mut all = Vec::new();
-    for joint in setting.joints() {
-        let own = Freedom::ALL.into_iter().map(|freedom| joint.place().with(freedom));
-        let others = setting.bodies().into_iter().flat_map(rotations);
-        for place in [joint.place()].into_iter().chain(own).chain(others) {
-            let smooth = SmoothPlace { place, driver: joint.symbol };
-            if setting.moves(place) && !all.contains(&smooth) {
-                all.push(smooth);
-            }
-        }
-    }
-    for (body, axis, driver) in setting.ranges() {
-        let place = Place { body, role: Role::MotionError, freedom: Freedom::along(axis) };
+    let mut add = |place, driver| {
         let smooth = SmoothPlace { place, driver };
         if setting.moves(place) && !all.contains(&smooth) {
             all.push(smooth);
         }
+    };
+    for joint in setting.joints() {
+        let own = Freedom::ALL.into_iter().map(|freedom| joint.place().with(freedom));
+        let others = setting.bodies().into_iter().flat_map(rotations);
+        for place in [joint.place()].into_iter().chain(own).chain(others) {
+            add(place, joint.symbol);
+        }
+    }
+    for (body, axis, range) in setting.ranges() {
+        add(Place { body, role: Role::MotionError, freedom: Freedom::along(axis) }, range);
     }
     for &driver in setting.inputs {
         let places = setting.bodies().into_iter().flat_map(rotations).filter(|&place| setting.moves(place));

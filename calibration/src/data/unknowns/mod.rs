@@ -84,6 +84,11 @@ pub enum Freedom {
 }
 
 impl Freedom {
+    /// Whether it is stated to within an uncertainty.
+    pub(crate) fn is_within(self) -> bool {
+        matches!(self, Self::Within { .. })
+    }
+
     /// The standard uncertainty that is stated of a number of a station, m for a shift and rad for a turn; none where nothing is.
     pub(crate) fn of_station(self, number: usize) -> Option<f64> {
         match self {
@@ -152,11 +157,6 @@ impl Object {
     #[must_use]
     pub fn numbers(&self) -> usize {
         if self.freedom == Freedom::Given { 0 } else { self.shape.numbers() }
-    }
-
-    /// Whether its place is stated to within an uncertainty.
-    pub(crate) fn is_within(&self) -> bool {
-        matches!(self.freedom, Freedom::Within { .. })
     }
 
     /// Moves it by its numbers.
@@ -390,7 +390,7 @@ impl Unknowns {
         let first = self.first_of_objects();
         for ((residual, &row), unknown) in residual.iter_mut().zip(row).zip(unknown) {
             let Some(object) = self.object[row as usize].map(|object| object as usize) else { continue };
-            if self.objects[object].is_within() {
+            if self.objects[object].freedom.is_within() {
                 let own = &numbers[first[object]..][..self.objects[object].numbers()];
                 *residual += unknown.iter().zip(own).map(|(by, value)| by * value).sum::<f64>();
             }

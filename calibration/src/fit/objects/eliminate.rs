@@ -357,7 +357,7 @@ impl Sums {
             factor[(number, number)].abs() > NOTHING * lengths[number] && lengths[number] > 0.0
         };
         // Stated places are as many observations as they are numbers.
-        if !matches!(thing.freedom, Freedom::Within { .. }) {
+        if !thing.freedom.is_within() {
             self.taken += (0..k).filter(determined).count() as f64;
         }
         let of_stations = layout.of_stations;

@@ -10,6 +10,7 @@
 mod eliminate;
 mod followed;
 mod gathered;
+mod lanes;
 mod reduce;
 mod seen;
 mod stated;

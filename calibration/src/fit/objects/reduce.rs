@@ -9,6 +9,7 @@ use std::ops::Range;
 use faer::{Mat, Side};
 use rayon::prelude::*;
 
+use super::lanes::{add, dot};
 use super::within::Within;
 use crate::data::unknowns::{Freedom, Unknowns, WIDTH};
 
@@ -20,9 +21,6 @@ const MOVED: f64 = 1e-10;
 
 /// Rows that are multiplied at a time.
 const CHUNK: usize = 8192;
-
-/// Numbers that are multiplied at once.
-const LANES: usize = 8;
 
 /// What one object's rows are rotated by.
 #[derive(Debug, Clone)]
@@ -206,21 +204,6 @@ fn root(products: &Mat<f64>) -> Mat<f64> {
         }
     }
     root
-}
-
-/// The sum of products, lane by lane.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let ((a, rest), (b, other)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
-    let mut sums = [0.0; LANES];
-    for (a, b) in a.iter().zip(b) {
-        (0..LANES).for_each(|lane| sums[lane] += a[lane] * b[lane]);
-    }
-    sums.iter().sum::<f64>() + rest.iter().zip(other).map(|(a, b)| a * b).sum::<f64>()
-}
-
-/// Adds a multiple of `b` to `a`.
-fn add(a: &mut [f64], factor: f64, b: &[f64]) {
-    a.iter_mut().zip(b).for_each(|(a, b)| *a += factor * b);
 }
 
 impl Turned {

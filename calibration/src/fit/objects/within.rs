@@ -6,6 +6,8 @@
 
 use faer::Mat;
 
+use super::lanes::{add, dot};
+
 /// One such object's rows.
 #[derive(Debug, Clone)]
 pub(super) struct Within {
@@ -40,18 +42,18 @@ impl Within {
 
     /// Leaves of a whitened column what the object does not explain.
     pub fn reduce(&self, column: &mut [f64]) {
-        let own: Vec<f64> = self.at.iter().map(|&at| column[at]).collect();
+        let mut own: Vec<f64> = self.at.iter().map(|&at| column[at]).collect();
         for (unit, left) in self.units.iter().zip(&self.left) {
-            let gone = (1.0 - left) * unit.iter().zip(&own).map(|(u, x)| u * x).sum::<f64>();
-            self.at.iter().zip(unit).for_each(|(&at, u)| column[at] -= gone * u);
+            let share = dot(unit, &own);
+            add(&mut own, (left - 1.0) * share, unit);
         }
+        self.at.iter().zip(&own).for_each(|(&at, value)| column[at] = *value);
     }
 
     /// Takes out of a column before whitening what the object, estimated from its own rows and where it is stated, explains of it.
     pub fn estimate_anew(&self, column: &mut [f64], scale: &[f64]) {
         let own: Vec<f64> = self.at.iter().map(|&at| column[at] * scale[at]).collect();
-        let shares: Vec<f64> =
-            self.units.iter().map(|unit| unit.iter().zip(&own).map(|(u, x)| u * x).sum()).collect();
+        let shares: Vec<f64> = self.units.iter().map(|unit| dot(unit, &own)).collect();
         let along = |j: usize| shares.iter().enumerate().map(|(k, s)| s * self.change_m[(j, k)]).sum::<f64>();
         let numbers: Vec<f64> = (0..self.columns.ncols()).map(along).collect();
         for (i, &at) in self.at.iter().enumerate() {

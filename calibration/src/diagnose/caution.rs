@@ -275,6 +275,9 @@ pub enum Caution {
     /// The data are explained by a mistake in reading them.
     #[serde(rename = "fits otherwise")]
     FitsOtherwise(super::otherwise::Otherwise),
+    /// Stations come out nowhere near where the study roughly puts them.
+    #[serde(rename = "stations far from their rough places")]
+    StationsStrayed(super::strayed::Strayed),
     /// What is left is the rounding of the numbers: nothing can be searched in it.
     #[serde(rename = "residual is rounding")]
     ResidualIsRounding {

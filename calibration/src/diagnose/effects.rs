@@ -5,10 +5,11 @@ use std::collections::BTreeMap;
 use model_core::{Role, SymbolId};
 use serde::Serialize;
 
+use super::Confirmed;
 use super::detectability;
 use super::rms::BeforeAfter;
+use super::rms::observables_of;
 use super::units::unit_of;
-use super::{Confirmed, observables_of};
 use crate::candidate::{Dependence, Effect, EffectId};
 use crate::data::SiUnit;
 use crate::effects::FAMILIES;

@@ -20,7 +20,7 @@ pub enum Ended {
         /// Steps taken.
         steps: usize,
     },
-    /// At a minimum from which directions are nowhere near those that were measured.
+    /// At a minimum from which nothing is near what was measured: directions, or objects whose places nobody knows.
     #[serde(rename = "far off")]
     FarOff {
         /// Steps taken.

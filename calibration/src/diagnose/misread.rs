@@ -1,14 +1,25 @@
 //! Cautions that a mistake in reading the data would bring about all at once: where there is one, it is told in their stead.
 
 use super::caution::Caution;
+use super::ended::Ended;
 use super::otherwise::{Doubt, otherwise};
+use super::strayed::strayed;
+use crate::fit::FitResult;
 use crate::search::context::Context;
 
-/// The cautions, with the mistake that explains them first where there is one; `has_failed` says that the fit did.
-pub(super) fn misread(whole: &Context<'_>, mut cautions: Vec<Caution>, has_failed: bool) -> Vec<Caution> {
+/// The cautions, with the mistake that explains them first where there is one; behind them that stations come out elsewhere.
+pub(super) fn misread(
+    whole: &Context<'_>,
+    fit: &FitResult,
+    ended: &Ended,
+    mut cautions: Vec<Caution>,
+) -> Vec<Caution> {
+    let has_failed = matches!(ended, Ended::NotConverged { .. } | Ended::FarOff { .. });
     if let Some(mistake) = doubt(&cautions, has_failed).and_then(|doubt| otherwise(whole, doubt)) {
         cautions.retain(|caution| !follows(caution));
         cautions.insert(0, Caution::FitsOtherwise(mistake));
+    } else if !has_failed {
+        cautions.extend(strayed(whole, fit).map(Caution::StationsStrayed));
     }
     cautions
 }

@@ -18,6 +18,7 @@ mod harmonics;
 mod instrument;
 mod misplaced;
 mod misread;
+mod mistakes;
 mod next;
 mod noise;
 mod noisy;
@@ -27,17 +28,18 @@ pub(crate) mod remaining;
 pub(crate) mod rms;
 mod scale_not_sought;
 pub(crate) mod shown;
+mod strayed;
 pub(crate) mod trace;
 mod uneven;
 mod units;
 mod verdict;
 
-use model_core::{Chain, SymbolId};
+use model_core::SymbolId;
 use serde::Serialize;
 
 use crate::candidate::EffectId;
 use crate::data::unknowns::Unknowns;
-use crate::data::{Observations, Origin, SiUnit};
+use crate::data::{Origin, SiUnit};
 use crate::design::discrimination::separation;
 use crate::design::{PlaceProposal, Proposal, Separation};
 use crate::effects::SHAPE;
@@ -70,13 +72,15 @@ pub use harmonics::Harmonics;
 pub use instrument::{
     BodyShown, ErrorShown, ErrorState, Instrument, JointShown, ObservedShown, ReadingShown,
 };
+pub use mistakes::{Misreading, StatedPlaces};
 pub(crate) use noise::expected_rms;
 pub use noise::{NoiseFound, SerialFound, SeriesNoise, UncertainReading, VarianceFound};
-pub use otherwise::{Misreading, Otherwise, StatedPlaces};
+pub use otherwise::Otherwise;
 pub use precision::{Determined, NotSeparable, Precision, precision};
 pub use remaining::{Looked, Remaining, Where};
 pub use rms::{Beside, Rms};
 pub use shown::Shown;
+pub use strayed::Strayed;
 pub use trace::Trace;
 use uneven::Scatter;
 pub use uneven::Uneven;
@@ -261,8 +265,7 @@ pub(crate) fn diagnose(
     let searched = confirmed.as_ref().ok().map(|own| own.round);
     cautions.extend(searched.into_iter().flat_map(|round| scale_not_sought(whole, round)));
     cautions.extend(misplaced.into_iter().map(Caution::from));
-    let has_failed = matches!(ended, Ended::NotConverged { .. } | Ended::FarOff { .. });
-    let mut cautions = misread(whole, cautions, has_failed);
+    let mut cautions = misread(whole, fit, &ended, cautions);
     let remaining = found.remaining.as_ref();
     cautions.extend(noisy_readings(whole, last, &found)?);
     let alone = found
@@ -309,7 +312,7 @@ pub(crate) fn diagnose(
         before: rms.first().map_or_else(Rms::default, |own| own.before),
         after: rms.first().map_or_else(Rms::default, |own| own.after),
         unit: rms.first().map_or(SiUnit::RAD, |own| own.unit),
-        beside: rms.iter().skip(1).map(|own| beside(observations, &last.chain, own)).collect(),
+        beside: rms.iter().skip(1).map(|own| Beside::of(observations, &last.chain, own)).collect(),
     })
 }
 
@@ -328,28 +331,6 @@ fn noisy_readings(whole: &Context<'_>, last: &Fitted, found: &Found) -> Result<V
     let noisy: Vec<Option<Noisy>> = noisy.collect::<Result<_, _>>()?;
     let caution = |Noisy { reading, sigma, unit }| Caution::NoisyReadings { reading, sigma, unit };
     Ok(noisy.into_iter().flatten().map(caution).collect())
-}
-
-fn beside(observations: &Observations, chain: &Chain, own: &BeforeAfter) -> Beside {
-    Beside {
-        observed: observables_of(observations, chain, own.unit),
-        unit: own.unit,
-        expected_rms: own.expected,
-        before: own.before,
-        after: own.after,
-    }
-}
-
-/// The names of the observables whose residuals have a unit, each once.
-fn observables_of(observations: &Observations, chain: &Chain, unit: SiUnit) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
-    for series in observations.poses.series.iter().filter(|series| series.measure.unit() == unit) {
-        let name = &chain.observable(series.observable).name;
-        if !names.contains(name) {
-            names.push(name.clone());
-        }
-    }
-    names
 }
 
 /// Whether a function without a name was taken up: a shape of several coefficients.

@@ -1,8 +1,9 @@
 //! Residuals before and after, as figures over rows.
 
+use model_core::Chain;
 use serde::Serialize;
 
-use crate::data::SiUnit;
+use crate::data::{Observations, SiUnit};
 
 /// Root mean square over observations of the length of the residual, SI: over every row, and over the rows kept.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
@@ -55,6 +56,30 @@ pub struct Beside {
     pub before: Rms,
     /// Residuals of the amended one.
     pub after: Rms,
+}
+
+impl Beside {
+    pub(super) fn of(observations: &Observations, chain: &Chain, own: &BeforeAfter) -> Self {
+        Self {
+            observed: observables_of(observations, chain, own.unit),
+            unit: own.unit,
+            expected_rms: own.expected,
+            before: own.before,
+            after: own.after,
+        }
+    }
+}
+
+/// The names of the observables whose residuals have a unit, each once.
+pub(super) fn observables_of(observations: &Observations, chain: &Chain, unit: SiUnit) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for series in observations.poses.series.iter().filter(|series| series.measure.unit() == unit) {
+        let name = &chain.observable(series.observable).name;
+        if !names.contains(name) {
+            names.push(name.clone());
+        }
+    }
+    names
 }
 
 /// A figure before and after, SI.

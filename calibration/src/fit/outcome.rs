@@ -35,7 +35,7 @@ pub enum Reason {
     StepLimit,
     /// No step made the loss smaller, though there was a slope.
     NoDescent,
-    /// It ended at a bottom, from which directions are nowhere near those that were measured, and so did other starts.
+    /// It ended at a bottom, from which nothing is near what was measured, and so did other starts.
     FarOff,
 }
 

@@ -140,7 +140,11 @@ impl Solver<'_> {
             *value *= weight[row].sqrt();
         }
         let parameters = self.model.parameters().to_vec();
-        let outcome = match stopped.or(far_off) {
+        let outcome = match far_off.or(stopped) {
+            // Far off all noise is none, and no row near enough to count.
+            Some(Reason::FarOff) => {
+                Outcome::NotConverged { iterations: self.iterations, reason: Reason::FarOff }
+            }
             _ if kept <= rank + of_objects => {
                 Outcome::TooFewObservations { components: kept, parameters: parameters.len(), rank }
             }

@@ -1,4 +1,4 @@
-//! Other starts, for a fit that ends where directions are nowhere near those that were measured.
+//! A fit that ends where nothing is near what was measured, and other starts for one of directions.
 //!
 //! Errors of a radian may lie behind a ridge, seen from zero. A bottom beyond it is told by what is left there.
 
@@ -9,10 +9,12 @@ use rand_chacha::rand_core::SeedableRng;
 
 use super::solver::{Course, Solver};
 use super::{FitError, robust};
-use crate::data::Measure;
+use crate::data::unknowns::Shape;
+use crate::data::{Measure, SiUnit};
 
-/// How far off half of the directions are where something else than noise is the matter, rad: 11 degrees.
-const FAR_OFF_RAD: f64 = 0.2;
+/// How far off half of the directions are where something else than noise is the matter, rad: 11 degrees. As large a share of how far
+/// away objects are that nobody knows the places of.
+const FAR_OFF: f64 = 0.2;
 
 /// How far off half of them are where another bottom is worth looking for, rad.
 const DOUBTFUL_RAD: f64 = 0.01;
@@ -24,9 +26,9 @@ const DRAWN_RAD: f64 = 1.0;
 const STARTS: u64 = 12;
 
 impl Solver<'_> {
-    /// Whether half of the directions are so far off that no noise explains it.
+    /// Whether half of the directions, or of what is seen of unknown objects, are so far off that no noise explains it.
     pub(super) fn is_far_off(&self, course: &Course) -> bool {
-        self.median_rad(course).is_some_and(|median| median > FAR_OFF_RAD)
+        self.median_rad(course).or_else(|| self.median_share(course)).is_some_and(|median| median > FAR_OFF)
     }
 
     /// The course that ends nearest to the directions, from here or from drawn starts; the one given where that is near.
@@ -59,5 +61,21 @@ impl Solver<'_> {
         let mut norms: Vec<f64> = self.layout.norms(&course.point.sweep.residual).collect();
         norms.retain(|norm| norm.is_finite());
         (!norms.is_empty()).then(|| robust::median(norms))
+    }
+
+    /// By which share of how far away it is half of what is seen of objects is off; `None` where rows observe anything else.
+    fn median_share(&self, course: &Course) -> Option<f64> {
+        let unknowns = self.observations.unknowns.as_ref()?;
+        let away_m = unknowns.away_m();
+        let norms = self.layout.norms(&course.point.sweep.residual);
+        let mut shares = Vec::with_capacity(self.observations.rows());
+        for ((norm, measure), &station) in
+            norms.zip(self.observations.poses.measures()).zip(&unknowns.station)
+        {
+            Shape::of(measure)?;
+            let away_m = if measure.unit() == SiUnit::METRE { away_m[station as usize] } else { 1.0 };
+            shares.extend(Some(norm / away_m).filter(|share| share.is_finite()));
+        }
+        (!shares.is_empty()).then(|| robust::median(shares))
     }
 }

@@ -168,8 +168,13 @@ fn one_for_several(diagnosis: &Diagnosis) -> Option<(&str, usize)> {
 fn happened(diagnosis: &Diagnosis) -> String {
     let count = diagnosis.effects.len();
     if fits_otherwise(diagnosis) {
-        let told = "The data, or the places that the study states, are likely read in a way that they were not meant in: no number here \
-                    means anything.";
+        let strayed = diagnosis.cautions.iter().any(|caution| matches!(caution, Caution::StationsStrayed(_)));
+        let told = if strayed {
+            "The stations come out elsewhere than the study puts them. Where an angle runs the other way, errors have the wrong sign."
+        } else {
+            "The data, or the places that the study states, are likely read in a way that they were not meant in: no number here means \
+             anything."
+        };
         return told.to_owned();
     }
     if let Verdict::Confounded | Verdict::UnnamedFunction = diagnosis.verdict
@@ -257,6 +262,11 @@ fn happened(diagnosis: &Diagnosis) -> String {
         Verdict::FitFailed => {
             let why = match diagnosis.fit.amended {
                 Ended::NotConverged { steps } => format!("reached no minimum in {steps} steps"),
+                Ended::FarOff { .. } if diagnosis.unit == SiUnit::METRE => {
+                    "ended with half of the points further off than a fifth of the way to what they observe: look at columns, labels, \
+                     signs, units and stated places"
+                        .to_owned()
+                }
                 Ended::FarOff { .. } => {
                     "ended with half of the directions more than 11° off: look at columns, signs, units and frame"
                         .to_owned()

@@ -1,6 +1,6 @@
 //! Cautions in words.
 
-use super::misreadings::misread;
+use super::misreadings::{misread, strayed};
 use super::numbers::{reading, short, times, told, told_in};
 use crate::data::SiUnit;
 use crate::diagnose::{Caution, Uneven};
@@ -178,6 +178,7 @@ pub fn caution(caution: &Caution) -> String {
             ),
         },
         Caution::FitsOtherwise(otherwise) => misread(otherwise),
+        Caution::StationsStrayed(own) => strayed(own),
         Caution::ResidualIsRounding { rms, unit } => format!(
             "What is left, {}, is the rounding of the numbers: these data have no noise, so that no effect was searched for.",
             told(*rms, *unit)

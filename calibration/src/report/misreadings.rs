@@ -1,21 +1,43 @@
 //! Mistakes in reading data and places, in words.
 
 use super::numbers::short;
-use crate::diagnose::{Misreading, Otherwise, StatedPlaces};
+use crate::data::SiUnit;
+use crate::diagnose::{Misreading, Otherwise, StatedPlaces, Strayed};
 
 /// What is likely wrong, and what the residual is without it.
 pub(super) fn misread(otherwise: &Otherwise) -> String {
     let Otherwise { mistakes, before, after, unit } = otherwise;
-    let told: Vec<String> = mistakes.iter().map(mistake).collect();
     let [before, after] = [before, after].map(|rms| short(*rms, *unit));
+    let mistakes = all(mistakes);
+    format!(
+        "Likely {mistakes}: read that way the residual goes from {before} to {after}. Change the study or the file, and calibrate again."
+    )
+}
+
+/// That stations come out elsewhere, and what is likely wrong.
+pub(super) fn strayed(strayed: &Strayed) -> String {
+    let Strayed { station, away_m, turn_rad, mistakes } = strayed;
+    let (away, turn) = (short(*away_m, SiUnit::METRE), turn_rad.to_degrees());
+    let off = format!(
+        "The stations come out elsewhere than the study roughly puts them beside each other, `{station}` by {away} and {turn:.0}°"
+    );
+    match mistakes.len() {
+        0 => format!("{off}: look at their names, x and y, headings, and which way angles run."),
+        _ => format!(
+            "{off}. Likely {}: read that way they come out there. Change the study or the file, and calibrate again.",
+            all(mistakes)
+        ),
+    }
+}
+
+/// What is likely wrong.
+fn all(mistakes: &[Misreading]) -> String {
+    let told: Vec<String> = mistakes.iter().map(mistake).collect();
     let others = match told.len() {
         0 | 1 => "",
         _ => " (which of these, the data do not say)",
     };
-    format!(
-        "Likely {}{others}: read that way the residual goes from {before} to {after}. Change the study or the file, and calibrate again.",
-        told.join(", or ")
-    )
+    format!("{}{others}", told.join(", or "))
 }
 
 fn mistake(mistake: &Misreading) -> String {
@@ -32,11 +54,14 @@ fn mistake(mistake: &Misreading) -> String {
         Misreading::Reversed { joint } => format!("`{joint}` runs the other way"),
         Misreading::FromZenith { joint } => format!("`{joint}` counts from the zenith (it is 90 deg − what was read)"),
         Misreading::Exchanged { joints: [one, other] } => format!("the columns of `{one}` and `{other}` are exchanged"),
-        Misreading::Unit { readings, unit } => {
-            let are = if readings.len() == 1 { "is" } else { "are" };
-            format!("`{}` {are} {unit}", readings.join("` and `"))
-        }
+        Misreading::Unit { readings, unit } => in_unit(readings, "", unit),
+        Misreading::UnitAt { station, readings, unit } => in_unit(readings, &format!(" of station `{station}`"), unit),
     }
+}
+
+fn in_unit(readings: &[String], of: &str, unit: &str) -> String {
+    let are = if readings.len() == 1 { "is" } else { "are" };
+    format!("`{}`{of} {are} {unit}", readings.join("` and `"))
 }
 
 fn places(of: StatedPlaces) -> &'static str {

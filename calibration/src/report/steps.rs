@@ -32,7 +32,7 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
             ));
             return steps;
         }
-        Verdict::TooFewObservations => {
+        Verdict::TooFewObservations if !fits_otherwise(diagnosis) => {
             let text = match diagnosis.fit.amended {
                 Ended::TooFewObservations { .. } => format!(
                     "At least {}; or fix errors that are known (`[fit] fix`).",
@@ -226,6 +226,7 @@ pub(super) fn is_misread(diagnosis: &Diagnosis) -> bool {
                 | Caution::DegreesAsRadians { .. }
                 | Caution::NotWhereStated { .. }
                 | Caution::FitsOtherwise(_)
+                | Caution::StationsStrayed(_)
         )
     };
     diagnosis.cautions.iter().any(misread)
@@ -233,7 +234,11 @@ pub(super) fn is_misread(diagnosis: &Diagnosis) -> bool {
 
 /// Whether a mistake in reading explains the data.
 pub(super) fn fits_otherwise(diagnosis: &Diagnosis) -> bool {
-    diagnosis.cautions.iter().any(|caution| matches!(caution, Caution::FitsOtherwise(_)))
+    diagnosis.cautions.iter().any(|caution| match caution {
+        Caution::FitsOtherwise(_) => true,
+        Caution::StationsStrayed(own) => !own.mistakes.is_empty(),
+        _ => false,
+    })
 }
 
 /// Whether all that was found may be chance, and most searches without a part of the rows find none of it.

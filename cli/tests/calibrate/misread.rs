@@ -12,6 +12,24 @@ use crate::support::{Folder, run_in};
 
 /// A room's rows with other numbers, and the first targets as a study has them.
 fn study(name: &str, change: impl Fn([f64; 3]) -> [f64; 3], place: impl Fn(Point) -> Point) -> Folder {
+    let targets = |room: &Room| {
+        let mut text = String::from("[objects]\n");
+        for (number, target) in room.targets.iter().enumerate().take(8) {
+            let [x, y, z] = place(*target);
+            writeln!(text, "T{number} = {{ x = \"{x} m\", y = \"{y} m\", z = \"{z} m\" }}")
+                .expect("a string");
+        }
+        text
+    };
+    study_with(name, |_, row| change(row), targets)
+}
+
+/// The same where what is known of places is this; numbers may be changed by station.
+fn study_with(
+    name: &str,
+    change: impl Fn(&str, [f64; 3]) -> [f64; 3],
+    known: impl Fn(&Room) -> String,
+) -> Folder {
     let folder = Folder::new(name);
     let random = &mut Random::new(11);
     let room = Room::new(random);
@@ -23,24 +41,22 @@ fn study(name: &str, change: impl Fn([f64; 3]) -> [f64; 3], place: impl Fn(Point
         if at == 0 {
             writeln!(rows, "{line}").expect("a string");
         } else {
-            let [azimuth, elevation, range] = change([numbers[0], numbers[1], numbers[2]]);
+            let [azimuth, elevation, range] = change(cells[0], [numbers[0], numbers[1], numbers[2]]);
             writeln!(rows, "{},{},{azimuth:.9},{elevation:.9},{range:.7}", cells[0], cells[1])
                 .expect("a string");
         }
     }
-    let mut text = format!("{STUDY}[objects]\n");
-    for (number, target) in room.targets.iter().enumerate().take(8) {
-        let [x, y, z] = place(*target);
-        writeln!(text, "T{number} = {{ x = \"{x} m\", y = \"{y} m\", z = \"{z} m\" }}").expect("a string");
-    }
     folder.write("tracker.chain", TRACKER.replace(", Ty(longer*range)", ""));
-    folder.write("rows.csv", rows).write("study.toml", text);
+    folder.write("rows.csv", rows).write("study.toml", format!("{STUDY}{}", known(&room)));
     folder
 }
 
 /// What the report says is likely wrong.
 fn named(folder: &Folder) -> Vec<Value> {
-    let report = calibrated(folder, "study.toml");
+    let run = run_in(&folder.0, &["calibrate", "study.toml", "--format", "json"], "");
+    // The fit ends where it is, or nowhere near.
+    assert!(run.code == 0 || run.code == 1, "{run}");
+    let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
     let own = cautions(&report, "fits otherwise");
     assert_eq!(own.len(), 1, "{}", report["cautions"]);
     assert!(cautions(&report, "residual out of place").is_empty(), "{}", report["cautions"]);
@@ -88,6 +104,54 @@ fn feet_are_named_where_places_say_the_scale() {
     let found = named(&study("misread-feet", |[a, e, range]| [a, e, range / 0.3048], |place| place));
     // Or the places are too large by as much.
     assert!(found.iter().any(|one| one["unit"] == "in feet and read as m"), "{found:?}");
+}
+
+#[test]
+fn columns_that_are_exchanged_are_named_where_nothing_is_known() {
+    for exchanged in [true, false] {
+        let change = |_: &str, [azimuth, elevation, range]: [f64; 3]| match exchanged {
+            true => [elevation, azimuth, range],
+            false => [azimuth.to_degrees(), elevation.to_degrees(), range],
+        };
+        let found = named(&study_with("misread-unknown", change, |_| String::new()));
+        assert_eq!(found[0]["what"], if exchanged { "exchanged" } else { "unit" }, "{found:?}");
+    }
+}
+
+#[test]
+fn degrees_of_one_station_are_named() {
+    let change = |station: &str, [azimuth, elevation, range]: [f64; 3]| match station {
+        "S1" => [azimuth.to_degrees(), elevation.to_degrees(), range],
+        _ => [azimuth, elevation, range],
+    };
+    let found = named(&study_with("misread-station", change, |_| String::new()));
+    assert_eq!((&found[0]["what"], &found[0]["station"]), (&"unit_at".into(), &"S1".into()), "{found:?}");
+    assert_eq!(found[0]["unit"], "in degrees and read as radians", "{found:?}");
+}
+
+#[test]
+fn a_room_in_a_mirror_is_told_by_rough_stations() {
+    let rough = |room: &Room| {
+        let mut text = String::from("[stations]\n");
+        for (number, ([x, y, z], heading)) in room.stations.iter().enumerate() {
+            let (x, y, heading) = (x + 0.2, y - 0.1 * number as f64, heading + 0.05);
+            writeln!(
+                    text,
+                    "S{number} = {{ x = \"{x} m\", y = \"{y} m\", z = \"{z} m\", heading = \"{heading} rad\", rough = true }}"
+                )
+                .expect("a string");
+        }
+        text
+    };
+    let reversed = study_with("misread-mirror", |_, [a, e, r]| [-a, e, r], rough);
+    let report = calibrated(&reversed, "study.toml");
+    let own = cautions(&report, "stations far from their rough places");
+    assert_eq!(own.len(), 1, "{}", report["cautions"]);
+    let reversed = serde_json::json!({ "what": "reversed", "joint": "azimuth" });
+    assert!(own[0]["mistakes"].as_array().is_some_and(|all| all.contains(&reversed)), "{own:?}");
+    let fine = study_with("misread-rough", |_, row| row, rough);
+    let report = calibrated(&fine, "study.toml");
+    assert!(report["cautions"].as_array().is_some_and(Vec::is_empty), "{}", report["cautions"]);
 }
 
 #[test]

@@ -210,6 +210,11 @@ impl Station {
     pub fn numbers(&self) -> usize {
         if self.freedom == Freedom::Given { 0 } else { 6 }
     }
+
+    /// Whether a study writes where it stood, be it roughly.
+    pub(crate) fn is_written(&self) -> bool {
+        self.known == Known::Yes && !self.label.is_empty()
+    }
 }
 
 /// Where things are as far as the study says.

@@ -181,6 +181,9 @@ pub enum Caution {
         body: String,
         /// That axis.
         axis: String,
+        /// What it is by the stated places, and its standard uncertainty; absent where they do not show it.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        fitted: Option<[f64; 2]>,
     },
     /// An object or a station comes out far from where the study states it.
     #[serde(rename = "not where it is stated")]

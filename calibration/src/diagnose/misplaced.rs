@@ -82,7 +82,7 @@ pub(super) fn misplaced(chain: &Chain, observations: &Observations, fit: &FitRes
 }
 
 /// Those that chance does not explain by their stated uncertainties, the furthest off first.
-fn by_what_is_stated(unknowns: &Unknowns, fit: &FitResult) -> Vec<Misplaced> {
+pub(super) fn by_what_is_stated(unknowns: &Unknowns, fit: &FitResult) -> Vec<Misplaced> {
     let state = &fit.values[fit.values.len() - unknowns.numbers()..];
     let mut found: Vec<(f64, Misplaced)> = Vec::new();
     let mut numbers = 0;

@@ -26,7 +26,7 @@ mod otherwise;
 mod precision;
 pub(crate) mod remaining;
 pub(crate) mod rms;
-mod scale_not_sought;
+pub(crate) mod scale_not_sought;
 pub(crate) mod shown;
 mod strayed;
 pub(crate) mod trace;
@@ -264,7 +264,10 @@ pub(crate) fn diagnose(
     cautions.extend(scatters.map(|Scatter { what, label, times }| Caution::Scatters { what, label, times }));
     let searched = confirmed.as_ref().ok().map(|own| own.round);
     cautions.extend(searched.into_iter().flat_map(|round| scale_not_sought(whole, round)));
-    cautions.extend(misplaced.into_iter().map(Caution::from));
+    // A scale that is missing moves all that is stated.
+    let is_scaled = scale_not_sought::is_missing(&cautions);
+    let misplaced = misplaced.into_iter().filter(|own| !is_scaled || own.sigmas.is_none());
+    cautions.extend(misplaced.map(Caution::from));
     let mut cautions = misread(whole, fit, &ended, cautions);
     let remaining = found.remaining.as_ref();
     cautions.extend(noisy_readings(whole, last, &found)?);

@@ -4,7 +4,7 @@ use super::causes::{each_once, sentence_case};
 use super::effects::{chance_of_all, headline, place};
 use super::left::{function_form, remaining};
 use super::numbers::{short, times};
-use super::steps::{Step, fits_otherwise, is_misread, is_unconfirmed, is_worse, steps};
+use super::steps::{Step, fits_otherwise, is_misread, is_unconfirmed, is_worse, missing_scale, steps};
 use crate::data::SiUnit;
 use crate::diagnose::{Caution, Diagnosis, EffectFound, Ended, EveryRow, Rms, Verdict};
 
@@ -117,6 +117,7 @@ fn tone(diagnosis: &Diagnosis) -> Tone {
         _ if is_worse(diagnosis) => Tone::Bad,
         _ if is_misread(diagnosis)
             || is_worse_elsewhere(diagnosis)
+            || missing_scale(diagnosis).is_some()
             || is_unconfirmed(diagnosis).is_some() =>
         {
             Tone::Careful
@@ -139,6 +140,7 @@ fn badge(diagnosis: &Diagnosis) -> String {
         Verdict::UnnamedFunction => "Place found, cause unknown".to_owned(),
         Verdict::StructureRemains => "Something is left".to_owned(),
         Verdict::NoiseExceedsStated => "Noisier than stated".to_owned(),
+        Verdict::NothingDetectable if missing_scale(diagnosis).is_some() => "A scale is missing".to_owned(),
         Verdict::NothingDetectable if is_unconfirmed(diagnosis).is_some() => "Not confirmed".to_owned(),
         Verdict::NothingDetectable => "Nothing missing found".to_owned(),
         Verdict::TooFewObservations => "Too few observations".to_owned(),
@@ -255,6 +257,10 @@ fn happened(diagnosis: &Diagnosis) -> String {
         {
             "The declaration explains these data to the last digit; what is left is rounding.".to_owned()
         }
+        Verdict::NothingDetectable if let Some((range, value)) = missing_scale(diagnosis) => format!(
+            "By the stated places of the stations `{range}` has a scale that the declaration lacks: {} a metre.",
+            short(value, SiUnit::METRE)
+        ),
         Verdict::NothingDetectable => {
             "No effect that the declaration lacks stands out from the noise.".to_owned()
         }

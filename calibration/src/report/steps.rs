@@ -5,6 +5,7 @@ use super::effects::CHANCE;
 use super::places::told_places;
 use super::shell::shell_word;
 use crate::diagnose::few::WANTED;
+use crate::diagnose::scale_not_sought::stands_out;
 use crate::diagnose::{Caution, Diagnosis, EffectFound, Ended, Relation, Verdict};
 
 /// Something to do.
@@ -51,6 +52,11 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
             "The first thing is what the cautions say of the data: a column in another unit, a sign, an axis, a place that is stated \
              wrongly. Errors that were estimated from that are wrong, and so is what was found beside them."
                 .to_owned(),
+        ));
+    } else if let Some((range, _)) = missing_scale(diagnosis) {
+        steps.push(step(
+            "Declare the scale, and calibrate again",
+            format!("What to write stands in the caution. Without it the scale of `{range}` goes into other errors."),
         ));
     } else if is_worse(diagnosis) {
         steps.push(step(
@@ -230,6 +236,16 @@ pub(super) fn is_misread(diagnosis: &Diagnosis) -> bool {
         )
     };
     diagnosis.cautions.iter().any(misread)
+}
+
+/// A scale that nobody declared and that stated places show, and how large it is.
+pub(super) fn missing_scale(diagnosis: &Diagnosis) -> Option<(&str, f64)> {
+    diagnosis.cautions.iter().find_map(|caution| match caution {
+        Caution::ScaleNotSought { range, fitted: Some(own), .. } if stands_out(*own) => {
+            Some((range.as_str(), own[0]))
+        }
+        _ => None,
+    })
 }
 
 /// Whether a mistake in reading explains the data.

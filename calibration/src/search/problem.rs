@@ -22,6 +22,10 @@ use crate::candidate::EffectId;
 /// Share of a column's sum of squares that must be left by those before it (the declared ones, for a candidate) for it to
 /// count.
 pub(super) const VISIBLE: f64 = 1e-4;
+
+/// The same where a length says what it has to be at least: rounding alone is no share.
+const ROUNDED: f64 = 1e-8;
+
 /// Singular values of the scaled declared columns below this share of the largest count as zero.
 const RANK: f64 = 1e-9;
 
@@ -166,7 +170,8 @@ impl Problem {
         let after: Vec<f64> = (0..k).map(|j| rows.col(u + j).squared_norm_l2()).collect();
         let mut lengths = vec![0.0; k];
         for j in 0..k {
-            let seen = after[j] > (VISIBLE * before[j]).max(least[j] * least[j]) && after[j] > 0.0;
+            let share = if least[j] > 0.0 { ROUNDED } else { VISIBLE };
+            let seen = after[j] > (share * before[j]).max(least[j] * least[j]) && after[j] > 0.0;
             lengths[j] = if seen { after[j].sqrt() } else { 0.0 };
             let scale = if seen { 1.0 / lengths[j] } else { 0.0 };
             rows.col_as_slice_mut(u + j).iter_mut().for_each(|value| *value *= scale);

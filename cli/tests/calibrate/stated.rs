@@ -85,18 +85,61 @@ fn a_blunder_among_stated_points_is_no_scale() {
     assert!(named.len() == 1 && named[0]["label"] == "T0", "{}", report["cautions"]);
 }
 
+/// Stations with their uncertainty, the first so far off along x.
+fn stations(room: &Room, random: &mut Random, off_m: f64) -> String {
+    let mut text = String::from("[stations]\n");
+    for (number, (place, heading)) in room.stations.iter().enumerate() {
+        let [x, y, z] = place.map(|value| value + STATED_M * random.normal());
+        let x = if number == 0 { x + off_m } else { x };
+        let place = format!("x = \"{x} m\", y = \"{y} m\", z = \"{z} m\", heading = \"{heading} rad\"");
+        writeln!(text, "S{number} = {{ {place}, sigma = \"1 mm\" }}").expect("a string");
+    }
+    text
+}
+
+/// A scale that only stated stations show is told with its size, and is the first thing to do where it is no chance.
+#[test]
+fn a_scale_that_stated_stations_show_is_told() {
+    let folder = Folder::new("stated-scale-stations");
+    folder.write("tracker.chain", TRACKER.replace(", Ty(longer*range)", ""));
+    for (seed, longer) in [(41, 3e-3), (42, -3e-3), (43, 0.0)] {
+        let random = &mut Random::new(seed);
+        let room = Room::new(random);
+        let study = format!("{STUDY}{}", stations(&room, random, 0.0));
+        folder.write("rows.csv", room.rows(random, longer)).write("study.toml", study);
+        let report = calibrated(&folder, "study.toml");
+        let own = cautions(&report, "no scale was looked for");
+        let [scale, uncertainty] = [0, 1].map(|at| number(&own[0]["fitted"][at]));
+        assert!((scale - longer).abs() < 4.0 * uncertainty, "{scale} ± {uncertainty}, not {longer}");
+        assert!(cautions(&report, "not where it is stated").is_empty(), "{}", report["cautions"]);
+        let told = run_in(&folder.0, &["calibrate", "study.toml"], "").stdout;
+        let is_missing = told.starts_with("A SCALE IS MISSING") && told.contains("Declare the scale");
+        assert_eq!(is_missing, longer != 0.0, "{told}");
+    }
+}
+
+/// A station that is stated wrongly is no scale.
+#[test]
+fn a_station_that_is_stated_wrongly_is_no_scale() {
+    let folder = Folder::new("stated-station-blunder");
+    folder.write("tracker.chain", TRACKER.replace(", Ty(longer*range)", ""));
+    let random = &mut Random::new(44);
+    let room = Room::new(random);
+    let study = format!("{STUDY}{}", stations(&room, random, 0.2));
+    folder.write("rows.csv", room.rows(random, 0.0)).write("study.toml", study);
+    let report = calibrated(&folder, "study.toml");
+    assert!(!cautions(&report, "not where it is stated").is_empty(), "{}", report["cautions"]);
+    let own = cautions(&report, "no scale was looked for");
+    assert!(own.iter().all(|one| one["fitted"].is_null()), "{own:?}");
+}
+
 /// The search takes stated stations for unknown, so that whoever declares no scale has to be told of it, and who does has not.
 #[test]
 fn a_scale_that_is_not_looked_for_is_told() {
     let folder = Folder::new("stated-no-scale");
     let random = &mut Random::new(3);
     let room = Room::new(random);
-    let mut study = format!("{STUDY}[stations]\n");
-    for (number, (place, heading)) in room.stations.iter().enumerate() {
-        let [x, y, z] = place.map(|value| value + STATED_M * random.normal());
-        let place = format!("x = \"{x} m\", y = \"{y} m\", z = \"{z} m\", heading = \"{heading} rad\"");
-        writeln!(study, "S{number} = {{ {place}, sigma = \"1 mm\" }}").expect("a string");
-    }
+    let study = format!("{STUDY}{}", stations(&room, random, 0.0));
     folder.write("rows.csv", room.rows(random, LONGER)).write("study.toml", study);
     for (chain, is_told) in [(TRACKER.to_owned(), false), (TRACKER.replace(", Ty(longer*range)", ""), true)] {
         folder.write("tracker.chain", chain);

@@ -1,13 +1,17 @@
-//! Errors that stand for zero of an input from which the data lie far: `index` beside `drift*temperature` is the index at 0 degrees.
+//! Errors that stand for zero of an input from which the data lie far: `index` beside `drift*temperature` is the index at 0 degrees. And
+//! errors beside a function that was found at their place: they stand for where it is zero.
 
 use model_core::algebra::Poly;
-use model_core::{Chain, SymbolId, SymbolKind};
+use model_core::{Chain, Role, SymbolId, SymbolKind};
 use serde::Serialize;
 
 use super::units::of_reading;
-use crate::candidate::Setting;
+use crate::candidate::{Effect, Place, Setting};
 use crate::data::{Observations, SiUnit};
+use crate::effects::SHAPE;
 use crate::fit::FitResult;
+use crate::search::context::Context;
+use crate::search::fitted::Fitted;
 
 /// Standard deviations of an input that its mean is from zero where the data lie far from there.
 const FAR: f64 = 3.0;
@@ -25,6 +29,36 @@ pub struct AtZero {
     pub to: f64,
     /// Its SI unit.
     pub unit: SiUnit,
+}
+
+/// Errors at the place of a function that was found, whose form the data chose: what it has of a constant is theirs or its own.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BesideFunction {
+    /// The errors.
+    pub errors: Vec<String>,
+    /// The function.
+    pub function: String,
+}
+
+/// Those beside the functions that were accepted.
+pub(super) fn beside_functions(whole: &Context<'_>, last: &Fitted) -> Vec<BesideFunction> {
+    let effects = last.found.iter().map(|found| &whole.catalogue[found.effect]);
+    let shapes = effects.filter(|effect| effect.family == SHAPE);
+    let beside = |effect: &Effect| {
+        let Place { body, role, freedom } = effect.place;
+        let own = last.chain.bodies.get(usize::from(body.0))?.factors.iter();
+        // A body that nothing moves has one side.
+        let moves = own.clone().any(|factor| factor.role == Role::Motion);
+        let there = own.filter(|factor| {
+            (factor.kind, factor.axis) == (freedom.kind, freedom.axis) && (factor.role == role || !moves)
+        });
+        let constant =
+            |error: &&SymbolId| there.clone().any(|factor| factor.amount.derivative(**error) == Poly::one());
+        let name = |id: &SymbolId| last.chain.symbol(*id).name.clone();
+        let errors: Vec<String> = last.fit.parameters.iter().filter(constant).map(name).collect();
+        (!errors.is_empty()).then(|| BesideFunction { errors, function: effect.name.clone() })
+    };
+    shapes.filter_map(beside).collect()
 }
 
 /// Those of a chain that was fitted, input by input.

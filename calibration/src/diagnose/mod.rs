@@ -60,7 +60,7 @@ use rms::BeforeAfter;
 use scale_not_sought::scale_not_sought;
 use verdict::Evidence;
 
-pub use at_zero::AtZero;
+pub use at_zero::{AtZero, BesideFunction};
 pub use caution::{Caution, of_data, rounding};
 pub use detectability::NotShown;
 pub use effects::{Cause, EffectFound, Relation, Side};
@@ -107,6 +107,9 @@ pub struct Diagnosis {
     /// Errors that stand for zero of an input from which the data lie far.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub at_zero: Vec<AtZero>,
+    /// Errors that stand for where a function is zero that was found at their place.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub beside_functions: Vec<BesideFunction>,
     /// Errors that these data cannot tell apart: only combinations of those in one list are determined.
     pub not_separable: Vec<Vec<String>>,
     /// How well each error is determined, and which rows carry the fit.
@@ -301,6 +304,7 @@ pub(crate) fn diagnose(
         errors,
         estimable: errors::estimable(whole, last, &found.by_cause),
         at_zero: at_zero::at_zero(&whole.setting, &last.chain, observations, fit),
+        beside_functions: at_zero::beside_functions(whole, last),
         not_separable: precision.not_separable.iter().map(|set| set.names.clone()).collect(),
         next_poses: next.poses,
         next_places: next.places,

@@ -143,7 +143,7 @@ pub(crate) fn remaining(whole: &Context<'_>, last: &Round<'_>) -> Result<Remaini
     let tensors = tensors.into_iter().zip(of_tensors).map(|(effect, own)| {
         let white: Vec<Vec<f64>> = own.iter().map(|column| last.search.rows.whiten(column)).collect();
         let columns = Mat::from_fn(left.residual.len(), white.len(), |i, j| white[j][i]);
-        let least = least_of_function(whole, effect.place.freedom);
+        let least = least_of_function(whole, effect.place, None);
         (effect, left.shown(columns, least))
     });
     let tensors = tensors.filter(|(_, own)| own.ncols() > 0).collect();
@@ -225,12 +225,12 @@ fn harmonics(whole: &Context<'_>) -> Vec<(Place, SymbolId, u32)> {
 
 impl Scanned<'_> {
     /// A function's columns at a place: the place's derivative times the function's values, whitened.
-    fn sheet(&self, place: Place, values: &Mat<f64>) -> Mat<f64> {
+    fn sheet(&self, place: Place, driver: SymbolId, values: &Mat<f64>) -> Mat<f64> {
         match self.columns.probe(place) {
             None => Mat::zeros(self.left.residual.len(), values.ncols()),
             Some(probe) => {
                 let sheet = self.last.search.rows.sheet(probe, values);
-                self.left.shown(sheet, least_of_function(self.whole, place.freedom))
+                self.left.shown(sheet, least_of_function(self.whole, place, Some(driver)))
             }
         }
     }
@@ -271,14 +271,14 @@ impl Scanned<'_> {
             fitted,
         };
         let mut all = Vec::new();
-        let series = self.sheet(smooth.place, &driver.series);
+        let series = self.sheet(smooth.place, smooth.driver, &driver.series);
         let orders: Vec<(u32, usize)> = basis.orders().collect();
         for &(order, width) in orders.iter().filter(|&&(_, width)| width <= series.ncols()) {
             let price = Price { sets, functions: places * orders.len(), parameters: 0 };
             let fitted = contender(left, series.subcols(0, width), price);
             all.push(function(Kind::Series(basis, order), fitted));
         }
-        let columns = self.sheet(smooth.place, &driver.bumps);
+        let columns = self.sheet(smooth.place, smooth.driver, &driver.bumps);
         let bumps = basis.bumps();
         for at in most_telling(left, columns.as_ref()) {
             let price = Price { sets, functions: places, parameters: 2 };
@@ -293,7 +293,8 @@ impl Scanned<'_> {
     }
 
     fn smooth(&self, smooth: SmoothPlace) -> Sheet {
-        let columns = self.driver(smooth.driver).map(|driver| self.sheet(smooth.place, &driver.series));
+        let columns =
+            self.driver(smooth.driver).map(|driver| self.sheet(smooth.place, smooth.driver, &driver.series));
         Sheet::of(columns.unwrap_or_else(|| Mat::zeros(self.last.search.rows.columns.residual.len(), 0)))
     }
 
@@ -303,7 +304,7 @@ impl Scanned<'_> {
         let values = tabulated(observations.poses.column(joint).unwrap_or_default(), |q| {
             (first..first + A_SHEET).flat_map(|order| wave(q, order)).collect()
         });
-        let columns = self.sheet(place, &values);
+        let columns = self.sheet(place, joint, &values);
         let blocks = (0..columns.ncols() / 2).map(|at| 2 * at..2 * at + 2).collect();
         Sheet { columns, blocks }
     }

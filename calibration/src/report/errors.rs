@@ -2,7 +2,7 @@
 
 use super::numbers::{self, Reading};
 use crate::data::SiUnit;
-use crate::diagnose::{AtZero, Diagnosis, ErrorFound, Estimable};
+use crate::diagnose::{AtZero, BesideFunction, Diagnosis, ErrorFound, Estimable};
 
 /// A line of the table of estimates.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,6 +83,7 @@ fn notes(diagnosis: &Diagnosis) -> Vec<String> {
         );
     }
     notes.extend(diagnosis.at_zero.iter().map(at_zero));
+    notes.extend(diagnosis.beside_functions.iter().map(beside_function));
     for set in diagnosis.not_separable.iter().filter(|set| set.len() > 1) {
         let told = diagnosis
             .estimable
@@ -107,6 +108,15 @@ fn at_zero(AtZero { errors, input, from, to, unit }: &AtZero) -> String {
         sorted(errors).join(", "),
         numbers::told_in(*from, &own),
         numbers::told_in(*to, &own)
+    )
+}
+
+/// `range_zero is the value where the function that was found (powers, of range in beam along y) is zero; …`
+fn beside_function(BesideFunction { errors, function }: &BesideFunction) -> String {
+    let are = if errors.len() == 1 { "is the value" } else { "are the values" };
+    format!(
+        "{} {are} where the function that was found ({function}) is zero: with another function, zero elsewhere, it is another value",
+        sorted(errors).join(", ")
     )
 }
 

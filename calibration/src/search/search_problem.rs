@@ -3,13 +3,13 @@
 use std::ops::Range;
 
 use faer::Mat;
-use model_core::SymbolKind;
+use model_core::{Axis, BodyId, SymbolId, SymbolKind};
 use rayon::prelude::*;
 
 use super::filling::{each_chunk, filled};
 use super::row_set::{RowSet, components, dealt};
 use super::stretches::{Chunks, all_rows, sample};
-use crate::candidate::{EffectId, Freedom};
+use crate::candidate::{EffectId, Freedom, Place};
 use crate::data::Poses;
 use crate::search::SearchError;
 use crate::search::columns::{Columns, Probed, keep, places};
@@ -213,9 +213,15 @@ pub(crate) fn least_seen(whole: &Context<'_>, freedom: Freedom) -> f64 {
     if plan.fit.anchored { STANDS_OUT / tolerance_of(plan, freedom.quantity()) } else { 0.0 }
 }
 
-/// The same for a function that follows the data: it finds where the noise of its reading, which objects do not follow, moves it most.
-pub(crate) fn least_of_function(whole: &Context<'_>, freedom: Freedom) -> f64 {
-    CLEARLY * least_seen(whole, freedom)
+/// The same for a function of a reading that follows the data: it finds where the noise of its reading, which objects do not follow, moves
+/// it most. That of a range along itself, which that noise moves by itself alone, does not.
+pub(crate) fn least_of_function(whole: &Context<'_>, place: Place, driver: Option<SymbolId>) -> f64 {
+    let ranges = whole.setting.ranges();
+    let along = |(body, axis, range): &(BodyId, Axis, SymbolId)| {
+        (place.body, place.freedom, driver) == (*body, Freedom::along(*axis), Some(*range))
+    };
+    let clearly = if ranges.iter().any(along) { 1.0 } else { CLEARLY };
+    clearly * least_seen(whole, place.freedom)
 }
 
 /// What the candidates of a problem do at the data's poses and further out, each series in units of its noise.

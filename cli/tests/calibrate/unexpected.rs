@@ -44,6 +44,20 @@ fn a_wave_of_the_range_is_found_along_the_range() {
     holds(&report, &[("trunnion", 0.0), ("index", 0.0), ("collimation", 0.0)]);
 }
 
+/// A large slow wave is most of what the fit takes for noise; and `range_zero` is what it is where the function that says it is zero.
+#[test]
+fn a_wave_that_is_most_of_the_noise_is_found() {
+    for seed in [57, 58, 59] {
+        let wave = |range: f64| 2e-3 * (TAU * range / 8.0).sin();
+        let report =
+            report("slow-wave", seed, |[azimuth, elevation, range]| [azimuth, elevation, range - wave(range)]);
+        let effects = report["effects"].as_array().expect("a list");
+        let is_there = |effect: &Value| effect["driver"] == "range" && effect["body"] == "beam";
+        assert!(!effects.is_empty() && effects.iter().all(is_there), "{seed}: {effects:?}");
+        assert_eq!(report["beside_functions"][0]["errors"], serde_json::json!(["range_zero"]), "{seed}");
+    }
+}
+
 /// Many harmonics follow two jumps; one plateau says it.
 #[test]
 fn a_plateau_is_not_taken_for_harmonics() {

@@ -196,12 +196,13 @@ impl Library<'_, '_> {
     }
 
     /// A shape's columns at a place: the place's derivative times the function's values, whitened.
-    fn sheet(&self, place: Place, values: &Mat<f64>) -> Mat<f64> {
+    fn sheet(&self, smooth: SmoothPlace, values: &Mat<f64>) -> Mat<f64> {
+        let SmoothPlace { place, driver } = smooth;
         match self.columns.probe(place) {
             None => Mat::zeros(self.left.residual.len(), values.ncols()),
             Some(probe) => {
                 let sheet = self.last.search.rows.sheet(probe, values);
-                self.left.shown(sheet, least_of_function(self.whole, place.freedom))
+                self.left.shown(sheet, least_of_function(self.whole, place, Some(driver)))
             }
         }
     }
@@ -234,13 +235,13 @@ impl Library<'_, '_> {
             blocks.push(start..start + part.ncols());
             start += part.ncols();
         }
-        Sheet { columns: self.sheet(smooth.place, &values), blocks }
+        Sheet { columns: self.sheet(smooth, &values), blocks }
     }
 
     /// The shapes at one place of so many: the best of one function each, refined, and those of several.
     fn judged(&self, smooth: SmoothPlace, places: usize) -> Vec<Judged> {
         let Some((driver, readings)) = self.driver(smooth) else { return Vec::new() };
-        let column = |shape: &Shape| self.sheet(smooth.place, &shape.values(readings));
+        let column = |shape: &Shape| self.sheet(smooth, &shape.values(readings));
         // What the effects accepted elsewhere leave: those here are what the shape would replace.
         let here: Vec<usize> = self.accepted_at(smooth).collect();
         let beside = (0..self.left.declared).chain(
@@ -312,7 +313,7 @@ impl Library<'_, '_> {
     /// Whether a function predicts rows that were held out better than what was accepted.
     fn is_confirmed(&self, judged: &Judged) -> bool {
         let Some((_, readings)) = self.driver(judged.smooth) else { return false };
-        let columns = self.sheet(judged.smooth.place, &judged.shape.values(readings));
+        let columns = self.sheet(judged.smooth, &judged.shape.values(readings));
         let problem = self.last.search.of_rows();
         let rows = problem.rows().nrows();
         let (setting, driver) = (&self.whole.setting, judged.smooth.driver);

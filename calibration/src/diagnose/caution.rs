@@ -1,27 +1,11 @@
 //! Cautions: what casts doubt on a calibration, or on the data that it was made from.
 
-use model_core::{Chain, Quantity, SymbolKind};
 use serde::Serialize;
 
 use super::noise::NoiseFound;
 use super::uneven::Uneven;
-use crate::data::{Grouping, Measure, Measured, Observations, Series, SiUnit};
-use crate::fit::noise::Layout;
-use crate::fit::{FitResult, robust};
-
-/// Residuals of this share of what was measured (of a radian for directions) are no noise: something is read wrongly.
-const OUT_OF_PLACE: f64 = 0.2;
-
-/// Joints that turn further than this, in radians, are likely degrees; those that stay within less, radians read as
-/// degrees.
-const FURTHEST_RAD: f64 = 4.0 * std::f64::consts::TAU;
-const NEAREST_RAD: f64 = 0.12;
-
-/// Residuals of this share of what was measured (of a radian for directions) are what some fifty roundings leave.
-const ROUNDING: f64 = 1e-14;
-
-/// An angle that is no small error.
-const LARGE_RAD: f64 = 0.5;
+use crate::data::SiUnit;
+use crate::fit::FitResult;
 
 /// Noise that is so many times what was stated is larger than stated, or smaller, if chance does not explain it.
 const LARGER: f64 = 1.3;
@@ -34,7 +18,7 @@ const MOSTLY: f64 = 0.5;
 const SURE: f64 = 3.0;
 
 /// Degrees of freedom below which a fit runs through its rows, whatever their noise.
-const SOME_FREEDOM: f64 = 1.0;
+pub(super) const SOME_FREEDOM: f64 = 1.0;
 
 /// Something to be careful about.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -274,10 +258,16 @@ pub enum Caution {
         unit: SiUnit,
         /// The usual distance that was measured, m; none for directions.
         measured_m: Option<f64>,
+        /// Rows that were set aside, of how many, where the residual of the others is small; absent where it is not.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        but_for: Option<[usize; 2]>,
     },
     /// The data are explained by a mistake in reading them.
     #[serde(rename = "fits otherwise")]
     FitsOtherwise(super::otherwise::Otherwise),
+    /// Stations seem to have moved while they measured.
+    #[serde(rename = "stations moved while measuring")]
+    Moved(super::moved::Moved),
     /// Stations come out nowhere near where the study roughly puts them.
     #[serde(rename = "stations far from their rough places")]
     StationsStrayed(super::strayed::Strayed),
@@ -331,118 +321,4 @@ pub(super) fn of_readings(noise: &NoiseFound) -> Option<Caution> {
     // Of a component of the noise that others hide it takes more than of the whole.
     let is_far = !(SMALLER.powi(2)..=LARGER.powi(2)).contains(&ratio);
     is_far.then_some(Caution::ReadingsNotAsStated { ratio })
-}
-
-/// What the data and the size of the residual suggest: a wrong unit, a sign, swapped axes.
-#[must_use]
-pub fn of_data(chain: &Chain, observations: &Observations, fit: &FitResult) -> Vec<Caution> {
-    let mut cautions = Vec::new();
-    let rows = observations.rows();
-    let groups = || observations.groups.iter().max().map_or(0, |last| *last as usize + 1);
-    match observations.grouping {
-        Grouping::Declared => {}
-        Grouping::Places => {
-            let beside_groups = !observations.crossed.is_empty();
-            cautions.push(Caution::OfOnePlace { rows, places: groups(), beside_groups });
-        }
-        Grouping::Stretches { rows: of_stretch } => {
-            cautions.push(Caution::OffAlike { rows, of_stretch, stretches: groups() });
-        }
-    }
-    for series in &observations.poses.series {
-        cautions.extend(of_joints(chain, observations, series));
-        cautions.extend(out_of_place(observations, series, fit));
-    }
-    cautions.extend(rounding(observations, fit));
-    for (&parameter, &separable) in fit.parameters.iter().zip(&fit.separable) {
-        let (symbol, value_rad) = (chain.symbol(parameter), fit.values[parameter.index()]);
-        let angle = symbol.kind == SymbolKind::Error && symbol.quantity == Quantity::Angle;
-        if angle && separable && value_rad.abs() > LARGE_RAD {
-            cautions.push(Caution::ErrorNotSmall { error: symbol.name.clone(), value_rad });
-        }
-    }
-    cautions
-}
-
-/// Joints whose readings look like another unit.
-fn of_joints(chain: &Chain, observations: &Observations, series: &Series) -> Vec<Caution> {
-    let mut cautions = Vec::new();
-    for (id, values) in &observations.poses.columns {
-        let symbol = chain.symbol(*id);
-        if symbol.kind != SymbolKind::Joint || symbol.quantity != Quantity::Angle {
-            continue;
-        }
-        let readings = &values[series.rows.clone()];
-        let largest_rad = readings.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-        let (source, joint) = (series.source.clone(), symbol.name.clone());
-        if largest_rad > FURTHEST_RAD {
-            cautions.push(Caution::DegreesAsRadians { source, joint, largest_rad });
-        } else if observations.converted.contains(id)
-            && readings.len() > 10
-            && (f64::MIN_POSITIVE..NEAREST_RAD).contains(&largest_rad)
-        {
-            cautions.push(Caution::RadiansAsDegrees { source, joint, largest_rad });
-        }
-    }
-    cautions
-}
-
-/// Whether all that the fit leaves is the rounding of the numbers, as of data that were made up without noise.
-#[must_use]
-pub fn rounding(observations: &Observations, fit: &FitResult) -> Option<Caution> {
-    let of_series = |series: &Series| {
-        let measured = distance_m(observations, series).unwrap_or(1.0);
-        (rms_of(series, observations, fit), measured, series.measure.unit())
-    };
-    let all: Vec<(f64, f64, SiUnit)> = observations.poses.series.iter().map(of_series).collect();
-    if all.is_empty()
-        || fit.degrees_of_freedom < SOME_FREEDOM
-        || all.iter().any(|(rms, measured, _)| rms.is_nan() || *rms > ROUNDING * measured)
-    {
-        return None;
-    }
-    let largest = all.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
-    largest.map(|(rms, _, unit)| Caution::ResidualIsRounding { rms, unit })
-}
-
-/// The usual distance that a series measures, m; none for directions.
-fn distance_m(observations: &Observations, series: &Series) -> Option<f64> {
-    match series.measure {
-        Measure::Direction | Measure::Azimuth | Measure::Sight | Measure::Beam | Measure::Orientation => None,
-        // Nobody knows where these are.
-        Measure::Plane
-        | Measure::Target
-        | Measure::Fixed
-        | Measure::Circle
-        | Measure::Ring
-        | Measure::Wire
-        | Measure::Distance => None,
-        Measure::Point | Measure::Range => {
-            let distance = |row: usize| match observations.measured[row] {
-                Measured::Point(point) => point.norm(),
-                Measured::Range { range_m } => range_m.abs(),
-                _ => unreachable!("the series measures points or ranges"),
-            };
-            Some(robust::median(series.rows.clone().map(distance).collect()))
-        }
-    }
-}
-
-fn out_of_place(observations: &Observations, series: &Series, fit: &FitResult) -> Option<Caution> {
-    let rms = rms_of(series, observations, fit);
-    let measured_m = distance_m(observations, series);
-    (rms > OUT_OF_PLACE * measured_m.unwrap_or(1.0)).then(|| Caution::OutOfPlace {
-        source: series.source.clone(),
-        rms,
-        unit: series.measure.unit(),
-        measured_m,
-    })
-}
-
-/// RMS of the residuals' lengths over the rows of one series, with weight or without.
-fn rms_of(series: &Series, observations: &Observations, fit: &FitResult) -> f64 {
-    let layout = Layout::of(observations);
-    let own = layout.of_rows(series.rows.clone());
-    let squares: f64 = fit.residuals.raw[own].iter().map(|residual| residual * residual).sum();
-    (squares / (series.rows.len() as f64).max(1.0)).sqrt()
 }

@@ -19,9 +19,11 @@ mod instrument;
 mod misplaced;
 mod misread;
 mod mistakes;
+mod moved;
 mod next;
 mod noise;
 mod noisy;
+mod of_data;
 mod otherwise;
 mod precision;
 pub(crate) mod remaining;
@@ -61,7 +63,7 @@ use scale_not_sought::scale_not_sought;
 use verdict::Evidence;
 
 pub use at_zero::{AtZero, BesideFunction};
-pub use caution::{Caution, of_data, rounding};
+pub use caution::Caution;
 pub use detectability::NotShown;
 pub use effects::{Cause, EffectFound, Relation, Side};
 pub use ended::Ended;
@@ -73,8 +75,10 @@ pub use instrument::{
     BodyShown, ErrorShown, ErrorState, Instrument, JointShown, ObservedShown, ReadingShown,
 };
 pub use mistakes::{Misreading, StatedPlaces};
+pub use moved::Moved;
 pub(crate) use noise::expected_rms;
 pub use noise::{NoiseFound, SerialFound, SeriesNoise, UncertainReading, VarianceFound};
+pub use of_data::{of_data, rounding};
 pub use otherwise::Otherwise;
 pub use precision::{Determined, NotSeparable, Precision, precision};
 pub use remaining::{Looked, Remaining, Where};
@@ -266,6 +270,7 @@ pub(crate) fn diagnose(
     let scatters = scatters.filter(|one| !misplaced.iter().any(|own| own.is(one.what, &one.label)));
     cautions.extend(scatters.map(|Scatter { what, label, times }| Caution::Scatters { what, label, times }));
     let searched = confirmed.as_ref().ok().map(|own| own.round);
+    cautions.extend(searched.and_then(|round| moved::moved(whole, round)).map(Caution::Moved));
     cautions.extend(searched.into_iter().flat_map(|round| scale_not_sought(whole, round)));
     // A scale that is missing moves all that is stated.
     let is_scaled = scale_not_sought::is_missing(&cautions);

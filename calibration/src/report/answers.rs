@@ -4,7 +4,9 @@ use super::causes::{each_once, sentence_case};
 use super::effects::{chance_of_all, headline, place};
 use super::left::{function_form, remaining};
 use super::numbers::{short, times};
-use super::steps::{Step, fits_otherwise, is_misread, is_unconfirmed, is_worse, missing_scale, steps};
+use super::steps::{
+    Step, fits_otherwise, has_moved, is_misread, is_unconfirmed, is_worse, missing_scale, steps,
+};
 use crate::data::SiUnit;
 use crate::diagnose::{Caution, Diagnosis, EffectFound, Ended, EveryRow, Rms, Verdict};
 
@@ -117,6 +119,7 @@ fn tone(diagnosis: &Diagnosis) -> Tone {
         _ if is_worse(diagnosis) => Tone::Bad,
         _ if is_misread(diagnosis)
             || is_worse_elsewhere(diagnosis)
+            || has_moved(diagnosis)
             || missing_scale(diagnosis).is_some()
             || is_unconfirmed(diagnosis).is_some() =>
         {
@@ -132,6 +135,7 @@ fn badge(diagnosis: &Diagnosis) -> String {
     let count = diagnosis.effects.len();
     match diagnosis.verdict {
         _ if fits_otherwise(diagnosis) => "Likely read wrongly".to_owned(),
+        _ if has_moved(diagnosis) => "Moved while measuring".to_owned(),
         _ if is_worse(diagnosis) => "Worse on data that nobody fitted".to_owned(),
         Verdict::Explained if count > 1 => format!("{count} causes found"),
         Verdict::Confounded if count > 1 => format!("{count} effects found"),
@@ -178,6 +182,9 @@ fn happened(diagnosis: &Diagnosis) -> String {
              anything."
         };
         return told.to_owned();
+    }
+    if has_moved(diagnosis) {
+        return "The instrument likely moved while it measured: what was found may be that, and no error of it.".to_owned();
     }
     if let Verdict::Confounded | Verdict::UnnamedFunction = diagnosis.verdict
         && let Some((one, of)) = one_for_several(diagnosis)
@@ -333,17 +340,23 @@ fn of_unit(diagnosis: &Diagnosis, observed: &str, unit: SiUnit, [before, after]:
     if !diagnosis.verdict.is_usable() {
         return format!("No better: the {observed} error is {} as fitted.", fitted(before.rms));
     }
-    if diagnosis.effects.is_empty() {
-        let held_out = after
-            .held_out_rms
-            .map_or_else(String::new, |rms| format!("; {} on data that nobody fitted", told(rms)));
-        return format!("The {observed} error of the fitted declaration is {}{held_out}.", fitted(after.rms));
-    }
     let without = after.held_out_rows - after.held_out_rows_kept;
     let hides = |all: f64, kept: f64| without > 0 && all > HIDDEN * kept;
     let is_hidden =
         after.held_out_rms.zip(after.held_out_rms_kept).is_some_and(|(all, kept)| hides(all, kept));
     let rows = if without == 1 { "row" } else { "rows" };
+    if diagnosis.effects.is_empty() {
+        let (own, held_out, but_for) = match is_hidden {
+            true => (after.rms_kept, after.held_out_rms_kept, format!(", without {without} {rows} far out")),
+            false => (after.rms, after.held_out_rms, String::new()),
+        };
+        let held_out =
+            held_out.map_or_else(String::new, |rms| format!("; {} on data that nobody fitted", told(rms)));
+        return format!(
+            "The {observed} error of the fitted declaration is {}{held_out}{but_for}.",
+            fitted(own)
+        );
+    }
     let pairs = [
         (
             format!("on data that nobody fitted, without {without} {rows} far out,"),

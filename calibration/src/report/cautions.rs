@@ -4,7 +4,7 @@ use super::misreadings::{misread, strayed};
 use super::numbers::{reading, short, times, told, told_in};
 use crate::data::SiUnit;
 use crate::diagnose::scale_not_sought::stands_out;
-use crate::diagnose::{Caution, Uneven};
+use crate::diagnose::{Caution, Moved, Uneven};
 
 /// A caution in a sentence.
 #[must_use]
@@ -162,7 +162,11 @@ pub fn caution(caution: &Caution) -> String {
             "{source}: `{joint}` stays within {:.1} deg: were radians taken for degrees?",
             largest_rad.to_degrees()
         ),
-        Caution::OutOfPlace { source, rms, unit, measured_m } => match measured_m {
+        Caution::OutOfPlace { source, but_for: Some([aside, rows]), .. } => format!(
+            "{source}: {aside} of the {rows} rows are far off and were set aside; the others are near. Are labels swapped, or are those rows \
+             another's?"
+        ),
+        Caution::OutOfPlace { source, rms, unit, measured_m, but_for: None } => match measured_m {
             None => format!(
                 "{source}: the residual is {}: a swapped sign, swapped axes or a wrong unit is likely.",
                 short(*rms, *unit)
@@ -176,6 +180,7 @@ pub fn caution(caution: &Caution) -> String {
         },
         Caution::FitsOtherwise(otherwise) => misread(otherwise),
         Caution::StationsStrayed(own) => strayed(own),
+        Caution::Moved(own) => moved(own),
         Caution::ResidualIsRounding { rms, unit } => format!(
             "What is left, {}, is the rounding of the numbers: these data have no noise, so that no effect was searched for.",
             told(*rms, *unit)
@@ -207,4 +212,24 @@ fn scale(range: &str, body: &str, axis: &str, fitted: Option<[f64; 2]>) -> Strin
             )
         }
     }
+}
+
+/// Stations that seem to have moved.
+fn moved(own: &Moved) -> String {
+    let Moved { station, shift_m, turn_rad, instead_of } = own;
+    let by = format!(
+        "{} and {} in the order of its rows",
+        short(*shift_m, SiUnit::METRE),
+        short(*turn_rad, SiUnit::RAD)
+    );
+    let (who, by) = match station {
+        Some(label) if label.is_empty() => ("The instrument seems".to_owned(), format!("by {by}")),
+        Some(label) => (format!("Station `{label}` seems"), format!("by {by}")),
+        None => ("The stations seem".to_owned(), format!("each by up to {by}")),
+    };
+    let better = match instead_of.as_slice() {
+        [] => "that explains these data better".to_owned(),
+        some => format!("that explains these data better than {}", some.join(", ")),
+    };
+    format!("{who} to have moved while measuring, {by}: {better}. Let it stand firmly, and measure again.")
 }

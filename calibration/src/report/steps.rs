@@ -46,11 +46,29 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
         }
         _ => {}
     }
+    if diagnosis
+        .cautions
+        .iter()
+        .any(|caution| matches!(caution, Caution::OutOfPlace { but_for: Some(_), .. }))
+    {
+        steps.push(step(
+            "Look at the rows that were set aside",
+            "They are far off: labels that are swapped, rows of another object or station, a slip. What was estimated rests on the others."
+                .to_owned(),
+        ));
+    }
     if is_misread(diagnosis) {
         steps.push(step(
             "Do not correct with it yet",
             "The first thing is what the cautions say of the data: a column in another unit, a sign, an axis, a place that is stated \
              wrongly. Errors that were estimated from that are wrong, and so is what was found beside them."
+                .to_owned(),
+        ));
+    } else if has_moved(diagnosis) {
+        steps.push(step(
+            "Do not correct with it",
+            "An instrument that moves while it measures looks like errors that it does not have. Let it stand firmly and measure again; \
+             measure each target in both faces at once."
                 .to_owned(),
         ));
     } else if let Some((range, _)) = missing_scale(diagnosis) {
@@ -228,7 +246,7 @@ pub(super) fn is_misread(diagnosis: &Diagnosis) -> bool {
     let misread = |caution: &Caution| {
         matches!(
             caution,
-            Caution::OutOfPlace { .. }
+            Caution::OutOfPlace { but_for: None, .. }
                 | Caution::DegreesAsRadians { .. }
                 | Caution::NotWhereStated { .. }
                 | Caution::FitsOtherwise(_)
@@ -236,6 +254,11 @@ pub(super) fn is_misread(diagnosis: &Diagnosis) -> bool {
         )
     };
     diagnosis.cautions.iter().any(misread)
+}
+
+/// Whether stations seem to have moved while they measured.
+pub(super) fn has_moved(diagnosis: &Diagnosis) -> bool {
+    diagnosis.cautions.iter().any(|caution| matches!(caution, Caution::Moved(_)))
 }
 
 /// A scale that nobody declared and that stated places show, and how large it is.

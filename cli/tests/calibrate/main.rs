@@ -16,6 +16,7 @@ mod frames;
 mod instruments;
 mod many;
 mod misread;
+mod moved;
 mod near;
 mod noiseless;
 mod objects;

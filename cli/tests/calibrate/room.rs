@@ -43,22 +43,48 @@ impl Room {
 
     /// The same as something reads them: azimuth and elevation, rad, and range, m.
     pub fn rows_read(&self, random: &mut Random, read: impl Fn([f64; 3]) -> [f64; 3]) -> String {
-        let mut rows = String::from("station,object,azimuth [rad],elevation [rad],range [m]\n");
-        for (number, (from, heading)) in self.stations.iter().enumerate() {
+        let mut rows = String::from(HEADER);
+        for (number, station) in self.stations.iter().enumerate() {
             for (target, place) in self.targets.iter().enumerate() {
-                let away: Point = std::array::from_fn(|axis| place[axis] - from[axis]);
-                let level = away[0].hypot(away[1]);
-                let (azimuth, elevation) = (away[0].atan2(away[1]) + heading, away[2].atan2(level));
-                for (azimuth, elevation) in [(azimuth, elevation), (azimuth + PI, PI - elevation)] {
-                    let [across, up, along] = [(); 3].map(|()| random.normal());
-                    let [azimuth, elevation, range] = read([azimuth, elevation, level.hypot(away[2])]);
-                    let (azimuth, elevation) = (azimuth + 1e-5 * across, elevation + 1e-5 * up);
-                    let range = range + 20e-6 * along;
-                    writeln!(rows, "S{number},T{target},{azimuth:.9},{elevation:.9},{range:.7}")
-                        .expect("a string");
+                for reading in faces(*place, *station) {
+                    write_row(&mut rows, random, [number, target], read(reading));
                 }
             }
         }
         rows
     }
+
+    /// Every target in one face and then in the other, while each station sinks by so many m and twists by so many rad.
+    pub fn rows_moving(&self, random: &mut Random, sinks_m: f64, twists_rad: f64) -> String {
+        let mut rows = String::from(HEADER);
+        for (number, ([x, y, z], heading)) in self.stations.iter().enumerate() {
+            for face in 0..2 {
+                for (target, place) in self.targets.iter().enumerate() {
+                    let share = (face * TARGETS + target) as f64 / (2 * TARGETS) as f64;
+                    let station = ([*x, *y, z - sinks_m * share], heading + twists_rad * share);
+                    write_row(&mut rows, random, [number, target], faces(*place, station)[face]);
+                }
+            }
+        }
+        rows
+    }
+}
+
+const HEADER: &str = "station,object,azimuth [rad],elevation [rad],range [m]\n";
+
+/// What is read of a place in each face.
+fn faces(place: Point, (from, heading): (Point, f64)) -> [[f64; 3]; 2] {
+    let away: Point = std::array::from_fn(|axis| place[axis] - from[axis]);
+    let level = away[0].hypot(away[1]);
+    let (azimuth, elevation) = (away[0].atan2(away[1]) + heading, away[2].atan2(level));
+    let range = level.hypot(away[2]);
+    [[azimuth, elevation, range], [azimuth + PI, PI - elevation, range]]
+}
+
+fn write_row(rows: &mut String, random: &mut Random, [station, target]: [usize; 2], reading: [f64; 3]) {
+    let [across, up, along] = [(); 3].map(|()| random.normal());
+    let [azimuth, elevation, range] = reading;
+    let (azimuth, elevation) = (azimuth + 1e-5 * across, elevation + 1e-5 * up);
+    let range = range + 20e-6 * along;
+    writeln!(rows, "S{station},T{target},{azimuth:.9},{elevation:.9},{range:.7}").expect("a string");
 }

@@ -49,8 +49,9 @@ fn a_wave_of_the_range_is_found_along_the_range() {
 fn a_wave_that_is_most_of_the_noise_is_found() {
     for seed in [57, 58, 59] {
         let wave = |range: f64| 2e-3 * (TAU * range / 8.0).sin();
-        let report =
-            report("slow-wave", seed, |[azimuth, elevation, range]| [azimuth, elevation, range - wave(range)]);
+        let report = report("slow-wave", seed, |[azimuth, elevation, range]| {
+            [azimuth, elevation, range - wave(range)]
+        });
         let effects = report["effects"].as_array().expect("a list");
         let is_there = |effect: &Value| effect["driver"] == "range" && effect["body"] == "beam";
         assert!(!effects.is_empty() && effects.iter().all(is_there), "{seed}: {effects:?}");

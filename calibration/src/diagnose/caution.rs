@@ -265,6 +265,9 @@ pub enum Caution {
     /// The data are explained by a mistake in reading them.
     #[serde(rename = "fits otherwise")]
     FitsOtherwise(super::otherwise::Otherwise),
+    /// Lengths seem to be told from another zero.
+    #[serde(rename = "lengths from another zero")]
+    LengthsOff(super::lengths::LengthsOff),
     /// Stations seem to have moved while they measured.
     #[serde(rename = "stations moved while measuring")]
     Moved(super::moved::Moved),

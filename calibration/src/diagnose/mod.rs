@@ -16,6 +16,7 @@ mod foretold;
 mod function;
 mod harmonics;
 mod instrument;
+mod lengths;
 mod misplaced;
 mod misread;
 mod mistakes;
@@ -27,6 +28,7 @@ mod of_data;
 mod otherwise;
 mod precision;
 pub(crate) mod remaining;
+mod rivals;
 pub(crate) mod rms;
 pub(crate) mod scale_not_sought;
 pub(crate) mod shown;
@@ -74,6 +76,7 @@ pub use harmonics::Harmonics;
 pub use instrument::{
     BodyShown, ErrorShown, ErrorState, Instrument, JointShown, ObservedShown, ReadingShown,
 };
+pub use lengths::LengthsOff;
 pub use mistakes::{Misreading, StatedPlaces};
 pub use moved::Moved;
 pub(crate) use noise::expected_rms;
@@ -271,6 +274,7 @@ pub(crate) fn diagnose(
     cautions.extend(scatters.map(|Scatter { what, label, times }| Caution::Scatters { what, label, times }));
     let searched = confirmed.as_ref().ok().map(|own| own.round);
     cautions.extend(searched.and_then(|round| moved::moved(whole, round)).map(Caution::Moved));
+    cautions.extend(searched.and_then(|round| lengths::lengths_off(whole, round)).map(Caution::LengthsOff));
     cautions.extend(searched.into_iter().flat_map(|round| scale_not_sought(whole, round)));
     // A scale that is missing moves all that is stated.
     let is_scaled = scale_not_sought::is_missing(&cautions);

@@ -4,19 +4,13 @@
 use faer::Mat;
 use serde::Serialize;
 
+use super::rivals::{Winner, contest};
 use crate::data::unknowns::{OF_OBJECT, Unknowns};
-use crate::search::SetColumns;
-use crate::search::contest::{Price, contender, criterion};
 use crate::search::context::Context;
 use crate::search::round::Round;
-use crate::search::scan::Left;
-use crate::search::signs::Signs;
 
 /// Rows of a station from which on a motion can be told.
 const FEWEST: usize = 12;
-
-/// Penalised log-likelihood by which a motion must beat what was found.
-const BETTER: f64 = 3.0;
 
 /// Numbers of a station: three shifts, three turns.
 const NUMBERS: usize = 6;
@@ -43,7 +37,12 @@ pub(super) fn moved(whole: &Context<'_>, last: &Round<'_>) -> Option<Moved> {
     let rows = &last.search.rows;
     let unknowns = rows.observations.unknowns.as_ref()?;
     let times = times(unknowns);
-    let stations: Vec<usize> = (0..unknowns.stations.len()).filter(|&at| times[at].len() >= FEWEST).collect();
+    // What no station carries may be on a vehicle, whose trajectory drifts by its own right.
+    let stands = |at: &usize| times[*at].len() >= FEWEST && !unknowns.stations[*at].label.is_empty();
+    let stations: Vec<usize> = (0..unknowns.stations.len()).filter(stands).collect();
+    if stations.is_empty() {
+        return None;
+    }
     let columns_of = |station: usize| -> Vec<Vec<f64>> {
         let mut time = vec![0.0; unknowns.station.len()];
         let count = times[station].len() as f64 - 1.0;
@@ -57,14 +56,6 @@ pub(super) fn moved(whole: &Context<'_>, last: &Round<'_>) -> Option<Moved> {
     };
     let each: Vec<Vec<Vec<f64>>> = stations.iter().map(|&station| columns_of(station)).collect();
 
-    let problem = last.search.of_rows();
-    let blocks = SetColumns::of(problem, &last.sets);
-    let (numbers, accepted): (Vec<usize>, Vec<Vec<usize>>) = (last.fitted.found.iter().enumerate())
-        .filter_map(|(number, found)| Some((number, blocks[last.set_of(found.effect)?].to_vec())))
-        .unzip();
-    let signs = Signs::scattered(problem.group_of_row(), whole.options.flips, whole.options.seed);
-    let left = Left::new(problem, &accepted, &signs);
-    let price = |functions| Price { sets: last.sets.len(), functions, parameters: 0 };
     // One of them in any way, or all: in any way, or as tripods do, each by itself or alike.
     let whole_motion: Vec<usize> = (0..NUMBERS).collect();
     let all: Vec<usize> = (0..stations.len()).collect();
@@ -75,38 +66,32 @@ pub(super) fn moved(whole: &Context<'_>, last: &Round<'_>) -> Option<Moved> {
         tried.push((all.clone(), &SINKS, true));
         tried.push((all, &whole_motion, false));
     }
-    let fitted = tried.iter().map(|(some, numbers, alike)| {
+    let height = each[0][0].len();
+    let rivals = tried.iter().map(|(some, numbers, alike)| {
         let one = |at: usize, number: usize, i: usize| each[at][number][i];
         let count = numbers.len();
-        let columns = match alike {
-            true => Mat::from_fn(left.residual.len(), count, |i, j| {
-                some.iter().map(|&at| one(at, numbers[j], i)).sum()
-            }),
-            false => Mat::from_fn(left.residual.len(), count * some.len(), |i, j| {
-                one(some[j / count], numbers[j % count], i)
-            }),
-        };
-        (some, *numbers, contender(&left, columns.as_ref(), price(tried.len())))
+        match alike {
+            true => Mat::from_fn(height, count, |i, j| some.iter().map(|&at| one(at, numbers[j], i)).sum()),
+            false => {
+                Mat::from_fn(height, count * some.len(), |i, j| one(some[j / count], numbers[j % count], i))
+            }
+        }
     });
-    let (some, moving, best) = fitted.max_by(|a, b| a.2.criterion.total_cmp(&b.2.criterion))?;
-    if best.criterion <= criterion(&left, price(1)) + BETTER {
-        return None;
-    }
+    let Winner { rival, coefficients, instead_of } = contest(whole, last, &rivals.collect::<Vec<_>>())?;
+    let (some, moving, _) = &tried[rival];
     let most = |from: usize| {
         let of_station = |own: &[f64]| {
             let own = moving.iter().zip(own).filter(|(number, _)| (from..from + 3).contains(*number));
             own.map(|(_, value)| value * value).sum::<f64>().sqrt()
         };
-        best.coefficients.chunks_exact(moving.len()).map(of_station).fold(0.0, f64::max)
+        coefficients.chunks_exact(moving.len()).map(of_station).fold(0.0, f64::max)
     };
     let label = |at: usize| unknowns.stations[stations[at]].label.clone();
-    let replaced = (0..accepted.len()).filter(|at| !best.kept.contains(at));
-    let name = |at: usize| whole.catalogue[last.fitted.found[numbers[at]].effect].name.clone();
     Some(Moved {
         station: if let [one] = some[..] { Some(label(one)) } else { None },
         shift_m: most(0),
         turn_rad: most(3),
-        instead_of: replaced.map(name).collect(),
+        instead_of,
     })
 }
 

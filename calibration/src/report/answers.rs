@@ -5,7 +5,8 @@ use super::effects::{chance_of_all, headline, place};
 use super::left::{function_form, remaining};
 use super::numbers::{short, times};
 use super::steps::{
-    Step, fits_otherwise, has_moved, is_misread, is_unconfirmed, is_worse, missing_scale, steps,
+    Step, fits_otherwise, has_lengths_off, has_moved, is_misread, is_unconfirmed, is_worse, missing_scale,
+    steps,
 };
 use crate::data::SiUnit;
 use crate::diagnose::{Caution, Diagnosis, EffectFound, Ended, EveryRow, Rms, Verdict};
@@ -52,15 +53,21 @@ pub struct Answers {
 /// The answers to a diagnosis; `folder` is where its files are, if they were written.
 #[must_use]
 pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>) -> Answers {
-    let mut effects: Vec<_> = diagnosis.effects.iter().collect();
+    let mut effects: Vec<&EffectFound> = diagnosis.effects.iter().collect();
     effects.sort_by(|a, b| b.standing.total_cmp(&a.standing));
     let mut causes = each_once(effects.iter().flat_map(|effect| &effect.causes));
     if let Some((one, of)) = one_for_several(diagnosis) {
         let of = if of == effects.len() { "all".to_owned() } else { of.to_string() };
         causes.insert(0, format!("{one}, in place of {of} of them"));
     }
+    // Causes that something else explains better are no answer.
+    let are_beaten = instead_of(diagnosis).is_some_and(|some| some.len() == effects.len());
+    if are_beaten {
+        effects.clear();
+        causes.clear();
+    }
     let usable = diagnosis.verdict.is_usable();
-    let what = match (usable, &diagnosis.remaining) {
+    let what = match (usable && !are_beaten, &diagnosis.remaining) {
         (false, _) => Vec::new(),
         (true, Some(left)) if effects.is_empty() => left
             .place
@@ -94,6 +101,15 @@ pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>) -> Answers {
     }
 }
 
+/// Effects that something else explains better, which is no error of the instrument.
+fn instead_of(diagnosis: &Diagnosis) -> Option<&[String]> {
+    diagnosis.cautions.iter().find_map(|caution| match caution {
+        Caution::Moved(own) => Some(own.instead_of.as_slice()),
+        Caution::LengthsOff(own) => Some(own.instead_of.as_slice()),
+        _ => None,
+    })
+}
+
 /// Where not to correct with it.
 fn elsewhere(diagnosis: &Diagnosis) -> Option<String> {
     is_worse_elsewhere(diagnosis).then(|| {
@@ -120,6 +136,7 @@ fn tone(diagnosis: &Diagnosis) -> Tone {
         _ if is_misread(diagnosis)
             || is_worse_elsewhere(diagnosis)
             || has_moved(diagnosis)
+            || has_lengths_off(diagnosis)
             || missing_scale(diagnosis).is_some()
             || is_unconfirmed(diagnosis).is_some() =>
         {
@@ -135,6 +152,7 @@ fn badge(diagnosis: &Diagnosis) -> String {
     let count = diagnosis.effects.len();
     match diagnosis.verdict {
         _ if fits_otherwise(diagnosis) => "Likely read wrongly".to_owned(),
+        _ if has_lengths_off(diagnosis) => "Lengths are off".to_owned(),
         _ if has_moved(diagnosis) => "Moved while measuring".to_owned(),
         _ if is_worse(diagnosis) => "Worse on data that nobody fitted".to_owned(),
         Verdict::Explained if count > 1 => format!("{count} causes found"),
@@ -182,6 +200,9 @@ fn happened(diagnosis: &Diagnosis) -> String {
              anything."
         };
         return told.to_owned();
+    }
+    if has_lengths_off(diagnosis) {
+        return "The lengths are likely told from another zero: what was found may be that, and no error of the instrument.".to_owned();
     }
     if has_moved(diagnosis) {
         return "The instrument likely moved while it measured: what was found may be that, and no error of it.".to_owned();

@@ -4,7 +4,7 @@ use super::misreadings::{misread, strayed};
 use super::numbers::{reading, short, times, told, told_in};
 use crate::data::SiUnit;
 use crate::diagnose::scale_not_sought::stands_out;
-use crate::diagnose::{Caution, Moved, Uneven};
+use crate::diagnose::{Caution, LengthsOff, Moved, Uneven};
 
 /// A caution in a sentence.
 #[must_use]
@@ -181,6 +181,7 @@ pub fn caution(caution: &Caution) -> String {
         Caution::FitsOtherwise(otherwise) => misread(otherwise),
         Caution::StationsStrayed(own) => strayed(own),
         Caution::Moved(own) => moved(own),
+        Caution::LengthsOff(own) => lengths_off(own),
         Caution::ResidualIsRounding { rms, unit } => format!(
             "What is left, {}, is the rounding of the numbers: these data have no noise, so that no effect was searched for.",
             told(*rms, *unit)
@@ -223,13 +224,29 @@ fn moved(own: &Moved) -> String {
         short(*turn_rad, SiUnit::RAD)
     );
     let (who, by) = match station {
-        Some(label) if label.is_empty() => ("The instrument seems".to_owned(), format!("by {by}")),
         Some(label) => (format!("Station `{label}` seems"), format!("by {by}")),
         None => ("The stations seem".to_owned(), format!("each by up to {by}")),
     };
-    let better = match instead_of.as_slice() {
+    format!(
+        "{who} to have moved while measuring, {by}: {}. Let it stand firmly, and measure again.",
+        better_than(instead_of)
+    )
+}
+
+/// Lengths that seem to be told from another zero.
+fn lengths_off(LengthsOff { by_m, instead_of }: &LengthsOff) -> String {
+    let long = if *by_m > 0.0 { "long" } else { "short" };
+    format!(
+        "The lengths seem to be too {long} by {}: {}. See where the bar's scale begins and correct the lengths, or write kind = \"wire\", \
+         which estimates what they have too much, and calibrate again.",
+        short(by_m.abs(), SiUnit::METRE),
+        better_than(instead_of)
+    )
+}
+
+fn better_than(instead_of: &[String]) -> String {
+    match instead_of {
         [] => "that explains these data better".to_owned(),
         some => format!("that explains these data better than {}", some.join(", ")),
-    };
-    format!("{who} to have moved while measuring, {by}: {better}. Let it stand firmly, and measure again.")
+    }
 }

@@ -71,6 +71,12 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
              measure each target in both faces at once."
                 .to_owned(),
         ));
+    } else if has_lengths_off(diagnosis) {
+        steps.push(step(
+            "Do not correct with it yet",
+            "Lengths that are all too long, or too short, look like errors that the instrument does not have. What to do stands in the caution."
+                .to_owned(),
+        ));
     } else if let Some((range, _)) = missing_scale(diagnosis) {
         steps.push(step(
             "Declare the scale, and calibrate again",
@@ -93,7 +99,9 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
     } else {
         steps.push(correct(diagnosis, folder));
     }
-    if let Some(effect) = diagnosis.effects.iter().max_by(|a, b| a.standing.total_cmp(&b.standing)) {
+    let is_cause = !has_moved(diagnosis) && !has_lengths_off(diagnosis);
+    let largest = diagnosis.effects.iter().max_by(|a, b| a.standing.total_cmp(&b.standing));
+    if let Some(effect) = largest.filter(|_| is_cause) {
         let more = match effect.causes.len() {
             0 | 1 => String::new(),
             2 => " The other cause that fits has a check of its own.".to_owned(),
@@ -259,6 +267,11 @@ pub(super) fn is_misread(diagnosis: &Diagnosis) -> bool {
 /// Whether stations seem to have moved while they measured.
 pub(super) fn has_moved(diagnosis: &Diagnosis) -> bool {
     diagnosis.cautions.iter().any(|caution| matches!(caution, Caution::Moved(_)))
+}
+
+/// Whether lengths seem to be told from another zero.
+pub(super) fn has_lengths_off(diagnosis: &Diagnosis) -> bool {
+    diagnosis.cautions.iter().any(|caution| matches!(caution, Caution::LengthsOff(_)))
 }
 
 /// A scale that nobody declared and that stated places show, and how large it is.

@@ -5,6 +5,7 @@ mod support;
 
 mod at_zero;
 mod bad_studies;
+mod bar;
 mod by_cause;
 mod cameras;
 mod circles;

@@ -308,9 +308,11 @@ impl Chain {
         &self,
         py: Python<'_>,
         observables: Vec<String>,
-        candidate: Option<&str>,
+        candidate: Option<String>,
     ) -> PyResult<(String, String)> {
-        errors::run(py, || library::identified(&self.chain, &observables, candidate)).map(told)
+        let chain = self.chain.clone();
+        let identified = move || library::identified(&chain, &observables, candidate.as_deref());
+        errors::run_interruptible(py, identified).map(told)
     }
 
     /// Proven bounds on what the first order leaves out.
@@ -322,10 +324,11 @@ impl Chain {
         ranges: Vec<(String, String)>,
         seed: u64,
     ) -> PyResult<(String, String)> {
-        errors::run(py, || {
-            let chain = self.with_numbers()?;
-            let ranges = library::ranges(chain, &ranges)?;
-            library::bounded(chain, &source(sizes), &observables, &ranges, seed)
+        let chain = self.with_numbers().cloned();
+        errors::run_interruptible(py, move || {
+            let chain = chain?;
+            let ranges = library::ranges(&chain, &ranges)?;
+            library::bounded(&chain, &source(sizes), &observables, &ranges, seed)
         })
         .map(told)
     }
@@ -336,13 +339,14 @@ impl Chain {
         py: Python<'_>,
         sizes: Text,
         observables: Vec<String>,
-        path: Option<&str>,
+        path: Option<String>,
         ranges: Vec<(String, String)>,
     ) -> PyResult<(String, String)> {
-        errors::run(py, || {
-            let chain = self.with_numbers()?;
-            let ranges = library::ranges(chain, &ranges)?;
-            library::budgeted(chain, &source(sizes), &observables, path, &ranges)
+        let chain = self.with_numbers().cloned();
+        errors::run_interruptible(py, move || {
+            let chain = chain?;
+            let ranges = library::ranges(&chain, &ranges)?;
+            library::budgeted(&chain, &source(sizes), &observables, path.as_deref(), &ranges)
         })
         .map(told)
     }
@@ -394,5 +398,5 @@ impl Chain {
 /// The verdicts on the claims of a file.
 #[pyfunction]
 pub fn check(py: Python<'_>, claims: PathBuf) -> PyResult<(String, String)> {
-    errors::run(py, || library::checked(&claims)).map(told)
+    errors::run_interruptible(py, move || library::checked(&claims)).map(told)
 }

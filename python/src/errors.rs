@@ -53,6 +53,15 @@ pub fn run_watched<T: Send + 'static>(
     told(py, watched(py, hear, work)??).map(|(done, _)| done)
 }
 
+/// The same as [`run`] of work that may be long, which a signal ends for who asked.
+pub fn run_interruptible<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce() -> Result<T, Failure> + Send + 'static,
+) -> PyResult<T> {
+    let nobody_hears = |_: Python<'_>, _: String| Ok(());
+    run_watched(py, &nobody_hears, |_| Python::attach(|py| collected(py, work)))
+}
+
 /// What came of some work, and what it warns of.
 pub type Collected<T> = (Result<T, Failure>, Vec<String>);
 

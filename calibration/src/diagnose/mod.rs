@@ -273,13 +273,17 @@ pub(crate) fn diagnose(
     let scatters = scatters.filter(|one| !misplaced.iter().any(|own| own.is(one.what, &one.label)));
     cautions.extend(scatters.map(|Scatter { what, label, times }| Caution::Scatters { what, label, times }));
     let searched = confirmed.as_ref().ok().map(|own| own.round);
-    cautions.extend(searched.and_then(|round| moved::moved(whole, round)).map(Caution::Moved));
-    cautions.extend(searched.and_then(|round| lengths::lengths_off(whole, round)).map(Caution::LengthsOff));
     cautions.extend(searched.into_iter().flat_map(|round| scale_not_sought(whole, round)));
     // A scale that is missing moves all that is stated.
     let is_scaled = scale_not_sought::is_missing(&cautions);
     let misplaced = misplaced.into_iter().filter(|own| !is_scaled || own.sigmas.is_none());
-    cautions.extend(misplaced.map(Caution::from));
+    let misplaced: Vec<Caution> = misplaced.map(Caution::from).collect();
+    // Places that pull leave residuals of all kinds.
+    if let (Some(round), false, true) = (searched, is_scaled, misplaced.is_empty()) {
+        cautions.extend(moved::moved(whole, round).map(Caution::Moved));
+        cautions.extend(lengths::lengths_off(whole, round).map(Caution::LengthsOff));
+    }
+    cautions.extend(misplaced);
     let mut cautions = misread(whole, fit, &ended, cautions);
     let remaining = found.remaining.as_ref();
     cautions.extend(noisy_readings(whole, last, &found)?);

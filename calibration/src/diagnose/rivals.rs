@@ -3,7 +3,7 @@
 use faer::Mat;
 
 use crate::search::SetColumns;
-use crate::search::contest::{Price, contender, criterion};
+use crate::search::contest::{Price, contender, criterion, predicts};
 use crate::search::context::Context;
 use crate::search::round::Round;
 use crate::search::scan::Left;
@@ -34,11 +34,11 @@ pub(super) fn contest(whole: &Context<'_>, last: &Round<'_>, rivals: &[Mat<f64>]
     let price = |functions| Price { sets: last.sets.len(), functions, parameters: 0 };
     let fitted = rivals.iter().map(|columns| contender(&left, columns.as_ref(), price(rivals.len())));
     let (rival, best) = fitted.enumerate().max_by(|a, b| a.1.criterion.total_cmp(&b.1.criterion))?;
+    let folds: Vec<Vec<usize>> =
+        (0..problem.folds()).map(|fold| problem.rows_of_folds(|other| other == fold)).collect();
+    let wins = best.criterion > criterion(&left, price(1)) + BETTER
+        && predicts(&left, rivals[rival].as_ref(), &best.kept, &folds);
     let replaced = (0..accepted.len()).filter(|at| !best.kept.contains(at));
     let name = |at: usize| whole.catalogue[last.fitted.found[numbers[at]].effect].name.clone();
-    (best.criterion > criterion(&left, price(1)) + BETTER).then(|| Winner {
-        rival,
-        instead_of: replaced.map(name).collect(),
-        coefficients: best.coefficients,
-    })
+    wins.then(|| Winner { rival, instead_of: replaced.map(name).collect(), coefficients: best.coefficients })
 }

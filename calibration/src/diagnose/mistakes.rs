@@ -10,7 +10,7 @@ use crate::data::unknowns::{Known, Places, Pose, Unknowns};
 use crate::fit::range_of;
 
 /// Joints that are tried one by one at most.
-const JOINTS: usize = 4;
+const JOINTS: usize = 8;
 
 /// Stations that are tried one by one at most.
 const STATIONS: usize = 12;
@@ -73,6 +73,13 @@ pub enum Misreading {
     FromZenith {
         /// The joint.
         joint: String,
+    },
+    /// A joint counts from elsewhere.
+    Turned {
+        /// The joint.
+        joint: String,
+        /// What is to be added, degrees.
+        by_deg: i32,
     },
     /// Two joints are exchanged.
     Exchanged {
@@ -190,7 +197,9 @@ fn of_readings(chain: &Chain, sample: &Observations) -> Vec<(Misreading, Undo)> 
     };
     let scaled = |value: f64, factor: f64| value * factor;
     let mut all = Vec::new();
-    if let [one, other] = joints[..] {
+    let tried = if joints.len() > JOINTS { &[][..] } else { &joints[..] };
+    for pair in tried.windows(2) {
+        let (one, other) = (pair[0], pair[1]);
         let exchange = move |columns: &mut Readings| {
             let at = |wanted| columns.iter().position(|(id, _)| *id == wanted);
             if let (Some(a), Some(b)) = (at(one), at(other)) {
@@ -201,11 +210,16 @@ fn of_readings(chain: &Chain, sample: &Observations) -> Vec<(Misreading, Undo)> 
         let joints = [name(one), name(other)];
         all.push((Misreading::Exchanged { joints }, Undo::Readings(Box::new(exchange))));
     }
-    let tried = if joints.len() > JOINTS { &[][..] } else { &joints[..] };
     for &id in tried {
         all.push((Misreading::Reversed { joint: name(id) }, mapped(vec![id], scaled, -1.0)));
         let from_zenith = mapped(vec![id], |value, by| by - value, FRAC_PI_2);
         all.push((Misreading::FromZenith { joint: name(id) }, from_zenith));
+    }
+    for &id in tried {
+        for quarters in [1, -1, 2] {
+            let turned = mapped(vec![id], |value, by| value + by, f64::from(quarters) * FRAC_PI_2);
+            all.push((Misreading::Turned { joint: name(id), by_deg: 90 * quarters }, turned));
+        }
     }
     let alone = tried.iter().filter(|_| joints.len() > 1).map(|&id| vec![id]);
     for ids in std::iter::once(joints.clone()).chain(alone).filter(|ids| !ids.is_empty()) {

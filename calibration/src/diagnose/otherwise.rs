@@ -2,6 +2,7 @@
 //! degrees. Each is undone and the rows are fitted once more; those that leave a small part of the residual are named.
 
 use model_core::{Quantity, SymbolId};
+use nalgebra::Vector3;
 use serde::Serialize;
 
 use super::mistakes::{Misreading, Undo, mistakes};
@@ -117,8 +118,8 @@ pub(super) fn sample(observations: &Observations) -> Observations {
 pub(super) struct Left {
     /// RMS without the rows furthest off, SI.
     pub rms: f64,
-    /// How far away what is observed usually is, m.
-    away_m: f64,
+    /// How far apart what is observed lies, m.
+    spread_m: f64,
     /// The largest error that is an angle, rad.
     largest_rad: f64,
     /// Where objects and stations come out.
@@ -126,9 +127,10 @@ pub(super) struct Left {
 }
 
 impl Left {
-    /// In units of how far away things are: a room that is read a thousand times as large has residuals a thousand times as large.
+    /// In units of how far apart things lie: a room that is read a thousand times as large has residuals a thousand times as large, and
+    /// joints that hardly move reach hardly more than one point.
     fn relative(&self) -> f64 {
-        self.rms / self.away_m
+        self.rms / self.spread_m
     }
 }
 
@@ -137,7 +139,7 @@ pub(super) struct Placed {
     pub observations: Observations,
     /// Where the study writes that stations stood.
     pub written: Vec<Station>,
-    /// What is left at the start, in units of how far away things are.
+    /// What is left at the start, in units of how far apart things lie.
     relative: f64,
 }
 
@@ -168,7 +170,7 @@ pub(super) fn placed(whole: &Context<'_>, sample: &Observations, undo: Option<&U
     values.resize(plan.chain.symbols.len() + numbers, 0.0);
     let model = Model::without_columns(&plan.chain, &observations.poses);
     let raw = residuals(&model, &observations, &values).ok()?;
-    let relative = trimmed_rms(&observations, &raw)? / away_m(whole, &observations, &values)?;
+    let relative = trimmed_rms(&observations, &raw)? / spread_m(whole, &observations, &values)?;
     Some(Placed { observations, written, relative })
 }
 
@@ -184,16 +186,18 @@ pub(super) fn left_by(whole: &Context<'_>, observations: &Observations) -> Optio
     let angles = fit.parameters.iter().filter(is_angle).map(|id| fit.values[id.index()].abs());
     Some(Left {
         rms: trimmed_rms(observations, &fit.residuals.raw)?,
-        away_m: away_m(whole, observations, &fit.values)?,
+        spread_m: spread_m(whole, observations, &fit.values)?,
         largest_rad: angles.fold(0.0, f64::max),
         there: unknowns.at(&fit.values[plan.chain.symbols.len()..]),
     })
 }
 
-/// How far away what is observed usually is, m.
-fn away_m(whole: &Context<'_>, observations: &Observations, values: &[f64]) -> Option<f64> {
+/// How far what is observed usually lies from the middle of all, as the chain has it, m.
+fn spread_m(whole: &Context<'_>, observations: &Observations, values: &[f64]) -> Option<f64> {
     let points = rows(&whole.request.plan.chain, observations, observations.unknowns.as_ref()?, values);
-    Some(robust::median(points.iter().map(|row| row.point.norm()).collect()))
+    let middle = points.iter().map(|row| row.point).sum::<Vector3<f64>>() / points.len() as f64;
+    let spread = robust::median(points.iter().map(|row| (row.point - middle).norm()).collect());
+    (spread > 0.0).then_some(spread)
 }
 
 /// RMS of the residual without the rows furthest off, SI; `None` where more have none.

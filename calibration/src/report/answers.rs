@@ -53,21 +53,20 @@ pub struct Answers {
 /// The answers to a diagnosis; `folder` is where its files are, if they were written.
 #[must_use]
 pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>) -> Answers {
-    let mut effects: Vec<&EffectFound> = diagnosis.effects.iter().collect();
+    // Causes that something else explains better are no answer.
+    let beaten = instead_of(diagnosis);
+    let is_beaten = |effect: &EffectFound| effect.names.iter().any(|name| beaten.contains(name));
+    let mut effects: Vec<&EffectFound> =
+        diagnosis.effects.iter().filter(|effect| !is_beaten(effect)).collect();
+    let are_all_beaten = effects.is_empty() && (has_moved(diagnosis) || has_lengths_off(diagnosis));
     effects.sort_by(|a, b| b.standing.total_cmp(&a.standing));
     let mut causes = each_once(effects.iter().flat_map(|effect| &effect.causes));
-    if let Some((one, of)) = one_for_several(diagnosis) {
+    if let Some((one, of)) = one_for_several(diagnosis).filter(|_| beaten.is_empty()) {
         let of = if of == effects.len() { "all".to_owned() } else { of.to_string() };
         causes.insert(0, format!("{one}, in place of {of} of them"));
     }
-    // Causes that something else explains better are no answer.
-    let are_beaten = instead_of(diagnosis).is_some_and(|some| some.len() == effects.len());
-    if are_beaten {
-        effects.clear();
-        causes.clear();
-    }
     let usable = diagnosis.verdict.is_usable();
-    let what = match (usable && !are_beaten, &diagnosis.remaining) {
+    let what = match (usable && !are_all_beaten, &diagnosis.remaining) {
         (false, _) => Vec::new(),
         (true, Some(left)) if effects.is_empty() => left
             .place
@@ -102,12 +101,13 @@ pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>) -> Answers {
 }
 
 /// Effects that something else explains better, which is no error of the instrument.
-fn instead_of(diagnosis: &Diagnosis) -> Option<&[String]> {
-    diagnosis.cautions.iter().find_map(|caution| match caution {
+fn instead_of(diagnosis: &Diagnosis) -> &[String] {
+    let own = diagnosis.cautions.iter().find_map(|caution| match caution {
         Caution::Moved(own) => Some(own.instead_of.as_slice()),
         Caution::LengthsOff(own) => Some(own.instead_of.as_slice()),
         _ => None,
-    })
+    });
+    own.unwrap_or_default()
 }
 
 /// Where not to correct with it.

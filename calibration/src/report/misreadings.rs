@@ -53,6 +53,10 @@ fn mistake(mistake: &Misreading) -> String {
         }
         Misreading::Reversed { joint } => format!("`{joint}` runs the other way"),
         Misreading::FromZenith { joint } => format!("`{joint}` counts from the zenith (it is 90 deg − what was read)"),
+        Misreading::Turned { joint, by_deg } => {
+            let sign = if *by_deg < 0 { "−" } else { "+" };
+            format!("`{joint}` counts from elsewhere (it is what was read {sign} {} deg)", by_deg.abs())
+        }
         Misreading::Exchanged { joints: [one, other] } => format!("the columns of `{one}` and `{other}` are exchanged"),
         Misreading::Unit { readings, unit } => in_unit(readings, "", unit),
         Misreading::UnitAt { station, readings, unit } => in_unit(readings, &format!(" of station `{station}`"), unit),
@@ -61,7 +65,13 @@ fn mistake(mistake: &Misreading) -> String {
 
 fn in_unit(readings: &[String], of: &str, unit: &str) -> String {
     let are = if readings.len() == 1 { "is" } else { "are" };
-    format!("`{}`{of} {are} {unit}", readings.join("` and `"))
+    let named: Vec<String> = readings.iter().map(|reading| format!("`{reading}`")).collect();
+    let all = match named.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, others)) => format!("{} and {last}", others.join(", ")),
+        None => unreachable!("a unit is that of a reading"),
+    };
+    format!("{all}{of} {are} {unit}")
 }
 
 fn places(of: StatedPlaces) -> &'static str {

@@ -2,9 +2,11 @@
 //!
 //! The data lie outside the project; without them the tests say so and pass, except where `CI` is set.
 
+use std::fmt::Write;
+
 use serde_json::Value;
 
-use crate::figures::calibrated;
+use crate::figures::{calibrated, cautions};
 use crate::support::{Folder, root, run_in};
 
 const STUDY: &str = "examples/ball-sockets/panda.toml";
@@ -87,4 +89,39 @@ fn sockets_at_a_known_distance_hold_the_scale() {
     let [value, sigma] = ["value", "standard_uncertainty"].map(|key| d3[key].as_f64().expect("a number"));
     // The maker's 316 mm, to within a hundredth and what the rows say that they show.
     assert!(value.abs() < 4.0 * sigma && sigma < 2e-3, "{d3}");
+}
+
+/// A joint that runs the other way, two that are exchanged, one that counts from elsewhere: named as that, and not as degrees, which leave
+/// small residuals of an arm that hardly moves.
+#[test]
+fn what_is_read_wrongly_of_an_arm_is_named() {
+    let Some(folder) = robot("panda_4", "sockets-misread") else { return };
+    let rows = folder.read("robot.csv");
+    let quarter = std::f64::consts::FRAC_PI_2;
+    type Change = fn(&mut [f64], f64);
+    let changes: [(Change, Value); 3] = [
+        (|q, _| q[2] = -q[2], serde_json::json!({ "what": "reversed", "joint": "q3" })),
+        (|q, _| q.swap(3, 4), serde_json::json!({ "what": "exchanged", "joints": ["q4", "q5"] })),
+        (|q, quarter| q[1] += quarter, serde_json::json!({ "what": "turned", "joint": "q2", "by_deg": -90 })),
+    ];
+    for (change, expected) in changes {
+        let mut text = String::new();
+        for line in rows.lines() {
+            let cells: Vec<&str> = line.split(',').collect();
+            let mut joints: Vec<f64> = cells[3..10].iter().filter_map(|cell| cell.parse().ok()).collect();
+            if joints.len() < 7 {
+                writeln!(text, "{line}").expect("a string");
+                continue;
+            }
+            change(&mut joints, quarter);
+            let mut cells: Vec<String> = cells.iter().map(ToString::to_string).collect();
+            cells.iter_mut().skip(3).zip(joints).for_each(|(cell, q)| *cell = format!("{q:.15}"));
+            writeln!(text, "{}", cells.join(",")).expect("a string");
+        }
+        folder.write("robot.csv", text);
+        let run = run_in(&folder.0, &["calibrate", "panda.toml", "--format", "json"], "");
+        let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
+        let own = cautions(&report, "fits otherwise");
+        assert_eq!(own.first().map(|own| &own["mistakes"][0]), Some(&expected), "{}", report["cautions"]);
+    }
 }

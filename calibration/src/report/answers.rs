@@ -53,20 +53,18 @@ pub struct Answers {
 /// The answers to a diagnosis; `folder` is where its files are, if they were written.
 #[must_use]
 pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>) -> Answers {
-    // Causes that something else explains better are no answer.
-    let beaten = instead_of(diagnosis);
-    let is_beaten = |effect: &EffectFound| effect.names.iter().any(|name| beaten.contains(name));
-    let mut effects: Vec<&EffectFound> =
-        diagnosis.effects.iter().filter(|effect| !is_beaten(effect)).collect();
-    let are_all_beaten = effects.is_empty() && (has_moved(diagnosis) || has_lengths_off(diagnosis));
+    // Where something else explains a cause better, none beside it is an answer either: all were found without that.
+    let are_beaten = !instead_of(diagnosis).is_empty();
+    let mut effects: Vec<&EffectFound> = diagnosis.effects.iter().filter(|_| !are_beaten).collect();
+    let is_answered_otherwise = effects.is_empty() && (has_moved(diagnosis) || has_lengths_off(diagnosis));
     effects.sort_by(|a, b| b.standing.total_cmp(&a.standing));
     let mut causes = each_once(effects.iter().flat_map(|effect| &effect.causes));
-    if let Some((one, of)) = one_for_several(diagnosis).filter(|_| beaten.is_empty()) {
+    if let Some((one, of)) = one_for_several(diagnosis).filter(|_| !are_beaten) {
         let of = if of == effects.len() { "all".to_owned() } else { of.to_string() };
         causes.insert(0, format!("{one}, in place of {of} of them"));
     }
     let usable = diagnosis.verdict.is_usable();
-    let what = match (usable && !are_all_beaten, &diagnosis.remaining) {
+    let what = match (usable && !is_answered_otherwise, &diagnosis.remaining) {
         (false, _) => Vec::new(),
         (true, Some(left)) if effects.is_empty() => left
             .place

@@ -265,6 +265,9 @@ pub enum Caution {
     /// The data are explained by a mistake in reading them.
     #[serde(rename = "fits otherwise")]
     FitsOtherwise(super::otherwise::Otherwise),
+    /// Rows of an object lie at two places.
+    #[serde(rename = "rows at two places")]
+    TwoPlaces(super::two_places::TwoPlaces),
     /// Lengths seem to be told from another zero.
     #[serde(rename = "lengths from another zero")]
     LengthsOff(super::lengths::LengthsOff),

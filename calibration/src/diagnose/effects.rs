@@ -12,8 +12,9 @@ use super::rms::observables_of;
 use super::units::unit_of;
 use crate::candidate::{Dependence, Effect, EffectId};
 use crate::data::SiUnit;
-use crate::effects::FAMILIES;
+use crate::effects::{FAMILIES, SHAPE};
 use crate::search::context::Context;
+use crate::search::fitted::Fitted;
 use crate::search::round::Round;
 use crate::search::state::State;
 use crate::search::{AS_GOOD, CompetingModel, SetColumns, competing_models};
@@ -303,4 +304,10 @@ fn amplitude(last: &Round<'_>, rms: &[BeforeAfter], effect: EffectId, errors: &[
     let best =
         rms.iter().map(of_unit).reduce(|best, own| if own.standing > best.standing { own } else { best });
     best.unwrap_or_else(|| unreachable!("an effect was found in observations"))
+}
+
+/// Whether a function without a name was taken up: a shape of several coefficients.
+pub(super) fn has_unnamed(whole: &Context<'_>, last: &Fitted) -> bool {
+    let mut effects = last.found.iter().map(|found| &whole.catalogue[found.effect]);
+    effects.any(|effect| effect.family == SHAPE && effect.functions.len() > 1)
 }

@@ -46,5 +46,6 @@ fn follows(caution: &Caution) -> bool {
             | Caution::Scatters { .. }
             | Caution::SetAsideShare { .. }
             | Caution::OffAlike { .. }
+            | Caution::TwoPlaces(_)
     )
 }

@@ -34,6 +34,7 @@ pub(crate) mod scale_not_sought;
 pub(crate) mod shown;
 mod strayed;
 pub(crate) mod trace;
+mod two_places;
 mod uneven;
 mod units;
 mod verdict;
@@ -46,7 +47,6 @@ use crate::data::unknowns::Unknowns;
 use crate::data::{Origin, SiUnit};
 use crate::design::discrimination::separation;
 use crate::design::{PlaceProposal, Proposal, Separation};
-use crate::effects::SHAPE;
 use crate::fit::FitResult;
 use crate::search::HeldOut;
 use crate::search::aside::{Shared, shared};
@@ -89,6 +89,7 @@ pub use rms::{Beside, Rms};
 pub use shown::Shown;
 pub use strayed::Strayed;
 pub use trace::Trace;
+pub use two_places::TwoPlaces;
 use uneven::Scatter;
 pub use uneven::Uneven;
 pub use verdict::Verdict;
@@ -293,7 +294,8 @@ pub(crate) fn diagnose(
         .all(|effect| effect.confounded_with.is_empty() && effect.competing_with.is_empty());
     let verdict = verdict::verdict(Evidence {
         ended: &ended,
-        unnamed: remaining.is_some_and(|remaining| remaining.place.is_some()) || has_unnamed(whole, last),
+        unnamed: remaining.is_some_and(|remaining| remaining.place.is_some())
+            || effects::has_unnamed(whole, last),
         structure: remaining.is_some_and(|remaining| remaining.p_value <= whole.options.false_alarm),
         effects: !found.effects.is_empty(),
         alone,
@@ -351,12 +353,6 @@ fn noisy_readings(whole: &Context<'_>, last: &Fitted, found: &Found) -> Result<V
     let noisy: Vec<Option<Noisy>> = noisy.collect::<Result<_, _>>()?;
     let caution = |Noisy { reading, sigma, unit }| Caution::NoisyReadings { reading, sigma, unit };
     Ok(noisy.into_iter().flatten().map(caution).collect())
-}
-
-/// Whether a function without a name was taken up: a shape of several coefficients.
-fn has_unnamed(whole: &Context<'_>, last: &Fitted) -> bool {
-    let mut effects = last.found.iter().map(|found| &whole.catalogue[found.effect]);
-    effects.any(|effect| effect.family == SHAPE && effect.functions.len() > 1)
 }
 
 /// What a search found.

@@ -3,6 +3,7 @@
 use model_core::{Chain, Quantity, SymbolKind};
 
 use super::caution::{Caution, SOME_FREEDOM};
+use super::two_places::two_places;
 use crate::data::{Grouping, Measure, Measured, Observations, Series, SiUnit};
 use crate::fit::noise::Layout;
 use crate::fit::{FitResult, robust};
@@ -45,6 +46,7 @@ pub fn of_data(chain: &Chain, observations: &Observations, fit: &FitResult) -> V
         cautions.extend(out_of_place(observations, series, fit));
     }
     cautions.extend(rounding(observations, fit));
+    cautions.extend(two_places(chain, observations, fit).map(Caution::TwoPlaces));
     for (&parameter, &separable) in fit.parameters.iter().zip(&fit.separable) {
         let (symbol, value_rad) = (chain.symbol(parameter), fit.values[parameter.index()]);
         let angle = symbol.kind == SymbolKind::Error && symbol.quantity == Quantity::Angle;

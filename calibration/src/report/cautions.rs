@@ -4,7 +4,7 @@ use super::misreadings::{misread, strayed};
 use super::numbers::{reading, short, times, told, told_in};
 use crate::data::SiUnit;
 use crate::diagnose::scale_not_sought::stands_out;
-use crate::diagnose::{Caution, LengthsOff, Moved, Uneven};
+use crate::diagnose::{Caution, LengthsOff, Moved, TwoPlaces, Uneven};
 
 /// A caution in a sentence.
 #[must_use]
@@ -182,6 +182,18 @@ pub fn caution(caution: &Caution) -> String {
         Caution::StationsStrayed(own) => strayed(own),
         Caution::Moved(own) => moved(own),
         Caution::LengthsOff(own) => lengths_off(own),
+        Caution::TwoPlaces(TwoPlaces { label, apart_m, rows: [one, other], objects: [some, all] }) => {
+            let count = if *some > 1 {
+                format!(", and so do those of {some} of {all} objects")
+            } else {
+                String::new()
+            };
+            format!(
+                "The rows of `{label}` lie at two places {} apart ({one} and {other} rows){count}: are two things under one label? Then name \
+                 the column that tells them apart, too: object = [\"…\", \"…\"].",
+                short(*apart_m, SiUnit::METRE)
+            )
+        }
         Caution::ResidualIsRounding { rms, unit } => format!(
             "What is left, {}, is the rounding of the numbers: these data have no noise, so that no effect was searched for.",
             told(*rms, *unit)

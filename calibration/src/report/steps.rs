@@ -259,6 +259,7 @@ pub(super) fn is_misread(diagnosis: &Diagnosis) -> bool {
                 | Caution::NotWhereStated { .. }
                 | Caution::FitsOtherwise(_)
                 | Caution::StationsStrayed(_)
+                | Caution::TwoPlaces(_)
         )
     };
     diagnosis.cautions.iter().any(misread)
@@ -289,6 +290,7 @@ pub(super) fn fits_otherwise(diagnosis: &Diagnosis) -> bool {
     diagnosis.cautions.iter().any(|caution| match caution {
         Caution::FitsOtherwise(_) => true,
         Caution::StationsStrayed(own) => !own.mistakes.is_empty(),
+        Caution::TwoPlaces(own) => 2 * own.objects[0] > own.objects[1],
         _ => false,
     })
 }

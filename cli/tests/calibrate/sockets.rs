@@ -125,3 +125,20 @@ fn what_is_read_wrongly_of_an_arm_is_named() {
         assert_eq!(own.first().map(|own| &own["mistakes"][0]), Some(&expected), "{}", report["cautions"]);
     }
 }
+
+/// Two sockets under one label are 50 mm apart, as those of every stand.
+#[test]
+fn two_sockets_under_one_label_are_told() {
+    let Some(folder) = robot("panda_4", "sockets-merged") else { return };
+    let study = folder.read("panda.toml");
+    assert!(study.contains("[\"placement\", \"socket\"]"));
+    folder.write("panda.toml", study.replace("[\"placement\", \"socket\"]", "\"placement\""));
+    let report = calibrated(&folder, "panda.toml");
+    let own = cautions(&report, "rows at two places");
+    assert_eq!(own.len(), 1, "{}", report["cautions"]);
+    let apart_m = number(own[0], "/apart_m");
+    assert!((apart_m - 0.05).abs() < 0.002, "{apart_m}");
+    assert_eq!(own[0]["objects"][0], own[0]["objects"][1]);
+    let told = run_in(&folder.0, &["calibrate", "panda.toml"], "").stdout;
+    assert!(told.starts_with("LIKELY READ WRONGLY"), "{told}");
+}

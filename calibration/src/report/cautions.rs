@@ -189,8 +189,8 @@ pub fn caution(caution: &Caution) -> String {
                 String::new()
             };
             format!(
-                "The rows of `{label}` lie at two places {} apart ({one} and {other} rows){count}: are two things under one label? Then name \
-                 the column that tells them apart, too: object = [\"…\", \"…\"].",
+                "The rows of `{label}` lie at two places {} apart ({one} and {other} rows){count}: are two things under one label, or did it move \
+                 meanwhile? Of two things name the column that tells them apart, too: object = [\"…\", \"…\"].",
                 short(*apart_m, SiUnit::METRE)
             )
         }

@@ -83,7 +83,7 @@ pub(super) fn misplaced(chain: &Chain, observations: &Observations, fit: &FitRes
 
 /// Those that chance does not explain by their stated uncertainties, the furthest off first.
 pub(super) fn by_what_is_stated(unknowns: &Unknowns, fit: &FitResult) -> Vec<Misplaced> {
-    let state = &fit.values[fit.values.len() - unknowns.numbers()..];
+    let state = unknowns.state(&fit.values);
     let mut found: Vec<(f64, Misplaced)> = Vec::new();
     let mut numbers = 0;
     // The shift comes first, whatever turns are behind it.
@@ -123,7 +123,7 @@ fn by_rows(
     unknowns: &Unknowns,
     fit: &FitResult,
 ) -> Vec<Misplaced> {
-    let state = &fit.values[fit.values.len() - unknowns.numbers()..];
+    let state = unknowns.state(&fit.values);
     let there = unknowns.at(state);
     let all = rows(chain, observations, unknowns, &fit.values);
     let is_aside = |row: &Row| fit.residuals.weight[row.number] == 0.0;

@@ -30,7 +30,7 @@ mod precision;
 pub(crate) mod remaining;
 mod rivals;
 pub(crate) mod rms;
-pub(crate) mod scale_not_sought;
+mod scale_not_sought;
 pub(crate) mod shown;
 mod strayed;
 pub(crate) mod trace;
@@ -276,7 +276,7 @@ pub(crate) fn diagnose(
     let searched = confirmed.as_ref().ok().map(|own| own.round);
     cautions.extend(searched.into_iter().flat_map(|round| scale_not_sought(whole, round)));
     // A scale that is missing moves all that is stated.
-    let is_scaled = scale_not_sought::is_missing(&cautions);
+    let is_scaled = cautions.iter().any(|caution| caution.missing_scale().is_some());
     let misplaced = misplaced.into_iter().filter(|own| !is_scaled || own.sigmas.is_none());
     let misplaced: Vec<Caution> = misplaced.map(Caution::from).collect();
     // Places that pull leave residuals of all kinds.

@@ -125,11 +125,14 @@ fn out_of_place(observations: &Observations, series: &Series, fit: &FitResult) -
     let rms = rms_of(series, observations, fit, |_| true);
     let measured_m = distance_m(observations, series);
     let most = OUT_OF_PLACE * measured_m.unwrap_or(1.0);
+    if rms.is_nan() || rms <= most {
+        return None;
+    }
     let counts = |row: usize| fit.residuals.weight[row] > 0.0;
     let aside = series.rows.clone().filter(|&row| !counts(row)).count();
     let is_few = aside as f64 <= FEW * series.rows.len() as f64;
     let is_rest_near = is_few && rms_of(series, observations, fit, counts) <= most;
-    (rms > most).then(|| Caution::OutOfPlace {
+    Some(Caution::OutOfPlace {
         source: series.source.clone(),
         rms,
         unit: series.measure.unit(),

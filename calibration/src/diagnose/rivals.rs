@@ -26,19 +26,16 @@ pub(super) struct Winner {
 pub(super) fn contest(whole: &Context<'_>, last: &Round<'_>, rivals: &[Mat<f64>]) -> Option<Winner> {
     let problem = last.search.of_rows();
     let blocks = SetColumns::of(problem, &last.sets);
-    let (numbers, accepted): (Vec<usize>, Vec<Vec<usize>>) = (last.fitted.found.iter().enumerate())
-        .filter_map(|(number, found)| Some((number, blocks[last.set_of(found.effect)?].to_vec())))
-        .unzip();
+    let shown = last.shown();
+    let accepted: Vec<Vec<usize>> = shown.iter().map(|&(_, set)| blocks[set].to_vec()).collect();
     let signs = Signs::scattered(problem.group_of_row(), whole.options.flips, whole.options.seed);
     let left = Left::new(problem, &accepted, &signs);
     let price = |functions| Price { sets: last.sets.len(), functions, parameters: 0 };
     let fitted = rivals.iter().map(|columns| contender(&left, columns.as_ref(), price(rivals.len())));
     let (rival, best) = fitted.enumerate().max_by(|a, b| a.1.criterion.total_cmp(&b.1.criterion))?;
-    let folds: Vec<Vec<usize>> =
-        (0..problem.folds()).map(|fold| problem.rows_of_folds(|other| other == fold)).collect();
     let wins = best.criterion > criterion(&left, price(1)) + BETTER
-        && predicts(&left, rivals[rival].as_ref(), &best.kept, &folds);
+        && predicts(&left, rivals[rival].as_ref(), &best.kept, &problem.rows_of_each_fold());
     let replaced = (0..accepted.len()).filter(|at| !best.kept.contains(at));
-    let name = |at: usize| whole.catalogue[last.fitted.found[numbers[at]].effect].name.clone();
+    let name = |at: usize| whole.catalogue[last.fitted.found[shown[at].0].effect].name.clone();
     wins.then(|| Winner { rival, instead_of: replaced.map(name).collect(), coefficients: best.coefficients })
 }

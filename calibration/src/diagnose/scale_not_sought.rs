@@ -61,13 +61,16 @@ fn fitted(whole: &Context<'_>, last: &Round<'_>, scale: EffectId) -> Option<[f64
     Some([fit.values[scale.index()], fit.standard_uncertainty(scale)?])
 }
 
-/// Whether a scale is missing for sure.
-pub(super) fn is_missing(cautions: &[Caution]) -> bool {
-    let is_sure = |caution: &Caution| matches!(caution, Caution::ScaleNotSought { fitted: Some(own), .. } if stands_out(*own));
-    cautions.iter().any(is_sure)
-}
-
-/// Whether a scale is no chance.
-pub(crate) fn stands_out([value, uncertainty]: [f64; 2]) -> bool {
-    value.abs() > SURE * uncertainty
+impl Caution {
+    /// The range whose scale is missing for sure, and how large it is; `None` where it may be chance.
+    pub(crate) fn missing_scale(&self) -> Option<(&str, f64)> {
+        match self {
+            Self::ScaleNotSought { range, fitted: Some([value, uncertainty]), .. }
+                if value.abs() > SURE * uncertainty =>
+            {
+                Some((range, *value))
+            }
+            _ => None,
+        }
+    }
 }

@@ -37,8 +37,7 @@ pub struct Strayed {
 pub(super) fn strayed(whole: &Context<'_>, fit: &FitResult) -> Option<Strayed> {
     let (request, plan) = (whole.request, whole.request.plan);
     let unknowns = request.observations.unknowns.as_ref()?;
-    let numbers = fit.values.len().checked_sub(unknowns.numbers())?;
-    let there = unknowns.at(&fit.values[numbers..]);
+    let there = unknowns.at(unknowns.state(&fit.values));
     let (off, furthest) = off(&plan.places.stations, &there)?;
     if off <= FAR {
         return None;

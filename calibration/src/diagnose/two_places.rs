@@ -32,8 +32,7 @@ pub struct TwoPlaces {
 /// The object whose places are furthest apart; `None` where each lies at one.
 pub(super) fn two_places(chain: &Chain, observations: &Observations, fit: &FitResult) -> Option<TwoPlaces> {
     let unknowns = observations.unknowns.as_ref()?;
-    let numbers = fit.values.len().checked_sub(unknowns.numbers())?;
-    let there = unknowns.at(&fit.values[numbers..]);
+    let there = unknowns.at(unknowns.state(&fit.values));
     let mut points: Vec<Vec<Vector3<f64>>> = vec![Vec::new(); there.objects.len()];
     // Those that were set aside are told as that.
     let counts = |row: &Row| fit.residuals.weight[row.number] > 0.0;

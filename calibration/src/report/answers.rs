@@ -4,10 +4,8 @@ use super::causes::{each_once, sentence_case};
 use super::effects::{chance_of_all, headline, place};
 use super::left::{function_form, remaining};
 use super::numbers::{short, times};
-use super::steps::{
-    Step, fits_otherwise, has_lengths_off, has_moved, is_misread, is_unconfirmed, is_worse, missing_scale,
-    steps,
-};
+use super::rivals::rival;
+use super::steps::{Step, fits_otherwise, is_misread, is_unconfirmed, is_worse, missing_scale, steps};
 use crate::data::SiUnit;
 use crate::diagnose::{Caution, Diagnosis, EffectFound, Ended, EveryRow, Rms, Verdict};
 
@@ -54,9 +52,10 @@ pub struct Answers {
 #[must_use]
 pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>) -> Answers {
     // Where something else explains a cause better, none beside it is an answer either: all were found without that.
-    let are_beaten = !instead_of(diagnosis).is_empty();
+    let rival = rival(diagnosis);
+    let are_beaten = rival.as_ref().is_some_and(|rival| !rival.instead_of.is_empty());
     let mut effects: Vec<&EffectFound> = diagnosis.effects.iter().filter(|_| !are_beaten).collect();
-    let is_answered_otherwise = effects.is_empty() && (has_moved(diagnosis) || has_lengths_off(diagnosis));
+    let is_answered_otherwise = effects.is_empty() && rival.is_some();
     effects.sort_by(|a, b| b.standing.total_cmp(&a.standing));
     let mut causes = each_once(effects.iter().flat_map(|effect| &effect.causes));
     if let Some((one, of)) = one_for_several(diagnosis).filter(|_| !are_beaten) {
@@ -98,16 +97,6 @@ pub fn answers(diagnosis: &Diagnosis, folder: Option<&str>) -> Answers {
     }
 }
 
-/// Effects that something else explains better, which is no error of the instrument.
-fn instead_of(diagnosis: &Diagnosis) -> &[String] {
-    let own = diagnosis.cautions.iter().find_map(|caution| match caution {
-        Caution::Moved(own) => Some(own.instead_of.as_slice()),
-        Caution::LengthsOff(own) => Some(own.instead_of.as_slice()),
-        _ => None,
-    });
-    own.unwrap_or_default()
-}
-
 /// Where not to correct with it.
 fn elsewhere(diagnosis: &Diagnosis) -> Option<String> {
     is_worse_elsewhere(diagnosis).then(|| {
@@ -133,8 +122,7 @@ fn tone(diagnosis: &Diagnosis) -> Tone {
         _ if is_worse(diagnosis) => Tone::Bad,
         _ if is_misread(diagnosis)
             || is_worse_elsewhere(diagnosis)
-            || has_moved(diagnosis)
-            || has_lengths_off(diagnosis)
+            || rival(diagnosis).is_some()
             || missing_scale(diagnosis).is_some()
             || is_unconfirmed(diagnosis).is_some() =>
         {
@@ -150,8 +138,7 @@ fn badge(diagnosis: &Diagnosis) -> String {
     let count = diagnosis.effects.len();
     match diagnosis.verdict {
         _ if fits_otherwise(diagnosis) => "Likely read wrongly".to_owned(),
-        _ if has_lengths_off(diagnosis) => "Lengths are off".to_owned(),
-        _ if has_moved(diagnosis) => "Moved while measuring".to_owned(),
+        _ if let Some(rival) = rival(diagnosis) => rival.badge.to_owned(),
         _ if is_worse(diagnosis) => "Worse on data that nobody fitted".to_owned(),
         Verdict::Explained if count > 1 => format!("{count} causes found"),
         Verdict::Confounded if count > 1 => format!("{count} effects found"),
@@ -199,11 +186,8 @@ fn happened(diagnosis: &Diagnosis) -> String {
         };
         return told.to_owned();
     }
-    if has_lengths_off(diagnosis) {
-        return "The lengths are likely told from another zero: what was found may be that, and no error of the instrument.".to_owned();
-    }
-    if has_moved(diagnosis) {
-        return "The instrument likely moved while it measured: what was found may be that, and no error of it.".to_owned();
+    if let Some(rival) = rival(diagnosis) {
+        return rival.happened.to_owned();
     }
     if let Verdict::Confounded | Verdict::UnnamedFunction = diagnosis.verdict
         && let Some((one, of)) = one_for_several(diagnosis)

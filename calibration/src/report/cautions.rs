@@ -3,7 +3,6 @@
 use super::misreadings::{misread, strayed};
 use super::numbers::{reading, short, times, told, told_in};
 use crate::data::SiUnit;
-use crate::diagnose::scale_not_sought::stands_out;
 use crate::diagnose::{Caution, LengthsOff, Moved, TwoPlaces, Uneven};
 
 /// A caution in a sentence.
@@ -101,7 +100,9 @@ pub fn caution(caution: &Caution) -> String {
                 ),
             }
         }
-        Caution::ScaleNotSought { range, body, axis, fitted } => scale(range, body, axis, *fitted),
+        Caution::ScaleNotSought { range, body, axis, fitted } => {
+            scale(range, body, axis, *fitted, caution.missing_scale().is_some())
+        }
         Caution::NotWhereStated { what, label, sigmas, away_m, shift_m, turn_rad } => {
             let (station, stated, table) = match what {
                 Uneven::Station => ("Station ", "its pose", "stations"),
@@ -207,17 +208,17 @@ pub fn caution(caution: &Caution) -> String {
 }
 
 /// A scale that no search looked for.
-fn scale(range: &str, body: &str, axis: &str, fitted: Option<[f64; 2]>) -> String {
+fn scale(range: &str, body: &str, axis: &str, fitted: Option<[f64; 2]>, is_missing: bool) -> String {
     let declare = format!("T{axis}({range}_scale*{range}) in the motion_error of body {body}");
     let size = fitted
         .map(|own| own.map(|ratio| short(ratio, SiUnit::METRE)))
         .map(|[value, uncertainty]| format!("{value} ± {uncertainty} a metre"));
-    match (fitted, size) {
-        (Some(own), Some(size)) if stands_out(own) => format!(
+    match size {
+        Some(size) if is_missing => format!(
             "`{range}` has a scale by the places that are stated of the stations, {size}, which the search cannot see, since it takes them for \
              unknown. Declare it ({declare}), and calibrate again: left out, it goes into other errors."
         ),
-        (_, size) => {
+        size => {
             let size = size.map_or_else(String::new, |size| format!(" By their places it is {size}."));
             format!(
                 "No scale of `{range}` was looked for: the search takes stations with a `sigma` for unknown, and only they would show it.{size} \

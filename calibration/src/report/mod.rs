@@ -17,6 +17,7 @@ mod next;
 mod noise;
 pub mod numbers;
 mod places;
+mod rivals;
 mod rows;
 mod shell;
 mod steps;

@@ -3,9 +3,9 @@
 use super::causes::{cause, sentence_case};
 use super::effects::CHANCE;
 use super::places::told_places;
+use super::rivals::{Rival, rival};
 use super::shell::shell_word;
 use crate::diagnose::few::WANTED;
-use crate::diagnose::scale_not_sought::stands_out;
 use crate::diagnose::{Caution, Diagnosis, EffectFound, Ended, Relation, Verdict};
 
 /// Something to do.
@@ -64,19 +64,8 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
              wrongly. Errors that were estimated from that are wrong, and so is what was found beside them."
                 .to_owned(),
         ));
-    } else if has_moved(diagnosis) {
-        steps.push(step(
-            "Do not correct with it",
-            "An instrument that moves while it measures looks like errors that it does not have. Let it stand firmly and measure again; \
-             measure each target in both faces at once."
-                .to_owned(),
-        ));
-    } else if has_lengths_off(diagnosis) {
-        steps.push(step(
-            "Do not correct with it yet",
-            "Lengths that are all too long, or too short, look like errors that the instrument does not have. What to do stands in the caution."
-                .to_owned(),
-        ));
+    } else if let Some(Rival { step: [title, text], .. }) = rival(diagnosis) {
+        steps.push(step(title, text.to_owned()));
     } else if let Some((range, _)) = missing_scale(diagnosis) {
         steps.push(step(
             "Declare the scale, and calibrate again",
@@ -99,9 +88,8 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
     } else {
         steps.push(correct(diagnosis, folder));
     }
-    let is_cause = !has_moved(diagnosis) && !has_lengths_off(diagnosis);
     let largest = diagnosis.effects.iter().max_by(|a, b| a.standing.total_cmp(&b.standing));
-    if let Some(effect) = largest.filter(|_| is_cause) {
+    if let Some(effect) = largest.filter(|_| rival(diagnosis).is_none()) {
         let more = match effect.causes.len() {
             0 | 1 => String::new(),
             2 => " The other cause that fits has a check of its own.".to_owned(),
@@ -265,24 +253,9 @@ pub(super) fn is_misread(diagnosis: &Diagnosis) -> bool {
     diagnosis.cautions.iter().any(misread)
 }
 
-/// Whether stations seem to have moved while they measured.
-pub(super) fn has_moved(diagnosis: &Diagnosis) -> bool {
-    diagnosis.cautions.iter().any(|caution| matches!(caution, Caution::Moved(_)))
-}
-
-/// Whether lengths seem to be told from another zero.
-pub(super) fn has_lengths_off(diagnosis: &Diagnosis) -> bool {
-    diagnosis.cautions.iter().any(|caution| matches!(caution, Caution::LengthsOff(_)))
-}
-
 /// A scale that nobody declared and that stated places show, and how large it is.
 pub(super) fn missing_scale(diagnosis: &Diagnosis) -> Option<(&str, f64)> {
-    diagnosis.cautions.iter().find_map(|caution| match caution {
-        Caution::ScaleNotSought { range, fitted: Some(own), .. } if stands_out(*own) => {
-            Some((range.as_str(), own[0]))
-        }
-        _ => None,
-    })
+    diagnosis.cautions.iter().find_map(Caution::missing_scale)
 }
 
 /// Whether a mistake in reading explains the data.

@@ -274,6 +274,12 @@ impl Problem {
         (0..self.rows.nrows()).filter(|&row| chosen(self.fold_of_row(row))).collect()
     }
 
+    /// The rows of each fold.
+    #[must_use]
+    pub fn rows_of_each_fold(&self) -> Vec<Vec<usize>> {
+        (0..self.folds()).map(|fold| self.rows_of_folds(|other| other == fold)).collect()
+    }
+
     /// A copy of some rows.
     #[must_use]
     pub fn rows_at(&self, members: &[usize]) -> Mat<f64> {

@@ -52,7 +52,13 @@ impl<'a> Round<'a> {
 
     /// The sets of the accepted effects.
     pub fn accepted_sets(&self) -> Vec<SetId> {
-        self.fitted.found.iter().filter_map(|found| self.set_of(found.effect)).collect()
+        self.shown().into_iter().map(|(_, set)| set).collect()
+    }
+
+    /// The accepted effects that these data still show: number among those found, and confounded set.
+    pub fn shown(&self) -> Vec<(usize, SetId)> {
+        let found = self.fitted.found.iter().enumerate();
+        found.filter_map(|(number, found)| Some((number, self.set_of(found.effect)?))).collect()
     }
 
     /// The linear search from the accepted effects.

@@ -8,7 +8,7 @@ use faer::Mat;
 
 use crate::candidate::EffectId;
 use crate::data::Observations;
-use crate::data::unknowns::{Freedom, Object, Unknowns};
+use crate::data::unknowns::{Freedom, Object};
 use crate::fit::noise::{Layout, Noise, Run};
 use crate::fit::objects::Reduction;
 use crate::search::columns::{Columns, Probed, Seen, keep};
@@ -82,10 +82,10 @@ impl<'a> RowSet<'a> {
             columns.of_part(&fitted.chain, &whole.catalogue, &observations.poses, values, wanted);
         let mut without = columns.residual.clone();
         fitted.put_back(&mut without, |effect| effects[effect.0].iter().map(Vec::as_slice));
-        let state = |unknowns: &Unknowns| &values[values.len() - unknowns.numbers()..];
-        let believed = observations.unknowns.as_ref().map(|unknowns| unknowns.believed(state(unknowns)));
+        let believed =
+            observations.unknowns.as_ref().map(|unknowns| unknowns.believed(unknowns.state(values)));
         if let Some(unknowns) = &believed {
-            unknowns.as_if_stated(state(unknowns), &columns.row, &columns.unknown, &mut without);
+            unknowns.as_if_stated(unknowns.state(values), &columns.row, &columns.unknown, &mut without);
         }
         let weight = stretches.iter().flat_map(|stretch| &fitted.fit.residuals.weight[stretch.clone()]);
         let weight: Vec<f64> = weight.map(|weight| weight.sqrt()).collect();

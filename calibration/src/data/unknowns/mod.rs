@@ -260,6 +260,15 @@ impl Unknowns {
         self.of_stations() + self.objects.iter().map(Object::numbers).sum::<usize>()
     }
 
+    /// The numbers that are estimated among the values of a fit: they stand behind those of the chain.
+    ///
+    /// # Panics
+    /// Where the values are not those of a fit of these.
+    #[must_use]
+    pub(crate) fn state<'a>(&self, values: &'a [f64]) -> &'a [f64] {
+        &values[values.len() - self.numbers()..]
+    }
+
     /// How many of them are the stations'.
     #[must_use]
     pub fn of_stations(&self) -> usize {

@@ -127,10 +127,7 @@ pub(crate) fn contest(whole: &Context<'_>, last: &Round<'_>) -> Result<Contest, 
     });
 
     let blocks = SetColumns::of(last.search.of_rows(), &last.sets);
-    // Accepted effects that these data still show, by their number among those found.
-    let shown: Vec<(usize, SetId)> = (last.fitted.found.iter().enumerate())
-        .filter_map(|(number, found)| Some((number, last.set_of(found.effect)?)))
-        .collect();
+    let shown = last.shown();
     let accepted: Vec<Vec<usize>> = shown.iter().map(|&(_, set)| blocks[set].to_vec()).collect();
     let signs =
         Signs::scattered(last.search.of_rows().group_of_row(), whole.options.flips, whole.options.seed);
@@ -320,7 +317,7 @@ impl Library<'_, '_> {
         let is_pose = setting.chain.symbol(driver).kind == SymbolKind::Joint
             || setting.ranges().iter().any(|(.., range)| *range == driver);
         let folds: Vec<Vec<usize>> = if is_pose {
-            (0..problem.folds()).map(|fold| problem.rows_of_folds(|other| other == fold)).collect()
+            problem.rows_of_each_fold()
         } else {
             // Whatever drifts with time is a function of a temperature that does, too, but none that returns with it.
             (0..STRETCHES).map(|i| (i * rows / STRETCHES..(i + 1) * rows / STRETCHES).collect()).collect()

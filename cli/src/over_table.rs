@@ -1,6 +1,8 @@
 //! Readings in, more columns out: what `eval` and `apply` both do with a table.
 
 use std::path::PathBuf;
+use std::sync::mpsc;
+use std::thread;
 use std::time::{Duration, Instant};
 
 use model_core::Chain;
@@ -123,7 +125,7 @@ impl OverTable {
         let (progress, began) = (terminal::progress(), Instant::now());
         tables::write(&self.out, |writer| {
             writer.header_beside(&header, &table, &is_kept)?;
-            while let Some(rows) = table.next()? {
+            read_ahead(&mut table, |rows, share_read| {
                 let computed = compute(&rows)?;
                 let is_finite = |row: &usize| computed.iter().all(|column| column[*row].is_finite());
                 not_finite += (0..rows.count).filter(|row| !is_finite(row)).count();
@@ -132,9 +134,9 @@ impl OverTable {
                 let computed = computed.iter().map(|column| Column::Numbers(column));
                 writer.rows(&kept.chain(computed).collect::<Vec<_>>(), rows.count)?;
                 done += rows.count;
-                progress.set_message(so_far(done as u64, table.share_read(), began.elapsed()));
-            }
-            Ok(())
+                progress.set_message(so_far(done as u64, share_read, began.elapsed()));
+                Ok(())
+            })
         })?;
         progress.finish_and_clear();
         table.doubtful().for_each(terminal::warn);
@@ -146,6 +148,26 @@ impl OverTable {
         }
         Ok(())
     }
+}
+
+/// Lets `take` have all rows of a table in order, and the share of it that was read; the next ones are read while it works.
+fn read_ahead(
+    table: &mut ReadingsTable<'_>,
+    mut take: impl FnMut(Rows, Option<f64>) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let (ready, rows) = mpsc::sync_channel(0);
+    thread::scope(|scope| {
+        scope.spawn(move || {
+            while let Some(next) = table.next().transpose() {
+                let is_last = next.is_err();
+                // Who takes no more has failed.
+                if ready.send(next.map(|rows| (rows, table.share_read()))).is_err() || is_last {
+                    break;
+                }
+            }
+        });
+        rows.into_iter().try_for_each(|next| next.and_then(|(rows, share_read)| take(rows, share_read)))
+    })
 }
 
 /// Warns of columns of the input that are not in the output, since what was computed has their names. Where readings are solved for, those

@@ -15,7 +15,7 @@ use crate::source::{Source, listed};
 use crate::{tables, terminal};
 
 /// Opens a data file by its path, and by where it is to be had if it is not there.
-pub type OpenData<'a> = dyn FnMut(&str, Option<&str>) -> Result<Box<dyn Read>, DataError> + 'a;
+pub type OpenData<'a> = dyn FnMut(&str, Option<&str>) -> Result<Box<dyn Read + Send>, DataError> + 'a;
 
 /// A set-up, with the chain that its errors belong to.
 pub struct SetUpSeen {

@@ -77,7 +77,7 @@ fn scaled(chain: &Chain, poses: &Poses) -> Vec<Vec<f64>> {
         (tells(symbol.kind, symbol.quantity) && range > 0.0 && range.is_finite())
             .then(|| values.iter().map(|value| value / range).collect())
     };
-    poses.columns.iter().filter_map(of_column).collect()
+    poses.columns.par_iter().filter_map(of_column).collect()
 }
 
 /// Rows in the order in which they lie along a line through the space of the readings.
@@ -95,13 +95,15 @@ impl Line {
     fn through(readings: &[Vec<f64>]) -> Self {
         let rows = readings.first().map_or(0, Vec::len);
         let weights: Vec<f64> = (0..readings.len()).map(|power| SECTION.powi(power as i32)).collect();
-        let of_row =
-            |row: usize| readings.iter().zip(&weights).map(|(values, weight)| weight * values[row]).sum();
-        let at: Vec<f64> = (0..rows).map(of_row).collect();
-        let mut order: Vec<u32> = (0..rows as u32).collect();
-        order.par_sort_unstable_by(|&a, &b| at[a as usize].total_cmp(&at[b as usize]).then(a.cmp(&b)));
+        let of_row = |row: usize| -> f64 {
+            readings.iter().zip(&weights).map(|(values, weight)| weight * values[row]).sum()
+        };
+        let mut placed: Vec<(f64, u32)> =
+            (0..rows).into_par_iter().map(|row| (of_row(row), row as u32)).collect();
+        placed.par_sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let (at, order): (Vec<f64>, Vec<u32>) = placed.into_iter().unzip();
         let ordered = |values: &Vec<f64>| order.iter().map(|&row| values[row as usize]).collect();
-        let (at, readings) = (ordered(&at), readings.iter().map(ordered).collect());
+        let readings = readings.par_iter().map(ordered).collect();
         Self { order, at, readings, stretch: weights.iter().sum() }
     }
 
@@ -117,18 +119,18 @@ impl Line {
         if rows <= 4 * SAMPLE {
             return Some(true);
         }
-        let (mut near, mut compared) = (0, 0);
-        for sample in 0..SAMPLE {
+        let of_sample = |sample: usize| {
             // Steps of an irrational length, so that no period of the rows is favoured.
             let row = ((sample as f64 * SECTION).fract() * rows as f64) as usize;
             let start = self.at.partition_point(|at| self.at[row] - at > reach);
             let end = self.at.partition_point(|at| at - self.at[row] <= reach);
-            compared += end - row - 1;
             // Of those that a row would be compared with at most, on either side.
             let most = FOUND_APART + FOUND_TOGETHER;
             let mut others = (row + 1..end).take(most).chain((start..row).rev().take(most));
-            near += usize::from(others.any(|other| self.are_near(row, other, distance)));
-        }
+            (usize::from(others.any(|other| self.are_near(row, other, distance))), end - row - 1)
+        };
+        let both = |a: (usize, usize), b: (usize, usize)| (a.0 + b.0, a.1 + b.1);
+        let (near, compared) = (0..SAMPLE).into_par_iter().map(of_sample).reduce(|| (0, 0), both);
         // Twice as many as are compared, so that a sample does not decide a close case.
         let too_dense = compared > 2 * (FOUND_APART + FOUND_TOGETHER) * SAMPLE;
         (!too_dense).then_some(near as f64 >= NEAR * SAMPLE as f64)

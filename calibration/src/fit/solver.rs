@@ -204,9 +204,9 @@ impl Solver<'_> {
 
     /// The residual at the end of a course, whitened but for memory, each row times its weight.
     pub(super) fn whitened(&self, course: &Course, weight: &[f64]) -> Vec<f64> {
-        let sigma = course.noise.sigma_without_memory();
-        let residual = course.point.sweep.residual.iter().zip(self.layout.row_of_each()).zip(sigma.iter());
-        residual.map(|((residual, row), sigma)| residual * weight[row] / sigma).collect()
+        let (sigma, layout) = (course.noise.sigma_without_memory(), &self.layout);
+        let residual = course.point.sweep.residual.par_iter().zip(&*sigma).enumerate();
+        residual.map(|(at, (residual, sigma))| residual * weight[layout.row(at)] / sigma).collect()
     }
 
     /// The number of components of rows with weight.

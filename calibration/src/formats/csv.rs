@@ -2,6 +2,7 @@
 //! it where [`Options`] say so).
 
 use std::io::{self, Read};
+use std::str::Utf8Error;
 
 use memchr::memchr;
 use rayon::prelude::*;
@@ -141,6 +142,28 @@ fn parts(mut lines: &[u8], line_end: u8) -> Vec<&[u8]> {
     parts
 }
 
+/// A row on its way into columns.
+struct Row<'r> {
+    record: &'r Record,
+    number: u64,
+    /// All cells, where all are text: looking at each alone would take as long as reading them.
+    all: Option<&'r str>,
+}
+
+impl<'r> Row<'r> {
+    fn new(record: &'r Record, number: u64) -> Self {
+        Self { record, number, all: std::str::from_utf8(record.bytes()).ok() }
+    }
+
+    /// The text of a cell.
+    fn text(&self, column: usize) -> Result<&'r str, Utf8Error> {
+        match self.all.and_then(|all| all.get(self.record.range(column))) {
+            Some(text) => Ok(text),
+            None => std::str::from_utf8(self.record.get(column)),
+        }
+    }
+}
+
 impl Table {
     /// Reads rows, at most so many, and fewer where they are long, behind those of a chunk; returns their length in bytes.
     fn read<R: Read>(
@@ -160,7 +183,7 @@ impl Table {
             }
             *row += 1;
             self.check_swallowed(record, wanted)?;
-            bytes += self.take((record, *row), marks, wanted, &mut to.columns).map_err(|error| {
+            bytes += self.take(&Row::new(record, *row), marks, wanted, &mut to.columns).map_err(|error| {
                 if !record.is_like_a_comment {
                     return error;
                 }
@@ -185,20 +208,14 @@ impl Table {
     }
 
     /// The text of a cell.
-    fn text<'r>(&self, record: &'r Record, column: usize) -> Result<&'r str, DataError> {
-        std::str::from_utf8(record.get(column))
-            .map_err(|_| DataError::NotUtf8 { file: self.source.clone(), line: record.line })
+    fn text<'r>(&self, row: &Row<'r>, column: usize) -> Result<&'r str, DataError> {
+        row.text(column).map_err(|_| DataError::NotUtf8 { file: self.source.clone(), line: row.record.line })
     }
 
     /// The number in a cell.
-    fn number(
-        &self,
-        (record, row): (&Record, u64),
-        marks: &mut Marks,
-        column: usize,
-    ) -> Result<f64, DataError> {
-        let text = self.text(record, column)?.trim();
-        let cell = || self.cell(record, row, column);
+    fn number(&self, row: &Row<'_>, marks: &mut Marks, column: usize) -> Result<f64, DataError> {
+        let text = self.text(row, column)?.trim();
+        let cell = || self.cell(row.record, row.number, column);
         match marks.read(text, self.separator) {
             Some(Ok(number)) if number.is_finite() => Ok(number),
             Some(Err(why)) => Err(DataError::MixedMarks { cell: cell(), why }),
@@ -211,18 +228,18 @@ impl Table {
     /// Takes a row over; returns its length in bytes.
     fn take(
         &self,
-        (record, row): (&Record, u64),
+        row: &Row<'_>,
         marks: &mut Marks,
         wanted: &[Wanted],
         columns: &mut [Cells],
     ) -> Result<usize, DataError> {
-        if record.len() != self.header.len() {
+        if row.record.len() != self.header.len() {
             return Err(DataError::RaggedRow {
                 file: self.source.clone(),
-                line: record.line,
-                row,
+                line: row.record.line,
+                row: row.number,
                 expected: self.header.len(),
-                found: record.len(),
+                found: row.record.len(),
             });
         }
         let mut bytes = 0;
@@ -230,15 +247,15 @@ impl Table {
             match (want.form, cells) {
                 (Form::Number(factor), Cells::Numbers(numbers)) => {
                     bytes += size_of::<f64>();
-                    numbers.push(self.number((record, row), marks, want.column)? * factor);
+                    numbers.push(self.number(row, marks, want.column)? * factor);
                 }
                 (Form::Label, Cells::Labels(texts)) => {
-                    let text = self.text(record, want.column)?;
+                    let text = self.text(row, want.column)?;
                     bytes += text.len() + size_of::<String>();
                     texts.push(text.to_string());
                 }
                 (Form::Kept, Cells::Kept(Kept::Texts(texts))) => {
-                    let text = self.text(record, want.column)?;
+                    let text = self.text(row, want.column)?;
                     bytes += text.len() + size_of::<usize>();
                     texts.push(text);
                 }
@@ -275,7 +292,7 @@ impl Table {
     }
 }
 
-impl<R: Read> TableReader for Reader<R> {
+impl<R: Read + Send> TableReader for Reader<R> {
     fn source(&self) -> &str {
         &self.table.source
     }

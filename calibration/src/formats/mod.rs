@@ -134,8 +134,8 @@ impl Chunk {
     }
 }
 
-/// A table that is read front to back.
-pub trait TableReader {
+/// A table that is read front to back, on whatever thread.
+pub trait TableReader: Send {
     /// Name of the file or stream, for messages.
     fn source(&self) -> &str;
 
@@ -178,7 +178,7 @@ fn whole(reader: impl Read, source: &str, options: &Options) -> Result<Vec<u8>, 
 /// # Errors
 /// The header cannot be read, or there is none.
 pub fn open<'r>(
-    reader: impl Read + 'r,
+    reader: impl Read + Send + 'r,
     source: &str,
     options: &Options,
 ) -> Result<Box<dyn TableReader + 'r>, DataError> {
@@ -195,7 +195,7 @@ pub fn open<'r>(
 
 /// Opens separated values. Not generic, so that what reads them is compiled with this crate and optimised as it is.
 fn separated<'r>(
-    reader: Box<dyn Read + 'r>,
+    reader: Box<dyn Read + Send + 'r>,
     source: &str,
     options: &Options,
 ) -> Result<Box<dyn TableReader + 'r>, DataError> {

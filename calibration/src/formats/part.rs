@@ -1,8 +1,8 @@
 //! A part of a table: some stretches of its rows, or no more than so many.
 
-use std::cell::Cell;
 use std::collections::VecDeque;
 use std::ops::{DerefMut, Range};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use super::{Chunk, ColumnName, DataError, Form, TableReader, Wanted, no_cells};
 
@@ -25,7 +25,7 @@ impl<R: DerefMut<Target: TableReader>> Stretches<R> {
     }
 }
 
-impl<R: DerefMut<Target: TableReader>> TableReader for Stretches<R> {
+impl<R: DerefMut<Target: TableReader> + Send> TableReader for Stretches<R> {
     fn source(&self) -> &str {
         self.reader.source()
     }
@@ -77,21 +77,21 @@ pub fn count(reader: &mut dyn TableReader) -> Result<u64, DataError> {
 /// How many rows some tables may have together, and whether they have more.
 #[derive(Debug, Default)]
 pub struct Budget {
-    left: Cell<usize>,
-    is_exceeded: Cell<bool>,
+    left: AtomicUsize,
+    is_exceeded: AtomicBool,
 }
 
 impl Budget {
     /// So many rows.
     #[must_use]
     pub fn new(rows: usize) -> Self {
-        Self { left: Cell::new(rows), is_exceeded: Cell::new(false) }
+        Self { left: AtomicUsize::new(rows), is_exceeded: AtomicBool::new(false) }
     }
 
     /// Whether there were more.
     #[must_use]
     pub fn is_exceeded(&self) -> bool {
-        self.is_exceeded.get()
+        self.is_exceeded.load(Ordering::Relaxed)
     }
 }
 
@@ -109,7 +109,7 @@ impl<'b, R: DerefMut<Target: TableReader>> Within<'b, R> {
     }
 }
 
-impl<R: DerefMut<Target: TableReader>> TableReader for Within<'_, R> {
+impl<R: DerefMut<Target: TableReader> + Send> TableReader for Within<'_, R> {
     fn source(&self) -> &str {
         self.reader.source()
     }
@@ -119,14 +119,14 @@ impl<R: DerefMut<Target: TableReader>> TableReader for Within<'_, R> {
     }
 
     fn read(&mut self, wanted: &[Wanted], at_most: usize) -> Result<Chunk, DataError> {
-        let left = self.budget.left.get();
+        let left = self.budget.left.load(Ordering::Relaxed);
         if left > 0 {
             let chunk = self.reader.read(wanted, at_most.min(left))?;
-            self.budget.left.set(left - chunk.rows.len());
+            self.budget.left.fetch_sub(chunk.rows.len(), Ordering::Relaxed);
             return Ok(chunk);
         }
         if !self.budget.is_exceeded() && skip(&mut *self.reader, 1)? > 0 {
-            self.budget.is_exceeded.set(true);
+            self.budget.is_exceeded.store(true, Ordering::Relaxed);
         }
         Ok(Chunk { columns: no_cells(wanted), ..Chunk::default() })
     }

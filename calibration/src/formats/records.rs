@@ -5,6 +5,7 @@
 //! lines that quotes run over, for whoever knows what a row looks like.
 
 use std::io::{self, Read};
+use std::ops::Range;
 
 use memchr::{memchr, memchr_iter, memrchr};
 
@@ -283,12 +284,22 @@ impl Record {
         self.ends.len()
     }
 
-    /// A cell; empty beyond the last.
-    pub fn get(&self, column: usize) -> &[u8] {
+    /// All cells, one behind the other.
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// Where a cell stands among all.
+    pub fn range(&self, column: usize) -> Range<usize> {
         let end = self.ends.get(column).copied().unwrap_or_default();
         let start =
             column.checked_sub(1).and_then(|before| self.ends.get(before)).copied().unwrap_or_default();
-        self.bytes.get(start..end).unwrap_or_default()
+        start..end
+    }
+
+    /// A cell; empty beyond the last.
+    pub fn get(&self, column: usize) -> &[u8] {
+        self.bytes.get(self.range(column)).unwrap_or_default()
     }
 
     /// Every cell.

@@ -10,12 +10,11 @@ mod simulated;
 use std::ops::Range;
 use std::sync::Arc;
 
-use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatRef, Par};
+use faer::{Mat, MatRef};
 use rayon::prelude::*;
 
 use super::folds::Folds;
-use super::products::{add_products, mirrored, picked};
+use super::products::{add_products, mirrored, picked, taken_out};
 use super::reach::Reach;
 use crate::candidate::EffectId;
 
@@ -152,21 +151,7 @@ impl Problem {
         }
         rows.subcols_mut(0, u).copy_from(&basis);
         let before: Vec<f64> = (0..k).map(|j| rows.col(u + j).squared_norm_l2()).collect();
-        let mut absorbed = Mat::zeros(u, k + 1);
-        // Twice: one pass of Gram-Schmidt leaves rounding of the part taken out.
-        for _ in 0..2 {
-            let mut coefficients = Mat::zeros(u, k + 1);
-            matmul(
-                &mut coefficients,
-                Accum::Replace,
-                basis.transpose(),
-                rows.subcols(u, k + 1),
-                1.0,
-                Par::Seq,
-            );
-            matmul(rows.subcols_mut(u, k + 1), Accum::Add, &basis, &coefficients, -1.0, Par::Seq);
-            absorbed += coefficients;
-        }
+        let absorbed = taken_out(basis.as_ref(), rows.subcols_mut(u, k + 1));
         let after: Vec<f64> = (0..k).map(|j| rows.col(u + j).squared_norm_l2()).collect();
         let mut lengths = vec![0.0; k];
         for j in 0..k {

@@ -364,7 +364,7 @@ mod tests {
         let chain = Chain::from_text(MOUNT).unwrap();
         let plan = Study::from_text(STUDY).unwrap().plan(&chain).unwrap();
         let data = measured();
-        let mut open = |_: &str| -> Result<Box<dyn Read>, DataError> {
+        let mut open = |_: &str| -> Result<Box<dyn Read + Send>, DataError> {
             Ok(Box::new(std::io::Cursor::new(data.clone().into_bytes())))
         };
         let observations = plan.load(&mut open).unwrap().observations;

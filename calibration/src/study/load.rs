@@ -22,7 +22,7 @@ use crate::formats::{self, DataError, TableReader};
 use crate::objects::{Remark, StartError, check_named, check_scale, place};
 
 /// Opens a data file of a study by its path as the study writes it.
-pub type Open<'a> = dyn FnMut(&str) -> Result<Box<dyn Read>, DataError> + 'a;
+pub type Open<'a> = dyn FnMut(&str) -> Result<Box<dyn Read + Send>, DataError> + 'a;
 
 /// Opens a table of a study by its name, read as the study says.
 pub type OpenTable<'a> =

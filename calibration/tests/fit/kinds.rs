@@ -91,7 +91,7 @@ fn files(seed: u64) -> (Simulation, BTreeMap<&'static str, String>) {
 
 fn fitted(simulation: &Simulation, study: &str, texts: &BTreeMap<&str, String>) -> FitResult {
     let plan = Study::from_text(study).unwrap().plan(&simulation.chain).unwrap();
-    let mut open = |name: &str| -> Result<Box<dyn Read>, DataError> {
+    let mut open = |name: &str| -> Result<Box<dyn Read + Send>, DataError> {
         Ok(Box::new(std::io::Cursor::new(texts[name].clone().into_bytes())))
     };
     let observations = plan.load(&mut open).unwrap().observations;
@@ -141,7 +141,7 @@ fn ranges_determine_the_links() {
     assert!(results.iter().all(|result| result.separable == [false, true, true, true]));
     let (simulation, texts) = files(1);
     let plan = Study::from_text(&plain).unwrap().plan(&simulation.chain).unwrap();
-    let mut open = |name: &str| -> Result<Box<dyn Read>, DataError> {
+    let mut open = |name: &str| -> Result<Box<dyn Read + Send>, DataError> {
         Ok(Box::new(std::io::Cursor::new(texts[name].clone().into_bytes())))
     };
     let observations = plan.load(&mut open).unwrap().observations;

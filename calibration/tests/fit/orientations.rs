@@ -301,7 +301,7 @@ fn table(seed: u64) -> (Simulation, String) {
 
 fn fitted(study: &str, simulation: &Simulation, table: &str) -> FitResult {
     let plan = Study::from_text(study).unwrap().plan(&simulation.chain).unwrap();
-    let mut open = |_: &str| -> Result<Box<dyn Read>, DataError> {
+    let mut open = |_: &str| -> Result<Box<dyn Read + Send>, DataError> {
         Ok(Box::new(std::io::Cursor::new(table.to_owned().into_bytes())))
     };
     let observations = plan.load(&mut open).unwrap().observations;

@@ -28,9 +28,9 @@ fn load(study: &str) -> Option<(Plan, Observations)> {
         eprintln!("skipped: {} is missing", data.display());
         return None;
     }
-    let mut open = |file: &str| -> Result<Box<dyn Read>, DataError> {
+    let mut open = |file: &str| -> Result<Box<dyn Read + Send>, DataError> {
         let file = File::open(folder.join(file));
-        file.map(|file| Box::new(file) as Box<dyn Read>).map_err(|error| DataError::Unreadable {
+        file.map(|file| Box::new(file) as Box<dyn Read + Send>).map_err(|error| DataError::Unreadable {
             file: data.display().to_string(),
             why: error.to_string(),
         })

@@ -33,9 +33,11 @@ pub fn observations(study: &str, plan: &Plan) -> Observations {
     plan.load(&mut opener(study)).unwrap().observations
 }
 
-fn opener(study: &str) -> impl FnMut(&str) -> Result<Box<dyn Read>, DataError> {
+fn opener(study: &str) -> impl FnMut(&str) -> Result<Box<dyn Read + Send>, DataError> {
     let folder = root().join(study).parent().unwrap().to_owned();
-    move |file: &str| Ok(Box::new(File::open(folder.join(file)).expect("the file is there")) as Box<dyn Read>)
+    move |file: &str| {
+        Ok(Box::new(File::open(folder.join(file)).expect("the file is there")) as Box<dyn Read + Send>)
+    }
 }
 
 /// Reads a study; `None`, with a word about it, where its data are not at hand (never so in CI).

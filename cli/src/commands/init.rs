@@ -106,7 +106,7 @@ fn look(data: &Path) -> Result<Look, Failure> {
     Look::at(&mut *reader).map_err(Failure::Input)
 }
 
-fn open(data: &Path) -> Result<Box<dyn Read>, DataError> {
+fn open(data: &Path) -> Result<Box<dyn Read + Send>, DataError> {
     let unreadable = |error: &io::Error| DataError::Unreadable {
         file: data.display().to_string(),
         why: source::not_readable(data, error).to_string(),

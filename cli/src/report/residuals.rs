@@ -2,12 +2,14 @@
 
 use std::borrow::Cow;
 
+use calibration::calibrate::Calibration;
 use calibration::data::SiUnit;
 use calibration::diagnose::Shown;
 use calibration::fit::FitResult;
 use calibration::fit::noise::Layout;
 use calibration::formats::ColumnName;
 use model_core::SymbolId;
+use rayon::prelude::*;
 
 use super::Reported;
 
@@ -26,35 +28,29 @@ pub struct Component {
 /// Every component that the observations have, in order of first appearance, at some rows in order.
 #[must_use]
 pub fn components(reported: &Reported<'_>, rows: &[usize]) -> Vec<Component> {
-    let poses = &reported.observations.poses;
-    let mut components: Vec<Component> = Vec::new();
-    for series in &poses.series {
-        for &name in series.measure.component_names() {
-            if components.iter().all(|component| component.name != name) {
-                let absent = vec![None; rows.len()];
-                let unit = series.measure.unit();
-                components.push(Component { name, unit, before: absent.clone(), after: absent });
+    let series = &reported.observations.poses.series;
+    let mut named: Vec<(&'static str, SiUnit)> = Vec::new();
+    for own in series {
+        for &name in own.measure.component_names() {
+            if named.iter().all(|(other, _)| *other != name) {
+                named.push((name, own.measure.unit()));
             }
         }
     }
     let layout = Layout::of(reported.observations);
-    let mut fill = |fit: &FitResult, of: fn(&mut Component) -> &mut Vec<Option<f64>>| {
-        for series in &poses.series {
-            let names = series.measure.component_names().iter();
-            let places: Vec<usize> = names
-                .filter_map(|&name| components.iter().position(|component| component.name == name))
-                .collect();
-            for (at, &row) in rows.iter().enumerate().filter(|(_, row)| series.rows.contains(row)) {
-                let residuals = &fit.residuals.raw[layout.of_rows(row..row + 1)];
-                for (&place, &residual) in places.iter().zip(residuals) {
-                    of(&mut components[place])[at] = Some(residual);
-                }
-            }
-        }
+    let of = |fit: &FitResult, name: &str| -> Vec<Option<f64>> {
+        let residual = |&row: &usize| {
+            let own = series.iter().find(|own| own.rows.contains(&row))?;
+            let number = own.measure.component_names().iter().position(|other| *other == name)?;
+            Some(fit.residuals.raw[layout.first(row) + number])
+        };
+        rows.par_iter().map(residual).collect()
     };
-    fill(&reported.calibration.before, |component| &mut component.before);
-    fill(&reported.calibration.after, |component| &mut component.after);
-    components
+    let Calibration { before, after, .. } = reported.calibration;
+    named
+        .into_iter()
+        .map(|(name, unit)| Component { name, unit, before: of(before, name), after: of(after, name) })
+        .collect()
 }
 
 /// The joints and inputs that were read, with their names and units.

@@ -75,7 +75,11 @@ pub fn failure(error: DataError) -> Failure {
 ///
 /// # Errors
 /// It cannot be read.
-pub fn open_beside(study: &Source, path: &str, from: Option<&str>) -> Result<Box<dyn Read>, DataError> {
+pub fn open_beside(
+    study: &Source,
+    path: &str,
+    from: Option<&str>,
+) -> Result<Box<dyn Read + Send>, DataError> {
     let beside = study.beside(Path::new(path));
     let unreadable = |error: &io::Error| {
         let why = match source::not_readable(&beside, error) {

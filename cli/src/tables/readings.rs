@@ -119,7 +119,7 @@ impl<'t> ReadingsTable<'t> {
         let options = Options { comment, ..Options::default() };
         let mut extent = None;
         let reader = if path == Path::new("-") {
-            formats::open(io::stdin().lock(), "standard input", &options)
+            formats::open(io::stdin(), "standard input", &options)
         } else {
             let file = File::open(path).map_err(|error| source::not_readable(path, &error))?;
             let metadata = file.metadata();

@@ -267,14 +267,14 @@ pub(crate) fn longest(runs: &[Run]) -> Option<usize> {
 fn neighbours(layout: &Layout, values: &[f64], axes: Option<&[[f64; 3]]>) -> f64 {
     let clipped: Vec<f64> = values.iter().map(|value| value.clamp(-CLIP, CLIP)).collect();
     let square = clipped.iter().map(|value| value * value).sum::<f64>() / clipped.len() as f64;
-    let correlation = |between: &dyn Fn(usize, usize) -> f64| {
+    let correlation = |between: &dyn Fn(usize, usize, usize) -> f64| {
         let (mut products, mut variance) = (0.0, 0.0);
         for run in &layout.runs {
             for row in (run.start + run.stride..run.end).step_by(run.stride) {
                 for (a, b) in
                     (row..row + run.stride).flat_map(|a| (row - run.stride..row).map(move |b| (a, b)))
                 {
-                    let between = between(a, b);
+                    let between = between(a, b, run.stride);
                     products += between * clipped[a] * clipped[b];
                     variance += between * between;
                 }
@@ -282,9 +282,9 @@ fn neighbours(layout: &Layout, values: &[f64], axes: Option<&[[f64; 3]]>) -> f64
         }
         if square > 0.0 && variance > 0.0 { products / square / variance.sqrt() } else { 0.0 }
     };
-    let own = correlation(&|a, b| if layout.kind(a) == layout.kind(b) { 1.0 } else { 0.0 });
+    let own = correlation(&|a, b, stride| if a == b + stride { 1.0 } else { 0.0 });
     let in_space =
-        |axes: &[[f64; 3]]| correlation(&|a, b| axes[a].iter().zip(&axes[b]).map(|(a, b)| a * b).sum());
+        |axes: &[[f64; 3]]| correlation(&|a, b, _| axes[a].iter().zip(&axes[b]).map(|(a, b)| a * b).sum());
     axes.map_or(own, |axes| own.max(in_space(axes)))
 }
 

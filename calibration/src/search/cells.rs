@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use super::folds::Folds;
 use super::products::{add_products, mirrored};
+use super::spanning::Unfolding;
 
 /// What is left of a column, as a share of its sum of squares, below which it counts as explained by those before it.
 const NOTHING: f64 = 1e-13;
@@ -130,24 +131,29 @@ impl Cells {
         });
     }
 
-    /// The rows that stand for all, with the columns `kept` alone, and the folds that they lie in.
+    /// The rows that stand for all, with the columns that unfold from those of the cells, and the folds that they lie in.
     #[must_use]
-    pub fn merged(self, kept: &[usize]) -> (Mat<f64>, Folds) {
+    pub fn merged(self, unfolding: &Unfolding) -> (Mat<f64>, Folds) {
         let Self { width, fold_of_cell, rows_of_fold, mut products } = self;
         let cells = products.par_chunks_mut(width * width);
-        let roots: Vec<Vec<usize>> = cells.map(|products| root(products, width, kept)).collect();
+        let roots: Vec<Vec<usize>> =
+            cells.map(|products| root(products, width, unfolding.behind())).collect();
         let of_cell = |(cell, rows): (usize, &Vec<usize>)| std::iter::repeat_n(cell as u32, rows.len());
         let group_of_row: Vec<u32> = roots.iter().enumerate().flat_map(of_cell).collect();
         let fold_of_group = fold_of_cell.into_iter().map(|fold| fold as u32).collect();
-        let mut rows = Mat::zeros(group_of_row.len(), kept.len());
-        let mut start = 0;
-        for (root, products) in roots.iter().zip(products.chunks(width * width)) {
-            for (j, &column) in kept.iter().enumerate() {
-                let target = &mut rows.col_as_slice_mut(j)[start..start + root.len()];
-                target.iter_mut().zip(root).for_each(|(to, row)| *to = products[row * width + column]);
-            }
-            start += root.len();
+        let mut rows = Mat::zeros(group_of_row.len(), unfolding.width());
+        let (mut parts, mut rest) = (Vec::new(), rows.as_mut());
+        for root in &roots {
+            let (part, others) = rest.split_at_row_mut(root.len());
+            parts.push(part);
+            rest = others;
         }
+        let cells = parts.into_par_iter().zip(&roots).zip(products.par_chunks(width * width));
+        cells.for_each(|((part, root), products)| {
+            let behind = unfolding.behind();
+            let own = Mat::from_fn(root.len(), behind.len(), |i, j| products[root[i] * width + behind[j]]);
+            unfolding.unfold(own.as_ref(), part);
+        });
         (rows, Folds { group_of_row, fold_of_group, rows_of_fold })
     }
 }
@@ -222,6 +228,7 @@ impl vector::Work for Taken<'_> {
 #[cfg(test)]
 mod tests {
     use super::super::products::picked;
+    use super::super::spanning::Spanning;
     use super::*;
     use proptest::prelude::*;
 
@@ -254,7 +261,7 @@ mod tests {
                 let part = picked(rows.subrows(start, end - start), &by_cell.order);
                 cells.add(&[(part.as_ref(), &by_cell)]);
             }
-            let (merged, of_merged) = cells.merged(&[0, 1, 2, 3, 4]);
+            let (merged, of_merged) = cells.merged(&Spanning::all(5).unfolding(&[0, 1, 2, 3, 4]));
             prop_assert!(merged.nrows() <= 4 * of_merged.groups());
             prop_assert_eq!(&of_merged.rows_of_fold, &folds.rows_of_fold);
             for fold in 0..folds.count() {

@@ -9,11 +9,15 @@ use super::context::Context;
 use super::error::SearchError;
 use super::fitted::Fitted;
 use super::row_set::{RowSet, components, sized};
+use super::spanning::Spanning;
 
 /// Whitened columns of a chunk, and what its rows show of effects.
 pub(crate) struct Chunk {
-    /// Declared combinations, the columns of each effect of the catalogue, and the residual without the accepted effects.
+    /// Declared combinations, the columns of each effect of the catalogue, and the residual without the accepted effects: those that
+    /// span come first.
     pub columns: Mat<f64>,
+    /// Whether the others follow from them.
+    pub is_spanned: bool,
     /// How many rows of the data it has.
     pub rows: usize,
     pub seen: Seen,
@@ -26,17 +30,25 @@ pub(crate) fn whitening_scales(whole: &Context<'_>, fitted: &Fitted) -> bool {
 }
 
 impl Chunk {
-    /// Of some stretches of rows, the components in another order; `room` is the matrix of an earlier chunk, for its memory.
+    /// Of some stretches of rows, the components in another order, those columns that span alone; `room` is the matrix of an earlier chunk, for its memory.
     pub fn in_order(
         whole: &Context<'_>,
         fitted: &Fitted,
         stretches: &[Range<usize>],
+        spanning: &Spanning,
         order: &[usize],
         room: Mat<f64>,
     ) -> Result<Self, SearchError> {
         let rows = RowSet::of(whole, fitted, stretches, |_| true)?;
-        let columns = rows.whitened_in(order, room);
-        Ok(Self { columns, rows: rows.observations.rows(), seen: rows.seen })
+        let (all, width) = (rows.all_columns(), spanning.count());
+        let mut columns = sized(room, rows.without.len(), width);
+        for (at, column) in all.iter().enumerate().filter(|(at, _)| spanning.place(*at) < width) {
+            let white = rows.whiten(column);
+            let target = columns.col_as_slice_mut(spanning.place(at));
+            target.iter_mut().zip(order).for_each(|(to, &from)| *to = white[from]);
+        }
+        let is_spanned = spanning.holds(|column| all[column]);
+        Ok(Self { columns, is_spanned, rows: rows.observations.rows(), seen: rows.seen })
     }
 
     /// Of some stretches of rows that [whitening only scales](whitening_scales): columns are made whitened, where they are to lie.
@@ -44,6 +56,7 @@ impl Chunk {
         whole: &Context<'_>,
         fitted: &Fitted,
         stretches: &[Range<usize>],
+        spanning: &Spanning,
         room: Mat<f64>,
     ) -> Result<Self, SearchError> {
         let weight = &fitted.fit.residuals.weight;
@@ -59,7 +72,9 @@ impl Chunk {
         let functions: usize = whole.catalogue.iter().map(|effect| effect.functions.len()).sum();
         let width = start + functions + 1;
         let mut columns = sized(room, count, width);
-        columns.subcols_mut(0, start).copy_from(&declared);
+        for (j, column) in declared.col_iter().enumerate() {
+            columns.col_mut(spanning.place(j)).copy_from(column);
+        }
         let (mut next, mut of_effect) = (start, vec![start..start; whole.catalogue.len()]);
         let values = &fitted.fit.values;
         let seen = white.each_column(
@@ -69,7 +84,7 @@ impl Chunk {
             values,
             |_| true,
             |effect, fill| {
-                fill(columns.col_as_slice_mut(next));
+                fill(columns.col_as_slice_mut(spanning.place(next)));
                 if of_effect[effect.0].is_empty() {
                     of_effect[effect.0] = next..next;
                 }
@@ -79,9 +94,10 @@ impl Chunk {
         );
         let mut without = white.residual;
         fitted.put_back(&mut without, |effect| {
-            of_effect[effect.0].clone().map(|column| columns.col_as_slice(column))
+            of_effect[effect.0].clone().map(|column| columns.col_as_slice(spanning.place(column)))
         });
-        columns.col_as_slice_mut(width - 1).copy_from_slice(&without);
-        Ok(Self { columns, rows: own.rows(), seen: seen.with_probes(of_probes) })
+        columns.col_as_slice_mut(spanning.place(width - 1)).copy_from_slice(&without);
+        let is_spanned = spanning.holds(|column| columns.col_as_slice(spanning.place(column)));
+        Ok(Self { columns, is_spanned, rows: own.rows(), seen: seen.with_probes(of_probes) })
     }
 }

@@ -7,13 +7,14 @@ use std::sync::{Mutex, PoisonError};
 use faer::Mat;
 use rayon::prelude::*;
 
-use super::cells::{ByCell, Cells, CellsOfGroups};
+use super::cells::{ByCell, Cells};
 use super::chunk::{Chunk, whitening_scales};
 use super::columns::Seen;
 use super::context::Context;
 use super::fitted::Fitted;
 use super::folds::Folds;
-use super::row_set::components;
+use super::row_set::{RowSet, components};
+use super::spanning::Spanning;
 use super::stretches::{Chunks, stretches};
 use super::{SearchError, Stage};
 
@@ -23,28 +24,98 @@ const PORTION: usize = 128;
 /// Chunks of rows that are made at once.
 const AT_ONCE: usize = 4;
 
-/// Fills cells with all rows; returns what they show.
-pub(super) fn filled(
-    whole: &Context<'_>,
-    fitted: &Fitted,
-    folds: &Folds,
-    cells: &mut Cells,
-    of_groups: &CellsOfGroups,
-) -> Result<Option<Seen>, SearchError> {
-    let cell = |row: usize| of_groups.cell(folds.group(fitted.layout.first(row)));
-    if whitening_scales(whole, fitted) {
-        return filled_by_cell(whole, fitted, cells, cell);
+/// Components that tell which columns follow from others, for each column.
+const SAMPLE: usize = 3;
+
+/// The golden section: its multiples meet no period of the rows.
+const SECTION: f64 = 0.618_033_988_749_894_9;
+
+/// All rows, merged in cells.
+pub(super) struct Filled {
+    pub cells: Cells,
+    /// Which columns the cells have, and how the others follow from them.
+    pub spanning: Spanning,
+    /// What the rows show.
+    pub seen: Option<Seen>,
+}
+
+/// Why cells are not filled.
+enum Unfilled {
+    Search(SearchError),
+    /// A column follows from others in a sample of the rows, but not in all.
+    NotSpanned,
+}
+
+impl From<SearchError> for Unfilled {
+    fn from(error: SearchError) -> Self {
+        Self::Search(error)
     }
-    filled_in_order(whole, fitted, cells, |components| of_groups.sorted(&folds.groups_of(components)), cell)
+}
+
+impl Filled {
+    /// Of all rows, each of so many columns, in about so many cells.
+    pub fn of(
+        whole: &Context<'_>,
+        fitted: &Fitted,
+        folds: &Folds,
+        most: usize,
+        width: usize,
+    ) -> Result<Self, SearchError> {
+        match Self::spanned(whole, fitted, folds, most, spanning(whole, fitted, width)?) {
+            Ok(filled) => Ok(filled),
+            Err(Unfilled::Search(error)) => Err(error),
+            Err(Unfilled::NotSpanned) => {
+                match Self::spanned(whole, fitted, folds, most, Spanning::all(width)) {
+                    Ok(filled) => Ok(filled),
+                    Err(Unfilled::Search(error)) => Err(error),
+                    Err(Unfilled::NotSpanned) => unreachable!("all columns span all"),
+                }
+            }
+        }
+    }
+
+    fn spanned(
+        whole: &Context<'_>,
+        fitted: &Fitted,
+        folds: &Folds,
+        most: usize,
+        spanning: Spanning,
+    ) -> Result<Self, Unfilled> {
+        let (mut cells, of_groups) = Cells::new(folds, most, spanning.count());
+        let cell = |row: usize| of_groups.cell(folds.group(fitted.layout.first(row)));
+        let seen = if whitening_scales(whole, fitted) {
+            filled_by_cell(whole, fitted, &spanning, &mut cells, cell)?
+        } else {
+            let sorted = |components: &[usize]| of_groups.sorted(&folds.groups_of(components));
+            filled_in_order(whole, fitted, &spanning, &mut cells, sorted, cell)?
+        };
+        Ok(Self { cells, spanning, seen })
+    }
+}
+
+/// The columns that span all, by a sample of the rows.
+fn spanning(whole: &Context<'_>, fitted: &Fitted, width: usize) -> Result<Spanning, SearchError> {
+    let observations = whole.request.observations;
+    let rows = observations.rows();
+    let count = (SAMPLE * width * rows).div_ceil(fitted.layout.components().max(1)).min(rows);
+    // A share of the rows.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let chosen = |at: usize| ((at as f64 * SECTION).fract() * rows as f64) as u32;
+    let mut chosen: Vec<u32> = (0..count).map(chosen).collect();
+    chosen.sort_unstable();
+    chosen.dedup();
+    let sample = RowSet::of(whole, fitted, &stretches(observations, &chosen), |_| true)?;
+    Ok(Spanning::of(&sample.all_columns()))
 }
 
 /// Fills cells with rows that whitening only scales, each cell by one processor; returns what they show.
 fn filled_by_cell(
     whole: &Context<'_>,
     fitted: &Fitted,
+    spanning: &Spanning,
     cells: &mut Cells,
     cell: impl Fn(usize) -> usize + Sync,
-) -> Result<Option<Seen>, SearchError> {
+) -> Result<Option<Seen>, Unfilled> {
     let observations = whole.request.observations;
     let mut of_cell = vec![Vec::new(); cells.count()];
     (0..observations.rows()).for_each(|row| of_cell[cell(row)].push(row as u32));
@@ -53,14 +124,17 @@ fn filled_by_cell(
     let parts = cells.filled(|cell, add| {
         let (mut seen, mut room) = (None, Mat::new());
         for rows in of_cell[cell].chunks(PORTION) {
-            let chunk = Chunk::scaled(whole, fitted, &stretches(observations, rows), room)?;
-            add(chunk.columns.as_ref());
+            let chunk = Chunk::scaled(whole, fitted, &stretches(observations, rows), spanning, room)?;
+            if !chunk.is_spanned {
+                return Err(Unfilled::NotSpanned);
+            }
+            add(chunk.columns.subcols(0, spanning.count()));
             merge(&mut seen, chunk.seen);
             room = chunk.columns;
             let rows = rows.len() + done.fetch_add(rows.len(), Ordering::Relaxed);
             (whole.tell)(Stage::Columns { rows, of });
         }
-        Ok::<_, SearchError>(seen)
+        Ok(seen)
     })?;
     let mut seen = None;
     parts.into_iter().flatten().for_each(|part| merge(&mut seen, part));
@@ -72,10 +146,11 @@ fn filled_by_cell(
 fn filled_in_order(
     whole: &Context<'_>,
     fitted: &Fitted,
+    spanning: &Spanning,
     cells: &mut Cells,
     sorted: impl Fn(&[usize]) -> ByCell + Sync,
     cell: impl Fn(usize) -> usize + Sync,
-) -> Result<Option<Seen>, SearchError> {
+) -> Result<Option<Seen>, Unfilled> {
     let observations = whole.request.observations;
     // Matrices of chunks that were taken in: a new one each time would cost as much as filling it.
     let room: Mutex<Vec<Mat<f64>>> = Mutex::default();
@@ -83,7 +158,8 @@ fn filled_in_order(
     let made = |stretches: &[Range<usize>]| {
         let by_cell = sorted(&components(fitted, stretches));
         let room = rooms().pop().unwrap_or_else(Mat::new);
-        Ok((Chunk::in_order(whole, fitted, stretches, &by_cell.order, room)?, by_cell))
+        let chunk = Chunk::in_order(whole, fitted, stretches, spanning, &by_cell.order, room)?;
+        if chunk.is_spanned { Ok((chunk, by_cell)) } else { Err(Unfilled::NotSpanned) }
     };
     // Of objects a chunk is of few cells: products of few rows each would cost several times as much.
     let chunks = match fitted.fit.noise.mixes_rows() {
@@ -114,15 +190,15 @@ fn merge(seen: &mut Option<Seen>, more: Seen) {
 
 /// Lets `take` have what `make` makes of all rows, some chunks at a time. Those are far from each other, so that they are of different
 /// cells, and always the same: the number of processors changes no bit.
-pub(super) fn each_chunk<T: Send>(
+pub(super) fn each_chunk<T: Send, E: Send>(
     chunks: &Chunks<'_>,
-    make: impl Fn(&[Range<usize>]) -> Result<T, SearchError> + Sync,
+    make: impl Fn(&[Range<usize>]) -> Result<T, E> + Sync,
     mut take: impl FnMut(Vec<T>),
-) -> Result<(), SearchError> {
+) -> Result<(), E> {
     let apart = chunks.count().div_ceil(AT_ONCE);
     for first in 0..apart {
         let some: Vec<usize> = (first..chunks.count()).step_by(apart).collect();
-        let made: Vec<Result<T, SearchError>> =
+        let made: Vec<Result<T, E>> =
             some.into_par_iter().map(|chunk| make(&chunks.stretches(chunk))).collect();
         take(made.into_iter().collect::<Result<_, _>>()?);
     }

@@ -41,6 +41,7 @@ pub mod scan;
 pub(crate) mod search_problem;
 pub mod select;
 pub mod signs;
+pub mod spanning;
 mod stage;
 mod standardised;
 pub mod state;

@@ -191,20 +191,18 @@ impl<'a> RowSet<'a> {
         if squares > 0.0 { sum * sum / squares } else { 0.0 }
     }
 
-    /// Declared combinations, the columns of each effect, and the residual, whitened.
-    pub fn whitened(&self) -> Mat<f64> {
-        self.whitened_in(&(0..self.without.len()).collect::<Vec<_>>(), Mat::new())
-    }
-
-    /// The same with the components in another order; `room` is a matrix for its memory.
-    pub fn whitened_in(&self, order: &[usize], room: Mat<f64>) -> Mat<f64> {
+    /// Declared combinations, the columns of each effect, and the residual without the accepted effects, before whitening.
+    pub fn all_columns(&self) -> Vec<&[f64]> {
         let declared = (0..self.columns.declared.ncols()).map(|j| self.columns.declared.col_as_slice(j));
         let effects = self.effects.iter().flatten().map(Vec::as_slice);
-        let columns: Vec<&[f64]> = declared.chain(effects).chain([self.without.as_slice()]).collect();
-        let mut rows = sized(room, self.without.len(), columns.len());
-        for (j, column) in columns.into_iter().enumerate() {
-            let white = self.whiten(column);
-            rows.col_as_slice_mut(j).iter_mut().zip(order).for_each(|(to, &from)| *to = white[from]);
+        declared.chain(effects).chain([self.without.as_slice()]).collect()
+    }
+
+    /// The same, whitened.
+    pub fn whitened(&self) -> Mat<f64> {
+        let mut rows = Mat::zeros(self.without.len(), self.all_columns().len());
+        for (j, column) in self.all_columns().into_iter().enumerate() {
+            rows.col_as_slice_mut(j).copy_from_slice(&self.whiten(column));
         }
         rows
     }

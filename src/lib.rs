@@ -39,7 +39,7 @@
 //!     y = "y"
 //!     z = "z"
 //! "#).unwrap();
-//! let mut open = |_: &str| Ok(Box::new(Cursor::new(data.clone())) as Box<dyn std::io::Read>);
+//! let mut open = |_: &str| Ok(Box::new(Cursor::new(data.clone())) as Box<dyn std::io::Read + Send>);
 //! let calibration = Calibration::of(text, &study, &mut open, "2026-11-22").unwrap();
 //!
 //! assert!(calibration.diagnosis.effects[0].names[0].contains("eccentricity"));

@@ -2,7 +2,6 @@
 //! it where [`Options`] say so).
 
 use std::io::{self, Read};
-use std::str::Utf8Error;
 
 use memchr::memchr;
 use rayon::prelude::*;
@@ -11,7 +10,7 @@ use super::decimal::{Marks, parse};
 use super::error::clipped;
 use super::header::{ColumnName, unique};
 use super::packed::no_text;
-use super::records::{Dialect, Line, Record, RecordError, Records};
+use super::records::{Dialect, Line, Record, RecordError, Records, Row};
 use super::separator::guess_separator;
 use super::{Cell, Cells, Chunk, DataError, Form, Kept, Options, TableReader, Wanted};
 
@@ -140,28 +139,6 @@ fn parts(mut lines: &[u8], line_end: u8) -> Vec<&[u8]> {
         lines = rest;
     }
     parts
-}
-
-/// A row on its way into columns.
-struct Row<'r> {
-    record: &'r Record,
-    number: u64,
-    /// All cells, where all are text: looking at each alone would take as long as reading them.
-    all: Option<&'r str>,
-}
-
-impl<'r> Row<'r> {
-    fn new(record: &'r Record, number: u64) -> Self {
-        Self { record, number, all: std::str::from_utf8(record.bytes()).ok() }
-    }
-
-    /// The text of a cell.
-    fn text(&self, column: usize) -> Result<&'r str, Utf8Error> {
-        match self.all.and_then(|all| all.get(self.record.range(column))) {
-            Some(text) => Ok(text),
-            None => std::str::from_utf8(self.record.get(column)),
-        }
-    }
 }
 
 impl Table {

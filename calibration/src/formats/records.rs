@@ -6,6 +6,7 @@
 
 use std::io::{self, Read};
 use std::ops::Range;
+use std::str::Utf8Error;
 
 use memchr::{memchr, memchr_iter, memrchr};
 
@@ -73,6 +74,29 @@ pub(super) enum RecordError {
         /// What is wrong, and what was expected.
         why: &'static str,
     },
+}
+
+/// A row on its way into columns.
+pub(super) struct Row<'r> {
+    pub record: &'r Record,
+    /// Of the row in its file, from 1.
+    pub number: u64,
+    /// All cells, where all are text: looking at each alone would take as long as reading them.
+    all: Option<&'r str>,
+}
+
+impl<'r> Row<'r> {
+    pub fn new(record: &'r Record, number: u64) -> Self {
+        Self { record, number, all: std::str::from_utf8(&record.bytes).ok() }
+    }
+
+    /// The text of a cell.
+    pub fn text(&self, column: usize) -> Result<&'r str, Utf8Error> {
+        match self.all.and_then(|all| all.get(self.record.range(column))) {
+            Some(text) => Ok(text),
+            None => std::str::from_utf8(self.record.get(column)),
+        }
+    }
 }
 
 impl<R: Read> Records<R> {
@@ -284,13 +308,8 @@ impl Record {
         self.ends.len()
     }
 
-    /// All cells, one behind the other.
-    pub fn bytes(&self) -> &[u8] {
-        &self.bytes
-    }
-
     /// Where a cell stands among all.
-    pub fn range(&self, column: usize) -> Range<usize> {
+    fn range(&self, column: usize) -> Range<usize> {
         let end = self.ends.get(column).copied().unwrap_or_default();
         let start =
             column.checked_sub(1).and_then(|before| self.ends.get(before)).copied().unwrap_or_default();

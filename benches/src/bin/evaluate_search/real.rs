@@ -59,10 +59,10 @@ fn elsewhere(studies: &[(&str, &[&str])]) -> Result<Vec<Line>, Failure> {
             continue;
         }
         let mut files = data.map(File::open).collect::<Result<Vec<_>, _>>()?.into_iter();
-        let mut open = |_: &str| -> Result<Box<dyn Read>, DataError> {
+        let mut open = |_: &str| -> Result<Box<dyn Read + Send>, DataError> {
             Ok(files
                 .next()
-                .map_or_else(|| Box::new(std::io::empty()) as Box<dyn Read>, |file| Box::new(file)))
+                .map_or_else(|| Box::new(std::io::empty()) as Box<dyn Read + Send>, |file| Box::new(file)))
         };
         let all = plan.load(&mut open)?.observations;
         for joint in *joints {

@@ -7,7 +7,7 @@ import sys
 import time
 
 import pytest
-from conftest import MOUNT
+from conftest import EXAMPLES, MOUNT
 from test_calibration import STUDY
 
 LONG = f"""
@@ -26,11 +26,41 @@ few = {{name: column[:200] for name, column in table.items()}}
 print(trueaxis.calibrate("study.toml", few, text=text, chain=chain).verdict, flush=True)
 """
 
+# One call that takes long: many points of a chain of thirty errors.
+QUESTIONS = {
+    "bound": "chain.bound({name: 1e-3 for name in chain.errors})",
+    "budget": "chain.budget({name: 1e-3 for name in chain.errors})",
+    "identify": "chain.identify()",
+}
+ASKED = f"""
+import trueaxis
+text = open({str(EXAMPLES / "mobile-lidar" / "mobile-lidar.chain")!r}).read()
+end = text.rindex("}}")
+more = "".join(f"observe more{{at}}: point(0.{{at + 100}}, 0.{{at + 200}}, {{at + 1}}) of device;" for at in range(400))
+chain = trueaxis.Chain.from_text(text[:end] + more + "}}", "lidar.chain")
+print("begins", flush=True)
+try:
+    QUESTION
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+print(len(chain.errors), flush=True)
+"""
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of this kind are not there")
+@pytest.mark.parametrize("question", QUESTIONS)
+def test_ctrl_c_ends_a_long_question(question):
+    ends_soon(ASKED.replace("QUESTION", QUESTIONS[question]), 0.4)
+
 
 @pytest.mark.skipif(os.name == "nt", reason="signals of this kind are not there")
 @pytest.mark.parametrize("wait", [0.1, 0.7])
 def test_ctrl_c_ends_a_long_calibration(wait):
-    work = subprocess.Popen([sys.executable, "-c", LONG], stdout=subprocess.PIPE, text=True)
+    ends_soon(LONG, wait)
+
+
+def ends_soon(program, wait):
+    work = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
     assert work.stdout.readline() == "begins\n"
     time.sleep(wait)
     work.send_signal(signal.SIGINT)

@@ -33,6 +33,8 @@ pub enum Ended {
         components: usize,
         /// What was to be estimated.
         parameters: usize,
+        /// Numbers of objects and stations that are estimated beside that.
+        of_objects: usize,
     },
 }
 
@@ -44,8 +46,8 @@ impl From<&Outcome> for Ended {
                 Self::FarOff { steps: iterations }
             }
             Outcome::NotConverged { iterations, .. } => Self::NotConverged { steps: iterations },
-            Outcome::TooFewObservations { components, parameters, .. } => {
-                Self::TooFewObservations { components, parameters }
+            Outcome::TooFewObservations { components, parameters, of_objects, .. } => {
+                Self::TooFewObservations { components, parameters, of_objects }
             }
         }
     }

@@ -118,7 +118,7 @@ mod tests {
     #[test]
     fn the_worst_is_said_first() {
         let (fine, failed) = (Ended::Converged { steps: 3 }, Ended::NotConverged { steps: 50 });
-        let few = Ended::TooFewObservations { components: 2, parameters: 3 };
+        let few = Ended::TooFewObservations { components: 2, parameters: 3, of_objects: 0 };
         let noisy = [Caution::NoiseExceedsStated { ratio: 2.3 }];
         let thin = [Caution::FewBehindAnEffect { effect: "drift".into(), observations: 3.1 }];
         let rounded = [Caution::ResidualIsRounding { rms: 1e-16, unit: crate::data::SiUnit::RAD }];

@@ -25,6 +25,8 @@ pub enum Outcome {
         parameters: usize,
         /// Combinations of them that the data determine.
         rank: usize,
+        /// Numbers of objects and stations that the data determine beside them.
+        of_objects: usize,
     },
 }
 

@@ -145,9 +145,12 @@ impl Solver<'_> {
             Some(Reason::FarOff) => {
                 Outcome::NotConverged { iterations: self.iterations, reason: Reason::FarOff }
             }
-            _ if kept <= rank + of_objects => {
-                Outcome::TooFewObservations { components: kept, parameters: parameters.len(), rank }
-            }
+            _ if kept <= rank + of_objects => Outcome::TooFewObservations {
+                components: kept,
+                parameters: parameters.len(),
+                rank,
+                of_objects,
+            },
             None => Outcome::Converged { iterations: self.iterations },
             Some(reason) => Outcome::NotConverged { iterations: self.iterations, reason },
         };

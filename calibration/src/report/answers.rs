@@ -296,11 +296,17 @@ fn happened(diagnosis: &Diagnosis) -> String {
 
 fn too_few(diagnosis: &Diagnosis) -> String {
     match diagnosis.fit.amended {
-        Ended::TooFewObservations { components, .. } => format!(
-            "{} observations have {components} measured components, and these data determine {} combinations of {} \
-             errors: nothing is left to judge them by.",
-            diagnosis.observations.rows, diagnosis.fit.rank[0], diagnosis.fit.rank[1]
-        ),
+        Ended::TooFewObservations { components, of_objects, .. } => {
+            let of_objects = match of_objects {
+                0 => String::new(),
+                numbers => format!(" and {numbers} numbers of objects and stations"),
+            };
+            format!(
+                "{} observations have {components} measured components, and these data determine {} combinations of {} \
+                 errors{of_objects}: nothing is left to judge them by.",
+                diagnosis.observations.rows, diagnosis.fit.rank[0], diagnosis.fit.rank[1]
+            )
+        }
         Ended::Converged { .. } | Ended::NotConverged { .. } | Ended::FarOff { .. } => {
             "An effect stands out, but it rests on fewer than six observations: it was left out.".to_owned()
         }

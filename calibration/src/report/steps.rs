@@ -35,9 +35,10 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
         }
         Verdict::TooFewObservations if !fits_otherwise(diagnosis) => {
             let text = match diagnosis.fit.amended {
-                Ended::TooFewObservations { .. } => format!(
-                    "At least {}; or fix errors that are known (`[fit] fix`).",
-                    observations_more(missing(diagnosis, diagnosis.fit.rank[1] + 2))
+                Ended::TooFewObservations { parameters, of_objects, .. } => format!(
+                    "At least {}{}; or fix errors that are known (`[fit] fix`).",
+                    observations_more(missing(diagnosis, parameters + of_objects + WANTED)),
+                    if of_objects > 0 { ", of objects and from stations that are there" } else { "" }
                 ),
                 _ => "Repeat the observations that the effect rests on.".to_owned(),
             };
@@ -137,8 +138,9 @@ fn observations_more(count: usize) -> String {
 pub(super) fn is_unconfirmed(diagnosis: &Diagnosis) -> Option<String> {
     diagnosis.cautions.iter().find_map(|caution| match caution {
         Caution::HardlyMoreNumbers { numbers, unknowns } => Some(format!(
-            "{numbers} numbers for {unknowns} unknowns leave too few to judge the noise by: add at least {}.",
-            observations_more(missing(diagnosis, unknowns + WANTED.max(*unknowns)))
+            "{numbers} numbers for {unknowns} unknowns leave too few to judge the noise by: add at least {}.{}",
+            observations_more(missing(diagnosis, unknowns + WANTED.max(*unknowns))),
+            if diagnosis.fit.rank[0] < diagnosis.fit.rank[1] { " Errors that they show beside these take more." } else { "" }
         )),
         Caution::ForetoldBadly { .. } => Some(
             "Data that nobody fitted are foretold badly, since single rows decide what comes out: add observations at poses spread over \

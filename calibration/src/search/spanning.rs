@@ -23,8 +23,9 @@ pub struct Spanning {
     count: usize,
     /// The columns that follow, by those that span.
     by: Mat<f64>,
-    /// A multiple of each column that follows, and what those that span make of the sum of these.
+    /// What each column that follows is multiplied by in a check of all at once.
     multiple: Vec<f64>,
+    /// What each column that spans is multiplied by to make the same sum.
     sum: Vec<f64>,
 }
 

@@ -78,7 +78,12 @@ fn fewer_rows_than_errors_are_named() {
         let mut simulation = mount(rows, 4);
         let observations = simulation.directions("sight", 2.0 * ARCSEC);
         let result = fitted(&simulation, &observations);
-        let few = Outcome::TooFewObservations { components: 2 * rows, parameters: 6, rank: 2 * rows };
+        let few = Outcome::TooFewObservations {
+            components: 2 * rows,
+            parameters: 6,
+            rank: 2 * rows,
+            of_objects: 0,
+        };
         assert_eq!(result.outcome, few, "{rows} rows");
         assert!(result.parameters.iter().all(|&id| result.standard_uncertainty(id).is_none()), "{rows} rows");
         assert!(result.values.iter().all(|value| value.is_finite()));
@@ -206,7 +211,10 @@ fn trouble_has_words() {
     let measured = |simulation: &mut Simulation| simulation.directions("sight", 2.0 * ARCSEC);
 
     let (_, few) = said(2, 12, &measured);
-    assert_eq!(few.outcome, Outcome::TooFewObservations { components: 4, parameters: 6, rank: 4 });
+    assert_eq!(
+        few.outcome,
+        Outcome::TooFewObservations { components: 4, parameters: 6, rank: 4, of_objects: 0 }
+    );
 
     let (repeated, _) = said(50, 13, &|simulation| {
         simulation.columns.iter_mut().for_each(|(_, column)| column.fill(0.7));

@@ -3,6 +3,8 @@
 use serde_json::Value;
 
 use crate::figures::simulate_pan;
+use crate::random::Random;
+use crate::room::{Room, STUDY, TRACKER};
 use crate::support::Folder;
 
 const PAN: &str = "chain Pan {
@@ -155,4 +157,61 @@ fn enough_rows_are_corrected_with() {
         assert!(shown.contains(CORRECT) && !shown.contains(MORE), "{shown}");
         assert!(kinds(&report).is_empty(), "{shown}");
     }
+}
+
+/// How many observations more are asked for, if there are too few.
+fn asked_for(shown: &str) -> Option<usize> {
+    let words: Vec<&str> = shown.split_whitespace().collect();
+    let at = words.windows(2).position(|two| two == ["At", "least"])?;
+    shown.starts_with("TOO FEW OBSERVATIONS").then(|| words[at + 2].parse().expect("a number"))
+}
+
+/// Who measures as many more as are asked for is not asked again.
+#[test]
+fn as_many_as_are_asked_for_are_enough() {
+    for (kind, count) in [("direction", 1), ("direction", 2), ("direction", 3)] {
+        let (shown, _) = calibrated("asked", kind, count, 7);
+        let more = asked_for(&shown).unwrap_or_else(|| panic!("{kind} {count}: {shown}"));
+        let (shown, report) = calibrated("asked", kind, count + more, 7);
+        assert_eq!(asked_for(&shown), None, "{shown}");
+        assert!(!kinds(&report).contains(&HARDLY.to_owned()), "{kind} {count} and {more}: {shown}");
+    }
+}
+
+/// Beside targets and stations that nobody knows, too, whose numbers count.
+#[test]
+fn as_many_as_are_asked_for_beside_unknown_objects_are_enough() {
+    let folder = Folder::new("few-objects");
+    let chain = TRACKER.replace("longer*range", "range_zero");
+    let circle = "motion: Rz(-azimuth); motion_error: Rz(once_cos*cos(azimuth) + once_sin*sin(azimuth));";
+    let chain = chain.replace("motion: Rz(-azimuth);", circle);
+    folder.write("tracker.chain", chain).write("study.toml", STUDY);
+    let random = &mut Random::new(5);
+    let all = Room::new(random).rows(random, 0.0);
+    // Three targets in one face; what is asked for is measured of them in the other.
+    let rows: Vec<&str> = all.lines().collect();
+    let is_few = |row: &&&str| ["T0", "T1", "T2"].iter().any(|target| row.split(',').nth(1) == Some(target));
+    let few: Vec<&str> = rows[1..].iter().filter(is_few).copied().collect();
+    let table = |more: usize| {
+        let one = few.iter().step_by(2).chain(few.iter().skip(1).step_by(2).take(more));
+        [rows[0]].into_iter().chain(one.copied()).map(|row| format!("{row}\n")).collect::<String>()
+    };
+    let mut more = 0;
+    let mut asked = 0;
+    while asked < 4 {
+        folder.write("rows.csv", table(more));
+        let shown = folder.trueaxis(&["calibrate", "study.toml"]).stdout;
+        match asked_for(&shown) {
+            Some(others) => more += others,
+            None => {
+                assert!(asked > 0, "{shown}");
+                break;
+            }
+        }
+        asked += 1;
+        let words = shown.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains("21 numbers of objects and stations"), "{shown}");
+        assert!(words.contains("of objects and from stations that are there"), "{shown}");
+    }
+    assert_eq!(asked, 1, "{more}");
 }

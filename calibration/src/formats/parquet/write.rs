@@ -18,7 +18,7 @@ use super::cells::Values;
 use crate::formats::{Kept, Texts};
 
 /// Rows of a group: what is held of a table whose types are known.
-const GROUP: usize = 1 << 19;
+const GROUP: usize = 1 << 17;
 
 /// Digits of a decimal number that a double holds in any case.
 const DOUBLE_DIGITS: usize = 15;
@@ -385,7 +385,7 @@ mod tests {
 
     #[test]
     fn groups_come_out_as_they_fill() -> std::result::Result<(), Box<dyn std::error::Error>> {
-        const ROWS: usize = 200_000;
+        const ROWS: usize = GROUP * 2 / 5;
         let mut writer = Writer::new(vec!["a".to_owned()]);
         let mut pieces = Vec::new();
         for part in 0..7 {

@@ -1,5 +1,5 @@
 //! The fit: a million rows of 30 errors streamed, a thousand rows at once, and SciPy's `least_squares` and Ceres on the
-//! same data.
+//! same data; and the sum of many rows of many columns beside a plain QR.
 //!
 //! `cargo bench -p trueaxis-benches --bench fit`; with `TRUEAXIS_PYTHON` naming a Python that has SciPy (and pyceres, for
 //! Ceres), the comparison runs too (`peer.py`). Times are the least of several runs; processor time, which other
@@ -13,7 +13,8 @@ use std::time::Instant;
 use calibration::data::{
     Grouping, Measure, Measured, Observations, Origins, Poses, Series, direction_from_offset,
 };
-use calibration::fit::{FitOptions, Next, Streamed, StreamedResult, fit};
+use calibration::fit::{FitOptions, Next, Partial, Rows, Streamed, StreamedResult, fit};
+use faer::Mat;
 use model_core::{Chain, SymbolId, SymbolKind, exact};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -149,7 +150,42 @@ fn peer(python: &str, name: &str, observations: &Observations) -> Option<(Cost, 
     Some((Cost { wall, processor }, estimates.to_vec()))
 }
 
+/// Rows of 150 columns into a packed factor, block by block, beside faer's QR of all rows at once; one thread each.
+fn accumulate() {
+    const ROWS: usize = 200_000;
+    const COLUMNS: usize = 150;
+    const BLOCK: usize = 1024;
+    let mut rng = ChaCha8Rng::seed_from_u64(1);
+    let rows = Mat::from_fn(ROWS, COLUMNS, |_, _| StandardNormal.sample(&mut rng));
+    let blocks: Vec<Rows> = (0..ROWS)
+        .step_by(BLOCK)
+        .map(|start| {
+            let part = rows.subrows(start, BLOCK.min(ROWS - start));
+            let mut block = Rows::zeros(part.nrows(), COLUMNS);
+            for (to, from) in block.columns_mut().zip(part.col_iter()) {
+                to.iter_mut().zip(from.iter()).for_each(|(to, from)| *to = *from);
+            }
+            block
+        })
+        .collect();
+    let sum = || blocks.iter().cloned().fold(Partial::new(COLUMNS - 1), Partial::with);
+    let (ours, partial) = least(5, sum);
+    let (theirs, factor) = least(5, || rows.qr().thin_R().to_owned());
+    let ours_factor = partial.factor();
+    let largest = (0..COLUMNS)
+        .flat_map(|j| (0..=j).map(move |i| (i, j)))
+        .map(|(i, j)| (ours_factor[(i, j)].abs() - factor[(i, j)].abs()).abs())
+        .fold(0.0, f64::max);
+    println!(
+        "{ROWS} rows × {COLUMNS} columns accumulated: {ours}; a plain QR by faer: {theirs}, {:.2} times as long (factors differ by at \
+         most {:.0e} of their largest)",
+        theirs.wall / ours.wall,
+        largest / factor.norm_max(),
+    );
+}
+
 fn main() {
+    accumulate();
     let lidar = Chain::from_text(LIDAR).unwrap();
     let joints = [("alpha", -3.1, 3.1), ("beta", -3.1, 3.1), ("gamma", -3.1, 3.1)];
     let few = simulate(&lidar, "pointing", &joints, 1000);

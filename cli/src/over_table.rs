@@ -129,10 +129,9 @@ impl OverTable {
                 let computed = compute(&rows)?;
                 let is_finite = |row: &usize| computed.iter().all(|column| column[*row].is_finite());
                 not_finite += (0..rows.count).filter(|row| !is_finite(row)).count();
-                let kept = rows.kept.iter().zip(&is_replaced).filter(|(_, replaced)| !**replaced);
+                let kept = rows.kept.into_iter().zip(&is_replaced).filter(|(_, replaced)| !**replaced);
                 let kept = kept.map(|(kept, _)| Column::Kept(kept));
-                let computed = computed.iter().map(|column| Column::Numbers(column));
-                writer.rows(&kept.chain(computed).collect::<Vec<_>>(), rows.count)?;
+                writer.rows(kept.chain(computed.into_iter().map(Column::Numbers)).collect(), rows.count)?;
                 done += rows.count;
                 progress.set_message(so_far(done as u64, share_read, began.elapsed()));
                 Ok(())

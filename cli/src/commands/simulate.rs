@@ -82,7 +82,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
             let rows = left.min(CHUNK);
             left -= rows;
             let columns = simulation.rows(rows)?;
-            writer.rows(&columns.iter().map(|column| Column::Numbers(column)).collect::<Vec<_>>(), rows)?;
+            writer.rows(columns.into_iter().map(Column::Numbers).collect(), rows)?;
         }
         Ok(())
     })?;

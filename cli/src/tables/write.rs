@@ -12,12 +12,11 @@ use crate::failure::Failure;
 use crate::output;
 
 /// Some rows of one column.
-#[derive(Clone, Copy)]
-pub enum Column<'a> {
+pub enum Column {
     /// Cells that came from elsewhere, and leave as they came.
-    Kept(&'a Kept),
+    Kept(Kept),
     /// Numbers.
-    Numbers(&'a [f64]),
+    Numbers(Vec<f64>),
 }
 
 /// A table that is being written.
@@ -116,7 +115,7 @@ impl TableWriter<'_> {
     ///
     /// # Errors
     /// The place cannot be written, or the rows take more memory than they may.
-    pub fn rows(&mut self, rows: &[Column<'_>], count: usize) -> Result<(), Failure> {
+    pub fn rows(&mut self, rows: Vec<Column>, count: usize) -> Result<(), Failure> {
         match self {
             Self::Csv { path, file } => {
                 let texts = rows.iter().map(|column| match column {
@@ -133,9 +132,9 @@ impl TableWriter<'_> {
             }
             #[cfg(feature = "parquet")]
             Self::Parquet { path, file, writer } => {
-                let columns = rows.iter().map(|column| match *column {
-                    Column::Kept(kept) => parquet::Column::Kept(kept.clone()),
-                    Column::Numbers(numbers) => parquet::Column::Numbers(numbers.to_vec()),
+                let columns = rows.into_iter().map(|column| match column {
+                    Column::Kept(kept) => parquet::Column::Kept(kept),
+                    Column::Numbers(numbers) => parquet::Column::Numbers(numbers),
                 });
                 put(*file, path, writer.rows(columns.collect(), count))?;
                 Options::default().holds(writer.bytes(), &path.display().to_string()).map_err(failure)

@@ -5,13 +5,14 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
 
+use calibration::formats::Column;
 use model_core::Chain;
 
 use crate::errors_file::{self, FoundOver};
 use crate::evaluation::{Evaluator, Exactness, Quantity, column_names};
 use crate::failure::Failure;
 use crate::source::{Source, listed};
-use crate::tables::{self, Column, ReadingsTable, Rows};
+use crate::tables::{self, ReadingsTable, Rows};
 use crate::{output, terminal};
 
 /// What is evaluated over which table, and where to.

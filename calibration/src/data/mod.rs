@@ -3,6 +3,7 @@
 //! Files become observations in [`crate::study`]; nothing here knows a file's format.
 
 pub mod derive;
+pub(crate) mod golden;
 mod joined;
 mod measured;
 mod numbers;

@@ -6,8 +6,8 @@
 use model_core::{Chain, Quantity, SymbolId, SymbolKind};
 use rayon::prelude::*;
 
-use super::Poses;
 use super::joined::Joined;
+use super::{Poses, golden};
 
 /// How much further the rows of other places are than those of one are from each other, at least.
 const APART: f64 = 2.5;
@@ -28,9 +28,6 @@ const FOUND_TOGETHER: usize = 500;
 /// least: less than the half that it takes, by more than chance.
 const SAMPLE: usize = 4096;
 const NEAR: f64 = 0.4;
-
-/// The golden section: readings weighed by its powers add up to the same for hardly any two rows of a grid.
-const SECTION: f64 = 0.618_033_988_749_894_9;
 
 /// The place of each row, numbered from 0 in the order of the rows; `None` where less than half of the rows share theirs.
 ///
@@ -94,7 +91,8 @@ struct Line {
 impl Line {
     fn through(readings: &[Vec<f64>]) -> Self {
         let rows = readings.first().map_or(0, Vec::len);
-        let weights: Vec<f64> = (0..readings.len()).map(|power| SECTION.powi(power as i32)).collect();
+        // They add up to the same for hardly any two rows of a grid.
+        let weights: Vec<f64> = (0..readings.len()).map(|power| golden::SECTION.powi(power as i32)).collect();
         let of_row = |row: usize| -> f64 {
             readings.iter().zip(&weights).map(|(values, weight)| weight * values[row]).sum()
         };
@@ -120,8 +118,7 @@ impl Line {
             return Some(true);
         }
         let of_sample = |sample: usize| {
-            // Steps of an irrational length, so that no period of the rows is favoured.
-            let row = ((sample as f64 * SECTION).fract() * rows as f64) as usize;
+            let row = (golden::share(sample) * rows as f64) as usize;
             let start = self.at.partition_point(|at| self.at[row] - at > reach);
             let end = self.at.partition_point(|at| at - self.at[row] <= reach);
             // Of those that a row would be compared with at most, on either side.

@@ -10,8 +10,8 @@ use super::align::starting_values;
 use super::solver::{Course, Solver};
 use super::sweep::{Weighting, residuals};
 use super::{FitError, FitOptions, FitResult, Model, Outcome, Reason, Residuals, SetAside, Why};
-use crate::data::Observations;
 use crate::data::unknowns::Unknowns;
+use crate::data::{Observations, golden};
 use crate::fit::noise::{Layout, NoiseOptions};
 
 /// Rows from which on a robust fit comes near on a sample of them first.
@@ -89,10 +89,8 @@ impl Solver<'_> {
         if rows < MANY || !self.options.robust || self.observations.unknowns.is_some() {
             return Ok(None);
         }
-        // Steps of an irrational length meet no period of the data.
-        let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
         let share = SAMPLE as f64 / rows as f64;
-        let chosen = (0..rows).filter(|&row| (row as f64 * golden).fract() < share);
+        let chosen = (0..rows).filter(|&row| golden::share(row) < share);
         let sample = self.observations.select(&chosen.collect::<Vec<_>>());
         let noise = NoiseOptions { variance: false, serial: false, ..self.options.noise.clone() };
         let of_sample = fit(self.chain, &sample, &FitOptions { noise, ..self.options.clone() })?;

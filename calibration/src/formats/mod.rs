@@ -87,6 +87,15 @@ impl Kept {
     }
 }
 
+/// Some rows of a column that is written.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Column {
+    /// Numbers.
+    Numbers(Vec<f64>),
+    /// A column that came from elsewhere, and leaves as it came.
+    Kept(Kept),
+}
+
 /// As what a column is to be read.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Form {

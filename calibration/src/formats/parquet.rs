@@ -21,7 +21,7 @@ use bytes::Bytes;
 use rayon::prelude::*;
 
 pub use cells::TypedCells;
-pub use write::{Column, TextType, Writer};
+pub use write::{TextType, Writer};
 
 use super::header::{ColumnName, unique};
 use super::{Cell, Cells, Chunk, DataError, Form, Kept, Options, TableReader, Texts, Wanted};

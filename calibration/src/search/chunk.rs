@@ -16,8 +16,6 @@ pub(crate) struct Chunk {
     /// Declared combinations, the columns of each effect of the catalogue, and the residual without the accepted effects: those that
     /// span come first.
     pub columns: Mat<f64>,
-    /// Whether the others follow from them.
-    pub is_spanned: bool,
     /// How many rows of the data it has.
     pub rows: usize,
     pub seen: Seen,
@@ -29,8 +27,23 @@ pub(crate) fn whitening_scales(whole: &Context<'_>, fitted: &Fitted) -> bool {
     !fitted.fit.noise.mixes_rows() && !has_objects && fitted.adjusted.is_none()
 }
 
+/// Why there is no chunk.
+pub(crate) enum Unfilled {
+    /// Its rows cannot be evaluated.
+    Search(SearchError),
+    /// A column follows from others in a sample of the rows, but not in these.
+    NotSpanned,
+}
+
+impl<E: Into<SearchError>> From<E> for Unfilled {
+    fn from(error: E) -> Self {
+        Self::Search(error.into())
+    }
+}
+
 impl Chunk {
-    /// Of some stretches of rows, the components in another order, those columns that span alone; `room` is the matrix of an earlier chunk, for its memory.
+    /// Of some stretches of rows, the components in another order, those columns that span alone; `room` is the matrix of an earlier
+    /// chunk, for its memory.
     pub fn in_order(
         whole: &Context<'_>,
         fitted: &Fitted,
@@ -38,17 +51,19 @@ impl Chunk {
         spanning: &Spanning,
         order: &[usize],
         room: Mat<f64>,
-    ) -> Result<Self, SearchError> {
+    ) -> Result<Self, Unfilled> {
         let rows = RowSet::of(whole, fitted, stretches, |_| true)?;
         let (all, width) = (rows.all_columns(), spanning.count());
+        if !spanning.holds(|column| all[column]) {
+            return Err(Unfilled::NotSpanned);
+        }
         let mut columns = sized(room, rows.without.len(), width);
         for (at, column) in all.iter().enumerate().filter(|(at, _)| spanning.place(*at) < width) {
             let white = rows.whiten(column);
             let target = columns.col_as_slice_mut(spanning.place(at));
             target.iter_mut().zip(order).for_each(|(to, &from)| *to = white[from]);
         }
-        let is_spanned = spanning.holds(|column| all[column]);
-        Ok(Self { columns, is_spanned, rows: rows.observations.rows(), seen: rows.seen })
+        Ok(Self { columns, rows: rows.observations.rows(), seen: rows.seen })
     }
 
     /// Of some stretches of rows that [whitening only scales](whitening_scales): columns are made whitened, where they are to lie.
@@ -58,7 +73,7 @@ impl Chunk {
         stretches: &[Range<usize>],
         spanning: &Spanning,
         room: Mat<f64>,
-    ) -> Result<Self, SearchError> {
+    ) -> Result<Self, Unfilled> {
         let weight = &fitted.fit.residuals.weight;
         let whitening = |at: usize| weight[fitted.layout.row(at)].sqrt() / fitted.fit.noise.sigma[at];
         let factor: Vec<f64> = components(fitted, stretches).into_iter().map(whitening).collect();
@@ -97,7 +112,9 @@ impl Chunk {
             of_effect[effect.0].clone().map(|column| columns.col_as_slice(spanning.place(column)))
         });
         columns.col_as_slice_mut(spanning.place(width - 1)).copy_from_slice(&without);
-        let is_spanned = spanning.holds(|column| columns.col_as_slice(spanning.place(column)));
-        Ok(Self { columns, is_spanned, rows: own.rows(), seen: seen.with_probes(of_probes) })
+        if !spanning.holds(|column| columns.col_as_slice(spanning.place(column))) {
+            return Err(Unfilled::NotSpanned);
+        }
+        Ok(Self { columns, rows: own.rows(), seen: seen.with_probes(of_probes) })
     }
 }

@@ -8,7 +8,7 @@ use faer::Mat;
 use rayon::prelude::*;
 
 use super::cells::{ByCell, Cells};
-use super::chunk::{Chunk, whitening_scales};
+use super::chunk::{Chunk, Unfilled, whitening_scales};
 use super::columns::Seen;
 use super::context::Context;
 use super::fitted::Fitted;
@@ -17,6 +17,7 @@ use super::row_set::{RowSet, components};
 use super::spanning::Spanning;
 use super::stretches::{Chunks, stretches};
 use super::{SearchError, Stage};
+use crate::data::golden;
 
 /// Rows of one cell whose columns are made at a time: what a processor just made is still near it when their products are taken.
 const PORTION: usize = 128;
@@ -27,9 +28,6 @@ const AT_ONCE: usize = 4;
 /// Components that tell which columns follow from others, for each column.
 const SAMPLE: usize = 3;
 
-/// The golden section: its multiples meet no period of the rows.
-const SECTION: f64 = 0.618_033_988_749_894_9;
-
 /// All rows, merged in cells.
 pub(super) struct Filled {
     pub cells: Cells,
@@ -37,19 +35,6 @@ pub(super) struct Filled {
     pub spanning: Spanning,
     /// What the rows show.
     pub seen: Option<Seen>,
-}
-
-/// Why cells are not filled.
-enum Unfilled {
-    Search(SearchError),
-    /// A column follows from others in a sample of the rows, but not in all.
-    NotSpanned,
-}
-
-impl From<SearchError> for Unfilled {
-    fn from(error: SearchError) -> Self {
-        Self::Search(error)
-    }
 }
 
 impl Filled {
@@ -61,17 +46,15 @@ impl Filled {
         most: usize,
         width: usize,
     ) -> Result<Self, SearchError> {
-        match Self::spanned(whole, fitted, folds, most, spanning(whole, fitted, width)?) {
-            Ok(filled) => Ok(filled),
-            Err(Unfilled::Search(error)) => Err(error),
-            Err(Unfilled::NotSpanned) => {
-                match Self::spanned(whole, fitted, folds, most, Spanning::all(width)) {
-                    Ok(filled) => Ok(filled),
-                    Err(Unfilled::Search(error)) => Err(error),
-                    Err(Unfilled::NotSpanned) => unreachable!("all columns span all"),
-                }
-            }
-        }
+        let spanned = |spanning| Self::spanned(whole, fitted, folds, most, spanning);
+        let filled = match spanned(spanning(whole, fitted, width)?) {
+            Err(Unfilled::NotSpanned) => spanned(Spanning::all(width)),
+            filled => filled,
+        };
+        filled.map_err(|why| match why {
+            Unfilled::Search(error) => error,
+            Unfilled::NotSpanned => unreachable!("all columns span all"),
+        })
     }
 
     fn spanned(
@@ -100,7 +83,7 @@ fn spanning(whole: &Context<'_>, fitted: &Fitted, width: usize) -> Result<Spanni
     let count = (SAMPLE * width * rows).div_ceil(fitted.layout.components().max(1)).min(rows);
     // A share of the rows.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-    let chosen = |at: usize| ((at as f64 * SECTION).fract() * rows as f64) as u32;
+    let chosen = |at: usize| (golden::share(at) * rows as f64) as u32;
     let mut chosen: Vec<u32> = (0..count).map(chosen).collect();
     chosen.sort_unstable();
     chosen.dedup();
@@ -125,16 +108,13 @@ fn filled_by_cell(
         let (mut seen, mut room) = (None, Mat::new());
         for rows in of_cell[cell].chunks(PORTION) {
             let chunk = Chunk::scaled(whole, fitted, &stretches(observations, rows), spanning, room)?;
-            if !chunk.is_spanned {
-                return Err(Unfilled::NotSpanned);
-            }
             add(chunk.columns.subcols(0, spanning.count()));
             merge(&mut seen, chunk.seen);
             room = chunk.columns;
             let rows = rows.len() + done.fetch_add(rows.len(), Ordering::Relaxed);
             (whole.tell)(Stage::Columns { rows, of });
         }
-        Ok(seen)
+        Ok::<_, Unfilled>(seen)
     })?;
     let mut seen = None;
     parts.into_iter().flatten().for_each(|part| merge(&mut seen, part));
@@ -159,7 +139,7 @@ fn filled_in_order(
         let by_cell = sorted(&components(fitted, stretches));
         let room = rooms().pop().unwrap_or_else(Mat::new);
         let chunk = Chunk::in_order(whole, fitted, stretches, spanning, &by_cell.order, room)?;
-        if chunk.is_spanned { Ok((chunk, by_cell)) } else { Err(Unfilled::NotSpanned) }
+        Ok::<_, Unfilled>((chunk, by_cell))
     };
     // Of objects a chunk is of few cells: products of few rows each would cost several times as much.
     let chunks = match fitted.fit.noise.mixes_rows() {

@@ -200,8 +200,9 @@ impl<'a> RowSet<'a> {
 
     /// The same, whitened.
     pub fn whitened(&self) -> Mat<f64> {
-        let mut rows = Mat::zeros(self.without.len(), self.all_columns().len());
-        for (j, column) in self.all_columns().into_iter().enumerate() {
+        let columns = self.all_columns();
+        let mut rows = Mat::zeros(self.without.len(), columns.len());
+        for (j, column) in columns.into_iter().enumerate() {
             rows.col_as_slice_mut(j).copy_from_slice(&self.whiten(column));
         }
         rows

@@ -10,7 +10,7 @@ use super::filling::{Filled, each_chunk};
 use super::row_set::{RowSet, components, dealt};
 use super::stretches::{Chunks, all_rows, sample};
 use crate::candidate::{EffectId, Freedom, Place};
-use crate::data::Poses;
+use crate::data::{Poses, golden};
 use crate::search::SearchError;
 use crate::search::columns::{Columns, Probed, keep, places};
 use crate::search::context::{Context, declared};
@@ -260,9 +260,7 @@ fn reach(
             })
             .collect();
         let count = scale.len().min(AT_MOST);
-        // Steps of an irrational length, so that no component is favoured.
-        let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
-        let scattered = |i: usize| ((i as f64 * golden).fract() * scale.len() as f64) as usize;
+        let scattered = |i: usize| (golden::share(i) * scale.len() as f64) as usize;
         let chosen: Vec<usize> =
             (0..count).map(|i| if count < scale.len() { scattered(i) } else { i }).collect();
         let declared = Mat::from_fn(chosen.len(), declared.ncols(), |i, j| declared[(chosen[i], j)]);

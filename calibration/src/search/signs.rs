@@ -9,6 +9,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 use super::folds::number;
+use crate::data::golden;
 
 /// Groups beyond this number are flipped together with their neighbours in the data: still a valid flip, and as
 /// good a sample of chance, at a cost that does not grow with the data.
@@ -33,9 +34,8 @@ impl Signs {
     #[must_use]
     pub fn scattered(group_of_row: &[u32], flips: usize, seed: u64) -> Self {
         // Steps by the golden section come back to a bucket after as many steps as there are, in no simple pattern.
-        let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
         Self::dealt(group_of_row, flips, seed, |number, groups, buckets| match groups > buckets {
-            true => ((number as f64 * golden).fract() * buckets as f64) as usize % buckets,
+            true => (golden::share(number) * buckets as f64) as usize % buckets,
             false => number,
         })
     }

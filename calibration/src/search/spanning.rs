@@ -8,6 +8,8 @@ use faer::linalg::matmul::matmul;
 use faer::reborrow::ReborrowMut as _;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 
+use crate::data::golden;
+
 /// What is left of a column beside others, as a share of its length, below which it is a combination of them.
 const NOTHING: f64 = 1e-13;
 
@@ -69,7 +71,7 @@ impl Spanning {
             by.col_mut(j).iter_mut().filter(|by| by.abs() <= NOTHING).for_each(|by| *by = 0.0);
         }
         // Multiples that no error of several columns together keeps at zero.
-        let share = |j: usize| 1.0 + (j as f64 * 0.618_033_988_749_894_9).fract();
+        let share = |j: usize| 1.0 + golden::share(j);
         let sum =
             (0..count).map(|i| (0..more).map(|j| share(j) * by[(i, j)]).sum::<f64>()).collect::<Vec<_>>();
         let in_units = |(at, value): (usize, f64)| if lengths[at] > 0.0 { value / lengths[at] } else { 0.0 };
@@ -146,10 +148,11 @@ impl Spanning {
             }
         }
         let behind: Vec<usize> = (0..self.count).filter(|&at| needed[at]).collect();
-        let at = |place: usize| behind.binary_search(&place).ok();
+        let mut at = vec![0; self.count];
+        behind.iter().enumerate().for_each(|(number, &place)| at[place] = number);
         Unfolding {
             width: wanted.len(),
-            direct: direct.into_iter().filter_map(|(place, to)| Some((at(place)?, to))).collect(),
+            direct: direct.into_iter().map(|(place, to)| (at[place], to)).collect(),
             by: Mat::from_fn(behind.len(), following.len(), |i, j| self.by[(behind[i], following[j].0)]),
             following: following.into_iter().map(|(_, to)| to).collect(),
             behind,

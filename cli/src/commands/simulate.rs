@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::path::PathBuf;
 
 use calibration::data::units::{Amount, Plausible};
-use calibration::formats::ColumnName;
+use calibration::formats::{Column, ColumnName};
 use model_core::{Chain, Observable, ObservableId, ObservableKind, Quantity as Measures, SymbolId};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
@@ -16,7 +16,6 @@ use crate::evaluation::{Evaluator, Exactness, Quantity, column_names};
 use crate::failure::Failure;
 use crate::ranges::{self, Range, RangeArgument};
 use crate::source::{Source, listed, observables};
-use crate::tables::Column;
 use crate::{output, tables, terminal};
 
 /// Simulate measured data.

@@ -14,7 +14,7 @@ use crate::source::{self, Source};
 #[cfg(feature = "point-clouds")]
 pub use readings::factor_of;
 pub use readings::{ReadingsTable, Rows};
-pub use write::{Column, csv_row, csv_rows, write};
+pub use write::{csv_row, csv_rows, write};
 
 /// Rows that are read, computed and written at a time.
 pub const CHUNK: usize = 1 << 16;

@@ -3,21 +3,13 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use calibration::formats::{self, Kept, Written};
+use calibration::formats::{self, Column, Written};
 #[cfg(feature = "parquet")]
 use calibration::formats::{Options, parquet};
 
 use super::{ReadingsTable, failure, known_format};
 use crate::failure::Failure;
 use crate::output;
-
-/// Some rows of one column.
-pub enum Column {
-    /// Cells that came from elsewhere, and leave as they came.
-    Kept(Kept),
-    /// Numbers.
-    Numbers(Vec<f64>),
-}
 
 /// A table that is being written.
 pub enum TableWriter<'a> {
@@ -132,11 +124,7 @@ impl TableWriter<'_> {
             }
             #[cfg(feature = "parquet")]
             Self::Parquet { path, file, writer } => {
-                let columns = rows.into_iter().map(|column| match column {
-                    Column::Kept(kept) => parquet::Column::Kept(kept),
-                    Column::Numbers(numbers) => parquet::Column::Numbers(numbers),
-                });
-                put(*file, path, writer.rows(columns.collect(), count))?;
+                put(*file, path, writer.rows(rows, count))?;
                 Options::default().holds(writer.bytes(), &path.display().to_string()).map_err(failure)
             }
         }

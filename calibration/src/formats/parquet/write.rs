@@ -1,4 +1,5 @@
-//! Tables as Parquet files, with Snappy: numbers as doubles, and what came from elsewhere as it came.
+//! Tables as Parquet files, with Snappy: numbers as doubles, and what came from elsewhere as it came, of its own type or as texts; texts
+//! that are all numbers, written as numbers are, become numbers, and an empty text a null.
 
 use std::sync::Arc;
 
@@ -15,23 +16,13 @@ use rayon::prelude::*;
 
 use super::TypedCells;
 use super::cells::Values;
-use crate::formats::{Kept, Texts};
+use crate::formats::{Column, Kept, Texts};
 
 /// Rows of a group: what is held of a table whose types are known.
 const GROUP: usize = 1 << 17;
 
 /// Digits of a decimal number that a double holds in any case.
 const DOUBLE_DIGITS: usize = 15;
-
-/// A column of a table to be written.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Column {
-    /// Numbers, written as doubles.
-    Numbers(Vec<f64>),
-    /// A column that came from elsewhere: of its own type, or texts; texts that are all numbers, written as numbers are,
-    /// become numbers. An empty text is a null.
-    Kept(Kept),
-}
 
 impl Column {
     /// Appends more rows of the same column.

@@ -5,7 +5,6 @@
 //!
 //! ```
 //! # #[cfg(feature = "analysis")] {
-//! use std::io::Cursor;
 //! use trueaxis::{Calibration, Chain, Study};
 //!
 //! let text = "
@@ -39,7 +38,7 @@
 //!     y = "y"
 //!     z = "z"
 //! "#).unwrap();
-//! let mut open = |_: &str| Ok(Box::new(Cursor::new(data.clone())) as Box<dyn std::io::Read + Send>);
+//! let mut open = |_: &str| Ok(data.clone().into_bytes().into());
 //! let calibration = Calibration::of(text, &study, &mut open, "2026-11-22").unwrap();
 //!
 //! assert!(calibration.diagnosis.effects[0].names[0].contains("eccentricity"));

@@ -1,10 +1,9 @@
 //! What the set-up of a study can see of the errors, in words and as JSON.
 
 use std::fmt::Write as _;
-use std::io::Read;
 use std::path::Path;
 
-use calibration::formats::DataError;
+use calibration::formats::{DataError, Input};
 use calibration::objects::{SetUp, Visible, identify};
 use calibration::report::remedy_would_show;
 use model_core::{Chain, SymbolId};
@@ -15,7 +14,7 @@ use crate::source::{Source, listed};
 use crate::{tables, terminal};
 
 /// Opens a data file by its path, and by where it is to be had if it is not there.
-pub type OpenData<'a> = dyn FnMut(&str, Option<&str>) -> Result<Box<dyn Read + Send>, DataError> + 'a;
+pub type OpenData<'a> = dyn FnMut(&str, Option<&str>) -> Result<Input<'static>, DataError> + 'a;
 
 /// A set-up, with the chain that its errors belong to.
 pub struct SetUpSeen {

@@ -7,12 +7,13 @@
 //! | columns in memory | [`memory`] | none: a program hands them over |
 //! | Parquet, with the feature of that name | `parquet` | `.parquet` |
 //!
-//! Formats are parsed from readers; opening files is the command's part.
+//! Formats are parsed from an [`Input`]; opening files is the command's part.
 
 pub mod csv;
 mod decimal;
 mod error;
 mod header;
+mod input;
 pub mod memory;
 mod number;
 mod options;
@@ -35,6 +36,7 @@ pub(crate) use decimal::numbers;
 use error::clipped;
 pub use error::{Cell, DataError};
 pub use header::{ColumnName, ReadAs, declared_columns, find_column, find_reading};
+pub use input::{Extent, Input, InputFile};
 pub use number::push_number;
 pub use options::Options;
 pub use quote::write_row;
@@ -187,18 +189,19 @@ fn whole(reader: impl Read, source: &str, options: &Options) -> Result<Vec<u8>, 
 /// # Errors
 /// The header cannot be read, or there is none.
 pub fn open<'r>(
-    reader: impl Read + Send + 'r,
+    input: impl Into<Input<'r>>,
     source: &str,
     options: &Options,
 ) -> Result<Box<dyn TableReader + 'r>, DataError> {
+    let input = input.into();
     let ending = source.rsplit_once('.').map(|(_, ending)| ending.to_ascii_lowercase());
     match ending.as_deref() {
-        Some("dat") => Ok(Box::new(tpoint::Reader::new(reader, source, options)?)),
+        Some("dat") => Ok(Box::new(tpoint::Reader::new(input.front_to_back(), source, options)?)),
         #[cfg(feature = "parquet")]
-        Some("parquet") => Ok(Box::new(parquet::Reader::new(reader, source, options)?)),
+        Some("parquet") => Ok(Box::new(parquet::Reader::new(input, source, options)?)),
         #[cfg(not(feature = "parquet"))]
         Some("parquet") => Err(DataError::NoParquet { file: source.to_string() }),
-        _ => separated(Box::new(reader), source, options),
+        _ => separated(input.front_to_back(), source, options),
     }
 }
 

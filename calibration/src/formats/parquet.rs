@@ -1,15 +1,17 @@
 //! Parquet: flat tables of numbers and texts, plain, Snappy or Zstandard. Built with the feature `parquet` alone.
 //!
 //! Names of columns carry units as the headers of separated values do. The format keeps its table of contents at the end, so
-//! a file is held in memory as it is; its cells are unpacked chunk by chunk, the columns of a chunk on all processors.
+//! what comes as a stream is held in memory as it is; of a file, pages are read as they are needed. Cells are unpacked chunk by
+//! chunk, the columns of a chunk on all processors.
 
 mod bounded;
 mod cells;
+mod ranges;
 mod write;
 
 use std::cell;
-use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Arc, Mutex};
 
 use ::parquet::basic::{Repetition, Type as Physical};
 use ::parquet::column::reader::ColumnReader;
@@ -17,15 +19,17 @@ use ::parquet::errors::ParquetError;
 use ::parquet::file::reader::{FileReader as _, SerializedFileReader};
 use ::parquet::record::Field;
 use ::parquet::schema::types::{Type, TypePtr};
-use bytes::Bytes;
 use rayon::prelude::*;
 
 pub use cells::TypedCells;
 pub use write::{TextType, Writer};
 
 use super::header::{ColumnName, unique};
-use super::{Cell, Cells, Chunk, DataError, Form, Kept, Options, TableReader, Texts, Wanted};
+use super::{
+    Cell, Cells, Chunk, DataError, Extent, Form, Input, InputFile, Kept, Options, TableReader, Texts, Wanted,
+};
 use bounded::BoundedFile;
+use ranges::Ranges;
 
 /// A Parquet file.
 pub struct Reader {
@@ -41,16 +45,25 @@ pub struct Reader {
     /// Per column of the file what reads it, and how many rows of the group it has read; none where nobody has asked for it.
     open: Vec<Option<(ColumnReader, usize)>>,
     row: u64,
+    /// How far the file is read, if it is one.
+    extent: Option<Extent>,
 }
 
 impl Reader {
-    /// Reads the file as it is, and its schema.
+    /// Reads the schema.
     ///
     /// # Errors
-    /// No Parquet file, larger than the memory budget, no columns, a name twice, or a column of lists or groups.
-    pub fn new(reader: impl Read, source: &str, options: &Options) -> Result<Self, DataError> {
-        let bytes = super::whole(reader, source, options)?;
-        let file = guarded(source, || SerializedFileReader::new(Bytes::from(bytes)))?;
+    /// No Parquet file, a stream larger than the memory budget, no columns, a name twice, or a column of lists or groups.
+    pub fn new(input: Input<'_>, source: &str, options: &Options) -> Result<Self, DataError> {
+        let memory_bytes = options.memory_bytes;
+        let (ranges, extent) = match input {
+            Input::Stream(reader) => (Ranges::Held(super::whole(reader, source, options)?.into()), None),
+            Input::File(InputFile { file, extent }) => {
+                let file = Arc::new(Mutex::new(file));
+                (Ranges::File { file, length: extent.length(), memory_bytes }, Some(extent))
+            }
+        };
+        let file = guarded(source, || SerializedFileReader::new(ranges))?;
         let types = file.metadata().file_metadata().schema().get_fields().to_vec();
         let flat = |field: &Type| {
             field.is_primitive() && field.get_basic_info().repetition() != Repetition::REPEATED
@@ -65,9 +78,10 @@ impl Reader {
             return Err(DataError::Empty { file: source.to_string() });
         }
         unique(&header, source)?;
-        let file = BoundedFile { inner: file, memory_bytes: options.memory_bytes };
+        let file = BoundedFile { inner: file, memory_bytes };
         let source = source.to_string();
-        Ok(Self { source, header, types, file, groups: 0, in_group: 0, taken: 0, open: Vec::new(), row: 0 })
+        let open = Vec::new();
+        Ok(Self { source, header, types, file, groups: 0, in_group: 0, taken: 0, open, row: 0, extent })
     }
 
     /// Begins the next group of rows; `false` behind the last.
@@ -225,6 +239,10 @@ impl TableReader for Reader {
             self.row += count as u64;
             self.taken += count;
         }
+        if let Some(extent) = &self.extent {
+            let all = self.file.metadata().file_metadata().num_rows();
+            extent.rows(self.row, u64::try_from(all).unwrap_or_default());
+        }
         if chunk.columns.is_empty() {
             chunk.columns = super::no_cells(wanted);
         }
@@ -269,7 +287,7 @@ mod tests {
         [Wanted { column: 0, form: Form::Number(2.0) }, Wanted { column: 1, form: Form::Label }];
 
     fn open(bytes: &[u8]) -> Result<Reader, DataError> {
-        Reader::new(bytes, "run.parquet", &Options::default())
+        Reader::new(bytes.into(), "run.parquet", &Options::default())
     }
 
     fn read(bytes: &[u8]) -> Result<Chunk, DataError> {

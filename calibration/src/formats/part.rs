@@ -140,7 +140,7 @@ mod tests {
 
     fn table(rows: usize) -> Box<dyn TableReader> {
         let lines: String = (0..rows).map(|row| format!("{row}\n")).collect();
-        open(std::io::Cursor::new(format!("a\n{lines}").into_bytes()), "t.csv", &Options::default()).unwrap()
+        open(format!("a\n{lines}").into_bytes(), "t.csv", &Options::default()).unwrap()
     }
 
     fn rows_of(mut reader: impl TableReader) -> (Vec<f64>, Vec<u64>) {

@@ -301,14 +301,13 @@ fn reach(
 #[allow(clippy::unwrap_used)]
 mod tests {
     use std::fmt::Write as _;
-    use std::io::Read;
     use std::sync::Mutex;
 
     use approx::assert_relative_eq;
     use model_core::{Chain, exact};
 
     use super::*;
-    use crate::formats::DataError;
+    use crate::formats::{DataError, Input};
     use crate::search::context::Found;
     use crate::search::nested;
     use crate::search::round::Round;
@@ -361,9 +360,8 @@ mod tests {
         let chain = Chain::from_text(MOUNT).unwrap();
         let plan = Study::from_text(STUDY).unwrap().plan(&chain).unwrap();
         let data = measured();
-        let mut open = |_: &str| -> Result<Box<dyn Read + Send>, DataError> {
-            Ok(Box::new(std::io::Cursor::new(data.clone().into_bytes())))
-        };
+        let mut open =
+            |_: &str| -> Result<Input<'static>, DataError> { Ok(data.clone().into_bytes().into()) };
         let observations = plan.load(&mut open).unwrap().observations;
         let request = Request {
             text: MOUNT,

@@ -1,7 +1,5 @@
 //! Data files of a plan, read into observations.
 
-use std::io::Read;
-
 use model_core::{SymbolId, exact};
 use nalgebra::Vector3;
 
@@ -18,11 +16,11 @@ use crate::data::orientation::Turned;
 use crate::data::units::BareColumn;
 use crate::data::unknowns::{Shape, Station, Unknowns};
 use crate::data::{Measured, Observations, Series, direction_from_offset, direction_from_spherical};
-use crate::formats::{self, DataError, TableReader};
+use crate::formats::{self, DataError, Input, TableReader};
 use crate::objects::{Remark, StartError, check_named, check_scale, place};
 
 /// Opens a data file of a study by its path as the study writes it.
-pub type Open<'a> = dyn FnMut(&str) -> Result<Box<dyn Read + Send>, DataError> + 'a;
+pub type Open<'a> = dyn FnMut(&str) -> Result<Input<'static>, DataError> + 'a;
 
 /// Opens a table of a study by its name, read as the study says.
 pub type OpenTable<'a> =

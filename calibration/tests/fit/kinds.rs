@@ -2,11 +2,10 @@
 //! far from the truth as their covariance says.
 
 use std::collections::BTreeMap;
-use std::io::Read;
 
 use calibration::diagnose::precision;
 use calibration::fit::{FitResult, Outcome, fit};
-use calibration::formats::DataError;
+use calibration::formats::{DataError, Input};
 use calibration::study::Study;
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -91,9 +90,8 @@ fn files(seed: u64) -> (Simulation, BTreeMap<&'static str, String>) {
 
 fn fitted(simulation: &Simulation, study: &str, texts: &BTreeMap<&str, String>) -> FitResult {
     let plan = Study::from_text(study).unwrap().plan(&simulation.chain).unwrap();
-    let mut open = |name: &str| -> Result<Box<dyn Read + Send>, DataError> {
-        Ok(Box::new(std::io::Cursor::new(texts[name].clone().into_bytes())))
-    };
+    let mut open =
+        |name: &str| -> Result<Input<'static>, DataError> { Ok(texts[name].clone().into_bytes().into()) };
     let observations = plan.load(&mut open).unwrap().observations;
     let result = fit(&plan.chain, &observations, &plan.fit).unwrap();
     assert!(matches!(result.outcome, Outcome::Converged { .. }), "{:?}", result.outcome);
@@ -141,9 +139,8 @@ fn ranges_determine_the_links() {
     assert!(results.iter().all(|result| result.separable == [false, true, true, true]));
     let (simulation, texts) = files(1);
     let plan = Study::from_text(&plain).unwrap().plan(&simulation.chain).unwrap();
-    let mut open = |name: &str| -> Result<Box<dyn Read + Send>, DataError> {
-        Ok(Box::new(std::io::Cursor::new(texts[name].clone().into_bytes())))
-    };
+    let mut open =
+        |name: &str| -> Result<Input<'static>, DataError> { Ok(texts[name].clone().into_bytes().into()) };
     let observations = plan.load(&mut open).unwrap().observations;
     let said = precision(&simulation.chain, &observations, &results[1]);
     let [set] = said.not_separable.as_slice() else { panic!("{:?}", said.not_separable) };

@@ -1,11 +1,10 @@
 //! Measured orientations: residuals in the frame and of the sign that `derive` has, their derivatives, and fits of whole studies.
 
 use std::collections::BTreeMap;
-use std::io::Read;
 
 use calibration::data::{Measure, Measured, Observations, Series};
 use calibration::fit::{FitOptions, FitResult, Model, Outcome, fit};
-use calibration::formats::DataError;
+use calibration::formats::{DataError, Input};
 use calibration::study::Study;
 use model_core::{ObservableId, SymbolKind, exact};
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, UnitQuaternion, Vector3};
@@ -301,9 +300,8 @@ fn table(seed: u64) -> (Simulation, String) {
 
 fn fitted(study: &str, simulation: &Simulation, table: &str) -> FitResult {
     let plan = Study::from_text(study).unwrap().plan(&simulation.chain).unwrap();
-    let mut open = |_: &str| -> Result<Box<dyn Read + Send>, DataError> {
-        Ok(Box::new(std::io::Cursor::new(table.to_owned().into_bytes())))
-    };
+    let mut open =
+        |_: &str| -> Result<Input<'static>, DataError> { Ok(table.to_owned().into_bytes().into()) };
     let observations = plan.load(&mut open).unwrap().observations;
     let kinds: BTreeMap<&str, Measure> = observations
         .poses

@@ -4,12 +4,11 @@
 #![allow(clippy::unwrap_used, clippy::print_stderr)]
 
 use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use calibration::data::Observations;
 use calibration::fit::{FitOptions, FitResult, Outcome, fit};
-use calibration::formats::DataError;
+use calibration::formats::{DataError, Input};
 use calibration::study::{Plan, Study};
 use model_core::Chain;
 
@@ -28,9 +27,9 @@ fn load(study: &str) -> Option<(Plan, Observations)> {
         eprintln!("skipped: {} is missing", data.display());
         return None;
     }
-    let mut open = |file: &str| -> Result<Box<dyn Read + Send>, DataError> {
+    let mut open = |file: &str| -> Result<Input<'static>, DataError> {
         let file = File::open(folder.join(file));
-        file.map(|file| Box::new(file) as Box<dyn Read + Send>).map_err(|error| DataError::Unreadable {
+        file.map(Input::from).map_err(|error| DataError::Unreadable {
             file: data.display().to_string(),
             why: error.to_string(),
         })

@@ -1,12 +1,11 @@
 //! Studies and the data that they name, read from the workspace.
 
 use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use calibration::calibrate::{Calibration, Request, calibrate};
 use calibration::data::Observations;
-use calibration::formats::DataError;
+use calibration::formats::{DataError, Input};
 use calibration::study::{Plan, Study};
 use model_core::Chain;
 
@@ -33,11 +32,9 @@ pub fn observations(study: &str, plan: &Plan) -> Observations {
     plan.load(&mut opener(study)).unwrap().observations
 }
 
-fn opener(study: &str) -> impl FnMut(&str) -> Result<Box<dyn Read + Send>, DataError> {
+fn opener(study: &str) -> impl FnMut(&str) -> Result<Input<'static>, DataError> {
     let folder = root().join(study).parent().unwrap().to_owned();
-    move |file: &str| {
-        Ok(Box::new(File::open(folder.join(file)).expect("the file is there")) as Box<dyn Read + Send>)
-    }
+    move |file: &str| Ok(File::open(folder.join(file)).expect("the file is there").into())
 }
 
 /// Reads a study; `None`, with a word about it, where its data are not at hand (never so in CI).

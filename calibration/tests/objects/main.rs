@@ -36,7 +36,7 @@ fn read(chain: &str, study: &str, data: &str) -> Result<(Plan, Loaded), DataErro
         .unwrap()
         .plan(&chain)
         .unwrap_or_else(|mistakes| panic!("{}", mistakes.render("study", study)));
-    let loaded = plan.load(&mut |_| Ok(Box::new(std::io::Cursor::new(data.as_bytes().to_vec()))))?;
+    let loaded = plan.load(&mut |_| Ok(data.as_bytes().to_vec().into()))?;
     Ok((plan, loaded))
 }
 

@@ -4,10 +4,8 @@
 mod amended;
 mod marks;
 
-use std::io::Read;
-
 use calibration::data::{Measure, Observations};
-use calibration::formats::DataError;
+use calibration::formats::{DataError, Input};
 use calibration::study::Study;
 use model_core::Chain;
 
@@ -54,7 +52,7 @@ fn observations(study: &str, data: &'static str) -> Result<Observations, String>
     let chain = Chain::from_text(MOUNT).unwrap();
     let study = Study::from_text(study).map_err(|mistakes| mistakes.to_string())?;
     let plan = study.plan(&chain).map_err(|mistakes| mistakes.to_string())?;
-    let mut open = |_: &str| -> Result<Box<dyn Read + Send>, DataError> { Ok(Box::new(data.as_bytes())) };
+    let mut open = |_: &str| -> Result<Input<'static>, DataError> { Ok(data.as_bytes().into()) };
     plan.load(&mut open).map(|loaded| loaded.observations).map_err(|error| error.to_string())
 }
 

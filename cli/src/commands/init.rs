@@ -1,10 +1,10 @@
 //! `trueaxis init`: a chain and a study to start from, out of a table of data.
 
-use std::fs::{self, File};
-use std::io::{self, BufReader, Read};
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
-use calibration::formats::{self, DataError, Options};
+use calibration::formats::{self, DataError, Input, Options};
 use calibration::report::shell_word;
 use calibration::study::Study;
 use model_core::Chain;
@@ -14,7 +14,7 @@ use crate::failure::Failure;
 use crate::init::templates::{self, TEMPLATES};
 use crate::init::{self, Draft, Look};
 use crate::wrap::paragraph;
-use crate::{output, source, terminal};
+use crate::{output, source, tables, terminal};
 
 /// Begin: write a chain and a study for a table of data.
 ///
@@ -106,16 +106,12 @@ fn look(data: &Path) -> Result<Look, Failure> {
     Look::at(&mut *reader).map_err(Failure::Input)
 }
 
-fn open(data: &Path) -> Result<Box<dyn Read + Send>, DataError> {
+fn open(data: &Path) -> Result<Input<'static>, DataError> {
     let unreadable = |error: &io::Error| DataError::Unreadable {
         file: data.display().to_string(),
         why: source::not_readable(data, error).to_string(),
     };
-    let file = File::open(data).map_err(|error| unreadable(&error))?;
-    if file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
-        return Err(unreadable(&io::ErrorKind::IsADirectory.into()));
-    }
-    Ok(Box::new(BufReader::new(file)))
+    tables::open(data).map_err(|error| unreadable(&error))
 }
 
 /// Holds what is to be written to what it is read with: the chain, the study, and every row of the data.

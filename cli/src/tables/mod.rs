@@ -4,10 +4,10 @@ mod readings;
 mod write;
 
 use std::fs::File;
-use std::io::{self, Read};
+use std::io;
 use std::path::Path;
 
-use calibration::formats::DataError;
+use calibration::formats::{DataError, Input};
 
 use crate::failure::Failure;
 use crate::source::{self, Source};
@@ -75,11 +75,7 @@ pub fn failure(error: DataError) -> Failure {
 ///
 /// # Errors
 /// It cannot be read.
-pub fn open_beside(
-    study: &Source,
-    path: &str,
-    from: Option<&str>,
-) -> Result<Box<dyn Read + Send>, DataError> {
+pub fn open_beside(study: &Source, path: &str, from: Option<&str>) -> Result<Input<'static>, DataError> {
     let beside = study.beside(Path::new(path));
     let unreadable = |error: &io::Error| {
         let why = match source::not_readable(&beside, error) {
@@ -94,9 +90,17 @@ pub fn open_beside(
         };
         DataError::Unreadable { file: beside.display().to_string(), why }
     };
-    let file = File::open(&beside).map_err(|error| unreadable(&error))?;
+    open(&beside).map_err(|error| unreadable(&error))
+}
+
+/// Opens a data file.
+///
+/// # Errors
+/// It cannot be opened, or is a folder.
+pub fn open(path: &Path) -> io::Result<Input<'static>> {
+    let file = File::open(path)?;
     if file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
-        return Err(unreadable(&io::ErrorKind::IsADirectory.into()));
+        return Err(io::ErrorKind::IsADirectory.into());
     }
-    Ok(Box::new(file))
+    Ok(file.into())
 }

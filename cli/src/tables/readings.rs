@@ -1,17 +1,14 @@
 //! Tables that commands read: the readings of joints and inputs as numbers, and every column as it came.
 
-use std::fs::File;
-use std::io::{self, BufReader, Read};
+use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use calibration::data::units::{BareColumn, Plausible};
 #[cfg(feature = "parquet")]
 use calibration::formats::parquet::TextType;
 use calibration::formats::{
-    self, Cells, ColumnName, DataError, Form, Kept, Options, ReadAs, TableReader, Wanted, declared_columns,
-    find_reading,
+    self, Cells, ColumnName, DataError, Extent, Form, Kept, Options, ReadAs, TableReader, Wanted,
+    declared_columns, find_reading,
 };
 use model_core::{Chain, ObservableId, Quantity, Symbol, SymbolId};
 #[cfg(feature = "parquet")]
@@ -36,30 +33,10 @@ pub struct ReadingsTable<'t> {
     wanted: Vec<Wanted>,
     /// Whether a row has been read.
     started: bool,
-    /// How far a file has been read; none of what is no file, or is read as a whole before its first row.
+    /// How far a file has been read; none of what is no regular file.
     extent: Option<Extent>,
     /// What opens it again, if it is a file.
     file: Option<(PathBuf, Options)>,
-}
-
-/// How much of a file has been read.
-struct Extent {
-    read: Arc<AtomicU64>,
-    of: u64,
-}
-
-/// A file that tells how much of it has been read.
-struct Counted {
-    file: File,
-    read: Arc<AtomicU64>,
-}
-
-impl Read for Counted {
-    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
-        let count = self.file.read(into)?;
-        self.read.fetch_add(count as u64, Ordering::Relaxed);
-        Ok(count)
-    }
 }
 
 /// Where the readings of a joint or input come from.
@@ -81,12 +58,6 @@ pub struct Rows {
     pub others: Vec<Vec<f64>>,
     /// How many rows these are.
     pub count: usize,
-}
-
-impl Extent {
-    fn share(&self) -> f64 {
-        self.read.load(Ordering::Relaxed) as f64 / self.of.max(1) as f64
-    }
 }
 
 /// The factor that takes the numbers of a column, found by the name of a joint or input, to SI; and whether nothing says their unit.
@@ -121,19 +92,13 @@ impl<'t> ReadingsTable<'t> {
         let reader = if path == Path::new("-") {
             formats::open(io::stdin(), "standard input", &options)
         } else {
-            let file = File::open(path).map_err(|error| source::not_readable(path, &error))?;
-            let metadata = file.metadata();
-            if metadata.as_ref().is_ok_and(|metadata| metadata.is_dir()) {
-                return Err(Failure::read(path, &io::ErrorKind::IsADirectory.into()));
-            }
-            let read = Arc::new(AtomicU64::new(0));
-            let length = metadata.ok().filter(|metadata| metadata.is_file()).map(|metadata| metadata.len());
-            extent = length.map(|of| Extent { read: Arc::clone(&read), of });
-            formats::open(BufReader::new(Counted { file, read }), &path.display().to_string(), &options)
+            let input = super::open(path).map_err(|error| source::not_readable(path, &error))?;
+            extent = input.extent();
+            formats::open(input, &path.display().to_string(), &options)
         };
         let mut table = Self::of(reader.map_err(failure)?, chain);
         table.file = extent.is_some().then(|| (path.to_owned(), options));
-        table.extent = extent.filter(|extent| extent.share() < 1.0);
+        table.extent = extent;
         Ok(table)
     }
 
@@ -152,11 +117,11 @@ impl<'t> ReadingsTable<'t> {
     #[cfg(feature = "parquet")]
     pub fn text_types(&self) -> Result<Option<Vec<TextType>>, Failure> {
         let Some((path, options)) = &self.file else { return Ok(None) };
-        if self.extent.as_ref().is_none_or(|extent| extent.of <= HELD) {
+        if self.extent.as_ref().is_none_or(|extent| extent.length() <= HELD) {
             return Ok(None);
         }
-        let file = File::open(path).map_err(|error| source::not_readable(path, &error))?;
-        let reader = formats::open(BufReader::new(file), &path.display().to_string(), options);
+        let input = super::open(path).map_err(|error| source::not_readable(path, &error))?;
+        let reader = formats::open(input, &path.display().to_string(), options);
         let is_kept = |wanted: &&Wanted| matches!(wanted.form, Form::Kept);
         let wanted: Vec<Wanted> = self.wanted.iter().filter(is_kept).copied().collect();
         let readings = self.readings.iter();

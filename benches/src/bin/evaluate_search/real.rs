@@ -3,13 +3,12 @@
 //! Each joint's range is cut in three; the calibration sees two thirds, the outer third is what it must foretell.
 
 use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use calibration::calibrate::{Request, calibrate};
 use calibration::data::{Measure, Observations};
-use calibration::formats::DataError;
+use calibration::formats::{DataError, Input};
 use calibration::search::columns::Columns;
 use calibration::study::{Plan, Study};
 use model_core::{Chain, SymbolId};
@@ -59,10 +58,8 @@ fn elsewhere(studies: &[(&str, &[&str])]) -> Result<Vec<Line>, Failure> {
             continue;
         }
         let mut files = data.map(File::open).collect::<Result<Vec<_>, _>>()?.into_iter();
-        let mut open = |_: &str| -> Result<Box<dyn Read + Send>, DataError> {
-            Ok(files
-                .next()
-                .map_or_else(|| Box::new(std::io::empty()) as Box<dyn Read + Send>, |file| Box::new(file)))
+        let mut open = |_: &str| -> Result<Input<'static>, DataError> {
+            Ok(files.next().map_or_else(|| Vec::new().into(), Input::from))
         };
         let all = plan.load(&mut open)?.observations;
         for joint in *joints {

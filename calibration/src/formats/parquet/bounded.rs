@@ -9,7 +9,8 @@ use ::parquet::file::metadata::{ParquetMetaData, RowGroupMetaData};
 use ::parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 use ::parquet::record::reader::RowIter;
 use ::parquet::schema::types::Type;
-use bytes::Bytes;
+
+use super::ranges::Ranges;
 
 /// Memory that a decoder takes for each byte of a page, at most: a text of no letters has four bytes in a page and
 /// thirty-two in memory.
@@ -17,7 +18,7 @@ const GROWTH: u64 = 8;
 
 /// A file that refuses pages which claim more than they hold.
 pub(super) struct BoundedFile {
-    pub inner: SerializedFileReader<Bytes>,
+    pub inner: SerializedFileReader<Ranges>,
     /// How much memory one column may take.
     pub memory_bytes: u64,
 }

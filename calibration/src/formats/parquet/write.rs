@@ -272,7 +272,7 @@ mod tests {
 
     /// The columns of a file as they came, and what they say.
     fn read(file: &[u8]) -> std::result::Result<(Vec<Kept>, Vec<Vec<String>>), DataError> {
-        let mut reader = Reader::new(file, "f.parquet", &Options::default())?;
+        let mut reader = Reader::new(file.into(), "f.parquet", &Options::default())?;
         let wanted: Vec<Wanted> =
             (0..reader.header().len()).map(|column| Wanted { column, form: Form::Kept }).collect();
         let mut kept = Vec::new();
@@ -386,7 +386,7 @@ mod tests {
         }
         assert!(pieces.iter().filter(|piece| !piece.is_empty()).count() == 2);
         pieces.push(writer.finish()?);
-        let mut reader = Reader::new(pieces.concat().as_slice(), "f.parquet", &Options::default())?;
+        let mut reader = Reader::new(pieces.concat().as_slice().into(), "f.parquet", &Options::default())?;
         let wanted = [Wanted { column: 0, form: Form::Number(1.0) }];
         let mut next = 0;
         loop {

@@ -127,9 +127,7 @@ fn left_m(chain: &str, table: &str) -> Result<f64, String> {
         .and_then(|study| study.plan(&chain))
         .map_err(|mistakes| mistakes.to_string())?;
     let bytes = table.to_owned().into_bytes();
-    let loaded = plan.load(&mut |_: &str| {
-        Ok(Box::new(std::io::Cursor::new(bytes.clone())) as Box<dyn std::io::Read + Send>)
-    });
+    let loaded = plan.load(&mut |_: &str| Ok(bytes.clone().into()));
     let observations = loaded.map_err(|error| error.to_string())?.observations;
     let found = fit(&plan.chain, &observations, &plan.fit).map_err(|error| error.to_string())?;
     let squares: f64 = found.residuals.raw.iter().map(|raw| raw * raw).sum();

@@ -1,0 +1,220 @@
+//! Ranges of a Parquet file: out of memory, where it came as a stream, and from the file itself otherwise, so that a file of
+//! any size is read with the memory of a few pages.
+
+use std::fs::File;
+use std::io::{self, BufReader, Read, Seek as _, SeekFrom};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use ::parquet::errors::{ParquetError, Result};
+use ::parquet::file::reader::{ChunkReader, Length};
+use bytes::Bytes;
+
+/// Bytes that are read ahead of a page, for its header.
+const HEADER: usize = 1 << 10;
+
+/// What ranges are read of; the columns of a table read theirs at the same time.
+#[derive(Clone)]
+pub(super) enum Ranges {
+    /// A file held in memory.
+    Held(Bytes),
+    /// A file that is held nowhere.
+    File {
+        /// One place to read at: whoever reads goes there first.
+        file: Arc<Mutex<File>>,
+        /// Its length when it was opened.
+        length: u64,
+        /// The longest range that is read at once.
+        memory_bytes: u64,
+    },
+}
+
+/// Bytes from a place on, front to back.
+pub(super) struct Onward {
+    ranges: Ranges,
+    at: u64,
+}
+
+impl Ranges {
+    fn read_at(&self, at: u64, into: &mut [u8]) -> io::Result<usize> {
+        match self {
+            Self::Held(bytes) => {
+                let from = usize::try_from(at).ok().and_then(|at| bytes.get(at..));
+                from.unwrap_or_default().read(into)
+            }
+            Self::File { file, .. } => {
+                // A place where another thread gave up is no worse than any: it is left first.
+                let mut file = file.lock().unwrap_or_else(PoisonError::into_inner);
+                file.seek(SeekFrom::Start(at))?;
+                file.read(into)
+            }
+        }
+    }
+
+    fn from(&self, at: u64) -> Onward {
+        Onward { ranges: self.clone(), at }
+    }
+}
+
+impl Read for Onward {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        let count = self.ranges.read_at(self.at, into)?;
+        self.at += count as u64;
+        Ok(count)
+    }
+}
+
+impl Length for Ranges {
+    fn len(&self) -> u64 {
+        match self {
+            Self::Held(bytes) => bytes.len() as u64,
+            Self::File { length, .. } => *length,
+        }
+    }
+}
+
+impl ChunkReader for Ranges {
+    type T = BufReader<Onward>;
+
+    fn get_read(&self, start: u64) -> Result<Self::T> {
+        Ok(BufReader::with_capacity(HEADER, self.from(start)))
+    }
+
+    fn get_bytes(&self, start: u64, length: usize) -> Result<Bytes> {
+        // What is claimed is looked at before there is room for it.
+        if start.checked_add(length as u64).is_none_or(|end| end > self.len()) {
+            return Err(ParquetError::EOF(format!("{length} bytes at {start} are not all in the file")));
+        }
+        match self {
+            Self::Held(bytes) => Ok(bytes.slice(start as usize..start as usize + length)),
+            Self::File { memory_bytes, .. } if length as u64 > *memory_bytes => {
+                Err(ParquetError::General("a page takes more memory than it may".to_owned()))
+            }
+            Self::File { .. } => {
+                let mut bytes = vec![0; length];
+                self.from(start).read_exact(&mut bytes)?;
+                Ok(bytes.into())
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+    use std::{env, fs, process};
+
+    use super::super::{Reader, Writer};
+    use super::*;
+    use crate::formats::{Cells, Column, DataError, Form, Input, Options, TableReader as _, Wanted};
+
+    /// A file that is removed when it is no longer needed.
+    struct Held(PathBuf);
+
+    impl Held {
+        fn new(name: &str, bytes: &[u8]) -> Self {
+            let path = env::temp_dir().join(format!("trueaxis-{}-{name}", process::id()));
+            fs::write(&path, bytes).unwrap();
+            Self(path)
+        }
+
+        fn input(&self) -> Input<'static> {
+            File::open(&self.0).unwrap().into()
+        }
+    }
+
+    impl Drop for Held {
+        fn drop(&mut self) {
+            let _ = fs::remove_file(&self.0);
+        }
+    }
+
+    const GROUPS: usize = 12;
+    const ROWS: usize = 20_000;
+
+    /// Numbers that hardly repeat, so that the file is about as long as they are.
+    fn number(row: usize, column: usize) -> f64 {
+        (row * 3 + column) as f64 * 0.618_033_988_749_894_9 % 1.0
+    }
+
+    fn table() -> Vec<u8> {
+        let mut writer = Writer::new(["a", "b", "c"].map(str::to_owned).to_vec());
+        let mut file = Vec::new();
+        for group in 0..GROUPS {
+            let rows = group * ROWS..(group + 1) * ROWS;
+            let of = |column| Column::Numbers(rows.clone().map(|row| number(row, column)).collect());
+            file.extend(writer.rows((0..3).map(of).collect(), ROWS).unwrap());
+        }
+        file.extend(writer.finish().unwrap());
+        file
+    }
+
+    #[test]
+    fn a_file_may_be_larger_than_the_memory_that_it_takes() {
+        let bytes = table();
+        let options = Options { memory_bytes: 3 << 20, ..Options::default() };
+        assert!(bytes.len() as u64 > options.memory_bytes, "{}", bytes.len());
+        let file = Held::new("large.parquet", &bytes);
+        let (input, streamed) = (file.input(), Input::from(bytes.as_slice()));
+        let extent = input.extent().unwrap();
+        let mut reader = Reader::new(input, "large.parquet", &options).unwrap();
+        // Two of three columns: the share is that of the rows.
+        let wanted = [2, 0].map(|column| Wanted { column, form: Form::Number(1.0) });
+        let mut row = 0;
+        loop {
+            let chunk = reader.read(&wanted, 7_001).unwrap();
+            let [Cells::Numbers(c), Cells::Numbers(a)] = &chunk.columns[..] else { panic!("{chunk:?}") };
+            for (c, a) in c.iter().zip(a) {
+                assert_eq!([*a, *c], [number(row, 0), number(row, 2)]);
+                row += 1;
+            }
+            let share = row as f64 / (GROUPS * ROWS) as f64;
+            assert!((extent.share() - share).abs() < 1e-5, "{} at {share}", extent.share());
+            if chunk.rows.is_empty() {
+                break;
+            }
+        }
+        assert_eq!(row, GROUPS * ROWS);
+
+        let refused = Reader::new(streamed, "large.parquet", &options).err();
+        assert!(matches!(refused, Some(DataError::TooLarge { .. })), "{refused:?}");
+    }
+
+    #[test]
+    fn what_lies_beyond_the_file_is_an_error() {
+        let file = Held::new("short.parquet", b"0123456789");
+        let open = |memory_bytes| Ranges::File {
+            file: Arc::new(Mutex::new(File::open(&file.0).unwrap())),
+            length: 10,
+            memory_bytes,
+        };
+        let held = Ranges::Held(Bytes::from_static(b"0123456789"));
+        for ranges in [open(10), held] {
+            assert_eq!(ranges.get_bytes(3, 7).unwrap().as_ref(), b"3456789");
+            for (start, length) in [(3, 8), (10, 1), (11, 0), (u64::MAX, 1), (0, usize::MAX)] {
+                assert!(ranges.get_bytes(start, length).is_err(), "{length} at {start}");
+            }
+            let mut from = Vec::new();
+            ranges.get_read(8).unwrap().read_to_end(&mut from).unwrap();
+            assert_eq!(from, b"89");
+            assert_eq!(ranges.get_read(12).unwrap().read(&mut [0]).unwrap(), 0);
+        }
+        assert!(open(6).get_bytes(3, 7).is_err());
+        // Another program makes it shorter while it is read.
+        fs::write(&file.0, b"01").unwrap();
+        assert!(open(10).get_bytes(3, 7).is_err());
+    }
+
+    /// Every byte of a good file, spoiled: an error or other numbers, no panic.
+    #[test]
+    fn no_spoiled_byte_of_a_file_panics() {
+        let good = include_bytes!("../../../tests/reference/snappy.parquet");
+        for at in 0..good.len() {
+            let mut bytes = good.to_vec();
+            bytes[at] ^= 0x80;
+            let file = Held::new("spoiled.parquet", &bytes);
+            if let Ok(mut reader) = Reader::new(file.input(), "spoiled.parquet", &Options::default()) {
+                let _ = reader.read(&[Wanted { column: 0, form: Form::Number(1.0) }], usize::MAX);
+            }
+        }
+    }
+}

@@ -1,5 +1,6 @@
 //! Readings in, more columns out: what `eval` and `apply` both do with a table.
 
+use std::panic::resume_unwind;
 use std::path::PathBuf;
 use std::sync::mpsc;
 use std::thread;
@@ -114,7 +115,7 @@ impl OverTable {
     /// A row cannot be read or computed, or the place cannot be written.
     pub fn write(
         &self,
-        mut table: ReadingsTable<'_>,
+        table: ReadingsTable<'static>,
         added: &[String],
         mut compute: impl FnMut(&Rows) -> Result<Vec<Vec<f64>>, Failure>,
     ) -> Result<(), Failure> {
@@ -124,9 +125,9 @@ impl OverTable {
         let mut not_finite = 0;
         let mut done = 0_usize;
         let (progress, began) = (terminal::progress(), Instant::now());
-        tables::write(&self.out, |writer| {
+        let table = tables::write(&self.out, |writer| {
             writer.header_beside(&header, &table, &is_kept)?;
-            read_ahead(&mut table, |rows, share_read| {
+            read_ahead(table, |rows, share_read| {
                 let computed = compute(&rows)?;
                 let is_finite = |row: &usize| computed.iter().all(|column| column[*row].is_finite());
                 not_finite += (0..rows.count).filter(|row| !is_finite(row)).count();
@@ -150,24 +151,26 @@ impl OverTable {
     }
 }
 
-/// Lets `take` have all rows of a table in order, and the share of it that was read; the next ones are read while it works.
+/// Lets `take` have all rows of a table in order, and the share of it that was read; the next ones are read while it works. Gives the
+/// table back.
 fn read_ahead(
-    table: &mut ReadingsTable<'_>,
+    mut table: ReadingsTable<'static>,
     mut take: impl FnMut(Rows, Option<f64>) -> Result<(), Failure>,
-) -> Result<(), Failure> {
+) -> Result<ReadingsTable<'static>, Failure> {
     let (ready, rows) = mpsc::sync_channel(0);
-    thread::scope(|scope| {
-        scope.spawn(move || {
-            while let Some(next) = table.next().transpose() {
-                let is_last = next.is_err();
-                // Who takes no more has failed.
-                if ready.send(next.map(|rows| (rows, table.share_read()))).is_err() || is_last {
-                    break;
-                }
+    let reader = thread::spawn(move || {
+        while let Some(next) = table.next().transpose() {
+            let is_last = next.is_err();
+            // Who takes no more has failed.
+            if ready.send(next.map(|rows| (rows, table.share_read()))).is_err() || is_last {
+                break;
             }
-        });
-        rows.into_iter().try_for_each(|next| next.and_then(|(rows, share_read)| take(rows, share_read)))
-    })
+        }
+        table
+    });
+    // Whoever fails does not wait for the reader, which may itself be waiting for rows that never come.
+    rows.into_iter().try_for_each(|next| next.and_then(|(rows, share_read)| take(rows, share_read)))?;
+    Ok(reader.join().unwrap_or_else(|panic| resume_unwind(panic)))
 }
 
 /// Warns of columns of the input that are not in the output, since what was computed has their names. Where readings are solved for, those

@@ -32,13 +32,14 @@ pub fn write_text(path: &Path, text: &str) -> Result<(), Failure> {
 ///
 /// # Errors
 /// The place cannot be written, or `write` failed; nothing has changed there then.
-pub fn write_with(
+pub fn write_with<T>(
     path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> Result<(), Failure>,
-) -> Result<(), Failure> {
+    write: impl FnOnce(&mut dyn Write) -> Result<T, Failure>,
+) -> Result<T, Failure> {
     let mut batch = Batch::default();
-    batch.write(path, write)?;
-    batch.finish()
+    let written = batch.write(path, write)?;
+    batch.finish()?;
+    Ok(written)
 }
 
 /// Writes a file as [`write_with`] does, whose beginning is known last: what `write` gets can go back, as no stream can.
@@ -84,41 +85,43 @@ impl Batch {
     ///
     /// # Errors
     /// The place cannot be written, or `write` failed.
-    pub fn write(
+    pub fn write<T>(
         &mut self,
         path: &Path,
-        write: impl FnOnce(&mut dyn Write) -> Result<(), Failure>,
-    ) -> Result<(), Failure> {
+        write: impl FnOnce(&mut dyn Write) -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
         let fail = |error: io::Error| Failure::write(path, &error);
         match Place::of(path).map_err(fail)? {
             Place::StandardOutput => {
                 let mut out = BufWriter::new(io::stdout().lock());
-                write(&mut out)?;
-                out.flush().map_err(fail)
+                let written = write(&mut out)?;
+                out.flush().map_err(fail)?;
+                Ok(written)
             }
             Place::Stream(stream) => {
                 let file = File::options().append(true).open(stream).map_err(fail)?;
                 let mut file = BufWriter::new(file);
-                write(&mut file)?;
-                file.flush().map_err(fail)
+                let written = write(&mut file)?;
+                file.flush().map_err(fail)?;
+                Ok(written)
             }
             Place::File(target) => self.write_file(path, target, |file| write(file)),
         }
     }
 
-    fn write_file(
+    fn write_file<T>(
         &mut self,
         path: &Path,
         target: PathBuf,
-        write: impl FnOnce(&mut BufWriter<File>) -> Result<(), Failure>,
-    ) -> Result<(), Failure> {
+        write: impl FnOnce(&mut BufWriter<File>) -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
         let fail = |error: io::Error| Failure::write(path, &error);
         let (partial, file) = Partial::file(&target).map_err(fail)?;
         let mut file = BufWriter::new(file);
-        write(&mut file)?;
+        let written = write(&mut file)?;
         file.into_inner().map_err(|error| fail(error.into_error()))?.sync_all().map_err(fail)?;
         self.staged.push(Staged { named: path.to_owned(), target, new: Some(partial), old: None });
-        Ok(())
+        Ok(written)
     }
 
     /// Writes a text, as [`Batch::write`] does.

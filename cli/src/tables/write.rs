@@ -36,20 +36,21 @@ pub enum TableWriter<'a> {
 ///
 /// # Errors
 /// The place cannot be written, or `write` failed.
-pub fn write(
+pub fn write<T>(
     path: &Path,
-    write: impl FnOnce(&mut TableWriter) -> Result<(), Failure>,
-) -> Result<(), Failure> {
+    write: impl FnOnce(&mut TableWriter) -> Result<T, Failure>,
+) -> Result<T, Failure> {
     known_format(path)?;
     #[cfg(feature = "parquet")]
     if super::ending(path) == "parquet" {
         return output::write_with(path, |file| {
             let mut table = TableWriter::Parquet { path, file, writer: parquet::Writer::new(Vec::new()) };
-            write(&mut table)?;
+            let written = write(&mut table)?;
             let TableWriter::Parquet { file, writer, .. } = table else {
                 unreachable!("a writer stays what it is")
             };
-            put(file, path, writer.finish())
+            put(file, path, writer.finish())?;
+            Ok(written)
         });
     }
     output::write_with(path, |file| write(&mut TableWriter::Csv { path, file }))

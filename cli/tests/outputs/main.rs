@@ -272,3 +272,40 @@ fn an_interrupted_command_leaves_nothing_behind() {
         assert_eq!(folder.read("out.csv"), "what stood there\n");
     }
 }
+
+/// Who reads the output has seen enough, while more rows may come: the command ends, and waits for none of them.
+#[test]
+fn a_command_that_nobody_reads_ends_while_its_input_is_open() {
+    use std::io::{Read as _, Write as _};
+    use std::process::{Command, Stdio};
+    use std::time::{Duration, Instant};
+
+    let folder = shaft("nobody_reads");
+    let mut running = Command::new(env!("CARGO_BIN_EXE_trueaxis"))
+        .args(["eval", "shaft.chain", "--errors", "e.toml", "--data", "-", "--out", "-"])
+        .current_dir(&folder.0)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("a command");
+    let mut output = running.stdout.take().expect("piped");
+    let mut input = running.stdin.take().expect("piped");
+    let (seen, has_seen) = std::sync::mpsc::channel();
+    let reader = std::thread::spawn(move || {
+        output.read_exact(&mut [0; 100]).expect("it writes");
+        seen.send(()).expect("the test waits");
+        output
+    });
+    input.write_all(b"reading [deg]\n").expect("it reads");
+    while has_seen.try_recv().is_err() {
+        input.write_all("10.25\n".repeat(1000).as_bytes()).expect("it reads");
+    }
+    // From here on it waits for rows, and nobody reads what it writes.
+    drop(reader.join().expect("it has seen the first rows"));
+    let began = Instant::now();
+    while running.try_wait().expect("a process").is_none() {
+        assert!(began.elapsed() < Duration::from_secs(60), "it ends");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    drop(input);
+}

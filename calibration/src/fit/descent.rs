@@ -283,8 +283,29 @@ impl Solver<'_> {
         }
     }
 
-    /// Lets what the data do not determine move under its prior, where that moves the prediction at all.
+    /// Lets what the data do not determine move under its prior. Where that leaves another noise, the data are asked once more: beside
+    /// one of rows that were still far off, nothing is determined.
     pub(super) fn release(&mut self, course: &mut Course) -> Result<(), FitError> {
+        for _ in 0..NOISE_ROUNDS {
+            let asked_with = course.noise.clone();
+            self.let_go(course)?;
+            if same(&asked_with, &course.noise, SIMILAR_NOISE) {
+                break;
+            }
+            let subspace = self.determined(&course.point.values, &course.noise)?;
+            if subspace.rank() <= course.subspace.rank() {
+                break;
+            }
+            let (noise, values) = (course.noise.clone(), self.with_smallest(&course.point.values, &subspace));
+            course.point = self.point(values, &noise, course.weighting, Rest::Still)?;
+            course.subspace = subspace;
+            *course = self.settled(course.clone(), noise)?;
+        }
+        Ok(())
+    }
+
+    /// Lets what the data do not determine move under its prior, where that moves the prediction at all.
+    fn let_go(&mut self, course: &mut Course) -> Result<(), FitError> {
         if course.subspace.rank() == course.subspace.parameters() {
             return Ok(());
         }

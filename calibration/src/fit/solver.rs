@@ -72,8 +72,19 @@ impl Solver<'_> {
         noise: &Noise,
         weighting: Weighting,
     ) -> Result<Sweep, FitError> {
+        self.sweep_without(&self.aside, values, noise, weighting)
+    }
+
+    /// The same without some rows, one flag a row.
+    pub(super) fn sweep_without(
+        &self,
+        aside: &[bool],
+        values: &[f64],
+        noise: &Noise,
+        weighting: Weighting,
+    ) -> Result<Sweep, FitError> {
         let sigma = noise.sigma_without_memory();
-        sweep(&self.model, self.observations, &self.layout, values, &sigma, weighting, &self.aside)
+        sweep(&self.model, self.observations, &self.layout, values, &sigma, weighting, aside)
     }
 
     pub(super) fn point(

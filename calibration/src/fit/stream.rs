@@ -207,7 +207,7 @@ impl Streamed {
     ) -> StreamedResult {
         let rest = self.rest(subspace);
         let used = subspace.used(partial, &rest);
-        let found = tally.variance_factor(used);
+        let found = tally.variance_factor(partial.components as f64, used);
         let robust = self.pass.weighting == Weighting::Biweight;
         let efficiency = if robust { robust::EFFICIENCY } else { 1.0 };
         let left = (partial.components as f64 - used).max(0.0);

@@ -126,12 +126,11 @@ impl Tally {
         if self.slopes > 0.0 { (self.weights / self.slopes).clamp(1.0, 1.5) } else { 1.0 }
     }
 
-    /// By what (JᵀJ)⁻¹ of whitened rows, each with its full weight, must be multiplied to be the covariance of estimates
-    /// made with these weights.
+    /// By what (JᵀJ)⁻¹ of whitened rows of so many components, each with its full weight, must be multiplied to be the covariance of
+    /// estimates made with these weights; `used` of them the estimates follow.
     ///
     /// Source: Huber and Ronchetti, Robust Statistics, 2nd ed., equation (7.83), for norms of several components.
-    pub(super) fn variance_factor(&self, used: f64) -> f64 {
-        let n = self.partial.components as f64;
+    pub(super) fn variance_factor(&self, n: f64, used: f64) -> f64 {
         if n <= used {
             return f64::INFINITY;
         }

@@ -18,7 +18,7 @@ use super::subspace::Subspace;
 use super::sweep::Weighting;
 use super::{FitError, Partial, robust};
 use crate::fit::noise::serial;
-use crate::fit::noise::{self, pools, session, trend};
+use crate::fit::noise::{self, Pools, session, trend};
 
 /// Degrees of freedom from which on it makes no difference which kind of component they come from.
 const MANY: f64 = 1000.0;
@@ -70,11 +70,12 @@ impl Solver<'_> {
         weight: &[f64],
     ) -> Result<(Uncertainty, Shared), FitError> {
         let (subspace, rest, tally) = (&course.subspace, &course.point.rest, &course.point.sweep.tally);
-        let left = self.kept_components(weight) as f64 - self.used(course);
-        let full = self.unweighted_at(course)?;
+        let (kept, used) = (self.kept_components(weight) as f64, self.used(course));
+        let left = kept - used;
+        let full = self.unweighted_at(course, weight)?;
         let known = self.options.noise.known();
         // Of variances, what was found over what the weights assume.
-        let found = tally.variance_factor(self.used(course));
+        let found = tally.variance_factor(kept, used);
         let level = if known.is_some() { 1.0 } else { self.level(course) };
         let has_statement = known.is_some() || self.states_noise();
         let efficiency = if course.weighting == Weighting::Biweight { robust::EFFICIENCY } else { 1.0 };
@@ -119,9 +120,9 @@ impl Solver<'_> {
             let beside = of_stated.map(taken_at_their_word).into_iter().collect();
             Spread::Groups { factor: tally.stride().powi(2), clusters, beside }
         } else if left < MANY && self.layout.kinds > 1 {
-            let pool = pools(self.observations, &self.layout, self.used(course));
-            let of_component: Vec<usize> = self.layout.kind_of_each().map(|kind| pool[kind]).collect();
-            let count = pool.iter().max().map_or(0, |last| last + 1);
+            let pools = Pools::of(self.observations, &self.layout, self.used(course));
+            let of_component = self.layout.kind_of_each().map(|kind| pools.of_kind[kind]).collect();
+            let count = pools.count();
             let counted: Vec<f64> = weight.iter().map(|weight| f64::from(u8::from(*weight > 0.0))).collect();
             let Coordinates { q, residual, of_stated } = self.coordinates(course, &counted, &root)?;
             let shares = shares(&q, &residual, &Buckets { of_component, count });
@@ -192,12 +193,15 @@ impl Solver<'_> {
         Ok(of_groups.map_or(Shared::Nothing, |(offsets, own)| Shared::Offsets(offsets, own)))
     }
 
-    /// The factor of all rows that count, each with its full weight, whitened but for serial correlation.
-    fn unweighted_at(&self, course: &Course) -> Result<Partial, FitError> {
-        match course.weighting {
-            Weighting::Full => Ok(self.partial(&course.point.sweep)),
-            _ => Ok(self.partial(&self.sweep(&course.point.values, &course.noise, Weighting::Full)?)),
+    /// The factor of all rows that have any weight, each with its full one, whitened but for serial correlation. Those that are set
+    /// aside may be all of a station, and what only they would tell nobody knows.
+    fn unweighted_at(&self, course: &Course, weight: &[f64]) -> Result<Partial, FitError> {
+        if course.weighting == Weighting::Full {
+            return Ok(self.partial(&course.point.sweep));
         }
+        let aside: Vec<bool> = weight.iter().map(|&weight| weight == 0.0).collect();
+        let (values, noise) = (&course.point.values, &course.noise);
+        Ok(self.partial(&self.sweep_without(&aside, values, noise, Weighting::Full)?))
     }
 
     /// Whether all rows state their noise, or the caller states one for all.

@@ -11,6 +11,7 @@ mod noise;
 mod refused;
 mod ridge;
 mod room;
+mod starts;
 mod visible;
 
 use std::path::{Path, PathBuf};

@@ -4,7 +4,7 @@ use model_core::Chain;
 use rayon::prelude::*;
 
 use super::brought::{self, Component};
-use super::{Layout, Noise, NoiseOptions, pools, variance};
+use super::{Layout, Noise, NoiseOptions, Pools, variance};
 use crate::data::Observations;
 use crate::fit::robust;
 
@@ -24,20 +24,14 @@ pub fn from_medians(
     let floor = match options.known() {
         Some(sigma) => vec![sigma; layout.kinds],
         None => {
-            let alone = medians(observations, layout, residual, &stated);
-            if brought.is_empty() {
-                alone
-            } else {
-                let pools = pools(observations, layout, 0.0);
+            let pools = Pools::of(observations, layout, 0.0);
+            let mut floors = medians(&pools, layout, residual, &stated);
+            if !brought.is_empty() {
                 let of_pools = of_pools(layout, &pools, residual, &stated, brought, |_, _, _| [1.0; 2]);
-                let alone = by_pool(&pools, &alone).into_iter();
-                let floors: Vec<f64> = of_pools
-                    .iter()
-                    .zip(alone)
-                    .map(|(own, alone)| brought::floor_of_median(own, alone))
-                    .collect();
-                pools.iter().map(|&pool| floors[pool]).collect()
+                let pairs = of_pools.iter().zip(floors);
+                floors = pairs.map(|(own, alone)| brought::floor_of_median(own, alone)).collect();
             }
+            pools.by_kind(layout, floors, &stated)
         }
     };
     finish(Noise { floor, of_readings: 1.0, ..Noise::default() }, observations, layout, &stated, brought)
@@ -46,49 +40,42 @@ pub fn from_medians(
 /// Of each pool its components, each with its weight and what it leaves of that.
 fn of_pools(
     layout: &Layout,
-    pools: &[usize],
+    pools: &Pools,
     residual: &[f64],
     stated: &[f64],
     brought: &[f64],
     weights: impl Fn(usize, usize, usize) -> [f64; 2],
 ) -> Vec<Vec<Component>> {
-    let mut of_pools = vec![Vec::new(); pools.iter().max().map_or(0, |most| most + 1)];
+    let mut of_pools = vec![Vec::new(); pools.count()];
     let of_each = layout.row_of_each().zip(layout.kind_of_each());
     let components = residual.iter().zip(brought).zip(each(stated)).enumerate();
     for ((row, kind), (at, ((&residual, &brought), stated))) in of_each.zip(components) {
         let [weight, left] = weights(at, row, kind);
-        of_pools[pools[kind]].push(Component { residual, stated, brought, weight, left });
+        of_pools[pools.of_kind[kind]].push(Component { residual, stated, brought, weight, left });
     }
     of_pools
 }
 
-/// Of each pool what is told kind by kind.
-fn by_pool(pools: &[usize], of_kinds: &[f64]) -> Vec<f64> {
-    let mut by_pool = vec![0.0; pools.iter().max().map_or(0, |most| most + 1)];
-    pools.iter().zip(of_kinds).for_each(|(&pool, own)| by_pool[pool] = *own);
-    by_pool
-}
-
-/// Per kind of component the standard deviation that the median of its residuals suggests.
-fn medians(observations: &Observations, layout: &Layout, residual: &[f64], stated: &[f64]) -> Vec<f64> {
-    let pools = pools(observations, layout, 0.0);
-    let median = |pool: &usize| {
+/// Per pool the standard deviation that the median of its residuals suggests.
+fn medians(pools: &Pools, layout: &Layout, residual: &[f64], stated: &[f64]) -> Vec<f64> {
+    let median = |pool: usize| {
         let own = layout
             .kind_of_each()
             .zip(residual.iter().zip(each(stated)))
-            .filter(|(kind, _)| pools[*kind] == *pool);
+            .filter(|(kind, _)| pools.of_kind[*kind] == pool);
         let scaled = own.map(|(_, (residual, stated))| (residual / stated).abs()).collect();
         robust::median(scaled) / robust::median_norm(1)
     };
-    pools.par_iter().map(median).collect()
+    (0..pools.count()).into_par_iter().map(median).collect()
 }
 
 /// The logarithm of how large residuals are by their medians, the mean over all components.
 #[must_use]
 pub fn ln_scale(observations: &Observations, layout: &Layout, residual: &[f64]) -> f64 {
-    let medians = medians(observations, layout, residual, &[]);
+    let pools = Pools::of(observations, layout, 0.0);
+    let medians = medians(&pools, layout, residual, &[]);
     let least = resolution(observations);
-    let sum: f64 = layout.kind_of_each().map(|kind| medians[kind].max(least).ln()).sum();
+    let sum: f64 = layout.kind_of_each().map(|kind| medians[pools.of_kind[kind]].max(least).ln()).sum();
     sum / (layout.components() as f64).max(1.0)
 }
 
@@ -140,33 +127,32 @@ pub fn estimate(
             (followed.iter().sum(), followed.iter().map(|followed| (1.0 - followed).max(0.0)).collect())
         }
     };
-    let pools = pools(observations, layout, used);
+    let pools = Pools::of(observations, layout, used);
     let strides = layout.runs.iter().flat_map(|run| std::iter::repeat_n(run.stride, run.stride));
     let consistency: Vec<f64> =
         strides.map(|stride| if robust_weights { robust::consistency(stride) } else { 1.0 }).collect();
     let floors = |spread: &[f64], brought: &[f64]| -> (Vec<f64>, f64) {
-        let mut sums = vec![[0.0; 2]; layout.kinds];
+        let mut sums = vec![[0.0; 2]; pools.count()];
         let of_each = layout.row_of_each().zip(layout.kind_of_each());
         let residuals = residual.iter().zip(each(spread)).zip(left.iter().cycle());
         for ((row, kind), ((residual, spread), left)) in of_each.zip(residuals) {
-            let [weights, squares] = &mut sums[pools[kind]];
+            let [weights, squares] = &mut sums[pools.of_kind[kind]];
             *weights += weight[row] * left;
             *squares += weight[row] * consistency[kind] * (residual / spread).powi(2);
         }
-        let floor = |pool: &usize| {
-            let [weights, squares] = sums[*pool];
+        let floor = |[weights, squares]: [f64; 2]| {
             if weights > 0.0 { (squares / weights).sqrt() } else { 0.0 }
         };
-        let alone: Vec<f64> = pools.iter().map(floor).collect();
+        let alone: Vec<f64> = sums.into_iter().map(floor).collect();
         if brought.is_empty() {
-            return (alone, 1.0);
+            return (pools.by_kind(layout, alone, spread), 1.0);
         }
         let weights = |at: usize, row: usize, kind: usize| {
             [weight[row] * consistency[kind], weight[row] * left[at % left.len()]]
         };
         let of_pools = of_pools(layout, &pools, residual, spread, brought, weights);
-        let (floors, factor) = brought::floors(&of_pools, &by_pool(&pools, &alone));
-        (pools.iter().map(|&pool| floors[pool]).collect(), factor)
+        let (floors, factor) = brought::floors(&of_pools, &alone);
+        (pools.by_kind(layout, floors, spread), factor)
     };
     let (floor, of_readings) =
         options.known().map_or_else(|| floors(&stated, brought), |sigma| (vec![sigma; layout.kinds], 1.0));

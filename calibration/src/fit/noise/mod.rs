@@ -24,7 +24,7 @@ use crate::fit::robust::median;
 pub use estimate::{Followed, estimate, from_medians, of_floors, resolution};
 pub(super) use estimate::{each, ln_scale, stated};
 pub use layout::{Layout, Run};
-pub use pool::pools;
+pub use pool::Pools;
 pub use session::Offsets;
 pub use space::Filter;
 

@@ -12,6 +12,7 @@ use calibration::study::{Loaded, OpenTable, Plan, Study};
 use crate::failure::Failure;
 use crate::report::{FileRead, NAMES, Provenance, Reported};
 use crate::source::{self, Source};
+use crate::tables::Files;
 use crate::{date, output, tables, terminal};
 
 /// A study that was read, with the declaration that it names.
@@ -25,6 +26,8 @@ pub struct Studied {
     pub chain_file: String,
     /// What the study means.
     pub plan: Plan,
+    /// Its tables, as far as they are files.
+    pub files: Files,
 }
 
 /// A study with its data.
@@ -69,7 +72,8 @@ impl Studied {
 
     fn with(study: Source, written: &Study, chain_file: String, chain: Source) -> Result<Self, Failure> {
         let plan = written.plan(&chain.chain()?).map_err(|mistakes| study.mistakes(&mistakes))?;
-        Ok(Self { study, chain, chain_file, plan })
+        let files = Files::of(study.clone(), plan.data_from.clone());
+        Ok(Self { study, chain, chain_file, plan, files })
     }
 
     /// Every table that the study names, as it names them.
@@ -126,7 +130,11 @@ impl Studied {
             let digest = digest.map_err(|error| source::not_readable(&place, &error))?;
             Ok(FileRead { path, sha256: Some(digest) })
         };
-        [study, chain].into_iter().chain(tables).map(read).collect()
+        let read: Vec<FileRead> =
+            [study, chain].into_iter().chain(tables).map(read).collect::<Result<_, _>>()?;
+        // A checksum is that of what was calibrated with.
+        self.tables().try_for_each(|path| self.files.check(path)).map_err(tables::failure)?;
+        Ok(read)
     }
 }
 

@@ -6,7 +6,7 @@
 use std::path::Path;
 
 use calibration::formats::memory::Reader;
-use calibration::formats::{ColumnName, TableReader, declared_columns, open};
+use calibration::formats::{ColumnName, TableReader, declared_columns};
 use codegen::Form;
 use model_core::expr::Expr;
 use model_core::{Chain, ObservableId, SymbolKind, forms, print, syntax};
@@ -301,11 +301,11 @@ pub fn calibrated(
     command: String,
     tell: &(dyn Fn(Stage) + Sync),
 ) -> Result<Calibrated, Failure> {
-    let (study, from) = (studied.study.clone(), studied.plan.data_from.clone());
+    let files = studied.files.clone();
     let measured =
         studied.load(&mut |path, options| match in_memory.iter().find(|(name, _)| *name == path) {
             Some((name, columns)) => Ok(Box::new(Reader::new(name, columns.iter().copied())?)),
-            None => open(tables::open_beside(&study, path, from.as_deref())?, path, options),
+            None => files.open(path, options),
         })?;
     measured.calibrate(command, tell)
 }

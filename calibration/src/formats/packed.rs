@@ -7,7 +7,7 @@ const KINDS: [(&[u8], &str); 6] = [
     (b"\xFD7zXZ\0", "this is compressed with xz: unpack it first, with `unxz`"),
     (b"BZh91AY&SY", "this is compressed with bzip2: unpack it first, with `bunzip2`"),
     (b"PK\x03\x04", "this is a ZIP archive, or a spreadsheet: unpack it, or save the table as .csv"),
-    (b"PAR1\x15", "this is a Parquet file: name it .parquet"),
+    (b"PAR1\x15", "this is a Parquet file: give it as a file whose name ends in .parquet"),
 ];
 
 /// What a file that begins so is, and what to do, where that is no text.

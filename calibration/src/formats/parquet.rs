@@ -7,16 +7,18 @@
 mod bounded;
 mod cells;
 mod ranges;
+mod room;
+mod times;
 mod write;
 
 use std::cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex};
 
-use ::parquet::basic::{Repetition, Type as Physical};
+use ::parquet::basic::{Compression, Repetition, Type as Physical};
 use ::parquet::column::reader::ColumnReader;
 use ::parquet::errors::ParquetError;
-use ::parquet::file::reader::{FileReader as _, SerializedFileReader};
+use ::parquet::file::reader::{FileReader as _, Length as _, SerializedFileReader};
 use ::parquet::record::Field;
 use ::parquet::schema::types::{Type, TypePtr};
 use rayon::prelude::*;
@@ -30,6 +32,8 @@ use super::{
 };
 use bounded::BoundedFile;
 use ranges::Ranges;
+use room::Room;
+use times::Time;
 
 /// A Parquet file.
 pub struct Reader {
@@ -63,6 +67,10 @@ impl Reader {
                 (Ranges::File { file, length: extent.length(), memory_bytes }, Some(extent))
             }
         };
+        if ranges.len() == 0 {
+            let why = "the file is empty".to_owned();
+            return Err(DataError::Unreadable { file: source.to_string(), why });
+        }
         let file = guarded(source, || SerializedFileReader::new(ranges))?;
         let types = file.metadata().file_metadata().schema().get_fields().to_vec();
         let flat = |field: &Type| {
@@ -78,6 +86,11 @@ impl Reader {
             return Err(DataError::Empty { file: source.to_string() });
         }
         unique(&header, source)?;
+        if let Some(codec) = unknown_codec(&file) {
+            let why =
+                format!("is compressed with {codec}, which is not read: write it with Snappy or Zstandard");
+            return Err(DataError::Unreadable { file: source.to_string(), why });
+        }
         let file = BoundedFile { inner: file, memory_bytes };
         let source = source.to_string();
         let open = Vec::new();
@@ -119,16 +132,30 @@ impl Reader {
         readers
             .into_par_iter()
             .map(|(column, (reader, read))| {
+                let file = Arc::from(source.as_str());
                 guarded(source, || {
                     // A column that nobody asked for before lags behind.
                     if *read < taken {
-                        TypedCells::read(reader, &types[column], taken - *read)?;
+                        TypedCells::read(reader, &types[column], taken - *read, &file)?;
                     }
                     *read = taken + count;
-                    TypedCells::read(reader, &types[column], count)
+                    TypedCells::read(reader, &types[column], count, &file)
                 })
             })
             .collect()
+    }
+
+    /// Refuses times where numbers are wanted: those that a file holds as nanoseconds would be whole numbers of a thousand million.
+    fn check_times(&self, wanted: &[Wanted]) -> Result<(), DataError> {
+        let is_time = |want: &&Wanted| {
+            matches!(want.form, Form::Number(_)) && Time::of(&self.types[want.column]).is_some()
+        };
+        let Some(want) = wanted.iter().find(is_time) else { return Ok(()) };
+        Err(DataError::UnusableColumn {
+            file: self.source.clone(),
+            column: self.header[want.column].full.clone(),
+            why: "holds times, which are no numbers: write seconds since some instant".to_owned(),
+        })
     }
 
     /// The place of a cell of this row, counted from 0.
@@ -180,6 +207,8 @@ fn text(field: &Field) -> String {
         Field::Str(text) => text.clone(),
         Field::Double(number) => format!("{number:?}"),
         Field::Float(number) => format!("{number:?}"),
+        // Without digits behind the point there is none.
+        Field::Decimal(_) => field.to_string().trim_end_matches('.').to_owned(),
         other => other.to_string(),
     }
 }
@@ -188,10 +217,36 @@ impl TypedCells {
     /// What the cells say, as separated values would have it.
     ///
     /// # Errors
-    /// A time that no calendar has.
+    /// Bytes that are called a text and are none.
     pub(super) fn texts(&self) -> Result<Texts, DataError> {
-        guarded(self.of_type.name(), || self.fields().map(|field| Ok(text(&field?))).collect())
+        let said = guarded(&self.file, || {
+            if let Some(time) = Time::of(&self.of_type) {
+                let texts = self.places().map(|place| {
+                    let count = place.and_then(|at| Time::count(&self.values, at));
+                    count.map_or_else(String::new, |count| time.text(count))
+                });
+                return Ok(texts.collect());
+            }
+            self.fields().map(|field| Ok(text(&field?))).collect()
+        });
+        said.map_err(|error| DataError::UnusableColumn {
+            file: self.file.to_string(),
+            column: self.of_type.name().to_owned(),
+            why: format!("holds what is no text ({error}): write it as UTF-8"),
+        })
     }
+}
+
+/// The codec of some part of a file, where it is one that this build does not have.
+fn unknown_codec(file: &SerializedFileReader<Ranges>) -> Option<&'static str> {
+    let parts = file.metadata().row_groups().iter().flat_map(|group| group.columns());
+    parts.map(|part| part.compression()).find_map(|codec| match codec {
+        Compression::UNCOMPRESSED | Compression::SNAPPY | Compression::ZSTD(_) => None,
+        Compression::GZIP(_) => Some("gzip"),
+        Compression::BROTLI(_) => Some("Brotli"),
+        Compression::LZ4 | Compression::LZ4_RAW => Some("LZ4"),
+        Compression::LZO => Some("LZO"),
+    })
 }
 
 impl TableReader for Reader {
@@ -208,15 +263,19 @@ impl TableReader for Reader {
         let mut columns: Vec<usize> = wanted.iter().map(|want| want.column).collect();
         columns.sort_unstable();
         columns.dedup();
+        self.check_times(wanted)?;
+        let mut room = Room::of(columns.iter().map(|&column| self.types[column].get_physical_type()));
         loop {
-            let count = (self.in_group - self.taken).min(at_most - chunk.rows.len());
-            if count == 0 && (chunk.rows.len() == at_most || !self.next_group()?) {
-                break;
-            }
-            if count == 0 {
+            let left = self.in_group - self.taken;
+            let count = room.rows().min(left).min(at_most - chunk.rows.len());
+            if left == 0 && chunk.rows.len() < at_most && self.next_group()? {
                 continue;
             }
+            if count == 0 {
+                break;
+            }
             let cells = self.cells(&columns, count)?;
+            room.take(&cells, count);
             let of = |column: usize| match columns.binary_search(&column) {
                 Ok(at) => &cells[at],
                 Err(_) => unreachable!("every wanted column was read"),

@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::report::{self, Layout};
 use crate::source::Source;
 use crate::waiting::Waiting;
-use crate::{many, tables, terminal};
+use crate::{many, terminal};
 
 /// Fit the errors to measured data, and find what the declaration lacks.
 ///
@@ -57,12 +57,12 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         }
         studied.refuse_to_replace(folder)?;
     }
-    let (study, from) = (studied.study.clone(), studied.plan.data_from.clone());
+    let files = studied.files.clone();
     let progress = terminal::progress();
     let reading = progress.clone();
     let mut open = move |path: &str, options: &formats::Options| {
         reading.set_message(format!("reading {path}"));
-        formats::open(tables::open_beside(&study, path, from.as_deref())?, path, options)
+        files.open(path, options)
     };
     let read = many::read(studied, arguments.search_rows, &mut open);
     progress.finish_and_clear();

@@ -1,5 +1,6 @@
 //! Tables of data as files: opened by the ending of their name, read in chunks, written whole.
 
+mod files;
 mod readings;
 mod write;
 
@@ -11,6 +12,7 @@ use calibration::formats::{DataError, Input};
 
 use crate::failure::Failure;
 use crate::source::{self, Source};
+pub use files::Files;
 #[cfg(feature = "point-clouds")]
 pub use readings::factor_of;
 pub use readings::{ReadingsTable, Rows};

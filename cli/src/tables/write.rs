@@ -126,7 +126,14 @@ impl TableWriter<'_> {
             #[cfg(feature = "parquet")]
             Self::Parquet { path, file, writer } => {
                 put(*file, path, writer.rows(rows, count))?;
-                Options::default().holds(writer.bytes(), &path.display().to_string()).map_err(failure)
+                // What is held is what has no type yet.
+                Options::default().holds(writer.bytes(), "").map_err(|_| {
+                    Failure::Input(format!(
+                        "{}: texts have no type before the last is known, and these rows take too much memory to be held until then: \
+                         give the data as a file, which is read twice, and not as a pipe; or write a .csv file",
+                        path.display()
+                    ))
+                })
             }
         }
     }

@@ -72,7 +72,7 @@ fn a_file_that_is_no_text_is_named_as_what_it_is() {
         (&b"\x1F\x8B\x08\0\0"[..], "poses.csv: this is compressed with gzip: unpack it first, with `gunzip`"),
         (b"\x28\xB5\x2F\xFD\0", "this is compressed with zstd"),
         (b"PK\x03\x04\x14", "this is a ZIP archive, or a spreadsheet"),
-        (b"PAR1\x15\x04", "this is a Parquet file: name it .parquet"),
+        (b"PAR1\x15\x04", "this is a Parquet file: give it as a file whose name ends in .parquet"),
     ] {
         folder.write("poses.csv", bytes);
         for asked in [&eval[..], &["calibrate", "study.toml"], &["init", "poses.csv", "--out", "new.toml"]] {

@@ -15,6 +15,8 @@ const STEP: usize = 1 << 13;
 /// Cells with their type.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TypedCells {
+    /// The file that they came from, for messages.
+    pub(super) file: Arc<str>,
     pub(super) of_type: TypePtr,
     /// Per cell 1 where it has a value and 0 where it has none; none at all where every cell has one.
     pub(super) levels: Option<Vec<i16>>,
@@ -101,14 +103,20 @@ impl Values {
 
 impl TypedCells {
     /// No cells of a type.
-    pub(super) fn none(of_type: &TypePtr) -> Result<Self> {
+    pub(super) fn none(of_type: &TypePtr, file: &Arc<str>) -> Result<Self> {
         let levels = of_type.is_optional().then(Vec::new);
-        Ok(Self { of_type: of_type.clone(), levels, values: Values::none(of_type.get_physical_type())? })
+        let values = Values::none(of_type.get_physical_type())?;
+        Ok(Self { file: Arc::clone(file), of_type: of_type.clone(), levels, values })
     }
 
     /// So many cells, in one column of a file, that come next; fewer at the end.
-    pub(super) fn read(reader: &mut ColumnReader, of_type: &TypePtr, count: usize) -> Result<Self> {
-        let mut cells = Self::none(of_type)?;
+    pub(super) fn read(
+        reader: &mut ColumnReader,
+        of_type: &TypePtr,
+        count: usize,
+        file: &Arc<str>,
+    ) -> Result<Self> {
+        let mut cells = Self::none(of_type, file)?;
         let levels = cells.levels.as_mut();
         match (reader, &mut cells.values) {
             (ColumnReader::BoolColumnReader(reader), Values::Bool(to)) => records(reader, count, levels, to),
@@ -155,17 +163,25 @@ impl TypedCells {
         }
     }
 
+    /// Of each cell where its value stands among the values, if it has one.
+    pub(super) fn places(&self) -> impl Iterator<Item = Option<usize>> {
+        let mut next = 0;
+        (0..self.len()).map(move |at| {
+            if self.levels.as_ref().is_some_and(|levels| levels[at] == 0) {
+                return None;
+            }
+            next += 1;
+            Some(next - 1)
+        })
+    }
+
     /// Each cell as the type of the column means it.
     pub(super) fn fields(&self) -> impl Iterator<Item = Result<Field>> {
         let path = ColumnPath::from(self.of_type.name());
         let column = Arc::new(ColumnDescriptor::new(self.of_type.clone(), 0, 0, path));
-        let mut next = 0;
-        (0..self.len()).map(move |at| {
-            if self.levels.as_ref().is_some_and(|levels| levels[at] == 0) {
-                return Ok(Field::Null);
-            }
-            next += 1;
-            self.values.field(next - 1, &column)
+        self.places().map(move |place| match place {
+            None => Ok(Field::Null),
+            Some(at) => self.values.field(at, &column),
         })
     }
 

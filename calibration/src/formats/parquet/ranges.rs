@@ -91,7 +91,12 @@ impl ChunkReader for Ranges {
             }
             Self::File { .. } => {
                 let mut bytes = vec![0; length];
-                self.from(start).read_exact(&mut bytes)?;
+                self.from(start).read_exact(&mut bytes).map_err(|error| match error.kind() {
+                    io::ErrorKind::UnexpectedEof => {
+                        ParquetError::General("the file became shorter while it was read".to_owned())
+                    }
+                    _ => error.into(),
+                })?;
                 Ok(bytes.into())
             }
         }

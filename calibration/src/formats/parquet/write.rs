@@ -18,8 +18,9 @@ use super::TypedCells;
 use super::cells::Values;
 use crate::formats::{Column, Kept, Texts};
 
-/// Rows of a group: what is held of a table whose types are known.
+/// Rows of a group, and bytes from which on it has fewer: what is held of a table whose types are known.
 const GROUP: usize = 1 << 17;
+const GROUP_BYTES: usize = 256 << 20;
 
 /// Digits of a decimal number that a double holds in any case.
 const DOUBLE_DIGITS: usize = 15;
@@ -112,7 +113,8 @@ impl Writer {
             of_texts.is_some() || !matches!(column, Column::Kept(Kept::Texts(_)))
         };
         let waits = !self.held.iter().zip(&self.types).all(has_type);
-        if self.rows < GROUP || waits { Ok(Vec::new()) } else { self.group() }
+        let is_full = self.rows >= GROUP || self.bytes() >= GROUP_BYTES;
+        if waits || !is_full { Ok(Vec::new()) } else { self.group() }
     }
 
     /// The memory that what is held takes, in bytes, about.
@@ -181,13 +183,13 @@ fn typed(name: &str, column: Column, of_texts: Option<TextType>) -> Result<Typed
         Column::Numbers(numbers) => {
             let levels = Some(vec![1; numbers.len()]);
             let of_type = optional(name, Physical::DOUBLE)?;
-            return Ok(TypedCells { of_type, levels, values: Values::Double(numbers) });
+            return Ok(TypedCells { file: Arc::from(""), of_type, levels, values: Values::Double(numbers) });
         }
         Column::Kept(Kept::Texts(texts)) => texts,
     };
     let present = || texts.iter().filter(|text| !text.is_empty());
     let levels = Some(texts.iter().map(|text| i16::from(!text.is_empty())).collect());
-    let of = |of_type, values| Ok(TypedCells { of_type, levels, values });
+    let of = |of_type, values| Ok(TypedCells { file: Arc::from(""), of_type, levels, values });
     let of_texts = of_texts.unwrap_or_else(|| {
         let mut seen = TextType::default();
         seen.see(&texts);

@@ -10,7 +10,9 @@ use super::rms::BeforeAfter;
 use crate::candidate::{Effect, EffectId, Place};
 use crate::data::SiUnit;
 use crate::effects::assembly_name;
+use crate::search::SearchError;
 use crate::search::context::{Context, declared};
+use crate::search::fitted::Fitted;
 use crate::search::round::Round;
 
 /// Standard deviations at which an effect is found four times out of five, corrected for the size of the catalogue.
@@ -18,6 +20,12 @@ const FOUND: f64 = 4.4;
 
 /// Shifts of declared errors this many times smaller than the largest are not told.
 const TOLD: f64 = 0.05;
+
+/// Beside unknown objects a declared error counts that takes at least this share of what an effect does to the points that are observed.
+const TAKEN: f64 = 0.1;
+
+/// Where declared errors take less than this share of it together, objects and stations take most.
+const MOST: f64 = 0.5;
 
 /// An effect that these data would not show below some size.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -36,6 +44,8 @@ pub struct NotShown {
     pub absorbed: f64,
     /// The bias that it would put into the declared errors: how far an effect of amplitude 1 SI would move each at most, SI.
     pub mistaken_for: BTreeMap<String, f64>,
+    /// Whether objects and stations, which would come to stand elsewhere, take most of it.
+    pub by_places: bool,
 }
 
 /// How far one standard uncertainty of an accepted effect, left out, would move each declared error, SI.
@@ -78,8 +88,19 @@ fn moved(
 }
 
 /// Effects that could be as large as the residual without these data showing them.
-pub(crate) fn not_shown(whole: &Context<'_>, last: &Round<'_>, rms: &[BeforeAfter]) -> Vec<NotShown> {
+///
+/// # Errors
+/// Values that do not fit the chain.
+pub(crate) fn not_shown(
+    whole: &Context<'_>,
+    last: &Round<'_>,
+    rms: &[BeforeAfter],
+) -> Result<Vec<NotShown>, SearchError> {
     let problem = &last.search.problem;
+    let moves = match whole.request.observations.unknowns {
+        Some(_) => Some(Moves::of(whole, last)?),
+        None => None,
+    };
     let accepted: Vec<EffectId> = last.fitted.found.iter().map(|found| found.effect).collect();
     let hidden = |name: String, place: Place| NotShown {
         name,
@@ -89,6 +110,7 @@ pub(crate) fn not_shown(whole: &Context<'_>, last: &Round<'_>, rms: &[BeforeAfte
         unit: place.freedom.quantity().into(),
         absorbed: 0.0,
         mistaken_for: BTreeMap::new(),
+        by_places: false,
     };
     let unmoved = whole.setting.unmoved().into_iter().map(|place| {
         hidden(assembly_name(whole.setting.body_name(place.body), place.role, place.freedom), place)
@@ -112,13 +134,48 @@ pub(crate) fn not_shown(whole: &Context<'_>, last: &Round<'_>, rms: &[BeforeAfte
         let hides = |smallest: f64| left.is_none_or(|left| smallest > left);
         if smallest.is_none_or(hides) {
             let absorbed = 1.0 - problem.visible(number);
-            let mistaken_for = mistaken_for(whole, last, number);
-            list.push(NotShown { smallest, absorbed, mistaken_for, ..unseen });
+            let mut mistaken_for = mistaken_for(whole, last, number);
+            let by_places = moves.as_ref().is_some_and(|moves| moves.take_out(number, &mut mistaken_for));
+            list.push(NotShown { smallest, absorbed, mistaken_for, by_places, ..unseen });
         }
     }
     let mut told = std::collections::BTreeSet::new();
     list.retain(|effect| told.insert(effect.name.clone()));
-    list
+    Ok(list)
+}
+
+/// How far the points that are observed move, root of the sum of squares over rows of the search, by a unit of each declared error and
+/// of each effect.
+struct Moves {
+    declared: BTreeMap<String, f64>,
+    effects: Vec<f64>,
+}
+
+impl Moves {
+    fn of(whole: &Context<'_>, last: &Round<'_>) -> Result<Self, SearchError> {
+        let Fitted { chain, fit, probed, .. } = &last.fitted;
+        let poses = last.search.rows.observations.poses.bare();
+        let columns = probed.columns_at(&poses)?;
+        let (effects, _) = columns.of_part(chain, &whole.catalogue, &poses, &fit.values, |_| true);
+        let errors = declared(whole).iter().zip(columns.declared.col_iter());
+        let squares = |column: &Vec<f64>| column.iter().map(|moved| moved * moved).sum::<f64>();
+        Ok(Self {
+            declared: errors.map(|(&id, column)| (chain.symbol(id).name.clone(), column.norm_l2())).collect(),
+            effects: effects.iter().map(|own| own.iter().map(squares).sum::<f64>().sqrt()).collect(),
+        })
+    }
+
+    /// Takes errors out that would take hardly any of an effect; whether that leaves most of it to objects and stations.
+    fn take_out(&self, effect: EffectId, mistaken_for: &mut BTreeMap<String, f64>) -> bool {
+        let whole = self.effects[effect.0];
+        let share = |name: &String, shift: f64| {
+            let unit = self.declared.get(name).copied().unwrap_or_default();
+            if whole > 0.0 { shift * unit / whole } else { 0.0 }
+        };
+        mistaken_for.retain(|name, shift| share(name, *shift) >= TAKEN);
+        let together: f64 = mistaken_for.iter().map(|(name, shift)| share(name, *shift).powi(2)).sum();
+        together.sqrt() < MOST
+    }
 }
 
 /// Whether the declaration has this very effect: an error of its own for each function, at the same place.

@@ -104,6 +104,18 @@ pub enum Misreading {
     },
 }
 
+impl Misreading {
+    /// Whether everything would be as many times as large without it: residuals are too, and say nothing by their size alone.
+    pub(super) fn changes_size(&self) -> bool {
+        let is_length = |unit: &&str| LENGTHS.iter().any(|(_, own)| own == unit);
+        match self {
+            Self::PlacesUnit { .. } => true,
+            Self::Unit { unit, .. } | Self::UnitAt { unit, .. } => is_length(unit),
+            _ => false,
+        }
+    }
+}
+
 /// Joints and inputs with their readings.
 pub(super) type Readings = Vec<(SymbolId, Vec<f64>)>;
 
@@ -187,7 +199,7 @@ fn each_heading(unknowns: &mut Unknowns, change: impl Fn(f64) -> f64) {
 }
 
 fn of_readings(chain: &Chain, sample: &Observations) -> Vec<(Misreading, Undo)> {
-    let joints = angles(chain, sample);
+    let [joints, shifts] = [Quantity::Angle, Quantity::Length].map(|of| joints(chain, sample, of));
     let name = |id: SymbolId| chain.symbol(id).name.clone();
     let mapped = |ids: Vec<SymbolId>, change: fn(f64, f64) -> f64, by: f64| {
         Undo::Readings(Box::new(move |columns| {
@@ -197,9 +209,9 @@ fn of_readings(chain: &Chain, sample: &Observations) -> Vec<(Misreading, Undo)> 
     };
     let scaled = |value: f64, factor: f64| value * factor;
     let mut all = Vec::new();
-    let tried = if joints.len() > JOINTS { &[][..] } else { &joints[..] };
-    for pair in tried.windows(2) {
-        let (one, other) = (pair[0], pair[1]);
+    let few = |joints: &'_ [SymbolId]| if joints.len() > JOINTS { Vec::new() } else { joints.to_vec() };
+    let (tried, tried_shifts) = (few(&joints), few(&shifts));
+    for [one, other] in pairs(&tried).chain(pairs(&tried_shifts)) {
         let exchange = move |columns: &mut Readings| {
             let at = |wanted| columns.iter().position(|(id, _)| *id == wanted);
             if let (Some(a), Some(b)) = (at(one), at(other)) {
@@ -210,48 +222,66 @@ fn of_readings(chain: &Chain, sample: &Observations) -> Vec<(Misreading, Undo)> 
         let joints = [name(one), name(other)];
         all.push((Misreading::Exchanged { joints }, Undo::Readings(Box::new(exchange))));
     }
-    for &id in tried {
+    for &id in &tried_shifts {
+        all.push((Misreading::Reversed { joint: name(id) }, mapped(vec![id], scaled, -1.0)));
+    }
+    for &id in &tried {
         all.push((Misreading::Reversed { joint: name(id) }, mapped(vec![id], scaled, -1.0)));
         let from_zenith = mapped(vec![id], |value, by| by - value, FRAC_PI_2);
         all.push((Misreading::FromZenith { joint: name(id) }, from_zenith));
     }
-    for &id in tried {
+    for &id in &tried {
         for quarters in [1, -1, 2] {
             let turned = mapped(vec![id], |value, by| value + by, f64::from(quarters) * FRAC_PI_2);
             all.push((Misreading::Turned { joint: name(id), by_deg: 90 * quarters }, turned));
         }
     }
-    let alone = tried.iter().filter(|_| joints.len() > 1).map(|&id| vec![id]);
-    for ids in std::iter::once(joints.clone()).chain(alone).filter(|ids| !ids.is_empty()) {
-        for (factor, unit) in ANGLES {
+    // All together, and each alone.
+    let sets = |all: Vec<SymbolId>, tried: &[SymbolId]| {
+        let alone: Vec<Vec<SymbolId>> = tried.iter().filter(|_| all.len() > 1).map(|&id| vec![id]).collect();
+        std::iter::once(all).chain(alone).filter(|ids| !ids.is_empty())
+    };
+    let of_angles = sets(joints, &tried).map(|ids| (ids, ANGLES));
+    let of_lengths =
+        range(chain, sample).map(|range| vec![range]).into_iter().chain(sets(shifts, &tried_shifts));
+    for (ids, units) in of_angles.chain(of_lengths.map(|ids| (ids, LENGTHS))) {
+        for (factor, unit) in units {
             let readings = ids.iter().map(|&id| name(id)).collect();
             all.push((Misreading::Unit { readings, unit }, mapped(ids.clone(), scaled, factor)));
-        }
-    }
-    let mut ranges: Vec<SymbolId> =
-        sample.poses.series.iter().filter_map(|series| range_of(chain, series.observable)).collect();
-    ranges.sort_unstable();
-    ranges.dedup();
-    if let [range] = ranges[..] {
-        for (factor, unit) in LENGTHS {
-            let readings = vec![name(range)];
-            all.push((Misreading::Unit { readings, unit }, mapped(vec![range], scaled, factor)));
         }
     }
     all
 }
 
+/// Every two of some joints.
+fn pairs(joints: &[SymbolId]) -> impl Iterator<Item = [SymbolId; 2]> {
+    joints.iter().enumerate().flat_map(|(at, &one)| joints[at + 1..].iter().map(move |&other| [one, other]))
+}
+
+/// The range that rows are measured with, where there is one.
+pub(super) fn range(chain: &Chain, sample: &Observations) -> Option<SymbolId> {
+    let mut ranges: Vec<SymbolId> =
+        sample.poses.series.iter().filter_map(|series| range_of(chain, series.observable)).collect();
+    ranges.sort_unstable();
+    ranges.dedup();
+    if let [range] = ranges[..] { Some(range) } else { None }
+}
+
 /// The rows of one station in another unit than those of the others.
 fn of_stations(chain: &Chain, sample: &Observations) -> Vec<(Misreading, Undo)> {
-    let (Some(unknowns), ids) = (&sample.unknowns, angles(chain, sample)) else { return Vec::new() };
+    let Some(unknowns) = &sample.unknowns else { return Vec::new() };
+    let ranges = range(chain, sample).into_iter().collect();
+    let read = [(joints(chain, sample, Quantity::Angle), ANGLES), (ranges, LENGTHS)];
     let mut all = Vec::new();
     let labels = unknowns.stations.iter().map(|own| &own.label);
     for (at, label) in labels.enumerate().filter(|(_, label)| !label.is_empty()).take(STATIONS) {
         let is_own: Vec<bool> = unknowns.station.iter().map(|&own| own as usize == at).collect();
-        if ids.is_empty() || !is_own.contains(&true) || !is_own.contains(&false) {
+        if !is_own.contains(&true) || !is_own.contains(&false) {
             continue;
         }
-        for (factor, unit) in ANGLES {
+        let units = read.iter().filter(|(ids, _)| !ids.is_empty());
+        for (ids, (factor, unit)) in units.flat_map(|(ids, units)| units.iter().map(move |unit| (ids, *unit)))
+        {
             let readings = ids.iter().map(|&id| chain.symbol(id).name.clone()).collect();
             let (ids, is_own) = (ids.clone(), is_own.clone());
             let undo = move |columns: &mut Readings| {
@@ -267,11 +297,11 @@ fn of_stations(chain: &Chain, sample: &Observations) -> Vec<(Misreading, Undo)> 
     all
 }
 
-/// The joints that turn and are read.
-fn angles(chain: &Chain, sample: &Observations) -> Vec<SymbolId> {
-    let is_angle = |id: &SymbolId| {
+/// The joints that turn, or those that shift, and are read.
+fn joints(chain: &Chain, sample: &Observations, of: Quantity) -> Vec<SymbolId> {
+    let is_one = |id: &SymbolId| {
         let symbol = chain.symbol(*id);
-        symbol.kind == SymbolKind::Joint && symbol.quantity == Quantity::Angle
+        symbol.kind == SymbolKind::Joint && symbol.quantity == of
     };
-    sample.poses.columns.iter().map(|(id, _)| *id).filter(is_angle).collect()
+    sample.poses.columns.iter().map(|(id, _)| *id).filter(is_one).collect()
 }

@@ -392,7 +392,7 @@ impl Found {
             by_cause: ByCause::of(whole, last, &others),
             effects,
             remaining: Some(remaining::remaining(whole, last)?),
-            not_shown: detectability::not_shown(whole, last, &confirmed.rms),
+            not_shown: detectability::not_shown(whole, last, &confirmed.rms)?,
             search: Some(Searching {
                 candidates: whole.catalogue.len(),
                 sets: last.sets.len(),

@@ -5,7 +5,7 @@ use model_core::{Quantity, SymbolId};
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use super::mistakes::{Misreading, Undo, mistakes};
+use super::mistakes::{Misreading, Undo, mistakes, range};
 use crate::data::unknowns::{Station, Unknowns};
 use crate::data::{Observations, SiUnit};
 use crate::fit::noise::{Layout, NoiseOptions};
@@ -67,8 +67,11 @@ pub(super) fn otherwise(whole: &Context<'_>, doubt: Doubt) -> Option<Otherwise> 
     let sample = sample(whole.request.observations);
     let placed = placed(whole, &sample, None)?;
     let (from, before) = (placed.relative, left_by(whole, &placed.observations)?);
-    let explains = |left: &Left| match doubt {
-        Doubt::Residual => left.relative() <= LEFT * before.relative(),
+    let explains = |mistake: &Misreading, left: &Left| match doubt {
+        Doubt::Residual => {
+            left.relative() <= LEFT * before.relative()
+                && (mistake.changes_size() || left.rms <= LEFT * before.rms)
+        }
         Doubt::Error => left.largest_rad < SMALL_RAD && left.rms <= HARDLY_LARGER * before.rms,
     };
     // Where everything starts tells most of them apart, in no time; few are fitted.
@@ -84,7 +87,8 @@ pub(super) fn otherwise(whole: &Context<'_>, doubt: Doubt) -> Option<Otherwise> 
     let mut found: Vec<(Misreading, Left)> = Vec::new();
     for (_, mistake, placed) in starts {
         let left = left_by(whole, &placed.observations);
-        found.extend(left.filter(explains).map(|left| (mistake, left)));
+        let left = left.filter(|left| explains(&mistake, left));
+        found.extend(left.map(|left| (mistake, left)));
     }
     // Counted from elsewhere, a joint that runs the other way is no more than that.
     let reversed = |one: &Misreading| match one {
@@ -118,8 +122,8 @@ pub(super) fn sample(observations: &Observations) -> Observations {
 pub(super) struct Left {
     /// RMS without the rows furthest off, SI.
     pub rms: f64,
-    /// How far apart what is observed lies, m.
-    spread_m: f64,
+    /// How large things are, m.
+    size_m: f64,
     /// The largest error that is an angle, rad.
     largest_rad: f64,
     /// Where objects and stations come out.
@@ -127,10 +131,10 @@ pub(super) struct Left {
 }
 
 impl Left {
-    /// In units of how far apart things lie: a room that is read a thousand times as large has residuals a thousand times as large, and
+    /// In units of how large things are: a room that is read a thousand times as large has residuals a thousand times as large, and
     /// joints that hardly move reach hardly more than one point.
     fn relative(&self) -> f64 {
-        self.rms / self.spread_m
+        self.rms / self.size_m
     }
 }
 
@@ -139,7 +143,7 @@ pub(super) struct Placed {
     pub observations: Observations,
     /// Where the study writes that stations stood.
     pub written: Vec<Station>,
-    /// What is left at the start, in units of how far apart things lie.
+    /// What is left at the start, in units of how large things are.
     relative: f64,
 }
 
@@ -170,7 +174,7 @@ pub(super) fn placed(whole: &Context<'_>, sample: &Observations, undo: Option<&U
     values.resize(plan.chain.symbols.len() + numbers, 0.0);
     let model = Model::without_columns(&plan.chain, &observations.poses);
     let raw = residuals(&model, &observations, &values).ok()?;
-    let relative = trimmed_rms(&observations, &raw)? / spread_m(whole, &observations, &values)?;
+    let relative = trimmed_rms(&observations, &raw)? / size_m(whole, &observations, &values)?;
     Some(Placed { observations, written, relative })
 }
 
@@ -186,18 +190,22 @@ pub(super) fn left_by(whole: &Context<'_>, observations: &Observations) -> Optio
     let angles = fit.parameters.iter().filter(is_angle).map(|id| fit.values[id.index()].abs());
     Some(Left {
         rms: trimmed_rms(observations, &fit.residuals.raw)?,
-        spread_m: spread_m(whole, observations, &fit.values)?,
+        size_m: size_m(whole, observations, &fit.values)?,
         largest_rad: angles.fold(0.0, f64::max),
         there: unknowns.at(&fit.values[plan.chain.symbols.len()..]),
     })
 }
 
-/// How far what is observed usually lies from the middle of all, as the chain has it, m.
-fn spread_m(whole: &Context<'_>, observations: &Observations, values: &[f64]) -> Option<f64> {
+/// How large things are, m: how far what is observed usually lies from the middle of all, as the chain has it, or how long ranges are where
+/// they are shorter. One coordinate that is read as too large makes the whole room large.
+fn size_m(whole: &Context<'_>, observations: &Observations, values: &[f64]) -> Option<f64> {
     let points = rows(&whole.request.plan.chain, observations, observations.unknowns.as_ref()?, values);
     let middle = points.iter().map(|row| row.point).sum::<Vector3<f64>>() / points.len() as f64;
     let spread = robust::median(points.iter().map(|row| (row.point - middle).norm()).collect());
-    (spread > 0.0).then_some(spread)
+    let range = range(&whole.request.plan.chain, observations);
+    let ranges = observations.poses.columns.iter().find(|(id, _)| Some(*id) == range);
+    let size = ranges.map_or(spread, |(_, own)| robust::median(own.clone()).abs().min(spread));
+    (size > 0.0).then_some(size)
 }
 
 /// RMS of the residual without the rows furthest off, SI; `None` where more have none.

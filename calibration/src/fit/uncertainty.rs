@@ -116,9 +116,13 @@ impl Solver<'_> {
             }
             let of_component = self.layout.row_of_each().map(|row| row % SETS_OF_ROWS).collect();
             let sets = Buckets { of_component, count: SETS_OF_ROWS };
-            let clusters = Clusters::new(shares(&q, &residual, &sets));
-            let beside = of_stated.map(taken_at_their_word).into_iter().collect();
-            Spread::Groups { factor: tally.stride().powi(2), clusters, beside }
+            let squares: f64 = residual.iter().map(|value| value * value).sum();
+            let (clusters, taken) =
+                Clusters::of_independent(shares(&q, &residual, &sets), squares / (kept - q.ncols() as f64));
+            let factor = tally.stride().powi(2);
+            let taken = (taken * faer::Scale(factor), left);
+            let beside = of_stated.map(taken_at_their_word).into_iter().chain([taken]).collect();
+            Spread::Groups { factor, clusters, beside }
         } else if left < MANY && self.layout.kinds > 1 {
             let pools = Pools::of(self.observations, &self.layout, self.used(course));
             let of_component = self.layout.kind_of_each().map(|kind| pools.of_kind[kind]).collect();

@@ -8,7 +8,7 @@ use thiserror::Error;
 const SHOWN: usize = 60;
 
 /// The start of a text, as a message shows it.
-pub(super) fn clipped(text: &str) -> String {
+pub(crate) fn clipped(text: &str) -> String {
     match text.char_indices().nth(SHOWN) {
         Some((end, _)) => format!("{}…", text.get(..end).unwrap_or_default()),
         None => text.to_owned(),

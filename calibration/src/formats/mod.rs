@@ -33,7 +33,7 @@ use std::borrow::Cow;
 use std::io::Read;
 
 pub(crate) use decimal::numbers;
-use error::clipped;
+pub(crate) use error::clipped;
 pub use error::{Cell, DataError};
 pub use header::{ColumnName, ReadAs, declared_columns, find_column, find_reading};
 pub use input::{Extent, Input, InputFile};

@@ -18,20 +18,27 @@ use crate::fit::{align_robustly, robust};
 const FAR: f64 = 0.5;
 const NEARER: f64 = 0.1;
 
+/// Stations that a message names.
+const NAMED: usize = 6;
+
 /// Why there is nowhere to start from.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum StartError {
     /// Nothing says where a station stood.
     #[error(
-        "nothing says where station `{station}` stood: it shares {shared} targets that say where they are with stations and objects \
+        "nothing says where station `{station}` stood: it shares {shared} of the targets that say where they are with stations and objects \
          that are known, and three that are not in a line are needed (walls and directions do not say it); observe more of the \
-         others' targets from it, or write where it stood, roughly: [stations] {station} = {{ x = \"1.2 m\", y = \"0 m\", z = \"0.3 m\", heading = \"30 deg\", rough = true }}"
+         others' targets from it, or write roughly where {unstated} stood{}: [stations] {station} = {{ x = \"1.2 m\", y = \"0 m\", \
+         z = \"0.3 m\", heading = \"30 deg\", rough = true }}",
+        if unstated.contains('`') { ", all in one frame" } else { "" }
     )]
     NotConnected {
         /// Its label.
         station: String,
         /// Targets that it shares with those that are placed.
         shared: usize,
+        /// The stations of which the study does not say where they stood: one frame holds all or none.
+        unstated: String,
     },
     /// An object's rows do not say where it is.
     #[error("the {rows} rows of `{object}` do not say where it is: {help}")]
@@ -172,6 +179,7 @@ fn place_stations(unknowns: &mut Unknowns, rows: &[Row]) -> Result<(), StartErro
     let (stations, objects) = (unknowns.stations.len(), unknowns.objects.len());
     // The mean of what each station sees of each target, in its own frame.
     let mut sums = vec![vec![(Vector3::zeros(), 0.0); objects]; stations];
+    let unstated = unstated(unknowns);
     for row in rows.iter().filter(|row| tells(row)) {
         let (sum, count) = &mut sums[row.station][row.object];
         *sum += row.point;
@@ -215,7 +223,7 @@ fn place_stations(unknowns: &mut Unknowns, rows: &[Row]) -> Result<(), StartErro
         let most = (0..stations).max_by_key(watched).unwrap_or(0);
         unknowns.stations[most].known = Known::Yes;
         take_over(unknowns, &mut there, &seen, most);
-        place_by_shared(unknowns, &mut there, &seen)?;
+        place_by_shared(unknowns, &mut there, &seen, &unstated)?;
         let (from, to): (Vec<_>, Vec<_>) =
             there.iter().zip(&known).filter_map(|(from, to)| Some(((*from)?, (*to)?))).unzip();
         let moved = onto(&from, &to);
@@ -225,7 +233,7 @@ fn place_stations(unknowns: &mut Unknowns, rows: &[Row]) -> Result<(), StartErro
         }
         return Ok(());
     }
-    place_by_shared(unknowns, &mut there, &seen)
+    place_by_shared(unknowns, &mut there, &seen, &unstated)
 }
 
 /// Where a station stood by the targets that it shares with those before it, if that is nowhere near the rough pose that was written:
@@ -261,6 +269,7 @@ fn place_by_shared(
     unknowns: &mut Unknowns,
     there: &mut [Option<Vector3<f64>>],
     seen: &impl Fn(usize, usize) -> Option<Vector3<f64>>,
+    unstated: &str,
 ) -> Result<(), StartError> {
     let (stations, objects) = (unknowns.stations.len(), there.len());
     let is_placed = |unknowns: &Unknowns, at: usize| unknowns.stations[at].known == Known::Yes;
@@ -279,7 +288,7 @@ fn place_by_shared(
         let laid = if is_in_a_line(&from) { None } else { align_robustly(&from, &to) };
         let label = || unknowns.stations[station].label.clone();
         let Some((turn, shift)) = laid else {
-            return Err(StartError::NotConnected { station: label(), shared });
+            return Err(StartError::NotConnected { station: label(), shared, unstated: unstated.to_owned() });
         };
         let own = &mut unknowns.stations[station];
         own.pose = Pose { turn: Rotation3::from_matrix_unchecked(turn), shift };
@@ -287,6 +296,17 @@ fn place_by_shared(
         take_over(unknowns, there, seen, station);
     }
     Ok(())
+}
+
+/// The stations of which a study says nothing, the first of many.
+fn unstated(unknowns: &Unknowns) -> String {
+    let own = unknowns.stations.iter().filter(|own| !own.label.is_empty() && !own.is_written());
+    let labels: Vec<String> = own.map(|station| format!("`{}`", station.label)).collect();
+    match labels.as_slice() {
+        [_] | [] => "it".to_owned(),
+        few if few.len() <= NAMED => few.join(", "),
+        many => format!("{} and {} more", many[..NAMED].join(", "), many.len() - NAMED),
+    }
 }
 
 /// Objects that nothing placed yet are where a station that is placed sees them.

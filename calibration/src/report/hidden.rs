@@ -20,7 +20,9 @@ pub fn fate(effect: &NotShown) -> String {
         return "moves nothing that was observed".to_owned();
     }
     let names: Vec<&str> = largest(&effect.mistaken_for).into_iter().map(|(name, _)| name).collect();
-    let taken = if names.is_empty() { "declared errors".to_owned() } else { names.join(", ") };
+    let places = effect.by_places.then_some("the places of objects and stations");
+    let taken = names.into_iter().chain(places).collect::<Vec<_>>().join(", ");
+    let taken = if taken.is_empty() { "declared errors" } else { &taken };
     match effect.smallest {
         None => format!("invisible here: it would be counted as {taken}"),
         Some(_) => format!("{:.0} % of it would be counted as {taken}", 100.0 * effect.absorbed),

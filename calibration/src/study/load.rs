@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 
 use super::columns::Columns;
 use super::labels::{Numbered, number};
+use super::order::not_understood;
 use super::orientation::UNIT_TOLERANCE;
 use super::plan::{Plan, Reading, SourcePlan};
 use super::ranges::check_ranges;
@@ -16,7 +17,7 @@ use crate::data::orientation::Turned;
 use crate::data::units::BareColumn;
 use crate::data::unknowns::{Shape, Station, Unknowns};
 use crate::data::{Measured, Observations, Series, direction_from_offset, direction_from_spherical};
-use crate::formats::{self, DataError, Input, TableReader};
+use crate::formats::{self, DataError, Input, TableReader, clipped};
 use crate::objects::{Remark, StartError, check_named, check_scale, place};
 
 /// Opens a data file of a study by its path as the study writes it.
@@ -122,9 +123,15 @@ impl Plan {
         if rows.row_numbers.is_empty() {
             return Err(DataError::NoRows { file });
         }
-        if self.order.is_some() {
+        if let Some(order) = &self.order {
             // The column of the order is the last label.
-            rows.sort_by_label(columns.labels.len() - 1);
+            let at = columns.labels.len() - 1;
+            if let Some((row, why)) = not_understood(&rows.labels[at]) {
+                let (line, row_number) = (rows.places.line(row), rows.number(row));
+                let why = format!("column `{order}`: `{}` {why}", clipped(&rows.labels[at][row]));
+                return Err(DataError::Impossible { file, line, row: row_number, why });
+            }
+            rows.sort_by_label(at);
         }
         let converted = columns.readings.iter().filter(|(_, at)| !rows.in_si[*at]).map(|(id, _)| *id);
         all.converted.extend(converted);

@@ -18,6 +18,53 @@ pub(super) fn order_of(labels: &[String]) -> Vec<usize> {
     order
 }
 
+/// The first label that is a point in time in a way that is not understood, and why, where names would be all that is left to go by:
+/// `31.01.2026` comes behind `01.02.2026` then.
+pub(super) fn not_understood(labels: &[String]) -> Option<(usize, &'static str)> {
+    if numbers(labels).is_some() || moments(labels).is_some() {
+        return None;
+    }
+    if labels.iter().all(|label| moment(label).is_some()) {
+        let bare = labels.iter().position(|label| moment(label).is_some_and(|moment| !moment.has_zone));
+        return bare.map(|row| {
+            (row, "says nothing of its zone, while other rows do: write it everywhere, or nowhere")
+        });
+    }
+    let row = labels.iter().position(|label| moment(label).is_none() && looks_like_time(label))?;
+    Some((row, "is a point in time that is not understood: write it as 2026-01-31T18:01:00"))
+}
+
+/// Whether a text has a date that does not begin with the year, a month by its name, or a clock of twelve hours.
+fn looks_like_time(label: &str) -> bool {
+    const MONTHS: [&str; 12] =
+        ["jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec"];
+    let lower = label.trim().to_ascii_lowercase();
+    let words: Vec<&str> = lower.split(|letter: char| !letter.is_alphanumeric()).collect();
+    let digits = |word: &&str| !word.is_empty() && word.bytes().all(|letter| letter.is_ascii_digit());
+    let is_month = |word: &&str| {
+        word.get(..3).is_some_and(|start| MONTHS.contains(&start)) && !word.contains(char::is_numeric)
+    };
+    let of_twelve = ["am", "pm"].iter().any(|half| {
+        lower
+            .strip_suffix(half)
+            .is_some_and(|clock| clock.trim_end().ends_with(|last: char| last.is_ascii_digit()))
+    });
+    let by_numbers = match words[..] {
+        [day, month, year, ..] => {
+            let is_date = [day, month, year].iter().all(|word| digits(word))
+                && day.len() <= 2
+                && month.len() <= 2
+                && (year.len() == 4 || [day, month, year].iter().all(|word| word.len() == 2));
+            // Not where blanks or colons part them.
+            is_date && lower[day.len()..].starts_with(['.', '/', '-'])
+        }
+        _ => false,
+    };
+    let by_name =
+        words.iter().any(|word| is_month(word)) && words.iter().filter(|word| digits(word)).count() >= 2;
+    by_numbers || by_name || of_twelve
+}
+
 /// A point in time.
 struct Moment {
     /// Since the year 1970 began, of what the label says of the zone.
@@ -175,6 +222,37 @@ mod tests {
         ] {
             assert_eq!(of(wrong), None, "{wrong}");
         }
+    }
+
+    #[test]
+    fn points_in_time_that_are_not_understood_are_not_names() {
+        let of = |labels: &[&str]| {
+            not_understood(&labels.iter().map(|label| (*label).to_owned()).collect::<Vec<_>>())
+                .map(|(row, _)| row)
+        };
+        for wrong in [
+            "31.01.2026 18:01",
+            "31/01/2026",
+            "1/31/2026",
+            "31-01-26",
+            "31-Jan-2026",
+            "31 January 2026 18:01:02",
+            "Jan 31, 2026",
+            "Sat Jan 31 18:01:00 2026",
+            "06:15:00 PM",
+            "2026-01-31 06:15 pm",
+        ] {
+            assert_eq!(of(&["2026-01-30T18:01", wrong]), Some(1), "{wrong}");
+            assert_eq!(of(&[wrong, wrong]), Some(0), "{wrong}");
+        }
+        assert_eq!(of(&["2026-10-25T02:30:00Z", "2026-10-25T02:30:00"]), Some(1));
+        for right in
+            ["IMG_2", "1.2.3", "run 2 row 11", "march", "2026/01/31", "a.m.", "May 3", "exam", "12:30:15", ""]
+        {
+            assert_eq!(of(&["x", right]), None, "{right}");
+        }
+        assert_eq!(of(&["2026-10-25T02:30:00", "2026-10-25"]), None);
+        assert_eq!(of(&["1", "2.5"]), None);
     }
 
     #[test]

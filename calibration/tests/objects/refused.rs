@@ -24,7 +24,10 @@ fn a_station_that_nothing_connects_is_named() {
     });
     let told = refused(&text_of("examples/objects/targets.toml"), &data);
     assert!(
-        told.contains("station `C`") && told.contains("shares 2 targets") && told.contains("rough = true"),
+        told.contains("station `C`")
+            && told.contains("shares 2 of the targets")
+            && told.contains("`A`, `B`, `C`, `D` stood, all in one frame")
+            && told.contains("rough = true"),
         "{told}"
     );
 }

@@ -145,8 +145,8 @@ fn a_single_length_has_the_noise_of_the_ranges() {
     assert!(chain.contains("range_scale"), "{chain}");
     let errors: Vec<&str> = ERRORS.into_iter().chain(["range_scale"]).collect();
     for (count, stated) in [(1, false), (1, true), (5, false), (5, true)] {
-        let mut pulls = 0.0;
-        let runs = 6;
+        let (mut pulls, mut of_scale) = (0.0, 0.0);
+        let runs = 12;
         for run in 0..runs {
             let random = &mut Noise(31 + 1013 * run);
             let (rows, places) = targets(random);
@@ -181,11 +181,14 @@ fn a_single_length_has_the_noise_of_the_ranges() {
                 assert!(value.abs() < 5.0 * sure, "{count} {stated}, run {run}, {name}: {value} ± {sure}");
             }
             // Of a length of twenty metres, half a millimetre at best.
-            let scale = estimates(&plan, &found, &["range_scale"])[0][1];
+            let [value, scale] = estimates(&plan, &found, &["range_scale"])[0];
             assert!((3e-6..1e-4).contains(&scale), "{count} {stated}, run {run}: {scale}");
+            of_scale += (value / scale).powi(2);
         }
-        // Chi-squared of 42 is within these in 999 of 1000 cases.
-        assert!((16.0..85.0).contains(&pulls), "{count} {stated}: {pulls}");
+        // Chi-squared of 84 and of 12 are within these in 999 of 1000 cases each.
+        assert!((48.0..131.0).contains(&pulls), "{count} {stated}: {pulls}");
+        assert!((2.0..33.0).contains(&of_scale), "{count} {stated}: {of_scale}");
+        println!("{count} {stated}: {pulls} {of_scale}");
     }
 }
 

@@ -14,7 +14,7 @@ import numpy as np
 from . import _native
 from ._chain import Chain, require_chain
 from ._errors import TrueaxisError, kept_warnings
-from ._files import batches, files_of, opened, place_of
+from ._files import batches, files_of, opened, told_by_file
 from ._inputs import Errors, errors_and_ranges, names
 from ._tables import Table, columns_of, with_columns
 from ._workers import require_version, workers
@@ -97,8 +97,9 @@ def _apply_file(task: tuple) -> tuple[str, int, list]:
     rows, outside, writer = 0, [], None
     try:
         for first, table in batches(source):
-            place = place_of(source, first)
-            added, replaced, counted = _native.apply(chain._native, (place, columns_of(table, chain._native)), known, observables)
+            rows_there = (source, columns_of(table, chain._native))
+            with told_by_file(source, lambda row: (source, first + row)):
+                added, replaced, counted = _native.apply(chain._native, rows_there, known, observables)
             outside.append(counted)
             corrected = with_columns(table, dict(added), replaced)
             if writer is None:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+import re
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ._errors import TrueaxisError, warn
+from ._errors import MistakeError, TrueaxisError, warn
 
 if TYPE_CHECKING:
     import pyarrow
@@ -113,6 +114,17 @@ def batches(file: str) -> Iterator[tuple[int, pyarrow.Table]]:
             first += batch.num_rows
 
 
-def place_of(file: str, row: int) -> str:
-    """A file and where in it a chunk begins: rows in messages are counted from there."""
-    return f"{file}, behind row {row}" if row else file
+@contextmanager
+def told_by_file(name: str, place_of: Callable[[int], tuple[str, int]]) -> Iterator[None]:
+    """Tells what is wrong with a row of a table of that name by its file, and by its number there: ``place_of`` says both of a row. Rows are
+    counted from 1."""
+    try:
+        yield
+    except MistakeError:
+        raise
+    except TrueaxisError as error:
+        row = re.match(rf"{re.escape(name)}: row (\d+)", str(error))
+        if row is None:
+            raise
+        file, number = place_of(int(row[1]))
+        raise TrueaxisError(f"{file}: row {number}{str(error)[row.end() :]}") from None

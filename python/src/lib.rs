@@ -37,6 +37,7 @@ mod _native {
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         forked::loaded();
+        arrays::loaded(module.py())?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

@@ -278,6 +278,7 @@ impl Chain {
         let asked = asked.map_err(fails)?;
 
         let array = evaluating::result(py, out.as_ref(), &asked.shape(chain), readings_are_numbers)?;
+        asked.require_apart(&array)?;
         let mut writable = evaluating::writable(&array)?;
         let into = writable.as_slice_mut()?;
         match compiled {

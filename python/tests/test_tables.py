@@ -69,6 +69,8 @@ def test_what_is_wrong_with_a_table_is_named_with_its_place(mount):
         ({"azimuth": np.zeros((2, 2)), "elevation": good}, "column `azimuth` holds 2 dimensions: give one number or text a row"),
         ({"azimuth": np.zeros(2, dtype=complex), "elevation": good}, "column `azimuth` holds complex128"),
         ({"azimuth": [True, False], "elevation": good}, "column `azimuth` holds truth values: give numbers"),
+        ({"azimuth": [10**400, 1], "elevation": good}, "column `azimuth` holds whole numbers larger than any that is calculated with"),
+        ({"azimuth \udc80": good, "elevation": good}, "the name of a column: the letter '.udc80' at 8 is none"),
         ({"azimuth": np.array([1, 2], "m8[s]"), "elevation": good}, "column `azimuth` holds durations: give numbers, of seconds by"),
         ({"azimuth": [datetime.timedelta(1)] * 2, "elevation": good}, "column `azimuth` holds durations"),
         (pyarrow.table({"azimuth": [b"\xff", b"x"], "elevation": good}), "column `azimuth` holds bytes that are no text"),

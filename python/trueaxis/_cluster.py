@@ -15,7 +15,7 @@ from . import _native
 from ._chain import Chain, require_chain
 from ._errors import TrueaxisError, kept_warnings
 from ._files import batches, files_of, opened, told_by_file
-from ._inputs import Errors, errors_and_ranges, names
+from ._inputs import Errors, errors_and_ranges, names, path_of
 from ._tables import Table, columns_of, with_columns
 from ._workers import require_version, workers
 
@@ -48,7 +48,7 @@ def apply(
     """
     require_chain(chain)
     files = files_of(source, [".parquet"], told_apart=True)
-    target = Path(out).absolute()
+    target = Path(path_of("out", out)).absolute()
     if target.exists():
         raise TrueaxisError(f"`{out}` is there already: name a folder that is not")
     if not target.parent.is_dir():

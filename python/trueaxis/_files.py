@@ -10,6 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ._errors import MistakeError, TrueaxisError, warn
+from ._inputs import path_of
+from ._tables import is_frame
 
 if TYPE_CHECKING:
     import pyarrow
@@ -27,9 +29,10 @@ def files_of(source: Any, kinds: list[str], *, told_apart: bool = False) -> list
         path = Path(source)
         files = _files_in(path, kinds) if path.is_dir() else [path]
     else:
-        if not isinstance(source, Iterable):
-            raise TypeError(f"files: give a folder, a path or a list of paths, not a {type(source).__name__}")
-        files = [Path(file) for file in source]
+        if is_frame(source) or isinstance(source, bytes) or not isinstance(source, Iterable):
+            instead = "; Chain.apply and calibrate take tables in memory" if is_frame(source) else ""
+            raise TypeError(f"files: give a folder, a path or a list of paths, not a {type(source).__name__}{instead}")
+        files = [Path(path_of("files", file)) for file in source]
         if not files:
             raise TrueaxisError("no files are given")
     seen: set[Path] = set()

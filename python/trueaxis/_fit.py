@@ -14,7 +14,7 @@ from ._chain import Chain, require_chain
 from ._drawn import counted, rows_drawn
 from ._errors import TrueaxisError, warn
 from ._files import batches, files_of, kind_of, told_by_file
-from ._inputs import Found
+from ._inputs import Found, path_of, text_of
 from ._tables import Columns, Table, columns_of
 from ._workers import Each, require_version, workers
 
@@ -129,9 +129,9 @@ def fit(
     """
     if chain is not None:
         require_chain(chain)
+    texts = (path_of("study", study), None if text is None else text_of("text", text))
     files = [str(file) for file in files_of(data, [".parquet", ".csv"])]
     declaration = None if chain is None else (chain._native.origin, chain.text)
-    texts = (os.fspath(study), text)
     with workers(client) as each:
         # Files of separated values are read where the fit is; of both kinds together Parquet files say where it begins, if they can.
         separated = [file for file in files if kind_of(file) != ".parquet"]

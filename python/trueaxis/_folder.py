@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 def calibrate_folder(
-    study: str | os.PathLike[str],
+    study: str,
     data: Any,
     text: str | None,
     chain: Chain | None,
@@ -40,7 +40,7 @@ def calibrate_folder(
     seed = whole("seed", seed, 64)
     tell = progress or (lambda _: None)
     files = [str(file) for file in files_of(data, [".parquet"])]
-    resolved = _native.Study(os.fspath(study), text, None if chain is None else chain._native)
+    resolved = _native.Study(study, text, None if chain is None else chain._native)
     if len(resolved.tables) != 1:
         listed = ", ".join(f"`{name}`" for name in resolved.tables)
         raise TrueaxisError(f"the files of a folder stand for the one table that a study names; this one names {listed}")
@@ -55,8 +55,8 @@ def calibrate_folder(
         drawn = rows_drawn(each, files, stretches)
         name, named = f"{count} of {rows} rows, drawn from {len(files)} files", resolved.tables[0]
         table = (name, drawn.columns)
-        command = f"trueaxis.calibrate({os.fspath(study)!r}, {os.fspath(os.path.dirname(files[0]))!r})"
-        texts = (os.fspath(study), text)
+        command = f"trueaxis.calibrate({study!r}, {os.path.dirname(files[0])!r})"
+        texts = (study, text)
         declaration = None if chain is None else (chain._native.origin, chain.text)
         # What a fit of every row refuses is refused before the search.
         with drawn.explained(name):

@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
 import numpy as np
 
+from ._inputs import text_of
+
 if TYPE_CHECKING:
     from . import _native
 
@@ -146,6 +148,12 @@ def _no_table(table: Any) -> TypeError:
     )
 
 
+def is_frame(value: Any) -> bool:
+    """Whether a value is a table, and no column of one."""
+    # A stream of Arrow's has a schema and no columns.
+    return isinstance(value, Mapping) or any(hasattr(value, name) for name in ["columns", "column_names", "schema"])
+
+
 def library_of(thing: Any) -> str:
     """Which library made a table or a column, or what it is derived from; nothing where none did."""
     made = (cls.__module__.partition(".")[0] for cls in type(thing).__mro__)
@@ -170,7 +178,7 @@ def columns_of(table: Any, chain: _native.Chain | None = None) -> Columns:
         return columns_of(kept(table), chain)
     else:
         raise _no_table(table)
-    names = [str(name) for name, _ in pairs]
+    names = [text_of("the name of a column", str(name)) for name, _ in pairs]
     is_read = [True] * len(names) if chain is None else chain.are_readings(names)
     return [(name, column_of(name, column, is_one)) for name, (_, column), is_one in zip(names, pairs, is_read)]
 
@@ -269,10 +277,13 @@ def _mixed(values: list[Any], other: Callable[..., Other]) -> Column:
     def numbers(of: Callable[[Any], float]) -> np.ndarray:
         return np.array([np.nan if is_none(value) else of(value) for value in values])
 
-    if values and all_are((int, float, np.number), (bool, np.timedelta64)):
-        return numbers(float)
-    if values and all_are((bool, np.bool_)):
-        return other(*_TRUTHS, numbers(float))
+    try:
+        if values and all_are((int, float, np.number), (bool, np.timedelta64)):
+            return numbers(float)
+        if values and all_are((bool, np.bool_)):
+            return other(*_TRUTHS, numbers(float))
+    except OverflowError:
+        return other("whole numbers larger than any that is calculated with", "give numbers below 1.8e308")
     if values and all_are((datetime.timedelta, np.timedelta64)):
         return other(*_DURATIONS, numbers(lambda value: value / np.timedelta64(1, "s")))
 

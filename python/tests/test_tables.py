@@ -69,6 +69,9 @@ def test_what_is_wrong_with_a_table_is_named_with_its_place(mount):
         ({"azimuth": np.zeros((2, 2)), "elevation": good}, "column `azimuth` holds 2 dimensions: give one number or text a row"),
         ({"azimuth": np.zeros(2, dtype=complex), "elevation": good}, "column `azimuth` holds complex128"),
         ({"azimuth": [True, False], "elevation": good}, "column `azimuth` holds truth values: give numbers"),
+        ({"azimuth": [True, 0.5], "elevation": good}, "column `azimuth` holds truth values: give numbers"),
+        ({"azimuth": [0.5, np.False_], "elevation": good}, "column `azimuth` holds truth values: give numbers"),
+        ({"azimuth": np.array([None, True, 0.5], object)[1:], "elevation": good}, "column `azimuth` holds truth values: give numbers"),
         ({"azimuth": [10**400, 1], "elevation": good}, "column `azimuth` holds whole numbers larger than any that is calculated with"),
         ({"azimuth \udc80": good, "elevation": good}, "the name of a column: the letter '.udc80' at 8 is none"),
         ({"azimuth": np.array([1, 2], "m8[s]"), "elevation": good}, "column `azimuth` holds durations: give numbers, of seconds by"),
@@ -92,6 +95,8 @@ def test_what_is_wrong_with_a_table_is_named_with_its_place(mount):
         ({"azimuth": 0.1, "elevation": good}, "column `azimuth` is a float: give one number or text a row"),
         ({"azimuth": np.array(0.1), "elevation": good}, "column `azimuth` is a single number"),
         ({"azimuth": "12", "elevation": good}, "column `azimuth` is a str"),
+        ({"azimuth": {0.1, 0.2}, "elevation": good}, "column `azimuth` is a set: give one number or text a row"),
+        ({"azimuth": frozenset(good), "elevation": good}, "column `azimuth` is a frozenset"),
         ({"azimuth": (number for number in good), "elevation": good}, "column `azimuth` is a generator, which can be read only once"),
         (polars.LazyFrame({"azimuth": good}), "lazy"),
     ]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import datetime
 import html
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
 import numpy as np
@@ -190,7 +190,8 @@ def column_of(name: str, column: Any, is_read: bool = True) -> Column:
         raise TypeError(f"column `{name}` is a {type(column).__name__}, which can be read only once: write list(...) of it")
     if isinstance(column, np.ndarray) and column.ndim == 0:
         raise TypeError(f"column `{name}` is a single number: give one number or text a row")
-    if isinstance(column, (str, bytes, Mapping)) or not hasattr(column, "__len__"):
+    # Of a set nobody knows which row is whose.
+    if isinstance(column, (str, bytes, Mapping, Set)) or not hasattr(column, "__len__"):
         raise TypeError(f"column `{name}` is a {type(column).__name__}: give one number or text a row")
 
     def other(what: str, instead: str = "give one number or text a row", labels: np.ndarray | None = None) -> Other:
@@ -255,8 +256,8 @@ def _array(column: Any) -> np.ndarray:
     if library in ("pandas", "polars"):
         return column.to_numpy()
     values = list(column)
-    # A list with a text in it is one of texts; NumPy would make texts of its numbers too.
-    if any(isinstance(value, str) or value is None for value in values):
+    # A list with a text in it is one of texts; NumPy would make texts of its numbers too, and numbers of truth values among them.
+    if any(isinstance(value, (str, bool, np.bool_)) or value is None for value in values):
         mixed = np.empty(len(values), dtype=object)
         mixed[:] = values
         return mixed
@@ -264,8 +265,8 @@ def _array(column: Any) -> np.ndarray:
 
 
 def _mixed(values: list[Any], other: Callable[..., Other]) -> Column:
-    """Numbers with nothing in some rows are numbers, where NaN says so; so are truth values and durations, which are none to calculate
-    with; all else is texts."""
+    """Numbers with nothing in some rows are numbers, where NaN says so; so are truth values, alone or among numbers, and durations, which
+    are none to calculate with; all else is texts."""
 
     def is_none(value: Any) -> bool:
         is_nan = isinstance(value, float) and value != value
@@ -280,7 +281,7 @@ def _mixed(values: list[Any], other: Callable[..., Other]) -> Column:
     try:
         if values and all_are((int, float, np.number), (bool, np.timedelta64)):
             return numbers(float)
-        if values and all_are((bool, np.bool_)):
+        if values and all_are((int, float, np.number, np.bool_), (np.timedelta64,)):
             return other(*_TRUTHS, numbers(float))
     except OverflowError:
         return other("whole numbers larger than any that is calculated with", "give numbers below 1.8e308")

@@ -10,6 +10,7 @@ mod evaluating;
 mod forked;
 mod formula;
 mod interrupting;
+mod memory;
 mod rows;
 mod streaming;
 mod tables;

@@ -7,6 +7,7 @@ use trueaxis_cli::library::{self, Computed, Source};
 
 use crate::chain::{Chain, Columns, Text, as_arrays, source};
 use crate::errors;
+use crate::memory;
 use crate::tables::{Given, Table};
 
 /// Of some rows: how many, how many outside of what the errors were found over, and for each range how many and how far.
@@ -26,8 +27,9 @@ pub fn apply(
     let table = Table::of(columns)?;
     let columns = table.columns()?;
     let (computed, counted) = errors::run(py, || {
-        let table = library::table(&name, &columns)?;
-        library::applied(chain.with_numbers()?, &source(errors), table, &observables)
+        let (chain, table) = (chain.with_numbers()?, library::table(&name, &columns)?);
+        memory::require_room(chain, &observables, &columns)?;
+        library::applied(chain, &source(errors), table, &observables)
     })?;
     let Computed { added, replaced } = computed;
     Ok((as_arrays(py, added), replaced, (counted.rows, counted.outside, counted.ranges)))

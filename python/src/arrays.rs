@@ -4,6 +4,13 @@ use numpy::{PyArray1, PyArrayMethods as _, PyReadonlyArray1, PyUntypedArrayMetho
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
+/// Fetches all of NumPy that arrays need: where that is left to the first call, a signal that arrives in it is a panic.
+pub fn loaded(py: Python<'_>) -> PyResult<()> {
+    py.import("numpy")?;
+    let array = PyArray1::from_vec(py, vec![0.0_f64]);
+    array.try_readwrite().map(drop).map_err(|error| PyValueError::new_err(error.to_string()))
+}
+
 /// A column of numbers as somebody gave it.
 pub fn column<'py>(name: &str, given: &Bound<'py, PyAny>) -> PyResult<PyReadonlyArray1<'py, f64>> {
     let wrong = |what: String, instead: String| {

@@ -15,6 +15,7 @@ use crate::compiled::{FORMS, Loadable};
 use crate::errors;
 use crate::evaluating::{self, Evaluation, Readings};
 use crate::formula::ClosedForm;
+use crate::memory;
 use crate::tables::{Given, Table};
 
 /// Names of columns and the columns, as Python gets them.
@@ -278,6 +279,7 @@ impl Chain {
         let asked = asked.map_err(fails)?;
 
         let array = evaluating::result(py, out.as_ref(), &asked.shape(chain), readings_are_numbers)?;
+        asked.require_apart(&array)?;
         let mut writable = evaluating::writable(&array)?;
         let into = writable.as_slice_mut()?;
         match compiled {
@@ -388,8 +390,9 @@ impl Chain {
         let form = if is_exact { Exactness::Exact } else { Exactness::FirstOrder };
         let quantity = if is_value { Quantity::Value } else { Quantity::Error };
         let Computed { added, replaced } = errors::run(py, || {
-            let table = library::table(&name, &columns)?;
-            library::evaluated(self.with_numbers()?, &source(values), table, &observables, (form, quantity))
+            let (chain, table) = (self.with_numbers()?, library::table(&name, &columns)?);
+            memory::require_room(chain, &observables, &columns)?;
+            library::evaluated(chain, &source(values), table, &observables, (form, quantity))
         })?;
         Ok((as_arrays(py, added), replaced))
     }

@@ -1,5 +1,6 @@
 //! Forms as numbers over arrays: what a call asks, once it is checked, and the two ways to compute it.
 
+use std::fmt::Display;
 use std::sync::Arc;
 
 use codegen::{Form, Program};
@@ -103,6 +104,20 @@ impl<'py> Evaluation<'py> {
         if self.form.is_jacobian() { vec![shown, self.wrt.len(), self.rows] } else { vec![shown, self.rows] }
     }
 
+    /// Refuses an array for the result that would write over readings: two arrays of one memory know nothing of each other.
+    pub fn require_apart(&self, out: &Bound<'py, PyArray<f64, IxDyn>>) -> PyResult<()> {
+        let lies = |start: *mut f64, numbers: usize| start.addr()..start.addr() + numbers * size_of::<f64>();
+        let into = lies(out.data(), out.len());
+        let is_met = |column: &PyReadonlyArray1<'py, f64>| {
+            let read = lies(column.data(), column.len());
+            read.start < into.end && into.start < read.end
+        };
+        if !into.is_empty() && self.columns.iter().any(|(_, column)| is_met(column)) {
+            return Err(unwritable("it lies where readings lie"));
+        }
+        Ok(())
+    }
+
     /// By the interpreter, without the interpreter's lock of Python; `program` builds what it runs.
     pub fn interpreted(
         &self,
@@ -167,7 +182,9 @@ fn taken<'py>(
 
 /// The numbers of a result, to be written.
 pub fn writable<'py>(array: &Bound<'py, PyArray<f64, IxDyn>>) -> PyResult<PyReadwriteArray<'py, f64, IxDyn>> {
-    array.try_readwrite().map_err(|error| {
-        PyValueError::new_err(format!("`out`: {error}: it must be writable, and none of the readings"))
-    })
+    array.try_readwrite().map_err(unwritable)
+}
+
+fn unwritable(why: impl Display) -> PyErr {
+    PyValueError::new_err(format!("`out`: {why}: it must be writable, and none of the readings"))
 }

@@ -10,6 +10,7 @@ mod evaluating;
 mod forked;
 mod formula;
 mod interrupting;
+mod memory;
 mod rows;
 mod streaming;
 mod tables;
@@ -37,6 +38,7 @@ mod _native {
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         forked::loaded();
+        arrays::loaded(module.py())?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

@@ -2,6 +2,7 @@
 
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
+use pyo3::types::PyList;
 use trueaxis_cli::library::Column;
 
 use crate::arrays;
@@ -37,9 +38,11 @@ impl<'py> Table<'py> {
                 let labels = labels.map(|labels| arrays::column(&name, &labels)).transpose()?;
                 return Ok((name, Held::Other { labels, rows, why }));
             }
-            let held = match column.extract::<Vec<String>>() {
-                Ok(texts) => Held::Texts(texts),
-                Err(_) => Held::Numbers(arrays::column(&name, &column)?),
+            // Of an array, room for as many texts would be made before it is seen that there are none.
+            let texts = column.cast::<PyList>().ok().map(|texts| texts.extract()).transpose()?;
+            let held = match texts {
+                Some(texts) => Held::Texts(texts),
+                None => Held::Numbers(arrays::column(&name, &column)?),
             };
             Ok((name, held))
         };

@@ -1,10 +1,15 @@
 """Folders of Parquet files: in one process, and on a scheduler with two workers as processes of their own."""
 
+import asyncio
+import re
 import socket
 import subprocess
 import sys
 import time
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from threading import Thread
 
+import distributed
 import numpy as np
 import pyarrow
 import pyarrow.parquet as parquet
@@ -136,6 +141,44 @@ def test_a_scheduler_without_an_answer_is_soon_told(mount, folder, tmp_path, mon
     with pytest.raises(trueaxis.TrueaxisError, match="no scheduler answers at `nonsense`"):
         trueaxis.apply(folder, mount, ERRORS, tmp_path / "out", client="nonsense")
     assert time.monotonic() - began < 30
+
+
+@pytest.mark.parametrize("server", ["web", "silent"])
+def test_what_answers_and_is_no_scheduler_is_soon_told(mount, folder, tmp_path, monkeypatch, server):
+    monkeypatch.setattr(_workers, "_SECONDS", 1)
+    monkeypatch.setattr(_workers, "_MORE_SECONDS", 1)
+    began = time.monotonic()
+    if server == "web":
+        with ThreadingHTTPServer(("127.0.0.1", 0), BaseHTTPRequestHandler) as web:
+            Thread(target=web.serve_forever, daemon=True).start()
+            refused(mount, folder, tmp_path, f"tcp://127.0.0.1:{web.server_address[1]}", "no scheduler answers at")
+            web.shutdown()
+    else:
+        with socket.create_server(("127.0.0.1", 0)) as silent:
+            refused(mount, folder, tmp_path, f"tcp://127.0.0.1:{silent.getsockname()[1]}", "no scheduler answers at")
+    assert time.monotonic() - began < 30
+
+
+def refused(mount, folder, tmp_path, client, words):
+    told = f"{words} `{re.escape(client)}`" if isinstance(client, str) else words
+    with pytest.raises(trueaxis.TrueaxisError, match=told):
+        trueaxis.apply(folder, mount, ERRORS, tmp_path / "out", client=client)
+    assert not list(tmp_path.iterdir())
+
+
+def test_what_is_no_client_to_wait_for_is_told(mount, folder, tmp_path, cluster):
+    address, _ = cluster
+    with distributed.Client(address) as client:
+        client.wait_for_workers(1, timeout=60)
+        worker = next(iter(client.scheduler_info()["workers"]))
+    refused(mount, folder, tmp_path, worker, "no scheduler answers at")
+    refused(mount, folder, tmp_path, client, "this Dask client is closed")
+
+    async def in_a_loop():
+        async with distributed.Client(address, asynchronous=True) as client:
+            refused(mount, folder, tmp_path, client, "this Dask client is asynchronous")
+
+    asyncio.run(in_a_loop())
 
 
 def test_a_scheduler_without_workers_is_told(mount, folder, tmp_path, cluster, monkeypatch):

@@ -9,7 +9,7 @@ from test_calibration import STUDY, TRUE
 from test_cluster import cluster, scheduler  # noqa: F401
 
 import trueaxis
-from trueaxis import _native
+from trueaxis import _files, _native
 
 FILES = 64
 ROWS = 2000
@@ -204,6 +204,22 @@ def test_what_is_wrong_is_named(mount, folder, tmp_path):
         calibrate(mount, good[0], client="tcp://127.0.0.1:9")
     with pytest.raises(trueaxis.TrueaxisError, match="search_rows"):
         calibrate(mount, folder, search_rows=0)
+
+
+@pytest.mark.parametrize("search_rows", [500, 2900, 3000])
+def test_a_bad_row_is_told_by_its_file(mount, tmp_path, search_rows, monkeypatch):
+    """Whether it is drawn, not drawn, or in a later chunk of its file."""
+    monkeypatch.setattr(_files, "ROWS", 400)
+    parts = [pointings(1000, at) for at in range(3)]
+    parts[1]["azimuth"][740] = np.nan
+    folder = written(tmp_path / "spoiled", parts)
+    words = f"^{folder / 'part-01.parquet'}: row 741, column `azimuth`: `NaN` is not finite"
+    with pytest.raises(trueaxis.TrueaxisError, match=words):
+        calibrate(mount, folder, search_rows=search_rows)
+    with pytest.raises(trueaxis.TrueaxisError, match=words):
+        trueaxis.fit("study.toml", folder, text=SEARCHING, chain=mount)
+    with pytest.raises(trueaxis.TrueaxisError, match=words):
+        trueaxis.apply(folder, mount, {}, tmp_path / "out")
 
 
 def test_a_worker_of_another_version_is_named(mount, folder, cluster, monkeypatch):  # noqa: F811

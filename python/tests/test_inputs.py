@@ -157,6 +157,24 @@ def test_what_is_no_table_no_chain_and_no_path_is_told_in_words(mount, tmp_path)
     for ask, words in [
         (lambda: mount.exact("readings.csv"), "readings: write a dictionary of joints and inputs"),
         (lambda: mount.exact(None), "readings: write a dictionary"),
+        (lambda: mount.exact({1: 0.1}), "a name of readings: write a text, not 1"),
+        (lambda: mount.exact(readings, None, ["pointing"]), "observable: write one name, not \\['pointing'\\]"),
+        (lambda: mount.closed_form(3), "observable: write one name, not 3"),
+        (lambda: mount.compiled(3), "observable: write one name, not 3"),
+        (lambda: mount.identify(candidate=5), "candidate: write a text, not 5"),
+        (lambda: mount.budget({"*": 1e-3}, path=5), "path: write a text, not 5"),
+        (lambda: mount.generate(5), "language: write a text, not 5"),
+        (lambda: trueaxis.Chain.from_text(b"chain"), "text: write a text, not b'chain'"),
+        (lambda: trueaxis.Chain.from_file(b"mount.chain"), "path: give a path, as a text or a pathlib.Path, not a bytes"),
+        (lambda: trueaxis.check(5), "claims: give a path, as a text or a pathlib.Path, not a int"),
+        (lambda: trueaxis.calibrate(b"study.toml", READINGS), "study: give a path"),
+        (lambda: trueaxis.calibrate("study.toml", READINGS, text=5), "text: write a text, not 5"),
+        (lambda: trueaxis.fit(5, tmp_path), "study: give a path"),
+        (lambda: trueaxis.fit("study.toml", pyarrow.table(READINGS)), "files: .* not a Table; Chain.apply and calibrate take tables in memory"),
+        (lambda: trueaxis.fit("study.toml", READINGS), "files: give a folder, a path or a list of paths, not a dict"),
+        (lambda: trueaxis.fit("study.toml", b"folder"), "files: give a folder, a path or a list of paths, not a bytes"),
+        (lambda: trueaxis.fit("study.toml", [5]), "files: give a path, as a text"),
+        (lambda: trueaxis.apply([__file__], mount, {}, b"out"), "out: give a path"),
         (lambda: mount.exact(readings, threads=1.5), "threads: write a whole number, not 1.5"),
         (lambda: mount.eval(READINGS, {}, observables=3), "write a name, or a list of names, not 3"),
         (lambda: mount.bound({"*": 1e-3}, ranges="10 deg"), "ranges: write a dictionary"),
@@ -171,6 +189,23 @@ def test_what_is_no_table_no_chain_and_no_path_is_told_in_words(mount, tmp_path)
         (lambda: trueaxis.apply(3, mount, {}, tmp_path / "out"), "files: give a folder"),
     ]:
         with pytest.raises(TypeError, match=words):
+            ask()
+
+
+def test_letters_and_whole_numbers_that_are_none(mount):
+    readings = {"azimuth": 0.1, "elevation": 0.2}
+    for ask, words in [
+        (lambda: trueaxis.Chain.from_text("chain \udc80 {}"), "text: the letter '.udc80' at 6 is none: was a file read in another encoding?"),
+        (lambda: trueaxis.calibrate("study.toml", READINGS, text="\udc80"), "text: the letter"),
+        (lambda: mount.exact(readings, {"collimation": "1 \udc80"}), "collimation: the letter '.udc80' at 2 is none"),
+        (lambda: mount.exact(readings, {"\udc80": 1e-5}), "errors: the letter"),
+        (lambda: mount.exact(readings, None, "\udc80"), "observable: the letter"),
+        (lambda: mount.eval(READINGS, {}, ["\udc80"]), "a name: the letter"),
+        (lambda: mount.exact({**readings, "azimuth": 10**400}), "azimuth: this whole number is larger than any that is calculated with"),
+        (lambda: mount.exact(readings, {"collimation": 10**400}), "collimation: this whole number is larger"),
+        (lambda: mount.simulate({}, poses=3, noise=10**400, seed=1), "noise: this whole number is larger"),
+    ]:
+        with pytest.raises(trueaxis.TrueaxisError, match=words):
             ask()
 
 

@@ -59,6 +59,22 @@ def test_ctrl_c_ends_a_long_calibration(wait):
     ends_soon(LONG, wait)
 
 
+@pytest.mark.skipif(os.name == "nt", reason="signals of this kind are not there")
+def test_ctrl_c_in_the_first_call_is_no_panic():
+    """Which fetches what later ones have."""
+    program = f"""
+import os, signal, threading, trueaxis
+chain = trueaxis.Chain.from_text({MOUNT!r}, "mount.chain")
+threading.Timer(0.1, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+try:
+    chain.simulate({{}}, poses=2_000_000, noise="2 arcsec", seed=1)
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+"""
+    work = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    assert work.stdout == "interrupted\n" and work.returncode == 0, work.stderr
+
+
 def ends_soon(program, wait):
     work = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
     assert work.stdout.readline() == "begins\n"

@@ -169,6 +169,20 @@ def test_a_result_cannot_overwrite_its_readings(mount):
         mount.exact({"azimuth": all_in_one[0], "elevation": np.zeros(100)}, ERRORS, out=all_in_one)
 
 
+@pytest.mark.parametrize("first", [0, 50, 299, 300])
+def test_nor_through_another_array_of_the_same_memory(mount, first):
+    memory = bytearray(8 * 400)
+    azimuth = np.frombuffer(memory)[first : first + 100]
+    out = np.frombuffer(memory)[:300].reshape(3, 100)
+    readings = {"azimuth": azimuth, "elevation": np.full(100, 0.5)}
+    if first == 300:
+        expected = mount.exact(readings, ERRORS)
+        np.testing.assert_array_equal(mount.exact(readings, ERRORS, out=out), expected)
+        return
+    with pytest.raises(ValueError, match="`out`: it lies where readings lie: it must be writable, and none of the readings"):
+        mount.exact(readings, ERRORS, out=out)
+
+
 def test_threads_change_no_bit(scanner):
     random = np.random.default_rng(3)
     rows = 100_001

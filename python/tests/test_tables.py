@@ -1,6 +1,7 @@
 """Tables of every library: simulated, evaluated, corrected."""
 
 import datetime
+import pickle
 
 import numpy as np
 import pandas
@@ -68,6 +69,11 @@ def test_what_is_wrong_with_a_table_is_named_with_its_place(mount):
         ({"azimuth": np.zeros((2, 2)), "elevation": good}, "column `azimuth` holds 2 dimensions: give one number or text a row"),
         ({"azimuth": np.zeros(2, dtype=complex), "elevation": good}, "column `azimuth` holds complex128"),
         ({"azimuth": [True, False], "elevation": good}, "column `azimuth` holds truth values: give numbers"),
+        ({"azimuth": [True, 0.5], "elevation": good}, "column `azimuth` holds truth values: give numbers"),
+        ({"azimuth": [0.5, np.False_], "elevation": good}, "column `azimuth` holds truth values: give numbers"),
+        ({"azimuth": np.array([None, True, 0.5], object)[1:], "elevation": good}, "column `azimuth` holds truth values: give numbers"),
+        ({"azimuth": [10**400, 1], "elevation": good}, "column `azimuth` holds whole numbers larger than any that is calculated with"),
+        ({"azimuth \udc80": good, "elevation": good}, "the name of a column: the letter '.udc80' at 8 is none"),
         ({"azimuth": np.array([1, 2], "m8[s]"), "elevation": good}, "column `azimuth` holds durations: give numbers, of seconds by"),
         ({"azimuth": [datetime.timedelta(1)] * 2, "elevation": good}, "column `azimuth` holds durations"),
         (pyarrow.table({"azimuth": [b"\xff", b"x"], "elevation": good}), "column `azimuth` holds bytes that are no text"),
@@ -89,6 +95,8 @@ def test_what_is_wrong_with_a_table_is_named_with_its_place(mount):
         ({"azimuth": 0.1, "elevation": good}, "column `azimuth` is a float: give one number or text a row"),
         ({"azimuth": np.array(0.1), "elevation": good}, "column `azimuth` is a single number"),
         ({"azimuth": "12", "elevation": good}, "column `azimuth` is a str"),
+        ({"azimuth": {0.1, 0.2}, "elevation": good}, "column `azimuth` is a set: give one number or text a row"),
+        ({"azimuth": frozenset(good), "elevation": good}, "column `azimuth` is a frozenset"),
         ({"azimuth": (number for number in good), "elevation": good}, "column `azimuth` is a generator, which can be read only once"),
         (polars.LazyFrame({"azimuth": good}), "lazy"),
     ]:
@@ -149,6 +157,45 @@ def test_rows_of_a_dictionary_are_told_by_their_place(mount):
     np.testing.assert_array_equal(
         table["pointing_y"], mount.eval({"azimuth": azimuth.to_numpy(), "elevation": elevation.to_numpy()}, {})["pointing_y"]
     )
+
+
+def test_columns_of_pandas_in_a_dictionary_go_everywhere(mount):
+    """Whatever they hold; and columns of another machine's numbers."""
+    columns = {
+        "azimuth": pandas.Series([0.1, 0.2]),
+        "elevation": np.array([0.5, 0.6], ">f8"),
+        "time": pandas.Series(pandas.date_range("2026-01-01", periods=2)),
+        "index": pandas.date_range("2026-01-01", periods=2),
+        "zone": pandas.Series(pandas.date_range("2026-01-01", periods=2, tz="UTC")),
+        "kind": pandas.Series(["a", "b"], dtype="category"),
+        "whole": pandas.Series([1, None], dtype="Int64"),
+        "text": pandas.Series(["a", "b"]),
+        "string": pandas.Series(["a", None], dtype="string"),
+    }
+    table = mount.eval(columns, ERRORS)
+    assert type(table["azimuth"]) is np.ndarray
+    pandas_, polars_, arrow = table.to_pandas(), table.to_polars(), table.to_arrow()
+    assert list(pandas_) == polars_.columns == arrow.column_names == list(table)
+    expected = mount.eval({"azimuth": [0.1, 0.2], "elevation": [0.5, 0.6]}, ERRORS)["pointing_y"]
+    for frame in [pandas_, polars_, arrow]:
+        assert [str(cell)[:10] for cell in frame["time"]] == ["2026-01-01", "2026-01-02"]
+        np.testing.assert_array_equal(np.asarray(frame["pointing_y"]), expected)
+        np.testing.assert_array_equal(np.asarray(frame["elevation"]), [0.5, 0.6])
+    assert polars_["whole"].to_list() == [1, None] and polars_["kind"].to_list() == ["a", "b"]
+
+
+def test_a_table_is_a_dictionary_for_every_library(mount, simulated):
+    for frame in [pandas.DataFrame(simulated), polars.DataFrame(simulated), pyarrow.table(simulated)]:
+        assert frame.shape == (50, 5) and frame_names(frame) == list(simulated)
+    again = mount.simulate(ERRORS, poses=50, noise="2 arcsec", seed=1, ranges={"elevation": ("10 deg", "80 deg")})
+    assert again == simulated and not again != simulated and pickle.loads(pickle.dumps(simulated)) == simulated
+    again["pointing_x"] = np.nextafter(again["pointing_x"], 1.0)
+    assert again != simulated and simulated != dict(simulated)
+    nothing = [np.nan, 1.0]
+    table = trueaxis.Table({"number": np.array(nothing), "text": ["a", "b"], "truth": [True, False], "wave": np.zeros(2, complex)})
+    same = trueaxis.Table({**table, "number": [None, 1], "truth": np.array([True, False])})
+    assert table == same and table != trueaxis.Table({**same, "truth": [True, True]})
+    assert table != trueaxis.Table({**same, "wave": np.ones(2, complex)}) and table != trueaxis.Table(dict(reversed(same.items())))
 
 
 def strange(rows):

@@ -13,8 +13,8 @@ import numpy as np
 
 from . import _native
 from ._chain import Chain, require_chain
-from ._inputs import Found
-from ._tables import Table, columns_of
+from ._inputs import Found, path_of, text_of
+from ._tables import Table, columns_of, is_frame
 
 if TYPE_CHECKING:
     import distributed
@@ -102,7 +102,7 @@ class Calibration:
 
         Of more than 100,000 rows ``residuals.csv`` has a part, unless ``all_residuals``.
         """
-        self._native.write(os.fspath(folder), all_residuals)
+        self._native.write(path_of("folder", folder), all_residuals)
 
     def __reduce__(self):
         raise TypeError(
@@ -162,9 +162,10 @@ def calibrate(
     """
     if chain is not None:
         require_chain(chain)
+    study, text = path_of("study", study), None if text is None else text_of("text", text)
     if isinstance(data, Iterator) and not hasattr(data, "__arrow_c_stream__"):
         data = list(data)
-    if isinstance(data, (list, tuple)) and not (data and all(_is_path(path) for path in data)):
+    if isinstance(data, (list, tuple)) and not (data and all(_is_path(one) for one in data)):
         raise TypeError(
             "several tables are no data of a study: give one for each table that it names (pandas.concat, polars.concat or "
             "pyarrow.concat_tables make one of several), or a list of paths of Parquet files"
@@ -177,9 +178,9 @@ def calibrate(
         from ._errors import TrueaxisError
 
         raise TrueaxisError("a cluster reads files: give a folder of Parquet files that its workers see as `data`")
-    resolved = _native.Study(os.fspath(study), text, None if chain is None else chain._native)
+    resolved = _native.Study(study, text, None if chain is None else chain._native)
     tables = [] if data is None else _named(data, resolved.tables)
-    command = f"trueaxis.calibrate({os.fspath(study)!r})"
+    command = f"trueaxis.calibrate({study!r})"
     return Calibration(_native.calibrate(resolved, tables, command, progress))
 
 
@@ -187,7 +188,7 @@ def _named(data: Any, names: list[str]) -> list[tuple[str, Any]]:
     """Each table with the name that the study has for it."""
     from ._errors import TrueaxisError
 
-    if isinstance(data, Mapping) and data and all(_is_frame(value) for value in data.values()):
+    if isinstance(data, Mapping) and data and all(is_frame(value) for value in data.values()):
         for name in data:
             if name not in names:
                 listed = ", ".join(f"`{name}`" for name in names)
@@ -201,9 +202,3 @@ def _named(data: Any, names: list[str]) -> list[tuple[str, Any]]:
 
 def _is_path(value: Any) -> bool:
     return isinstance(value, (str, os.PathLike))
-
-
-def _is_frame(value: Any) -> bool:
-    """Whether a value is a table, and no column of one."""
-    # A stream of Arrow's has a schema and no columns.
-    return isinstance(value, Mapping) or any(hasattr(value, name) for name in ["columns", "column_names", "schema"])

@@ -12,7 +12,7 @@ import numpy as np
 from . import _native
 from ._answers import Answer
 from ._compiled import Compiled
-from ._inputs import Amount, Errors, amount, errors_and_ranges, errors_text, names, ranges, whole
+from ._inputs import Amount, Errors, amount, errors_and_ranges, errors_text, names, observable_of, path_of, ranges, text_of, whole
 from ._over_arrays import OverArrays
 from ._tables import Table, columns_of, kept, with_columns
 
@@ -113,7 +113,7 @@ class Chain(OverArrays):
 
         :raises MistakeError: with every mistake of the text.
         """
-        return cls(_native.Chain.from_text(text, name))
+        return cls(_native.Chain.from_text(text_of("text", text), text_of("name", name)))
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Chain:
@@ -122,7 +122,7 @@ class Chain(OverArrays):
         :raises MistakeError: with every mistake of the file.
         :raises TrueaxisError: the file cannot be read.
         """
-        return cls(_native.Chain.from_file(os.fspath(path)))
+        return cls(_native.Chain.from_file(path_of("path", path)))
 
     def __reduce__(self):
         return type(self).from_text, (self.text, self._native.origin)
@@ -194,7 +194,7 @@ class Chain(OverArrays):
         :returns: the text of each file by its ending: ``{"c": ..., "h": ...}``. C includes its header by the chain's name,
             ``MobileLidar`` as ``mobile_lidar.h``.
         """
-        return dict(self._native.generate(language, names(observables)))
+        return dict(self._native.generate(text_of("language", language), names(observables)))
 
     def compiled(
         self, observable: str | None = None, *, compiler: str | os.PathLike[str] | None = None
@@ -211,7 +211,7 @@ class Chain(OverArrays):
 
     def closed_form(self, observable: str | None = None, order: int = 1) -> ClosedForm:
         """The closed form of an observable's error, up to products of ``order`` errors (1, 2 or 3)."""
-        return ClosedForm(self._native.closed_form(observable, whole("order", order, 32)))
+        return ClosedForm(self._native.closed_form(observable_of(observable), whole("order", order, 32)))
 
     def identify(
         self, observables: str | Iterable[str] | None = None, *, candidate: str | None = None
@@ -222,7 +222,8 @@ class Chain(OverArrays):
             be mistaken for.
         :returns: ``answer["identifiability"]`` is a list with an entry a set of observables.
         """
-        return Answer._of(self._native.identify(names(observables), candidate))
+        effect = None if candidate is None else text_of("candidate", candidate)
+        return Answer._of(self._native.identify(names(observables), effect))
 
     def bound(
         self,
@@ -258,7 +259,8 @@ class Chain(OverArrays):
         """
         if path is not None and ranges:
             raise ValueError("give a path or ranges, not both")
-        return Answer._of(self._native.budget(errors_text(sizes), names(observables), path, _ranges(ranges)))
+        followed = None if path is None else text_of("path", path)
+        return Answer._of(self._native.budget(errors_text(sizes), names(observables), followed, _ranges(ranges)))
 
     def simulate(
         self,
@@ -343,4 +345,4 @@ def check(claims: str | os.PathLike[str]) -> Answer:
     :returns: ``answer["claims"]`` is a list with an entry a claim: ``name``, ``verdict`` (``"holds"``, ``"differs"``,
         ``"open"``), ``differences``.
     """
-    return Answer._of(_native.check(os.fspath(claims)))
+    return Answer._of(_native.check(path_of("claims", claims)))

@@ -14,8 +14,8 @@ import numpy as np
 from . import _native
 from ._chain import Chain, require_chain
 from ._errors import TrueaxisError, kept_warnings
-from ._files import batches, files_of, opened, place_of
-from ._inputs import Errors, errors_and_ranges, names
+from ._files import batches, files_of, opened, told_by_file
+from ._inputs import Errors, errors_and_ranges, names, path_of
 from ._tables import Table, columns_of, with_columns
 from ._workers import require_version, workers
 
@@ -48,7 +48,7 @@ def apply(
     """
     require_chain(chain)
     files = files_of(source, [".parquet"], told_apart=True)
-    target = Path(out).absolute()
+    target = Path(path_of("out", out)).absolute()
     if target.exists():
         raise TrueaxisError(f"`{out}` is there already: name a folder that is not")
     if not target.parent.is_dir():
@@ -97,8 +97,9 @@ def _apply_file(task: tuple) -> tuple[str, int, list]:
     rows, outside, writer = 0, [], None
     try:
         for first, table in batches(source):
-            place = place_of(source, first)
-            added, replaced, counted = _native.apply(chain._native, (place, columns_of(table, chain._native)), known, observables)
+            rows_there = (source, columns_of(table, chain._native))
+            with told_by_file(source, lambda row: (source, first + row)):
+                added, replaced, counted = _native.apply(chain._native, rows_there, known, observables)
             outside.append(counted)
             corrected = with_columns(table, dict(added), replaced)
             if writer is None:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from . import _native
 from ._compiler import compile_and_load
+from ._inputs import observable_of
 from ._over_arrays import OverArrays
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ class Compiled(OverArrays):
         self._chain = chain
         self._compiler = compiler
         self._native = chain._native
-        loadable = self._native.loadable(observable)
+        loadable = self._native.loadable(observable_of(observable))
         function = compile_and_load(loadable.files, compiler)
         entries = {form: function(name) for form, name in loadable.entries}
         for entry in entries.values():

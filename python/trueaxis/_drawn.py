@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from . import _native
-from ._errors import TrueaxisError
-from ._files import batches, opened
+from ._errors import MistakeError, TrueaxisError
+from ._files import batches, opened, told_by_file
 from ._tables import Column, Columns, Other, column_of
 from ._workers import Each, require_version
 
@@ -19,16 +21,42 @@ Stretch = tuple[int, int]
 """The first row of a stretch of a file, and the first behind it."""
 
 
+class Drawn(NamedTuple):
+    """Rows of files as one table."""
+
+    columns: Columns
+    """The columns that all files have alike."""
+    unusable: dict[str, str]
+    """Why others are left out, by their names."""
+    stretches: list[tuple[str, Stretch]]
+    """Where the rows came from, in their order."""
+
+    @contextmanager
+    def explained(self, name: str) -> Iterator[None]:
+        """Tells what is wrong with this table, by that name, by the files that its rows came from: with a row by its place there, with a
+        column by why it could not be drawn."""
+        try:
+            with told_by_file(name, self._place_of):
+                yield
+        except MistakeError:
+            raise
+        except TrueaxisError as error:
+            why = [told for column, told in self.unusable.items() if f"`{column}`" in str(error)]
+            raise TrueaxisError("\n".join([*why, str(error)])) from None
+
+    def _place_of(self, row: int) -> tuple[str, int]:
+        left = row
+        for file, (start, end) in self.stretches:
+            if left <= end - start:
+                return file, start + left
+            left -= end - start
+        raise IndexError(f"row {row} was not drawn")
+
+
 def counted(each: Each, files: list[str]) -> dict[str, int]:
     """How many rows each Parquet file has that has any, in their order."""
     of_file = dict(each(_count, [(file, _native.__version__) for file in files]))
     return {file: of_file[file] for file in files if of_file[file]}
-
-
-def explained(error: TrueaxisError, unusable: dict[str, str]) -> TrueaxisError:
-    """What is wrong with a study's columns, with why they could not be drawn."""
-    why = [told for name, told in unusable.items() if f"`{name}`" in str(error)]
-    return TrueaxisError("\n".join([*why, str(error)]))
 
 
 def _count(task: tuple) -> tuple[str, int]:
@@ -39,9 +67,8 @@ def _count(task: tuple) -> tuple[str, int]:
         return file, parquet.metadata.num_rows
 
 
-def rows_drawn(each: Each, files: list[str], stretches: list[list[Stretch]]) -> tuple[Columns, dict[str, str]]:
-    """The rows of all stretches, in the order of the files: the columns that all files have alike; and by the names of others, why they are
-    left out."""
+def rows_drawn(each: Each, files: list[str], stretches: list[list[Stretch]]) -> Drawn:
+    """The rows of all stretches, in the order of the files."""
     tasks = [(file, own) for file, own in zip(files, stretches) if own]
     parts = dict(each(_draw, tasks))
     columns: Columns = []
@@ -56,7 +83,7 @@ def rows_drawn(each: Each, files: list[str], stretches: list[list[Stretch]]) -> 
             columns.append((name, _joined(name, {file: parts[file].select([name]) for file, _ in tasks})))
         except TypeError as error:
             unusable[name] = str(error)
-    return columns, unusable
+    return Drawn(columns, unusable, [(file, stretch) for file, own in tasks for stretch in own])
 
 
 def _joined(name: str, parts: dict[str, pyarrow.Table]) -> Column:

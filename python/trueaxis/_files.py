@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+import re
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ._errors import TrueaxisError, warn
+from ._errors import MistakeError, TrueaxisError, warn
+from ._inputs import path_of
+from ._tables import is_frame
 
 if TYPE_CHECKING:
     import pyarrow
@@ -26,9 +29,10 @@ def files_of(source: Any, kinds: list[str], *, told_apart: bool = False) -> list
         path = Path(source)
         files = _files_in(path, kinds) if path.is_dir() else [path]
     else:
-        if not isinstance(source, Iterable):
-            raise TypeError(f"files: give a folder, a path or a list of paths, not a {type(source).__name__}")
-        files = [Path(file) for file in source]
+        if is_frame(source) or isinstance(source, bytes) or not isinstance(source, Iterable):
+            instead = "; Chain.apply and calibrate take tables in memory" if is_frame(source) else ""
+            raise TypeError(f"files: give a folder, a path or a list of paths, not a {type(source).__name__}{instead}")
+        files = [Path(path_of("files", file)) for file in source]
         if not files:
             raise TrueaxisError("no files are given")
     seen: set[Path] = set()
@@ -113,6 +117,17 @@ def batches(file: str) -> Iterator[tuple[int, pyarrow.Table]]:
             first += batch.num_rows
 
 
-def place_of(file: str, row: int) -> str:
-    """A file and where in it a chunk begins: rows in messages are counted from there."""
-    return f"{file}, behind row {row}" if row else file
+@contextmanager
+def told_by_file(name: str, place_of: Callable[[int], tuple[str, int]]) -> Iterator[None]:
+    """Tells what is wrong with a row of a table of that name by its file, and by its number there: ``place_of`` says both of a row. Rows are
+    counted from 1."""
+    try:
+        yield
+    except MistakeError:
+        raise
+    except TrueaxisError as error:
+        row = re.match(rf"{re.escape(name)}: row (\d+)", str(error))
+        if row is None:
+            raise
+        file, number = place_of(int(row[1]))
+        raise TrueaxisError(f"{file}: row {number}{str(error)[row.end() :]}") from None

@@ -11,10 +11,10 @@ import numpy as np
 
 from . import _native
 from ._chain import Chain, require_chain
-from ._drawn import counted, explained, rows_drawn
-from ._errors import MistakeError, TrueaxisError, warn
-from ._files import batches, files_of, kind_of, place_of
-from ._inputs import Found
+from ._drawn import counted, rows_drawn
+from ._errors import TrueaxisError, warn
+from ._files import batches, files_of, kind_of, told_by_file
+from ._inputs import Found, path_of, text_of
 from ._tables import Columns, Table, columns_of
 from ._workers import Each, require_version, workers
 
@@ -129,9 +129,9 @@ def fit(
     """
     if chain is not None:
         require_chain(chain)
+    texts = (path_of("study", study), None if text is None else text_of("text", text))
     files = [str(file) for file in files_of(data, [".parquet", ".csv"])]
     declaration = None if chain is None else (chain._native.origin, chain.text)
-    texts = (os.fspath(study), text)
     with workers(client) as each:
         # Files of separated values are read where the fit is; of both kinds together Parquet files say where it begins, if they can.
         separated = [file for file in files if kind_of(file) != ".parquet"]
@@ -192,27 +192,28 @@ def _started(
     if not rows_of:
         raise TrueaxisError("there are no rows in any file")
     stretches = _native.stretches(list(rows_of.values()), _START_ROWS, 1)
-    sample, unusable = rows_drawn(each, list(rows_of), stretches)
-    try:
-        return _native.Fitting(texts, declaration, (f"rows of {len(rows_of)} files", sample))
-    except MistakeError:
-        raise
-    except TrueaxisError as error:
-        raise explained(error, unusable) from None
+    drawn = rows_drawn(each, list(rows_of), stretches)
+    name = f"rows of {len(rows_of)} files"
+    with drawn.explained(name):
+        return _native.Fitting(texts, declaration, (name, drawn.columns))
 
 
 def _accumulate_file(task: tuple) -> tuple[str, list[bytes]]:
     """What each chunk of a file says in a pass: nothing where there are no rows."""
     file, study, chain, step, version = task
     require_version(version)
-    tallies = (_native.accumulate(study, chain, rows, step) for rows in chunks(file))
+    tallies = []
+    for first, columns in chunks(file):
+        with told_by_file(file, lambda row: (file, first + row)):
+            tallies.append(_native.accumulate(study, chain, (file, columns), step))
     return file, [tally for tally in tallies if tally is not None]
 
 
-def chunks(file: str) -> Iterator[tuple[str, Any]]:
-    """The rows of a file chunk by chunk; a file of separated values as one."""
+def chunks(file: str) -> Iterator[tuple[int, Columns | None]]:
+    """The rows of a file chunk by chunk, each with the number of rows before it; a file of separated values as one, which is not read
+    here."""
     if kind_of(file) != ".parquet":
-        yield file, None
+        yield 0, None
         return
     for first, batch in batches(file):
-        yield place_of(file, first), columns_of(batch)
+        yield first, columns_of(batch)

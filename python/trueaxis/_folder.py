@@ -12,9 +12,9 @@ import numpy as np
 from . import _native
 from ._calibration import Calibration
 from ._chain import Chain
-from ._drawn import counted, explained, rows_drawn
-from ._errors import MistakeError, TrueaxisError
-from ._files import batches, files_of, place_of
+from ._drawn import counted, rows_drawn
+from ._errors import TrueaxisError
+from ._files import batches, files_of, told_by_file
 from ._fit import of_files, of_table
 from ._inputs import errors_text, whole
 from ._tables import columns_of
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 def calibrate_folder(
-    study: str | os.PathLike[str],
+    study: str,
     data: Any,
     text: str | None,
     chain: Chain | None,
@@ -40,7 +40,7 @@ def calibrate_folder(
     seed = whole("seed", seed, 64)
     tell = progress or (lambda _: None)
     files = [str(file) for file in files_of(data, [".parquet"])]
-    resolved = _native.Study(os.fspath(study), text, None if chain is None else chain._native)
+    resolved = _native.Study(study, text, None if chain is None else chain._native)
     if len(resolved.tables) != 1:
         listed = ", ".join(f"`{name}`" for name in resolved.tables)
         raise TrueaxisError(f"the files of a folder stand for the one table that a study names; this one names {listed}")
@@ -50,30 +50,29 @@ def calibrate_folder(
             raise TrueaxisError("there are no rows in any file")
         rows, files = sum(rows_of.values()), list(rows_of)
         stretches = _native.stretches(list(rows_of.values()), search_rows, seed)
-        drawn = sum(end - start for own in stretches for start, end in own)
-        tell(f"drawing {drawn:,} of {rows:,} rows from {len(files)} files")
-        sample, unusable = rows_drawn(each, files, stretches)
-        table = (f"{drawn} of {rows} rows, drawn from {len(files)} files", sample)
-        command = f"trueaxis.calibrate({os.fspath(study)!r}, {os.fspath(os.path.dirname(files[0]))!r})"
-        texts = (os.fspath(study), text)
+        count = sum(end - start for own in stretches for start, end in own)
+        tell(f"drawing {count:,} of {rows:,} rows from {len(files)} files")
+        drawn = rows_drawn(each, files, stretches)
+        name, named = f"{count} of {rows} rows, drawn from {len(files)} files", resolved.tables[0]
+        table = (name, drawn.columns)
+        command = f"trueaxis.calibrate({study!r}, {os.path.dirname(files[0])!r})"
+        texts = (study, text)
         declaration = None if chain is None else (chain._native.origin, chain.text)
-        try:
-            # What a fit of every row refuses is refused before the search.
-            before = None if drawn == rows else _native.Fitting(texts, declaration, table)
-            native = _native.calibrate(resolved, [(resolved.tables[0], sample)], command, progress)
-        except MistakeError:
-            raise
-        except TrueaxisError as error:
-            raise explained(error, unusable) from None
+        # What a fit of every row refuses is refused before the search.
+        with drawn.explained(name):
+            before = None if count == rows else _native.Fitting(texts, declaration, table)
+        with drawn.explained(named):
+            native = _native.calibrate(resolved, [(named, drawn.columns)], command, progress)
         found = Calibration(native)
         if before is None or found.amended is None:
             return found
         tell("fitting the declaration to the rows that were drawn, as it was and as amended")
-        fitted, (studied, declared) = of_table(before, table), before.texts
         amended = ("amended.chain", found.amended)
-        fitting = _native.Fitting(studied, amended, table)
-        of_drawn = fitting.copy()
-        after = of_table(of_drawn, table)
+        with drawn.explained(name):
+            fitted, (studied, declared) = of_table(before, table), before.texts
+            fitting = _native.Fitting(studied, amended, table)
+            of_drawn = fitting.copy()
+            after = of_table(of_drawn, table)
         sums = None
         if fitted.converged and after.converged:
             judged = [(declared, errors_text(fitted.values)), (amended, errors_text(after.values))]
@@ -104,7 +103,9 @@ def _judge_file(task: tuple) -> tuple[str, np.ndarray]:
         for start, end in stretches:
             outside[max(start - first, 0) : max(end - first, 0)] = False
         if outside.any():
-            rows = (place_of(file, first), columns_of(batch.filter(outside)))
-            count, kept, squares, squares_kept = _native.validate(study, before, after, rows, noise)
+            numbers = first + 1 + np.flatnonzero(outside)
+            rows = (file, columns_of(batch.filter(outside)))
+            with told_by_file(file, lambda row: (file, int(numbers[row - 1]))):
+                count, kept, squares, squares_kept = _native.validate(study, before, after, rows, noise)
             sums += [count, kept, *squares, *squares_kept]
     return file, sums

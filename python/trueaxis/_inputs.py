@@ -38,7 +38,34 @@ class Found(dict[str, float]):
     def written(self, name: str, value: Any) -> str:
         """A value as TOML has it: with its unit, which nobody doubts, however large it is."""
         unit = self.units.get(name, "1")
-        return amount(name, value) if unit == "1" or isinstance(value, str) else _quoted(f"{float(value)!r} {unit}")
+        return amount(name, value) if unit == "1" or isinstance(value, str) else _quoted(f"{number_of(name, value)!r} {unit}")
+
+
+def text_of(what: str, value: str) -> str:
+    """A text as files have it."""
+    if not isinstance(value, str):
+        raise TypeError(f"{what}: write a text, not {value!r}")
+    try:
+        value.encode()
+    except UnicodeEncodeError as error:
+        raise TrueaxisError(f"{what}: the letter {value[error.start]!r} at {error.start} is none: was a file read in another encoding?") from None
+    return value
+
+
+def path_of(what: str, value: str | os.PathLike[str]) -> str:
+    """A path as a text."""
+    found = os.fspath(value) if isinstance(value, os.PathLike) else value
+    if not isinstance(found, str):
+        raise TypeError(f"{what}: give a path, as a text or a pathlib.Path, not a {type(value).__name__}")
+    return found
+
+
+def number_of(what: str, value: Any) -> float:
+    """A number that may be a whole one of any size."""
+    try:
+        return float(value)
+    except OverflowError:
+        raise TrueaxisError(f"{what}: this whole number is larger than any that is calculated with: give one below 1.8e308") from None
 
 
 def amount(what: str, value: Any) -> str:
@@ -47,10 +74,10 @@ def amount(what: str, value: Any) -> str:
     if type(value) is float:
         return repr(value)
     if isinstance(value, str):
-        return _quoted(value)
+        return _quoted(text_of(what, value))
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
         raise TypeError(f'{what}: write a number in SI or a text with a unit, such as "2 arcsec", not {value!r}')
-    return repr(float(value))
+    return repr(number_of(what, value))
 
 
 @functools.lru_cache(maxsize=1024)
@@ -65,7 +92,7 @@ def errors_text(errors: Errors) -> tuple[str, str]:
         return "errors", ""
     if isinstance(errors, Mapping):
         written = errors.written if isinstance(errors, Found) else amount
-        lines = [f"{_quoted(str(name))} = {written(str(name), value)}\n" for name, value in errors.items()]
+        lines = [f"{_quoted(text_of('errors', str(name)))} = {written(str(name), value)}\n" for name, value in errors.items()]
         return "errors", "".join(lines)
     if isinstance(errors, (str, os.PathLike)):
         return os.fspath(errors), _native.read_text(os.fspath(errors))
@@ -94,17 +121,24 @@ def whole(what: str, value: int, bits: int) -> int:
     return value
 
 
+def observable_of(name: str | None) -> str | None:
+    """The name of one observable, or none."""
+    if name is not None and not isinstance(name, str):
+        raise TypeError(f"observable: write one name, not {name!r}")
+    return None if name is None else text_of("observable", name)
+
+
 def names(one_or_more: str | Iterable[str] | None) -> list[str]:
     """Names of observables, or none."""
     if one_or_more is None:
         return []
     if isinstance(one_or_more, str):
-        return [one_or_more]
+        return [text_of("a name", one_or_more)]
     several = list(one_or_more) if isinstance(one_or_more, Iterable) else [one_or_more]
     odd = next((one for one in several if not isinstance(one, str)), None)
     if several and odd is not None:
         raise TypeError(f"write a name, or a list of names, not {odd!r}")
-    return several
+    return [text_of("a name", one) for one in several]
 
 
 def ranges(given: Mapping[str, Any] | None) -> list[tuple[str, str]]:

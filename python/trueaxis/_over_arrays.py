@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from . import _native
-from ._inputs import Errors, errors_text, names, whole
+from ._inputs import Errors, errors_text, names, number_of, observable_of, text_of, whole
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -94,13 +94,17 @@ class OverArrays:
             raise TypeError(f'readings: write a dictionary of joints and inputs, {{"azimuth": 0.1}}, not a {type(readings).__name__}')
         for name, reading in readings.items():
             is_number = isinstance(reading, (int, float, np.integer, np.floating)) and not isinstance(reading, bool)
-            (constants if is_number else columns).append((name, float(reading) if is_number else reading))
+            name = text_of("a name of readings", name)
+            if is_number:
+                constants.append((name, number_of(name, reading)))
+            else:
+                columns.append((name, reading))
         if threads is not None and whole("threads", threads, 32) < 1:
             raise ValueError(f"threads: at least one is needed, not {threads}")
         is_one = not columns
         given = out.reshape(*out.shape, 1) if is_one and isinstance(out, np.ndarray) else out
         result = self._native.evaluate(
-            form, observable, columns, constants, errors_text(errors), wrt, given, threads, self._compiled
+            form, observable_of(observable), columns, constants, errors_text(errors), wrt, given, threads, self._compiled
         )
         if out is not None:
             return out

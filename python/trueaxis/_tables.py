@@ -8,10 +8,12 @@ from __future__ import annotations
 
 import datetime
 import html
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
 import numpy as np
+
+from ._inputs import text_of
 
 if TYPE_CHECKING:
     from . import _native
@@ -39,57 +41,67 @@ _TRUTHS = ("truth values", "give numbers")
 _DURATIONS = ("durations", 'give numbers, of seconds by dividing by numpy.timedelta64(1, "s")')
 
 
-class Table(Mapping[str, Any]):
-    """Columns by name, in order. Columns of numbers are arrays of float64, others lists.
+class Table(dict[str, Any]):
+    """Columns by name, in order. Columns of numbers are arrays of float64, others lists; those that came in a dictionary stay what they
+    were.
 
-    ``table["value"]`` is a column, ``dict(table)`` all of them; :meth:`to_pandas`, :meth:`to_polars` and :meth:`to_arrow`
-    make data frames. Units stand in the names of the columns.
+    ``table["value"]`` is a column; :meth:`to_pandas`, :meth:`to_polars` and :meth:`to_arrow` make data frames. Units stand in the
+    names of the columns.
     """
 
-    def __init__(self, columns: Mapping[str, Any]):
-        self._columns = dict(columns)
+    def __eq__(self, other: object) -> bool:
+        """Whether it is a table of the same columns in the same order, which are read alike: so are 1 and 1.0, and nothing (NaN) and
+        nothing."""
+        is_like = isinstance(other, Table) and list(self) == list(other)
+        return is_like and all(_are_alike(name, self[name], other[name]) for name in self)
 
-    def __getitem__(self, name: str) -> Any:
-        return self._columns[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._columns)
-
-    def __len__(self) -> int:
-        return len(self._columns)
+    def __ne__(self, other: object) -> bool:
+        return not self == other
 
     @property
     def rows(self) -> int:
         """How many rows there are."""
-        return len(next(iter(self._columns.values()))) if self._columns else 0
+        return len(next(iter(self.values()))) if self else 0
 
     def to_pandas(self):
         """A ``pandas.DataFrame``."""
         import pandas
 
-        return pandas.DataFrame(self._columns)
+        return pandas.DataFrame(self)
 
     def to_polars(self):
         """A ``polars.DataFrame``."""
         import polars
 
-        return polars.DataFrame(self._columns, strict=False)
+        def of(column: Any) -> Any:
+            if library_of(column) != "pandas":
+                return column
+            import pandas
+
+            return polars.Series(pandas.Series(column))
+
+        return polars.DataFrame({name: of(column) for name, column in self.items()}, strict=False)
 
     def to_arrow(self):
         """A ``pyarrow.Table``."""
         import pyarrow
 
-        return pyarrow.table(self._columns)
+        def of(column: Any) -> Any:
+            # Arrow has numbers as this machine has them.
+            is_swapped = isinstance(column, np.ndarray) and not column.dtype.isnative
+            return column.astype(column.dtype.newbyteorder("=")) if is_swapped else column
+
+        return pyarrow.table({name: of(column) for name, column in self.items()})
 
     def _shown(self) -> list[list[str]]:
         def cell(value: Any) -> str:
             return f"{value:.6g}" if isinstance(value, (float, np.floating)) else str(value)
 
         rows = min(self.rows, _ROWS_SHOWN)
-        return [[cell(column[row]) for column in self._columns.values()] for row in range(rows)]
+        return [[cell(column[row]) for column in self.values()] for row in range(rows)]
 
     def __repr__(self) -> str:
-        lines = [list(self._columns), *self._shown()]
+        lines = [list(self), *self._shown()]
         widths = [max(map(len, column)) for column in zip(*lines)]
         text = "\n".join("  ".join(cell.ljust(w) for cell, w in zip(line, widths)).rstrip() for line in lines)
         return text + (f"\n… {self.rows} rows" if self.rows > _ROWS_SHOWN else "")
@@ -100,7 +112,19 @@ class Table(Mapping[str, Any]):
 
         more = f"<p>{self.rows} rows</p>" if self.rows > _ROWS_SHOWN else ""
         body = "".join(row(line, "td") for line in self._shown())
-        return f"<table><thead>{row(list(self._columns), 'th')}</thead><tbody>{body}</tbody></table>{more}"
+        return f"<table><thead>{row(list(self), 'th')}</thead><tbody>{body}</tbody></table>{more}"
+
+
+def _are_alike(name: str, one: Any, other: Any) -> bool:
+    """Whether two columns are read alike. Of what nobody reads that is known of the same column alone."""
+    if one is other:
+        return True
+    first, second = column_of(name, one), column_of(name, other)
+    if isinstance(first, Other) and isinstance(second, Other):
+        return first.why == second.why and first.labels is not None and np.array_equal(first.labels, second.labels, equal_nan=True)
+    if isinstance(first, np.ndarray) and isinstance(second, np.ndarray):
+        return np.array_equal(first, second, equal_nan=True)
+    return type(first) is type(second) and first == second
 
 
 def kept(table: Any) -> Any:
@@ -122,6 +146,12 @@ def _no_table(table: Any) -> TypeError:
     return TypeError(
         f"a table is needed, this is a {type(table).__name__}: give a pandas, Polars or Arrow table, or a dictionary of columns"
     )
+
+
+def is_frame(value: Any) -> bool:
+    """Whether a value is a table, and no column of one."""
+    # A stream of Arrow's has a schema and no columns.
+    return isinstance(value, Mapping) or any(hasattr(value, name) for name in ["columns", "column_names", "schema"])
 
 
 def library_of(thing: Any) -> str:
@@ -148,7 +178,7 @@ def columns_of(table: Any, chain: _native.Chain | None = None) -> Columns:
         return columns_of(kept(table), chain)
     else:
         raise _no_table(table)
-    names = [str(name) for name, _ in pairs]
+    names = [text_of("the name of a column", str(name)) for name, _ in pairs]
     is_read = [True] * len(names) if chain is None else chain.are_readings(names)
     return [(name, column_of(name, column, is_one)) for name, (_, column), is_one in zip(names, pairs, is_read)]
 
@@ -160,7 +190,8 @@ def column_of(name: str, column: Any, is_read: bool = True) -> Column:
         raise TypeError(f"column `{name}` is a {type(column).__name__}, which can be read only once: write list(...) of it")
     if isinstance(column, np.ndarray) and column.ndim == 0:
         raise TypeError(f"column `{name}` is a single number: give one number or text a row")
-    if isinstance(column, (str, bytes, Mapping)) or not hasattr(column, "__len__"):
+    # Of a set nobody knows which row is whose.
+    if isinstance(column, (str, bytes, Mapping, Set)) or not hasattr(column, "__len__"):
         raise TypeError(f"column `{name}` is a {type(column).__name__}: give one number or text a row")
 
     def other(what: str, instead: str = "give one number or text a row", labels: np.ndarray | None = None) -> Other:
@@ -225,8 +256,8 @@ def _array(column: Any) -> np.ndarray:
     if library in ("pandas", "polars"):
         return column.to_numpy()
     values = list(column)
-    # A list with a text in it is one of texts; NumPy would make texts of its numbers too.
-    if any(isinstance(value, str) or value is None for value in values):
+    # A list with a text in it is one of texts; NumPy would make texts of its numbers too, and numbers of truth values among them.
+    if any(isinstance(value, (str, bool, np.bool_)) or value is None for value in values):
         mixed = np.empty(len(values), dtype=object)
         mixed[:] = values
         return mixed
@@ -234,8 +265,8 @@ def _array(column: Any) -> np.ndarray:
 
 
 def _mixed(values: list[Any], other: Callable[..., Other]) -> Column:
-    """Numbers with nothing in some rows are numbers, where NaN says so; so are truth values and durations, which are none to calculate
-    with; all else is texts."""
+    """Numbers with nothing in some rows are numbers, where NaN says so; so are truth values, alone or among numbers, and durations, which
+    are none to calculate with; all else is texts."""
 
     def is_none(value: Any) -> bool:
         is_nan = isinstance(value, float) and value != value
@@ -247,10 +278,13 @@ def _mixed(values: list[Any], other: Callable[..., Other]) -> Column:
     def numbers(of: Callable[[Any], float]) -> np.ndarray:
         return np.array([np.nan if is_none(value) else of(value) for value in values])
 
-    if values and all_are((int, float, np.number), (bool, np.timedelta64)):
-        return numbers(float)
-    if values and all_are((bool, np.bool_)):
-        return other(*_TRUTHS, numbers(float))
+    try:
+        if values and all_are((int, float, np.number), (bool, np.timedelta64)):
+            return numbers(float)
+        if values and all_are((int, float, np.number, np.bool_), (np.timedelta64,)):
+            return other(*_TRUTHS, numbers(float))
+    except OverflowError:
+        return other("whole numbers larger than any that is calculated with", "give numbers below 1.8e308")
     if values and all_are((datetime.timedelta, np.timedelta64)):
         return other(*_DURATIONS, numbers(lambda value: value / np.timedelta64(1, "s")))
 
@@ -284,7 +318,12 @@ def with_columns(table: Any, columns: Mapping[str, np.ndarray], replaced: Sequen
             else:
                 table = table.set_column(at, name, pyarrow.array(column))
         return table
-    # The rows of pandas' columns are told by their places, as those of all others are.
-    own = {name: column for name, column in table.items() if str(name) not in lost}
-    plain = {name: column.array if library_of(column) == "pandas" else column for name, column in own.items()}
-    return Table({**plain, **columns})
+    own = {name: _without_index(column) for name, column in table.items() if str(name) not in lost}
+    return Table({**own, **columns})
+
+
+def _without_index(column: Any) -> Any:
+    """A column whose rows are told by their places, as those of all others are, whatever pandas calls them."""
+    if library_of(column) != "pandas" or not hasattr(column, "array"):
+        return column
+    return column.to_numpy() if isinstance(column.dtype, np.dtype) else column.array

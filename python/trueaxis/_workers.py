@@ -5,7 +5,9 @@ from __future__ import annotations
 import asyncio
 import functools
 import os
+import queue
 import secrets
+import threading
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -20,6 +22,8 @@ if TYPE_CHECKING:
 
 _SECONDS = 10
 """How long a scheduler may take to answer."""
+_MORE_SECONDS = 5
+"""How long whoever asks may take beyond that to say that nobody answers."""
 _WORKER_SECONDS = 60
 """How long a scheduler may be without any worker."""
 _PAUSE = 0.01
@@ -82,7 +86,10 @@ def _doing(client: distributed.Client | str | None) -> Iterator[Each]:
         raise TypeError(f"client: give a Dask client or the address of a scheduler, not a {type(client).__name__}")
     own = None
     if isinstance(client, str):
+        _require_scheduler(client, distributed.Security())
         client = own = _connected(client)
+    else:
+        _require_usable(client)
     address = client.scheduler.address
     try:
         try:
@@ -157,6 +164,44 @@ def _lost_is_told(client: distributed.Client, address: str) -> Iterator[None]:
         if isinstance(error, OSError) or client.status != "running":
             raise _lost(address) from None
         raise
+
+
+def _require_usable(client: distributed.Client) -> None:
+    """Refuses a client that nobody can wait for."""
+    what = "closed" if client.status in ("closing", "closed") else "asynchronous" if client.asynchronous else None
+    if what is not None:
+        raise TrueaxisError(f"client: this Dask client is {what}: give one that is open and not asynchronous, or the address of its scheduler")
+    _require_scheduler(client.scheduler.address, client.security)
+
+
+def _require_scheduler(address: str, security: distributed.Security) -> None:
+    """Refuses an address where no scheduler answers. A client that connects to something else may wait for ever, and be ended as little:
+    a thread that nobody waits for asks before."""
+    from distributed.core import rpc
+
+    answers: queue.SimpleQueue[Any] = queue.SimpleQueue()
+
+    async def identity() -> dict[str, Any]:
+        async with rpc(address, timeout=_SECONDS, connection_args=security.get_connection_args("client")) as there:
+            return await there.identity()
+
+    def ask() -> None:
+        try:
+            answers.put(asyncio.run(identity()))
+        except Exception as error:
+            answers.put(error)
+
+    threading.Thread(target=ask, name="trueaxis-asks", daemon=True).start()
+    try:
+        answer = answers.get(timeout=_SECONDS + _MORE_SECONDS)
+    except queue.Empty:
+        answer = TimeoutError(f"what is there has said nothing for {_SECONDS + _MORE_SECONDS} s")
+    if isinstance(answer, Exception):
+        raise TrueaxisError(f"no scheduler answers at `{address}`: {answer}") from None
+    if "workers" not in answer:
+        kind, scheduler = answer.get("type", "something else"), answer.get("scheduler")
+        instead = f": give the address of its scheduler, `{scheduler}`" if scheduler else ""
+        raise TrueaxisError(f"no scheduler answers at `{address}`: this is the address of a {kind}{instead}")
 
 
 def _connected(address: str) -> distributed.Client:

@@ -21,11 +21,22 @@ pub(super) struct Next {
 pub(super) fn next(whole: &Context<'_>, last: &Fitted) -> Next {
     let (poses, places) = (next_poses(whole, last), next_places(whole, last));
     let why = poses.as_ref().err().or(places.as_ref().err()).map(ToString::to_string);
+    let why = why.or_else(|| nothing_is_seen(whole, places.as_deref().unwrap_or_default()));
     Next {
         poses: poses.unwrap_or_default(),
         places: places.unwrap_or_default(),
         missing: why.map(|why| Caution::NothingProposed { why }),
     }
+}
+
+/// Why nothing comes of a question for places, where none of them is seen.
+fn nothing_is_seen(whole: &Context<'_>, places: &[PlaceProposal]) -> Option<String> {
+    let Request { observations, plan, .. } = whole.request;
+    let wanted = plan.next.as_ref()?.places.as_ref()?;
+    let is_asked = wanted.stations > 0 || wanted.objects.iter().any(|(_, count)| *count > 0);
+    let is_missing = is_asked && observations.unknowns.is_some() && places.is_empty();
+    is_missing
+        .then(|| "no place is seen within the ranges of the readings: widen `range` under [next]".to_owned())
 }
 
 fn next_poses(whole: &Context<'_>, last: &Fitted) -> Result<Vec<Proposal>, FitError> {

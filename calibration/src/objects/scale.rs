@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::rows::sighted;
 use super::start::StartError;
-use crate::data::unknowns::{Freedom, Unknowns};
+use crate::data::unknowns::{Freedom, Object, Shape, Unknowns};
 use crate::data::{Measure, Measured, Observations, Series};
 use crate::fit::FitOptions;
 
@@ -100,7 +100,9 @@ fn known_places(unknowns: &Unknowns) -> usize {
     let stations = unknowns.stations.iter().enumerate().filter(|(number, station)| {
         station.freedom != Freedom::Free && unknowns.station.iter().any(|&own| own as usize == *number)
     });
-    let objects = unknowns.objects.iter().filter(|object| object.freedom != Freedom::Free);
+    // A place says nothing of a plane.
+    let is_known = |object: &&Object| object.freedom != Freedom::Free && object.shape != Shape::Plane;
+    let objects = unknowns.objects.iter().filter(is_known);
     stations.count() + objects.count()
 }
 

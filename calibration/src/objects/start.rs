@@ -53,8 +53,8 @@ pub enum StartError {
     /// Every length that is estimated can shrink to nothing, and all residuals with it.
     #[error(
         "nothing holds the scale: `{lengths}` could shrink the whole chain to a point, and every residual with it; leave one of \
-         them out ([fit] fix = {{ {first} = 0 }}), or add lengths that are known: rows of kind \"distance\", or [objects] with \
-         the places of two"
+         them out ([fit] fix = {{ {first} = 0 }}), or add a length that is known: rows of kind \"distance\", or where two targets \
+         ([objects]) or two stations ([stations]) are"
     )]
     NoScale {
         /// The lengths that are estimated.
@@ -152,6 +152,7 @@ fn end_sights(chain: &Chain, observations: &mut Observations, unknowns: &Unknown
 /// Places what can be placed; the objects that cannot are returned.
 fn place_all(unknowns: &mut Unknowns, rows: &[Row]) -> Result<Vec<Lost>, StartError> {
     place_stations(unknowns, rows)?;
+    free_alone(unknowns);
     let mut of_object: Vec<Vec<&Row>> = vec![Vec::new(); unknowns.objects.len()];
     rows.iter().for_each(|row| of_object[row.object].push(row));
     let mut lost = Vec::new();
@@ -296,6 +297,20 @@ fn place_by_shared(
         take_over(unknowns, there, seen, station);
     }
     Ok(())
+}
+
+/// Takes a single exact point for unknown where nothing else is known: it says where all of it is, which no error hangs on. Held out
+/// with the rest, it would seem to be off by as much as the frame of the others is.
+fn free_alone(unknowns: &mut Unknowns) {
+    let used = unknowns.station.iter().map(|&number| unknowns.stations[number as usize].freedom);
+    let are_free = used.into_iter().all(|freedom| freedom == Freedom::Free);
+    let mut stated = unknowns.objects.iter_mut().filter(|object| object.freedom != Freedom::Free);
+    if let (Some(alone), None, true) = (stated.next(), stated.next(), are_free)
+        && alone.shape == Shape::Point
+        && alone.freedom == Freedom::Given
+    {
+        alone.freedom = Freedom::Free;
+    }
 }
 
 /// The stations of which a study says nothing, the first of many.

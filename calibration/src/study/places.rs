@@ -98,6 +98,12 @@ impl Study {
             let help = "write `[observed] kind = \"target\"`, \"plane\", \"fixed\", \"circle\", \"sphere\", \"wire\", \"distance\" or \"sight\", or leave it out";
             return Err(mistake(name.span(), "no data of this study observe objects from stations", help));
         }
+        let mut shapes = sources.iter().filter_map(|source| Shape::of(source.measure));
+        if let (Some(name), true) = (self.objects.keys().next(), shapes.all(|shape| shape == Shape::Plane)) {
+            let message = format!("`{}` is a plane, of which a place says nothing", name.get_ref());
+            let help = "leave [objects] out; where two stations stood ([stations]) or a known length shows the scale";
+            return Err(mistake(name.span(), message, help));
+        }
         let stations = every(self.stations.iter().map(|(name, table)| station(name.get_ref(), table)));
         let objects = every(self.objects.iter().map(|(name, table)| object(name.get_ref(), table)));
         Ok(Places { stations: stations?, objects: objects? })

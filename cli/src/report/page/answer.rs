@@ -8,6 +8,9 @@ use maud::{Markup, PreEscaped, html};
 use super::chain;
 use crate::report::Reported;
 
+/// Errors that the first screen has room for.
+const ESTIMATES: usize = 8;
+
 /// The five answers.
 pub fn first_screen(reported: &Reported<'_>, answers: &Answers) -> Markup {
     let diagnosis = &reported.calibration.diagnosis;
@@ -51,9 +54,13 @@ pub fn first_screen(reported: &Reported<'_>, answers: &Answers) -> Markup {
                 p.caution role="note" { b { "Warning. " } (coded(&words::sentence_case(warning))) }
             }
             div.grid {
-                section.card aria-label="Where it sits" {
-                    h2 { "Where it sits" }
-                    (chain::chain(diagnosis))
+                @if diagnosis.effects.is_empty() && diagnosis.verdict.is_usable() {
+                    (declared(diagnosis))
+                } @else {
+                    section.card aria-label="Where it sits" {
+                        h2 { "Where it sits" }
+                        (chain::chain(diagnosis))
+                    }
                 }
                 section.card aria-label="How much better" {
                     h2 { @if diagnosis.effects.is_empty() { "How large it is" } @else { "How much better" } }
@@ -76,6 +83,26 @@ pub fn first_screen(reported: &Reported<'_>, answers: &Answers) -> Markup {
                     }
                 }
             }
+        }
+    }
+}
+
+/// The declared errors, where nothing was found beside them: they are what the calibration is for.
+fn declared(diagnosis: &Diagnosis) -> Markup {
+    let estimates = words::estimates(diagnosis);
+    let more = estimates.lines.len().saturating_sub(ESTIMATES);
+    html! {
+        section.card aria-label="The declared errors" {
+            h2 { "The declared errors" }
+            table {
+                tbody {
+                    @for line in estimates.lines.iter().take(ESTIMATES) {
+                        tr { th scope="row" { code { (line.what) } } td.number { (line.estimate) } }
+                    }
+                }
+            }
+            @if more > 0 { p { a href="#values" { "and " (more) " more" } } }
+            @for note in &estimates.notes { p.quiet { (words::sentence_case(note)) "." } }
         }
     }
 }

@@ -1,7 +1,7 @@
-//! What a table is read from: bytes front to back, or a file, of which a format may read whatever range it needs.
+//! What a table is read from: bytes front to back, or what has a length and places, such as a file, of which a format may read
+//! whatever range it needs.
 
-use std::fs::File;
-use std::io::{self, Cursor, Read, Stdin};
+use std::io::{self, Cursor, Read, Seek, Stdin};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -9,17 +9,22 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub enum Input<'r> {
     /// Bytes, front to back.
     Stream(Box<dyn Read + Send + 'r>),
-    /// A regular file.
-    File(InputFile),
+    /// What may be read anywhere.
+    Ranged(Ranged),
 }
 
-/// A regular file that tells how far it has been read.
-pub struct InputFile {
-    pub(super) file: File,
+/// What may be read anywhere, and tells how far it has been.
+pub struct Ranged {
+    pub(super) source: Box<dyn ReadSeek>,
     pub(super) extent: Extent,
 }
 
-/// How far a file has been read, while it is.
+/// Bytes at any place.
+pub(super) trait ReadSeek: Read + Seek + Send {}
+
+impl<T: Read + Seek + Send> ReadSeek for T {}
+
+/// How far something has been read, while it is.
 #[derive(Debug, Clone)]
 pub struct Extent {
     read: Arc<AtomicU64>,
@@ -27,7 +32,7 @@ pub struct Extent {
 }
 
 impl Extent {
-    /// Length of the file, in bytes.
+    /// Length of the whole, in bytes.
     #[must_use]
     pub fn length(&self) -> u64 {
         self.length
@@ -43,7 +48,7 @@ impl Extent {
         self.read.fetch_add(bytes, Ordering::Relaxed);
     }
 
-    /// Says that `done` of `all` rows have been read, wherever in the file they lie.
+    /// Says that `done` of `all` rows have been read, wherever they lie.
     #[cfg(feature = "parquet")]
     pub(super) fn rows(&self, done: u64, all: u64) {
         let share = done as f64 / all.max(1) as f64;
@@ -51,21 +56,27 @@ impl Extent {
     }
 }
 
-impl Read for InputFile {
+impl Read for Ranged {
     fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
-        let count = self.file.read(into)?;
+        let count = self.source.read(into)?;
         self.extent.add(count as u64);
         Ok(count)
     }
 }
 
 impl Input<'_> {
-    /// How far a regular file has been read; none of anything else.
+    /// Something of a length that may be read anywhere, from its beginning on.
+    pub fn ranged(source: impl Read + Seek + Send + 'static, length: u64) -> Self {
+        let extent = Extent { read: Arc::default(), length };
+        Self::Ranged(Ranged { source: Box::new(source), extent })
+    }
+
+    /// How far it has been read; none of what comes as a stream.
     #[must_use]
     pub fn extent(&self) -> Option<Extent> {
         match self {
             Self::Stream(_) => None,
-            Self::File(file) => Some(file.extent.clone()),
+            Self::Ranged(own) => Some(own.extent.clone()),
         }
     }
 }
@@ -75,20 +86,7 @@ impl<'r> Input<'r> {
     pub(super) fn front_to_back(self) -> Box<dyn Read + Send + 'r> {
         match self {
             Self::Stream(reader) => reader,
-            Self::File(file) => Box::new(file),
-        }
-    }
-}
-
-/// Pipes and devices are files too, but have no ranges.
-impl From<File> for Input<'_> {
-    fn from(file: File) -> Self {
-        match file.metadata() {
-            Ok(metadata) if metadata.is_file() => {
-                let extent = Extent { read: Arc::default(), length: metadata.len() };
-                Self::File(InputFile { file, extent })
-            }
-            _ => Self::Stream(Box::new(file)),
+            Self::Ranged(own) => Box::new(own),
         }
     }
 }

@@ -36,7 +36,7 @@ pub(crate) use decimal::numbers;
 pub(crate) use error::clipped;
 pub use error::{Cell, DataError};
 pub use header::{ColumnName, ReadAs, declared_columns, find_column, find_reading};
-pub use input::{Extent, Input, InputFile};
+pub use input::{Extent, Input, Ranged};
 pub use number::push_number;
 pub use options::Options;
 pub use quote::write_row;

@@ -28,7 +28,7 @@ pub use write::{TextType, Writer};
 
 use super::header::{ColumnName, unique};
 use super::{
-    Cell, Cells, Chunk, DataError, Extent, Form, Input, InputFile, Kept, Options, TableReader, Texts, Wanted,
+    Cell, Cells, Chunk, DataError, Extent, Form, Input, Kept, Options, Ranged, TableReader, Texts, Wanted,
 };
 use bounded::BoundedFile;
 use ranges::Ranges;
@@ -62,9 +62,9 @@ impl Reader {
         let memory_bytes = options.memory_bytes;
         let (ranges, extent) = match input {
             Input::Stream(reader) => (Ranges::Held(super::whole(reader, source, options)?.into()), None),
-            Input::File(InputFile { file, extent }) => {
-                let file = Arc::new(Mutex::new(file));
-                (Ranges::File { file, length: extent.length(), memory_bytes }, Some(extent))
+            Input::Ranged(Ranged { source, extent }) => {
+                let source = Arc::new(Mutex::new(source));
+                (Ranges::Read { source, length: extent.length(), memory_bytes }, Some(extent))
             }
         };
         if ranges.len() == 0 {

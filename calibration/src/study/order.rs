@@ -51,7 +51,7 @@ fn looks_like_time(label: &str) -> bool {
     });
     let by_numbers = match words[..] {
         [day, month, year, ..] => {
-            let is_date = [day, month, year].iter().all(|word| digits(word))
+            let is_date = [day, month, year].iter().all(digits)
                 && day.len() <= 2
                 && month.len() <= 2
                 && (year.len() == 4 || [day, month, year].iter().all(|word| word.len() == 2));
@@ -60,8 +60,7 @@ fn looks_like_time(label: &str) -> bool {
         }
         _ => false,
     };
-    let by_name =
-        words.iter().any(|word| is_month(word)) && words.iter().filter(|word| digits(word)).count() >= 2;
+    let by_name = words.iter().any(is_month) && words.iter().filter(|word| digits(word)).count() >= 2;
     by_numbers || by_name || of_twelve
 }
 

@@ -3,7 +3,6 @@
 //! The data lie outside the project; without them the tests say so and pass, except where `CI` is set.
 #![allow(clippy::unwrap_used, clippy::print_stderr)]
 
-use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use calibration::data::Observations;
@@ -28,8 +27,8 @@ fn load(study: &str) -> Option<(Plan, Observations)> {
         return None;
     }
     let mut open = |file: &str| -> Result<Input<'static>, DataError> {
-        let file = File::open(folder.join(file));
-        file.map(Input::from).map_err(|error| DataError::Unreadable {
+        let bytes = std::fs::read(folder.join(file));
+        bytes.map(Input::from).map_err(|error| DataError::Unreadable {
             file: data.display().to_string(),
             why: error.to_string(),
         })

@@ -188,7 +188,6 @@ fn a_single_length_has_the_noise_of_the_ranges() {
         // Chi-squared of 84 and of 12 are within these in 999 of 1000 cases each.
         assert!((48.0..131.0).contains(&pulls), "{count} {stated}: {pulls}");
         assert!((2.0..33.0).contains(&of_scale), "{count} {stated}: {of_scale}");
-        println!("{count} {stated}: {pulls} {of_scale}");
     }
 }
 

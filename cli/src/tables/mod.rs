@@ -101,8 +101,10 @@ pub fn open_beside(study: &Source, path: &str, from: Option<&str>) -> Result<Inp
 /// It cannot be opened, or is a folder.
 pub fn open(path: &Path) -> io::Result<Input<'static>> {
     let file = File::open(path)?;
-    if file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
-        return Err(io::ErrorKind::IsADirectory.into());
+    match file.metadata() {
+        Ok(metadata) if metadata.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+        Ok(metadata) if metadata.is_file() => Ok(Input::ranged(file, metadata.len())),
+        // Pipes and devices are files too, but have no places.
+        _ => Ok(Input::Stream(Box::new(file))),
     }
-    Ok(file.into())
 }

@@ -59,7 +59,7 @@ fn elsewhere(studies: &[(&str, &[&str])]) -> Result<Vec<Line>, Failure> {
         }
         let mut files = data.map(File::open).collect::<Result<Vec<_>, _>>()?.into_iter();
         let mut open = |_: &str| -> Result<Input<'static>, DataError> {
-            Ok(files.next().map_or_else(|| Vec::new().into(), Input::from))
+            Ok(files.next().map_or_else(|| Vec::new().into(), |file| Input::Stream(Box::new(file))))
         };
         let all = plan.load(&mut open)?.observations;
         for joint in *joints {

@@ -1,13 +1,14 @@
 //! Ranges of a Parquet file: out of memory, where it came as a stream, and from the file itself otherwise, so that a file of
 //! any size is read with the memory of a few pages.
 
-use std::fs::File;
-use std::io::{self, BufReader, Read, Seek as _, SeekFrom};
+use std::io::{self, BufReader, Read, SeekFrom};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use ::parquet::errors::{ParquetError, Result};
 use ::parquet::file::reader::{ChunkReader, Length};
 use bytes::Bytes;
+
+use crate::formats::input::ReadSeek;
 
 /// Bytes that are read ahead of a page, for its header.
 const HEADER: usize = 1 << 10;
@@ -18,9 +19,9 @@ pub(super) enum Ranges {
     /// A file held in memory.
     Held(Bytes),
     /// A file that is held nowhere.
-    File {
+    Read {
         /// One place to read at: whoever reads goes there first.
-        file: Arc<Mutex<File>>,
+        source: Arc<Mutex<Box<dyn ReadSeek>>>,
         /// Its length when it was opened.
         length: u64,
         /// The longest range that is read at once.
@@ -41,11 +42,11 @@ impl Ranges {
                 let from = usize::try_from(at).ok().and_then(|at| bytes.get(at..));
                 from.unwrap_or_default().read(into)
             }
-            Self::File { file, .. } => {
+            Self::Read { source, .. } => {
                 // A place where another thread gave up is no worse than any: it is left first.
-                let mut file = file.lock().unwrap_or_else(PoisonError::into_inner);
-                file.seek(SeekFrom::Start(at))?;
-                file.read(into)
+                let mut source = source.lock().unwrap_or_else(PoisonError::into_inner);
+                source.seek(SeekFrom::Start(at))?;
+                source.read(into)
             }
         }
     }
@@ -67,7 +68,7 @@ impl Length for Ranges {
     fn len(&self) -> u64 {
         match self {
             Self::Held(bytes) => bytes.len() as u64,
-            Self::File { length, .. } => *length,
+            Self::Read { length, .. } => *length,
         }
     }
 }
@@ -86,10 +87,10 @@ impl ChunkReader for Ranges {
         }
         match self {
             Self::Held(bytes) => Ok(bytes.slice(start as usize..start as usize + length)),
-            Self::File { memory_bytes, .. } if length as u64 > *memory_bytes => {
+            Self::Read { memory_bytes, .. } if length as u64 > *memory_bytes => {
                 Err(ParquetError::General("a page takes more memory than it may".to_owned()))
             }
-            Self::File { .. } => {
+            Self::Read { .. } => {
                 let mut bytes = vec![0; length];
                 self.from(start).read_exact(&mut bytes).map_err(|error| match error.kind() {
                     io::ErrorKind::UnexpectedEof => {
@@ -104,34 +105,13 @@ impl ChunkReader for Ranges {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
-    use std::path::PathBuf;
-    use std::{env, fs, process};
+    use std::io::Cursor;
 
     use super::super::{Reader, Writer};
     use super::*;
     use crate::formats::{Cells, Column, DataError, Form, Input, Options, TableReader as _, Wanted};
-
-    /// A file that is removed when it is no longer needed.
-    struct Held(PathBuf);
-
-    impl Held {
-        fn new(name: &str, bytes: &[u8]) -> Self {
-            let path = env::temp_dir().join(format!("trueaxis-{}-{name}", process::id()));
-            fs::write(&path, bytes).unwrap();
-            Self(path)
-        }
-
-        fn input(&self) -> Input<'static> {
-            File::open(&self.0).unwrap().into()
-        }
-    }
-
-    impl Drop for Held {
-        fn drop(&mut self) {
-            let _ = fs::remove_file(&self.0);
-        }
-    }
 
     const GROUPS: usize = 12;
     const ROWS: usize = 20_000;
@@ -158,8 +138,8 @@ mod tests {
         let bytes = table();
         let options = Options { memory_bytes: 3 << 20, ..Options::default() };
         assert!(bytes.len() as u64 > options.memory_bytes, "{}", bytes.len());
-        let file = Held::new("large.parquet", &bytes);
-        let (input, streamed) = (file.input(), Input::from(bytes.as_slice()));
+        let length = bytes.len() as u64;
+        let (input, streamed) = (Input::ranged(Cursor::new(bytes.clone()), length), Input::from(bytes));
         let extent = input.extent().unwrap();
         let mut reader = Reader::new(input, "large.parquet", &options).unwrap();
         // Two of three columns: the share is that of the rows.
@@ -186,14 +166,13 @@ mod tests {
 
     #[test]
     fn what_lies_beyond_the_file_is_an_error() {
-        let file = Held::new("short.parquet", b"0123456789");
-        let open = |memory_bytes| Ranges::File {
-            file: Arc::new(Mutex::new(File::open(&file.0).unwrap())),
+        let open = |bytes: &'static [u8], memory_bytes| Ranges::Read {
+            source: Arc::new(Mutex::new(Box::new(Cursor::new(bytes)))),
             length: 10,
             memory_bytes,
         };
         let held = Ranges::Held(Bytes::from_static(b"0123456789"));
-        for ranges in [open(10), held] {
+        for ranges in [open(b"0123456789", 10), held] {
             assert_eq!(ranges.get_bytes(3, 7).unwrap().as_ref(), b"3456789");
             for (start, length) in [(3, 8), (10, 1), (11, 0), (u64::MAX, 1), (0, usize::MAX)] {
                 assert!(ranges.get_bytes(start, length).is_err(), "{length} at {start}");
@@ -203,10 +182,10 @@ mod tests {
             assert_eq!(from, b"89");
             assert_eq!(ranges.get_read(12).unwrap().read(&mut [0]).unwrap(), 0);
         }
-        assert!(open(6).get_bytes(3, 7).is_err());
-        // Another program makes it shorter while it is read.
-        fs::write(&file.0, b"01").unwrap();
-        assert!(open(10).get_bytes(3, 7).is_err());
+        assert!(open(b"0123456789", 6).get_bytes(3, 7).is_err());
+        // Another program made it shorter.
+        let shorter = open(b"01", 10).get_bytes(3, 7).map_err(|error| error.to_string());
+        assert_eq!(shorter, Err("Parquet error: the file became shorter while it was read".to_owned()));
     }
 
     /// Every byte of a good file, spoiled: an error or other numbers, no panic.
@@ -216,8 +195,8 @@ mod tests {
         for at in 0..good.len() {
             let mut bytes = good.to_vec();
             bytes[at] ^= 0x80;
-            let file = Held::new("spoiled.parquet", &bytes);
-            if let Ok(mut reader) = Reader::new(file.input(), "spoiled.parquet", &Options::default()) {
+            let input = Input::ranged(Cursor::new(bytes), good.len() as u64);
+            if let Ok(mut reader) = Reader::new(input, "spoiled.parquet", &Options::default()) {
                 let _ = reader.read(&[Wanted { column: 0, form: Form::Number(1.0) }], usize::MAX);
             }
         }

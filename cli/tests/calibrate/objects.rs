@@ -353,6 +353,9 @@ fn a_station_that_nothing_connects_is_named() {
     folder.write("targets.csv", table.replace("D,T", "D,elsewhere"));
     let seen = run(&folder, &["calibrate", "targets.toml"]);
     assert_eq!(seen.code, 2, "{seen}");
-    assert!(seen.stderr.contains("nothing says where station `D` stood: it shares 0 of the targets"), "{seen}");
+    assert!(
+        seen.stderr.contains("nothing says where station `D` stood: it shares 0 of the targets"),
+        "{seen}"
+    );
     assert!(seen.stderr.contains("rough = true"), "{seen}");
 }

@@ -15,7 +15,7 @@ pub(super) enum Time {
     /// Parts of a second since midnight, so many a second.
     OfDay { parts: i64 },
     /// Parts of a second since 1970-01-01, of a clock that shows UTC or of nobody knows which.
-    Instant { parts: i64, is_utc: bool },
+    Moment { parts: i64, is_utc: bool },
 }
 
 impl Time {
@@ -29,12 +29,12 @@ impl Time {
         };
         match (info.logical_type_ref(), info.converted_type()) {
             (Some(LogicalType::Timestamp(own)), _) => {
-                Some(Self::Instant { parts: parts(&own.unit), is_utc: own.is_adjusted_to_u_t_c })
+                Some(Self::Moment { parts: parts(&own.unit), is_utc: own.is_adjusted_to_u_t_c })
             }
             (Some(LogicalType::Time(own)), _) => Some(Self::OfDay { parts: parts(&own.unit) }),
             (Some(LogicalType::Date), _) | (_, ConvertedType::DATE) => Some(Self::Day),
-            (_, ConvertedType::TIMESTAMP_MILLIS) => Some(Self::Instant { parts: 1_000, is_utc: true }),
-            (_, ConvertedType::TIMESTAMP_MICROS) => Some(Self::Instant { parts: 1_000_000, is_utc: true }),
+            (_, ConvertedType::TIMESTAMP_MILLIS) => Some(Self::Moment { parts: 1_000, is_utc: true }),
+            (_, ConvertedType::TIMESTAMP_MICROS) => Some(Self::Moment { parts: 1_000_000, is_utc: true }),
             (_, ConvertedType::TIME_MILLIS) => Some(Self::OfDay { parts: 1_000 }),
             (_, ConvertedType::TIME_MICROS) => Some(Self::OfDay { parts: 1_000_000 }),
             _ => None,
@@ -46,7 +46,7 @@ impl Time {
         match self {
             Self::Day => day(count),
             Self::OfDay { parts } => of_day(count, parts),
-            Self::Instant { parts, is_utc } => {
+            Self::Moment { parts, is_utc } => {
                 let of_a_day = SECONDS_OF_DAY * parts;
                 let (days, rest) = (count.div_euclid(of_a_day), count.rem_euclid(of_a_day));
                 let offset = if is_utc { " +00:00" } else { "" };
@@ -124,7 +124,7 @@ mod tests {
 
     #[test]
     fn an_instant_of_any_size_is_a_text() {
-        let of = |parts, is_utc| Time::Instant { parts, is_utc };
+        let of = |parts, is_utc| Time::Moment { parts, is_utc };
         assert_eq!(of(1_000, true).text(-1), "1969-12-31 23:59:59.999 +00:00");
         assert_eq!(of(1_000_000_000, false).text(10_000_000_001), "1970-01-01 00:00:10.000000001");
         assert_eq!(of(1_000_000_000, false).text(i64::MAX), "2262-04-11 23:47:16.854775807");

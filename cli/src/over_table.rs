@@ -124,9 +124,17 @@ impl OverTable {
         let header: Vec<String> = table.names_of(&is_kept).into_iter().chain(added.iter().cloned()).collect();
         let mut not_finite = 0;
         let mut done = 0_usize;
-        let (progress, began) = (terminal::progress(), Instant::now());
+        let progress = terminal::progress();
+        progress.set_message("reading the header");
         let table = tables::write(&self.out, |writer| {
-            writer.header_beside(&header, &table, &is_kept)?;
+            // A large table is read once for the types of its texts.
+            writer.header_beside(&header, &table, &is_kept, |share| {
+                progress.set_message(format!(
+                    "{:.0} % of the file read for the types of its columns",
+                    100.0 * share
+                ));
+            })?;
+            let began = Instant::now();
             read_ahead(table, |rows, share_read| {
                 let computed = compute(&rows)?;
                 let is_finite = |row: &usize| computed.iter().all(|column| column[*row].is_finite());

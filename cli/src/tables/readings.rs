@@ -109,18 +109,19 @@ impl<'t> ReadingsTable<'t> {
         Self { reader, declared, readings, wanted, started: false, extent: None, file: None }
     }
 
-    /// What the texts of each column are that is kept as it came, from reading the whole file once before: with that, a large
+    /// What the texts of each column are that is kept as it came, from reading the whole file once before, of which `tell` hears: with that, a large
     /// table with types of its own is written as it is read. None where it is no such file, or has types itself.
     ///
     /// # Errors
     /// The file cannot be read.
     #[cfg(feature = "parquet")]
-    pub fn text_types(&self) -> Result<Option<Vec<TextType>>, Failure> {
+    pub fn text_types(&self, tell: impl Fn(f64)) -> Result<Option<Vec<TextType>>, Failure> {
         let Some((path, options)) = &self.file else { return Ok(None) };
         if self.extent.as_ref().is_none_or(|extent| extent.length() <= HELD) {
             return Ok(None);
         }
         let input = super::open(path).map_err(|error| source::not_readable(path, &error))?;
+        let extent = input.extent();
         let reader = formats::open(input, &path.display().to_string(), options);
         let is_kept = |wanted: &&Wanted| matches!(wanted.form, Form::Kept);
         let wanted: Vec<Wanted> = self.wanted.iter().filter(is_kept).copied().collect();
@@ -131,12 +132,13 @@ impl<'t> ReadingsTable<'t> {
             declared: self.declared.clone(),
             readings: readings.collect(),
             started: false,
-            extent: None,
+            extent,
             file: None,
             wanted,
         };
         let mut types = vec![TextType::default(); scanned.wanted.len()];
         while let Some(rows) = scanned.next()? {
+            tell(scanned.share_read().unwrap_or_default());
             if rows.kept.iter().any(|kept| matches!(kept, Kept::Typed(_))) {
                 return Ok(None);
             }

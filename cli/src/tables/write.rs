@@ -80,7 +80,7 @@ impl TableWriter<'_> {
         }
     }
 
-    /// The same of a table whose columns come first, those of them that are kept.
+    /// The same of a table whose columns come first, those of them that are kept; `tell` hears which share of it was read for that.
     ///
     /// # Errors
     /// The place cannot be written, or the table cannot be read.
@@ -90,11 +90,12 @@ impl TableWriter<'_> {
         header: &[String],
         table: &ReadingsTable<'_>,
         is_kept: &[bool],
+        tell: impl Fn(f64),
     ) -> Result<(), Failure> {
         self.header(header)?;
         #[cfg(feature = "parquet")]
         if let Self::Parquet { writer, .. } = self
-            && let Some(known) = table.text_types()?
+            && let Some(known) = table.text_types(tell)?
         {
             let kept = known.into_iter().zip(is_kept).filter(|(_, is_kept)| **is_kept);
             let mut types: Vec<_> = kept.map(|(known, _)| Some(known)).collect();

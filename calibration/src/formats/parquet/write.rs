@@ -20,7 +20,7 @@ use crate::formats::{Column, Kept, Texts};
 
 /// Rows of a group, and bytes from which on it has fewer: what is held of a table whose types are known.
 const GROUP: usize = 1 << 17;
-const GROUP_BYTES: usize = 256 << 20;
+const GROUP_BYTES: usize = 64 << 20;
 
 /// Digits of a decimal number that a double holds in any case.
 const DOUBLE_DIGITS: usize = 15;

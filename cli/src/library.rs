@@ -259,7 +259,7 @@ pub fn simulated(
 ) -> Result<Vec<(String, Vec<f64>)>, Failure> {
     let values = errors_file::values(errors, chain)?;
     let mut simulation = simulate::Simulation::new(chain, &values, noise, names, ranges, seed)?;
-    if !fit_into_memory(poses, simulation.header.len()) {
+    if !poses.checked_mul(simulation.header.len()).is_some_and(has_room) {
         return Err(Failure::Input(format!(
             "poses={poses}: so many rows of {} columns do not fit into memory: ask for fewer, or write them into a file with \
              `trueaxis simulate`",
@@ -270,12 +270,13 @@ pub fn simulated(
     Ok(simulation.header.into_iter().zip(columns).collect())
 }
 
-/// Whether the system would give memory for a table, rather than end the process.
-fn fit_into_memory(rows: usize, columns: usize) -> bool {
-    let mut numbers: Vec<f64> = Vec::new();
-    let is_had = rows.checked_mul(columns).is_some_and(|all| numbers.try_reserve_exact(all).is_ok());
+/// Whether the system would give memory for so many numbers, rather than end the process.
+#[must_use]
+pub fn has_room(numbers: usize) -> bool {
+    let mut room: Vec<f64> = Vec::new();
+    let is_had = room.try_reserve_exact(numbers).is_ok();
     // What nobody looks at would not be asked for.
-    std::hint::black_box(&numbers);
+    std::hint::black_box(&room);
     is_had
 }
 

@@ -1,7 +1,5 @@
 //! Memory for results, asked for before they are computed: where the system has none, it ends the process.
 
-use std::hint::black_box;
-
 use model_core::{Chain, ObservableId};
 use trueaxis_cli::library::{self, Column, Failure};
 
@@ -10,12 +8,7 @@ use trueaxis_cli::library::{self, Column, Failure};
 /// # Errors
 /// The system would not give so much.
 pub fn require_room(chain: &Chain, names: &[String], columns: &[(&str, Column<'_>)]) -> Result<(), Failure> {
-    let rows = match columns.first() {
-        Some((_, Column::Numbers(numbers))) => numbers.len(),
-        Some((_, Column::Texts(texts))) => texts.len(),
-        Some((_, Column::Other { rows, .. })) => *rows,
-        None => 0,
-    };
+    let rows = columns.first().map_or(0, |(_, column)| column.rows());
     // Behind the name of a reading its unit may stand.
     let is_there = |name: &str| columns.iter().any(|(column, _)| column.starts_with(name));
     let is_wanted = |id: ObservableId| match names {
@@ -25,18 +18,10 @@ pub fn require_room(chain: &Chain, names: &[String], columns: &[(&str, Column<'_
     let wanted = (0u16..).map(ObservableId).zip(&chain.observables).filter(|(id, _)| is_wanted(*id));
     let numbers: usize = wanted.map(|(_, observable)| observable.shown.len()).sum();
     // A column that grows has room for up to twice its rows, and is copied.
-    if has_room(rows.saturating_mul(2 * numbers + 1)) {
+    if library::has_room(rows.saturating_mul(2 * numbers + 1)) {
         return Ok(());
     }
     Err(Failure::Input(format!(
         "the table: {numbers} numbers for each of its {rows} rows do not fit into memory: give fewer rows at once"
     )))
-}
-
-fn has_room(numbers: usize) -> bool {
-    let mut room: Vec<f64> = Vec::new();
-    let is_had = room.try_reserve_exact(numbers).is_ok();
-    // What nobody looks at would not be asked for.
-    black_box(&room);
-    is_had
 }

@@ -12,7 +12,6 @@ use crate::data::SiUnit;
 use crate::effects::assembly_name;
 use crate::search::SearchError;
 use crate::search::context::{Context, declared};
-use crate::search::fitted::Fitted;
 use crate::search::round::Round;
 
 /// Standard deviations at which an effect is found four times out of five, corrected for the size of the catalogue.
@@ -153,10 +152,9 @@ struct Moves {
 
 impl Moves {
     fn of(whole: &Context<'_>, last: &Round<'_>) -> Result<Self, SearchError> {
-        let Fitted { chain, fit, probed, .. } = &last.fitted;
-        let poses = last.search.rows.observations.poses.bare();
-        let columns = probed.columns_at(&poses)?;
-        let (effects, _) = columns.of_part(chain, &whole.catalogue, &poses, &fit.values, |_| true);
+        let chain = &last.fitted.chain;
+        let (columns, effects) =
+            last.fitted.at_poses(&whole.catalogue, &last.search.rows.observations.poses.bare())?;
         let errors = declared(whole).iter().zip(columns.declared.col_iter());
         let squares = |column: &Vec<f64>| column.iter().map(|moved| moved * moved).sum::<f64>();
         Ok(Self {
@@ -169,7 +167,7 @@ impl Moves {
     fn take_out(&self, effect: EffectId, mistaken_for: &mut BTreeMap<String, f64>) -> bool {
         let whole = self.effects[effect.0];
         let share = |name: &String, shift: f64| {
-            let unit = self.declared.get(name).copied().unwrap_or_default();
+            let Some(unit) = self.declared.get(name) else { unreachable!("a declared error has its column") };
             if whole > 0.0 { shift * unit / whole } else { 0.0 }
         };
         mistaken_for.retain(|name, shift| share(name, *shift) >= TAKEN);

@@ -209,7 +209,7 @@ fn of_readings(chain: &Chain, sample: &Observations) -> Vec<(Misreading, Undo)> 
     };
     let scaled = |value: f64, factor: f64| value * factor;
     let mut all = Vec::new();
-    let few = |joints: &'_ [SymbolId]| if joints.len() > JOINTS { Vec::new() } else { joints.to_vec() };
+    let few = |joints: &[SymbolId]| if joints.len() > JOINTS { Vec::new() } else { joints.to_vec() };
     let (tried, tried_shifts) = (few(&joints), few(&shifts));
     for [one, other] in pairs(&tried).chain(pairs(&tried_shifts)) {
         let exchange = move |columns: &mut Readings| {

@@ -21,12 +21,9 @@ pub(super) struct Next {
 pub(super) fn next(whole: &Context<'_>, last: &Fitted) -> Next {
     let (poses, places) = (next_poses(whole, last), next_places(whole, last));
     let why = poses.as_ref().err().or(places.as_ref().err()).map(ToString::to_string);
-    let why = why.or_else(|| nothing_is_seen(whole, places.as_deref().unwrap_or_default()));
-    Next {
-        poses: poses.unwrap_or_default(),
-        places: places.unwrap_or_default(),
-        missing: why.map(|why| Caution::NothingProposed { why }),
-    }
+    let (poses, places) = (poses.unwrap_or_default(), places.unwrap_or_default());
+    let why = why.or_else(|| nothing_is_seen(whole, &places));
+    Next { poses, places, missing: why.map(|why| Caution::NothingProposed { why }) }
 }
 
 /// Why nothing comes of a question for places, where none of them is seen.

@@ -98,7 +98,7 @@ impl Solver<'_> {
             let beside = crossed.into_iter().chain(of_stated.map(taken_at_their_word)).collect();
             Spread::Groups { factor: tally.stride().powi(2), clusters, beside }
         } else if let Shared::Memory(memory, _) = &found_noise {
-            let degrees_of_freedom = (memory.independent - self.used(course)).max(LEAST);
+            let degrees_of_freedom = (memory.independent - used).max(LEAST);
             Spread::Serial { product: &memory.product * faer::Scale(found.max(1.0)), degrees_of_freedom }
         } else if agrees {
             Spread::Even { factor: 1.0 / level / efficiency, degrees_of_freedom: f64::INFINITY }
@@ -124,7 +124,7 @@ impl Solver<'_> {
             let beside = of_stated.map(taken_at_their_word).into_iter().chain([taken]).collect();
             Spread::Groups { factor, clusters, beside }
         } else if left < MANY && self.layout.kinds > 1 {
-            let pools = Pools::of(self.observations, &self.layout, self.used(course));
+            let pools = Pools::of(self.observations, &self.layout, used);
             let of_component = self.layout.kind_of_each().map(|kind| pools.of_kind[kind]).collect();
             let count = pools.count();
             let counted: Vec<f64> = weight.iter().map(|weight| f64::from(u8::from(*weight > 0.0))).collect();

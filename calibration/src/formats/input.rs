@@ -64,11 +64,23 @@ impl Read for Ranged {
     }
 }
 
+impl Ranged {
+    fn of(source: impl Read + Seek + Send + 'static, length: u64) -> Self {
+        Self { source: Box::new(source), extent: Extent { read: Arc::default(), length } }
+    }
+
+    /// Bytes in memory.
+    #[cfg(feature = "parquet")]
+    pub(super) fn held(bytes: Vec<u8>) -> Self {
+        let length = bytes.len() as u64;
+        Self::of(Cursor::new(bytes), length)
+    }
+}
+
 impl Input<'_> {
     /// Something of a length that may be read anywhere, from its beginning on.
     pub fn ranged(source: impl Read + Seek + Send + 'static, length: u64) -> Self {
-        let extent = Extent { read: Arc::default(), length };
-        Self::Ranged(Ranged { source: Box::new(source), extent })
+        Self::Ranged(Ranged::of(source, length))
     }
 
     /// How far it has been read; none of what comes as a stream.

@@ -22,7 +22,9 @@ pub enum Column<'a> {
 }
 
 impl Column<'_> {
-    fn rows(&self) -> usize {
+    /// How many there are.
+    #[must_use]
+    pub fn rows(&self) -> usize {
         match self {
             Self::Numbers(numbers) => numbers.len(),
             Self::Texts(texts) => texts.len(),

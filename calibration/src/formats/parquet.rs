@@ -13,12 +13,12 @@ mod write;
 
 use std::cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 use ::parquet::basic::{Compression, Repetition, Type as Physical};
 use ::parquet::column::reader::ColumnReader;
 use ::parquet::errors::ParquetError;
-use ::parquet::file::reader::{FileReader as _, Length as _, SerializedFileReader};
+use ::parquet::file::reader::{FileReader as _, SerializedFileReader};
 use ::parquet::record::Field;
 use ::parquet::schema::types::{Type, TypePtr};
 use rayon::prelude::*;
@@ -49,8 +49,8 @@ pub struct Reader {
     /// Per column of the file what reads it, and how many rows of the group it has read; none where nobody has asked for it.
     open: Vec<Option<(ColumnReader, usize)>>,
     row: u64,
-    /// How far the file is read, if it is one.
-    extent: Option<Extent>,
+    /// How far the file is read.
+    extent: Extent,
 }
 
 impl Reader {
@@ -60,18 +60,16 @@ impl Reader {
     /// No Parquet file, a stream larger than the memory budget, no columns, a name twice, or a column of lists or groups.
     pub fn new(input: Input<'_>, source: &str, options: &Options) -> Result<Self, DataError> {
         let memory_bytes = options.memory_bytes;
-        let (ranges, extent) = match input {
-            Input::Stream(reader) => (Ranges::Held(super::whole(reader, source, options)?.into()), None),
-            Input::Ranged(Ranged { source, extent }) => {
-                let source = Arc::new(Mutex::new(source));
-                (Ranges::Read { source, length: extent.length(), memory_bytes }, Some(extent))
-            }
+        let Ranged { source: ranged, extent } = match input {
+            Input::Stream(reader) => Ranged::held(super::whole(reader, source, options)?),
+            Input::Ranged(ranged) => ranged,
         };
-        if ranges.len() == 0 {
+        if extent.length() == 0 {
             let why = "the file is empty".to_owned();
             return Err(DataError::Unreadable { file: source.to_string(), why });
         }
-        let file = guarded(source, || SerializedFileReader::new(ranges))?;
+        let file =
+            guarded(source, || SerializedFileReader::new(Ranges::of(ranged, extent.length(), memory_bytes)))?;
         let types = file.metadata().file_metadata().schema().get_fields().to_vec();
         let flat = |field: &Type| {
             field.is_primitive() && field.get_basic_info().repetition() != Repetition::REPEATED
@@ -129,10 +127,10 @@ impl Reader {
         let (source, types, taken) = (&self.source, &self.types, self.taken);
         let wanted = self.open.iter_mut().enumerate().filter(|(column, _)| columns.contains(column));
         let readers: Vec<_> = wanted.filter_map(|(column, open)| Some((column, open.as_mut()?))).collect();
+        let file = Arc::from(source.as_str());
         readers
             .into_par_iter()
             .map(|(column, (reader, read))| {
-                let file = Arc::from(source.as_str());
                 guarded(source, || {
                     // A column that nobody asked for before lags behind.
                     if *read < taken {
@@ -298,9 +296,9 @@ impl TableReader for Reader {
             self.row += count as u64;
             self.taken += count;
         }
-        if let Some(extent) = &self.extent {
-            let all = self.file.metadata().file_metadata().num_rows();
-            extent.rows(self.row, u64::try_from(all).unwrap_or_default());
+        // A spoiled file may say that it has less than no rows.
+        if let Ok(all) = u64::try_from(self.file.metadata().file_metadata().num_rows()) {
+            self.extent.rows(self.row, all);
         }
         if chunk.columns.is_empty() {
             chunk.columns = super::no_cells(wanted);

@@ -6,13 +6,17 @@ use model_core::{Chain, Quantity, SymbolId};
 use super::context::{Context, Found, declared};
 use super::readings::{ByReading, adjusted};
 use super::{SearchError, Stage};
-use crate::candidate::EffectId;
+use crate::candidate::{Effect, EffectId};
+use crate::data::Poses;
 use crate::data::unknowns::Unknowns;
 use crate::fit::noise::Layout;
-use crate::fit::{BESIDE_OBJECTS, FitOptions, FitResult, fit};
+use crate::fit::{BESIDE_OBJECTS, FitError, FitOptions, FitResult, fit};
 use crate::search::ProblemError;
 use crate::search::columns::{Columns, Probed, places};
 use crate::study::Plan;
+
+/// The columns of each effect, one a function.
+pub(crate) type OfEffects = Vec<Vec<Vec<f64>>>;
 
 /// A fit of the declaration with the effects accepted so far.
 #[derive(Clone)]
@@ -96,6 +100,16 @@ impl Fitted {
             (nominal[id] - self.fit.values[id]) / sizes[at]
         };
         (stated, (0..declared).map(away).collect())
+    }
+
+    /// The columns at poses at which nothing was measured, and those of each effect.
+    ///
+    /// # Errors
+    /// Poses that do not fit the chain.
+    pub fn at_poses(&self, catalogue: &[Effect], poses: &Poses) -> Result<(Columns, OfEffects), FitError> {
+        let columns = self.probed.columns_at(poses)?;
+        let (effects, _) = columns.of_part(&self.chain, catalogue, poses, &self.fit.values, |_| true);
+        Ok((columns, effects))
     }
 
     /// The combinations for columns that may know of no stations.

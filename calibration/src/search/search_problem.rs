@@ -235,10 +235,8 @@ fn reach(
     let plan = whole.request.plan;
     let limits = plan.next.as_ref().map_or(&[][..], |next| &next.ranges);
     let poses = further_out(&fitted.chain, &all.poses, limits, FURTHER_OUT, plan.hold_out.seed);
-    let mut columns = fitted.probed.columns_at(&poses)?;
+    let (mut columns, mut effects) = fitted.at_poses(&whole.catalogue, &poses)?;
     columns.declared = &columns.declared * fitted.of_errors(&columns);
-    let (mut effects, _) =
-        columns.of_part(&fitted.chain, &whole.catalogue, &poses, &fitted.fit.values, |_| true);
     keep(&mut effects, usable);
     let scales: Vec<f64> = all
         .poses
@@ -285,10 +283,8 @@ fn reach(
     // How far effects reach is told by what they do to points, wherever the objects are that were observed.
     let inside = if all.unknowns.is_some() {
         let bare = rows.observations.poses.bare();
-        let mut columns = fitted.probed.columns_at(&bare)?;
+        let (mut columns, mut effects) = fitted.at_poses(&whole.catalogue, &bare)?;
         columns.declared = &columns.declared * fitted.of_errors(&columns);
-        let (mut effects, _) =
-            columns.of_part(&fitted.chain, &whole.catalogue, &bare, &fitted.fit.values, |_| true);
         keep(&mut effects, usable);
         part(&columns, &effects, &bare)
     } else {

@@ -138,7 +138,9 @@ impl<'t> ReadingsTable<'t> {
         };
         let mut types = vec![TextType::default(); scanned.wanted.len()];
         while let Some(rows) = scanned.next()? {
-            tell(scanned.share_read().unwrap_or_default());
+            if let Some(share) = scanned.share_read() {
+                tell(share);
+            }
             if rows.kept.iter().any(|kept| matches!(kept, Kept::Typed(_))) {
                 return Ok(None);
             }

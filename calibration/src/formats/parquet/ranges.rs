@@ -1,5 +1,4 @@
-//! Ranges of a Parquet file: out of memory, where it came as a stream, and from the file itself otherwise, so that a file of
-//! any size is read with the memory of a few pages.
+//! Ranges of a Parquet file, each read as it is needed, so that a file of any size takes the memory of a few pages.
 
 use std::io::{self, BufReader, Read, SeekFrom};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -15,18 +14,13 @@ const HEADER: usize = 1 << 10;
 
 /// What ranges are read of; the columns of a table read theirs at the same time.
 #[derive(Clone)]
-pub(super) enum Ranges {
-    /// A file held in memory.
-    Held(Bytes),
-    /// A file that is held nowhere.
-    Read {
-        /// One place to read at: whoever reads goes there first.
-        source: Arc<Mutex<Box<dyn ReadSeek>>>,
-        /// Its length when it was opened.
-        length: u64,
-        /// The longest range that is read at once.
-        memory_bytes: u64,
-    },
+pub(super) struct Ranges {
+    /// One place to read at: whoever reads goes there first.
+    source: Arc<Mutex<Box<dyn ReadSeek>>>,
+    /// Its length when it was opened.
+    length: u64,
+    /// The longest range that is read at once.
+    memory_bytes: u64,
 }
 
 /// Bytes from a place on, front to back.
@@ -36,19 +30,16 @@ pub(super) struct Onward {
 }
 
 impl Ranges {
+    /// Of something of a length, none of them longer than the memory that may be taken.
+    pub fn of(source: Box<dyn ReadSeek>, length: u64, memory_bytes: u64) -> Self {
+        Self { source: Arc::new(Mutex::new(source)), length, memory_bytes }
+    }
+
     fn read_at(&self, at: u64, into: &mut [u8]) -> io::Result<usize> {
-        match self {
-            Self::Held(bytes) => {
-                let from = usize::try_from(at).ok().and_then(|at| bytes.get(at..));
-                from.unwrap_or_default().read(into)
-            }
-            Self::Read { source, .. } => {
-                // A place where another thread gave up is no worse than any: it is left first.
-                let mut source = source.lock().unwrap_or_else(PoisonError::into_inner);
-                source.seek(SeekFrom::Start(at))?;
-                source.read(into)
-            }
-        }
+        // A place where another thread gave up is no worse than any: it is left first.
+        let mut source = self.source.lock().unwrap_or_else(PoisonError::into_inner);
+        source.seek(SeekFrom::Start(at))?;
+        source.read(into)
     }
 
     fn from(&self, at: u64) -> Onward {
@@ -66,10 +57,7 @@ impl Read for Onward {
 
 impl Length for Ranges {
     fn len(&self) -> u64 {
-        match self {
-            Self::Held(bytes) => bytes.len() as u64,
-            Self::Read { length, .. } => *length,
-        }
+        self.length
     }
 }
 
@@ -85,22 +73,17 @@ impl ChunkReader for Ranges {
         if start.checked_add(length as u64).is_none_or(|end| end > self.len()) {
             return Err(ParquetError::EOF(format!("{length} bytes at {start} are not all in the file")));
         }
-        match self {
-            Self::Held(bytes) => Ok(bytes.slice(start as usize..start as usize + length)),
-            Self::Read { memory_bytes, .. } if length as u64 > *memory_bytes => {
-                Err(ParquetError::General("a page takes more memory than it may".to_owned()))
-            }
-            Self::Read { .. } => {
-                let mut bytes = vec![0; length];
-                self.from(start).read_exact(&mut bytes).map_err(|error| match error.kind() {
-                    io::ErrorKind::UnexpectedEof => {
-                        ParquetError::General("the file became shorter while it was read".to_owned())
-                    }
-                    _ => error.into(),
-                })?;
-                Ok(bytes.into())
-            }
+        if length as u64 > self.memory_bytes {
+            return Err(ParquetError::General("a page takes more memory than it may".to_owned()));
         }
+        let mut bytes = vec![0; length];
+        self.from(start).read_exact(&mut bytes).map_err(|error| match error.kind() {
+            io::ErrorKind::UnexpectedEof => {
+                ParquetError::General("the file became shorter while it was read".to_owned())
+            }
+            _ => error.into(),
+        })?;
+        Ok(bytes.into())
     }
 }
 
@@ -166,13 +149,9 @@ mod tests {
 
     #[test]
     fn what_lies_beyond_the_file_is_an_error() {
-        let open = |bytes: &'static [u8], memory_bytes| Ranges::Read {
-            source: Arc::new(Mutex::new(Box::new(Cursor::new(bytes)))),
-            length: 10,
-            memory_bytes,
-        };
-        let held = Ranges::Held(Bytes::from_static(b"0123456789"));
-        for ranges in [open(b"0123456789", 10), held] {
+        let open =
+            |bytes: &'static [u8], memory_bytes| Ranges::of(Box::new(Cursor::new(bytes)), 10, memory_bytes);
+        for ranges in [open(b"0123456789", 10), open(b"0123456789", u64::MAX)] {
             assert_eq!(ranges.get_bytes(3, 7).unwrap().as_ref(), b"3456789");
             for (start, length) in [(3, 8), (10, 1), (11, 0), (u64::MAX, 1), (0, usize::MAX)] {
                 assert!(ranges.get_bytes(start, length).is_err(), "{length} at {start}");

@@ -10,6 +10,7 @@
 //! large model spaces", Biometrika 95 (2008).
 
 use super::rounds::{names, rounds};
+use crate::data::Observations;
 use crate::fit::robust;
 use crate::search::Request;
 use crate::search::SearchError;
@@ -18,6 +19,12 @@ use crate::search::context::{Context, Found};
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
 use crate::study::Plan;
+
+/// Rows from which on some are asked before all are.
+const MANY: usize = 50_000;
+
+/// So many, about.
+const SAMPLE: usize = 20_000;
 
 /// How many rows must be set aside before they are looked at together: two, or one in a thousand of many rows, of which
 /// some are set aside by chance.
@@ -32,15 +39,18 @@ pub(super) fn reconsidered<'a>(whole: &Context<'a>, last: Round<'a>) -> Result<R
         return Ok(last);
     }
     let trusting = trusting(plan);
-    let request = Request { plan: &trusting, ..whole.request };
-    let trusting = Context { request, ..whole.clone() };
-    let first = Fitted::first(&trusting)?;
-    if !first.fit.outcome.is_usable() {
-        return Ok(last);
-    }
     let is_the_same = |found: &[Found]| names(found) == names(&last.fitted.found);
-    let round = Round::at(&trusting, first)?;
-    // Where every row says the same from the start, none was overheard.
+    let observations = whole.request.observations;
+    // Where every row says the same from the start, none was overheard. Of very many rows some say it, and sooner.
+    if observations.rows() >= MANY {
+        let sample = observations.sample(SAMPLE);
+        let some = with(whole, &trusting, &sample);
+        if first(&some)?.is_some_and(|round| is_the_same(&round.search(&some))) {
+            return Ok(last);
+        }
+    }
+    let trusting = with(whole, &trusting, observations);
+    let Some(round) = first(&trusting)? else { return Ok(last) };
     if is_the_same(&round.search(&trusting)) {
         return Ok(last);
     }
@@ -51,6 +61,17 @@ pub(super) fn reconsidered<'a>(whole: &Context<'a>, last: Round<'a>) -> Result<R
     let other = Fitted::with(whole, found.found.clone(), &found)?;
     let other = rounds(whole, Round::at(whole, other)?)?;
     Ok(if explains((whole, &other), (whole, &last)) { other } else { last })
+}
+
+/// The same with another study and some of its rows.
+fn with<'a>(whole: &Context<'a>, plan: &'a Plan, observations: &'a Observations) -> Context<'a> {
+    Context { request: Request { plan, observations, ..whole.request }, ..whole.clone() }
+}
+
+/// The round at the declaration as it is; none where no usable fit comes of it.
+fn first<'a>(whole: &Context<'a>) -> Result<Option<Round<'a>>, SearchError> {
+    let first = Fitted::first(whole)?;
+    first.fit.outcome.is_usable().then(|| Round::at(whole, first)).transpose()
 }
 
 /// Whether a round with its study leaves fewer rows unexplained than another one, and is the likelier model.

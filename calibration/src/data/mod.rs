@@ -11,6 +11,7 @@ pub mod orientation;
 mod origin;
 mod places;
 mod poses;
+mod sample;
 mod si_unit;
 mod site;
 mod tangent;
@@ -138,6 +139,7 @@ impl Observations {
             unknowns: self.unknowns.as_ref().map(|unknowns| unknowns.select(&rows)),
         }
     }
+
     /// The same without some of the objects and their rows.
     #[must_use]
     pub(crate) fn without_objects(&self, is_left_out: impl Fn(usize) -> bool) -> Self {

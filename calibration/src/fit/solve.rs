@@ -10,8 +10,8 @@ use super::align::starting_values;
 use super::solver::{Course, Solver};
 use super::sweep::{Weighting, residuals};
 use super::{FitError, FitOptions, FitResult, Model, Outcome, Reason, Residuals, SetAside, Why};
+use crate::data::Observations;
 use crate::data::unknowns::Unknowns;
-use crate::data::{Observations, golden};
 use crate::fit::noise::{Layout, NoiseOptions};
 
 /// Rows from which on a robust fit comes near on a sample of them first.
@@ -35,24 +35,37 @@ pub fn fit(chain: &Chain, observations: &Observations, options: &FitOptions) -> 
         let why = format!("{} starting values for {} symbols", options.start.len(), chain.symbols.len());
         return Err(FitError::WrongShape { why });
     }
-    let model = Model::new(chain, &observations.poses, &options.estimate)?;
-    let solver = Solver {
-        chain,
-        observations,
-        options,
-        model,
-        plain: OnceCell::new(),
-        layout: Layout::of(observations),
-        aside: Vec::new(),
-        brought: Vec::new(),
-        prior_sizes: Vec::new(),
-        iterations: 0,
-    };
-    solver.run()
+    let mut solver = Solver::new(chain, observations, options)?;
+    let mut course = solver.arrived()?;
+    solver.release(&mut course)?;
+    solver.result(course)
+}
+
+impl<'a> Solver<'a> {
+    fn new(
+        chain: &'a Chain,
+        observations: &'a Observations,
+        options: &'a FitOptions,
+    ) -> Result<Self, FitError> {
+        Ok(Solver {
+            chain,
+            observations,
+            options,
+            model: Model::new(chain, &observations.poses, &options.estimate)?,
+            plain: OnceCell::new(),
+            layout: Layout::of(observations),
+            aside: Vec::new(),
+            brought: Vec::new(),
+            prior_sizes: Vec::new(),
+            followed: None,
+            iterations: 0,
+        })
+    }
 }
 
 impl Solver<'_> {
-    fn run(mut self) -> Result<FitResult, FitError> {
+    /// At the bottom, what the data do not determine still where it is expected.
+    fn arrived(&mut self) -> Result<Course, FitError> {
         let weighting = self.options.weighting();
         let near = match self.of_objects() {
             None => self.of_sample()?,
@@ -73,8 +86,7 @@ impl Solver<'_> {
         if weighting == Weighting::Biweight && self.are_few(&course) {
             course = self.of_few(course)?;
         }
-        self.release(&mut course)?;
-        self.result(course)
+        Ok(course)
     }
 
     /// Where another fit of these objects ended, if this one is to start there.
@@ -83,19 +95,19 @@ impl Solver<'_> {
         (start.len() > self.chain.symbols.len()).then(|| start.clone())
     }
 
-    /// Where a fit of some of very many rows ends, evenly spread; none where they are not many, or that fit does not end well.
+    /// Where a fit of some of very many rows comes to; none where they are not many, or that fit does not get there.
     fn of_sample(&self) -> Result<Option<Vec<f64>>, FitError> {
-        let rows = self.observations.rows();
-        if rows < MANY || !self.options.robust || self.observations.unknowns.is_some() {
+        let has_objects = self.observations.unknowns.is_some();
+        if self.observations.rows() < MANY || !self.options.robust || has_objects {
             return Ok(None);
         }
-        let share = SAMPLE as f64 / rows as f64;
-        let chosen = (0..rows).filter(|&row| golden::share(row) < share);
-        let sample = self.observations.select(&chosen.collect::<Vec<_>>());
+        let sample = self.observations.sample(SAMPLE);
         let noise = NoiseOptions { variance: false, serial: false, ..self.options.noise.clone() };
-        let of_sample = fit(self.chain, &sample, &FitOptions { noise, ..self.options.clone() })?;
-        let has_converged = matches!(of_sample.outcome, Outcome::Converged { .. });
-        Ok(has_converged.then_some(of_sample.values))
+        let options = FitOptions { noise, ..self.options.clone() };
+        let mut of_sample = Solver::new(self.chain, &sample, &options)?;
+        let course = of_sample.arrived()?;
+        let has_arrived = course.stopped.is_none() && !of_sample.is_far_off(&course);
+        Ok(has_arrived.then_some(course.point.values))
     }
 
     /// Whether a course failed, or ended where much of the data does not count or where no errors at all would do better.

@@ -16,6 +16,7 @@ use crate::budget::Measured;
 use crate::claims::{ClaimsFile, as_json};
 use crate::commands::{bound, budget, check, derive, generate, identify, simulate};
 use crate::evaluation;
+use crate::over_memory::has_room;
 use crate::ranges::{self, Range, RangeArgument};
 use crate::source::observables;
 use crate::{claims, errors_file, poses, report, tables};
@@ -25,7 +26,7 @@ pub use crate::calibrating::{Calibrated, Studied};
 pub use crate::draw::stretches;
 pub use crate::evaluation::{Exactness, Quantity};
 pub use crate::failure::Failure;
-pub use crate::over_memory::{Columns, Computed, applied, evaluated, warn_of_outside};
+pub use crate::over_memory::{Columns, Computed, Held, applied, evaluated, warn_of_outside};
 pub use crate::report::Cells;
 pub use crate::source::Source;
 pub use crate::streaming::{Foretold, Rows, Streaming, accumulated, validated};
@@ -268,16 +269,6 @@ pub fn simulated(
     }
     let columns = simulation.rows(poses)?;
     Ok(simulation.header.into_iter().zip(columns).collect())
-}
-
-/// Whether the system would give memory for so many numbers, rather than end the process.
-#[must_use]
-pub fn has_room(numbers: usize) -> bool {
-    let mut room: Vec<f64> = Vec::new();
-    let is_had = room.try_reserve_exact(numbers).is_ok();
-    // What nobody looks at would not be asked for.
-    std::hint::black_box(&room);
-    is_had
 }
 
 /// A table of a name in memory.

@@ -1,6 +1,6 @@
 //! Observables over tables in memory: what `eval` and `apply` compute, for a program that has no command line.
 
-use calibration::formats::TableReader;
+use calibration::formats::memory::{Column, Reader};
 use model_core::Chain;
 
 use crate::apply::{Counted, Outside};
@@ -9,11 +9,38 @@ use crate::evaluation::{self, Evaluator, Exactness, Quantity};
 use crate::failure::Failure;
 use crate::over_table::warn_of_replaced;
 use crate::source::Source;
-use crate::tables::ReadingsTable;
+use crate::tables::{self, ReadingsTable};
 use crate::terminal;
 
 /// Names of columns, and the columns in SI.
 pub type Columns = Vec<(String, Vec<f64>)>;
+
+/// A table in memory.
+pub struct Held<'a> {
+    reader: Reader<'a>,
+    rows: usize,
+}
+
+impl<'a> Held<'a> {
+    /// One of a name.
+    ///
+    /// # Errors
+    /// No columns, a name twice, or columns of different lengths.
+    pub fn new(name: &str, columns: &[(&'a str, Column<'a>)]) -> Result<Self, Failure> {
+        let reader = Reader::new(name, columns.iter().copied()).map_err(tables::failure)?;
+        Ok(Self { reader, rows: columns.first().map_or(0, |(_, column)| column.rows()) })
+    }
+}
+
+/// Whether the system would give memory for so many numbers, rather than end the process.
+#[must_use]
+pub fn has_room(numbers: usize) -> bool {
+    let mut room: Vec<f64> = Vec::new();
+    let is_had = room.try_reserve_exact(numbers).is_ok();
+    // What nobody looks at would not be asked for.
+    std::hint::black_box(&room);
+    is_had
+}
 
 /// What is computed over a table.
 pub struct Computed {
@@ -30,11 +57,11 @@ pub struct Computed {
 pub fn evaluated(
     chain: &Chain,
     errors: &Source,
-    reader: Box<dyn TableReader + '_>,
+    table: Held<'_>,
     names: &[String],
     quantity: (Exactness, Quantity),
 ) -> Result<Computed, Failure> {
-    over_table(chain, errors, reader, names, quantity, &mut Outside::new(Vec::new()))
+    over_table(chain, errors, table, names, quantity, &mut Outside::new(Vec::new()))
 }
 
 /// The observables with their errors over a table of readings, as `apply` computes them, and how many rows are outside of what the
@@ -45,12 +72,12 @@ pub fn evaluated(
 pub fn applied(
     chain: &Chain,
     errors: &Source,
-    reader: Box<dyn TableReader + '_>,
+    table: Held<'_>,
     names: &[String],
 ) -> Result<(Computed, Counted), Failure> {
     let mut outside = Outside::new(errors_file::found_over(errors, chain)?);
     let quantity = (Exactness::Exact, Quantity::Value);
-    let computed = over_table(chain, errors, reader, names, quantity, &mut outside)?;
+    let computed = over_table(chain, errors, table, names, quantity, &mut outside)?;
     Ok((computed, outside.counted()))
 }
 
@@ -68,18 +95,26 @@ pub fn warn_of_outside(chain: &Chain, errors: &Source, counted: &[Counted]) -> R
 fn over_table(
     chain: &Chain,
     errors: &Source,
-    reader: Box<dyn TableReader + '_>,
+    table: Held<'_>,
     names: &[String],
     (form, quantity): (Exactness, Quantity),
     outside: &mut Outside,
 ) -> Result<Computed, Failure> {
     let values = errors_file::values(errors, chain)?;
-    let mut table = ReadingsTable::of(reader, chain);
+    let Held { reader, rows } = table;
+    let mut table = ReadingsTable::of(Box::new(reader), chain);
     let chosen = table.with_readings(chain, names)?;
     let evaluator = Evaluator::new(chain, chosen, form, quantity, &values);
     table.want(chain, &evaluator.readings)?;
     let header = evaluation::column_names(chain, &evaluator.observables)?;
-    let mut columns = vec![Vec::new(); header.len()];
+    let numbers = header.len();
+    // A column beside them for the rows that are being computed.
+    if !rows.checked_mul(numbers + 1).is_some_and(has_room) {
+        return Err(Failure::Input(format!(
+            "the table: {numbers} numbers for each of its {rows} rows do not fit into memory: give fewer rows at once"
+        )));
+    }
+    let mut columns: Vec<Vec<f64>> = header.iter().map(|_| Vec::with_capacity(rows)).collect();
     while let Some(rows) = table.next()? {
         let readings: Vec<_> = rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
         outside.see(chain, &readings, &evaluator)?;

@@ -3,11 +3,10 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use trueaxis_cli::library::{self, Computed, Source};
+use trueaxis_cli::library::{self, Computed, Held, Source};
 
 use crate::chain::{Chain, Columns, Text, as_arrays, source};
 use crate::errors;
-use crate::memory;
 use crate::tables::{Given, Table};
 
 /// Of some rows: how many, how many outside of what the errors were found over, and for each range how many and how far.
@@ -27,8 +26,7 @@ pub fn apply(
     let table = Table::of(columns)?;
     let columns = table.columns()?;
     let (computed, counted) = errors::run(py, || {
-        let (chain, table) = (chain.with_numbers()?, library::table(&name, &columns)?);
-        memory::require_room(chain, &observables, &columns)?;
+        let (chain, table) = (chain.with_numbers()?, Held::new(&name, &columns)?);
         library::applied(chain, &source(errors), table, &observables)
     })?;
     let Computed { added, replaced } = computed;

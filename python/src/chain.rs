@@ -9,13 +9,12 @@ use model_core::{Mistakes, ObservableId, ObservableKind, SymbolId, SymbolKind, n
 use numpy::PyArray;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use trueaxis_cli::library::{self, Computed, Exactness, Failure, Quantity, Source, Told};
+use trueaxis_cli::library::{self, Computed, Exactness, Failure, Held, Quantity, Source, Told};
 
 use crate::compiled::{FORMS, Loadable};
 use crate::errors;
 use crate::evaluating::{self, Evaluation, Readings};
 use crate::formula::ClosedForm;
-use crate::memory;
 use crate::tables::{Given, Table};
 
 /// Names of columns and the columns, as Python gets them.
@@ -82,16 +81,24 @@ impl Chain {
     }
 
     /// The program of a form, built once.
-    fn program(&self, observable: ObservableId, form: Form, wrt: &[SymbolId]) -> Arc<Program> {
+    fn program(
+        &self,
+        py: Python<'_>,
+        observable: ObservableId,
+        form: Form,
+        wrt: &[SymbolId],
+    ) -> PyResult<Arc<Program>> {
         let key = (observable, form, wrt.to_vec());
         // A thread that panicked while it held the lock left whole entries.
         let programs = || self.programs.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(program) = programs().get(&key) {
-            return Arc::clone(program);
+            return Ok(Arc::clone(program));
         }
         // Built without the lock: two threads may build the same, and keep one.
-        let program = Arc::new(build(&self.chain, &[observable], form, wrt));
-        Arc::clone(programs().entry(key).or_insert(program))
+        let (chain, wrt) = (self.chain.clone(), wrt.to_vec());
+        let built = move || Ok(build(&chain, &[observable], form, &wrt));
+        let program = Arc::new(errors::run_interruptible(py, built)?);
+        Ok(Arc::clone(programs().entry(key).or_insert(program)))
     }
 
     /// The values that a text of errors sets. The same text is read once, as long as there is nothing to warn of: many calls
@@ -283,7 +290,10 @@ impl Chain {
         let mut writable = evaluating::writable(&array)?;
         let into = writable.as_slice_mut()?;
         match compiled {
-            None => asked.interpreted(py, || self.program(observable, form, &asked.wrt), into)?,
+            None => {
+                let program = self.program(py, observable, form, &asked.wrt)?;
+                asked.interpreted(py, &program, into)?;
+            }
             Some((loadable, call)) => {
                 let out = (into.as_mut_ptr().expose_provenance(), array.clone().into_any().unbind());
                 let what = asked.call(chain, &loadable, out).map_err(fails)?;
@@ -299,9 +309,10 @@ impl Chain {
 
     /// The closed form of an observable's error.
     fn closed_form(&self, py: Python<'_>, observable: Option<&str>, order: u32) -> PyResult<ClosedForm> {
-        errors::run(py, || {
-            let observable = library::observable(&self.chain, observable)?;
-            library::closed_form(&self.chain, observable, order).map(ClosedForm::from)
+        let (chain, observable) = (self.chain.clone(), observable.map(str::to_owned));
+        errors::run_interruptible(py, move || {
+            let observable = library::observable(&chain, observable.as_deref())?;
+            library::closed_form(&chain, observable, order).map(ClosedForm::from)
         })
     }
 
@@ -390,8 +401,7 @@ impl Chain {
         let form = if is_exact { Exactness::Exact } else { Exactness::FirstOrder };
         let quantity = if is_value { Quantity::Value } else { Quantity::Error };
         let Computed { added, replaced } = errors::run(py, || {
-            let (chain, table) = (self.with_numbers()?, library::table(&name, &columns)?);
-            memory::require_room(chain, &observables, &columns)?;
+            let (chain, table) = (self.with_numbers()?, Held::new(&name, &columns)?);
             library::evaluated(chain, &source(values), table, &observables, (form, quantity))
         })?;
         Ok((as_arrays(py, added), replaced))

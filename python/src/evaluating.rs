@@ -1,9 +1,8 @@
 //! Forms as numbers over arrays: what a call asks, once it is checked, and the two ways to compute it.
 
 use std::fmt::Display;
-use std::sync::Arc;
 
-use codegen::{Form, Program};
+use codegen::{Form, Program, ShapeError};
 use model_core::{Chain, ObservableId, SymbolId};
 use numpy::{
     PyArray, PyArrayMethods as _, PyReadonlyArray1, PyReadwriteArray, PyUntypedArrayMethods as _,
@@ -14,6 +13,7 @@ use pyo3::prelude::*;
 use trueaxis_cli::library::{self, Failure};
 
 use crate::compiled::{Asked, Call, Loadable};
+use crate::interrupting::Ears;
 use crate::tables::Given;
 use crate::{arrays, errors, forked, rows};
 
@@ -118,20 +118,23 @@ impl<'py> Evaluation<'py> {
         Ok(())
     }
 
-    /// By the interpreter, without the interpreter's lock of Python; `program` builds what it runs.
-    pub fn interpreted(
-        &self,
-        py: Python<'py>,
-        program: impl Fn() -> Arc<Program> + Sync,
-        into: &mut [f64],
-    ) -> PyResult<()> {
+    /// By the interpreter, without the interpreter's lock of Python; a signal ends it.
+    pub fn interpreted(&self, py: Python<'py>, program: &Program, into: &mut [f64]) -> PyResult<()> {
         let slices = self.columns.iter().map(|(id, column)| Ok((*id, column.as_slice()?)));
         let slices = slices.collect::<PyResult<Vec<(SymbolId, &[f64])>>>()?;
         let (values, rows, threads) = (&self.values, self.rows, self.threads);
-        py.detach(|| {
-            forked::with_threads(|| rows::evaluate(&program(), &slices, values, into, rows, threads))
-        })?
-        .map_err(|error| PyValueError::new_err(error.to_string()))
+        let mut ears = Ears::default();
+        let done = py.detach(|| {
+            forked::with_threads(|| {
+                rows::evaluate(program, &slices, values, into, (rows, threads), || {
+                    ears.listen().map_err(Ended::Signal)
+                })
+            })
+        })?;
+        done.map_err(|ended| match ended {
+            Ended::Signal(raised) => raised,
+            Ended::Shape(error) => PyValueError::new_err(error.to_string()),
+        })
     }
 
     /// What a call of compiled code takes to write the result: to an address, in what is held meanwhile.
@@ -139,6 +142,19 @@ impl<'py> Evaluation<'py> {
         let columns: Vec<_> = self.columns.iter().map(|(id, column)| (*id, (**column).clone())).collect();
         let (values, wrt, rows, threads) = (&self.values, &self.wrt, self.rows, self.threads);
         Call::new(loadable, chain, Asked { columns: &columns, values, wrt, out, rows, threads })
+    }
+}
+
+/// Why an evaluation ended early.
+enum Ended {
+    /// What a signal raised.
+    Signal(PyErr),
+    Shape(ShapeError),
+}
+
+impl From<ShapeError> for Ended {
+    fn from(error: ShapeError) -> Self {
+        Self::Shape(error)
     }
 }
 

@@ -1,11 +1,12 @@
-//! Long work that Ctrl-C ends: a thread of its own does it, while the thread that asked hears how far it is and looks for Python's signals.
+//! Long work that Ctrl-C ends: a thread of its own does it, while the thread that asked hears how far it is and looks for Python's signals;
+//! or the thread that asked does it bit by bit.
 
 use std::panic::resume_unwind;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -33,6 +34,31 @@ impl Listener {
         }
         // Who does not wait any more hears nothing.
         let _ = self.told.send(text);
+    }
+}
+
+/// Who does work bit by bit, and looks for signals in between.
+pub struct Ears {
+    last: Instant,
+}
+
+impl Default for Ears {
+    fn default() -> Self {
+        Self { last: Instant::now() }
+    }
+}
+
+impl Ears {
+    /// Looks for signals, where that was a while ago: the interpreter's lock is somebody else's meanwhile.
+    ///
+    /// # Errors
+    /// What a signal raises.
+    pub fn listen(&mut self) -> PyResult<()> {
+        if self.last.elapsed() < PAUSE {
+            return Ok(());
+        }
+        self.last = Instant::now();
+        Python::attach(Python::check_signals)
     }
 }
 

@@ -10,7 +10,6 @@ mod evaluating;
 mod forked;
 mod formula;
 mod interrupting;
-mod memory;
 mod rows;
 mod streaming;
 mod tables;

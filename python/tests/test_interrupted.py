@@ -1,6 +1,7 @@
 """Ctrl-C ends a calibration soon, whoever listens to it."""
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -45,6 +46,39 @@ except KeyboardInterrupt:
     print("interrupted", flush=True)
 print(len(chain.errors), flush=True)
 """
+
+
+# One call over many rows of a robot, or of a closed form that takes a minute.
+OVER_ROWS = {
+    "exact": "chain.exact(readings, errors, threads=1)",
+    "jacobian": "chain.jacobian(readings, errors, wrt=chain.errors[:1], form='exact', threads=1)",
+    "compiled": "compiled.jacobian(readings, errors, wrt=chain.errors[:1], form='exact', threads=2)",
+    "closed_form": "telescope.closed_form(telescope.observables[0].name, order=2)",
+}
+ROBOT = f"""
+import numpy as np, trueaxis
+chain = trueaxis.Chain.from_file({str(EXAMPLES / "ur10" / "ur10.chain")!r})
+telescope = trueaxis.Chain.from_file({str(EXAMPLES / "total-station" / "telescope.chain")!r})
+readings = {{name: np.linspace(0.1, 1.5, 3_000_000) for name in chain.joints + chain.inputs}}
+errors = {{name: 1e-4 for name in chain.errors}}
+COMPILE
+print("begins", flush=True)
+try:
+    QUESTION
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+few = {{name: column[:100] for name, column in readings.items()}}
+print(chain.exact(few, errors).shape, flush=True)
+"""
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of this kind are not there")
+@pytest.mark.parametrize("question", OVER_ROWS)
+def test_ctrl_c_ends_a_call_over_many_rows(question):
+    if question == "compiled" and not any(map(shutil.which, ("cc", "gcc", "clang"))):
+        pytest.skip("there is no C compiler here")
+    compiled = "compiled = chain.compiled()" if question == "compiled" else ""
+    ends_soon(ROBOT.replace("COMPILE", compiled).replace("QUESTION", OVER_ROWS[question]), 0.4)
 
 
 @pytest.mark.skipif(os.name == "nt", reason="signals of this kind are not there")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import functools
 import os
+import threading
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
 
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
     from ._chain import Chain
 
 _ADDRESS, _SIZE = ctypes.c_void_p, ctypes.c_size_t
+# Rows that are computed before somebody looks for Ctrl-C; whole blocks of vector code.
+_ROWS = 1 << 16
 # Errors, columns, their steps, rows, start, end, which derivatives, how many, where the result goes.
 _ARGUMENTS = [_ADDRESS, _ADDRESS, _ADDRESS, _SIZE, _SIZE, _SIZE, _ADDRESS, _SIZE, _ADDRESS]
 
@@ -65,18 +68,26 @@ class Compiled(OverArrays):
 def _run(entries: dict[str, ctypes._CFuncPtr], form: str, call: _native.Call) -> None:
     entry = entries[form]
     *others, own = call.shares
-    working = [_pool().submit(_share, entry, call, *share) for share in others]
+    stop = threading.Event()
+    working = [_pool().submit(_share, entry, call, stop, *share) for share in others]
     try:
-        _share(entry, call, *own)
+        _share(entry, call, stop, *own)
+    except BaseException:
+        # Ctrl-C, between the rows of this thread: the others end theirs.
+        stop.set()
+        raise
     finally:
         for work in working:
             work.result()
 
 
-def _share(entry: ctypes._CFuncPtr, call: _native.Call, start: int, end: int) -> None:
+def _share(entry: ctypes._CFuncPtr, call: _native.Call, stop: threading.Event, start: int, end: int) -> None:
     # The call owns what the addresses point to, and is held until the entry is done. ctypes gives the interpreter's lock away.
     before, behind = call.arguments
-    entry(*before, start, end, *behind)
+    for first in range(start, end, _ROWS):
+        if stop.is_set():
+            break
+        entry(*before, first, min(first + _ROWS, end), *behind)
 
 
 @functools.cache

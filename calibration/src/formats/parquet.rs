@@ -6,6 +6,9 @@
 
 mod bounded;
 mod cells;
+mod header;
+mod held;
+mod open;
 mod ranges;
 mod room;
 mod times;
@@ -16,9 +19,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 use ::parquet::basic::{Compression, Repetition, Type as Physical};
-use ::parquet::column::reader::ColumnReader;
 use ::parquet::errors::ParquetError;
-use ::parquet::file::reader::{FileReader as _, SerializedFileReader};
+use ::parquet::file::reader::FileReader as _;
 use ::parquet::record::Field;
 use ::parquet::schema::types::{Type, TypePtr};
 use rayon::prelude::*;
@@ -31,6 +33,7 @@ use super::{
     Cell, Cells, Chunk, DataError, Extent, Form, Input, Kept, Options, Ranged, TableReader, Texts, Wanted,
 };
 use bounded::BoundedFile;
+use open::Open;
 use ranges::Ranges;
 use room::Room;
 use times::Time;
@@ -46,8 +49,8 @@ pub struct Reader {
     /// Rows of the last of them, and those of them that were read.
     in_group: usize,
     taken: usize,
-    /// Per column of the file what reads it, and how many rows of the group it has read; none where nobody has asked for it.
-    open: Vec<Option<(ColumnReader, usize)>>,
+    /// Per column of the file what reads it; none where it is not open.
+    open: Vec<Option<Open>>,
     row: u64,
     /// How far the file is read.
     extent: Extent,
@@ -68,8 +71,8 @@ impl Reader {
             let why = "the file is empty".to_owned();
             return Err(DataError::Unreadable { file: source.to_string(), why });
         }
-        let file =
-            guarded(source, || SerializedFileReader::new(Ranges::of(ranged, extent.length(), memory_bytes)))?;
+        let ranges = Ranges::of(ranged, extent.length(), memory_bytes);
+        let file = guarded(source, || BoundedFile::open(ranges, memory_bytes))?;
         let types = file.metadata().file_metadata().schema().get_fields().to_vec();
         let flat = |field: &Type| {
             field.is_primitive() && field.get_basic_info().repetition() != Repetition::REPEATED
@@ -89,7 +92,6 @@ impl Reader {
                 format!("is compressed with {codec}, which is not read: write it with Snappy or Zstandard");
             return Err(DataError::Unreadable { file: source.to_string(), why });
         }
-        let file = BoundedFile { inner: file, memory_bytes };
         let source = source.to_string();
         let open = Vec::new();
         Ok(Self { source, header, types, file, groups: 0, in_group: 0, taken: 0, open, row: 0, extent })
@@ -107,8 +109,8 @@ impl Reader {
         Ok(true)
     }
 
-    /// The next rows of this group in some columns, each once and in order.
-    fn cells(&mut self, columns: &[usize], count: usize) -> Result<Vec<TypedCells>, DataError> {
+    /// The next rows of this group in some columns, each once and in order. Where `stays` they stay open behind that.
+    fn cells(&mut self, columns: &[usize], count: usize, stays: bool) -> Result<Vec<TypedCells>, DataError> {
         for &column in columns {
             let of_type = &self.types[column];
             if of_type.get_physical_type() == Physical::INT96 {
@@ -118,26 +120,24 @@ impl Reader {
                 );
                 return Err(DataError::Unreadable { file: self.source.clone(), why });
             }
-            if self.open[column].is_none() {
-                let group = self.groups - 1;
-                let open = || self.file.get_row_group(group)?.get_column_reader(column);
-                self.open[column] = Some((guarded(&self.source, open)?, 0));
-            }
         }
-        let (source, types, taken) = (&self.source, &self.types, self.taken);
-        let wanted = self.open.iter_mut().enumerate().filter(|(column, _)| columns.contains(column));
-        let readers: Vec<_> = wanted.filter_map(|(column, open)| Some((column, open.as_mut()?))).collect();
-        let file = Arc::from(source.as_str());
-        readers
+        let (source, types, group, taken) = (&self.source, &self.types, self.groups - 1, self.taken);
+        let (file, name) = (&self.file, Arc::from(source.as_str()));
+        let open = self.open.iter_mut().enumerate();
+        let wanted: Vec<_> = open.filter(|(column, _)| columns.binary_search(column).is_ok()).collect();
+        wanted
             .into_par_iter()
-            .map(|(column, (reader, read))| {
+            .map(|(column, place)| {
                 guarded(source, || {
-                    // A column that nobody asked for before lags behind.
-                    if *read < taken {
-                        TypedCells::read(reader, &types[column], taken - *read, &file)?;
+                    let open = match place {
+                        Some(open) => open,
+                        None => place.insert(Open::of(file, group, column)?),
+                    };
+                    let cells = open.cells(&types[column], taken, count, &name)?;
+                    if !stays && file.is_crowded() {
+                        *place = None;
                     }
-                    *read = taken + count;
-                    TypedCells::read(reader, &types[column], count, &file)
+                    Ok(cells)
                 })
             })
             .collect()
@@ -236,7 +236,7 @@ impl TypedCells {
 }
 
 /// The codec of some part of a file, where it is one that this build does not have.
-fn unknown_codec(file: &SerializedFileReader<Ranges>) -> Option<&'static str> {
+fn unknown_codec(file: &BoundedFile) -> Option<&'static str> {
     let parts = file.metadata().row_groups().iter().flat_map(|group| group.columns());
     parts.map(|part| part.compression()).find_map(|codec| match codec {
         Compression::UNCOMPRESSED | Compression::SNAPPY | Compression::ZSTD(_) => None,
@@ -272,7 +272,8 @@ impl TableReader for Reader {
             if count == 0 {
                 break;
             }
-            let cells = self.cells(&columns, count)?;
+            let stays = self.in_group > open::FEW.saturating_mul(room.usual().min(at_most));
+            let cells = self.cells(&columns, count, stays)?;
             room.take(&cells, count);
             let of = |column: usize| match columns.binary_search(&column) {
                 Ok(at) => &cells[at],
@@ -326,7 +327,13 @@ fn guarded<T>(source: &str, read: impl FnOnce() -> Result<T, ParquetError>) -> R
     let outcome = catch_unwind(AssertUnwindSafe(read));
     READING.set(false);
     match outcome {
-        Ok(result) => result.map_err(|error| unreadable(error.to_string())),
+        Ok(result) => result.map_err(|error| {
+            unreadable(match error {
+                // What it says is said without the crate's own words before it.
+                ParquetError::General(why) => why,
+                other => other.to_string(),
+            })
+        }),
         Err(_) => Err(unreadable("the file is spoiled: write it again".to_string())),
     }
 }

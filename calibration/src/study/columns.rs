@@ -55,7 +55,9 @@ impl Columns {
                     .chain
                     .find_symbol(name)
                     .is_some_and(|id| readings.iter().any(|(known, _)| *known == id));
-                if !of_symbol && !times.iter().any(|(known, _)| known == name) {
+                // What the rows are ordered by is among the labels: it may be dates.
+                let is_order = plan.order.as_deref() == Some(name);
+                if !of_symbol && !is_order && !times.iter().any(|(known, _)| known == name) {
                     times.push((name.to_owned(), plans.len()));
                     plans.push(ColumnPlan::of_numbers(name));
                 }

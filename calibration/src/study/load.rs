@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use super::columns::Columns;
 use super::labels::{Numbered, number};
-use super::order::not_understood;
+use super::order::{not_understood, times};
 use super::orientation::UNIT_TOLERANCE;
 use super::plan::{Plan, Reading, SourcePlan};
 use super::ranges::check_ranges;
@@ -140,7 +140,7 @@ impl Plan {
         if u32::try_from(start + count).is_err() {
             return Err(DataError::TooManyRows { file });
         }
-        let readings = self.readings(source, &columns, &mut rows);
+        let readings = self.readings(source, &columns, &mut rows, &file)?;
         check_ranges(&self.chain, source, &readings, &rows, &file)?;
         append(&mut all.measured, self.measured(source, &columns, &rows, &readings, &file)?);
         // Of many rows these are most of what is held.
@@ -232,15 +232,23 @@ impl Plan {
     }
 
     /// The readings of joints and inputs, derived ones included; those that were read are taken out of the rows.
-    fn readings(&self, source: &SourcePlan, columns: &Columns, rows: &mut Rows) -> Vec<(SymbolId, Vec<f64>)> {
+    fn readings(
+        &self,
+        source: &SourcePlan,
+        columns: &Columns,
+        rows: &mut Rows,
+        file: &str,
+    ) -> Result<Vec<(SymbolId, Vec<f64>)>, DataError> {
         // Each has a place of its own among the numbers.
         let taken = |&(id, at): &(SymbolId, usize)| (id, std::mem::take(&mut rows.numbers[at]));
         let mut all: Vec<(SymbolId, Vec<f64>)> = columns.readings.iter().map(taken).collect();
+        let elapses = self.ordered_times(source, rows, file)?;
         let named = |name: &str| {
             let id = self.chain.find_symbol(name);
             let of_symbol = all.iter().find(|(known, _)| Some(*known) == id).map(|(_, values)| values);
             let time = || columns.times.iter().find(|(time, _)| time == name);
-            of_symbol.or_else(|| time().map(|&(_, at)| &rows.numbers[at])).cloned()
+            let of_order = || elapses.as_ref().filter(|_| self.order.as_deref() == Some(name));
+            of_symbol.or_else(|| time().map(|&(_, at)| &rows.numbers[at])).or_else(of_order).cloned()
         };
         let derived = source.readings.iter().filter_map(|(id, reading)| {
             match reading {
@@ -253,7 +261,33 @@ impl Plan {
         let derived: Vec<_> = derived.collect();
         all.extend(derived);
         all.sort_by_key(|(id, _)| *id);
-        all
+        Ok(all)
+    }
+
+    /// The times in the column of the order, where an input is derived from them.
+    fn ordered_times(
+        &self,
+        source: &SourcePlan,
+        rows: &Rows,
+        file: &str,
+    ) -> Result<Option<Vec<f64>>, DataError> {
+        let (Some(order), Some(labels)) = (self.order.as_deref(), rows.labels.last()) else {
+            return Ok(None);
+        };
+        let follows = |(_, reading): &(SymbolId, Reading)| matches!(reading, Reading::Derived(derived) if derived.columns().contains(&order));
+        if !source.readings.iter().any(follows) {
+            return Ok(None);
+        }
+        times(labels).map(Some).map_err(|row| DataError::Impossible {
+            file: file.to_owned(),
+            line: rows.places.line(row),
+            row: rows.number(row),
+            why: format!(
+                "column `{order}`: `{}` says no time that an effect could follow (`sequence` under [search]): write seconds, or points in \
+                 time (2026-01-31T18:01:00), in every row, or leave `sequence` out",
+                clipped(&labels[row])
+            ),
+        })
     }
 
     fn measured(

@@ -18,6 +18,26 @@ pub(super) fn order_of(labels: &[String]) -> Vec<usize> {
     order
 }
 
+/// The labels as numbers that grow with time, of points in time the seconds; or the first that says nothing of it.
+pub(super) fn times(labels: &[String]) -> Result<Vec<f64>, usize> {
+    let all_finite = |numbers: Vec<f64>| match numbers.iter().position(|number| !number.is_finite()) {
+        Some(row) => Err(row),
+        None => Ok(numbers),
+    };
+    if let Some(numbers) = numbers(labels) {
+        return all_finite(numbers);
+    }
+    if let Some(moments) = moments(labels) {
+        return all_finite(moments.iter().map(|moment| moment.seconds).collect());
+    }
+    // Where each alone says something, they do not together: one of those that begin otherwise than the first is shown.
+    let is_number = |label: &String| numbers(std::slice::from_ref(label)).is_some();
+    let first = labels.first().is_some_and(is_number);
+    let says_nothing = |label: &String| !is_number(label) && moment(label).is_none();
+    let row = labels.iter().position(says_nothing);
+    Err(row.or_else(|| labels.iter().position(|label| is_number(label) != first)).unwrap_or(0))
+}
+
 /// The first label that is a point in time in a way that is not understood, and why, where names would be all that is left to go by:
 /// `31.01.2026` comes behind `01.02.2026` then.
 pub(super) fn not_understood(labels: &[String]) -> Option<(usize, &'static str)> {
@@ -221,6 +241,19 @@ mod tests {
         ] {
             assert_eq!(of(wrong), None, "{wrong}");
         }
+    }
+
+    #[test]
+    fn labels_that_say_when_are_numbers() {
+        let times =
+            |labels: &[&str]| times(&labels.iter().map(|label| (*label).to_owned()).collect::<Vec<_>>());
+        assert_eq!(times(&["1,5", "2"]), Ok(vec![1.5, 2.0]));
+        assert_eq!(times(&["1970-01-02", "1970-01-01T00:00:00.25"]), Ok(vec![86_400.0, 0.25]));
+        assert_eq!(times(&["1970-01-01 02:00 +02:00"]), Ok(vec![0.0]));
+        assert_eq!(times(&["2026-01-01", "IMG_2"]), Err(1));
+        assert_eq!(times(&["5", "2026-01-01"]), Err(1));
+        assert_eq!(times(&["1", "inf"]), Err(1));
+        assert_eq!(times(&[]), Ok(Vec::new()));
     }
 
     #[test]

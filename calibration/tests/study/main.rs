@@ -85,6 +85,35 @@ fn a_study_reads_its_data_in_order_and_in_si() {
 }
 
 #[test]
+fn the_time_since_the_first_row_follows_dates_too() {
+    const DATED: &str = "\
+az;el [deg];dx_arcsec;dy_arcsec;day;time;temperature
+20;30;0;0;b;2026-10-25T02:10:00+01:00;7,5
+10;30;1;-2;a;2026-10-25T02:00:00+02:00;8,5
+15;30;0;0;a;2026-10-25 02:00:30.5+02:00;8
+";
+    const NAMED: &str = "\
+az;el [deg];dx_arcsec;dy_arcsec;day;time;temperature
+20;30;0;0;b;IMG_2;7,5
+10;30;1;-2;a;IMG_10;8,5
+";
+    let chain = Chain::from_text(MOUNT).unwrap();
+    let implied = STUDY.replace("[search]", "[search]\nsequence = true").replace("drift ", "elapsed ");
+    for (study, name) in [(STUDY, "drift"), (&implied, "elapsed")] {
+        let plan = Study::from_text(study).unwrap().plan(&chain).unwrap();
+        let id = plan.chain.find_symbol(name).unwrap();
+        let read = observations(study, DATED).unwrap();
+        assert_eq!(read.poses.column(id).unwrap(), [0.0, 30.5, 4200.0]);
+        let refused = observations(study, NAMED).unwrap_err();
+        assert_eq!(
+            refused,
+            "night.csv: line 2, row 1: column `time`: `IMG_2` says no time that an effect could follow (`sequence` under [search]): \
+             write seconds, or points in time (2026-01-31T18:01:00), in every row, or leave `sequence` out"
+        );
+    }
+}
+
+#[test]
 fn mistakes_are_named_with_their_place_and_what_to_write() {
     let with = |from: &str, to: &str| {
         assert!(STUDY.contains(from), "{from}");

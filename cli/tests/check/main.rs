@@ -5,6 +5,7 @@ mod support;
 
 mod bad_claims;
 mod kinds;
+mod printed;
 
 use serde_json::Value;
 use support::{Folder, trueaxis};

@@ -287,18 +287,28 @@ fn written(
     text: &str,
     axis: Option<usize>,
 ) -> Result<Written, Vec<Mistake<TextPlace>>> {
+    let as_latex = || match axis {
+        Some(axis) => latex::read_component(text, symbols, axis),
+        None => latex::read_formula(text, symbols),
+    };
     if is_latex(text) {
-        let read = match axis {
-            Some(axis) => latex::read_component(text, symbols, axis),
-            None => latex::read_formula(text, symbols),
-        };
-        return read
+        return as_latex()
             .map(|expression| (text_index, expression))
             .map_err(|mistake| vec![in_text(text_index, mistake)]);
     }
     let (name_length, amount) = bare(text);
     let moved = |place: &Range<usize>| place.start + name_length..place.end + name_length;
-    match syntax::parse_amount(amount) {
+    let plain = syntax::parse_amount(amount);
+    // `-x_3` and `R x_2` are LaTeX too, where these are printed symbols.
+    let is_plain = plain.is_ok() && words(amount).all(|word| symbols.declares(word) || !symbols.prints(word));
+    if !is_plain
+        && words(amount).next().is_some()
+        && words(amount).all(|word| symbols.prints(word))
+        && let Ok(expression) = as_latex()
+    {
+        return Ok((text_index, expression));
+    }
+    match plain {
         Ok(expression) => Ok((text_index, expression.map_place(&moved))),
         Err(found) => Err(found
             .iter()
@@ -323,6 +333,12 @@ fn bare(text: &str) -> (usize, &str) {
 fn is_name(text: &str) -> bool {
     text.starts_with(|c: char| c.is_ascii_alphabetic())
         && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+}
+
+/// Letters with digits and underscores behind them.
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    let words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+    words.filter(|word| word.starts_with(|c: char| c.is_ascii_alphabetic()))
 }
 
 fn is_latex(text: &str) -> bool {

@@ -206,3 +206,28 @@ fn the_assertion_passes_what_is_right_and_says_what_is_wrong() {
     assert!(said("pointing", &kept, RIGHT).contains("no error `dtheta_[`"));
     assert!(said("pointing", &["*"], [r"\cos\bta", "0", "0"]).contains("at `\\bta`: unknown symbol"));
 }
+
+/// Print without a backslash or a brace is LaTeX where every word of it is a printed symbol, and nothing else is.
+#[test]
+fn printed_symbols_need_no_backslash() {
+    let text = r#"chain C {
+        body b on ground { position_error: Tx(shift*length), Ty(-index); motion: Rz(turn); }
+        input length: length;
+        observe o: point(0, 1, 0) of b;
+        symbol shift = "x_2";
+        symbol index = "x_3";
+        symbol length = "R";
+        symbol turn = "ab";
+    }"#;
+    let chain = Chain::from_text(text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let symbols = PrintedSymbols::of_chain(&chain);
+    let read = |x: &str, y: &str| PrintedVector::read(&chain, &symbols, &[x, y, "0"]).is_ok();
+    for (x, y) in [("R x_2", "-x_3"), ("x_2 R", "y = -x_3."), ("shift*length", "-index"), ("R x_2", "-index")]
+    {
+        assert!(read(x, y), "{x}, {y}");
+    }
+    // A typing slip is no product of letters.
+    for x in ["Rx_2", "x_2R", "x_4", "R shift", "2 3", "R + shfit"] {
+        assert!(!read(x, "-x_3"), "{x}");
+    }
+}

@@ -86,10 +86,11 @@ const INVERSES: [&str; 11] =
 /// What to write in place of an inverse function.
 pub(super) const INVERSE_HELP: &str = r"claim the form to an order in the errors: to first order the arc tangent of a small quotient is the quotient, `\frac{…}{…}`; an angle itself is observed, `observe sky: azimuth of direction(…) of body;`";
 
-/// Whether a word is an inverse function: `arctan`, `Arctan`, `atan`, `atantwo`.
+/// Whether a word is an inverse function: `arctan`, `Arctan`, `atan`, `atan2`, `atantwo`.
 pub(super) fn is_inverse(word: &str) -> bool {
     let word = word.to_ascii_lowercase();
-    INVERSES.contains(&word.strip_suffix("two").unwrap_or(&word))
+    let of_one = word.strip_suffix("two").or_else(|| word.strip_suffix('2'));
+    INVERSES.contains(&of_one.unwrap_or(&word))
 }
 
 /// Fractions.

@@ -29,8 +29,11 @@ pub(super) struct ReadGlyph {
     pub tokens: usize,
 }
 
-/// Control words that set a mark on the letter behind them.
-const ACCENTS: [&str; 8] = ["hat", "bar", "tilde", "dot", "ddot", "vec", "overline", "widehat"];
+/// Control words that set a mark on the letter behind them, or another alphabet, whose letters are others: `R` is no `\mathcal{R}`.
+const ACCENTS: [&str; 12] = [
+    "hat", "bar", "tilde", "dot", "ddot", "vec", "overline", "widehat", "mathcal", "mathscr", "mathfrak",
+    "mathbb",
+];
 
 /// Control words that are no symbols.
 const OPERATORS: [&str; 4] = ["sqrt", "degree", "top", RAMP];

@@ -128,6 +128,16 @@ impl PrintedSymbols {
         self.entries.get(&Key { glyphs: glyphs.to_vec(), arguments: arguments.to_vec() })
     }
 
+    /// Whether a text is one printed symbol.
+    pub(crate) fn prints(&self, text: &str) -> bool {
+        symbol_key(text).is_ok_and(|key| self.entries.contains_key(&key))
+    }
+
+    /// Whether a name is declared.
+    pub(crate) fn declares(&self, name: &str) -> bool {
+        self.names.contains_key(name)
+    }
+
     /// Whether a letter is a symbol by itself.
     pub(super) fn knows(&self, letter: char) -> bool {
         let glyph = Glyph { base: letter.to_string(), lower: String::new(), upper: String::new() };

@@ -1,6 +1,7 @@
 //! Formulas as they stand in papers, against the plain syntax of amounts; and what is refused.
 
 use super::*;
+use crate::chain::Chain;
 use crate::expr::{Function, Node};
 
 /// The expression in full parentheses, so that the structure shows.
@@ -227,8 +228,8 @@ fn what_cannot_be_read_is_refused_at_its_place() {
         ("x ± 2", "±", "one claim for each sign"),
         (r"\arctan x", r"\arctan", "inverse function"),
         (r"\arctan\frac{x}{2}", r"\arctan", r"`\frac{…}{…}`"),
-        (r"\operatorname{atan2}(x, 2)", "atan", "inverse function"),
-        (r"{\rm atan2}(x, 2)", "atan", "inverse function"),
+        (r"\operatorname{atan2}(x, 2)", r"\operatorname{atan2}", "inverse function"),
+        (r"{\rm atan2}(x, 2)", r"{\rm atan2}", "inverse function"),
         (r"\mathrm{Arctan} x", r"\mathrm{Arctan}", "inverse function"),
         (r"\atantwo(x, 2)", r"\atantwo", "inverse function"),
         ("arctan2(x, 2)", "arctan", "inverse function"),
@@ -292,5 +293,25 @@ proptest::proptest! {
                 proptest::prop_assert!(text.get(mistake.place.clone()).is_some(), "{:?}", mistake);
             }
         }
+    }
+}
+
+#[test]
+fn letters_of_other_alphabets_are_other_letters() {
+    let text = r#"chain C {
+        body b on ground { position_error: Rx(refraction + radius); motion: Rz(a); }
+        observe o: direction(0, 1, 0) of b;
+        symbol refraction = r"\mathcal{R}_0";
+        symbol radius = "R_0";
+    }"#;
+    let chain = Chain::from_text(text).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let symbols = PrintedSymbols::of_chain(&chain);
+    for (text, meaning) in [
+        (r"\mathcal{R}_0 - R_0", "(refraction + -radius)"),
+        (r"\mathcal R_0 \cos a", "(refraction*cos(a))"),
+        (r"\mathbf{R}_0", "radius"),
+    ] {
+        let formula = read_formula(text, &symbols).unwrap_or_else(|mistake| panic!("{text}: {mistake:?}"));
+        assert_eq!(shown(&formula), meaning, "{text}");
     }
 }

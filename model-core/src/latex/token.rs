@@ -302,8 +302,14 @@ impl Lexer<'_> {
     fn word(&mut self, start: usize) -> bool {
         let word_start = self.at;
         self.skip_while(|c| c.is_alphanumeric() || c == ' ');
-        let word = self.text[word_start..self.at].trim();
-        if self.peek() != Some('}') || word.is_empty() || !word.chars().all(char::is_alphabetic) {
+        // A name with an underscore and digits, `\text{from\_1st}`.
+        while self.text[self.at..].starts_with(r"\_") {
+            self.at += 2;
+            self.skip_while(|c| c.is_alphanumeric() || c == ' ');
+        }
+        let word = self.text[word_start..self.at].trim().replace(r"\_", "_");
+        let is_name = word.starts_with(char::is_alphabetic) && !word.contains(' ');
+        if self.peek() != Some('}') || !is_name {
             return false;
         }
         let mut letters = word.chars().map(typed::normal);
@@ -313,10 +319,10 @@ impl Lexer<'_> {
         };
         let kind = match typed {
             Some(command) => Kind::Command(command.to_owned()),
-            None if FUNCTIONS.contains(&word) || word == RAMP || is_inverse(word) => {
-                Kind::Command(word.to_owned())
+            None if FUNCTIONS.contains(&word.as_str()) || word == RAMP || is_inverse(&word) => {
+                Kind::Command(word)
             }
-            None => Kind::Word(word.to_owned()),
+            None => Kind::Word(word),
         };
         self.at += 1;
         self.push(kind, start);

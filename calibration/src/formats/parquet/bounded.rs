@@ -1,26 +1,56 @@
-//! A Parquet file whose pages are looked at before they are decoded: the crate's decoders make room for as many values as a
-//! page claims, and a kilobyte can claim gigabytes.
+//! A Parquet file whose pages are judged before they are unpacked and decoded: both make room for as much as a page claims, and a
+//! kilobyte can claim gigabytes.
 
-use ::parquet::basic::Encoding;
+use ::parquet::basic::{Compression, Encoding, Type as Physical};
 use ::parquet::bloom_filter::Sbbf;
 use ::parquet::column::page::{Page, PageMetadata, PageReader};
+use ::parquet::data_type::ByteArray;
 use ::parquet::errors::{ParquetError, Result};
-use ::parquet::file::metadata::{ParquetMetaData, RowGroupMetaData};
-use ::parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
+use ::parquet::file::metadata::{ColumnChunkMetaData, ParquetMetaData, RowGroupMetaData};
+use ::parquet::file::reader::{ChunkReader as _, FileReader, RowGroupReader, SerializedFileReader};
 use ::parquet::record::reader::RowIter;
 use ::parquet::schema::types::Type;
 
+use super::header::{Kind, PageHeader};
+use super::held::{Held, Share};
 use super::ranges::Ranges;
 
 /// Memory that a decoder takes for each byte of a page, at most: a text of no letters has four bytes in a page and
 /// thirty-two in memory.
 const GROWTH: u64 = 8;
 
+/// Bytes that a page may have beyond twice what its values take: levels and blocks of the encodings.
+const BESIDE: u64 = 1 << 16;
+
+/// The share of the memory that open columns hold before others are closed behind each chunk.
+const CROWDED: u64 = 64;
+
+/// Memory of what unpacks Zstandard, for each open column.
+const ZSTD_BYTES: u64 = 1 << 18;
+
 /// A file that refuses pages which claim more than they hold.
 pub(super) struct BoundedFile {
-    pub inner: SerializedFileReader<Ranges>,
-    /// How much memory one column may take.
-    pub memory_bytes: u64,
+    inner: SerializedFileReader<Ranges>,
+    ranges: Ranges,
+    /// How much memory its pages may take.
+    memory_bytes: u64,
+    held: Held,
+}
+
+impl BoundedFile {
+    /// One whose open pages take so much memory at most.
+    ///
+    /// # Errors
+    /// It is none.
+    pub fn open(ranges: Ranges, memory_bytes: u64) -> Result<Self> {
+        let inner = SerializedFileReader::new(ranges.clone())?;
+        Ok(Self { inner, ranges, memory_bytes, held: Held::default() })
+    }
+
+    /// Whether its open pages take so much that columns had better be closed.
+    pub fn is_crowded(&self) -> bool {
+        self.held.bytes() > self.memory_bytes / CROWDED
+    }
 }
 
 impl FileReader for BoundedFile {
@@ -33,7 +63,7 @@ impl FileReader for BoundedFile {
     }
 
     fn get_row_group(&self, i: usize) -> Result<Box<dyn RowGroupReader + '_>> {
-        Ok(Box::new(BoundedGroup { inner: self.inner.get_row_group(i)?, memory_bytes: self.memory_bytes }))
+        Ok(Box::new(BoundedGroup { inner: self.inner.get_row_group(i)?, file: self }))
     }
 
     fn get_row_iter(&self, projection: Option<Type>) -> Result<RowIter<'_>> {
@@ -43,7 +73,7 @@ impl FileReader for BoundedFile {
 
 struct BoundedGroup<'a> {
     inner: Box<dyn RowGroupReader + 'a>,
-    memory_bytes: u64,
+    file: &'a BoundedFile,
 }
 
 impl RowGroupReader for BoundedGroup<'_> {
@@ -56,9 +86,28 @@ impl RowGroupReader for BoundedGroup<'_> {
     }
 
     fn get_column_page_reader(&self, i: usize) -> Result<Box<dyn PageReader>> {
-        let has_levels = self.metadata().column(i).column_descr().max_def_level() > 0;
-        let inner = self.inner.get_column_page_reader(i)?;
-        Ok(Box::new(BoundedPages { inner, has_levels, memory_bytes: self.memory_bytes }))
+        let column = self.metadata().column(i);
+        let name = column.column_path().string();
+        let (rows, values) = (self.metadata().num_rows(), column.num_values());
+        let Some(values_left) = u64::try_from(values).ok().filter(|_| values == rows) else {
+            let what = format!("it has {values} cells in a group of {rows} rows");
+            return Err(spoiled(&name, &what));
+        };
+        let unpacks = if matches!(column.compression(), Compression::ZSTD(_)) { ZSTD_BYTES } else { 0 };
+        let (at, left) = column.byte_range();
+        Ok(Box::new(BoundedPages {
+            inner: self.inner.get_column_page_reader(i)?,
+            has_levels: column.column_descr().max_def_level() > 0,
+            width: width(column),
+            of_text: if is_text(column.column_type()) { size_of::<ByteArray>() as u64 } else { 0 },
+            values_left,
+            ranges: self.file.ranges.clone(),
+            at,
+            left,
+            memory_bytes: self.file.memory_bytes,
+            share: self.file.held.share(unpacks),
+            column: name,
+        }))
     }
 
     fn get_column_bloom_filter(&self, i: usize) -> Option<&Sbbf> {
@@ -70,21 +119,100 @@ impl RowGroupReader for BoundedGroup<'_> {
     }
 }
 
+fn is_text(of_type: Physical) -> bool {
+    matches!(of_type, Physical::BYTE_ARRAY | Physical::FIXED_LEN_BYTE_ARRAY)
+}
+
+/// The bytes of one value of a column; none where they are of any length.
+fn width(column: &ColumnChunkMetaData) -> Option<u64> {
+    Some(match column.column_type() {
+        Physical::BOOLEAN => 1,
+        Physical::INT32 | Physical::FLOAT => 4,
+        Physical::INT64 | Physical::DOUBLE => 8,
+        Physical::INT96 => 12,
+        Physical::FIXED_LEN_BYTE_ARRAY => u64::try_from(column.column_descr().type_length()).ok()?,
+        Physical::BYTE_ARRAY => return None,
+    })
+}
+
+fn spoiled(column: &str, what: &str) -> ParquetError {
+    ParquetError::General(format!("column `{column}` is spoiled ({what}): copy or write the file again"))
+}
+
 struct BoundedPages {
     inner: Box<dyn PageReader>,
     /// Whether levels that say which cells are empty come before the values.
     has_levels: bool,
+    /// The bytes of a value, where all have the same; and what its place takes beside its bytes once it is unpacked, of a text.
+    width: Option<u64>,
+    of_text: u64,
+    /// Values that are still to come.
+    values_left: u64,
+    ranges: Ranges,
+    /// Where the next page begins, and the bytes of the column from there on.
+    at: u64,
+    left: u64,
+    /// How much memory all open pages may take.
     memory_bytes: u64,
+    /// What this column takes.
+    share: Share,
+    column: String,
 }
 
 impl BoundedPages {
-    fn check(&self, page: &Page) -> Result<()> {
-        if page.buffer().len() as u64 > self.memory_bytes / GROWTH {
-            return Err(ParquetError::General("a page takes more memory than it may".to_owned()));
+    /// Judges the next page by what its header says.
+    fn judge(&mut self) -> Result<()> {
+        if self.left == 0 {
+            return Ok(());
         }
-        let (claimed, held) = match page {
+        let header = PageHeader::read(self.ranges.get_read(self.at)?)
+            .map_err(|error| spoiled(&self.column, &error.to_string()))?;
+        let whole = header.length + u64::from(header.packed);
+        let Some(left) = self.left.checked_sub(whole) else {
+            return Err(spoiled(&self.column, "a page is longer than its column"));
+        };
+        (self.at, self.left) = (self.at + whole, left);
+        let (values, unpacked) = (u64::from(header.values), u64::from(header.unpacked));
+        if unpacked > self.memory_bytes / GROWTH {
+            return Err(ParquetError::General(format!(
+                "column `{}`: a page unpacks to {} MiB, more than the {} MiB that one may have: write the file again with smaller pages, or \
+                 smaller groups of rows",
+                self.column,
+                unpacked >> 20,
+                self.memory_bytes / GROWTH >> 20,
+            )));
+        }
+        let claims = |what: &str| Err(spoiled(&self.column, &format!("a page of {values} values {what}")));
+        match header.kind {
             // Each value of a dictionary stands in it.
-            Page::DictionaryPage { buf, num_values, .. } => (u64::from(*num_values), buf.len() as u64),
+            Kind::Dictionary if values > unpacked => return claims(&format!("unpacks to {unpacked} bytes")),
+            Kind::Dictionary => self.share.keep(unpacked + values * self.of_text),
+            Kind::Data => {
+                let Some(values_left) = self.values_left.checked_sub(values) else {
+                    return claims(&format!("comes where {} are to come", self.values_left));
+                };
+                if self.width.is_some_and(|width| {
+                    unpacked > values.saturating_mul(2 * (width + 4)).saturating_add(BESIDE)
+                }) {
+                    return claims(&format!("unpacks to {unpacked} bytes"));
+                }
+                self.values_left = values_left;
+                self.share.page(unpacked);
+            }
+        }
+        if self.share.of_all() > self.memory_bytes {
+            return Err(ParquetError::General(format!(
+                "pages of its columns that are read at the same time take more than {} MiB of memory: write the file again with smaller pages, \
+                 or smaller groups of rows",
+                self.memory_bytes >> 20,
+            )));
+        }
+        Ok(())
+    }
+
+    /// Checks what a page says within itself.
+    fn check(&self, page: &Page) -> Result<()> {
+        let (claimed, held) = match page {
             Page::DataPage { buf, num_values, encoding, .. } if has_count(*encoding) => {
                 let levels = if self.has_levels { length_prefixed(buf) } else { 0 };
                 (claimed_lengths(buf, levels), u64::from(*num_values))
@@ -98,7 +226,7 @@ impl BoundedPages {
             _ => return Ok(()),
         };
         if claimed > held {
-            return Err(ParquetError::General("a page claims more values than it holds".to_owned()));
+            return Err(spoiled(&self.column, &format!("a page of {held} values has {claimed} texts")));
         }
         Ok(())
     }
@@ -144,7 +272,8 @@ impl Iterator for BoundedPages {
 
 impl PageReader for BoundedPages {
     fn get_next_page(&mut self) -> Result<Option<Page>> {
-        let page = self.inner.get_next_page()?;
+        self.judge()?;
+        let page = self.inner.get_next_page().map_err(|error| spoiled(&self.column, &error.to_string()))?;
         page.as_ref().map_or(Ok(()), |page| self.check(page))?;
         Ok(page)
     }
@@ -154,6 +283,137 @@ impl PageReader for BoundedPages {
     }
 
     fn skip_next_page(&mut self) -> Result<()> {
+        self.judge()?;
         self.inner.skip_next_page()
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use std::sync::Arc;
+
+    use ::parquet::basic::ZstdLevel;
+    use ::parquet::data_type::DoubleType;
+    use ::parquet::file::properties::WriterProperties;
+    use ::parquet::file::writer::SerializedFileWriter;
+    use ::parquet::schema::parser::parse_message_type;
+
+    use super::super::Reader;
+    use super::*;
+    use crate::formats::{Cells, Chunk, DataError, Form, Options, TableReader as _, Wanted};
+
+    /// Written by `tests/reference/parquet.py`: as `snappy.parquet`, with checksums.
+    const CHECKED: &[u8] = include_bytes!("../../../tests/reference/checked.parquet");
+
+    /// So many rows of the first columns.
+    fn read(
+        file: &[u8],
+        memory_bytes: u64,
+        (columns, rows): (usize, usize),
+    ) -> std::result::Result<Chunk, DataError> {
+        let options = Options { memory_bytes, ..Options::default() };
+        let wanted: Vec<Wanted> =
+            (0..columns).map(|column| Wanted { column, form: Form::Number(1.0) }).collect();
+        Reader::new(file.into(), "run.parquet", &options)?.read(&wanted, rows)
+    }
+
+    /// So many columns of one page of zeros each.
+    fn zeros(columns: usize, rows: usize, compression: Compression) -> Vec<u8> {
+        let fields: String = (0..columns).map(|at| format!("required double c{at};")).collect();
+        let schema = parse_message_type(&format!("message t {{ {fields} }}")).unwrap();
+        let properties = WriterProperties::builder()
+            .set_compression(compression)
+            .set_dictionary_enabled(false)
+            .set_data_page_size_limit(usize::MAX)
+            .set_data_page_row_count_limit(usize::MAX)
+            .build();
+        let mut writer =
+            SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties)).unwrap();
+        let mut group = writer.next_row_group().unwrap();
+        while let Some(mut column) = group.next_column().unwrap() {
+            column.typed::<DoubleType>().write_batch(&vec![0.0; rows], None, None).unwrap();
+            column.close().unwrap();
+        }
+        group.close().unwrap();
+        writer.into_inner().unwrap()
+    }
+
+    #[test]
+    fn a_page_is_judged_before_it_is_unpacked() {
+        const MIB: u64 = 1 << 20;
+        let zstd = Compression::ZSTD(ZstdLevel::default());
+        for compression in [zstd, Compression::SNAPPY] {
+            let file = zeros(1, 1 << 18, compression);
+            assert_eq!(
+                read(&file, 8 * MIB, (1, 9)).unwrap_err().to_string(),
+                "run.parquet: column `c0`: a page unpacks to 2 MiB, more than the 1 MiB that one may have: write the file again with \
+                 smaller pages, or smaller groups of rows"
+            );
+            assert!(read(&file, 32 * MIB, (1, 9)).is_ok());
+            // Each page may be, and not all at the same time.
+            let file = zeros(12, 1 << 18, compression);
+            let refused = read(&file, 16 * MIB, (12, 9)).unwrap_err().to_string();
+            let expected = "pages of its columns that are read at the same time take more than 16 MiB of memory: write the file again with smaller \
+                 pages, or smaller groups of rows";
+            assert!(refused.ends_with(expected), "{refused}");
+        }
+    }
+
+    /// The places in a file, of one group of one page a column, where a header begins, where its page does, and where that ends.
+    fn pages(file: &[u8]) -> Vec<[usize; 3]> {
+        let file = BoundedFile::open(
+            Ranges::of(Box::new(std::io::Cursor::new(file.to_vec())), file.len() as u64, 1 << 30),
+            1 << 30,
+        );
+        let file = file.unwrap();
+        let mut pages = Vec::new();
+        for column in file.metadata().row_group(0).columns() {
+            let (mut at, length) = column.byte_range();
+            let end = at + length;
+            while at < end {
+                let header = PageHeader::read(file.ranges.get_read(at).unwrap()).unwrap();
+                let body = at + header.length;
+                pages.push([at, body, body + u64::from(header.packed)].map(|at| at as usize));
+                at = body + u64::from(header.packed);
+            }
+        }
+        pages
+    }
+
+    #[test]
+    fn what_a_checksum_does_not_fit_is_refused() {
+        let good = read(CHECKED, 1 << 30, (1, 9)).unwrap();
+        assert_eq!(good.columns, [Cells::Numbers(vec![1.5, -4.0, 0.125])]);
+        let pages = pages(CHECKED);
+        // Those of the other column nobody reads.
+        for &[_, start, end] in &pages[..2] {
+            for at in start..end {
+                let mut file = CHECKED.to_vec();
+                file[at] ^= 0x04;
+                assert_eq!(
+                    read(&file, 1 << 30, (1, 9)).unwrap_err().to_string(),
+                    "run.parquet: column `az_deg` is spoiled (Parquet error: Page CRC checksum mismatch): copy or write the file again"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_header_claims_no_more_than_it_has() {
+        let file = zeros(1, 100, Compression::SNAPPY);
+        let [[header, body, _]] = pages(&file)[..] else { panic!("one page") };
+        let mut refused = 0;
+        for at in header..body {
+            for bit in 0..8 {
+                let mut spoiled = file.clone();
+                spoiled[at] ^= 1 << bit;
+                match read(&spoiled, 1 << 30, (1, 999)) {
+                    Ok(chunk) => assert_eq!(chunk.columns, [Cells::Numbers(vec![0.0; 100])]),
+                    Err(_) => refused += 1,
+                }
+            }
+        }
+        assert!(refused > 8, "{refused}");
     }
 }

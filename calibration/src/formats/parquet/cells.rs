@@ -12,6 +12,9 @@ use ::parquet::schema::types::{ColumnDescPtr, ColumnDescriptor, ColumnPath, Type
 /// Cells that are unpacked at a time: the crate makes room for as many as a page claims to have.
 const STEP: usize = 1 << 13;
 
+/// What is wrong with a column that ends before its rows do.
+pub(super) const FEWER: &str = "a column has fewer cells than the file says";
+
 /// Cells with their type.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TypedCells {
@@ -142,7 +145,7 @@ impl TypedCells {
         }?;
         let held = cells.levels.as_ref().map_or(count, |levels| levels.iter().filter(|is| **is > 0).count());
         if cells.len() != count || cells.values.len() != held {
-            return Err(ParquetError::General("a column has fewer cells than the file says".to_owned()));
+            return Err(ParquetError::General(FEWER.to_owned()));
         }
         Ok(cells)
     }

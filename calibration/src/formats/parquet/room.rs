@@ -5,7 +5,7 @@ use ::parquet::basic::Type as Physical;
 use super::TypedCells;
 
 /// Memory that the cells of a chunk take at most, in bytes, about: rows may be of any length.
-const CHUNK_BYTES: usize = 64 << 20;
+const CHUNK_BYTES: usize = 24 << 20;
 
 /// Rows that are read at a time where texts are among them, whose length nobody knows before.
 const TEXTS: usize = 1 << 12;
@@ -16,6 +16,8 @@ pub(super) struct Room {
     /// What a row takes, about; none before one with texts was read.
     of_row: Option<usize>,
     has_texts: bool,
+    /// Rows of a chunk whose texts are as long as numbers.
+    usual: usize,
 }
 
 impl Room {
@@ -23,8 +25,20 @@ impl Room {
     pub fn of(types: impl Iterator<Item = Physical> + Clone) -> Self {
         let is_text = |of_type| matches!(of_type, Physical::BYTE_ARRAY | Physical::FIXED_LEN_BYTE_ARRAY);
         let has_texts = types.clone().any(is_text);
-        let of_row = (!has_texts).then(|| types.count() * size_of::<f64>());
-        Self { bytes: CHUNK_BYTES, of_row, has_texts }
+        let of_numbers = types.count() * size_of::<f64>();
+        let usual = (CHUNK_BYTES / of_numbers.max(1)).max(1);
+        let of_row = (!has_texts).then_some(of_numbers);
+        Self {
+            bytes: CHUNK_BYTES,
+            of_row,
+            has_texts,
+            usual: if has_texts { usual.min(TEXTS) } else { usual },
+        }
+    }
+
+    /// How many rows go in at a time, but for the first, where no texts are long.
+    pub fn usual(&self) -> usize {
+        self.usual
     }
 
     /// How many rows go in at a time.

@@ -149,9 +149,10 @@ impl Writer {
             None => Box::new(begun(&columns)?),
         };
         let mut group = file.next_row_group()?;
-        for cells in &columns {
+        // What is written goes: the file holds it.
+        for cells in columns {
             let Some(mut column) = group.next_column()? else { break };
-            write(&mut column, cells)?;
+            write(&mut column, &cells)?;
             column.close()?;
         }
         group.close()?;

@@ -229,8 +229,7 @@ fn place_stations(unknowns: &mut Unknowns, rows: &[Row]) -> Result<(), StartErro
             there.iter().zip(&known).filter_map(|(from, to)| Some(((*from)?, (*to)?))).unzip();
         let moved = onto(&from, &to);
         for station in unknowns.stations.iter_mut() {
-            station.pose =
-                Pose { turn: moved.turn * station.pose.turn, shift: moved.apply(&station.pose.shift) };
+            station.pose = moved.after(&station.pose);
         }
         return Ok(());
     }

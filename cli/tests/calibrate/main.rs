@@ -24,6 +24,7 @@ mod objects;
 mod observations;
 mod orientations;
 mod outage;
+mod placed;
 mod random;
 mod ranges;
 mod readings;

@@ -11,6 +11,7 @@ mod rows;
 mod scale;
 mod solved;
 mod start;
+mod upright;
 
 pub use identify::{Remedy, SetUp, Visible, identify};
 pub use placed::{Origin, Placed, PlacedObject, PlacedStation, placed};

@@ -5,7 +5,7 @@
 
 use faer::{Mat, Side};
 use model_core::Chain;
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
 use crate::data::unknowns::{Freedom, Known, Object, Pose, Shape, Station, Unknowns};
@@ -14,6 +14,12 @@ use crate::fit::noise::Layout;
 use crate::fit::objects::Spread;
 use crate::fit::sweep::{Weighting, eliminated};
 use crate::fit::{FitError, FitResult, Model};
+
+/// How surely what stands in for a frame is where it is, m and rad: so that nothing else sees it move.
+const HELD: f64 = 1e-10;
+
+/// Where a station is anywhere, m.
+const ANYWHERE_M: f64 = 1e6;
 
 /// Where everything came out.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -104,15 +110,9 @@ pub fn placed(
     };
     let rows = Counts::of(unknowns, &fit.residuals.weight);
     let mut there = unknowns.at(unknowns.state(&fit.values));
-    let frame = frame(unknowns, &rows);
-    if let Some(frame) = frame {
-        let back = unknowns.stations[frame].pose.after(&there.stations[frame].pose.inverse());
-        there.stations.iter_mut().for_each(|station| station.pose = back.after(&station.pose));
-        for object in &mut there.objects {
-            object.place = back.apply(&object.place);
-            object.normal = back.turn * object.normal;
-        }
-        there.stations[frame].freedom = Freedom::Given;
+    let frame = Frame::of(unknowns, &rows);
+    if let Some(frame) = &frame {
+        frame.take(unknowns, &mut there);
     }
     let observations = Observations { unknowns: Some(there), ..observations.clone() };
     let spread = spread(chain, &observations, fit)?;
@@ -120,7 +120,8 @@ pub fn placed(
     let of = |first: usize, count: usize| Uncertain { spread: &spread, first, count };
     let stations = there.stations.iter().enumerate().zip(there.first_of_stations());
     let stations = stations.filter(|((_, own), _)| !own.label.is_empty()).map(|((at, own), first)| {
-        let origin = if frame == Some(at) { Origin::Frame } else { origin(own.freedom) };
+        let is_frame = frame.as_ref().is_some_and(|frame| frame.station == at);
+        let origin = if is_frame { Origin::Frame } else { origin(own.freedom) };
         station(own, origin, &of(first, own.numbers()), rows.stations[at])
     });
     let is_sphere = without_length(&observations, there);
@@ -155,16 +156,56 @@ impl Counts {
     }
 }
 
-/// The station whose frame is that of all, where nothing holds it: of those whose pose is written, or else of all, that with most rows.
-fn frame(unknowns: &Unknowns, rows: &Counts) -> Option<usize> {
-    let seen = || unknowns.stations.iter().enumerate().filter(|(at, _)| rows.stations[*at][0] > 0);
-    let objects_are_free = unknowns.objects.iter().all(|own| own.freedom == Freedom::Free);
-    if !objects_are_free || seen().any(|(_, own)| own.freedom != Freedom::Free) {
-        return None;
+/// What stands in for what would hold the frame, where nothing does: a station.
+struct Frame {
+    station: usize,
+    /// The one point that is exact: the station says nothing but how all of it is turned.
+    point: Option<usize>,
+}
+
+impl Frame {
+    /// Of the stations that were levelled, whose pose is written, or else of all, that with most rows. None where the frame is held, or by two points or
+    /// more, which leave no turn or one about their line.
+    fn of(unknowns: &Unknowns, rows: &Counts) -> Option<Self> {
+        let seen = || unknowns.stations.iter().enumerate().filter(|(at, _)| rows.stations[*at][0] > 0);
+        let points = unknowns.points_of_frame();
+        let are_free = unknowns.objects.iter().all(|own| own.freedom == Freedom::Free);
+        if seen().any(|(_, own)| own.freedom != Freedom::Free) || !(are_free || points.len() == 1) {
+            return None;
+        }
+        let most = |(at, own): &(usize, &Station)| {
+            let told = (own.level_rad.is_some(), own.is_written());
+            (told, rows.stations[*at][0], std::cmp::Reverse(*at))
+        };
+        let (station, _) = seen().max_by_key(most)?;
+        Some(Self { station, point: points.first().copied() })
     }
-    let most =
-        |(at, own): &(usize, &Station)| (own.is_written(), rows.stations[*at][0], std::cmp::Reverse(*at));
-    seen().max_by_key(most).map(|(at, _)| at)
+
+    /// Moves all of it so that the station is as it started, and holds it there; by levels it may lean.
+    fn take(&self, unknowns: &Unknowns, there: &mut Unknowns) {
+        let (start, now) = (&unknowns.stations[self.station].pose, there.stations[self.station].pose);
+        let is_levelled = there.stations[self.station].level_rad.is_some();
+        let mut back = start.after(&now.inverse());
+        if is_levelled {
+            let turned = start.angles().0[2] - now.angles().0[2];
+            back = Pose::new(Vector3::zeros(), 0.0, 0.0, turned);
+        }
+        let stays = match self.point {
+            Some(point) => [there.objects[point].place; 2],
+            None => [now.shift, start.shift],
+        };
+        back.shift = stays[1] - back.turn * stays[0];
+        there.stations.iter_mut().for_each(|station| station.pose = back.after(&station.pose));
+        for object in &mut there.objects {
+            object.place = back.apply(&object.place);
+            object.normal = back.turn * object.normal;
+        }
+        there.stations[self.station].freedom = match self.point {
+            None if !is_levelled => Freedom::Given,
+            None => Freedom::Within { shift_m: HELD, turn_rad: HELD },
+            Some(_) => Freedom::Within { shift_m: ANYWHERE_M, turn_rad: HELD },
+        };
+    }
 }
 
 /// How surely all numbers are known where the fit ended; none where nobody knows how large the noise is.
@@ -267,13 +308,16 @@ fn station(
 ) -> PlacedStation {
     let Pose { shift, .. } = own.pose;
     let (turns_rad, by_turn): ([f64; 3], Matrix3<f64>) = own.pose.angles();
-    let turn = |row: usize| uncertain.along(&[0, 1, 2].map(|axis| (3 + axis, by_turn[(row, axis)])));
+    // What stands in for the frame is held, and does not say how surely.
+    let exact = |own: f64| if own < 10.0 * HELD { 0.0 } else { own };
+    let turn =
+        |row: usize| uncertain.along(&[0, 1, 2].map(|axis| (3 + axis, by_turn[(row, axis)]))).map(exact);
     PlacedStation {
         station: own.label.clone(),
         origin,
         place_m: shift.into(),
         turns_rad,
-        place_uncertainties_m: uncertain.of_three(0),
+        place_uncertainties_m: uncertain.of_three(0).map(|own| own.map(exact)),
         turn_uncertainties_rad: [0, 1, 2].map(turn),
         rows,
         rows_set_aside: aside,

@@ -424,7 +424,7 @@ fn held(layout: &Layout<'_>, starts: Starts, whole: &mut Partial, objective: &mu
     for ((station, away_m), &start) in stations.zip(&layout.first_of_station) {
         for number in 0..station.numbers() {
             let at = start + number;
-            match station.freedom.of_station(number) {
+            match station.stated(number) {
                 Some(sigma) => {
                     columns[at][at] = 1.0 / sigma;
                     columns[last][at] = -layout.state[at] / sigma;

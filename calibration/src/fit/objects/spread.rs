@@ -139,7 +139,7 @@ mod tests {
             Eliminated::of(&unknowns, &[collected], &state, COLUMNS, 2 * ROWS as u64, Starts::Ignore);
         let factor = eliminated.partial.factor();
         let root = factor.submatrix(0, 0, COLUMNS, COLUMNS).to_owned().partial_piv_lu().inverse();
-        let expected = (dense.transpose() * &dense).llt(faer::Side::Lower).unwrap().inverse();
+        let expected = (dense.transpose() * &dense).llt(Side::Lower).unwrap().inverse();
         // The errors may be less sure than rows of such noise make them.
         let variance = 0.25;
         let spread = eliminated.spread(variance, &(&root * faer::Scale(variance.sqrt())));

@@ -10,7 +10,7 @@ use calibration::formats::sha256;
 use calibration::study::{Loaded, OpenTable, Plan, Study};
 
 use crate::failure::Failure;
-use crate::report::{FileRead, NAMES, Provenance, Reported};
+use crate::report::{FileRead, Provenance, Reported, file_names};
 use crate::source::{self, Source};
 use crate::tables::Files;
 use crate::{date, output, tables, terminal};
@@ -113,7 +113,7 @@ impl Studied {
     pub fn refuse_to_replace(&self, folder: &Path) -> Result<(), Failure> {
         let tables = self.table_files();
         let read = || tables.iter().chain([&self.study.path, &self.chain.path]).map(PathBuf::as_path);
-        NAMES.iter().try_for_each(|name| output::refuse_to_replace(&folder.join(name), read()))
+        file_names(&self.plan).try_for_each(|name| output::refuse_to_replace(&folder.join(name), read()))
     }
 
     /// The study, the declaration and the data with their checksums. What is no file, a pipe or a table in memory, has been
@@ -193,6 +193,7 @@ impl Calibrated {
         Reported {
             calibration: &self.calibration,
             observations: &self.observations,
+            plan: &self.studied.plan,
             chain_file: &self.studied.chain_file,
             chain_text: &self.studied.chain.text,
             folder,

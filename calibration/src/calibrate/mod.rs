@@ -31,7 +31,7 @@ use crate::diagnose::shown::{DRAWN, Shown};
 use crate::diagnose::{Confirmed, Diagnosis, Trace, diagnose, rounding, trace};
 use crate::fit::{FitResult, Outcome};
 use crate::formats::DataError;
-use crate::objects::{StartError, check_scale_of_ranges};
+use crate::objects::{Placed, StartError, check_scale_of_ranges, placed};
 use crate::report::amendment;
 use crate::search::SearchError;
 use crate::search::context::Context;
@@ -65,6 +65,8 @@ pub struct Calibration {
     pub before: FitResult,
     /// The fit of the amended chain.
     pub after: FitResult,
+    /// Where objects and stations came out by it; none where rows observe none, or no usable model came out.
+    pub places: Option<Placed>,
 }
 
 /// Why there is no calibration.
@@ -181,7 +183,12 @@ pub fn calibrate_telling(
         chain = with_quantities_of(chain, &text).map_err(CalibrateError::Amended)?;
         amended = Some(text);
     }
-    Ok(Calibration { diagnosis, amended, drawn, traces, chain, before, after: round.fitted.fit })
+    let after = round.fitted.fit;
+    let places = match amended {
+        Some(_) => placed(&chain, request.observations, &after).map_err(SearchError::from)?,
+        None => None,
+    };
+    Ok(Calibration { diagnosis, amended, drawn, traces, chain, before, after, places })
 }
 
 /// Where the studies live that one loop of searches makes for itself: with a memory of the noise, with functions of the library.
@@ -217,5 +224,6 @@ fn unusable(whole: &Context<'_>, first: Fitted) -> Result<Calibration, Calibrate
         chain,
         before: fit.clone(),
         after: fit,
+        places: None,
     })
 }

@@ -88,7 +88,7 @@ pub(super) fn by_what_is_stated(unknowns: &Unknowns, fit: &FitResult) -> Vec<Mis
     let mut numbers = 0;
     // The shift comes first, whatever turns are behind it.
     let mut judge = |what, label: &str, own: &[f64], stated: &[f64]| {
-        numbers += stated.len();
+        numbers += stated.iter().filter(|sigma| sigma.is_finite()).count();
         let in_sigmas = own.iter().zip(stated).map(|(value, sigma)| value.abs() / sigma);
         let sigmas = in_sigmas.fold(0.0, f64::max);
         let turn = own.iter().skip(3).map(|value| value * value).sum::<f64>().sqrt();
@@ -97,10 +97,20 @@ pub(super) fn by_what_is_stated(unknowns: &Unknowns, fit: &FitResult) -> Vec<Mis
     };
     for (station, start) in unknowns.stations.iter().zip(unknowns.first_of_stations()) {
         let numbers = station.numbers();
-        let stated: Vec<f64> = (0..numbers).filter_map(|at| station.freedom.of_station(at)).collect();
-        if !stated.is_empty() {
-            let own: [f64; 6] = own_numbers(state, start, numbers);
+        let stated: Vec<f64> = (0..numbers).filter_map(|at| station.stated(at)).collect();
+        let mut own: [f64; 6] = own_numbers(state, start, numbers);
+        if station.freedom.is_within() {
             judge(Uneven::Station, &station.label, &own, &stated);
+        } else if !stated.is_empty() {
+            // Of one that was levelled the tilts alone are stated.
+            own[..3].fill(0.0);
+            own[5] = 0.0;
+            judge(
+                Uneven::Station,
+                &station.label,
+                &own,
+                &[f64::INFINITY, f64::INFINITY, f64::INFINITY, stated[0], stated[1]],
+            );
         }
     }
     for (object, start) in unknowns.objects.iter().zip(unknowns.first_of_objects()) {

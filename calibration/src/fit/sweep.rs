@@ -130,7 +130,7 @@ impl Tally {
     /// estimates made with these weights; `used` of them the estimates follow.
     ///
     /// Source: Huber and Ronchetti, Robust Statistics, 2nd ed., equation (7.83), for norms of several components.
-    pub(super) fn variance_factor(&self, n: f64, used: f64) -> f64 {
+    pub(crate) fn variance_factor(&self, n: f64, used: f64) -> f64 {
         if n <= used {
             return f64::INFINITY;
         }
@@ -250,10 +250,7 @@ pub fn tally(
     sigma: &[f64],
     weighting: Weighting,
 ) -> Result<Tally, FitError> {
-    let starts = Starts::Ignore;
-    let (tally, _) =
-        sweep_with(model, observations, layout, values, sigma, weighting, &[], starts, |_| (), |()| ())?;
-    Ok(tally)
+    Ok(eliminated(model, observations, layout, values, sigma, weighting, &[])?.0)
 }
 
 /// The same without the rows that are aside (one flag a row, or none at all), residuals kept.
@@ -276,6 +273,19 @@ pub fn sweep(
     let (tally, eliminated) =
         sweep_with(model, observations, layout, values, sigma, weighting, aside, Starts::Hold, keep, take)?;
     Ok(Sweep { tally, residual, defined, eliminated })
+}
+
+/// What rows tell of objects and stations, which start nowhere, without the rows that are aside; none where they observe none.
+pub fn eliminated(
+    model: &Model,
+    observations: &Observations,
+    layout: &Layout,
+    values: &[f64],
+    sigma: &[f64],
+    weighting: Weighting,
+    aside: &[bool],
+) -> Result<(Tally, Option<Eliminated>), FitError> {
+    sweep_with(model, observations, layout, values, sigma, weighting, aside, Starts::Ignore, |_| (), |()| ())
 }
 
 /// What poses would show at which nothing was measured, each component with unit weight.

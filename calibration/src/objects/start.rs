@@ -9,7 +9,8 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use super::remark::{Remark, remarks};
 use super::rows::{Row, rows, sighted, tells};
 use super::solved::{FLAT, circle, flattest, trilaterated};
-use crate::data::unknowns::{Freedom, Known, Object, Pose, Shape, Unknowns};
+use super::upright::{are_above_each_other, upright};
+use crate::data::unknowns::{Freedom, Known, Object, Pose, Shape, Station, Unknowns};
 use crate::data::{Measure, Observations, Poses};
 use crate::fit::{align_robustly, robust};
 
@@ -27,7 +28,7 @@ pub enum StartError {
     /// Nothing says where a station stood.
     #[error(
         "nothing says where station `{station}` stood: it shares {shared} of the targets that say where they are with stations and objects \
-         that are known, and three that are not in a line are needed (walls and directions do not say it); observe more of the \
+         that are known, and three that are not in a line are needed, or two of a levelled station (walls and directions do not say it); observe more of the \
          others' targets from it, or write roughly where {unstated} stood{}: [stations] {station} = {{ x = \"1.2 m\", y = \"0 m\", \
          z = \"0.3 m\", heading = \"30 deg\", rough = true }}",
         if unstated.contains('`') { ", all in one frame" } else { "" }
@@ -152,7 +153,6 @@ fn end_sights(chain: &Chain, observations: &mut Observations, unknowns: &Unknown
 /// Places what can be placed; the objects that cannot are returned.
 fn place_all(unknowns: &mut Unknowns, rows: &[Row]) -> Result<Vec<Lost>, StartError> {
     place_stations(unknowns, rows)?;
-    free_alone(unknowns);
     let mut of_object: Vec<Vec<&Row>> = vec![Vec::new(); unknowns.objects.len()];
     rows.iter().for_each(|row| of_object[row.object].push(row));
     let mut lost = Vec::new();
@@ -202,14 +202,15 @@ fn place_stations(unknowns: &mut Unknowns, rows: &[Row]) -> Result<(), StartErro
     }
     for station in stated(unknowns, true) {
         let pairs = (0..objects).filter_map(|at| Some((seen(station, at)?, there[at]?)));
-        if let Some(pose) = far_from_rough(&unknowns.stations[station].pose, &pairs.collect::<Vec<_>>()) {
+        if let Some(pose) = far_from_rough(&unknowns.stations[station], &pairs.collect::<Vec<_>>()) {
             unknowns.stations[station].pose = pose;
         }
         take_over(unknowns, &mut there, &seen, station);
     }
     let laid_on_known = |station: usize| {
         let known = (0..objects).filter(|&at| there[at].is_some());
-        !is_in_a_line(&known.filter_map(|at| seen(station, at)).collect::<Vec<_>>())
+        let known: Vec<_> = known.filter_map(|at| seen(station, at)).collect();
+        !leave_open(&unknowns.stations[station], &known)
     };
     let nothing_known = rows.iter().all(|row| unknowns.stations[row.station].known == Known::No)
         && !(0..stations).any(laid_on_known);
@@ -219,7 +220,9 @@ fn place_stations(unknowns: &mut Unknowns, rows: &[Row]) -> Result<(), StartErro
         let watched = |station: &usize| {
             let targets = sums[*station].iter().filter(|(_, count)| *count > 0.0).count();
             let own = rows.iter().filter(|row| row.station == *station).count();
-            (targets, own, std::cmp::Reverse(*station))
+            // One that was levelled says where up is.
+            let is_levelled = unknowns.stations[*station].level_rad.is_some();
+            (is_levelled, targets, own, std::cmp::Reverse(*station))
         };
         let most = (0..stations).max_by_key(watched).unwrap_or(0);
         unknowns.stations[most].known = Known::Yes;
@@ -227,10 +230,10 @@ fn place_stations(unknowns: &mut Unknowns, rows: &[Row]) -> Result<(), StartErro
         place_by_shared(unknowns, &mut there, &seen, &unstated)?;
         let (from, to): (Vec<_>, Vec<_>) =
             there.iter().zip(&known).filter_map(|(from, to)| Some(((*from)?, (*to)?))).unzip();
-        let moved = onto(&from, &to);
+        let is_upright = unknowns.stations[most].level_rad.is_some();
+        let moved = if is_upright { upright_onto(&from, &to) } else { onto(&from, &to) };
         for station in unknowns.stations.iter_mut() {
-            station.pose =
-                Pose { turn: moved.turn * station.pose.turn, shift: moved.apply(&station.pose.shift) };
+            station.pose = moved.after(&station.pose);
         }
         return Ok(());
     }
@@ -239,17 +242,40 @@ fn place_stations(unknowns: &mut Unknowns, rows: &[Row]) -> Result<(), StartErro
 
 /// Where a station stood by the targets that it shares with those before it, if that is nowhere near the rough pose that was written:
 /// the fit would find no way back.
-fn far_from_rough(rough: &Pose, pairs: &[(Vector3<f64>, Vector3<f64>)]) -> Option<Pose> {
+fn far_from_rough(station: &Station, pairs: &[(Vector3<f64>, Vector3<f64>)]) -> Option<Pose> {
     let (from, to): (Vec<_>, Vec<_>) = pairs.iter().copied().unzip();
     if is_in_a_line(&from) {
         return None;
     }
-    let (turn, shift) = align_robustly(&from, &to)?;
-    let pose = Pose { turn: Rotation3::from_matrix_unchecked(turn), shift };
+    let (pose, rough) = (laid(station, &from, &to)?, &station.pose);
     let away =
         |pose: &Pose| robust::median(pairs.iter().map(|(from, to)| (pose.apply(from) - to).norm()).collect());
     let usual = robust::median(from.iter().map(|point| point.norm()).collect());
     (away(rough) > FAR * usual && away(&pose) < NEARER * away(rough)).then_some(pose)
+}
+
+/// Whether points leave the pose of a station open.
+fn leave_open(station: &Station, points: &[Vector3<f64>]) -> bool {
+    if station.level_rad.is_some() { are_above_each_other(points) } else { is_in_a_line(points) }
+}
+
+/// The pose by which a station sees points where they are; none where they leave it open.
+fn laid(station: &Station, from: &[Vector3<f64>], to: &[Vector3<f64>]) -> Option<Pose> {
+    if leave_open(station, from) {
+        return None;
+    }
+    if station.level_rad.is_some() {
+        return upright(from, to);
+    }
+    let (turn, shift) = align_robustly(from, to)?;
+    Some(Pose { turn: Rotation3::from_matrix_unchecked(turn), shift })
+}
+
+/// As [`onto`], about the vertical alone.
+fn upright_onto(from: &[Vector3<f64>], to: &[Vector3<f64>]) -> Pose {
+    let shifts = || from.iter().zip(to).map(|(from, to)| to - from).sum::<Vector3<f64>>();
+    let by_shift = || Pose { shift: shifts() / from.len().max(1) as f64, ..Pose::default() };
+    upright(from, to).unwrap_or_else(by_shift)
 }
 
 /// The motion that brings points, of which there are few or which lie in a line, onto others: no further turned than it takes.
@@ -286,31 +312,16 @@ fn place_by_shared(
         let pairs: Vec<(Vector3<f64>, Vector3<f64>)> =
             (0..objects).filter_map(|at| Some((seen(station, at)?, there[at]?))).collect();
         let (from, to): (Vec<_>, Vec<_>) = pairs.into_iter().unzip();
-        let laid = if is_in_a_line(&from) { None } else { align_robustly(&from, &to) };
-        let label = || unknowns.stations[station].label.clone();
-        let Some((turn, shift)) = laid else {
-            return Err(StartError::NotConnected { station: label(), shared, unstated: unstated.to_owned() });
-        };
         let own = &mut unknowns.stations[station];
-        own.pose = Pose { turn: Rotation3::from_matrix_unchecked(turn), shift };
+        let Some(pose) = laid(own, &from, &to) else {
+            let (station, unstated) = (own.label.clone(), unstated.to_owned());
+            return Err(StartError::NotConnected { station, shared, unstated });
+        };
+        own.pose = pose;
         own.known = Known::Yes;
         take_over(unknowns, there, seen, station);
     }
     Ok(())
-}
-
-/// Takes a single exact point for unknown where nothing else is known: it says where all of it is, which no error hangs on. Held out
-/// with the rest, it would seem to be off by as much as the frame of the others is.
-fn free_alone(unknowns: &mut Unknowns) {
-    let used = unknowns.station.iter().map(|&number| unknowns.stations[number as usize].freedom);
-    let are_free = used.into_iter().all(|freedom| freedom == Freedom::Free);
-    let mut stated = unknowns.objects.iter_mut().filter(|object| object.freedom != Freedom::Free);
-    if let (Some(alone), None, true) = (stated.next(), stated.next(), are_free)
-        && alone.shape == Shape::Point
-        && alone.freedom == Freedom::Given
-    {
-        alone.freedom = Freedom::Free;
-    }
 }
 
 /// The stations of which a study says nothing, the first of many.

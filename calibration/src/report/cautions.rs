@@ -110,6 +110,11 @@ pub fn caution(caution: &Caution) -> String {
             };
             let far = short(*away_m, SiUnit::METRE);
             match sigmas {
+                Some(sigmas) if *what == Uneven::Station && *away_m == 0.0 => format!(
+                    "{station}`{label}` comes out {} off level, {sigmas:.0} of its ±: was it levelled, and does the z of all other \
+                     stations and of the objects point up?",
+                    short(*turn_rad, SiUnit::RAD)
+                ),
                 Some(sigmas) => format!(
                     "{station}`{label}` comes out {far} from where the study states it, {sigmas:.0} of its ±: is {stated} wrong, or the \
                      label another's?"

@@ -244,6 +244,8 @@ pub(crate) fn dealt(observations: &Observations, noise: &Noise, folds: usize, se
     // The components that go into an object's numbers say nothing of anything else; stated places make up for as many.
     let taken = |object: &Object| if object.freedom == Freedom::Free { object.numbers() } else { 0 };
     let mut left: Vec<usize> = unknowns.objects.iter().map(taken).collect();
+    // Points that hold the frame tell how far they are from each other, and no more of each than an unknown one.
+    unknowns.points_of_frame().into_iter().take(2).for_each(|object| left[object] = 3);
     for (component, row) in layout.row_of_each().enumerate() {
         if let Some(left) = unknowns.object[row].map(|object| &mut left[object as usize])
             && *left > 0

@@ -200,7 +200,8 @@ fn problem(
     if !plan.fit.anchored {
         return Ok(problem);
     }
-    let (stated, residual) = fitted.stated(declared(whole).len());
+    let (stated, residual) =
+        fitted.stated(declared(whole).len(), whole.request.observations.unknowns.as_ref());
     let sizes: Vec<f64> = of_function.iter().map(|freedom| tolerance_of(plan, freedom.quantity())).collect();
     Ok(problem.with_prior(stated.as_ref(), &residual, &sizes))
 }

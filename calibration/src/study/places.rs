@@ -104,9 +104,18 @@ impl Study {
             let help = "leave [objects] out; where two stations stood ([stations]) or a known length shows the scale";
             return Err(mistake(name.span(), message, help));
         }
-        let stations = every(self.stations.iter().map(|(name, table)| station(name.get_ref(), table)));
+        let (all, named): (Vec<_>, Vec<_>) =
+            self.stations.iter().partition(|(name, _)| name.get_ref() == ALL);
+        let level_rad = every(all.into_iter().map(|(_, table)| level_of_all(table)))?.first().copied();
+        let of_station = |(name, table): (&Spanned<String>, &Spanned<StationTable>)| {
+            let own = station(name.get_ref(), table)?;
+            // Of a pose that is stated nothing else is.
+            let level_rad = own.level_rad.or(level_rad.filter(|_| own.freedom == Freedom::Free));
+            Ok(Station { level_rad, ..own })
+        };
+        let stations = every(named.into_iter().map(of_station));
         let objects = every(self.objects.iter().map(|(name, table)| object(name.get_ref(), table)));
-        Ok(Places { stations: stations?, objects: objects? })
+        Ok(Places { stations: stations?, objects: objects?, level_rad })
     }
 
     /// How large errors may be that the data do not show, where objects are unknown or the study says so.
@@ -142,15 +151,65 @@ impl Study {
     }
 }
 
+/// The label that stands for every station.
+const ALL: &str = "*";
+
 type Placed<'a, T> = &'a Spanned<T>;
+
+/// How surely every station was levelled.
+fn level_of_all(written: Placed<'_, StationTable>) -> Outcome<f64> {
+    match level(written)? {
+        Some((level_rad, true)) => Ok(level_rad),
+        _ => {
+            let help =
+                "write `\"*\" = { levelled = \"5 arcsec\" }`, and poses under the labels of their stations";
+            Err(mistake(
+                written.span(),
+                "of all stations together only that they were levelled can be stated",
+                help,
+            ))
+        }
+    }
+}
+
+/// How surely a station was levelled, rad, and whether that is all that is said of it; none where nothing says that it was.
+fn level(written: Placed<'_, StationTable>) -> Outcome<Option<(f64, bool)>> {
+    let (table, place) = (written.get_ref(), written.span());
+    let Some(levelled) = &table.levelled else { return Ok(None) };
+    if table.roll.is_some() || table.pitch.is_some() {
+        let help = "leave out `roll` and `pitch`: both are zero, to within what `levelled` says";
+        return Err(mistake(place, "a levelled station is upright", help));
+    }
+    let level_rad = si_with_unit("levelled", levelled, Quantity::Angle, &place)?;
+    if !(level_rad > 0.0 && level_rad.is_finite()) {
+        let help = "write how far off level it may be, `levelled = \"5 arcsec\"`";
+        return Err(mistake(place, "the standard uncertainty of a level is positive", help));
+    }
+    let places = [&table.x, &table.y, &table.z, &table.heading, &table.sigma, &table.sigma_angle];
+    let is_all = places.iter().all(|amount| amount.is_none()) && !table.rough;
+    if !is_all && !table.rough {
+        let help = "leave `levelled` out where the pose is known; write `rough = true` where it is not, or nothing but `levelled`";
+        return Err(mistake(
+            place,
+            "`levelled` is for a station of which no place or heading is known",
+            help,
+        ));
+    }
+    Ok(Some((level_rad, is_all)))
+}
 
 fn station(label: &str, written: Placed<'_, StationTable>) -> Outcome<Station> {
     let (table, place) = (written.get_ref(), written.span());
+    let level = level(written)?;
+    let level_rad = level.map(|(level_rad, _)| level_rad);
+    if level.is_some_and(|(_, is_all)| is_all) {
+        return Ok(Station { level_rad, ..Station::unknown(label.to_owned()) });
+    }
     let needed = [("x", &table.x), ("y", &table.y), ("z", &table.z), ("heading", &table.heading)];
     if let Some((missing, _)) = needed.iter().find(|(_, amount)| amount.is_none() && !table.rough) {
         let message = format!("what is the `{missing}` of this station? Left out, it would count as zero");
         let help = "write x, y, z and heading (roll and pitch are zero where they are left out), or `rough = true` where the pose \
-                    is a start alone; leave the station out where nothing is known of it";
+                    is a start alone, or `levelled` alone; leave the station out where nothing is known of it";
         return Err(mistake(place, message, help));
     }
     let of = |name: &str, amount: &Option<Amount>, quantity| {
@@ -181,7 +240,7 @@ fn station(label: &str, written: Placed<'_, StationTable>) -> Outcome<Station> {
             return Err(mistake(place, "how surely are the coordinates of this station known?", help));
         }
     };
-    Ok(Station { label: label.to_owned(), freedom, known: Known::Yes, pose })
+    Ok(Station { label: label.to_owned(), freedom, known: Known::Yes, pose, level_rad })
 }
 
 fn object(label: &str, written: Placed<'_, ObjectTable>) -> Outcome<Object> {

@@ -67,7 +67,7 @@ pub struct Study {
     pub(super) objects: Table<ObjectTable>,
 }
 
-/// `[stations]`: a pose, known exactly, with standard uncertainties, or roughly as a start.
+/// `[stations]`: a pose, known exactly, with standard uncertainties, or roughly as a start; or that it was levelled.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct StationTable {
@@ -80,6 +80,7 @@ pub(super) struct StationTable {
     pub rough: bool,
     pub sigma: Option<Amount>,
     pub sigma_angle: Option<Amount>,
+    pub levelled: Option<Amount>,
 }
 
 /// `[objects]`: the coordinates of a target, known exactly, with a standard uncertainty, or roughly as a start.

@@ -28,7 +28,8 @@ use crate::{many, terminal};
 pub struct Arguments {
     /// The study file
     study: PathBuf,
-    /// Folder for report.html, report.json, amended.chain, errors.toml and residuals.csv
+    /// Folder for report.html, report.json, amended.chain, errors.toml and residuals.csv, and beside unknown objects objects.csv and
+    /// stations.csv
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Rows that the search holds at most; of more it reads so many, drawn from all, and a fit reads every row

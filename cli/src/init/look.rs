@@ -273,6 +273,11 @@ impl Column {
         )
     }
 
+    /// Whether its cells are labels, which come again in other rows: as often as twice on average.
+    pub fn labels_rows(&self) -> bool {
+        self.different > 1 && 2 * self.different <= self.rows
+    }
+
     /// Whether each row has a value of its own.
     pub fn tells_rows_apart(&self) -> bool {
         self.different == self.rows

@@ -1,4 +1,4 @@
-//! How the truth was observed: as angles, as a unit vector, as offsets, or as a point.
+//! How the truth was observed: as angles, as a unit vector, as offsets, as a point; or what nobody knows the place of.
 
 use super::look::{Column, Look, Read};
 use super::words::Part;
@@ -18,6 +18,8 @@ pub enum Observed {
     Offset([Read; 2]),
     /// A point.
     Point([Read; 3]),
+    /// An unknown target that one column names, from the station that another names, if there are several.
+    Target(String, Option<String>),
 }
 
 impl Observed {
@@ -70,6 +72,32 @@ impl Observed {
         <[Read; 3]>::try_from(read).map(Self::Point).map_err(|_| unreachable!("three columns were read"))
     }
 
+    /// The labels of targets, of which no column says where they are; none where no labels come again.
+    ///
+    /// # Errors
+    /// Several columns could be meant.
+    pub fn target(look: &Look) -> Result<Option<Self>, String> {
+        if vectors(look, false)?.is_some() {
+            return Ok(None);
+        }
+        let of = |part: Part| {
+            let own = look.columns.iter().filter(move |column| column.part() == Some(part));
+            own.filter(|column| column.labels_rows())
+                .map(|column| column.name.full.as_str())
+                .collect::<Vec<_>>()
+        };
+        let one = |found: Vec<&str>| match found.as_slice() {
+            [] => Ok(None),
+            [one] => Ok(Some((*one).to_owned())),
+            [one, other, ..] => Err(format!(
+                "{}: do the labels stand in `{one}` or in `{other}`? take one of the columns out of the table",
+                look.file
+            )),
+        };
+        let Some(object) = one(of(Part::Name))? else { return Ok(None) };
+        Ok(Some(Self::Target(object, one(of(Part::Station))?)))
+    }
+
     /// The true directions as vectors, where the rows tell them by themselves.
     pub fn vectors(&self) -> Option<Vec<[f64; 3]>> {
         match self {
@@ -80,7 +108,7 @@ impl Observed {
             Self::Direction([x, y, z]) => {
                 Some(x.si.iter().zip(&y.si).zip(&z.si).map(|((&x, &y), &z)| [x, y, z]).collect())
             }
-            Self::Azimuth(_) | Self::Offset(_) | Self::Point(_) => None,
+            Self::Azimuth(_) | Self::Offset(_) | Self::Point(_) | Self::Target(..) => None,
         }
     }
 }

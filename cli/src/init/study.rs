@@ -34,10 +34,17 @@ pub fn study(draft: &Draft, look: &Look, [chain, data, own]: [&str; 3]) -> Strin
         Observed::Direction(read) => ("direction", ["x", "y", "z"].into_iter().zip(read).collect()),
         Observed::Offset(read) => ("offset", ["cross", "along"].into_iter().zip(read).collect()),
         Observed::Point(read) => ("point", ["x", "y", "z"].into_iter().zip(read).collect()),
+        Observed::Target(..) => ("target", Vec::new()),
     };
     let _ = writeln!(text, "kind = \"{kind}\"");
     for (key, read) in columns {
         let _ = writeln!(text, "{key} = {}", column(read));
+    }
+    if let Observed::Target(object, station) = &draft.observed {
+        let _ = writeln!(text, "object = {}", quoted(object));
+        if let Some(station) = station {
+            let _ = writeln!(text, "station = {}", quoted(station));
+        }
     }
     let groups = groups(look);
     if !groups.is_empty() {

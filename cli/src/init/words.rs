@@ -32,6 +32,8 @@ pub enum Part {
     Group,
     /// What names a row.
     Name,
+    /// What names where the instrument stood.
+    Station,
 }
 
 /// Whether a column tells what was true, or what the instrument said.
@@ -104,12 +106,16 @@ const PARTS: &[(Part, &[&str])] = &[
     (Part::Pier, &["pier", "pierside"]),
     (Part::Group, &["day", "night", "session", "run", "source", "date", "campaign"]),
     (Part::Turn, &["angle", "turn", "table", "rotation", "theta", "position"]),
+    (Part::Station, &["station", "stations", "setup", "standpoint"]),
     (Part::X, &["x", "east"]),
     (Part::Y, &["y", "north"]),
     (Part::Z, &["z", "up"]),
     (
         Part::Name,
-        &["id", "row", "name", "nr", "no", "number", "label", "star", "object", "target", "point", "pose"],
+        &[
+            "id", "row", "name", "nr", "no", "number", "label", "star", "object", "target", "prism", "point",
+            "pose",
+        ],
     ),
 ];
 

@@ -3,15 +3,18 @@
 use std::io::Write;
 use std::path::Path;
 
+use calibration::data::unknowns::Shape;
 use calibration::diagnose::{Diagnosis, Shown};
 use calibration::formats::{Texts, Written};
+use calibration::objects::Placed;
+use calibration::study::Plan;
 use model_core::Chain;
 use serde::Serialize;
 
 use super::errors::{errors_toml, ranges_of};
 use super::page::page;
 use super::residuals::Cells;
-use super::{Provenance, Reported, diff, residuals};
+use super::{Provenance, Reported, diff, places, residuals};
 use crate::errors_file::FoundOver;
 use crate::failure::Failure;
 use crate::output::Folder;
@@ -20,11 +23,20 @@ use crate::{tables, terminal};
 /// The number of the promise that the keys of `report.json` are.
 const SCHEMA: u32 = 4;
 
-/// The files of a calibration in its folder.
-pub const NAMES: [&str; 5] = ["report.html", "report.json", "amended.chain", "errors.toml", "residuals.csv"];
+/// The files of every calibration in its folder.
+const NAMES: [&str; 5] = ["report.html", "report.json", "amended.chain", "errors.toml", "residuals.csv"];
+
+/// Objects and stations at most of which `report.json` says where they are.
+const FEW: usize = 1000;
 
 /// Rows that `residuals.csv` has at most, unless all are asked for.
 const ROWS: usize = 100_000;
+
+/// The files that a calibration of a plan may write into its folder.
+pub fn file_names(plan: &Plan) -> impl Iterator<Item = &'static str> {
+    let has_objects = plan.sources.iter().any(|source| Shape::of(source.measure).is_some());
+    NAMES.into_iter().chain(places::NAMES.into_iter().filter(move |_| has_objects))
+}
 
 /// Which rows `residuals.csv` has.
 #[must_use]
@@ -34,7 +46,7 @@ pub fn rows_written(reported: &Reported<'_>, all: bool) -> Shown {
 }
 
 /// Writes `report.html`, `report.json` and, with the rows that are shown, `residuals.csv` into a folder, which is made if it is not there;
-/// and, where a usable model came out, `amended.chain` and `errors.toml`. They appear together, or not at all.
+/// and, where a usable model came out, `amended.chain` and `errors.toml`, and `objects.csv` and `stations.csv` where there are such. They appear together, or not at all.
 ///
 /// # Errors
 /// The folder or a file cannot be written; nothing has changed then.
@@ -42,19 +54,34 @@ pub fn write_all(reported: &Reported<'_>, shown: &Shown, folder: &Path) -> Resul
     let mut files = Folder::new(folder)?;
     files.write_text("report.json", &json(reported)?)?;
     let calibration = reported.calibration;
+    let is_left = |name: &str| {
+        if folder.join(name).exists() {
+            terminal::warn(format_args!("{name} in {} is from an earlier run", folder.display()));
+        }
+    };
     for (name, text) in [("amended.chain", calibration.amended.clone()), ("errors.toml", errors(reported))] {
         match text {
             Some(text) => files.write_text(name, &text)?,
-            None if folder.join(name).exists() => {
-                terminal::warn(format_args!("{name} in {} is from an earlier run", folder.display()));
-            }
+            None => is_left(name),
+        }
+    }
+    let [objects, stations] = places::NAMES;
+    let of_places = calibration.places.as_ref();
+    let tables = [
+        (objects, of_places.map(places::objects)),
+        (stations, of_places.filter(|own| !own.stations.is_empty()).map(places::stations)),
+    ];
+    for (name, columns) in tables {
+        match columns {
+            Some(columns) => files.write(name, |file| write_table(&columns, &folder.join(name), file))?,
+            None if file_names(reported.plan).any(|own| own == name) => is_left(name),
             None => {}
         }
     }
     let (residuals, page) = rayon::join(
         || {
             let path = folder.join("residuals.csv");
-            files.write("residuals.csv", |file| write_residuals(reported, shown, &path, file))
+            files.write("residuals.csv", |file| write_table(&residuals::table(reported, shown), &path, file))
         },
         || page(reported),
     );
@@ -92,6 +119,9 @@ struct Json<'a> {
     schema: u32,
     #[serde(flatten)]
     diagnosis: &'a Diagnosis,
+    /// Where objects and stations came out, where they are few enough.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    places: Option<&'a Placed>,
     /// The declaration's change, as a unified diff; empty where nothing was added.
     diff: String,
     provenance: &'a Provenance,
@@ -102,9 +132,11 @@ struct Json<'a> {
 /// # Errors
 /// A number in it is none.
 pub fn json(reported: &Reported<'_>) -> Result<String, Failure> {
+    let is_short = |places: &&Placed| places.objects.len() + places.stations.len() <= FEW;
     let json = Json {
         schema: SCHEMA,
         diagnosis: &reported.calibration.diagnosis,
+        places: reported.calibration.places.as_ref().filter(is_short),
         diff: diff(reported),
         provenance: reported.provenance,
     };
@@ -113,19 +145,19 @@ pub fn json(reported: &Reported<'_>) -> Result<String, Failure> {
         .map_err(|error| Failure::Input(format!("the report cannot be written as JSON: {error}")))
 }
 
-/// One row an observation, as [`table`](super::table) has them; a cell is empty where there is no number.
-fn write_residuals(
-    reported: &Reported<'_>,
-    shown: &Shown,
-    path: &Path,
-    file: &mut dyn Write,
-) -> Result<(), Failure> {
-    let columns = residuals::table(reported, shown);
+/// Columns as separated values, row by row; a cell is empty where there is no number.
+fn write_table(columns: &[(String, Cells<'_>)], path: &Path, file: &mut dyn Write) -> Result<(), Failure> {
     tables::csv_row(file, path, columns.iter().map(|(name, _)| name.as_str()))?;
     let texts: Vec<Option<Texts>> = columns
         .iter()
         .map(|(_, cells)| if let Cells::Texts(texts) = cells { Some(texts.iter().collect()) } else { None })
         .collect();
+    let rows = columns.first().map_or(0, |(_, cells)| match cells {
+        Cells::Rows(numbers) => numbers.len(),
+        Cells::Texts(texts) => texts.len(),
+        Cells::Numbers(numbers) => numbers.len(),
+        Cells::Residuals(numbers) => numbers.len(),
+    });
     let written = columns.iter().zip(&texts).map(|((_, cells), texts)| match (cells, texts) {
         (Cells::Rows(numbers), _) => Written::Counts(numbers),
         (Cells::Numbers(numbers), _) => Written::Numbers(numbers),
@@ -133,5 +165,5 @@ fn write_residuals(
         (Cells::Texts(_), Some(texts)) => Written::Texts(texts),
         (Cells::Texts(_), None) => unreachable!("texts were gathered above"),
     });
-    tables::csv_rows(file, path, &written.collect::<Vec<_>>(), shown.rows.len())
+    tables::csv_rows(file, path, &written.collect::<Vec<_>>(), rows)
 }

@@ -5,13 +5,15 @@
 mod errors;
 mod files;
 pub mod page;
+mod places;
 mod residuals;
 mod text;
 
 use calibration::calibrate::Calibration;
 use calibration::data::Observations;
+use calibration::study::Plan;
 
-pub use files::{NAMES, errors, found_over, json, rows_written, write_all};
+pub use files::{errors, file_names, found_over, json, rows_written, write_all};
 pub use page::{excerpt, page};
 pub use residuals::{Cells, table};
 pub use text::{Layout, as_text, diff};
@@ -22,6 +24,8 @@ pub struct Reported<'a> {
     pub calibration: &'a Calibration,
     /// The data that it was made from.
     pub observations: &'a Observations,
+    /// What was asked for.
+    pub plan: &'a Plan,
     /// The chain's file, as the study names it.
     pub chain_file: &'a str,
     /// The user's declaration as written.

@@ -64,7 +64,7 @@ pub fn readings<'a>(reported: &'a Reported<'_>) -> impl Iterator<Item = (&'a str
 
 /// The cells of one column of the table of residuals.
 pub enum Cells<'a> {
-    /// Numbers of rows or lines, from 1.
+    /// Whole numbers: of rows or lines, from 1, or of how many there are.
     Rows(Vec<u64>),
     /// Texts: files, names of rows.
     Texts(Vec<String>),

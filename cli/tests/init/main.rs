@@ -5,6 +5,7 @@ mod support;
 
 mod hostile;
 mod measured;
+mod targets;
 
 use std::collections::BTreeMap;
 use std::process::Command;

@@ -1,6 +1,7 @@
 //! What rows observe without anybody knowing where it is: planes, targets, sockets, wires, and the stations from which they
 //! were seen; and which row has to do with which.
 
+mod frame;
 mod pose;
 
 use std::borrow::Cow;
@@ -8,7 +9,6 @@ use std::borrow::Cow;
 use faer::Mat;
 use nalgebra::Vector3;
 
-use super::joined::Joined;
 use super::{Measure, tangent_frame};
 
 pub use pose::Pose;
@@ -19,6 +19,9 @@ pub(crate) const OF_OBJECT: usize = 6;
 
 /// The numbers of an object and of a station that a residual component can hang on.
 pub(crate) const WIDTH: usize = OF_OBJECT + 6;
+
+/// The numbers of a station that tilt it.
+pub(crate) const TILTS: [usize; 2] = [3, 4];
 
 /// What an object is, and with that which numbers it has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -87,14 +90,6 @@ impl Freedom {
     /// Whether it is stated to within an uncertainty.
     pub(crate) fn is_within(self) -> bool {
         matches!(self, Self::Within { .. })
-    }
-
-    /// The standard uncertainty that is stated of a number of a station, m for a shift and rad for a turn; none where nothing is.
-    pub(crate) fn of_station(self, number: usize) -> Option<f64> {
-        match self {
-            Self::Within { shift_m, turn_rad } => Some(if number < 3 { shift_m } else { turn_rad }),
-            Self::Free | Self::Given => None,
-        }
     }
 }
 
@@ -190,25 +185,36 @@ pub struct Station {
     pub known: Known,
     /// The pose that its six numbers count from.
     pub pose: Pose,
+    /// The standard uncertainty of each tilt where it was levelled, rad; its pose is upright then.
+    pub level_rad: Option<f64>,
 }
 
 impl Station {
     /// One of which nothing is known.
     #[must_use]
     pub fn unknown(label: String) -> Self {
-        Self { label, freedom: Freedom::Free, known: Known::No, pose: Pose::default() }
+        Self { label, freedom: Freedom::Free, known: Known::No, pose: Pose::default(), level_rad: None }
     }
 
     /// The chain's own ground, where rows name no station.
     #[must_use]
     pub fn ground() -> Self {
-        Self { label: String::new(), freedom: Freedom::Given, known: Known::Yes, pose: Pose::default() }
+        Self { freedom: Freedom::Given, known: Known::Yes, ..Self::unknown(String::new()) }
     }
 
     /// How many numbers are estimated.
     #[must_use]
     pub fn numbers(&self) -> usize {
         if self.freedom == Freedom::Given { 0 } else { 6 }
+    }
+
+    /// The standard uncertainty that is stated of one of its numbers, m for a shift and rad for a turn; none where nothing is.
+    pub(crate) fn stated(&self, number: usize) -> Option<f64> {
+        let of_level = self.level_rad.filter(|_| TILTS.contains(&number));
+        of_level.or(match self.freedom {
+            Freedom::Within { shift_m, turn_rad } => Some(if number < 3 { shift_m } else { turn_rad }),
+            Freedom::Free | Freedom::Given => None,
+        })
     }
 
     /// Whether a study writes where it stood, be it roughly.
@@ -224,13 +230,16 @@ pub struct Places {
     pub stations: Vec<Station>,
     /// Objects by their labels.
     pub objects: Vec<Object>,
+    /// The standard uncertainty of each tilt of the stations that are not among them, where all were levelled, rad.
+    pub level_rad: Option<f64>,
 }
 
 impl Places {
     /// The station of a label: as the study says, or unknown.
     pub(crate) fn station(&self, label: &str) -> Station {
         let known = self.stations.iter().find(|station| station.label == label);
-        known.cloned().unwrap_or_else(|| Station::unknown(label.to_owned()))
+        let unknown = || Station { level_rad: self.level_rad, ..Station::unknown(label.to_owned()) };
+        known.cloned().unwrap_or_else(unknown)
     }
 
     /// The object of a label: as the study says, or unknown.
@@ -409,20 +418,6 @@ impl Unknowns {
                 *residual += unknown.iter().zip(own).map(|(by, value)| by * value).sum::<f64>();
             }
         }
-    }
-
-    /// What is held out together, row by row: rows of one object, and rows of one group.
-    #[must_use]
-    pub fn together(&self, groups: &[u32]) -> Vec<u32> {
-        let objects = self.objects.len();
-        let most = groups.iter().copied().max().map_or(0, |most| most as usize + 1);
-        let mut joined = Joined::alone(objects + most);
-        for (object, &group) in self.object.iter().zip(groups) {
-            if let Some(object) = *object {
-                joined.join(object as usize, objects + group as usize);
-            }
-        }
-        groups.iter().map(|&group| joined.first(objects + group as usize) as u32).collect()
     }
 }
 

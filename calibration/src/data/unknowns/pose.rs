@@ -36,6 +36,33 @@ impl Pose {
         self.turn.inverse() * (point - self.shift)
     }
 
+    /// Roll, pitch and heading, rad, and their derivatives by a small turn about each axis of the chain's frame.
+    #[must_use]
+    pub(crate) fn angles(&self) -> ([f64; 3], Matrix3<f64>) {
+        let (roll, pitch, heading) = self.turn.euler_angles();
+        let ((sine, cosine), up) = (roll.sin_cos(), pitch.cos());
+        let tilted = pitch.tan();
+        #[rustfmt::skip]
+        let by_turn = Matrix3::new(
+            1.0, sine * tilted, cosine * tilted,
+            0.0, cosine,        -sine,
+            0.0, sine / up,     cosine / up,
+        );
+        ([roll, pitch, heading], by_turn)
+    }
+
+    /// This motion after another.
+    #[must_use]
+    pub(crate) fn after(&self, first: &Self) -> Self {
+        Self { turn: self.turn * first.turn, shift: self.apply(&first.shift) }
+    }
+
+    /// The motion that undoes this one.
+    #[must_use]
+    pub(crate) fn inverse(&self) -> Self {
+        Self { turn: self.turn.inverse(), shift: -(self.turn.inverse() * self.shift) }
+    }
+
     /// The pose changed by a shift in m and by a turn, rad, about an axis of the chain's frame.
     #[must_use]
     pub fn moved(&self, by: &[f64; 6]) -> Self {
@@ -84,10 +111,25 @@ mod tests {
     }
 
     #[test]
+    fn angles_change_with_small_turns() {
+        let pose = Pose::new(Vector3::zeros(), 0.4, -0.7, 2.0);
+        let ([roll, pitch, heading], by_turn) = pose.angles();
+        assert!((Vector3::new(roll, pitch, heading) - Vector3::new(0.4, -0.7, 2.0)).norm() < 1e-12);
+        for axis in 0..3 {
+            let mut by = [0.0; 6];
+            by[3 + axis] = 1e-6;
+            let (after, _) = pose.moved(&by).angles();
+            let change = (Vector3::from(after) - Vector3::new(roll, pitch, heading)) / 1e-6;
+            assert!((change - by_turn.column(axis)).norm() < 1e-5, "{axis}: {change}");
+        }
+    }
+
+    #[test]
     fn a_pose_goes_there_and_back() {
         let pose =
             Pose::new(Vector3::new(1.0, 2.0, 3.0), 0.1, -0.2, 2.5).moved(&[0.1, 0.0, -0.2, 0.3, 0.1, 0.5]);
         let point = Vector3::new(-4.0, 5.0, 6.0);
         assert!((pose.back(&pose.apply(&point)) - point).norm() < 1e-12);
+        assert!((pose.inverse().after(&pose).apply(&point) - point).norm() < 1e-12);
     }
 }

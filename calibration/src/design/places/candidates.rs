@@ -201,7 +201,12 @@ impl<'a> Candidates<'a> {
         let (.., yaw) = first.pose.turn.euler_angles();
         let turn = Rotation3::from_euler_angles(0.0, 0.0, heading - yaw) * first.pose.turn;
         let pose = Pose { turn, shift };
-        let station = Station { label: String::new(), freedom: self.of_stations, known: Placed::Yes, pose };
+        let station = Station {
+            freedom: self.of_stations,
+            known: Placed::Yes,
+            pose,
+            ..Station::unknown(String::new())
+        };
         let wanted = self.poses.unwrap_or_else(|| self.rows_per(|row| row.station));
 
         let seen: BTreeSet<(usize, usize)> = self.rows.iter().map(|row| (row.series, row.object)).collect();

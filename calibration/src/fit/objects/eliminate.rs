@@ -20,7 +20,7 @@ use crate::fit::{Partial, Rows};
 
 /// The weight of the rows that hold what nothing else holds, in units of the column's length. Much less, and rounding would
 /// move a frame that nothing holds further than a step does.
-const HOLD: f64 = 1e-6;
+pub(super) const HOLD: f64 = 1e-6;
 
 /// How surely a free station is where it starts: to so many rad, and to this share of how far away its objects are. It decides where
 /// nothing but noise does: walls that all stand upright tell a height by how far noise tips them, to some metres.
@@ -54,13 +54,13 @@ pub(crate) struct Collected {
 
 /// A triangle that gives the change of some unknown numbers for a change of what comes behind them.
 #[derive(Debug, Clone)]
-struct Triangle {
+pub(super) struct Triangle {
     /// Where the numbers stand among all.
-    own: Vec<usize>,
+    pub own: Vec<usize>,
     /// Where the numbers of stations stand that they hang on.
-    stations: Vec<usize>,
+    pub stations: Vec<usize>,
     /// Rows of [own | stations | chain | residual], as many as own.
-    factor: Mat<f64>,
+    pub factor: Mat<f64>,
 }
 
 /// What is left of rows once the objects and stations are eliminated.
@@ -73,7 +73,7 @@ pub(crate) struct Eliminated {
     /// What their stated places add to the objective.
     pub objective: f64,
     /// First the stations', then the objects'.
-    triangles: Vec<Triangle>,
+    pub(super) triangles: Vec<Triangle>,
 }
 
 impl Eliminated {
@@ -424,7 +424,7 @@ fn held(layout: &Layout<'_>, starts: Starts, whole: &mut Partial, objective: &mu
     for ((station, away_m), &start) in stations.zip(&layout.first_of_station) {
         for number in 0..station.numbers() {
             let at = start + number;
-            match station.freedom.of_station(number) {
+            match station.stated(number) {
                 Some(sigma) => {
                     columns[at][at] = 1.0 / sigma;
                     columns[last][at] = -layout.state[at] / sigma;

@@ -58,7 +58,7 @@ impl Eliminated {
     }
 
     /// By what the derivatives by stations are multiplied: columns for the stations, and for the errors that stations follow.
-    fn by_stations(&self, root: &Mat<f64>) -> Mat<f64> {
+    pub(super) fn by_stations(&self, root: &Mat<f64>) -> Mat<f64> {
         let factor = self.of_stations();
         let (count, k) = (factor.nrows(), root.ncols());
         let by_errors = factor.subcols(count, root.nrows()) * root;

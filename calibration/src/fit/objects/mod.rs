@@ -5,7 +5,8 @@
 //! declared errors, and steps, uncertainties and the search for missing effects see no other.
 //!
 //! What one row shows stands in `seen`, the elimination in `eliminate`, its rotation of whole columns in `reduce`,
-//! in `followed` what it leaves to each row, and in `stated` what a study says of places, which `within` whitens columns by.
+//! in `followed` what it leaves to each row, in `spread` how surely the numbers are known, and in `stated` what a study says of
+//! places, which `within` whitens columns by.
 
 mod eliminate;
 mod followed;
@@ -13,6 +14,7 @@ mod gathered;
 mod lanes;
 mod reduce;
 mod seen;
+mod spread;
 mod stated;
 mod within;
 
@@ -20,4 +22,5 @@ pub(crate) use eliminate::{Collected, Eliminated, Starts};
 pub(crate) use followed::FollowedShare;
 pub(crate) use reduce::Reduction;
 pub(crate) use seen::{TurnsBy, distance, seen};
+pub(crate) use spread::Spread;
 pub(crate) use stated::Stated;

@@ -7,6 +7,7 @@
 use std::ops::Range;
 
 use faer::{Mat, Side};
+use nalgebra::Vector3;
 use rayon::prelude::*;
 
 use super::lanes::{add, dot};
@@ -58,10 +59,14 @@ impl Reduction {
         Self { turned: turned.collect(), within: Vec::new(), scale }
     }
 
-    /// The same, but objects that are stated to within an uncertainty move no further than that lets them.
+    /// The same, but objects that are stated to within an uncertainty move no further than that lets them, and exact points that alone
+    /// hold the frame move together.
     pub fn as_stated(unknowns: &Unknowns, row: &[u32], unknown: &[[f64; WIDTH]], scale: Vec<f64>) -> Self {
         let (mut turned, mut within) = (Vec::new(), Vec::new());
-        for (at, object) in components_of(unknowns, row).into_iter().zip(&unknowns.objects) {
+        let components = components_of(unknowns, row);
+        let (at, columns) = moved_together(unknowns, &components, unknown);
+        turned.extend(Turned::of(at, columns, &scale));
+        for (at, object) in components.into_iter().zip(&unknowns.objects) {
             if let Freedom::Within { shift_m, .. } = object.freedom {
                 let columns = Mat::from_fn(at.len(), object.numbers(), |i, j| unknown[at[i]][j]);
                 within.extend(Within::new(at, columns, &scale, shift_m));
@@ -167,6 +172,27 @@ fn components_of(unknowns: &Unknowns, row: &[u32]) -> Vec<Vec<usize>> {
     components
 }
 
+/// The components of exact points that alone hold the frame, and their derivatives by a shift and a turn of all of these: where they are
+/// is no more known than where everything else is, and only how far from each other says something of the errors.
+fn moved_together(
+    unknowns: &Unknowns,
+    components: &[Vec<usize>],
+    unknown: &[[f64; WIDTH]],
+) -> (Vec<usize>, Mat<f64>) {
+    let points = unknowns.points_of_frame();
+    let own = points.iter().flat_map(|&object| components[object].iter().map(move |&at| (at, object)));
+    let own: Vec<(usize, usize)> = own.collect();
+    let columns = own.iter().map(|&(at, object)| {
+        let [x, y, z, ..] = unknown[at];
+        let by_shift = Vector3::new(x, y, z);
+        let by_turn = unknowns.objects[object].place.cross(&by_shift);
+        [x, y, z, by_turn.x, by_turn.y, by_turn.z]
+    });
+    let columns: Vec<[f64; 6]> = columns.collect();
+    let count = columns.len().min(6);
+    (own.into_iter().map(|(at, _)| at).collect(), Mat::from_fn(columns.len(), count, |i, j| columns[i][j]))
+}
+
 /// What `f` makes of some rows at a time, in order.
 fn in_chunks<T: Send>(rows: usize, f: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
     let chunk = |number: usize| number * CHUNK..((number + 1) * CHUNK).min(rows);
@@ -209,11 +235,16 @@ fn root(products: &Mat<f64>) -> Mat<f64> {
 impl Turned {
     /// Of the components of an object of so many numbers; none where it has none, or no rows.
     fn new(at: Vec<usize>, numbers: usize, unknown: &[[f64; WIDTH]], scale: &[f64]) -> Option<Self> {
-        let k = numbers.min(at.len());
+        let columns = Mat::from_fn(at.len(), numbers.min(at.len()), |i, j| unknown[at[i]][j]);
+        Self::of(at, columns, scale)
+    }
+
+    /// Of components with their derivatives by what moves them; none where nothing does.
+    fn of(at: Vec<usize>, columns: Mat<f64>, scale: &[f64]) -> Option<Self> {
+        let k = columns.ncols();
         if k == 0 {
             return None;
         }
-        let columns = Mat::from_fn(at.len(), k, |i, j| unknown[at[i]][j]);
         let mut matrix = Mat::from_fn(at.len(), k, |i, j| columns[(i, j)] * scale[at[i]]);
         let (reflections, moves) = reflected(&mut matrix);
         let factor = Mat::from_fn(k, k, |i, j| if i <= j { matrix[(i, j)] } else { 0.0 });

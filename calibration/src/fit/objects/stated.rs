@@ -24,7 +24,7 @@ impl Stated {
         }
         for (number, station) in (0..).zip(&unknowns.stations) {
             for place in 0..station.numbers() {
-                if let Some(sigma) = station.freedom.of_station(place) {
+                if let Some(sigma) = station.stated(place) {
                     stated.push(None, number, OF_OBJECT + place, sigma);
                 }
             }

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use crate::data::unknowns::{Freedom, Known, Shape, Station};
+use crate::data::unknowns::{Known, Shape, Station};
 
 use super::*;
 
@@ -38,8 +38,7 @@ fn derivatives_are_those_of_the_residual() {
         let station = Station {
             pose: Pose::new(Vector3::new(0.4, -0.7, 0.2), 0.02, 0.3, -0.9),
             known: Known::Yes,
-            freedom: Freedom::Free,
-            label: "S".to_owned(),
+            ..Station::unknown("S".to_owned())
         };
         let unknowns = of_one_row(object, station);
         let first = [unknowns.first_of_stations(), unknowns.first_of_objects()];

@@ -58,7 +58,7 @@ impl Ears {
             return Ok(());
         }
         self.last = Instant::now();
-        Python::attach(Python::check_signals)
+        Python::attach(|py| py.check_signals())
     }
 }
 

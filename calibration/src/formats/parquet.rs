@@ -109,8 +109,13 @@ impl Reader {
         Ok(true)
     }
 
-    /// The next rows of this group in some columns, each once and in order. Where `stays` they stay open behind that.
-    fn cells(&mut self, columns: &[usize], count: usize, stays: bool) -> Result<Vec<TypedCells>, DataError> {
+    /// The next rows of this group in some columns, each once and in order; `is_dear` where they had better stay open.
+    fn cells(
+        &mut self,
+        columns: &[usize],
+        count: usize,
+        is_dear: bool,
+    ) -> Result<Vec<TypedCells>, DataError> {
         for &column in columns {
             let of_type = &self.types[column];
             if of_type.get_physical_type() == Physical::INT96 {
@@ -134,7 +139,7 @@ impl Reader {
                         None => place.insert(Open::of(file, group, column)?),
                     };
                     let cells = open.cells(&types[column], taken, count, &name)?;
-                    if !stays && file.is_crowded() {
+                    if file.is_crowded(is_dear) {
                         *place = None;
                     }
                     Ok(cells)
@@ -272,8 +277,8 @@ impl TableReader for Reader {
             if count == 0 {
                 break;
             }
-            let stays = self.in_group > open::FEW.saturating_mul(room.usual().min(at_most));
-            let cells = self.cells(&columns, count, stays)?;
+            let is_dear = self.in_group > open::FEW.saturating_mul(room.usual().min(at_most));
+            let cells = self.cells(&columns, count, is_dear)?;
             room.take(&cells, count);
             let of = |column: usize| match columns.binary_search(&column) {
                 Ok(at) => &cells[at],

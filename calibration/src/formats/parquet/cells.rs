@@ -80,13 +80,13 @@ impl Values {
 
     fn append(&mut self, more: Self) {
         match (self, more) {
-            (Self::Bool(values), Self::Bool(more)) => values.extend(more),
-            (Self::Int32(values), Self::Int32(more)) => values.extend(more),
-            (Self::Int64(values), Self::Int64(more)) => values.extend(more),
-            (Self::Float(values), Self::Float(more)) => values.extend(more),
-            (Self::Double(values), Self::Double(more)) => values.extend(more),
-            (Self::Bytes(values), Self::Bytes(more)) => values.extend(more),
-            (Self::Fixed(values), Self::Fixed(more)) => values.extend(more),
+            (Self::Bool(values), Self::Bool(more)) => extend(values, more),
+            (Self::Int32(values), Self::Int32(more)) => extend(values, more),
+            (Self::Int64(values), Self::Int64(more)) => extend(values, more),
+            (Self::Float(values), Self::Float(more)) => extend(values, more),
+            (Self::Double(values), Self::Double(more)) => extend(values, more),
+            (Self::Bytes(values), Self::Bytes(more)) => extend(values, more),
+            (Self::Fixed(values), Self::Fixed(more)) => extend(values, more),
             _ => unreachable!("the cells of one column are of one type"),
         }
     }
@@ -191,7 +191,7 @@ impl TypedCells {
     /// Appends cells of the same column.
     pub(in crate::formats) fn append(&mut self, more: Self) {
         if let (Some(levels), Some(more)) = (&mut self.levels, more.levels) {
-            levels.extend(more);
+            extend(levels, more);
         }
         self.values.append(more.values);
     }
@@ -200,6 +200,12 @@ impl TypedCells {
     pub(super) fn bytes(&self) -> usize {
         self.values.bytes() + self.levels.as_ref().map_or(0, |levels| size_of_val(levels.as_slice()))
     }
+}
+
+/// Appends without room for as many again: a group of rows has few parts and many columns.
+fn extend<T>(values: &mut Vec<T>, more: Vec<T>) {
+    values.reserve_exact(more.len());
+    values.extend(more);
 }
 
 fn records<T: DataType>(

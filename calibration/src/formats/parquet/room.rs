@@ -5,7 +5,7 @@ use ::parquet::basic::Type as Physical;
 use super::TypedCells;
 
 /// Memory that the cells of a chunk take at most, in bytes, about: rows may be of any length.
-const CHUNK_BYTES: usize = 24 << 20;
+const CHUNK_BYTES: usize = 16 << 20;
 
 /// Rows that are read at a time where texts are among them, whose length nobody knows before.
 const TEXTS: usize = 1 << 12;

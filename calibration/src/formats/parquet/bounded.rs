@@ -179,7 +179,7 @@ impl BoundedPages {
                  smaller groups of rows",
                 self.column,
                 unpacked >> 20,
-                self.memory_bytes / GROWTH >> 20,
+                (self.memory_bytes / GROWTH) >> 20,
             )));
         }
         let claims = |what: &str| Err(spoiled(&self.column, &format!("a page of {values} values {what}")));

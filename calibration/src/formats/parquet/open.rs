@@ -74,7 +74,7 @@ mod tests {
         const COLUMNS: usize = 40;
         let number = |column: usize, row: usize| (row * COLUMNS + column) as f64 / 7.0;
         // Every third cell of the texts is empty.
-        let text = |row: usize| if row % 3 == 0 { String::new() } else { format!("at {row}") };
+        let text = |row: usize| if row.is_multiple_of(3) { String::new() } else { format!("at {row}") };
         let names = (0..=COLUMNS).map(|column| format!("c{column}")).collect();
         let mut columns: Vec<Column> = (0..COLUMNS)
             .map(|column| Column::Numbers((0..ROWS).map(|row| number(column, row)).collect()))

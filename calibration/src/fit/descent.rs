@@ -7,17 +7,17 @@ use std::sync::Arc;
 
 use super::mixing::Mixing;
 use super::normal::Rest;
-use super::solver::{Course, Followed, Solver, same};
+use super::solver::{Course, Solver, same};
 use super::subspace::Subspace;
 use super::sweep::Weighting;
 use super::{FitError, Reason};
-use crate::fit::noise::{self, Noise};
+use crate::fit::noise::{self, Followed, Noise};
 
 /// A step is negligible when it moves the prediction by this many standard deviations in all.
 const NEGLIGIBLE: f64 = 1e-7;
 
 /// The same where rows observe unknown objects: what nothing holds of their frame moves with the last bits of the rows.
-const NEGLIGIBLE_IN_A_FREE_FRAME: f64 = 1e-4;
+const NEGLIGIBLE_IN_A_FREE_FRAME: f64 = 1e-5;
 
 /// The same while the noise is still being learned, with few rows.
 const ROUGHLY: f64 = 1e-2;
@@ -33,9 +33,6 @@ const LONG: f64 = 100_000.0;
 
 /// What changes by less than this share is the same noise: all rows are asked again for any other.
 const SAME_NOISE: f64 = 1e-12;
-
-/// Estimates follow components alike while no standard deviation changes by more than this share.
-const SAME_SHARES: f64 = 0.01;
 
 /// Standard deviations that differ by no more than this share let the data determine the same.
 const SIMILAR_NOISE: f64 = 0.1;
@@ -350,32 +347,16 @@ impl Solver<'_> {
         sigma.iter().map(|sigma| (resolution / sigma).powi(2)).sum::<f64>().sqrt()
     }
 
-    /// What estimates follow of each component, with about the course's noise; none where rows observe no objects.
-    fn followed_at(&mut self, course: &Course, weight: &[f64]) -> Result<Option<Arc<Vec<f64>>>, FitError> {
-        let sweep = &course.point.sweep;
-        let Some(objects) = self.objects(sweep) else { return Ok(None) };
-        let (kept, rank) = (self.kept_components(weight), course.subspace.rank());
-        let holds = |own: &&Followed| {
-            let as_many = (kept.abs_diff(own.kept) as f64) <= NOISE_KNOWN * kept as f64;
-            as_many && own.rank == rank && same(&own.noise, &course.noise, SAME_SHARES)
-        };
-        if let Some(known) = self.followed.as_ref().filter(holds) {
-            return Ok(Some(known.of_each.clone()));
-        }
-        let root = course.subspace.covariance_root(&self.partial(sweep), &course.point.rest);
-        let shares = self.followed(course, weight, &root, objects)?.into_iter();
-        let of_each: Arc<Vec<f64>> =
-            Arc::new(shares.map(|share| share.by_unknowns + share.by_errors).collect());
-        self.followed = Some(Followed { noise: course.noise.clone(), kept, rank, of_each: of_each.clone() });
-        Ok(Some(of_each))
-    }
-
     /// What the residuals say of the noise, each row with its weight.
-    fn learn_noise(&mut self, course: &Course, weight: &[f64]) -> Result<Noise, FitError> {
+    fn learn_noise(&self, course: &Course, weight: &[f64]) -> Result<Noise, FitError> {
         let sweep = &course.point.sweep;
-        let followed = match self.followed_at(course, weight)? {
-            None => noise::Followed::Evenly { used: self.used(course) },
-            Some(shares) => noise::Followed::Each(shares),
+        let followed = match self.objects(sweep) {
+            None => Followed::Evenly { used: self.used(course) },
+            Some(objects) => {
+                let root = course.subspace.covariance_root(&self.partial(sweep), &course.point.rest);
+                let shares = self.followed(course, weight, &root, objects)?.into_iter();
+                Followed::Each(shares.map(|share| share.by_unknowns + share.by_errors).collect())
+            }
         };
         let options = &self.options.noise;
         Ok(noise::estimate(

@@ -57,7 +57,6 @@ impl<'a> Solver<'a> {
             aside: Vec::new(),
             brought: Vec::new(),
             prior_sizes: Vec::new(),
-            followed: None,
             iterations: 0,
         })
     }

@@ -33,20 +33,7 @@ pub(super) struct Solver<'a> {
     pub brought: Vec<f64>,
     /// How large a parameter may be that the data do not show.
     pub prior_sizes: Vec<Size>,
-    /// What estimates follow beside unknown objects, once it was asked.
-    pub followed: Option<Followed>,
     pub iterations: usize,
-}
-
-/// What estimates follow of each component, and with what it was asked.
-pub(super) struct Followed {
-    pub noise: Arc<Noise>,
-    /// Components with weight.
-    pub kept: usize,
-    /// Of what is determined.
-    pub rank: usize,
-    /// Of each component the share of a residual of its own.
-    pub of_each: Arc<Vec<f64>>,
 }
 
 /// Where the solver is: values, and what all rows say there.

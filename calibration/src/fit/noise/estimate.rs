@@ -1,7 +1,5 @@
 //! The noise model from residuals: first the floors, then what varies with the joints.
 
-use std::sync::Arc;
-
 use model_core::Chain;
 use rayon::prelude::*;
 
@@ -102,7 +100,7 @@ pub enum Followed {
         used: f64,
     },
     /// Of each component the share of a residual of its own.
-    Each(Arc<Vec<f64>>),
+    Each(Vec<f64>),
 }
 
 /// The noise model from raw residuals, the weights of the rows, what the estimates followed of them, and per component what uncertain

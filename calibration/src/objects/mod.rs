@@ -18,5 +18,5 @@ pub use placed::{Origin, Placed, PlacedObject, PlacedStation, placed};
 pub use remark::Remark;
 pub(crate) use rows::{Row, rows, tells};
 pub use scale::{check_scale, check_scale_of_ranges};
-pub(crate) use start::is_in_a_line;
+pub(crate) use solved::is_in_a_line;
 pub use start::{StartError, check_named, place};

@@ -9,6 +9,25 @@ use crate::data::{Measured, tangent_frame};
 /// Singular values below this share of the largest are none: points in a line or a plane.
 pub(super) const FLAT: f64 = 1e-6;
 
+/// Whether points leave a turn about their line open.
+pub(crate) fn is_in_a_line(points: &[Vector3<f64>]) -> bool {
+    let Some((_, spread)) = spread(points.iter().copied()) else { return true };
+    let values = spread.symmetric_eigenvalues();
+    let mut values = [values[0], values[1], values[2]];
+    values.sort_by(f64::total_cmp);
+    points.len() < 3 || values[1] <= FLAT * FLAT * values[2]
+}
+
+/// The centre of points and the sum of squares about it.
+pub(super) fn spread(
+    points: impl Iterator<Item = Vector3<f64>> + Clone,
+) -> Option<(Vector3<f64>, Matrix3<f64>)> {
+    let count = points.clone().count();
+    let centre = points.clone().sum::<Vector3<f64>>() / count as f64;
+    let squares = points.map(|point| (point - centre) * (point - centre).transpose()).sum();
+    (count > 0).then_some((centre, squares))
+}
+
 /// The direction in which points are spread least, of its two ways the one whose largest part is positive; `None` for points in a
 /// line.
 pub(super) fn flattest(squares: Matrix3<f64>) -> Option<Vector3<f64>> {

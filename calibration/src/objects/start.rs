@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::remark::{Remark, remarks};
 use super::rows::{Row, rows, sighted, tells};
-use super::solved::{FLAT, circle, flattest, trilaterated};
+use super::solved::{FLAT, circle, flattest, is_in_a_line, spread, trilaterated};
 use super::upright::{are_above_each_other, upright};
 use crate::data::unknowns::{Freedom, Known, Object, Pose, Shape, Station, Unknowns};
 use crate::data::{Measure, Observations, Poses};
@@ -347,23 +347,6 @@ fn take_over(
             *place = Some(unknowns.stations[station].pose.apply(&point));
         }
     }
-}
-
-/// Whether points leave a turn about their line open.
-pub(crate) fn is_in_a_line(points: &[Vector3<f64>]) -> bool {
-    let Some((_, spread)) = spread(points.iter().copied()) else { return true };
-    let values = spread.symmetric_eigenvalues();
-    let mut values = [values[0], values[1], values[2]];
-    values.sort_by(f64::total_cmp);
-    points.len() < 3 || values[1] <= FLAT * FLAT * values[2]
-}
-
-/// The centre of points and the sum of squares about it.
-fn spread(points: impl Iterator<Item = Vector3<f64>> + Clone) -> Option<(Vector3<f64>, Matrix3<f64>)> {
-    let count = points.clone().count();
-    let centre = points.clone().sum::<Vector3<f64>>() / count as f64;
-    let squares = points.map(|point| (point - centre) * (point - centre).transpose()).sum();
-    (count > 0).then_some((centre, squares))
 }
 
 /// An object from its rows, the stations being where they are; where they do not say that, what to do about it.

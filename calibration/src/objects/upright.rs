@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::solved::FLAT;
+use super::solved::{FLAT, is_in_a_line};
 use crate::data::unknowns::Pose;
 use crate::fit::{align_robustly, robust};
 
@@ -11,7 +11,7 @@ pub(super) fn upright(from: &[Vector3<f64>], to: &[Vector3<f64>]) -> Option<Pose
     if are_above_each_other(from) {
         return None;
     }
-    let whole = align_robustly(from, to).filter(|_| !super::is_in_a_line(from));
+    let whole = align_robustly(from, to).filter(|_| !is_in_a_line(from));
     let heading = whole.map_or_else(
         || {
             let (start, end) = (middle(from), middle(to));

@@ -1,7 +1,12 @@
 //! Few rows: least squares, without rows that are proven to be wrong.
 //!
 //! Robust weights need the scale of the residuals. With few degrees of freedom the residuals are smaller than the noise, and
-//! the weights with them. So a row counts fully or not at all here, and only rows that chance does not explain are set aside.
+//! the weights with them. So a row counts fully or not at all here, and only rows that chance does not explain are set aside. The
+//! same where objects and stations follow much of every row, however many rows there are: what robust weights do to estimates is
+//! known for many rows a number.
+//!
+//! Source: N. El Karoui, D. Bean, P. J. Bickel, C. Lim, B. Yu, On robust regression with high-dimensional predictors, PNAS 110 (2013)
+//! 14557-14562.
 
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 use statrs::function::factorial::ln_binomial;
@@ -13,6 +18,9 @@ use super::sweep::Weighting;
 /// Degrees of freedom below which rows count in full or not at all.
 const FEW: f64 = 100.0;
 
+/// Components of rows with weight for each number that is estimated, below which rows that observe objects count in full or not at all.
+const FOR_EACH_NUMBER: f64 = 5.0;
+
 /// A row is suspected when a robust fit gives it less weight than this.
 const SUSPECT: f64 = 0.2;
 
@@ -23,6 +31,14 @@ impl Solver<'_> {
     /// Whether what a course determines, objects and stations with it, leaves few degrees of freedom.
     pub(super) fn are_few(&self, course: &Course) -> bool {
         (self.layout.components() as f64) < FEW + self.used(course)
+    }
+
+    /// Whether rows that have robust weights are to count in full or not at all.
+    pub(super) fn counts_in_full(&self, course: &Course) -> bool {
+        let (_, weight) = self.norms_and_weights(course);
+        let is_followed = (self.kept_components(&weight) as f64) < FOR_EACH_NUMBER * self.used(course);
+        let is_few = self.are_few(course) || self.observations.unknowns.is_some() && is_followed;
+        is_few && course.weighting == Weighting::Biweight
     }
 
     /// Least squares of the rows that a robust course does not prove wrong.
@@ -42,7 +58,8 @@ impl Solver<'_> {
         // What the rows leave after the errors, objects and stations.
         let left = with_kept.1 - self.used(&kept);
         let more = with_all.1 - self.used(&all) - left;
-        if left >= 1.0 && more >= 1.0 && kept.subspace.rank() == all.subspace.rank() {
+        // Beside the noise of rows that are wrong, all may determine less.
+        if left >= 1.0 && more >= 1.0 && kept.subspace.rank() >= all.subspace.rank() {
             let ratio = (with_all.0 - with_kept.0) / more / (with_kept.0 / left);
             let chance = FisherSnedecor::new(more, left).map_or(1.0, |f| f.sf(ratio.max(0.0)));
             if chance.ln() + ln_binomial(weight.len() as u64, suspects as u64) < PROVEN.ln() {

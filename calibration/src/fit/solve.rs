@@ -70,7 +70,7 @@ impl Solver<'_> {
         }
         course = self.nearest(course)?;
         course = self.freed(course)?;
-        if weighting == Weighting::Biweight && self.are_few(&course) {
+        if self.counts_in_full(&course) {
             course = self.of_few(course)?;
         }
         self.release(&mut course)?;

@@ -11,6 +11,7 @@ mod noise;
 mod refused;
 mod ridge;
 mod room;
+mod small;
 mod starts;
 mod visible;
 

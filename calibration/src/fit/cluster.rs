@@ -46,16 +46,6 @@ impl Clusters {
         Self { groups, scores }
     }
 
-    /// Of sets of rows that are independent within: each score as it is, and what the sets took of their own residuals for a residual
-    /// of this variance. A row that alone determines something leaves next to nothing of its own, of which no size can be told.
-    pub fn of_independent(shares: Vec<Share>, variance: f64) -> (Self, Mat<f64>) {
-        let k = shares.first().map_or(0, |share| share.score.len());
-        let scores = Mat::from_fn(k, shares.len(), |row, at| shares[at].score[row]);
-        let taken = shares.iter().fold(Mat::zeros(k, k), |sum, share| sum + &share.gram * &share.gram);
-        let groups = shares.into_iter().map(|share| (share.gram, Mat::identity(k, k))).collect();
-        (Self { groups, scores }, taken * faer::Scale(variance))
-    }
-
     /// A matrix whose product with its own transpose is the covariance of Qᵀe, k × groups.
     pub fn scores(&self) -> &Mat<f64> {
         &self.scores

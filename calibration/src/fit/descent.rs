@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::mixing::Mixing;
 use super::normal::Rest;
-use super::solver::{Course, Solver, same};
+use super::solver::{Course, LONG, Solver, same};
 use super::subspace::Subspace;
 use super::sweep::Weighting;
 use super::{FitError, Reason};
@@ -27,9 +27,6 @@ const ROUNDING: f64 = 1e-12;
 
 /// The noise is known when no standard deviation changes by more than this share.
 const NOISE_KNOWN: f64 = 1e-3;
-
-/// Components from which on a pass takes long.
-const LONG: f64 = 100_000.0;
 
 /// What changes by less than this share is the same noise: all rows are asked again for any other.
 const SAME_NOISE: f64 = 1e-12;
@@ -347,24 +344,27 @@ impl Solver<'_> {
         sigma.iter().map(|sigma| (resolution / sigma).powi(2)).sum::<f64>().sqrt()
     }
 
+    /// How much of residuals the estimates of a course follow, each row with its weight.
+    pub(super) fn what_is_followed(&self, course: &Course, weight: &[f64]) -> Result<Followed, FitError> {
+        let sweep = &course.point.sweep;
+        let Some(objects) = self.objects(sweep) else {
+            return Ok(Followed::Evenly { used: self.used(course) });
+        };
+        let root = course.subspace.covariance_root(&self.partial(sweep), &course.point.rest);
+        let shares = self.followed(course, weight, &root, objects)?.into_iter();
+        Ok(Followed::Each(shares.map(|share| share.by_unknowns + share.by_errors).collect()))
+    }
+
     /// What the residuals say of the noise, each row with its weight.
     fn learn_noise(&self, course: &Course, weight: &[f64]) -> Result<Noise, FitError> {
-        let sweep = &course.point.sweep;
-        let followed = match self.objects(sweep) {
-            None => Followed::Evenly { used: self.used(course) },
-            Some(objects) => {
-                let root = course.subspace.covariance_root(&self.partial(sweep), &course.point.rest);
-                let shares = self.followed(course, weight, &root, objects)?.into_iter();
-                Followed::Each(shares.map(|share| share.by_unknowns + share.by_errors).collect())
-            }
-        };
+        let followed = self.what_is_followed(course, weight)?;
         let options = &self.options.noise;
         Ok(noise::estimate(
             self.chain,
             options,
             self.observations,
             &self.layout,
-            &sweep.residual,
+            &course.point.sweep.residual,
             weight,
             &followed,
             &self.brought,

@@ -1,17 +1,26 @@
 //! Few rows: least squares, without rows that are proven to be wrong.
 //!
 //! Robust weights need the scale of the residuals. With few degrees of freedom the residuals are smaller than the noise, and
-//! the weights with them. So a row counts fully or not at all here, and only rows that chance does not explain are set aside.
+//! the weights with them. So a row counts fully or not at all here, and only rows that chance does not explain are set aside. The
+//! same where objects and stations follow much of every row, however many rows there are: what robust weights do to estimates is
+//! known for many rows a number.
+//!
+//! Source: N. El Karoui, D. Bean, P. J. Bickel, C. Lim, B. Yu, On robust regression with high-dimensional predictors, PNAS 110 (2013)
+//! 14557-14562.
 
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 use statrs::function::factorial::ln_binomial;
 
 use super::FitError;
-use super::solver::{Course, Solver};
+use super::solver::{Course, LONG, Solver};
 use super::sweep::Weighting;
+use crate::fit::noise::Followed;
 
 /// Degrees of freedom below which rows count in full or not at all.
 const FEW: f64 = 100.0;
+
+/// Components of rows with weight for each number that is estimated, below which rows that observe objects count in full or not at all.
+const FOR_EACH_NUMBER: f64 = 5.0;
 
 /// A row is suspected when a robust fit gives it less weight than this.
 const SUSPECT: f64 = 0.2;
@@ -25,43 +34,119 @@ impl Solver<'_> {
         (self.layout.components() as f64) < FEW + self.used(course)
     }
 
-    /// Least squares of the rows that a robust course does not prove wrong.
-    pub(super) fn of_few(&mut self, robust: Course) -> Result<Course, FitError> {
-        let (_, weight) = self.norms_and_weights(&robust);
-        let suspect: Vec<bool> = weight.iter().map(|&weight| weight < SUSPECT).collect();
-        let defined = &robust.point.sweep.defined;
-        let suspects = suspect.iter().zip(defined).filter(|&(&suspect, &defined)| suspect && defined).count();
-        let all = self.course(&robust.point.values, Weighting::Full)?;
-        if suspects == 0 {
-            return Ok(all);
-        }
-        let with_all = self.squares(&all, &robust, &[]);
-        self.aside = suspect;
-        let kept = self.course(&robust.point.values, Weighting::Full)?;
-        let with_kept = self.squares(&kept, &robust, &self.aside);
-        // What the rows leave after the errors, objects and stations.
-        let left = with_kept.1 - self.used(&kept);
-        let more = with_all.1 - self.used(&all) - left;
-        if left >= 1.0 && more >= 1.0 && kept.subspace.rank() == all.subspace.rank() {
-            let ratio = (with_all.0 - with_kept.0) / more / (with_kept.0 / left);
-            let chance = FisherSnedecor::new(more, left).map_or(1.0, |f| f.sf(ratio.max(0.0)));
-            if chance.ln() + ln_binomial(weight.len() as u64, suspects as u64) < PROVEN.ln() {
-                return Ok(kept);
-            }
-        }
-        self.aside = Vec::new();
-        Ok(all)
+    /// Whether rows that have robust weights are to count in full or not at all.
+    pub(super) fn counts_in_full(&self, course: &Course) -> bool {
+        let (_, weight) = self.norms_and_weights(course);
+        let is_followed = (self.kept_components(&weight) as f64) < FOR_EACH_NUMBER * self.used(course);
+        let is_few = self.are_few(course) || self.observations.unknowns.is_some() && is_followed;
+        is_few && course.weighting == Weighting::Biweight
     }
 
-    /// The sum of squares of a course's residuals in units of another's noise, and of how many components, without the rows
-    /// that are aside.
-    fn squares(&self, course: &Course, unit: &Course, aside: &[bool]) -> (f64, f64) {
-        let sigma = unit.noise.sigma_without_memory();
-        let sweep = &course.point.sweep;
-        let components = sweep.residual.iter().zip(sigma.iter()).zip(self.layout.row_of_each());
-        let counts = |row: usize| sweep.defined[row] && aside.get(row) != Some(&true);
-        components
-            .filter(|(_, row)| counts(*row))
-            .fold((0.0, 0.0), |sums, ((value, sigma), _)| (sums.0 + (value / sigma).powi(2), sums.1 + 1.0))
+    /// Least squares without the rows that a robust course suspects and that are proven wrong.
+    pub(super) fn of_few(&mut self, robust: Course) -> Result<Course, FitError> {
+        let (norms, weight) = self.norms_and_weights(&robust);
+        let defined = &robust.point.sweep.defined;
+        let mut suspects: Vec<usize> =
+            (0..norms.len()).filter(|&row| weight[row] < SUSPECT && defined[row]).collect();
+        suspects.sort_by(|&a, &b| norms[b].total_cmp(&norms[a]));
+        let start = robust.point.values.clone();
+        let takes_long = self.layout.components() as f64 >= LONG;
+        let all = self.without(&start, &[])?;
+        // All of them first: those that are wrong hide each other. Beside many that are not, the furthest prove more.
+        let mut count = suspects.len();
+        let mut kept = all.clone();
+        while count > 0 {
+            kept = self.without(&start, &suspects[..count])?;
+            if self.proves(&all, &kept, count) {
+                break;
+            }
+            count = if takes_long { 0 } else { count / 2 };
+        }
+        // The nearest of them may only be suspected beside the others.
+        let mut fewer = if takes_long { 0 } else { count / 2 };
+        while fewer > 0 {
+            let other = self.without(&start, &suspects[..count - fewer])?;
+            if self.proves(&other, &kept, fewer) {
+                fewer /= 2;
+            } else {
+                kept = other;
+                count -= fewer;
+                fewer = count / 2;
+            }
+        }
+        self.set_aside(&suspects[..count]);
+        Ok(match count {
+            0 if !self.has_arrived(&all.course) && self.has_arrived(&robust) => robust,
+            0 => all.course,
+            _ => kept.course,
+        })
+    }
+
+    /// Least squares without some rows, of which nothing else is set aside.
+    fn without(&mut self, start: &[f64], rows: &[usize]) -> Result<Kept, FitError> {
+        self.set_aside(rows);
+        let course = self.course(start, Weighting::Full)?;
+        let (norms, weight) = self.norms_and_weights(&course);
+        let counted = weight.iter().filter(|weight| **weight > 0.0).count();
+        let squares = norms.iter().zip(&weight).filter(|(_, weight)| **weight > 0.0);
+        let left = self.kept_components(&weight) as f64 - self.used(&course);
+        let mean_square = squares.map(|(norm, _)| norm * norm).sum::<f64>() / left;
+        let followed = self.what_is_followed(&course, &weight)?;
+        let of_each = |(at, row): (usize, usize)| match &followed {
+            _ if weight[row] <= 0.0 => 0.0,
+            Followed::Evenly { .. } => 1.0,
+            Followed::Each(shares) => (1.0 - shares[at]).max(0.0),
+        };
+        let left_of_each = self.layout.row_of_each().enumerate().map(of_each).collect();
+        Ok(Kept { course, rows: counted, left, left_of_each, mean_square })
+    }
+
+    fn set_aside(&mut self, rows: &[usize]) {
+        self.aside = vec![false; if rows.is_empty() { 0 } else { self.layout.rows() }];
+        rows.iter().for_each(|row| self.aside[*row] = true);
+    }
+
+    /// Whether so many rows, which one course has and the other has not, are proven wrong.
+    fn proves(&self, all: &Kept, kept: &Kept, rows: usize) -> bool {
+        let more = all.left - kept.left;
+        let [all_arrived, kept_arrived] = [all, kept].map(|own| self.has_arrived(&own.course));
+        if !all_arrived || !kept_arrived {
+            return kept_arrived;
+        }
+        // Beside the noise of rows that are wrong, all may determine less.
+        if kept.left < 1.0 || more < 1.0 || kept.course.subspace.rank() < all.course.subspace.rank() {
+            return false;
+        }
+        let ratio = all.mean_square / kept.mean_square * all.times_the_noise_of(kept);
+        let f = (ratio * all.left - kept.left) / more;
+        let chance = FisherSnedecor::new(more, kept.left).map_or(1.0, |chance| chance.sf(f.max(0.0)));
+        chance.ln() + ln_binomial(all.rows as u64, rows as u64) < PROVEN.ln()
+    }
+}
+
+/// Least squares of some rows.
+#[derive(Clone)]
+struct Kept {
+    course: Course,
+    /// How many rows count.
+    rows: usize,
+    /// Components less what errors, objects and stations use up of them.
+    left: f64,
+    /// What is left of each component's own residual, as a share of it; nothing of rows that do not count.
+    left_of_each: Vec<f64>,
+    /// In units of its own noise.
+    mean_square: f64,
+}
+
+impl Kept {
+    /// By what factor the variances of its noise are larger than those of another's, in the geometric mean: each component counts by what
+    /// is left of its residual. Of few rows some can always be chosen that leave next to nothing along azimuths, say, and in units of
+    /// that noise all others are wrong.
+    fn times_the_noise_of(&self, other: &Self) -> f64 {
+        let [own, other] = [self, other].map(|kept| kept.course.noise.sigma_without_memory());
+        let each = self.left_of_each.iter().zip(own.iter().zip(other.iter()));
+        let sum: f64 = each.map(|(left, (own, other))| left * 2.0 * (own / other).ln()).sum();
+        let whole: f64 = self.left_of_each.iter().sum();
+        if whole > 0.0 { (sum / whole).exp() } else { 1.0 }
     }
 }

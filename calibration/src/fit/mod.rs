@@ -27,6 +27,7 @@ pub(crate) mod readings;
 mod reflections;
 mod residual;
 pub mod robust;
+mod sets;
 mod shared;
 mod size;
 mod solve;

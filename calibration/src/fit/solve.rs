@@ -38,6 +38,11 @@ pub fn fit(chain: &Chain, observations: &Observations, options: &FitOptions) -> 
     let mut solver = Solver::new(chain, observations, options)?;
     let mut course = solver.arrived()?;
     solver.release(&mut course)?;
+    // Rows that are set aside only now leave few of them for what they now show.
+    if solver.counts_in_full(&course) {
+        course = solver.of_few(course)?;
+        solver.release(&mut course)?;
+    }
     solver.result(course)
 }
 
@@ -82,7 +87,7 @@ impl Solver<'_> {
         }
         course = self.nearest(course)?;
         course = self.freed(course)?;
-        if weighting == Weighting::Biweight && self.are_few(&course) {
+        if self.counts_in_full(&course) {
             course = self.of_few(course)?;
         }
         Ok(course)
@@ -105,7 +110,7 @@ impl Solver<'_> {
         let options = FitOptions { noise, ..self.options.clone() };
         let mut of_sample = Solver::new(self.chain, &sample, &options)?;
         let course = of_sample.arrived()?;
-        let has_arrived = course.stopped.is_none() && !of_sample.is_far_off(&course);
+        let has_arrived = of_sample.has_arrived(&course);
         Ok(has_arrived.then_some(course.point.values))
     }
 

@@ -18,6 +18,9 @@ use crate::fit::noise::{self, Layout, Noise};
 /// Rows at least that one processor looks through.
 const AT_ONCE: usize = 4096;
 
+/// Components from which on a pass takes long.
+pub(super) const LONG: f64 = 100_000.0;
+
 /// One fit in progress.
 pub(super) struct Solver<'a> {
     pub chain: &'a Chain,

@@ -31,6 +31,11 @@ impl Solver<'_> {
         self.median_rad(course).or_else(|| self.median_share(course)).is_some_and(|median| median > FAR_OFF)
     }
 
+    /// Whether a course is at a bottom, and that nowhere far off: there is no noise to judge rows by elsewhere.
+    pub(super) fn has_arrived(&self, course: &Course) -> bool {
+        course.stopped.is_none() && !self.is_far_off(course)
+    }
+
     /// The course that ends nearest to the directions, from here or from drawn starts; the one given where that is near.
     pub(super) fn nearest(&mut self, course: Course) -> Result<Course, FitError> {
         let is_angle = |&id: &SymbolId| self.chain.symbol(id).quantity == Quantity::Angle;

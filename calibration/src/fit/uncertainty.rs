@@ -8,9 +8,10 @@ use faer::Mat;
 use model_core::SymbolId;
 use rayon::prelude::*;
 
-use super::cluster::{ALONE, Clusters, Share};
+use super::cluster::{Clusters, Share};
 use super::coordinates::Coordinates;
 use super::estimable::Estimable;
+use super::sets::Sets;
 use super::shared::{Order, Shared};
 use super::solver::{Course, Solver};
 use super::stated::{Agreement, Stated};
@@ -26,8 +27,8 @@ const MANY: f64 = 1000.0;
 /// Degrees of freedom that even a random walk leaves to its own size.
 const LEAST: f64 = 3.0;
 
-/// Sets of rows, and degrees of freedom, from which on every row's own residual says how uncertain it makes the estimates. As many
-/// as no period of a file has in common with them.
+/// Sets of rows whose own residuals say how uncertain they make the estimates; of fewer rows each is one. As many as no period of a
+/// file has in common with them.
 const SETS_OF_ROWS: usize = 211;
 
 /// Groups above which each has so little part that none needs adjusting one by one.
@@ -58,6 +59,8 @@ enum Spread {
     /// From whole groups, times a factor; and what else adds to it, each with its degrees of freedom: groups that cross them, and what
     /// is stated of places.
     Groups { factor: f64, clusters: Clusters, beside: Vec<(Mat<f64>, f64)> },
+    /// From sets of rows, times a factor, and what the errors took at so many degrees of freedom; and what is stated of places.
+    Sets { factor: f64, sets: Sets, left: f64, of_stated: Option<Mat<f64>> },
     /// It is this.
     Serial { product: Mat<f64>, degrees_of_freedom: f64 },
 }
@@ -104,25 +107,20 @@ impl Solver<'_> {
             Spread::Even { factor: 1.0 / level / efficiency, degrees_of_freedom: f64::INFINITY }
         } else if left < 1.0 {
             Spread::Unknown
-        } else if let Some(objects) =
-            self.objects(&course.point.sweep).filter(|_| left >= SETS_OF_ROWS as f64)
-        {
+        } else if let Some(objects) = self.objects(&course.point.sweep) {
             // How far off a plane a point is hangs on how it was hit, and across a beam on the range, while along it does not:
             // no variance of the joints is that of every component.
             root = subspace.covariance_root(&self.partial(&course.point.sweep), rest);
-            let Coordinates { q, mut residual, of_stated } = self.coordinates(course, weight, &root)?;
-            for (value, followed) in residual.iter_mut().zip(self.followed(course, weight, &root, objects)?) {
-                *value /= (1.0 - followed.by_unknowns).max(ALONE).sqrt();
-            }
+            let Coordinates { q, residual, of_stated } = self.coordinates(course, weight, &root)?;
+            let followed = self.followed(course, weight, &root, objects)?;
+            let taken = Mat::from_fn(q.nrows(), q.ncols(), |row, column| {
+                followed[row].by_unknowns * q[(row, column)]
+            });
             let of_component = self.layout.row_of_each().map(|row| row % SETS_OF_ROWS).collect();
-            let sets = Buckets { of_component, count: SETS_OF_ROWS };
+            let shares = shares(&q, &residual, &Buckets { of_component, count: SETS_OF_ROWS });
             let squares: f64 = residual.iter().map(|value| value * value).sum();
-            let (clusters, taken) =
-                Clusters::of_independent(shares(&q, &residual, &sets), squares / (kept - q.ncols() as f64));
-            let factor = tally.stride().powi(2);
-            let taken = (taken * faer::Scale(factor), left);
-            let beside = of_stated.map(taken_at_their_word).into_iter().chain([taken]).collect();
-            Spread::Groups { factor, clusters, beside }
+            let sets = Sets::new(shares, &(q.transpose() * taken), squares / left);
+            Spread::Sets { factor: tally.stride().powi(2), sets, left, of_stated }
         } else if left < MANY && self.layout.kinds > 1 {
             let pools = Pools::of(self.observations, &self.layout, used);
             let of_component = self.layout.kind_of_each().map(|kind| pools.of_kind[kind]).collect();
@@ -309,6 +307,12 @@ impl Uncertainty {
                 let added = beside.iter().map(|(product, _)| &self.root * product * self.root.transpose());
                 added.fold(of_groups, |sum, own| sum + own)
             }
+            Spread::Sets { factor, sets, of_stated, .. } => {
+                let [shown, by_errors] = sets.parts();
+                let product = (shown + by_errors) * faer::Scale(*factor);
+                let whole = of_stated.iter().fold(product, |sum, own| sum + own);
+                &self.root * whole * self.root.transpose()
+            }
             Spread::Serial { product, .. } => &self.root * product * self.root.transpose(),
         };
         of_data + &self.prior * self.prior.transpose()
@@ -362,6 +366,12 @@ impl Uncertainty {
                 let own = (factor * along.squared_norm_l2(), clusters.degrees_of_freedom(&a));
                 let beside = beside.iter().map(|(product, free)| (form(product, &a), *free));
                 if beside.len() > 0 { together(std::iter::once(own).chain(beside)) } else { own }
+            }
+            Spread::Sets { factor, sets, left, of_stated } => {
+                let [shown, by_errors] = sets.parts().map(|part| factor * form(part, &a));
+                let own = [(shown, sets.degrees_of_freedom(&a)), (by_errors, *left)];
+                let stated = of_stated.iter().map(|own| (form(own, &a), f64::INFINITY));
+                together(own.into_iter().chain(stated))
             }
             Spread::Serial { product, degrees_of_freedom } => (form(product, &a), *degrees_of_freedom),
         };

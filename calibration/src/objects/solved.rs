@@ -5,9 +5,13 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use super::rows::Row;
 use crate::data::unknowns::Pose;
 use crate::data::{Measured, tangent_frame};
+use crate::fit::robust;
 
 /// Singular values below this share of the largest are none: points in a line or a plane.
 pub(super) const FLAT: f64 = 1e-6;
+
+/// A point lies nowhere near others where it is so many times as far from their median as they are.
+const OUTLYING: f64 = 10.0;
 
 /// Whether points leave a turn about their line open.
 pub(crate) fn is_in_a_line(points: &[Vector3<f64>]) -> bool {
@@ -26,6 +30,17 @@ pub(super) fn spread(
     let centre = points.clone().sum::<Vector3<f64>>() / count as f64;
     let squares = points.map(|point| (point - centre) * (point - centre).transpose()).sum();
     (count > 0).then_some((centre, squares))
+}
+
+/// The mean of points without those many times as far from their median as is usual; none of no points.
+pub(super) fn middle(points: &[Vector3<f64>]) -> Option<Vector3<f64>> {
+    let along = |axis: usize| robust::median(points.iter().map(|point| point[axis]).collect());
+    let median = Vector3::new(along(0), along(1), along(2));
+    let away = |point: &Vector3<f64>| (point - median).norm();
+    let usual = robust::median(points.iter().map(away).collect());
+    let near: Vec<&Vector3<f64>> = points.iter().filter(|point| away(point) <= OUTLYING * usual).collect();
+    let count = near.len() as f64;
+    (count > 0.0).then(|| near.into_iter().sum::<Vector3<f64>>() / count)
 }
 
 /// The direction in which points are spread least, of its two ways the one whose largest part is positive; `None` for points in a

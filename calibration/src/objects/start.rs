@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::remark::{Remark, remarks};
 use super::rows::{Row, rows, sighted, tells};
-use super::solved::{FLAT, circle, flattest, is_in_a_line, spread, trilaterated};
+use super::solved::{FLAT, circle, flattest, is_in_a_line, middle, spread, trilaterated};
 use super::upright::{are_above_each_other, upright};
 use crate::data::unknowns::{Freedom, Known, Object, Pose, Shape, Station, Unknowns};
 use crate::data::{Measure, Observations, Poses};
@@ -178,18 +178,15 @@ fn place_all(unknowns: &mut Unknowns, rows: &[Row]) -> Result<Vec<Lost>, StartEr
 /// The stations, one after the other: next that which shares most with what is placed.
 fn place_stations(unknowns: &mut Unknowns, rows: &[Row]) -> Result<(), StartError> {
     let (stations, objects) = (unknowns.stations.len(), unknowns.objects.len());
-    // The mean of what each station sees of each target, in its own frame.
-    let mut sums = vec![vec![(Vector3::zeros(), 0.0); objects]; stations];
+    // What each station sees of each target, in its own frame.
+    let mut sights = vec![vec![Vec::new(); objects]; stations];
     let unstated = unstated(unknowns);
     for row in rows.iter().filter(|row| tells(row)) {
-        let (sum, count) = &mut sums[row.station][row.object];
-        *sum += row.point;
-        *count += 1.0;
+        sights[row.station][row.object].push(row.point);
     }
-    let seen = |station: usize, object: usize| {
-        let (sum, count): (Vector3<f64>, f64) = sums[station][object];
-        (count > 0.0).then(|| sum / count)
-    };
+    let sights: Vec<Vec<Option<Vector3<f64>>>> =
+        sights.iter().map(|own| own.iter().map(|points| middle(points)).collect()).collect();
+    let seen = |station: usize, object: usize| sights[station][object];
     let mut there: Vec<Option<Vector3<f64>>> =
         unknowns.objects.iter().map(|object| (object.known == Known::Yes).then_some(object.place)).collect();
     let stated = |unknowns: &Unknowns, rough: bool| {
@@ -218,7 +215,7 @@ fn place_stations(unknowns: &mut Unknowns, rows: &[Row]) -> Result<(), StartErro
         // Objects that are known, but too few to place a station by, say where all of them are in the end.
         let known = std::mem::replace(&mut there, vec![None; objects]);
         let watched = |station: &usize| {
-            let targets = sums[*station].iter().filter(|(_, count)| *count > 0.0).count();
+            let targets = sights[*station].iter().flatten().count();
             let own = rows.iter().filter(|row| row.station == *station).count();
             // One that was levelled says where up is.
             let is_levelled = unknowns.stations[*station].level_rad.is_some();
@@ -362,8 +359,7 @@ fn place_object(object: &mut Object, rows: &[&Row], poses: &[Pose]) -> Result<()
         }
         Shape::Point if rows.iter().any(|row| tells(row)) => {
             let telling = rows.iter().zip(points).filter(|(row, _)| tells(row)).map(|(_, point)| point);
-            let count = telling.clone().count() as f64;
-            object.place = telling.sum::<Vector3<f64>>() / count;
+            object.place = middle(&telling.collect::<Vec<_>>()).unwrap_or(centre);
         }
         Shape::Point if rows.iter().all(|row| row.measure == Measure::Distance) => {
             object.place = Vector3::from(trilaterated::<3>(rows, poses).ok_or(

@@ -11,6 +11,8 @@ mod noise;
 mod refused;
 mod ridge;
 mod room;
+mod small;
+
 mod starts;
 mod visible;
 

@@ -222,3 +222,21 @@ fn rows_that_are_set_aside_make_nothing_surer() {
         assert!((one - other).abs() < as_sure.max(*sure), "{name}: {one} and {other} ± {as_sure}");
     }
 }
+
+/// One sight of seven bears the label of another target: it alone is set aside.
+#[test]
+fn a_row_with_the_label_of_another_target_takes_no_others_with_it() {
+    let chain = text_of("examples/objects/scanner.chain");
+    let (rows, _) = targets(&mut Noise(8081));
+    let labels = |line: &str| line.starts_with("S3,T5,");
+    let mut rows: Vec<String> =
+        rows.lines().filter(|line| !labels(line)).map(|line| format!("{line}\n")).collect();
+    let wrong = rows.iter().position(|line| line.starts_with("S1,T2,")).unwrap();
+    rows[wrong] = rows[wrong].replace("T2", "T5");
+    let (plan, found) = fitted(&study("target", ""), &chain, &(HEADER.to_owned() + &rows.concat()), "");
+    let aside: Vec<usize> = found.set_aside.iter().map(|own| own.row).collect();
+    assert_eq!(aside, [wrong]);
+    for (name, [value, sure]) in ERRORS.iter().zip(estimates(&plan, &found, &ERRORS)) {
+        assert!(value.abs() < 4.0 * sure, "{name}: {value} ± {sure}");
+    }
+}

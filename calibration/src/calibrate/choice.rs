@@ -21,6 +21,10 @@ use crate::study::Plan;
 /// By how much a function has to gain where it was not fitted: its thresholds, not its coefficients, saw every row.
 const GAINS: f64 = 0.95;
 
+/// So many squares of the noise are taken by chance by thresholds that are chosen among some ten thousand: twice its logarithm. Of few
+/// rows they are no small part, and held-out rows do not tell, since the thresholds saw them.
+const BY_THRESHOLDS: f64 = 20.0;
+
 /// What counts as no worse: figures of a few hundred rows scatter by more.
 const NO_WORSE: f64 = 1.01;
 
@@ -100,7 +104,9 @@ fn is_confirmed(whole: &Context<'_>, told: &Judged<'_>, taken_up: &Judged<'_>) -
         None => (ratio(|rms| rms.held_out_rms_kept), ratio(|rms| rms.held_out_rms)),
         Some(_) => (elsewhere, None),
     };
-    let gains = |ratio: Option<f64>| ratio.is_some_and(|ratio| ratio < GAINS);
+    let by_chance = BY_THRESHOLDS / told.round.fitted.fit.degrees_of_freedom;
+    let gains =
+        |ratio: Option<f64>| ratio.is_some_and(|ratio| ratio < GAINS && ratio * ratio < 1.0 - by_chance);
     let no_worse = |ratio: Option<f64>| ratio.is_none_or(|ratio| ratio <= NO_WORSE);
     let effects = |judged: &Judged<'_>| judged.round.fitted.found.len();
     // The function itself is one of those.

@@ -105,8 +105,8 @@ fn is_confirmed(whole: &Context<'_>, told: &Judged<'_>, taken_up: &Judged<'_>) -
         Some(_) => (elsewhere, None),
     };
     let by_chance = BY_THRESHOLDS / told.round.fitted.fit.degrees_of_freedom;
-    let gains =
-        |ratio: Option<f64>| ratio.is_some_and(|ratio| ratio < GAINS && ratio * ratio < 1.0 - by_chance);
+    let most = GAINS.min((1.0 - by_chance).max(0.0).sqrt());
+    let gains = |ratio: Option<f64>| ratio.is_some_and(|ratio| ratio < most);
     let no_worse = |ratio: Option<f64>| ratio.is_none_or(|ratio| ratio <= NO_WORSE);
     let effects = |judged: &Judged<'_>| judged.round.fitted.found.len();
     // The function itself is one of those.

@@ -36,10 +36,12 @@ impl Solver<'_> {
 
     /// Whether rows that have robust weights are to count in full or not at all.
     pub(super) fn counts_in_full(&self, course: &Course) -> bool {
-        let (_, weight) = self.norms_and_weights(course);
-        let is_followed = (self.kept_components(&weight) as f64) < FOR_EACH_NUMBER * self.used(course);
-        let is_few = self.are_few(course) || self.observations.unknowns.is_some() && is_followed;
-        is_few && course.weighting == Weighting::Biweight
+        let is_followed = || {
+            let (_, weight) = self.norms_and_weights(course);
+            (self.kept_components(&weight) as f64) < FOR_EACH_NUMBER * self.used(course)
+        };
+        let has_objects = self.observations.unknowns.is_some();
+        course.weighting == Weighting::Biweight && (self.are_few(course) || has_objects && is_followed())
     }
 
     /// Least squares without the rows that a robust course suspects and that are proven wrong.
@@ -50,18 +52,26 @@ impl Solver<'_> {
             (0..norms.len()).filter(|&row| weight[row] < SUSPECT && defined[row]).collect();
         suspects.sort_by(|&a, &b| norms[b].total_cmp(&norms[a]));
         let start = robust.point.values.clone();
+        if suspects.is_empty() {
+            let all = self.course(&start, Weighting::Full)?;
+            return Ok(self.unproven(all, robust));
+        }
         let takes_long = self.layout.components() as f64 >= LONG;
         let all = self.without(&start, &[])?;
         // All of them first: those that are wrong hide each other. Beside many that are not, the furthest prove more.
-        let mut count = suspects.len();
-        let mut kept = all.clone();
-        while count > 0 {
-            kept = self.without(&start, &suspects[..count])?;
+        let (mut count, mut proven) = (suspects.len(), None);
+        while count > 0 && proven.is_none() {
+            let kept = self.without(&start, &suspects[..count])?;
             if self.proves(&all, &kept, count) {
-                break;
+                proven = Some(kept);
+            } else {
+                count = if takes_long { 0 } else { count / 2 };
             }
-            count = if takes_long { 0 } else { count / 2 };
         }
+        let Some(mut kept) = proven else {
+            self.set_aside(&[]);
+            return Ok(self.unproven(all.course, robust));
+        };
         // The nearest of them may only be suspected beside the others.
         let mut fewer = if takes_long { 0 } else { count / 2 };
         while fewer > 0 {
@@ -75,11 +85,12 @@ impl Solver<'_> {
             }
         }
         self.set_aside(&suspects[..count]);
-        Ok(match count {
-            0 if !self.has_arrived(&all.course) && self.has_arrived(&robust) => robust,
-            0 => all.course,
-            _ => kept.course,
-        })
+        Ok(kept.course)
+    }
+
+    /// Least squares of all rows, where none is proven wrong; the robust course where that alone arrives.
+    fn unproven(&self, all: Course, robust: Course) -> Course {
+        if self.has_arrived(&all) || !self.has_arrived(&robust) { all } else { robust }
     }
 
     /// Least squares without some rows, of which nothing else is set aside.
@@ -125,7 +136,6 @@ impl Solver<'_> {
 }
 
 /// Least squares of some rows.
-#[derive(Clone)]
 struct Kept {
     course: Course,
     /// How many rows count.

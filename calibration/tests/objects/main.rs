@@ -12,7 +12,6 @@ mod refused;
 mod ridge;
 mod room;
 mod small;
-
 mod starts;
 mod visible;
 

@@ -6,7 +6,7 @@
 
 Each run draws a scanner's errors, its stations and the room, simulates it with one effect or none by the exact form below, which
 shares no code with the project, and calibrates it with the whole command. Stations that are unknown are told to 0.1 m and 1°, as
-starts. A range scale that is declared, with nothing to hold it, is to be refused. Beside each draw a control says what F tests say of it. NumPy alone is needed. Intervals are of 95 % (Wilson).
+starts; those that are stated, to 1 mm and 20″. A range scale that is declared, with nothing to hold it, is to be refused. Beside each draw a control says what F tests say of it. NumPy alone is needed. Intervals are of 95 % (Wilson).
 """
 import argparse
 import concurrent.futures
@@ -25,6 +25,13 @@ from control import smallest_p
 
 ARCSEC = math.pi / 648_000
 RANGE_NOISE, ANGLE_NOISE = 0.5e-3, 8 * ARCSEC
+# What is known of stations, with how far off what the study says of each is: x, y, z, m; roll, pitch, heading, rad.
+STATED_M, STATED_RAD = 1e-3, 20 * ARCSEC
+STATIONS = {
+    "unknown": [0.1, 0.1, 0.1, 0.002, 0.002, math.radians(1)],
+    "known": [0.0] * 6,
+    "stated": [STATED_M] * 3 + [STATED_RAD] * 3,
+}
 # Half a wavelength of the modulation, over which a phase meter's error repeats.
 REPEATS = 1.5
 # What is planted, how large, and what the catalogue calls it.
@@ -149,14 +156,15 @@ def study(kind, placed, random, known, more):
     text = 'chain = "scanner.chain"\ndata = "data.csv"\n[observed]\n'
     text += f'kind = "{"plane" if kind == "walls" else "target"}"\nobject = "object"\nstation = "station"\n[stations]\n'
     for label, (_, _, numbers) in placed.items():
-        about = numbers if known else numbers + random.normal(0, 1, 6) * [0.1, 0.1, 0.1, 0.002, 0.002, math.radians(1)]
+        about = numbers if known == "known" else numbers + random.normal(0, 1, 6) * STATIONS[known]
         units = zip(("x", "y", "z", "roll", "pitch", "heading"), about, ["m"] * 3 + ["rad"] * 3)
         cells = ", ".join(f'{name} = "{value:.9f} {unit}"' for name, value, unit in units)
-        text += f"{label} = {{ {cells}{'' if known else ', rough = true'} }}\n"
+        more_of_it = {"unknown": ", rough = true", "known": "", "stated": f', sigma = "{STATED_M} m", sigma_angle = "{STATED_RAD} rad"'}
+        text += f"{label} = {{ {cells}{more_of_it[known]} }}\n"
     return text + more
 
 
-def calibrated(command, random, kind, effect, rows, known=False, declared=False):
+def calibrated(command, random, kind, effect, rows, known="unknown", declared=False):
     """The instrument, what the command reports of it, and the control's p."""
     scanner, placed = Scanner(random, effect), stations(random)
     # A phase is a column only where a phase meter is suspected.
@@ -193,7 +201,7 @@ def calibrated(command, random, kind, effect, rows, known=False, declared=False)
 def trial(command, kind, cell, run, rows):
     """What one run came to: what was accepted and told, and how many intervals hold what was drawn."""
     effect, known, declared = cell
-    random = np.random.default_rng([run, len(kind), list(EFFECTS).index(effect), known, declared])
+    random = np.random.default_rng([run, len(kind), list(EFFECTS).index(effect), list(STATIONS).index(known), declared])
     scanner, report, control = calibrated(command, random, kind, effect, rows, known, declared)
     if report is None:
         return {"kind": kind, "cell": cell, "run": run, "verdict": "refused", "accepted": [], "told": [], "effects": 0, "control": control, "inside": 0, "of": 0}
@@ -228,7 +236,9 @@ def main():
     arguments = parser.parse_args()
     command = pathlib.Path(arguments.trueaxis).resolve()
     kinds = [arguments.only] if arguments.only else ["walls", "targets"]
-    cells = [(effect, False, False) for effect in EFFECTS] + [("range scale, 1e-3", True, False), ("range scale, 1e-3", False, True)]
+    cells = [(effect, "unknown", False) for effect in EFFECTS]
+    cells += [("range scale, 1e-3", known, declared) for known, declared in (("known", False), ("unknown", True), ("stated", False))]
+    cells += [("nothing", "stated", False)]
     print("| observed | planted | stations | runs | right | truth in the set | any effect | control below 0.05 | 95 % intervals that hold the truth | verdicts |")
     print("|---|---|---|---|---|---|---|---|---|---|")
     for kind in kinds:
@@ -246,7 +256,7 @@ def main():
             share = lambda holds: wilson(sum(map(holds, results)), runs)
             verdicts = [result["verdict"] for result in results]
             print(f"| {kind} | {effect}{', declared' if declared else ''} | "
-                  f"{'known' if known else 'unknown'} | {runs} | "
+                  f"{known} | {runs} | "
                   f"{share(lambda result: name in result['accepted']) if name else ''} | "
                   f"{share(lambda result: name in result['told']) if name else ''} | {share(lambda result: result['effects'] > 0)} | "
                   f"{share(lambda result: result['control'] < 0.05)} | "

@@ -17,6 +17,9 @@ use crate::search::{HeldOut, SearchError, Stage, nested};
 /// Fewer observations than this are no evidence of an effect.
 const FEW: f64 = 6.0;
 
+/// The same where what is stated of stations shows it: how uncertain each is need not be told from the others, and one that is wrong is one.
+const FEW_STATED: f64 = 3.0;
+
 /// The round that the report is about, judged on held-out rows.
 pub(super) struct Judged<'a> {
     pub round: Round<'a>,
@@ -84,25 +87,35 @@ fn without_few<'a>(
     let mut left_out = Vec::new();
     loop {
         let behind = |found: &Found| round.observations_behind(found.effect);
-        let (few, enough): (Vec<Found>, Vec<Found>) =
-            round.fitted.found.iter().cloned().partition(|found| behind(found) < FEW);
-        if few.is_empty() {
+        let least = |found: &Found| if round.is_shown_by_stations(found.effect) { FEW_STATED } else { FEW };
+        let name = |found: &Found| whole.catalogue[found.effect].name.clone();
+        let caution = |found: &Found| {
+            if behind(found) < least(found) {
+                return Some(Caution::FewBehindAnEffect { effect: name(found), observations: behind(found) });
+            }
+            let station = round.station_behind(found.effect)?;
+            let unknowns = whole.request.observations.unknowns.as_ref()?;
+            let station = unknowns.stations[station as usize].label.clone();
+            Some(Caution::StationBehindAnEffect { effect: name(found), station })
+        };
+        let cautions: Vec<Option<Caution>> = round.fitted.found.iter().map(caution).collect();
+        if cautions.iter().all(Option::is_none) {
             return Ok((round, left_out));
         }
-        left_out.extend(few.iter().map(|found| Caution::FewBehindAnEffect {
-            effect: whole.catalogue[found.effect].name.clone(),
-            observations: behind(found),
-        }));
+        let kept = round.fitted.found.iter().zip(&cautions).filter(|(_, caution)| caution.is_none());
+        let enough: Vec<Found> = kept.map(|(found, _)| found.clone()).collect();
+        left_out.extend(cautions.into_iter().flatten());
         round = Round::at(whole, Fitted::with(whole, enough, &round.fitted)?)?;
     }
 }
 
-/// Whether the places that are stated of objects confirm what was found. An object that is left out is estimated anew, and follows whatever
-/// its rows say as far as its uncertainty lets it: how far is in none of its residuals, but in their whitened sum.
+/// Whether the places that are stated of objects and stations confirm what was found. An object that is left out is estimated anew, and follows
+/// whatever its rows say as far as its uncertainty lets it: how far is in none of its residuals, but in their whitened sum. Of a station that
+/// is left out it is in what is stated of it.
 fn is_confirmed_by_places(whole: &Context<'_>, round: &Round<'_>, held_out: &HeldOut) -> bool {
     let unknowns = whole.request.observations.unknowns.as_ref();
-    let is_stated = unknowns.is_some_and(|own| own.objects.iter().any(|object| object.freedom.is_within()));
-    is_stated && {
+    let of_objects = unknowns.is_some_and(|own| own.objects.iter().any(|object| object.freedom.is_within()));
+    (of_objects || round.search.problem.stated() > 0) && {
         let (before, after) = held_out.sums_of_squares(&round.search.problem);
         after < before
     }

@@ -84,6 +84,14 @@ pub enum Caution {
         /// How many, as an effective number.
         observations: f64,
     },
+    /// An effect passed the test, but what is stated of one station alone shows it: it was left out again.
+    #[serde(rename = "one station behind an effect")]
+    StationBehindAnEffect {
+        /// Its name.
+        effect: String,
+        /// The station's label.
+        station: String,
+    },
     /// As many effects were accepted as a search may accept.
     #[serde(rename = "limit of effects reached")]
     LimitOfEffects {
@@ -156,18 +164,19 @@ pub enum Caution {
         /// So many times as much.
         times: f64,
     },
-    /// Nobody declared a scale of a range, and the search could not see it, since it takes stations that are not known exactly for unknown.
-    #[serde(rename = "no scale was looked for")]
-    ScaleNotSought {
+    /// Stations come out far from where the study states them, and a scale of the ranges that nobody declared would bring them home.
+    #[serde(rename = "a scale, or stations stated wrongly")]
+    ScaleOrPlaces {
         /// The range.
         range: String,
         /// The body along whose axis it is measured.
         body: String,
         /// That axis.
         axis: String,
-        /// What it is by the stated places, and its standard uncertainty; absent where they do not show it.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        fitted: Option<[f64; 2]>,
+        /// What it would be.
+        scale: f64,
+        /// Its standard uncertainty.
+        uncertainty: f64,
     },
     /// An object or a station comes out far from where the study states it.
     #[serde(rename = "not where it is stated")]

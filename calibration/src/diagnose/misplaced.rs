@@ -47,6 +47,11 @@ impl Misplaced {
         Vector3::from(self.shift_m).norm()
     }
 
+    /// Whether this is a station of which the uncertainty is stated.
+    pub fn is_stated_station(&self) -> bool {
+        self.what == Uneven::Station && self.sigmas.is_some()
+    }
+
     /// Whether this is that object or station.
     pub fn is(&self, what: Uneven, label: &str) -> bool {
         self.what == what && self.label == label

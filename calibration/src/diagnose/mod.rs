@@ -30,7 +30,7 @@ mod precision;
 pub(crate) mod remaining;
 mod rivals;
 pub(crate) mod rms;
-mod scale_not_sought;
+mod scale_or_places;
 pub(crate) mod shown;
 mod strayed;
 pub(crate) mod trace;
@@ -61,7 +61,7 @@ use misread::misread;
 use next::{Next, next};
 use noisy::Noisy;
 use rms::BeforeAfter;
-use scale_not_sought::scale_not_sought;
+use scale_or_places::scale_or_places;
 use verdict::Evidence;
 
 pub use at_zero::{AtZero, BesideFunction};
@@ -274,13 +274,10 @@ pub(crate) fn diagnose(
     let scatters = scatters.filter(|one| !misplaced.iter().any(|own| own.is(one.what, &one.label)));
     cautions.extend(scatters.map(|Scatter { what, label, times }| Caution::Scatters { what, label, times }));
     let searched = confirmed.as_ref().ok().map(|own| own.round);
-    cautions.extend(searched.into_iter().flat_map(|round| scale_not_sought(whole, round)));
-    // A scale that is missing moves all that is stated.
-    let is_scaled = cautions.iter().any(|caution| caution.missing_scale().is_some());
-    let misplaced = misplaced.into_iter().filter(|own| !is_scaled || own.sigmas.is_none());
-    let misplaced: Vec<Caution> = misplaced.map(Caution::from).collect();
+    cautions.extend(searched.into_iter().flat_map(|round| scale_or_places(whole, round, &misplaced)));
+    let misplaced: Vec<Caution> = misplaced.into_iter().map(Caution::from).collect();
     // Places that pull leave residuals of all kinds.
-    if let (Some(round), false, true) = (searched, is_scaled, misplaced.is_empty()) {
+    if let (Some(round), true) = (searched, misplaced.is_empty()) {
         cautions.extend(moved::moved(whole, round).map(Caution::Moved));
         cautions.extend(lengths::lengths_off(whole, round).map(Caution::LengthsOff));
     }

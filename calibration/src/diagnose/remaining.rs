@@ -117,12 +117,13 @@ fn tabulated(readings: &[f64], functions: impl Fn(f64) -> Vec<f64> + Sync) -> Ma
 /// Looks for structure in the last residual.
 pub(crate) fn remaining(whole: &Context<'_>, last: &Round<'_>) -> Result<Remaining, SearchError> {
     let observations = &*last.search.rows.observations;
-    let blocks = SetColumns::of(last.search.of_rows(), &last.sets);
+    let problem = last.search.of_functions();
+    let blocks = SetColumns::of(problem, &last.sets);
     let accepted: Vec<Vec<usize>> =
-        last.accepted_sets().into_iter().map(|set| blocks[set].to_vec()).collect();
+        last.shown_in(&blocks).into_iter().map(|(_, set)| blocks[set].to_vec()).collect();
     let options = &whole.options;
-    let signs = Signs::scattered(last.search.of_rows().group_of_row(), options.flips, options.seed);
-    let left = Left::new(last.search.of_rows(), &accepted, &signs);
+    let signs = Signs::scattered(problem.group_of_row(), options.flips, options.seed);
+    let left = Left::new(problem, &accepted, &signs);
 
     let mut smooths = smooth(&whole.setting);
     let mut symbols: Vec<SymbolId> = smooths.iter().map(|smooth| smooth.driver).collect();

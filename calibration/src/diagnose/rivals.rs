@@ -24,9 +24,9 @@ pub(super) struct Winner {
 
 /// Of rivals, each some whitened columns, the one that wins; `None` where none does.
 pub(super) fn contest(whole: &Context<'_>, last: &Round<'_>, rivals: &[Mat<f64>]) -> Option<Winner> {
-    let problem = last.search.of_rows();
+    let problem = last.search.of_functions();
     let blocks = SetColumns::of(problem, &last.sets);
-    let shown = last.shown();
+    let shown = last.shown_in(&blocks);
     let accepted: Vec<Vec<usize>> = shown.iter().map(|&(_, set)| blocks[set].to_vec()).collect();
     let signs = Signs::scattered(problem.group_of_row(), whole.options.flips, whole.options.seed);
     let left = Left::new(problem, &accepted, &signs);

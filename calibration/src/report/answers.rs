@@ -5,7 +5,7 @@ use super::effects::{chance_of_all, headline, place};
 use super::left::{function_form, remaining};
 use super::numbers::{short, times};
 use super::rivals::rival;
-use super::steps::{Step, fits_otherwise, is_misread, is_unconfirmed, is_worse, missing_scale, steps};
+use super::steps::{Step, fits_otherwise, is_misread, is_unconfirmed, is_worse, steps};
 use crate::data::SiUnit;
 use crate::diagnose::{Caution, Diagnosis, EffectFound, Ended, EveryRow, Rms, Verdict};
 
@@ -123,7 +123,6 @@ fn tone(diagnosis: &Diagnosis) -> Tone {
         _ if is_misread(diagnosis)
             || is_worse_elsewhere(diagnosis)
             || rival(diagnosis).is_some()
-            || missing_scale(diagnosis).is_some()
             || is_unconfirmed(diagnosis).is_some() =>
         {
             Tone::Careful
@@ -147,7 +146,6 @@ fn badge(diagnosis: &Diagnosis) -> String {
         Verdict::UnnamedFunction => "Place found, cause unknown".to_owned(),
         Verdict::StructureRemains => "Something is left".to_owned(),
         Verdict::NoiseExceedsStated => "Noisier than stated".to_owned(),
-        Verdict::NothingDetectable if missing_scale(diagnosis).is_some() => "A scale is missing".to_owned(),
         Verdict::NothingDetectable if is_unconfirmed(diagnosis).is_some() => "Not confirmed".to_owned(),
         Verdict::NothingDetectable => "Nothing missing found".to_owned(),
         Verdict::TooFewObservations => "Too few observations".to_owned(),
@@ -267,10 +265,6 @@ fn happened(diagnosis: &Diagnosis) -> String {
         {
             "The declaration explains these data to the last digit; what is left is rounding.".to_owned()
         }
-        Verdict::NothingDetectable if let Some((range, value)) = missing_scale(diagnosis) => format!(
-            "By the stated places of the stations `{range}` has a scale that the declaration lacks: {} a metre.",
-            short(value, SiUnit::METRE)
-        ),
         Verdict::NothingDetectable => {
             "No effect that the declaration lacks stands out from the noise.".to_owned()
         }

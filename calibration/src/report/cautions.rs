@@ -42,6 +42,10 @@ pub fn caution(caution: &Caution) -> String {
                  first."
             )
         }
+        Caution::StationBehindAnEffect { effect, station } => format!(
+            "{effect} stood out, but only by where station `{station}` is stated to be: without that it does not. It was left out. Check \
+             that place; if it is right, declare the effect."
+        ),
         Caution::LimitOfEffects { effects } => {
             format!("The search stopped at {effects} effects, as many as it may accept; there may be more.")
         }
@@ -100,8 +104,12 @@ pub fn caution(caution: &Caution) -> String {
                 ),
             }
         }
-        Caution::ScaleNotSought { range, body, axis, fitted } => {
-            scale(range, body, axis, *fitted, caution.missing_scale().is_some())
+        Caution::ScaleOrPlaces { range, body, axis, scale, uncertainty } => {
+            let [scale, uncertainty] = [scale, uncertainty].map(|ratio| short(*ratio, SiUnit::METRE));
+            format!(
+                "A scale of `{range}` that nobody declared, {scale} ± {uncertainty} a metre, would put all stations where they are stated. If \
+                 those places are right, declare it: T{axis}({range}_scale*{range}) in the motion_error of body {body}."
+            )
         }
         Caution::NotWhereStated { what, label, sigmas, away_m, shift_m, turn_rad } => {
             let (station, stated, table) = match what {
@@ -209,27 +217,6 @@ pub fn caution(caution: &Caution) -> String {
              declaration?",
             value_rad.to_degrees()
         ),
-    }
-}
-
-/// A scale that no search looked for.
-fn scale(range: &str, body: &str, axis: &str, fitted: Option<[f64; 2]>, is_missing: bool) -> String {
-    let declare = format!("T{axis}({range}_scale*{range}) in the motion_error of body {body}");
-    let size = fitted
-        .map(|own| own.map(|ratio| short(ratio, SiUnit::METRE)))
-        .map(|[value, uncertainty]| format!("{value} ± {uncertainty} a metre"));
-    match size {
-        Some(size) if is_missing => format!(
-            "`{range}` has a scale by the places that are stated of the stations, {size}, which the search cannot see, since it takes them for \
-             unknown. Declare it ({declare}), and calibrate again: left out, it goes into other errors."
-        ),
-        size => {
-            let size = size.map_or_else(String::new, |size| format!(" By their places it is {size}."));
-            format!(
-                "No scale of `{range}` was looked for: the search takes stations with a `sigma` for unknown, and only they would show it.{size} \
-                 If there may be one, declare it ({declare}), since other errors would take its place."
-            )
-        }
     }
 }
 

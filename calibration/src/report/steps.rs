@@ -67,11 +67,6 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
         ));
     } else if let Some(Rival { step: [title, text], .. }) = rival(diagnosis) {
         steps.push(step(title, text.to_owned()));
-    } else if let Some((range, _)) = missing_scale(diagnosis) {
-        steps.push(step(
-            "Declare the scale, and calibrate again",
-            format!("What to write stands in the caution. Without it the scale of `{range}` goes into other errors."),
-        ));
     } else if is_worse(diagnosis) {
         steps.push(step(
             "Do not correct with it",
@@ -253,11 +248,6 @@ pub(super) fn is_misread(diagnosis: &Diagnosis) -> bool {
         )
     };
     diagnosis.cautions.iter().any(misread)
-}
-
-/// A scale that nobody declared and that stated places show, and how large it is.
-pub(super) fn missing_scale(diagnosis: &Diagnosis) -> Option<(&str, f64)> {
-    diagnosis.cautions.iter().find_map(Caution::missing_scale)
 }
 
 /// Whether a mistake in reading explains the data.

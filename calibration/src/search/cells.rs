@@ -154,7 +154,7 @@ impl Cells {
             let own = Mat::from_fn(root.len(), behind.len(), |i, j| products[root[i] * width + behind[j]]);
             unfolding.unfold(own.as_ref(), part);
         });
-        (rows, Folds { group_of_row, fold_of_group, rows_of_fold })
+        (rows, Folds { group_of_row, fold_of_group, rows_of_fold, stated: 0 })
     }
 }
 

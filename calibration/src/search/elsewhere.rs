@@ -104,7 +104,8 @@ fn judged(
     if out < least || held.len() - out < least {
         return None;
     }
-    let folds = Folds::held_out(problem.group_of_row(), &held);
+    let of_rows = &problem.group_of_row()[..held.len()];
+    let folds = Folds::held_out(of_rows, &held).with_stated(&vec![None; problem.stated()]);
     let mut seen = problem.with_folds(folds);
     if let Some(reach) = problem.reach() {
         seen = seen.with_reach(reach.without(|component| !held[component], joint));

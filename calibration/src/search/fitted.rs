@@ -8,15 +8,12 @@ use super::readings::{ByReading, adjusted};
 use super::{SearchError, Stage};
 use crate::candidate::{Effect, EffectId};
 use crate::data::Poses;
-use crate::data::unknowns::{TILTS, Unknowns};
+use crate::data::unknowns::{OfStation, Unknowns};
 use crate::fit::noise::Layout;
 use crate::fit::{BESIDE_OBJECTS, FitError, FitOptions, FitResult, fit};
 use crate::search::ProblemError;
 use crate::search::columns::{Columns, Probed, places};
 use crate::study::Plan;
-
-/// A levelled station that comes out further off level than this, in terms of what is stated, is not.
-const OFF_LEVEL: f64 = 4.0;
 
 /// The columns of each effect, one a function.
 pub(crate) type OfEffects = Vec<Vec<Vec<f64>>>;
@@ -92,30 +89,27 @@ impl Fitted {
         }
     }
 
-    /// What the sizes of the declared errors say of their combinations, and what the study says of the levels of stations: a row for each, and how far
-    /// it is from where it is expected, both in units of its size.
-    pub fn stated(&self, declared: usize, unknowns: Option<&Unknowns>) -> (Mat<f64>, Vec<f64>) {
+    /// What the sizes of the declared errors say of their combinations: a row for each, and how far it is from where it is expected,
+    /// both in units of its size.
+    pub fn sizes(&self, declared: usize) -> (Mat<f64>, Vec<f64>) {
         let nominal = self.chain.nominal_values();
-        let of_error = |(at, size): (usize, &f64)| {
-            let id = self.fit.parameters[at].index();
-            (at, *size, nominal[id] - self.fit.values[id])
-        };
-        let errors = self.fit.subspace.size()[..declared].iter().enumerate().map(of_error);
-        let stations = unknowns.into_iter().flat_map(|unknowns| {
-            let (state, own) = (unknowns.state(&self.fit.values), unknowns.stations.iter());
-            own.zip(unknowns.first_of_stations()).flat_map(move |(station, first)| {
-                let tilts =
-                    station.level_rad.into_iter().flat_map(move |sigma| TILTS.map(|at| (first + at, sigma)));
-                // One that is off level says nothing.
-                let tilts = tilts.filter(move |(at, sigma)| state[*at].abs() < OFF_LEVEL * sigma);
-                tilts.map(move |(at, sigma)| (declared + at, sigma, -state[at]))
-            })
-        });
-        let all: Vec<(usize, f64, f64)> = errors.chain(stations).collect();
-        let stated = Mat::from_fn(all.len(), self.combinations.ncols(), |i, j| {
-            self.combinations[(all[i].0, j)] / all[i].1
-        });
-        (stated, all.iter().map(|(_, size, away)| away / size).collect())
+        let sizes = &self.fit.subspace.size()[..declared];
+        let stated =
+            Mat::from_fn(declared, self.combinations.ncols(), |i, j| self.combinations[(i, j)] / sizes[i]);
+        let away = sizes
+            .iter()
+            .zip(&self.fit.parameters)
+            .map(|(size, id)| (nominal[id.index()] - self.fit.values[id.index()]) / size);
+        (stated, away.collect())
+    }
+
+    /// What the study states of stations: of each number its column among the combinations, its standard uncertainty, and how far from
+    /// where it is stated it came to stand.
+    pub fn stated_of_stations(&self, unknowns: Option<&Unknowns>) -> Vec<OfStation> {
+        let Some(unknowns) = unknowns else { return Vec::new() };
+        let first = self.combinations.ncols() - unknowns.of_stations();
+        let stated = unknowns.stated_of_stations(unknowns.state(&self.fit.values)).into_iter();
+        stated.map(|own| OfStation { at: first + own.at, ..own }).collect()
     }
 
     /// The columns at poses at which nothing was measured, and those of each effect.

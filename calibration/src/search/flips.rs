@@ -64,14 +64,11 @@ impl Family<'_> {
     /// The smallest ln p over all blocks, for each flip.
     #[must_use]
     pub fn smallest(&self, signs: &Signs) -> Vec<f64> {
-        let (mut left, leverage) = self.left();
-        if is_needed(signs.buckets(), self.base.len()) {
-            return self.smallest_standardised(signs, &left);
+        let (left, leverage) = self.left();
+        if is_needed(signs.with_sign(), self.base.len()) {
+            return self.smallest_standardised(signs, &signs.flipped_as_is(&left, &leverage));
         }
-        // A row that the fit follows entirely has nothing left to flip.
-        for (value, h) in left.iter_mut().zip(leverage) {
-            *value /= (1.0 - h).max(1e-3).sqrt();
-        }
+        let left = signs.flipped(&left, &leverage);
         let total: f64 = left.iter().map(|e| e * e).sum();
         let scores = signs.scores_at(self.columns, |at| self.rows[at], &left);
         let whiteners: Vec<Mat<f64>> = self.blocks.iter().map(|block| self.sweep.whitener(block)).collect();

@@ -14,6 +14,8 @@ pub struct Folds {
     pub(super) fold_of_group: Vec<u32>,
     /// Rows of each fold. Where rows were merged, as many as there were before.
     pub(super) rows_of_fold: Vec<usize>,
+    /// Rows behind the others that state something by themselves.
+    pub(super) stated: usize,
 }
 
 impl Folds {
@@ -39,7 +41,7 @@ impl Folds {
             fold_of_group[group as usize] = fold as u32;
             rows_of_fold[fold] += size[group as usize] as usize;
         }
-        Self { group_of_row, fold_of_group, rows_of_fold }
+        Self { group_of_row, fold_of_group, rows_of_fold, stated: 0 }
     }
 
     /// The same, where units of several groups are held out together: of each row its group and its unit.
@@ -51,7 +53,7 @@ impl Folds {
         for (row, &group) in group_of_row.iter().enumerate() {
             fold_of_group[group as usize] = dealt.of_row(row) as u32;
         }
-        Self { group_of_row, fold_of_group, rows_of_fold: dealt.rows_of_fold }
+        Self { group_of_row, fold_of_group, rows_of_fold: dealt.rows_of_fold, stated: 0 }
     }
 
     /// Counts a row less in its fold: one that says nothing.
@@ -73,7 +75,22 @@ impl Folds {
             fold_of_group[group as usize] = u32::from(held);
             rows_of_fold[usize::from(held)] += 1;
         }
-        Self { group_of_row, fold_of_group, rows_of_fold }
+        Self { group_of_row, fold_of_group, rows_of_fold, stated: 0 }
+    }
+
+    /// The same with rows behind them that state something by themselves, each a group of its own: those of one unit are held out together, and
+    /// those without one never are.
+    #[must_use]
+    pub fn with_stated(mut self, units: &[Option<u32>]) -> Self {
+        let (first, folds) = (self.fold_of_group.len() as u32, self.count());
+        self.group_of_row.extend((first..).take(units.len()));
+        for unit in units {
+            let fold = unit.map_or(folds, |unit| unit as usize % folds);
+            self.fold_of_group.push(fold as u32);
+            self.rows_of_fold.get_mut(fold).into_iter().for_each(|rows| *rows += 1);
+        }
+        self.stated += units.len();
+        self
     }
 
     /// How many folds there are.
@@ -82,10 +99,10 @@ impl Folds {
         self.rows_of_fold.len()
     }
 
-    /// How many groups there are.
+    /// How many groups there are of rows that state nothing by themselves.
     #[must_use]
     pub fn groups(&self) -> usize {
-        self.fold_of_group.len()
+        self.fold_of_group.len() - self.stated
     }
 
     /// How many rows there are.
@@ -106,7 +123,7 @@ impl Folds {
         rows.iter().map(|&row| self.group(row)).collect()
     }
 
-    /// The fold that a row lies in.
+    /// The fold that a row lies in; the number of folds where it lies in none.
     #[must_use]
     pub fn of_row(&self, row: usize) -> usize {
         self.fold_of_group[self.group(row) as usize] as usize

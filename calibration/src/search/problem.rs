@@ -6,6 +6,7 @@
 //! (training folds) can be formed by adding and subtracting without loss.
 
 mod simulated;
+mod stated;
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -80,7 +81,8 @@ pub struct Problem {
     right: Mat<f64>,
     /// What candidates do at the data's poses and further out, if somebody said so.
     reach: Option<Reach>,
-    /// Gram matrix of what is stated of the declared errors, in every set of folds; none where nothing is.
+    /// Gram matrix of rows that lie in no fold, and of what is stated of the declared errors: part of every set of folds; none where
+    /// there is neither.
     prior: Option<Mat<f64>>,
     /// UᵀZ and Uᵀr, u × (K + 1): what the declared columns took of each candidate column and of the residual.
     absorbed: Mat<f64>,
@@ -185,6 +187,8 @@ impl Problem {
             prior: None,
         };
         problem.form_grams();
+        let in_none = problem.in_none();
+        problem.prior = (!in_none.is_empty()).then(|| problem.gram_of(&in_none));
         Ok(problem)
     }
 
@@ -192,33 +196,6 @@ impl Problem {
     #[must_use]
     pub fn with_reach(self, reach: Reach) -> Self {
         Self { reach: Some(reach), ..self }
-    }
-
-    /// The same with rows that state something of the declared columns' coefficients alone, and their residual, and with the size that each
-    /// candidate's coefficient is expected to have at most; they belong to no fold. Without sizes a fold that hardly sees a candidate
-    /// would take it for anything.
-    #[must_use]
-    pub fn with_prior(self, stated: MatRef<'_, f64>, residual: &[f64], sizes: &[f64]) -> Self {
-        let (u, k) = (self.declared, self.rows.ncols() - self.declared - 1);
-        let of_basis = stated * &self.right;
-        let taken = &of_basis * &self.absorbed;
-        let rows = Mat::from_fn(stated.nrows(), u + k + 1, |i, j| match j.checked_sub(u) {
-            None => of_basis[(i, j)],
-            Some(at) if at == k => residual[i] - taken[(i, k)],
-            Some(at) if self.lengths[at] > 0.0 => -taken[(i, at)] / self.lengths[at],
-            Some(_) => 0.0,
-        });
-        let mut prior = rows.transpose() * &rows;
-        for (at, size) in sizes.iter().enumerate().filter(|(at, _)| self.lengths[*at] > 0.0) {
-            prior[(u + at, u + at)] += (size * self.lengths[at]).powi(-2);
-        }
-        Self { prior: Some(prior), ..self }
-    }
-
-    /// The Gram matrix of what is stated of the declared errors, if anything is.
-    #[must_use]
-    pub fn prior(&self) -> Option<MatRef<'_, f64>> {
-        self.prior.as_ref().map(Mat::as_ref)
     }
 
     /// The same with its rows in other folds.
@@ -237,20 +214,18 @@ impl Problem {
 
     /// The Gram matrix of each fold's rows.
     fn form_grams(&mut self) {
+        let of_fold = |fold| self.gram_of(&self.rows_of_folds(|other| other == fold));
+        self.grams = (0..self.folds()).into_par_iter().map(of_fold).collect();
+    }
+
+    /// The Gram matrix of some rows.
+    fn gram_of(&self, members: &[usize]) -> Mat<f64> {
         let width = self.rows.ncols();
-        self.grams = (0..self.folds())
-            .into_par_iter()
-            .map(|fold| {
-                let mut gram = Mat::zeros(width, width);
-                let members = self.rows_of_folds(|f| f == fold);
-                // Of some rows at a time: those of a fold may be most of a matrix that is large.
-                members
-                    .chunks(AT_ONCE)
-                    .for_each(|some| add_products(gram.as_mut(), self.rows_at(some).as_ref()));
-                mirrored(gram.as_mut());
-                gram
-            })
-            .collect();
+        let mut gram = Mat::zeros(width, width);
+        // Of some rows at a time: those of a fold may be most of a matrix that is large.
+        members.chunks(AT_ONCE).for_each(|some| add_products(gram.as_mut(), self.rows_at(some).as_ref()));
+        mirrored(gram.as_mut());
+        gram
     }
 
     /// The rows that lie in the folds chosen, in order.
@@ -271,12 +246,12 @@ impl Problem {
         picked((*self.rows).as_ref(), members)
     }
 
-    /// The Gram matrix of the rows in the folds chosen, and how many rows those are (or were, before they were merged).
+    /// The Gram matrix of the rows in the folds chosen and in none, and how many rows those are (or were, before they were merged).
     #[must_use]
     pub fn gram(&self, chosen: impl Fn(usize) -> bool) -> (Mat<f64>, usize) {
         let width = self.rows.ncols();
         let mut sum = Mat::zeros(width, width);
-        let mut count = 0;
+        let mut count = self.in_none().len();
         for (fold, gram) in self.grams.iter().enumerate().filter(|&(fold, _)| chosen(fold)) {
             sum += gram;
             count += self.folds.rows_of_fold[fold];
@@ -297,7 +272,7 @@ impl Problem {
         self.folds.count()
     }
 
-    /// The fold that a row lies in.
+    /// The fold that a row lies in; the number of folds where it lies in none.
     #[must_use]
     pub fn fold_of_row(&self, row: usize) -> usize {
         self.folds.of_row(row)

@@ -1,15 +1,20 @@
 //! One round: the declaration with the effects accepted so far is fitted, and the search starts from there.
 
 use super::SearchError;
-use super::confounded::SetId;
+use super::confounded::{SetColumns, SetId};
 use super::context::{Context, Found};
 use super::fitted::Fitted;
+use super::state::State;
 use crate::candidate::EffectId;
+use crate::data::unknowns::OfStation;
 use crate::search::search_problem::SearchProblem;
 use crate::search::{Accepted, ConfoundedSet, Selection, confounded_sets, select};
 
 /// Degrees of freedom of a residual, and groups of its rows, below which nothing can be told of its structure.
 const FEWEST: usize = 20;
+
+/// Standard deviations by which an effect stands out that chance hardly makes.
+const STANDS_OUT: f64 = 3.0;
 
 /// A fit, and the search that starts from it.
 pub(crate) struct Round<'a> {
@@ -37,12 +42,52 @@ impl<'a> Round<'a> {
 
     /// How many observations an effect hangs on: the rows' share of its projected columns, as an effective number.
     pub fn observations_behind(&self, effect: EffectId) -> f64 {
+        self.search.share() * self.search.rows.rows_behind(self.shares(effect))
+    }
+
+    /// Whether what is stated of stations shows an effect more than the rows do.
+    pub fn is_shown_by_stations(&self, effect: EffectId) -> bool {
+        let problem = self.search.of_rows();
+        let count = problem.rows().nrows() - problem.stated();
+        let sum = |is_stated: bool| {
+            let own = self.shares(effect).filter(|(component, _)| (*component >= count) == is_stated);
+            own.map(|(_, share)| share).sum::<f64>()
+        };
+        sum(true) > sum(false)
+    }
+
+    /// The station whose stated place alone decides an effect, where one does: without it the effect does not stand out any more.
+    pub fn station_behind(&self, effect: EffectId) -> Option<u32> {
+        let problem = self.search.of_rows();
+        if !self.is_shown_by_stations(effect) {
+            return None;
+        }
+        let unknowns = self.search.rows.observations.unknowns.as_ref();
+        let stated = self.fitted.stated_of_stations(unknowns);
+        let mut state = State::declared(problem, |_| true);
+        for (number, _) in self.shown() {
+            state.add(&problem.columns(self.fitted.found[number].effect));
+        }
+        let first = problem.rows().nrows() - problem.stated();
+        let own = problem.columns(effect);
+        let decides = |of: &[OfStation], first: usize| {
+            let rows: Vec<usize> = (first..).take(of.len()).collect();
+            problem.standing_without(&state, &own, &rows) < STANDS_OUT
+        };
+        let mut next = first;
+        stated.chunk_by(|a, b| a.station == b.station).find_map(|of| {
+            next += of.len();
+            decides(of, next - of.len()).then_some(of[0].station)
+        })
+    }
+
+    /// The share that each component has in an effect's projected columns.
+    fn shares(&self, effect: EffectId) -> impl Iterator<Item = (usize, f64)> + '_ {
         let problem = self.search.of_rows();
         let rows = problem.rows();
-        let shares = problem.columns(effect).into_iter().flat_map(|column| {
+        problem.columns(effect).into_iter().flat_map(move |column| {
             (0..rows.nrows()).map(move |component| (component, rows[(component, column)].powi(2)))
-        });
-        self.search.share() * self.search.rows.rows_behind(shares)
+        })
     }
 
     /// The confounded set that an effect belongs to.
@@ -59,6 +104,11 @@ impl<'a> Round<'a> {
     pub fn shown(&self) -> Vec<(usize, SetId)> {
         let found = self.fitted.found.iter().enumerate();
         found.filter_map(|(number, found)| Some((number, self.set_of(found.effect)?))).collect()
+    }
+
+    /// Those of them of which a problem has columns.
+    pub fn shown_in(&self, blocks: &SetColumns) -> Vec<(usize, SetId)> {
+        self.shown().into_iter().filter(|&(_, set)| !blocks[set].is_empty()).collect()
     }
 
     /// The linear search from the accepted effects.

@@ -180,11 +180,12 @@ impl<'a> RowSet<'a> {
     }
 
     /// How many rows something hangs on, as an effective number: (Σ share)² / Σ share² over rows, whose shares are told
-    /// component by component.
+    /// component by component; what is stated by itself, behind the components, is a row of its own.
     pub fn rows_behind(&self, shares: impl Iterator<Item = (usize, f64)>) -> f64 {
         let mut by_row: BTreeMap<u32, f64> = BTreeMap::new();
         for (component, share) in shares {
-            *by_row.entry(self.columns.row[component]).or_insert(0.0) += share;
+            let row = self.columns.row.get(component).map_or(u32::MAX - component as u32, |row| *row);
+            *by_row.entry(row).or_insert(0.0) += share;
         }
         let sum: f64 = by_row.values().sum();
         let squares: f64 = by_row.values().map(|share| share * share).sum();

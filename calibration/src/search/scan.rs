@@ -50,7 +50,7 @@ pub struct Left<'a> {
     pub residual: Vec<f64>,
     /// Orthonormal columns that span the known ones.
     pub basis: Mat<f64>,
-    /// The residual with each row's leverage undone, which is what is flipped.
+    /// What is flipped: the residual with each row's leverage undone, or as it is where each flip has its own variance.
     flipped: Vec<f64>,
     signs: &'a Signs,
     /// What the known columns leave of the sum of squares of each flip.
@@ -106,8 +106,11 @@ impl<'a> Left<'a> {
                 *h += u * u;
             }
         }
-        let flipped: Vec<f64> =
-            residual.iter().zip(leverage).map(|(r, h)| r / (1.0 - h).max(1e-3).sqrt()).collect();
+        let is_standardised = is_needed(signs.with_sign(), basis.ncols());
+        let flipped = match is_standardised {
+            true => signs.flipped_as_is(&residual, &leverage),
+            false => signs.flipped(&residual, &leverage),
+        };
         let known_gram = known.transpose() * &known;
         let (known_scores, rss) = (Mat::zeros(0, 0), Vec::new());
         let declared = problem.declared();
@@ -135,8 +138,7 @@ impl<'a> Left<'a> {
         left.known_scores = signs.scores(left.known.as_ref(), &left.flipped);
         let total: f64 = left.flipped.iter().map(|e| e * e).sum();
         left.rss = vec![total; signs.flips()];
-        if is_needed(signs.buckets(), left.basis.ncols()) {
-            left.rss = vec![left.residual.iter().map(|e| e * e).sum(); signs.flips()];
+        if is_standardised {
             return left;
         }
         let sums = signs.flip(signs.scores(left.basis.as_ref(), &left.flipped).as_ref());
@@ -203,8 +205,8 @@ impl<'a> Left<'a> {
     /// Scans sheets, made one after another by `sheet`.
     pub fn scan(&self, sheets: usize, sheet: impl Fn(usize) -> Sheet + Sync) -> Scan {
         let rows = self.residual.len();
-        let standardised = is_needed(self.signs.buckets(), self.basis.ncols())
-            .then(|| Standardised::new(self.signs, self.basis.as_ref(), &self.residual));
+        let standardised = is_needed(self.signs.with_sign(), self.basis.ncols())
+            .then(|| Standardised::new(self.signs, self.basis.as_ref(), &self.flipped));
         let each: Vec<Scanned> = (0..sheets)
             .into_par_iter()
             .map(|number| {

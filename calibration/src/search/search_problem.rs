@@ -10,6 +10,7 @@ use super::filling::{Filled, each_chunk};
 use super::row_set::{RowSet, components, dealt};
 use super::stretches::{Chunks, all_rows, sample};
 use crate::candidate::{EffectId, Freedom, Place};
+use crate::data::unknowns::OfStation;
 use crate::data::{Poses, golden};
 use crate::search::SearchError;
 use crate::search::columns::{Columns, Probed, keep, places};
@@ -46,6 +47,8 @@ pub(crate) struct SearchProblem<'a> {
     pub rows: RowSet<'a>,
     /// The whitened problem of the sample; none where `rows` are all.
     sampled: Option<Problem>,
+    /// That of `rows` without what is stated of stations; none where nothing is.
+    unstated: Option<Problem>,
     /// The folds that the components of all rows were dealt to.
     folds: Folds,
     /// Per effect, whether these data let one use it.
@@ -72,9 +75,13 @@ impl<'a> SearchProblem<'a> {
         let mut rows = RowSet::of(whole, fitted, &all_rows(whole.request.observations), |_| true)?;
         let usable = rows.seen.usable(&whole.catalogue);
         rows.keep(&usable);
-        let problem = problem(whole, fitted, &usable, rows.whitened(), folds.clone())?;
+        let stated = fitted.stated_of_stations(whole.request.observations.unknowns.as_ref());
+        let of_rows =
+            |stated: &[OfStation]| problem(whole, fitted, &usable, rows.whitened(), folds.clone(), stated);
+        let problem = of_rows(&stated)?;
+        let unstated = if stated.is_empty() { None } else { Some(of_rows(&[])?) };
         let reach = reach(whole, fitted, &problem, &rows, &usable)?;
-        Ok(Self { problem: problem.with_reach(reach), rows, sampled: None, folds, usable })
+        Ok(Self { problem: problem.with_reach(reach), sampled: None, unstated, rows, folds, usable })
     }
 
     /// With chunk after chunk merged into what is left of those before, and a sample in memory.
@@ -95,24 +102,35 @@ impl<'a> SearchProblem<'a> {
             .map(|(column, _)| column)
             .collect();
         let (merged, of_merged) = cells.merged(&spanning.unfolding(&kept));
-        let problem_of_all = problem(whole, fitted, &usable, merged, of_merged)?;
+        let stated = fitted.stated_of_stations(observations.unknowns.as_ref());
+        let problem_of_all = problem(whole, fitted, &usable, merged, of_merged, &stated)?;
 
         let few = whole.held / OF_SAMPLE / width * observations.rows() / folds.rows();
         let sample = sample(observations, few, whole.request.plan.hold_out.seed);
         let mut rows = RowSet::of(whole, fitted, &sample, |_| true)?;
         rows.keep(&usable);
         let hold_out = &whole.request.plan.hold_out;
-        let of_rows = dealt(&rows.observations, &fitted.fit.noise, hold_out.folds, hold_out.seed);
-        let sampled = problem(whole, fitted, &usable, rows.whitened(), of_rows)?;
+        let of_sample = dealt(&rows.observations, &fitted.fit.noise, hold_out.folds, hold_out.seed);
+        let of_rows = |stated: &[OfStation]| {
+            problem(whole, fitted, &usable, rows.whitened(), of_sample.clone(), stated)
+        };
+        let sampled = of_rows(&stated)?;
+        let unstated = if stated.is_empty() { None } else { Some(of_rows(&[])?) };
         let of_sample = reach(whole, fitted, &sampled, &rows, &usable)?;
         let sampled = sampled.with_reach(of_sample);
         let reach = reach(whole, fitted, &problem_of_all, &rows, &usable)?;
-        Ok(Self { problem: problem_of_all.with_reach(reach), rows, sampled: Some(sampled), folds, usable })
+        let problem = problem_of_all.with_reach(reach);
+        Ok(Self { problem, sampled: Some(sampled), unstated, rows, folds, usable })
     }
 
     /// The problem of [`Self::rows`].
     pub fn of_rows(&self) -> &Problem {
         self.sampled.as_ref().unwrap_or(&self.problem)
+    }
+
+    /// The same without what is stated of stations, as functions of any form are looked for: they follow any place that is wrong.
+    pub fn of_functions(&self) -> &Problem {
+        self.unstated.as_ref().unwrap_or(self.of_rows())
     }
 
     /// How many rows there are for each of [`Self::rows`].
@@ -175,14 +193,25 @@ fn cells(fill: usize, folds: usize) -> usize {
     CELLS.min(most)
 }
 
-/// The problem of some whitened rows, which hold the columns of usable effects alone.
+/// The problem of some whitened rows, which hold the columns of usable effects alone, and of what is stated of stations behind them.
 fn problem(
     whole: &Context<'_>,
     fitted: &Fitted,
     usable: &[bool],
-    rows: Mat<f64>,
+    mut rows: Mat<f64>,
     folds: Folds,
+    stated: &[OfStation],
 ) -> Result<Problem, ProblemError> {
+    // What is stated of a station is an observation of its own, of that number alone.
+    let (count, width) = rows.shape();
+    rows.resize_with(count + stated.len(), width, |_, _| 0.0);
+    for (row, own) in (count..).zip(stated) {
+        rows[(row, own.at)] = 1.0 / own.sigma;
+        rows[(row, width - 1)] = own.away / own.sigma;
+    }
+    let several = stated.iter().any(|own| own.station != stated[0].station);
+    let units: Vec<Option<u32>> = stated.iter().map(|own| several.then_some(own.station)).collect();
+    let folds = folds.with_stated(&units);
     let mut count = 0;
     let blocks = whole.catalogue.iter().zip(usable).map(|(effect, &usable)| {
         let start = count;
@@ -200,8 +229,7 @@ fn problem(
     if !plan.fit.anchored {
         return Ok(problem);
     }
-    let (stated, residual) =
-        fitted.stated(declared(whole).len(), whole.request.observations.unknowns.as_ref());
+    let (stated, residual) = fitted.sizes(declared(whole).len());
     let sizes: Vec<f64> = of_function.iter().map(|freedom| tolerance_of(plan, freedom.quantity())).collect();
     Ok(problem.with_prior(stated.as_ref(), &residual, &sizes))
 }

@@ -86,7 +86,9 @@ pub fn select(
     let blocks = SetColumns::of(problem, sets);
     let members = problem.rows_of_folds(chosen);
     let groups: Vec<u32> = members.iter().map(|&row| problem.group_of_row()[row]).collect();
-    let signs = Signs::new(&groups, options.flips, options.seed);
+    let first_stated = problem.rows().nrows() - problem.stated();
+    let stated = members.iter().filter(|&&row| row >= first_stated).count();
+    let signs = Signs::new(&groups, stated, options.flips, options.seed);
     let folds: Vec<usize> = (0..problem.folds()).filter(|&fold| chosen(fold)).collect();
 
     let mut state = State::declared(problem, chosen);
@@ -193,8 +195,8 @@ impl Search<'_> {
         let tested: Vec<Vec<usize>> = open.iter().map(|&set| self.blocks[set].to_vec()).collect();
         let best = gains.iter().map(|&(gain, rank)| tails.ln_p(rank, gain, state.rss())).fold(0.0, f64::min);
         // Far beyond what the flips could resolve, their number alone bounds the p; not where groups are few, since the
-        // table knows nothing of them.
-        let resolved = !is_needed(signs.buckets(), state.base.len());
+        // table knows nothing of them; nor where stations may be further off than is stated.
+        let resolved = !is_needed(signs.with_sign(), state.base.len()) && signs.stated() == 0;
         let sure = resolved && best + (open.len() as f64).ln() < BEYOND_FLIPS;
         let family = Family {
             columns: self.problem.rows(),

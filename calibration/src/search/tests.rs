@@ -97,3 +97,33 @@ fn a_prior_is_rows_that_belong_to_no_fold() {
         approx::assert_relative_eq!(found / problem.length(column), direct, epsilon = 1e-10);
     }
 }
+
+/// Rows that state something by themselves lie in the folds of their units; those without one are part of every set.
+#[test]
+fn stated_rows_are_held_out_with_their_units_alone() {
+    let (n, p) = (40, 3);
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let mut normal = |_: usize, _: usize| -> f64 { StandardNormal.sample(&mut random) };
+    let units = [Some(0), Some(0), Some(1), None];
+    // Declared columns, one candidate, the residual; what is stated is of the declared columns alone.
+    let rows = Mat::from_fn(n + units.len(), p + 2, |i, j| if i >= n && j == p { 0.0 } else { normal(i, j) });
+    let groups: Vec<u32> = (0..n as u32).collect();
+    let folds = Folds::deal(&groups, 4, 1).with_stated(&units);
+    let in_fold = |row: usize, fold: usize| folds.of_row(row) == fold;
+    assert_eq!((n..n + 4).map(|row| folds.of_row(row)).collect::<Vec<_>>(), [0, 0, 1, 4]);
+    assert_eq!((folds.groups(), folds.count()), (n, 4));
+    let block = std::slice::from_ref(&(0..1));
+    let problem = Problem::of_rows(rows.clone(), p, block, &[0.0], folds.clone()).unwrap();
+    for without in 0..4 {
+        let mut state = State::declared(&problem, |fold| fold != without);
+        let kept: Vec<usize> = (0..n + units.len()).filter(|&row| !in_fold(row, without)).collect();
+        assert_eq!(state.rows, kept.len());
+        let column = problem.block(EffectId(0)).start;
+        state.add(&[column]);
+        let found = state.coefficients().iter().find(|(own, _)| *own == column).unwrap().1;
+        let all = Mat::from_fn(kept.len(), p + 1, |i, j| rows[(kept[i], j)]);
+        let left = Mat::from_fn(kept.len(), 1, |i, _| rows[(kept[i], p + 1)]);
+        let direct = all.qr().solve_lstsq(&left)[(p, 0)];
+        approx::assert_relative_eq!(found / problem.length(column), direct, epsilon = 1e-10);
+    }
+}

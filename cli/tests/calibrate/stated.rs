@@ -66,7 +66,6 @@ fn stated_points_show_a_scale_that_nobody_declared() {
             holds(&report, &[("range_scale", longer)]);
         }
         holds(&report, &[("range_zero", 0.0)]);
-        assert!(cautions(&report, "no scale was looked for").is_empty());
     }
 }
 
@@ -97,9 +96,9 @@ fn stations(room: &Room, random: &mut Random, off_m: f64) -> String {
     text
 }
 
-/// A scale that only stated stations show is told with its size, and is the first thing to do where it is no chance.
+/// A scale that only stated stations show is found, and one that is not there is not.
 #[test]
-fn a_scale_that_stated_stations_show_is_told() {
+fn stated_stations_show_a_scale_that_nobody_declared() {
     let folder = Folder::new("stated-scale-stations");
     folder.write("tracker.chain", TRACKER.replace(", Ty(longer*range)", ""));
     for (seed, longer) in [(41, 3e-3), (42, -3e-3), (43, 0.0)] {
@@ -108,14 +107,33 @@ fn a_scale_that_stated_stations_show_is_told() {
         let study = format!("{STUDY}{}", stations(&room, random, 0.0));
         folder.write("rows.csv", room.rows(random, longer)).write("study.toml", study);
         let report = calibrated(&folder, "study.toml");
-        let own = cautions(&report, "no scale was looked for");
-        let [scale, uncertainty] = [0, 1].map(|at| number(&own[0]["fitted"][at]));
-        assert!((scale - longer).abs() < 4.0 * uncertainty, "{scale} ± {uncertainty}, not {longer}");
+        if longer == 0.0 {
+            assert_eq!(report["effects"], serde_json::json!([]));
+        } else {
+            assert!(first_effect(&report).contains("range scale"), "{}", report["effects"]);
+            holds(&report, &[("range_scale", longer)]);
+        }
         assert!(cautions(&report, "not where it is stated").is_empty(), "{}", report["cautions"]);
-        let told = run_in(&folder.0, &["calibrate", "study.toml"], "").stdout;
-        let is_missing = told.starts_with("A SCALE IS MISSING") && told.contains("Declare the scale");
-        assert_eq!(is_missing, longer != 0.0, "{told}");
     }
+}
+
+/// Two places tell one distance: whether it is too long or one of them is wrong, no row says.
+#[test]
+fn a_scale_that_one_distance_shows_is_told_beside_the_places() {
+    let folder = Folder::new("stated-scale-distance");
+    folder.write("tracker.chain", TRACKER.replace(", Ty(longer*range)", ""));
+    let random = &mut Random::new(45);
+    let room = Room::new(random);
+    let two: String = stations(&room, random, 0.0).lines().take(3).map(|line| format!("{line}\n")).collect();
+    folder.write("rows.csv", room.rows(random, 5e-3)).write("study.toml", format!("{STUDY}{two}"));
+    let report = calibrated(&folder, "study.toml");
+    assert_eq!(report["effects"], serde_json::json!([]));
+    assert_eq!(cautions(&report, "not where it is stated").len(), 2, "{}", report["cautions"]);
+    let own = cautions(&report, "a scale, or stations stated wrongly");
+    let [scale, uncertainty] = ["scale", "uncertainty"].map(|name| number(&own[0][name]));
+    assert!((scale - 5e-3).abs() < 4.0 * uncertainty, "{scale} ± {uncertainty}");
+    let told = run_in(&folder.0, &["calibrate", "study.toml"], "").stdout;
+    assert!(told.contains("Ty(range_scale*range)") && told.contains("Do not correct with it yet"), "{told}");
 }
 
 /// A station that is stated wrongly is no scale.
@@ -129,25 +147,8 @@ fn a_station_that_is_stated_wrongly_is_no_scale() {
     folder.write("rows.csv", room.rows(random, 0.0)).write("study.toml", study);
     let report = calibrated(&folder, "study.toml");
     assert!(!cautions(&report, "not where it is stated").is_empty(), "{}", report["cautions"]);
-    let own = cautions(&report, "no scale was looked for");
-    assert!(own.iter().all(|one| one["fitted"].is_null()), "{own:?}");
-}
-
-/// The search takes stated stations for unknown, so that whoever declares no scale has to be told of it, and who does has not.
-#[test]
-fn a_scale_that_is_not_looked_for_is_told() {
-    let folder = Folder::new("stated-no-scale");
-    let random = &mut Random::new(3);
-    let room = Room::new(random);
-    let study = format!("{STUDY}{}", stations(&room, random, 0.0));
-    folder.write("rows.csv", room.rows(random, LONGER)).write("study.toml", study);
-    for (chain, is_told) in [(TRACKER.to_owned(), false), (TRACKER.replace(", Ty(longer*range)", ""), true)] {
-        folder.write("tracker.chain", chain);
-        let report = calibrated(&folder, "study.toml");
-        let own = cautions(&report, "no scale was looked for");
-        assert_eq!(own.len(), usize::from(is_told), "{}", report["cautions"]);
-        assert!(own.iter().all(|one| one["range"] == "range" && one["body"] == "beam" && one["axis"] == "y"));
-    }
+    assert_eq!(report["effects"], serde_json::json!([]));
+    assert!(cautions(&report, "a scale, or stations stated wrongly").is_empty());
 }
 
 #[test]

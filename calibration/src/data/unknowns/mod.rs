@@ -1,16 +1,16 @@
 //! What rows observe without anybody knowing where it is: planes, targets, sockets, wires, and the stations from which they
 //! were seen; and which row has to do with which.
 
+mod believed;
 mod frame;
 mod pose;
-
-use std::borrow::Cow;
 
 use faer::Mat;
 use nalgebra::Vector3;
 
 use super::{Measure, tangent_frame};
 
+pub(crate) use believed::OfStation;
 pub use pose::Pose;
 pub(crate) use pose::right_jacobian;
 
@@ -92,9 +92,6 @@ impl Freedom {
         matches!(self, Self::Within { .. })
     }
 }
-
-/// An object that moved this many times further than is stated, and than half of the others did, is not where it is stated.
-const ELSEWHERE: f64 = 4.0;
 
 /// How the place came about that the numbers of an object or station count from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -372,52 +369,6 @@ impl Unknowns {
             }
         }
         columns
-    }
-
-    /// The same, but what is stated of an object that turned out to be somewhere else altogether does not count: it moved by these
-    /// numbers many times further than is stated, and than the others did.
-    pub(crate) fn believed(&self, numbers: &[f64]) -> Cow<'_, Self> {
-        let firsts = self.first_of_objects();
-        let in_sigmas = self.objects.iter().zip(firsts).map(|(object, first)| match object.freedom {
-            Freedom::Within { shift_m, .. } => {
-                let own = numbers[first..][..object.numbers()].iter();
-                own.map(|value| value.abs() / shift_m).reduce(f64::max)
-            }
-            Freedom::Free | Freedom::Given => None,
-        });
-        let in_sigmas: Vec<Option<f64>> = in_sigmas.collect();
-        let mut sorted: Vec<f64> = in_sigmas.iter().flatten().copied().collect();
-        sorted.sort_by(f64::total_cmp);
-        let most =
-            ELSEWHERE * sorted.get(sorted.len().saturating_sub(1) / 2).map_or(1.0, |half| half.max(1.0));
-        let is_elsewhere = |of_object: &Option<f64>| of_object.is_some_and(|sigmas| sigmas > most);
-        if !in_sigmas.iter().any(is_elsewhere) {
-            return Cow::Borrowed(self);
-        }
-        let mut believed = self.clone();
-        for (object, own) in believed.objects.iter_mut().zip(&in_sigmas) {
-            object.freedom = if is_elsewhere(own) { Freedom::Free } else { object.freedom };
-        }
-        Cow::Owned(believed)
-    }
-
-    /// Residuals of components, each of a row, as they would be with the objects of which a place is stated there, and not where
-    /// these numbers have them.
-    pub(crate) fn as_if_stated(
-        &self,
-        numbers: &[f64],
-        row: &[u32],
-        unknown: &[[f64; WIDTH]],
-        residual: &mut [f64],
-    ) {
-        let first = self.first_of_objects();
-        for ((residual, &row), unknown) in residual.iter_mut().zip(row).zip(unknown) {
-            let Some(object) = self.object[row as usize].map(|object| object as usize) else { continue };
-            if self.objects[object].freedom.is_within() {
-                let own = &numbers[first[object]..][..self.objects[object].numbers()];
-                *residual += unknown.iter().zip(own).map(|(by, value)| by * value).sum::<f64>();
-            }
-        }
     }
 }
 

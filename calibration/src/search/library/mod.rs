@@ -126,12 +126,12 @@ pub(crate) fn contest(whole: &Context<'_>, last: &Round<'_>) -> Result<Contest, 
         columns.probe(smooth.place).is_some() && drivers.iter().any(|driver| driver.symbol == smooth.driver)
     });
 
-    let blocks = SetColumns::of(last.search.of_rows(), &last.sets);
-    let shown = last.shown();
+    let problem = last.search.of_functions();
+    let blocks = SetColumns::of(problem, &last.sets);
+    let shown = last.shown_in(&blocks);
     let accepted: Vec<Vec<usize>> = shown.iter().map(|&(_, set)| blocks[set].to_vec()).collect();
-    let signs =
-        Signs::scattered(last.search.of_rows().group_of_row(), whole.options.flips, whole.options.seed);
-    let mut left = Left::new(last.search.of_rows(), &accepted, &signs);
+    let signs = Signs::scattered(problem.group_of_row(), whole.options.flips, whole.options.seed);
+    let mut left = Left::new(problem, &accepted, &signs);
     let of = |number: usize| &whole.catalogue[last.fitted.found[number].effect];
     left.thresholds = shown.iter().map(|&(number, _)| thresholds(of(number))).collect();
     let library = Library { whole, last, columns, drivers, left, shown };
@@ -311,7 +311,7 @@ impl Library<'_, '_> {
     fn is_confirmed(&self, judged: &Judged) -> bool {
         let Some((_, readings)) = self.driver(judged.smooth) else { return false };
         let columns = self.sheet(judged.smooth, &judged.shape.values(readings));
-        let problem = self.last.search.of_rows();
+        let problem = self.last.search.of_functions();
         let rows = problem.rows().nrows();
         let (setting, driver) = (&self.whole.setting, judged.smooth.driver);
         let is_pose = setting.chain.symbol(driver).kind == SymbolKind::Joint

@@ -26,7 +26,7 @@ impl Problem {
         self.split(column).0.col_as_slice(0).to_vec()
     }
 
-    /// The same columns with another residual: what simulations search again and again.
+    /// The same columns with another residual: what simulations search again and again, where nothing is stated of coefficients.
     ///
     /// # Errors
     /// A residual of another length, or one that is not finite.
@@ -38,6 +38,7 @@ impl Problem {
         check_finite("the residual", faer::ColRef::from_slice(residual).as_mat())?;
         let (left, taken) = self.split(residual);
         let last = self.residual();
+        debug_assert!(self.prior.is_none(), "what is stated has a residual of its own");
         let mut problem = self.clone();
         let rows = Arc::make_mut(&mut problem.rows);
         rows.col_mut(last).copy_from(left.col(0));

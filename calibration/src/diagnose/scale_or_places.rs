@@ -1,25 +1,24 @@
-//! Scales of ranges that only stations with a standard uncertainty would show: the search takes those for unknown. A fit beside the
-//! stated places says how large they are.
+//! Stations that come out elsewhere than they are stated, all of which a scale of the ranges that nobody declared would bring home: two
+//! places tell one distance, and no row says whether a place is wrong or every distance too long.
 
 use super::caution::Caution;
-use super::misplaced::by_what_is_stated;
+use super::misplaced::{Misplaced, by_what_is_stated};
 use crate::candidate::{Dependence, EffectId};
 use crate::effects::RANGE;
 use crate::search::context::{Context, Found};
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
 
-/// Stations that show a scale together.
-const SHOW: usize = 2;
-
 /// A scale is no chance from so many of its standard uncertainties on.
 const SURE: f64 = 4.0;
 
-/// What is told of each range whose scale nobody declared, where the search cannot see it though stations are stated.
-pub(super) fn scale_not_sought(whole: &Context<'_>, last: &Round<'_>) -> Vec<Caution> {
-    let Some(unknowns) = &whole.request.observations.unknowns else { return Vec::new() };
-    let stations = unknowns.stations.iter().filter(|own| own.freedom.is_within()).count();
-    if stations < SHOW {
+/// What is told of each range whose scale nobody declared and no search accepted.
+pub(super) fn scale_or_places(
+    whole: &Context<'_>,
+    last: &Round<'_>,
+    misplaced: &[Misplaced],
+) -> Vec<Caution> {
+    if !misplaced.iter().any(Misplaced::is_stated_station) {
         return Vec::new();
     }
     let chain = &last.fitted.chain;
@@ -34,14 +33,13 @@ pub(super) fn scale_not_sought(whole: &Context<'_>, last: &Round<'_>) -> Vec<Cau
             (effect.family, effect.driver.as_str(), &effect.form) == (RANGE, name, &Dependence::Linear)
         };
         let scale = last.search.problem.candidates().find(|&effect| is_scale(effect))?;
+        if last.fitted.found.iter().any(|found| found.effect == scale) {
+            return None;
+        }
+        let [scale, uncertainty] = fitted(whole, last, scale)?;
         let (range, body) = (name.to_owned(), whole.setting.body_name(body).to_owned());
-        let is_seen = !last.search.problem.columns(scale).is_empty();
-        (!is_seen).then(|| Caution::ScaleNotSought {
-            range,
-            body,
-            axis: axis.to_string(),
-            fitted: fitted(whole, last, scale),
-        })
+        let of_size = Caution::ScaleOrPlaces { range, body, axis: axis.to_string(), scale, uncertainty };
+        (scale.abs() > SURE * uncertainty).then_some(of_size)
     });
     ranges.collect()
 }
@@ -59,18 +57,4 @@ fn fitted(whole: &Context<'_>, last: &Round<'_>, scale: EffectId) -> Option<[f64
         return None;
     }
     Some([fit.values[scale.index()], fit.standard_uncertainty(scale)?])
-}
-
-impl Caution {
-    /// The range whose scale is missing for sure, and how large it is; `None` where it may be chance.
-    pub(crate) fn missing_scale(&self) -> Option<(&str, f64)> {
-        match self {
-            Self::ScaleNotSought { range, fitted: Some([value, uncertainty]), .. }
-                if value.abs() > SURE * uncertainty =>
-            {
-                Some((range, *value))
-            }
-            _ => None,
-        }
-    }
 }

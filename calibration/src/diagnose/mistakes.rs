@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use model_core::{Chain, Quantity, SymbolId, SymbolKind};
 use serde::Serialize;
 
-use crate::data::Observations;
 use crate::data::unknowns::{Known, Places, Pose, Unknowns};
+use crate::data::{Measure, Measured, Observations};
 use crate::fit::range_of;
 
 /// Joints that are tried one by one at most.
@@ -102,6 +102,42 @@ pub enum Misreading {
         /// In which unit they are, and in which they were read.
         unit: &'static str,
     },
+    /// Lengths are twice as long as they are: diameters for radii.
+    Doubled {
+        /// Which.
+        of: MeasuredLengths,
+    },
+    /// Measured lengths are in another unit.
+    LengthsUnit {
+        /// Of what.
+        of: MeasuredLengths,
+        /// In which unit they are, and in which they were read.
+        unit: &'static str,
+    },
+}
+
+/// Lengths that are measured beside the readings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum MeasuredLengths {
+    /// Radii of circles.
+    Radii,
+    /// Distances of two points, radii of spheres among them.
+    Distances,
+    /// What is wound off of wires.
+    Wires,
+}
+
+impl MeasuredLengths {
+    /// What rows of a measure have beside their readings, if it is a length.
+    fn of(measure: Measure) -> Option<Self> {
+        match measure {
+            Measure::Ring => Some(Self::Radii),
+            Measure::Distance => Some(Self::Distances),
+            Measure::Wire => Some(Self::Wires),
+            _ => None,
+        }
+    }
 }
 
 impl Misreading {
@@ -123,6 +159,27 @@ pub(super) type Readings = Vec<(SymbolId, Vec<f64>)>;
 pub(super) enum Undo {
     Readings(Box<dyn Fn(&mut Readings)>),
     Places(Box<dyn Fn(&mut Unknowns)>),
+    /// Lengths that rows of these measures have are to be multiplied.
+    Lengths(MeasuredLengths, f64),
+}
+
+impl Undo {
+    /// Undoes it in some observations.
+    pub fn undo(&self, observations: &mut Observations) {
+        match self {
+            Self::Readings(change) => change(&mut observations.poses.columns),
+            Self::Places(change) => observations.unknowns.as_mut().into_iter().for_each(change),
+            Self::Lengths(of, factor) => {
+                let measures: Vec<Measure> = observations.poses.measures().collect();
+                let own = observations.measured.iter_mut().zip(measures);
+                for (measured, _) in own.filter(|(_, measure)| MeasuredLengths::of(*measure) == Some(*of)) {
+                    if let Measured::Length { length_m } = measured {
+                        *length_m *= factor;
+                    }
+                }
+            }
+        }
+    }
 }
 
 /// Mistakes that are made, and how each is undone; the likeliest first.
@@ -130,6 +187,27 @@ pub(super) fn mistakes(chain: &Chain, places: &Places, sample: &Observations) ->
     let mut all = of_places(places);
     all.extend(of_readings(chain, sample));
     all.extend(of_stations(chain, sample));
+    all.extend(of_lengths(sample));
+    all
+}
+
+fn of_lengths(sample: &Observations) -> Vec<(Misreading, Undo)> {
+    let mut kinds: Vec<MeasuredLengths> = Vec::new();
+    for of in sample.poses.series.iter().filter_map(|series| MeasuredLengths::of(series.measure)) {
+        if !kinds.contains(&of) {
+            kinds.push(of);
+        }
+    }
+    let mut all = Vec::new();
+    for of in kinds {
+        if of != MeasuredLengths::Wires {
+            all.push((Misreading::Doubled { of }, Undo::Lengths(of, 0.5)));
+        }
+        let units = LENGTHS.into_iter();
+        all.extend(
+            units.map(|(factor, unit)| (Misreading::LengthsUnit { of, unit }, Undo::Lengths(of, factor))),
+        );
+    }
     all
 }
 

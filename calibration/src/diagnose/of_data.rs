@@ -103,20 +103,15 @@ fn distance_m(observations: &Observations, series: &Series) -> Option<f64> {
     match series.measure {
         Measure::Direction | Measure::Azimuth | Measure::Sight | Measure::Beam | Measure::Orientation => None,
         // Nobody knows where these are.
-        Measure::Plane
-        | Measure::Target
-        | Measure::Fixed
-        | Measure::Circle
-        | Measure::Ring
-        | Measure::Wire
-        | Measure::Distance => None,
-        Measure::Point | Measure::Range => {
+        Measure::Plane | Measure::Target | Measure::Fixed | Measure::Circle | Measure::Wire => None,
+        Measure::Point | Measure::Range | Measure::Ring | Measure::Distance => {
             let distance = |row: usize| match observations.measured[row] {
                 Measured::Point(point) => point.norm(),
-                Measured::Range { range_m } => range_m.abs(),
-                _ => unreachable!("the series measures points or ranges"),
+                Measured::Range { range_m: length_m } | Measured::Length { length_m } => length_m.abs(),
+                _ => unreachable!("the series measures points or lengths"),
             };
-            Some(robust::median(series.rows.clone().map(distance).collect()))
+            let usual = robust::median(series.rows.clone().map(distance).collect());
+            (usual > 0.0).then_some(usual)
         }
     }
 }

@@ -159,11 +159,8 @@ pub(super) fn placed(whole: &Context<'_>, sample: &Observations, undo: Option<&U
     for object in &mut unknowns.objects {
         *object = plan.places.object(&object.label, object.shape);
     }
-    match undo {
-        None => {}
-        Some(Undo::Places(change)) => change(unknowns),
-        Some(Undo::Readings(change)) => change(&mut observations.poses.columns),
-    }
+    undo.iter().for_each(|undo| undo.undo(&mut observations));
+    let unknowns = observations.unknowns.as_mut()?;
     let written = unknowns.stations.iter().filter(|own| own.is_written()).cloned().collect();
     place(&plan.chain, &mut observations, &plan.fit.start).ok()?;
     if observations.rows() < sample.rows() {

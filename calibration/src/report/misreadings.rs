@@ -2,7 +2,7 @@
 
 use super::numbers::short;
 use crate::data::SiUnit;
-use crate::diagnose::{Misreading, Otherwise, StatedPlaces, Strayed};
+use crate::diagnose::{MeasuredLengths, Misreading, Otherwise, StatedPlaces, Strayed};
 
 /// What is likely wrong, and what the residual is without it.
 pub(super) fn misread(otherwise: &Otherwise) -> String {
@@ -59,6 +59,8 @@ fn mistake(mistake: &Misreading) -> String {
         }
         Misreading::Exchanged { joints: [one, other] } => format!("the columns of `{one}` and `{other}` are exchanged"),
         Misreading::Unit { readings, unit } => in_unit(readings, "", unit),
+        Misreading::Doubled { of } => format!("the {} are doubled: diameters? (write half of them)", lengths(*of)),
+        Misreading::LengthsUnit { of, unit } => format!("the {} are {unit}", lengths(*of)),
         Misreading::UnitAt { station, readings, unit } => in_unit(readings, &format!(" of station `{station}`"), unit),
     }
 }
@@ -72,6 +74,14 @@ fn in_unit(readings: &[String], of: &str, unit: &str) -> String {
         None => unreachable!("a unit is that of a reading"),
     };
     format!("{all}{of} {are} {unit}")
+}
+
+fn lengths(of: MeasuredLengths) -> &'static str {
+    match of {
+        MeasuredLengths::Radii => "radii",
+        MeasuredLengths::Distances => "measured lengths, or radii of spheres,",
+        MeasuredLengths::Wires => "lengths of the wires",
+    }
 }
 
 fn places(of: StatedPlaces) -> &'static str {

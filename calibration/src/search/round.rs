@@ -13,8 +13,8 @@ use crate::search::{Accepted, ConfoundedSet, Selection, confounded_sets, select}
 /// Degrees of freedom of a residual, and groups of its rows, below which nothing can be told of its structure.
 const FEWEST: usize = 20;
 
-/// Standard deviations by which an effect stands out that chance hardly makes.
-const STANDS_OUT: f64 = 3.0;
+/// An effect that stands out by so many standard deviations is hardly chance.
+const SURE: f64 = 3.0;
 
 /// A fit, and the search that starts from it.
 pub(crate) struct Round<'a> {
@@ -42,7 +42,9 @@ impl<'a> Round<'a> {
 
     /// How many observations an effect hangs on: the rows' share of its projected columns, as an effective number.
     pub fn observations_behind(&self, effect: EffectId) -> f64 {
-        self.search.share() * self.search.rows.rows_behind(self.shares(effect))
+        // What is stated of stations is there once, be the rows a sample of all.
+        let share = if self.is_shown_by_stations(effect) { 1.0 } else { self.search.share() };
+        share * self.search.rows.rows_behind(self.shares(effect))
     }
 
     /// Whether what is stated of stations shows an effect more than the rows do.
@@ -72,7 +74,7 @@ impl<'a> Round<'a> {
         let own = problem.columns(effect);
         let decides = |of: &[OfStation], first: usize| {
             let rows: Vec<usize> = (first..).take(of.len()).collect();
-            problem.standing_without(&state, &own, &rows) < STANDS_OUT
+            problem.standing_without(&state, &own, &rows) < SURE
         };
         let mut next = first;
         stated.chunk_by(|a, b| a.station == b.station).find_map(|of| {

@@ -1,6 +1,8 @@
 //! Points that stay on circles and spheres that nobody surveyed. What was planted stands in
 //! `examples/objects/simulate_wires_and_sights.py`, which shares no code with ours.
 
+use std::fmt::Write;
+
 use crate::figures::{calibrated, holds};
 use crate::support::{Folder, run_in};
 
@@ -42,6 +44,26 @@ fn cranks_of_unknown_radius_show_the_arm_but_for_its_scale() {
     let report = calibrated(&folder, "held.toml");
     let scale = 0.6 / 0.6007;
     holds(&report, &[("length3", 0.4995 * scale - 0.5), ("aside", 0.9e-3 * scale), ("zero3", -1.1e-3)]);
+}
+
+/// Diameters for radii, and radii in another unit than is written, are told, and nothing is corrected with what comes of them.
+#[test]
+fn radii_that_are_read_wrongly_are_told() {
+    let folder = cranks("cranks-radii");
+    let rows = folder.read("rings.csv");
+    let (head, rows) = rows.split_once('\n').expect("a heading");
+    for (factor, told) in [(2.0, "the radii are doubled"), (1e-3, "the radii are in m and read as mm")] {
+        let mut wrong = format!("{head}\n");
+        for row in rows.lines() {
+            let (readings, radius) = row.rsplit_once(',').expect("a radius");
+            let radius = factor * radius.parse::<f64>().expect("a number");
+            writeln!(wrong, "{readings},{radius}").expect("a string");
+        }
+        folder.write("rings.csv", wrong);
+        let run = run_in(&folder.0, &["calibrate", "rings.toml"], "");
+        let text = run.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(text.contains(told) && !text.contains("Correct with it now"), "{run}");
+    }
 }
 
 /// A sphere of known radius is a distance from its centre; of an unknown one it shows no scale.

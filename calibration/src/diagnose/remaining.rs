@@ -13,7 +13,6 @@ use crate::data::{Observations, SiUnit};
 use crate::effects::{SmoothPlace, smooth, tensor};
 use crate::fit::noise::Layout;
 use crate::search::SearchError;
-use crate::search::SetColumns;
 use crate::search::columns::{self, Columns};
 use crate::search::contest::{Price, contender, criterion, most_telling};
 use crate::search::context::{Context, declared};
@@ -118,9 +117,7 @@ fn tabulated(readings: &[f64], functions: impl Fn(f64) -> Vec<f64> + Sync) -> Ma
 pub(crate) fn remaining(whole: &Context<'_>, last: &Round<'_>) -> Result<Remaining, SearchError> {
     let observations = &*last.search.rows.observations;
     let problem = last.search.of_functions();
-    let blocks = SetColumns::of(problem, &last.sets);
-    let accepted: Vec<Vec<usize>> =
-        last.shown_in(&blocks).into_iter().map(|(_, set)| blocks[set].to_vec()).collect();
+    let accepted: Vec<Vec<usize>> = last.shown_to_functions().into_iter().map(|(_, own)| own).collect();
     let options = &whole.options;
     let signs = Signs::scattered(problem.group_of_row(), options.flips, options.seed);
     let left = Left::new(problem, &accepted, &signs);

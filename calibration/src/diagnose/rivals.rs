@@ -2,7 +2,6 @@
 
 use faer::Mat;
 
-use crate::search::SetColumns;
 use crate::search::contest::{Price, contender, criterion, predicts};
 use crate::search::context::Context;
 use crate::search::round::Round;
@@ -25,9 +24,7 @@ pub(super) struct Winner {
 /// Of rivals, each some whitened columns, the one that wins; `None` where none does.
 pub(super) fn contest(whole: &Context<'_>, last: &Round<'_>, rivals: &[Mat<f64>]) -> Option<Winner> {
     let problem = last.search.of_functions();
-    let blocks = SetColumns::of(problem, &last.sets);
-    let shown = last.shown_in(&blocks);
-    let accepted: Vec<Vec<usize>> = shown.iter().map(|&(_, set)| blocks[set].to_vec()).collect();
+    let (shown, accepted): (Vec<usize>, Vec<Vec<usize>>) = last.shown_to_functions().into_iter().unzip();
     let signs = Signs::scattered(problem.group_of_row(), whole.options.flips, whole.options.seed);
     let left = Left::new(problem, &accepted, &signs);
     let price = |functions| Price { sets: last.sets.len(), functions, parameters: 0 };
@@ -36,6 +33,6 @@ pub(super) fn contest(whole: &Context<'_>, last: &Round<'_>, rivals: &[Mat<f64>]
     let wins = best.criterion > criterion(&left, price(1)) + BETTER
         && predicts(&left, rivals[rival].as_ref(), &best.kept, &problem.rows_of_each_fold());
     let replaced = (0..accepted.len()).filter(|at| !best.kept.contains(at));
-    let name = |at: usize| whole.catalogue[last.fitted.found[shown[at].0].effect].name.clone();
+    let name = |at: usize| whole.catalogue[last.fitted.found[shown[at]].effect].name.clone();
     wins.then(|| Winner { rival, instead_of: replaced.map(name).collect(), coefficients: best.coefficients })
 }

@@ -29,6 +29,7 @@ mod residual;
 pub mod robust;
 mod sets;
 mod shared;
+mod shrinking;
 mod size;
 mod solve;
 mod solver;

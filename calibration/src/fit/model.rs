@@ -13,6 +13,7 @@ use super::beam::Beam;
 use super::block::Block;
 use super::objects::{self, TurnsBy};
 use super::residual::components;
+use super::shrinking::{self, Scale};
 use crate::data::orientation::{AXES, axes_of};
 use crate::data::{Measure, Measured, Observations, Poses, Series};
 
@@ -35,6 +36,8 @@ pub struct Model {
     programs: Vec<Program>,
     /// One per series: which way its observed point moves as the range grows; none where rows are seen along no beam.
     beams: Vec<Option<Beam>>,
+    /// One per series: the errors that multiply its range.
+    scales: Vec<Vec<Scale>>,
     /// Symbols of the chain; values behind them are those of objects and stations.
     symbols: usize,
     turns_by: TurnsBy,
@@ -121,6 +124,7 @@ impl Model {
         }
         let beams = Beam::of_all(chain, poses);
         Ok(Self {
+            scales: shrinking::of_series(chain, poses, parameters, &column_of),
             parameters: parameters.to_vec(),
             column_of,
             columns: kept.len(),
@@ -157,6 +161,7 @@ impl Model {
             columns: 0,
             programs,
             beams,
+            scales: shrinking::of_series(chain, poses, &[], &[]),
             symbols,
             turns_by: TurnsBy::Object,
             spare: Spare::default(),
@@ -260,6 +265,9 @@ impl Model {
                     };
                     let beam = self.beams.get(index).and_then(Option::as_ref).zip(beam.as_mut());
                     self.evaluate(interpreter, beam, of, series, rows.clone(), values, block)?;
+                    if let Some(scales) = self.scales.get(index).filter(|_| !block.unknown.is_empty()) {
+                        block.shrink(scales, values, self.turns_by == TurnsBy::Object);
+                    }
                     Ok(f(index, rows, block))
                 },
             );

@@ -1,7 +1,7 @@
 //! One round: the declaration with the effects accepted so far is fitted, and the search starts from there.
 
 use super::SearchError;
-use super::confounded::{SetColumns, SetId};
+use super::confounded::SetId;
 use super::context::{Context, Found};
 use super::fitted::Fitted;
 use super::state::State;
@@ -108,9 +108,17 @@ impl<'a> Round<'a> {
         found.filter_map(|(number, found)| Some((number, self.set_of(found.effect)?))).collect()
     }
 
-    /// Those of them of which a problem has columns.
-    pub fn shown_in(&self, blocks: &SetColumns) -> Vec<(usize, SetId)> {
-        self.shown().into_iter().filter(|&(_, set)| !blocks[set].is_empty()).collect()
+    /// Those of them of which the problem of functions has columns, by their number among those found, with those columns. Effects that what is
+    /// stated of stations cannot tell from each other may differ without it: each has its own there.
+    pub fn shown_to_functions(&self) -> Vec<(usize, Vec<usize>)> {
+        let problem = self.search.of_functions();
+        let columns = |(number, set): (usize, SetId)| {
+            let tested = self.sets[set].members[0];
+            let stated = self.search.of_rows().stated() > 0;
+            let effect = if stated { self.fitted.found[number].effect } else { tested };
+            Some((number, problem.columns(effect))).filter(|(_, own)| !own.is_empty())
+        };
+        self.shown().into_iter().filter_map(columns).collect()
     }
 
     /// The linear search from the accepted effects.

@@ -117,6 +117,32 @@ fn stated_stations_show_a_scale_that_nobody_declared() {
     }
 }
 
+/// Residuals in metres are smaller in a smaller room. Where many rows read roughly, and places tell a scale no better than to some
+/// hundred ppm, that is no reason to make it smaller: the scale would come out by the number of components times its variance too small.
+#[test]
+fn many_rough_rows_do_not_shrink_the_room() {
+    let folder = Folder::new("stated-many");
+    folder.write("tracker.chain", TRACKER);
+    let (mut pulls, mut by_size) = (0.0, 0.0);
+    for seed in 51..=54 {
+        let random = &mut Random::new(seed);
+        let room = Room::new(random);
+        let mut rows = room.rows(random, LONGER);
+        for _ in 1..40 {
+            let more = room.rows(random, LONGER);
+            rows.push_str(more.split_once('\n').expect("a heading").1);
+        }
+        let study = format!("{STUDY}{}", stations(&room, random, 0.0)).replace("\"1 mm\"", "\"3 mm\"");
+        folder.write("rows.csv", rows).write("study.toml", study);
+        let report = calibrated(&folder, "study.toml");
+        let [value, sigma] = error(&report, "longer");
+        pulls += (value - LONGER) / sigma;
+        by_size += 3.0 * f64::from(40 * 180) * sigma;
+    }
+    // Each is off by chance alone; else they would be by as many of their ± as there are components, times it.
+    assert!(pulls.abs() < 4.0 * 2.0 && by_size > 16.0, "{pulls} of {by_size}");
+}
+
 /// Two places tell one distance: whether it is too long or one of them is wrong, no row says.
 #[test]
 fn a_scale_that_one_distance_shows_is_told_beside_the_places() {

@@ -19,7 +19,6 @@ use self::grid::Driver;
 use self::refine::{Gain, orthonormal, refined};
 pub(crate) use self::shape::{Shape, ShapeKind};
 use super::competing::AS_GOOD;
-use super::confounded::{SetColumns, SetId};
 use super::contest::{Contender, Price, contender, criterion, likelihood, predicts};
 use super::flips::familywise;
 use super::scan::{Left, Sheet};
@@ -127,13 +126,11 @@ pub(crate) fn contest(whole: &Context<'_>, last: &Round<'_>) -> Result<Contest, 
     });
 
     let problem = last.search.of_functions();
-    let blocks = SetColumns::of(problem, &last.sets);
-    let shown = last.shown_in(&blocks);
-    let accepted: Vec<Vec<usize>> = shown.iter().map(|&(_, set)| blocks[set].to_vec()).collect();
+    let (shown, accepted): (Vec<usize>, Vec<Vec<usize>>) = last.shown_to_functions().into_iter().unzip();
     let signs = Signs::scattered(problem.group_of_row(), whole.options.flips, whole.options.seed);
     let mut left = Left::new(problem, &accepted, &signs);
     let of = |number: usize| &whole.catalogue[last.fitted.found[number].effect];
-    left.thresholds = shown.iter().map(|&(number, _)| thresholds(of(number))).collect();
+    left.thresholds = shown.iter().map(|&number| thresholds(of(number))).collect();
     let library = Library { whole, last, columns, drivers, left, shown };
 
     let scan = library.left.scan(smooths.len(), |number| library.sheet_of_scan(smooths[number]));
@@ -167,14 +164,14 @@ struct Library<'a, 'b> {
     columns: Columns,
     drivers: Vec<Driver>,
     left: Left<'a>,
-    /// Accepted effects that the data show, in the order of the left's: number among those found, and confounded set.
-    shown: Vec<(usize, SetId)>,
+    /// Accepted effects that the data show, in the order of the left's, by their number among those found.
+    shown: Vec<usize>,
 }
 
 impl Library<'_, '_> {
     /// The effects accepted at a place with a driver, as the left numbers them.
     fn accepted_at(&self, smooth: SmoothPlace) -> impl Iterator<Item = usize> + '_ {
-        let found = self.shown.iter().map(|&(number, _)| self.last.fitted.found[number].effect);
+        let found = self.shown.iter().map(|&number| self.last.fitted.found[number].effect);
         found.enumerate().filter_map(move |(at, effect)| {
             let effect = &self.whole.catalogue[effect];
             let moved = effect.places().contains(&smooth.place);
@@ -341,7 +338,7 @@ impl Library<'_, '_> {
         let present = criterion(&self.left, price);
         let of_accepted = likelihood(&self.left);
         let expected = of_accepted.expected();
-        let numbers = |of: &[usize]| -> Vec<usize> { of.iter().map(|&at| self.shown[at].0).collect() };
+        let numbers = |of: &[usize]| -> Vec<usize> { of.iter().map(|&at| self.shown[at]).collect() };
         let replaced = |judged: &Judged| -> Vec<usize> {
             (0..self.shown.len()).filter(|at| !judged.fitted.kept.contains(at)).collect()
         };
@@ -354,7 +351,7 @@ impl Library<'_, '_> {
         let best = better.into_iter().take(CONFIRMED).find(|one| self.is_confirmed(one));
         if let Some(best) = best {
             let of_replaced =
-                replaced(best).into_iter().map(|at| self.last.fitted.found[self.shown[at].0].p_value);
+                replaced(best).into_iter().map(|at| self.last.fitted.found[self.shown[at]].p_value);
             contest.taken = Some(Taken {
                 place: best.smooth.place,
                 driver: best.smooth.driver,

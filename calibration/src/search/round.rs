@@ -74,7 +74,7 @@ impl<'a> Round<'a> {
         let own = problem.columns(effect);
         let decides = |of: &[OfStation], first: usize| {
             let rows: Vec<usize> = (first..).take(of.len()).collect();
-            problem.standing_without(&state, &own, &rows) < SURE
+            state.standing_without(problem, &own, &rows) < SURE
         };
         let mut next = first;
         stated.chunk_by(|a, b| a.station == b.station).find_map(|of| {

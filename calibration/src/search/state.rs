@@ -80,6 +80,19 @@ impl State {
         ((0..k).map(|i| b[(i, 0)] * scaled[(i, 0)]).sum(), k)
     }
 
+    /// How many standard deviations some of a problem's columns stand out beside the others that are in, where these of its rows, which state
+    /// something, are not believed.
+    #[must_use]
+    pub fn standing_without(&self, problem: &Problem, own: &[usize], rows: &[usize]) -> f64 {
+        let some = problem.rows_at(rows);
+        let mut sweep = Sweep::new(problem.gram(|_| true).0 - some.transpose() * &some);
+        for column in self.base.iter().filter(|column| !own.contains(column)) {
+            sweep.add(*column);
+        }
+        let (gain, rank) = sweep.gain(own, self.residual);
+        if rank == 0 { 0.0 } else { (gain * self.df() / self.rss() / rank as f64).sqrt() }
+    }
+
     /// The swept columns with their coefficients.
     #[must_use]
     pub fn coefficients(&self) -> Vec<(usize, f64)> {

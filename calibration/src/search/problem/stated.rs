@@ -3,8 +3,6 @@
 use faer::{Mat, MatRef};
 
 use super::Problem;
-use crate::search::state::State;
-use crate::search::sweep::Sweep;
 
 impl Problem {
     /// The same with rows that state something of the declared columns' coefficients alone, and their residual, and with the size that each
@@ -45,18 +43,5 @@ impl Problem {
     pub(super) fn in_none(&self) -> Vec<usize> {
         let rows = self.rows.nrows();
         (rows - self.stated()..rows).filter(|&row| self.fold_of_row(row) == self.folds()).collect()
-    }
-
-    /// How many standard deviations some candidate columns stand out, beside those of a state and themselves aside, where rows that state
-    /// something are not believed.
-    #[must_use]
-    pub(crate) fn standing_without(&self, state: &State, own: &[usize], rows: &[usize]) -> f64 {
-        let some = self.rows_at(rows);
-        let mut sweep = Sweep::new(self.gram(|_| true).0 - some.transpose() * &some);
-        for column in state.base.iter().filter(|column| !own.contains(column)) {
-            sweep.add(*column);
-        }
-        let (gain, rank) = sweep.gain(own, self.residual());
-        if rank == 0 { 0.0 } else { (gain * state.df() / state.rss() / rank as f64).sqrt() }
     }
 }

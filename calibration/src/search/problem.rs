@@ -19,6 +19,8 @@ use super::products::{add_products, mirrored, picked, taken_out};
 use super::reach::Reach;
 use crate::candidate::EffectId;
 
+pub(crate) use stated::with_stated;
+
 /// Share of a column's sum of squares that must be left by those before it (the declared ones, for a candidate) for it to
 /// count.
 pub(super) const VISIBLE: f64 = 1e-4;

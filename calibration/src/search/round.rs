@@ -6,7 +6,6 @@ use super::context::{Context, Found};
 use super::fitted::Fitted;
 use super::state::State;
 use crate::candidate::EffectId;
-use crate::data::unknowns::OfStation;
 use crate::search::search_problem::SearchProblem;
 use crate::search::{Accepted, ConfoundedSet, Selection, confounded_sets, select};
 
@@ -50,12 +49,13 @@ impl<'a> Round<'a> {
     /// Whether what is stated of stations shows an effect more than the rows do.
     pub fn is_shown_by_stations(&self, effect: EffectId) -> bool {
         let problem = self.search.of_rows();
-        let count = problem.rows().nrows() - problem.stated();
-        let sum = |is_stated: bool| {
-            let own = self.shares(effect).filter(|(component, _)| (*component >= count) == is_stated);
-            own.map(|(_, share)| share).sum::<f64>()
-        };
-        sum(true) > sum(false)
+        if problem.stated() == 0 {
+            return false;
+        }
+        let (stated, of_rows): (Vec<_>, Vec<_>) =
+            self.shares(effect).partition(|(component, _)| *component >= problem.first_stated());
+        let sum = |own: Vec<(usize, f64)>| own.into_iter().map(|(_, share)| share).sum::<f64>();
+        sum(stated) > sum(of_rows)
     }
 
     /// The station whose stated place alone decides an effect, where one does: without it the effect does not stand out any more.
@@ -70,17 +70,14 @@ impl<'a> Round<'a> {
         for (number, _) in self.shown() {
             state.add(&problem.columns(self.fitted.found[number].effect));
         }
-        let first = problem.rows().nrows() - problem.stated();
         let own = problem.columns(effect);
-        let decides = |of: &[OfStation], first: usize| {
-            let rows: Vec<usize> = (first..).take(of.len()).collect();
+        let mut rows = problem.first_stated()..;
+        let mut of_stations = stated.chunk_by(|a, b| a.station == b.station);
+        let decisive = of_stations.find(|of| {
+            let rows: Vec<usize> = rows.by_ref().take(of.len()).collect();
             state.standing_without(problem, &own, &rows) < SURE
-        };
-        let mut next = first;
-        stated.chunk_by(|a, b| a.station == b.station).find_map(|of| {
-            next += of.len();
-            decides(of, next - of.len()).then_some(of[0].station)
-        })
+        });
+        decisive.map(|of| of[0].station)
     }
 
     /// The share that each component has in an effect's projected columns.

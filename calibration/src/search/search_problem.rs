@@ -16,6 +16,7 @@ use crate::search::SearchError;
 use crate::search::columns::{Columns, Probed, keep, places};
 use crate::search::context::{Context, declared};
 use crate::search::fitted::{Fitted, tolerance_of};
+use crate::search::problem::with_stated;
 use crate::search::reach::{Part, Reach, further_out};
 use crate::search::standardised::MANY;
 use crate::search::{Folds, Problem, ProblemError};
@@ -76,10 +77,7 @@ impl<'a> SearchProblem<'a> {
         let usable = rows.seen.usable(&whole.catalogue);
         rows.keep(&usable);
         let stated = fitted.stated_of_stations(whole.request.observations.unknowns.as_ref());
-        let of_rows =
-            |stated: &[OfStation]| problem(whole, fitted, &usable, rows.whitened(), folds.clone(), stated);
-        let problem = of_rows(&stated)?;
-        let unstated = if stated.is_empty() { None } else { Some(of_rows(&[])?) };
+        let (problem, unstated) = with_and_without(whole, fitted, &usable, &rows, folds.clone(), &stated)?;
         let reach = reach(whole, fitted, &problem, &rows, &usable)?;
         Ok(Self { problem: problem.with_reach(reach), sampled: None, unstated, rows, folds, usable })
     }
@@ -111,11 +109,7 @@ impl<'a> SearchProblem<'a> {
         rows.keep(&usable);
         let hold_out = &whole.request.plan.hold_out;
         let of_sample = dealt(&rows.observations, &fitted.fit.noise, hold_out.folds, hold_out.seed);
-        let of_rows = |stated: &[OfStation]| {
-            problem(whole, fitted, &usable, rows.whitened(), of_sample.clone(), stated)
-        };
-        let sampled = of_rows(&stated)?;
-        let unstated = if stated.is_empty() { None } else { Some(of_rows(&[])?) };
+        let (sampled, unstated) = with_and_without(whole, fitted, &usable, &rows, of_sample, &stated)?;
         let of_sample = reach(whole, fitted, &sampled, &rows, &usable)?;
         let sampled = sampled.with_reach(of_sample);
         let reach = reach(whole, fitted, &problem_of_all, &rows, &usable)?;
@@ -193,25 +187,33 @@ fn cells(fill: usize, folds: usize) -> usize {
     CELLS.min(most)
 }
 
+/// The problem of some rows with what is stated of stations, and without it where anything is.
+fn with_and_without(
+    whole: &Context<'_>,
+    fitted: &Fitted,
+    usable: &[bool],
+    rows: &RowSet<'_>,
+    folds: Folds,
+    stated: &[OfStation],
+) -> Result<(Problem, Option<Problem>), ProblemError> {
+    let white = rows.whitened();
+    let unstated = match stated {
+        [] => None,
+        _ => Some(problem(whole, fitted, usable, white.clone(), folds.clone(), &[])?),
+    };
+    Ok((problem(whole, fitted, usable, white, folds, stated)?, unstated))
+}
+
 /// The problem of some whitened rows, which hold the columns of usable effects alone, and of what is stated of stations behind them.
 fn problem(
     whole: &Context<'_>,
     fitted: &Fitted,
     usable: &[bool],
-    mut rows: Mat<f64>,
+    rows: Mat<f64>,
     folds: Folds,
     stated: &[OfStation],
 ) -> Result<Problem, ProblemError> {
-    // What is stated of a station is an observation of its own, of that number alone.
-    let (count, width) = rows.shape();
-    rows.resize_with(count + stated.len(), width, |_, _| 0.0);
-    for (row, own) in (count..).zip(stated) {
-        rows[(row, own.at)] = 1.0 / own.sigma;
-        rows[(row, width - 1)] = own.away / own.sigma;
-    }
-    let several = stated.iter().any(|own| own.station != stated[0].station);
-    let units: Vec<Option<u32>> = stated.iter().map(|own| several.then_some(own.station)).collect();
-    let folds = folds.with_stated(&units);
+    let (rows, folds) = with_stated(rows, folds, stated);
     let mut count = 0;
     let blocks = whole.catalogue.iter().zip(usable).map(|(effect, &usable)| {
         let start = count;

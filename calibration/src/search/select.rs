@@ -86,8 +86,7 @@ pub fn select(
     let blocks = SetColumns::of(problem, sets);
     let members = problem.rows_of_folds(chosen);
     let groups: Vec<u32> = members.iter().map(|&row| problem.group_of_row()[row]).collect();
-    let first_stated = problem.rows().nrows() - problem.stated();
-    let stated = members.iter().filter(|&&row| row >= first_stated).count();
+    let stated = members.iter().filter(|&&row| row >= problem.first_stated()).count();
     let signs = Signs::new(&groups, stated, options.flips, options.seed);
     let folds: Vec<usize> = (0..problem.folds()).filter(|&fold| chosen(fold)).collect();
 

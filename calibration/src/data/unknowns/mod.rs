@@ -21,7 +21,7 @@ pub(crate) const OF_OBJECT: usize = 6;
 pub(crate) const WIDTH: usize = OF_OBJECT + 6;
 
 /// The numbers of a station that tilt it.
-pub(crate) const TILTS: [usize; 2] = [3, 4];
+const TILTS: [usize; 2] = [3, 4];
 
 /// What an object is, and with that which numbers it has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

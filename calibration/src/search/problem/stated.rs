@@ -3,6 +3,22 @@
 use faer::{Mat, MatRef};
 
 use super::Problem;
+use crate::data::unknowns::OfStation;
+use crate::search::folds::Folds;
+
+/// Whitened rows and their folds with what is stated of stations behind them, each number a row; those of several stations are held out
+/// station by station.
+pub(crate) fn with_stated(mut rows: Mat<f64>, folds: Folds, stated: &[OfStation]) -> (Mat<f64>, Folds) {
+    let (count, width) = rows.shape();
+    rows.resize_with(count + stated.len(), width, |_, _| 0.0);
+    for (row, own) in (count..).zip(stated) {
+        rows[(row, own.at)] = 1.0 / own.sigma;
+        rows[(row, width - 1)] = own.away / own.sigma;
+    }
+    let several = stated.iter().any(|own| own.station != stated[0].station);
+    let units: Vec<Option<u32>> = stated.iter().map(|own| several.then_some(own.station)).collect();
+    (rows, folds.with_stated(&units))
+}
 
 impl Problem {
     /// The same with rows that state something of the declared columns' coefficients alone, and their residual, and with the size that each
@@ -39,9 +55,15 @@ impl Problem {
         self.folds.stated
     }
 
+    /// The first row that states something by itself; the number of rows where none does.
+    #[must_use]
+    pub fn first_stated(&self) -> usize {
+        self.rows.nrows() - self.stated()
+    }
+
     /// Rows that lie in no fold: some of those that state something.
     pub(super) fn in_none(&self) -> Vec<usize> {
-        let rows = self.rows.nrows();
-        (rows - self.stated()..rows).filter(|&row| self.fold_of_row(row) == self.folds()).collect()
+        let stated = self.first_stated()..self.rows.nrows();
+        stated.filter(|&row| self.fold_of_row(row) == self.folds()).collect()
     }
 }

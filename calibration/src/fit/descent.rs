@@ -174,6 +174,16 @@ impl Solver<'_> {
         self.descend_to_the_bottom(course)
     }
 
+    /// Takes residuals in metres as they are where a course ended; with them the noise, where that is another one.
+    pub(super) fn take_as_they_are(&mut self, course: &mut Course) -> Result<(), FitError> {
+        let larger = self.model.take_as_they_are(&course.point.values);
+        if larger > 0.0 {
+            let (values, rest) = (std::mem::take(&mut course.point.values), course.point.rest.clone());
+            course.point = self.point(values, &course.noise, course.weighting, rest)?;
+        }
+        if larger > NOISE_KNOWN { self.settle(course) } else { Ok(()) }
+    }
+
     /// Descends with the course's noise until a step means nothing.
     fn descend_to_the_bottom(&mut self, course: &mut Course) -> Result<(), FitError> {
         let noise = course.noise.clone();

@@ -13,7 +13,7 @@ use super::beam::Beam;
 use super::block::Block;
 use super::objects::{self, TurnsBy};
 use super::residual::components;
-use super::shrinking::{self, Scale};
+use super::shrinking::{self, Scales};
 use crate::data::orientation::{AXES, axes_of};
 use crate::data::{Measure, Measured, Observations, Poses, Series};
 
@@ -36,8 +36,8 @@ pub struct Model {
     programs: Vec<Program>,
     /// One per series: which way its observed point moves as the range grows; none where rows are seen along no beam.
     beams: Vec<Option<Beam>>,
-    /// One per series: the errors that multiply its range.
-    scales: Vec<Vec<Scale>>,
+    /// One per series: what makes its residuals larger, as a fit's steps have to know; none for anybody else.
+    scales: Vec<Scales>,
     /// Symbols of the chain; values behind them are those of objects and stations.
     symbols: usize,
     turns_by: TurnsBy,
@@ -124,7 +124,7 @@ impl Model {
         }
         let beams = Beam::of_all(chain, poses);
         Ok(Self {
-            scales: shrinking::of_series(chain, poses, parameters, &column_of),
+            scales: Vec::new(),
             parameters: parameters.to_vec(),
             column_of,
             columns: kept.len(),
@@ -134,6 +134,17 @@ impl Model {
             turns_by: TurnsBy::Object,
             spare: Spare::default(),
         })
+    }
+
+    /// The same as a fit's steps need it: residuals beside unknown objects are no smaller where everything is.
+    #[must_use]
+    pub(super) fn for_steps(self, chain: &Chain, poses: &Poses) -> Self {
+        Self { scales: shrinking::of_series(chain, poses, &self.parameters, &self.column_of), ..self }
+    }
+
+    /// Takes residuals in metres as they are at these values: the largest share by which they were larger or smaller.
+    pub(super) fn take_as_they_are(&mut self, values: &[f64]) -> f64 {
+        self.scales.iter_mut().map(|scales| scales.take_as_they_are(values)).fold(0.0, f64::max)
     }
 
     /// The same with derivatives that tell what rows determine, not where a step leads.
@@ -161,7 +172,7 @@ impl Model {
             columns: 0,
             programs,
             beams,
-            scales: shrinking::of_series(chain, poses, &[], &[]),
+            scales: Vec::new(),
             symbols,
             turns_by: TurnsBy::Object,
             spare: Spare::default(),
@@ -265,8 +276,9 @@ impl Model {
                     };
                     let beam = self.beams.get(index).and_then(Option::as_ref).zip(beam.as_mut());
                     self.evaluate(interpreter, beam, of, series, rows.clone(), values, block)?;
-                    if let Some(scales) = self.scales.get(index).filter(|_| !block.unknown.is_empty()) {
-                        block.shrink(scales, values, self.turns_by == TurnsBy::Object);
+                    let steps = self.turns_by == TurnsBy::Object && !block.unknown.is_empty();
+                    if let Some(scales) = self.scales.get(index).filter(|_| steps) {
+                        block.shrink(scales, values);
                     }
                     Ok(f(index, rows, block))
                 },

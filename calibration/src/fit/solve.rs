@@ -37,12 +37,14 @@ pub fn fit(chain: &Chain, observations: &Observations, options: &FitOptions) -> 
     }
     let mut solver = Solver::new(chain, observations, options)?;
     let mut course = solver.arrived()?;
+    solver.take_as_they_are(&mut course)?;
     solver.release(&mut course)?;
     // Rows that are set aside only now leave few of them for what they now show.
     if solver.counts_in_full(&course) {
         course = solver.of_few(course)?;
         solver.release(&mut course)?;
     }
+    solver.take_as_they_are(&mut course)?;
     solver.result(course)
 }
 
@@ -56,7 +58,8 @@ impl<'a> Solver<'a> {
             chain,
             observations,
             options,
-            model: Model::new(chain, &observations.poses, &options.estimate)?,
+            model: Model::new(chain, &observations.poses, &options.estimate)?
+                .for_steps(chain, &observations.poses),
             plain: OnceCell::new(),
             layout: Layout::of(observations),
             aside: Vec::new(),

@@ -6,9 +6,12 @@
 //!
 //! Source: W. A. Fuller, Measurement Error Models (1987), sections 1.2 and 2.2.
 
+mod still;
+
 use model_core::{Chain, SymbolId};
 use nalgebra::{Matrix3, Vector3};
 
+use self::still::still;
 use crate::data::Observations;
 use crate::fit::noise::Layout;
 use crate::fit::{FitError, FitResult, Model, correlated, pulls};
@@ -19,8 +22,8 @@ pub(crate) type ByReading = Vec<(SymbolId, Vec<f64>)>;
 /// Of a component's variance the share that is its own at least.
 const LEAST: f64 = 1e-6;
 
-/// The readings of all rows at a fit, those that are uncertain without what the residuals say of their noise; `None` where all are
-/// exact.
+/// The readings of all rows at a fit, those that are uncertain without what the residuals say of their noise; where none is stated to be,
+/// those of joints that [stood still](still). `None` where all are as they were read.
 pub(super) fn adjusted(
     chain: &Chain,
     observations: &Observations,
@@ -28,7 +31,7 @@ pub(super) fn adjusted(
     fit: &FitResult,
 ) -> Result<Option<ByReading>, FitError> {
     if observations.reading_sigma.is_empty() {
-        return Ok(None);
+        return still(chain, observations, layout, fit);
     }
     let model = Model::without_columns(chain, &observations.poses);
     let factor = fit.noise.of_readings;

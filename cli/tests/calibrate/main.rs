@@ -35,6 +35,7 @@ mod room;
 mod scatter;
 mod sockets;
 mod stated;
+mod still;
 mod survey;
 mod together;
 mod unexpected;

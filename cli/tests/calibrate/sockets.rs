@@ -7,6 +7,7 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use crate::figures::{calibrated, cautions};
+use crate::random::Random;
 use crate::support::{Folder, root, run_in};
 
 const STUDY: &str = "examples/ball-sockets/panda.toml";
@@ -141,4 +142,67 @@ fn two_sockets_under_one_label_are_told() {
     assert_eq!(own[0]["objects"][0], own[0]["objects"][1]);
     let told = run_in(&folder.0, &["calibrate", "panda.toml"], "").stdout;
     assert!(told.starts_with("LIKELY READ WRONGLY"), "{told}");
+}
+
+/// Three links that turn in an upright plane, the plane about the vertical. The hand's height is no error: its zero makes up for it.
+const ARM: &str = "
+chain Arm {
+    body turret on ground { motion: Rz(q1); }
+    body upper on turret { motion: Rx(q2); }
+    body fore on upper { position: Ty(0.6); position_error: Ty(longer1); motion: Rx(q3); motion_error: Rx(zero3); }
+    body wrist on fore { position: Ty(0.5); position_error: Ty(longer2); motion: Rx(q4); motion_error: Rx(zero4); }
+    body hand on wrist { position: Ty(0.25), Tz(0.1); position_error: Ty(longer3); }
+    observe ball: point(0, 0, 0) of hand;
+}
+";
+
+/// Rows in six sockets of an arm as it is, its joints read with noise: at each the ball is held from all sides.
+fn in_sockets(random: &mut Random, each: usize) -> String {
+    const LONGER: [f64; 3] = [0.8e-3, -0.5e-3, 0.3e-3];
+    const ZEROS: [f64; 2] = [1e-3, -2e-3];
+    let [upper, fore, hand] = [0.6 + LONGER[0], 0.5 + LONGER[1], 0.25 + LONGER[2]];
+    let mut rows = String::from("socket,q1 [rad],q2 [rad],q3 [rad],q4 [rad]\n");
+    for socket in 0..6 {
+        let along = f64::from(socket);
+        let (turn, out, up) = (0.9 * along - 2.0, 0.5 + 0.04 * along, 0.1 * (along - 2.0));
+        for _ in 0..each {
+            // Of the hand, then of the two links behind it, whose elbow is up.
+            let pitch = -0.6 + 1.2 * random.even();
+            let wrist =
+                [out - hand * pitch.cos() + 0.1 * pitch.sin(), up - hand * pitch.sin() - 0.1 * pitch.cos()];
+            let square = wrist[0].powi(2) + wrist[1].powi(2);
+            let bend = -((square - upper.powi(2) - fore.powi(2)) / (2.0 * upper * fore)).acos();
+            let raised = wrist[1].atan2(wrist[0]) - (fore * bend.sin()).atan2(upper + fore * bend.cos());
+            let joints = [turn, raised, bend - ZEROS[0], pitch - raised - bend - ZEROS[1]];
+            let read = joints.map(|joint| format!("{:.9}", joint + 2e-4 * random.normal()));
+            writeln!(rows, "{socket},{}", read.join(",")).expect("a string");
+        }
+    }
+    rows
+}
+
+/// No length is measured, and all together are as long as they are declared to within what errors may be: many rows, whose residuals are
+/// smaller where the arm is, do not shrink it. What is no length comes out all the same.
+#[test]
+fn many_rows_do_not_shrink_an_arm() {
+    let folder = Folder::new("sockets-many");
+    folder.write("arm.chain", ARM).write(
+        "study.toml",
+        "chain = \"arm.chain\"\ndata = \"rows.csv\"\n[observed]\nkind = \"fixed\"\nobject = \"socket\"\n",
+    );
+    for (seed, each) in [(1, 30), (2, 300), (3, 1500)] {
+        folder.write("rows.csv", in_sockets(&mut Random::new(seed), each));
+        let report = calibrated(&folder, "study.toml");
+        assert_eq!(report["verdict"], "nothing detectable", "{each}: {report}");
+        let errors = report["errors"].as_array().expect("a list").iter();
+        let lengths = errors.filter(|error| error["unit"] == "m");
+        assert!(lengths.clone().count() == 3, "{report}");
+        for length in lengths {
+            assert!(number(length, "/value").abs() < 3e-3, "{each}: {length}");
+        }
+        let elbow =
+            report["errors"].as_array().expect("a list").iter().find(|error| error["name"] == "zero3");
+        let elbow = number(elbow.expect("it is estimated"), "/value");
+        assert!((elbow - 1e-3).abs() < 3e-4, "{each}: {elbow}");
+    }
 }

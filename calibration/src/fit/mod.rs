@@ -33,6 +33,7 @@ mod shrinking;
 mod size;
 mod solve;
 mod solver;
+mod spare;
 mod starts;
 mod stated;
 mod stream;

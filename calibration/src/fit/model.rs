@@ -1,7 +1,6 @@
 //! The chain as a fit sees it: residual components of observations and their derivatives.
 
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
 
 use codegen::{Form, Interpreter, NodeId, Op, Program, build_all};
 use model_core::{Chain, SymbolId, SymbolKind};
@@ -14,6 +13,7 @@ use super::block::Block;
 use super::objects::{self, TurnsBy};
 use super::residual::components;
 use super::shrinking::{self, Scales};
+use super::spare::Spare;
 use crate::data::orientation::{AXES, axes_of};
 use crate::data::{Measure, Measured, Observations, Poses, Series};
 
@@ -41,7 +41,7 @@ pub struct Model {
     /// Symbols of the chain; values behind them are those of objects and stations.
     symbols: usize,
     turns_by: TurnsBy,
-    spare: Spare,
+    spare: Spare<Running>,
 }
 
 /// What runs the programs, and room for a block.
@@ -50,28 +50,6 @@ struct Running {
     /// Of each series its program and its beam's.
     interpreters: Vec<(Interpreter, Option<Interpreter>)>,
     block: Block,
-}
-
-/// Those that nobody uses at the moment: making one costs as much as some blocks of rows.
-#[derive(Debug, Default)]
-struct Spare(Mutex<Vec<Running>>);
-
-impl Clone for Spare {
-    fn clone(&self) -> Self {
-        Self::default()
-    }
-}
-
-/// One in use, which is spare again when it is done with.
-struct Lent<'a> {
-    running: Option<Running>,
-    to: &'a Spare,
-}
-
-impl Drop for Lent<'_> {
-    fn drop(&mut self) {
-        self.to.0.lock().unwrap_or_else(PoisonError::into_inner).extend(self.running.take());
-    }
 }
 
 /// Rows to evaluate: poses, and what was measured there if anything was.
@@ -264,9 +242,9 @@ impl Model {
         }
         let made = |some: &[(usize, Range<usize>)]| -> Result<Vec<T>, FitError> {
             let some = some.par_iter().cloned().map_init(
-                || self.lent(),
+                || self.spare.lent(),
                 |lent, (index, rows)| {
-                    let Running { interpreters, block } = lent.running.get_or_insert_with(|| self.running());
+                    let Running { interpreters, block } = lent.get_or_make(|| self.running());
                     let (Some((interpreter, beam)), Some(series)) =
                         (interpreters.get_mut(index), of.poses.series.get(index))
                     else {
@@ -292,11 +270,6 @@ impl Model {
         }
         before.into_iter().for_each(take);
         Ok(())
-    }
-
-    fn lent(&self) -> Lent<'_> {
-        let running = self.spare.0.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        Lent { running, to: &self.spare }
     }
 
     fn running(&self) -> Running {

@@ -194,14 +194,13 @@ fn many_rows_do_not_shrink_an_arm() {
         folder.write("rows.csv", in_sockets(&mut Random::new(seed), each));
         let report = calibrated(&folder, "study.toml");
         assert_eq!(report["verdict"], "nothing detectable", "{each}: {report}");
-        let errors = report["errors"].as_array().expect("a list").iter();
-        let lengths = errors.filter(|error| error["unit"] == "m");
+        let errors = report["errors"].as_array().expect("a list");
+        let lengths = errors.iter().filter(|error| error["unit"] == "m");
         assert!(lengths.clone().count() == 3, "{report}");
         for length in lengths {
             assert!(number(length, "/value").abs() < 3e-3, "{each}: {length}");
         }
-        let elbow =
-            report["errors"].as_array().expect("a list").iter().find(|error| error["name"] == "zero3");
+        let elbow = errors.iter().find(|error| error["name"] == "zero3");
         let elbow = number(elbow.expect("it is estimated"), "/value");
         assert!((elbow - 1e-3).abs() < 3e-4, "{each}: {elbow}");
     }

@@ -4,6 +4,7 @@
 //! look as if they had structure, and a high harmonic explains them. Objects take all that could explain the joint's own
 //! turn, and leave only that. So effects are judged at the mean of the readings.
 
+use std::cell::LazyCell;
 use std::iter::repeat_n;
 
 use model_core::{Chain, Quantity, SymbolId, SymbolKind, exact};
@@ -11,7 +12,7 @@ use model_core::{Chain, Quantity, SymbolId, SymbolKind, exact};
 use super::ByReading;
 use crate::data::{Observations, SiUnit, golden};
 use crate::fit::noise::Layout;
-use crate::fit::{FitError, FitResult, Model, pulled};
+use crate::fit::{FitError, FitResult, Model, pulled, robust};
 
 /// Readings that differ by so many times their noise are of a joint that moved between them, and so are those that spread over so many
 /// times as much.
@@ -43,19 +44,25 @@ pub(super) fn still(
         matches!(symbol.kind, SymbolKind::Joint | SymbolKind::Input)
             && matches!(symbol.quantity, Quantity::Angle | Quantity::Length)
     };
-    let (places, model) = (places(observations), Model::without_columns(chain, &observations.poses));
-    let mut columns = observations.poses.columns.clone();
-    let mut any = false;
-    for (column, (id, readings)) in columns.iter_mut().enumerate().filter(|(_, (id, _))| is_read(*id)) {
+    let places = places(observations);
+    let model = LazyCell::new(|| Model::without_columns(chain, &observations.poses));
+    let mut still = Vec::new();
+    let columns = observations.poses.columns.iter().enumerate().filter(|(_, (id, _))| is_read(*id));
+    for (column, (id, readings)) in columns {
         let noise = noise_of(chain, observations, layout, fit, *id);
-        let Some(at_rest) = at_rest(readings, &places, noise) else { continue };
+        let Some(at_rest) = noise.and_then(|noise| at_rest(readings, &places, noise)) else { continue };
         let by_step = pulled(&model, observations, &fit.values, column, |_| STEP)?;
         let differ: Vec<f64> = readings.iter().zip(&at_rest).map(|(read, rest)| read - rest).collect();
         if followed(layout, fit, &by_step, &differ) >= FOLLOWED {
-            (*readings, any) = (at_rest, true);
+            still.push((column, at_rest));
         }
     }
-    Ok(any.then_some(columns))
+    if still.is_empty() {
+        return Ok(None);
+    }
+    let mut columns = observations.poses.columns.clone();
+    still.into_iter().for_each(|(column, at_rest)| columns[column].1 = at_rest);
+    Ok(Some(columns))
 }
 
 /// How closely residuals follow what readings differ by: the share of it that fits them best. `by_step` is what a small step of the joint
@@ -78,14 +85,15 @@ fn places(observations: &Observations) -> Vec<(Option<u32>, u32)> {
     }
 }
 
-/// How large the noise of readings is at most, rad or m: what turns or moves the joint so far moves the components by their noise.
+/// How large the noise of readings is at most, rad or m: what turns or moves the joint so far moves the components by their noise;
+/// `None` where it moves nothing.
 fn noise_of(
     chain: &Chain,
     observations: &Observations,
     layout: &Layout,
     fit: &FitResult,
     joint: SymbolId,
-) -> f64 {
+) -> Option<f64> {
     let mut least: Vec<f64> = Vec::new();
     for series in observations.poses.series.iter().filter(|series| !series.rows.is_empty()) {
         let path = exact::Path::new(chain, series.observable);
@@ -110,12 +118,11 @@ fn noise_of(
             }
         }
     }
-    least.sort_by(f64::total_cmp);
-    least.get(least.len() / 2).copied().unwrap_or(0.0)
+    (!least.is_empty()).then(|| robust::median(least))
 }
 
-/// Readings of rows at some places, with the mean of those that only noise of this size sets apart; `None` where it did
-/// not mostly stand still.
+/// Readings of rows at some places, with the mean of those that only noise of this size sets apart; `None` where the joint did not mostly
+/// stand still.
 fn at_rest<P: Ord>(readings: &[f64], places: &[P], noise: f64) -> Option<Vec<f64>> {
     let mut order: Vec<usize> = (0..readings.len()).collect();
     order.sort_by(|&a, &b| places[a].cmp(&places[b]).then(readings[a].total_cmp(&readings[b])));
@@ -135,6 +142,7 @@ fn at_rest<P: Ord>(readings: &[f64], places: &[P], noise: f64) -> Option<Vec<f64
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 
@@ -144,10 +152,10 @@ mod tests {
     fn readings_that_differ_by_noise_alone_are_one() {
         let read: Vec<f64> = (0..6).flat_map(|i| [f64::from(i) * 0.1, 5.0 + f64::from(i) * 0.1]).collect();
         let means = |at: &[f64]| at.iter().map(|value| (value * 1e9).round() / 1e9).collect::<Vec<_>>();
-        let all = at_rest(&read, &[0; 12], 0.05).unwrap_or_default();
+        let all = at_rest(&read, &[0; 12], 0.05).unwrap();
         assert_eq!(means(&all), [0.25, 5.25].repeat(6));
         let halves: Vec<usize> = (0..12).map(|row| usize::from(row >= 6)).collect();
-        let by_half = at_rest(&read, &halves, 0.05).unwrap_or_default();
+        let by_half = at_rest(&read, &halves, 0.05).unwrap();
         assert_eq!(means(&by_half), [[0.1, 5.1].repeat(3), [0.4, 5.4].repeat(3)].concat());
         let slow: Vec<f64> = (0..40).map(|step| 0.1 * f64::from(step)).collect();
         assert_eq!(at_rest(&slow, &[0; 40], 0.05), None);

@@ -30,7 +30,7 @@ pub(super) fn next(whole: &Context<'_>, last: &Fitted) -> Next {
 fn nothing_is_seen(whole: &Context<'_>, places: &[PlaceProposal]) -> Option<String> {
     let Request { observations, plan, .. } = whole.request;
     let wanted = plan.next.as_ref()?.places.as_ref()?;
-    let is_asked = wanted.stations > 0 || wanted.objects.iter().any(|(_, count)| *count > 0);
+    let is_asked = wanted.stations > 0 || wanted.objects.iter().any(|own| own.count > 0);
     let is_missing = is_asked && observations.unknowns.is_some() && places.is_empty();
     is_missing
         .then(|| "no place is seen within the ranges of the readings: widen `range` under [next]".to_owned())

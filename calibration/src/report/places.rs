@@ -1,4 +1,4 @@
-//! Where to put the next station, wall, target, socket or wire, as tables of what to aim at from there.
+//! Where to put the next station, wall, target, socket, circle or wire, as tables of what to aim at from there.
 
 use super::errors::combination;
 use super::next::{Gain, PoseTable, gained};
@@ -116,17 +116,26 @@ fn told(adds: Addition, place: &Place) -> String {
         Addition::Plane => "a plane",
         Addition::Target => "a target",
         Addition::Fixed => "a socket",
+        Addition::Circle => "a circle",
+        Addition::Sphere => "a sphere",
         Addition::Wire => "a wire with its anchor",
         Addition::Distance => "a pivot",
         Addition::Sight => "a mark",
     };
     let [x, y, z] = place.place_m.map(|value| format!("{value:.2} m").replace('-', "−"));
     let mut text = format!("{what} at x {x}, y {y}, z {z}");
+    if let Some(radius_m) = place.radius_m {
+        text += &match adds {
+            Addition::Distance => format!(", {:.0} mm from every point", radius_m * 1e3),
+            _ => format!(" of radius {:.0} mm", radius_m * 1e3),
+        };
+    }
     if let Some(heading) = place.heading_rad {
         text += &format!(", heading {:.0}°", heading.to_degrees()).replace('-', "−");
     }
     if let Some([x, y, z]) = place.normal {
-        text += &format!(" with its normal along ({x:.2}, {y:.2}, {z:.2})").replace('-', "−");
+        let which = if adds == Addition::Circle { "axis" } else { "normal" };
+        text += &format!(" with its {which} along ({x:.2}, {y:.2}, {z:.2})").replace('-', "−");
     }
     text
 }

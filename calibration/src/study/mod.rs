@@ -41,7 +41,8 @@ mod unstated;
 mod written;
 
 pub use load::{Loaded, Open, OpenTable};
-pub use plan::{HoldOut, NextPlaces, NextPoses, Plan, Search, SourcePlan};
+pub use next::{NextObjects, NextPlaces, NextPoses};
+pub use plan::{HoldOut, Plan, Search, SourcePlan};
 pub use timeless::Timeless;
 pub use unsought::Unsought;
 pub use unstated::Unstated;

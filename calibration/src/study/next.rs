@@ -2,12 +2,11 @@
 
 use std::ops::Range;
 
-use model_core::{Chain, Quantity, SymbolKind};
+use model_core::{Chain, Quantity, SymbolId, SymbolKind};
 use toml::Spanned;
 
 use super::amount::{si, si_with_unit};
 use super::mistakes::{Gathered, Outcome, every, mistake, unknown, within};
-use super::plan::{NextPlaces, NextPoses};
 use super::written::{Kind, NextTable, Observed, Study};
 use crate::data::Measure;
 use crate::data::units::Amount;
@@ -22,6 +21,39 @@ const MOST_ROWS: u64 = 1000;
 const BOUNDS: [(&str, Quantity); 4] =
     [("x", Quantity::Length), ("y", Quantity::Length), ("z", Quantity::Length), ("heading", Quantity::Angle)];
 
+/// How many poses to propose, and where.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NextPoses {
+    /// How many poses, or rows of each addition: as many as stations or objects have so far where the study does not say.
+    pub count: Option<usize>,
+    /// Between which values of a joint, or of a range that is measured, SI; those without stay within that of the data.
+    pub ranges: Vec<(SymbolId, Range<f64>)>,
+    /// What to add instead where rows observe objects from stations.
+    pub places: Option<NextPlaces>,
+}
+
+/// How many stations and objects to propose, and where.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NextPlaces {
+    /// Places to stand.
+    pub stations: usize,
+    /// Objects of each kind.
+    pub objects: Vec<NextObjects>,
+    /// Between which x, y, z (m) and headings (rad).
+    pub bounds: [Option<Range<f64>>; 4],
+}
+
+/// How many objects of a kind to propose.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NextObjects {
+    /// What its rows measure.
+    pub measure: Measure,
+    /// Whether they read a length.
+    pub reads_length: bool,
+    /// How many.
+    pub count: usize,
+}
+
 impl Study {
     /// Where to propose to measure next.
     pub(super) fn next(&self, chain: &Chain) -> Outcome<Option<NextPoses>> {
@@ -30,17 +62,12 @@ impl Study {
         let observed = std::iter::once(&self.observed).chain(self.also.iter().map(|also| &also.observed));
         let seen: Vec<Seen> = observed
             .filter_map(|observed| {
-                let Observed { kind, station, radius, .. } = observed.get_ref();
+                let Observed { kind, station, radius, length, .. } = observed.get_ref();
                 let measure = kind.of_object(radius.is_some())?;
-                Some(Seen { kind: *kind, measure, named: !station.0.is_empty() })
+                let reads_length = length.is_some() || radius.is_some();
+                Some(Seen { kind: *kind, measure, reads_length, named: !station.0.is_empty() })
             })
             .collect();
-        if let Some(own) = seen.iter().find(|own| matches!(own.kind, Kind::Circle | Kind::Sphere)) {
-            let message =
-                format!("where to measure next is not told beside rows of kind \"{}\"", own.kind.name());
-            let help = "leave `[next]` out: what stays on it cannot be aimed at anything else";
-            return Err(mistake(place, message, help));
-        }
         let of_objects = !seen.is_empty();
         let mut mistakes = Gathered::default();
         let most = if of_objects { MOST_ROWS } else { 10_000 };
@@ -78,8 +105,16 @@ impl Study {
 struct Seen {
     kind: Kind,
     measure: Measure,
+    reads_length: bool,
     /// Whether they name where from.
     named: bool,
+}
+
+impl Seen {
+    /// So many more of them.
+    fn asked(&self, count: usize) -> NextObjects {
+        NextObjects { measure: self.measure, reads_length: self.reads_length, count }
+    }
 }
 
 impl NextTable {
@@ -115,20 +150,20 @@ impl NextTable {
                 )));
             }
         }
-        let mut objects: Vec<(Measure, usize)> = Vec::new();
-        for Seen { measure, .. } in seen.iter().filter(|_| nothing_asked) {
-            if !objects.iter().any(|(own, _)| own == measure) {
-                objects.push((*measure, 1));
+        let mut objects: Vec<NextObjects> = Vec::new();
+        for own in seen.iter().filter(|_| nothing_asked).map(|seen| seen.asked(1)) {
+            if !objects.contains(&own) {
+                objects.push(own);
             }
         }
         let asked = mistakes.take(every(self.objects.iter().map(|(name, count)| {
             let own = seen.iter().find(|own| own.kind.name() == name.get_ref());
-            let Seen { measure, .. } = own.ok_or_else(|| {
+            let own = own.ok_or_else(|| {
                 let names = seen.iter().map(|own| own.kind.name());
                 unknown(name.span(), "kind of object of this study", name.get_ref(), names)
             })?;
             within(count.span(), "objects", *count.get_ref(), 0..=MOST_PLACES)?;
-            Ok((*measure, usize::try_from(*count.get_ref()).unwrap_or(usize::MAX)))
+            Ok(own.asked(usize::try_from(*count.get_ref()).unwrap_or(usize::MAX)))
         })));
         let mut bounds: [Option<Range<f64>>; 4] = Default::default();
         for (name, range) in &self.place {

@@ -1,7 +1,5 @@
 //! A study with every name resolved against its chain.
 
-use std::ops::Range;
-
 use model_core::{Chain, Mistakes, ObservableId, SymbolId, SymbolKind};
 use toml::Spanned;
 
@@ -9,6 +7,7 @@ use super::amount::si;
 use super::column_plan::{ColumnPlan, column_plan};
 use super::estimated::{estimable, matching};
 use super::mistakes::{Gathered, Outcome, Several, every, mistake, plain, unknown, within};
+use super::next::NextPoses;
 use super::observed::{ObservedColumns, observed_columns};
 use super::orientation;
 use super::shown::{self, Convention};
@@ -92,28 +91,6 @@ pub struct HoldOut {
     pub together: Vec<String>,
     /// Seed of the division.
     pub seed: u64,
-}
-
-/// How many poses to propose, and where.
-#[derive(Debug, Clone, PartialEq)]
-pub struct NextPoses {
-    /// How many poses, or rows of each addition: as many as stations or objects have so far where the study does not say.
-    pub count: Option<usize>,
-    /// Between which values of a joint, or of a range that is measured, SI; those without stay within that of the data.
-    pub ranges: Vec<(SymbolId, Range<f64>)>,
-    /// What to add instead where rows observe objects from stations.
-    pub places: Option<NextPlaces>,
-}
-
-/// How many stations and objects to propose, and where.
-#[derive(Debug, Clone, PartialEq)]
-pub struct NextPlaces {
-    /// Places to stand.
-    pub stations: usize,
-    /// Objects of each kind.
-    pub objects: Vec<(Measure, usize)>,
-    /// Between which x, y, z (m) and headings (rad).
-    pub bounds: [Option<Range<f64>>; 4],
 }
 
 /// Files that observe one thing in one way.

@@ -28,10 +28,53 @@ pub(super) enum Goal {
     Point(Vector3<f64>),
     /// Anywhere on a plane with this normal, no further from here than that.
     Board(Vector3<f64>, Vector3<f64>, f64),
+    /// Anywhere on a circle about the point, with this axis and radius.
+    Circle(Vector3<f64>, Vector3<f64>, f64),
+    /// Anywhere so far from the point.
+    Sphere(Vector3<f64>, f64),
     /// The way to the point.
     Way(Vector3<f64>),
     /// Whatever comes.
     Anything,
+}
+
+impl Goal {
+    /// What is left of the way from a point to the goal; nothing once it is there.
+    fn left(self, point: &Vector3<f64>) -> DVector<f64> {
+        match self {
+            Self::Point(there) => DVector::from_iterator(3, (there - point).iter().copied()),
+            Self::Board(there, normal, _) => DVector::from_element(1, normal.dot(&(there - point))),
+            Self::Circle(centre, axis, radius) => {
+                let from = point - centre;
+                let off = axis.dot(&from);
+                DVector::from_column_slice(&[off, (from - axis * off).norm() - radius])
+            }
+            Self::Sphere(centre, radius) => DVector::from_element(1, (point - centre).norm() - radius),
+            Self::Way(there) => {
+                DVector::from_iterator(3, (there.normalize() - point.normalize()).iter().copied())
+            }
+            Self::Anything => DVector::zeros(1),
+        }
+    }
+
+    /// How far a point is away, by which the readings to start from are chosen.
+    fn away(self, point: &Vector3<f64>) -> f64 {
+        match self {
+            Self::Board(there, ..) => (point - there).norm(),
+            _ => self.left(point).norm(),
+        }
+    }
+
+    /// How near is there.
+    fn near(self) -> f64 {
+        match self {
+            Self::Point(there)
+            | Self::Board(there, ..)
+            | Self::Circle(there, ..)
+            | Self::Sphere(there, _) => THERE * there.norm().max(1.0),
+            Self::Way(_) | Self::Anything => THERE,
+        }
+    }
 }
 
 /// What an instrument can read while it observes one thing.
@@ -132,13 +175,13 @@ impl Aim {
 
     /// Different ways of pointing at something, at most so many.
     pub fn at(&self, goal: Goal, most: usize) -> Vec<Vec<f64>> {
-        let away = |point: &Vector3<f64>| match goal {
-            Goal::Point(there) | Goal::Board(there, ..) => (point - there).norm(),
-            Goal::Way(there) => (point.normalize() - there.normalize()).norm(),
-            Goal::Anything => 0.0,
-        };
-        let mut order: Vec<(f64, usize)> =
-            self.points.iter().map(away).enumerate().map(|(at, away)| (away, at)).collect();
+        let mut order: Vec<(f64, usize)> = self
+            .points
+            .iter()
+            .map(|point| goal.away(point))
+            .enumerate()
+            .map(|(at, away)| (away, at))
+            .collect();
         order.retain(|(away, _)| away.is_finite());
         order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let mut found: Vec<Vec<f64>> = Vec::new();
@@ -176,21 +219,8 @@ impl Aim {
             })
             .filter(|(.., span)| *span > 0.0)
             .collect();
-        let left = |readings: &[f64]| {
-            let point = self.point(readings);
-            match goal {
-                Goal::Point(there) => DVector::from_iterator(3, (there - point).iter().copied()),
-                Goal::Board(there, normal, _) => DVector::from_element(1, normal.dot(&(there - point))),
-                Goal::Way(there) => {
-                    DVector::from_iterator(3, (there.normalize() - point.normalize()).iter().copied())
-                }
-                Goal::Anything => DVector::zeros(1),
-            }
-        };
-        let near = match goal {
-            Goal::Point(there) | Goal::Board(there, ..) => THERE * there.norm().max(1.0),
-            Goal::Way(_) | Goal::Anything => THERE,
-        };
+        let left = |readings: &[f64]| goal.left(&self.point(readings));
+        let near = goal.near();
         let mut readings = start.to_vec();
         let mut now = left(&readings);
         for _ in 0..STEPS {

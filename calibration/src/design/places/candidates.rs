@@ -11,7 +11,7 @@ use super::Addition;
 use super::aim::{Aim, Goal, ranges_of};
 use super::known::{Known, extent};
 use crate::data::unknowns::{Freedom, Known as Placed, Object, Pose, Shape, Station, Unknowns};
-use crate::data::{Measure, Observations};
+use crate::data::{Measure, Measured, Observations, Series};
 use crate::design::generator;
 use crate::fit::robust::median;
 use crate::objects::{Row, rows};
@@ -28,6 +28,9 @@ const CHOICE: f64 = 1.5;
 
 /// Rows of one addition at most.
 const MOST_ROWS: usize = 100;
+
+/// Lengths that differ by no more than this share are those of one bar, or of one radius.
+const ALIKE: f64 = 0.01;
 
 /// A beam that meets a plane at more than this from its normal is lost, as a cosine: 80 degrees.
 const GRAZING: f64 = 0.17;
@@ -68,6 +71,8 @@ pub(super) struct Candidate {
     pub pointings: Vec<Possible>,
     /// How many pointings are to be measured.
     pub wanted: usize,
+    /// Of a new object: how far from its place all of them have to be, m.
+    pub radius_m: Option<f64>,
 }
 
 /// A row that could be measured; a station or object behind those that there are is the new one.
@@ -89,6 +94,10 @@ pub(super) struct Candidates<'a> {
     /// Rows of each addition, if the study says how many.
     poses: Option<usize>,
     measures: Vec<Measure>,
+    /// What an object of each series is.
+    kinds: Vec<Option<Addition>>,
+    /// How far from its centre each object is observed, m; `None` where that is any distance.
+    radii_m: Vec<Option<f64>>,
     /// One a series that observes objects.
     aims: Vec<Option<Aim>>,
     rows: Vec<Row>,
@@ -132,6 +141,8 @@ impl<'a> Candidates<'a> {
             board_m: median(reach.collect()),
             hits_of,
             measures: poses.series.iter().map(|series| series.measure).collect(),
+            kinds: poses.series.iter().map(|series| kind(series, observations)).collect(),
+            radii_m: radii_m(observations, &unknowns),
             has_beam: !ranges_of(chain, poses, &next.ranges).is_empty(),
             unknowns,
             of_stations,
@@ -226,9 +237,7 @@ impl<'a> Candidates<'a> {
                 Measure::Plane => {
                     self.spots(series, object, each).iter().map(|spot| Goal::Point(pose.back(spot))).collect()
                 }
-                Measure::Sight => vec![Goal::Way(pose.back(&thing.place))],
-                Measure::Wire | Measure::Distance => vec![Goal::Anything],
-                _ => vec![Goal::Point(pose.back(&thing.place))],
+                measure => vec![goal(measure, &pose, thing, self.radii_m[object])],
             };
             let ways = (each / goals.len().max(1)).clamp(WAYS[0], WAYS[1]);
             for goal in goals {
@@ -246,11 +255,12 @@ impl<'a> Candidates<'a> {
                 }));
             }
         }
-        (!pointings.is_empty()).then_some(Candidate { new: New::Station(station), pointings, wanted })
+        let new = New::Station(station);
+        (!pointings.is_empty()).then_some(Candidate { new, pointings, wanted, radius_m: None })
     }
 
     fn object(&self, number: usize, adds: Addition) -> Option<Candidate> {
-        let series = self.measures.iter().position(|measure| Addition::of(*measure) == Some(adds))?;
+        let series = self.kinds.iter().position(|kind| *kind == Some(adds))?;
         let aim = self.aims[series].as_ref()?;
         let measure = self.measures[series];
         let shape = Shape::of(measure)?;
@@ -260,14 +270,15 @@ impl<'a> Candidates<'a> {
         (object.place, object.known) = (place, Placed::Yes);
         let own = self.unknowns.objects.iter().filter(|own| own.shape == shape);
         object.freedom = as_the_others(own.clone().map(|own| own.freedom));
-        if shape == Shape::Plane {
+        if matches!(shape, Shape::Plane | Shape::Circle | Shape::Ring) {
             let (up, around) = (2.0 * share[3] - 1.0, 2.0 * PI * share[4]);
             let level = (1.0 - up * up).sqrt();
             object.normal = Vector3::new(level * around.cos(), level * around.sin(), up);
         }
-        if shape == Shape::Wire {
+        if matches!(shape, Shape::Wire | Shape::Circle) {
             object.offset = median(own.map(|own| own.offset).collect());
         }
+        let radius_m = self.usual_radius_m(series);
         let wanted = self.poses.unwrap_or_else(|| self.rows_per(|row| row.object));
         let stations: BTreeSet<usize> =
             self.rows.iter().filter(|row| row.series == series).map(|row| row.station).collect();
@@ -277,13 +288,12 @@ impl<'a> Candidates<'a> {
         let mut pointings = Vec::new();
         for station in stations {
             let pose = self.unknowns.stations[station].pose;
-            let there = pose.back(&place);
             let goal = match measure {
                 Measure::Plane if self.grazes(&(place - pose.shift), &object.normal) => continue,
-                Measure::Plane => Goal::Board(there, pose.turn.inverse() * object.normal, self.board_m),
-                Measure::Sight => Goal::Way(there),
-                Measure::Wire | Measure::Distance => Goal::Anything,
-                _ => Goal::Point(there),
+                Measure::Plane => {
+                    Goal::Board(pose.back(&place), pose.turn.inverse() * object.normal, self.board_m)
+                }
+                measure => goal(measure, &pose, &object, radius_m),
             };
             let readings = aim.at(goal, ways);
             pointings.extend(readings.into_iter().map(|readings| Possible {
@@ -293,7 +303,15 @@ impl<'a> Candidates<'a> {
                 readings,
             }));
         }
-        (!pointings.is_empty()).then_some(Candidate { new: New::Object(object), pointings, wanted })
+        let new = New::Object(object);
+        (!pointings.is_empty()).then_some(Candidate { new, pointings, wanted, radius_m })
+    }
+
+    /// How far from its centre an object of a series is observed, as the others are; `None` where that is any distance.
+    fn usual_radius_m(&self, series: usize) -> Option<f64> {
+        let own = self.rows.iter().filter(|row| row.series == series).map(|row| row.object);
+        let own: BTreeSet<usize> = own.collect();
+        own.into_iter().map(|object| self.radii_m[object]).collect::<Option<Vec<f64>>>().map(median)
     }
 
     /// Whether a beam would be lost on a plane.
@@ -322,6 +340,50 @@ impl<'a> Candidates<'a> {
         count.retain(|count| *count > 0.0);
         (median(count) as usize).clamp(1, MOST_ROWS)
     }
+}
+
+/// Where to aim to observe an object that is no plane, from a pose.
+fn goal(measure: Measure, pose: &Pose, thing: &Object, radius_m: Option<f64>) -> Goal {
+    let there = pose.back(&thing.place);
+    match (measure, radius_m) {
+        (Measure::Sight, _) => Goal::Way(there),
+        (Measure::Circle | Measure::Ring, Some(radius_m)) => {
+            Goal::Circle(there, pose.turn.inverse() * thing.normal, radius_m)
+        }
+        (Measure::Wire | Measure::Distance, Some(radius_m)) => Goal::Sphere(there, radius_m),
+        (Measure::Wire | Measure::Distance, None) => Goal::Anything,
+        _ => Goal::Point(there),
+    }
+}
+
+/// What an object of a series is.
+fn kind(series: &Series, observations: &Observations) -> Option<Addition> {
+    let lengths = observations.measured[series.rows.clone()].iter().filter_map(length_m);
+    Addition::of(series.measure, lengths.into_iter().any(|length_m| length_m != 0.0))
+}
+
+/// Per object how far from its centre its rows are, m: its radius, or the length that all of them read.
+fn radii_m(observations: &Observations, unknowns: &Unknowns) -> Vec<Option<f64>> {
+    let mut read: Vec<Vec<f64>> = vec![Vec::new(); unknowns.objects.len()];
+    for (object, measured) in unknowns.object.iter().zip(&observations.measured) {
+        if let (Some(object), Some(length_m)) = (object, length_m(measured)) {
+            read[*object as usize].push(length_m);
+        }
+    }
+    let radius_m = |(object, read): (&Object, Vec<f64>)| match object.shape {
+        Shape::Circle => Some(object.offset),
+        Shape::Wire if read.iter().all(|length_m| *length_m == 0.0) => Some(object.offset),
+        Shape::Ring | Shape::Point if !read.is_empty() => {
+            let usual = median(read.clone());
+            read.iter().all(|length_m| (length_m - usual).abs() <= ALIKE * usual).then_some(usual)
+        }
+        Shape::Wire | Shape::Plane | Shape::Ring | Shape::Point => None,
+    };
+    unknowns.objects.iter().zip(read).map(radius_m).collect()
+}
+
+fn length_m(measured: &Measured) -> Option<f64> {
+    if let Measured::Length { length_m } = measured { Some(*length_m) } else { None }
 }
 
 /// What would be known of one more: what is known of every other.

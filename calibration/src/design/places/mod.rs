@@ -1,4 +1,4 @@
-//! Where to put the next station, wall, target, socket or wire, and what to aim at: additions to a set-up with places that
+//! Where to put the next station, wall, target, socket, circle or wire, and what to aim at: additions to a set-up with places that
 //! nobody knows, by which the worst-determined errors gain most.
 //!
 //! An addition brings numbers of its own, which are estimated with all others: a target that is seen once tells nothing. Of
@@ -114,7 +114,8 @@ fn in_a_frame(mut unknowns: Unknowns) -> Unknowns {
 
 /// What is asked for, and how many.
 fn asked(wanted: &NextPlaces) -> Vec<(Addition, usize)> {
-    let objects = wanted.objects.iter().filter_map(|&(measure, count)| Some((Addition::of(measure)?, count)));
+    let objects = wanted.objects.iter();
+    let objects = objects.filter_map(|own| Some((Addition::of(own.measure, own.reads_length)?, own.count)));
     let all = std::iter::once((Addition::Station, wanted.stations)).chain(objects);
     all.filter(|(_, count)| *count > 0).collect()
 }
@@ -236,7 +237,7 @@ impl Setting<'_> {
         unknowns.station = order.iter().map(|&at| candidate.pointings[at].station as u32).collect();
         let measured = order.iter().map(|&at| match poses.series[candidate.pointings[at].series].measure {
             // How long it would be read plays no part in what it tells.
-            Measure::Wire | Measure::Distance => Measured::Length { length_m: 1.0 },
+            Measure::Wire | Measure::Distance | Measure::Ring => Measured::Length { length_m: 1.0 },
             _ => Measured::Readings,
         });
         let mut values = self.fit.values[..self.chain.symbols.len()].to_vec();
@@ -352,7 +353,8 @@ impl Candidate {
         let (place, heading_rad, normal) = match &self.new {
             New::Station(Station { pose, .. }) => (pose.shift, Some(pose.turn.euler_angles().2), None),
             New::Object(object) => {
-                (object.place, None, (object.shape == Shape::Plane).then(|| list(&object.normal)))
+                let is_point = matches!(object.shape, Shape::Point | Shape::Wire);
+                (object.place, None, (!is_point).then(|| list(&object.normal)))
             }
         };
         let label = |own: Option<&String>| own.cloned().unwrap_or_default();
@@ -360,6 +362,7 @@ impl Candidate {
             place_m: list(&place),
             heading_rad,
             normal,
+            radius_m: self.radius_m,
             pointings: pointings
                 .iter()
                 .map(|&at| {

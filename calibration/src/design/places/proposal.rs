@@ -18,6 +18,10 @@ pub enum Addition {
     Target,
     /// A socket.
     Fixed,
+    /// A circle.
+    Circle,
+    /// A sphere of a radius that nobody knows.
+    Sphere,
     /// A wire.
     Wire,
     /// A pivot.
@@ -27,20 +31,19 @@ pub enum Addition {
 }
 
 impl Addition {
-    /// An object by how it is observed; `None` if no object is.
+    /// An object by how it is observed, and whether a length is read with it; `None` if no object is.
     #[must_use]
-    pub fn of(measure: Measure) -> Option<Self> {
+    pub fn of(measure: Measure, reads_length: bool) -> Option<Self> {
         match measure {
             Measure::Plane => Some(Self::Plane),
             Measure::Target => Some(Self::Target),
             Measure::Fixed => Some(Self::Fixed),
-            Measure::Wire => Some(Self::Wire),
+            Measure::Circle | Measure::Ring => Some(Self::Circle),
+            Measure::Wire if reads_length => Some(Self::Wire),
+            Measure::Wire => Some(Self::Sphere),
             Measure::Distance => Some(Self::Distance),
             Measure::Sight | Measure::Beam => Some(Self::Sight),
-            // A new circle would have to be hit, and is no place to aim at.
-            Measure::Circle
-            | Measure::Ring
-            | Measure::Direction
+            Measure::Direction
             | Measure::Point
             | Measure::Range
             | Measure::Azimuth
@@ -78,8 +81,10 @@ pub struct Place {
     pub place_m: [f64; 3],
     /// Of a station: where its frame is turned about the vertical, rad.
     pub heading_rad: Option<f64>,
-    /// Of a plane: its normal.
+    /// Of a plane its normal, of a circle its axis.
     pub normal: Option<[f64; 3]>,
+    /// How far from there all that is observed has to be, m; `None` where that may be any distance.
+    pub radius_m: Option<f64>,
     /// What to measure.
     pub pointings: Vec<Pointing>,
 }

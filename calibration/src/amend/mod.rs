@@ -147,16 +147,6 @@ fn line_end(text: &str, at: usize) -> &'static str {
     if line.ends_with('\r') { "\r\n" } else { "\n" }
 }
 
-/// The difference of two texts as a unified diff.
-#[must_use]
-pub fn diff(before: &str, after: &str, name: &str) -> String {
-    similar::TextDiff::from_lines(before, after)
-        .unified_diff()
-        .context_radius(2)
-        .header(name, "amended.chain")
-        .to_string()
-}
-
 /// Where a factor of a role goes in a body: the byte after which a new line starts, and its indentation.
 fn place(text: &str, body: &BodyStatement, role: Role) -> (usize, String) {
     let last = |word: &str| body.groups.iter().rev().find(|group| group.role == word);

@@ -1,7 +1,6 @@
 //! The simulated scanner of the examples: its middle encoder sits off centre, and the declaration does not know.
 //! What was planted stands in `examples/mobile-lidar/simulate.py`, which shares no code with ours.
 
-use calibration::amend::diff;
 use calibration::diagnose::Verdict;
 use model_core::Chain;
 
@@ -43,9 +42,10 @@ fn the_eccentric_encoder_is_found_and_the_declaration_amended() {
     assert!(arcsec(report.before.held_out_rms.unwrap()) > 2.0 * held_out);
 
     // Only lines added, and what comes out is a declaration that means what was fitted.
-    let difference = diff(&study.text, found.amended.as_ref().unwrap(), "mobile-lidar.chain");
-    let removed = difference.lines().filter(|line| line.starts_with('-') && !line.starts_with("---")).count();
-    assert_eq!(removed, 0, "{difference}");
+    let amended = found.amended.as_ref().unwrap();
+    let mut lines = amended.lines();
+    let is_kept = |line: &&str| lines.any(|own| own == *line);
+    assert_eq!(study.text.lines().filter(is_kept).count(), study.text.lines().count(), "{amended}");
     let amended = Chain::from_text(found.amended.as_ref().unwrap()).unwrap();
     for observable in [0, 1, 2].map(model_core::ObservableId) {
         let by_text: Vec<String> = amended

@@ -11,6 +11,7 @@ pub mod effects;
 pub mod fit;
 pub mod formats;
 pub mod objects;
+mod parallel;
 pub mod report;
 pub mod search;
 pub mod study;

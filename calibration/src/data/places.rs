@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use super::joined::Joined;
 use super::{Poses, golden};
+use crate::parallel;
 
 /// How much further the rows of other places are than those of one are from each other, at least.
 const APART: f64 = 2.5;
@@ -74,7 +75,7 @@ fn scaled(chain: &Chain, poses: &Poses) -> Vec<Vec<f64>> {
         (tells(symbol.kind, symbol.quantity) && range > 0.0 && range.is_finite())
             .then(|| values.iter().map(|value| value / range).collect())
     };
-    poses.columns.par_iter().filter_map(of_column).collect()
+    parallel::each_of(&poses.columns, of_column).into_iter().flatten().collect()
 }
 
 /// Rows in the order in which they lie along a line through the space of the readings.
@@ -101,7 +102,7 @@ impl Line {
         placed.par_sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let (at, order): (Vec<f64>, Vec<u32>) = placed.into_iter().unzip();
         let ordered = |values: &Vec<f64>| order.iter().map(|&row| values[row as usize]).collect();
-        let readings = readings.par_iter().map(ordered).collect();
+        let readings = parallel::each_of(readings, ordered);
         Self { order, at, readings, stretch: weights.iter().sum() }
     }
 

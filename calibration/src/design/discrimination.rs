@@ -11,12 +11,12 @@
 
 use faer::Mat;
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::candidate::{Effect, EffectId};
 use crate::data::Poses;
 use crate::design::{OFTEN, joints, spread};
+use crate::parallel;
 use crate::search::columns::{Probed, places};
 use crate::search::context::{Context, declared};
 use crate::search::round::Round;
@@ -301,7 +301,7 @@ fn choose(models: &mut [Model], pairs: &[Pair], count: usize) -> Vec<usize> {
     let mut chosen = Vec::new();
     while chosen.len() < count && !pairs.is_empty() {
         let Some(best) = best(models, pairs, &chosen) else { break };
-        models.par_iter_mut().enumerate().for_each(|(at, model)| {
+        parallel::each_of(models.iter_mut().enumerate(), |(at, model)| {
             if pairs.iter().any(|pair| pair.model == at) {
                 model.measure(best);
             }
@@ -327,7 +327,7 @@ fn best(models: &[Model], pairs: &[Pair], chosen: &[usize]) -> Option<usize> {
         let least = after.iter().copied().fold(f64::INFINITY, f64::min);
         least / 2.0 - after.iter().map(|d| ((least - d) / 2.0).exp()).sum::<f64>().ln()
     };
-    let all: Vec<f64> = (0..poses).into_par_iter().map(odds).collect();
+    let all = parallel::each(poses, odds);
     all.iter()
         .enumerate()
         .filter(|(row, odds)| odds.is_finite() && chosen.iter().filter(|one| *one == row).count() < OFTEN)

@@ -3,12 +3,12 @@
 use faer::Mat;
 use model_core::{Chain, Quantity, SymbolKind};
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::data::Observations;
 use crate::data::waves::waves;
 use crate::fit::FitResult;
+use crate::parallel;
 use crate::search::products::add_products;
 
 /// Harmonics that are told.
@@ -141,7 +141,7 @@ fn products<'a>(
         add_products(products.as_mut(), columns.as_ref());
         products
     };
-    let chunks: Vec<Mat<f64>> = rows.par_chunks(CHUNK).map(of_chunk).collect();
+    let chunks = parallel::each_of(rows.chunks(CHUNK), of_chunk);
     chunks.into_iter().fold(Mat::zeros(width, width), |whole, part| whole + part)
 }
 

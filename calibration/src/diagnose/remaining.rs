@@ -12,6 +12,7 @@ use crate::candidate::{Effect, Freedom, Place};
 use crate::data::{Observations, SiUnit};
 use crate::effects::{SmoothPlace, smooth, tensor};
 use crate::fit::noise::Layout;
+use crate::parallel;
 use crate::search::SearchError;
 use crate::search::columns::{self, Columns};
 use crate::search::contest::{Price, contender, criterion, most_telling};
@@ -236,10 +237,10 @@ impl Scanned<'_> {
     /// The function that beats the catalogue's model by most; the likelier place of two that are the same.
     fn best_function(&self, smooths: &[SmoothPlace]) -> Option<Function> {
         let (whole, left, places) = (self.whole, self.left, smooths.len());
-        let mut each: Vec<Function> =
-            smooths.par_iter().flat_map_iter(|smooth| self.at(*smooth, places)).collect();
+        let each = parallel::each_of(smooths, |smooth| self.at(*smooth, places));
+        let mut each: Vec<Function> = each.into_iter().flatten().collect();
         let price = Price { sets: self.last.sets.len(), functions: self.tensors.len(), parameters: 0 };
-        each.par_extend(self.tensors.par_iter().map(|(effect, columns)| Function {
+        each.extend(parallel::each_of(&self.tensors, |(effect, columns)| Function {
             place: effect.place,
             driver: effect.driver.clone(),
             driver_unit: SiUnit::ONE,

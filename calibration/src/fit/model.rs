@@ -5,7 +5,6 @@ use std::ops::Range;
 use codegen::{Form, Interpreter, NodeId, Op, Program, build_all};
 use model_core::{Chain, SymbolId, SymbolKind};
 use nalgebra::Vector3;
-use rayon::prelude::*;
 
 use super::FitError;
 use super::beam::Beam;
@@ -16,6 +15,7 @@ use super::shrinking::{self, Scales};
 use super::spare::Spare;
 use crate::data::orientation::{AXES, axes_of};
 use crate::data::{Measure, Measured, Observations, Poses, Series};
+use crate::parallel;
 
 /// Rows evaluated at a time: what a block holds stays in the second-level cache.
 pub const BLOCK_ROWS: usize = 256;
@@ -241,27 +241,23 @@ impl Model {
             tasks.extend(starts.map(|start| (index, start..(start + BLOCK_ROWS).min(series.rows.end))));
         }
         let made = |some: &[(usize, Range<usize>)]| -> Result<Vec<T>, FitError> {
-            let some = some.par_iter().cloned().map_init(
-                || self.spare.lent(),
-                |lent, (index, rows)| {
-                    let Running { interpreters, block } = lent.get_or_make(|| self.running());
-                    let (Some((interpreter, beam)), Some(series)) =
-                        (interpreters.get_mut(index), of.poses.series.get(index))
-                    else {
-                        return Err(FitError::WrongShape {
-                            why: "more series than the model has".to_string(),
-                        });
-                    };
-                    let beam = self.beams.get(index).and_then(Option::as_ref).zip(beam.as_mut());
-                    self.evaluate(interpreter, beam, of, series, rows.clone(), values, block)?;
-                    let steps = self.turns_by == TurnsBy::Object && !block.unknown.is_empty();
-                    if let Some(scales) = self.scales.get(index).filter(|_| steps) {
-                        block.shrink(scales, values);
-                    }
-                    Ok(f(index, rows, block))
-                },
-            );
-            some.collect()
+            let made = parallel::each_of(some.iter().cloned(), |(index, rows)| {
+                let mut lent = self.spare.lent();
+                let Running { interpreters, block } = lent.get_or_make(|| self.running());
+                let (Some((interpreter, beam)), Some(series)) =
+                    (interpreters.get_mut(index), of.poses.series.get(index))
+                else {
+                    return Err(FitError::WrongShape { why: "more series than the model has".to_string() });
+                };
+                let beam = self.beams.get(index).and_then(Option::as_ref).zip(beam.as_mut());
+                self.evaluate(interpreter, beam, of, series, rows.clone(), values, block)?;
+                let steps = self.turns_by == TurnsBy::Object && !block.unknown.is_empty();
+                if let Some(scales) = self.scales.get(index).filter(|_| steps) {
+                    block.shrink(scales, values);
+                }
+                Ok(f(index, rows, block))
+            });
+            made.into_iter().collect()
         };
         let mut before = Vec::new();
         for some in tasks.chunks(AT_ONCE) {

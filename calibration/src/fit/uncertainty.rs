@@ -6,7 +6,6 @@
 
 use faer::Mat;
 use model_core::SymbolId;
-use rayon::prelude::*;
 
 use super::cluster::{Clusters, Share};
 use super::coordinates::Coordinates;
@@ -20,6 +19,7 @@ use super::sweep::Weighting;
 use super::{FitError, Partial, robust};
 use crate::fit::noise::serial;
 use crate::fit::noise::{self, Pools, session, trend};
+use crate::parallel;
 
 /// Degrees of freedom from which on it makes no difference which kind of component they come from.
 const MANY: f64 = 1000.0;
@@ -271,7 +271,7 @@ fn shares(q: &Mat<f64>, residual: &[f64], buckets: &Buckets) -> Vec<Share> {
             count: own.len() as f64,
         }
     };
-    members.into_par_iter().map(share).collect()
+    parallel::each_of(members, share)
 }
 
 /// Which of some sets each component belongs to.

@@ -4,7 +4,6 @@
 use std::io::{self, Read};
 
 use memchr::memchr;
-use rayon::prelude::*;
 
 use super::decimal::{Marks, parse};
 use super::error::clipped;
@@ -13,6 +12,7 @@ use super::packed::no_text;
 use super::records::{Dialect, Line, Record, RecordError, Records, Row};
 use super::separator::guess_separator;
 use super::{Cell, Cells, Chunk, DataError, Form, Kept, Options, TableReader, Wanted};
+use crate::parallel;
 
 /// How much of a file is looked at to see its separator.
 const PEEK: u64 = 64 * 1024;
@@ -106,7 +106,7 @@ impl<R: Read> Reader<R> {
             table.read(&mut rows, wanted, usize::MAX, &mut chunk)?;
             Ok((chunk, rows.records.line(), rows.marks))
         };
-        let each: Vec<_> = parts.par_iter().map(|part| read(part, 0, 0, Marks::default())).collect();
+        let each = parallel::each_of(&parts, |part| read(part, 0, 0, Marks::default()));
         let (mut line, mut row) = (line, self.rows.row);
         for (part, outcome) in parts.iter().zip(each) {
             // Read again, a part with a mistake says where in the file it is.

@@ -2,11 +2,10 @@
 
 use std::io::{self, Write};
 
-use rayon::prelude::*;
-
 use super::Texts;
 use super::number::push_number;
 use super::quote::push_cell;
+use crate::parallel;
 
 /// Rows that one processor sets at a time.
 const PART: usize = 4096;
@@ -34,15 +33,12 @@ pub enum Written<'a> {
 pub fn write_rows(out: &mut dyn Write, columns: &[Written<'_>], rows: usize) -> io::Result<()> {
     for first in (0..rows).step_by(AT_ONCE) {
         let starts: Vec<usize> = (first..rows.min(first + AT_ONCE)).step_by(PART).collect();
-        let parts: Vec<Vec<u8>> = starts
-            .into_par_iter()
-            .map(|start| {
-                let end = rows.min(start + PART);
-                let mut text = Vec::with_capacity((end - start) * columns.len() * 16);
-                (start..end).for_each(|row| push_row(&mut text, columns, row));
-                text
-            })
-            .collect();
+        let parts = parallel::each_of(starts, |start| {
+            let end = rows.min(start + PART);
+            let mut text = Vec::with_capacity((end - start) * columns.len() * 16);
+            (start..end).for_each(|row| push_row(&mut text, columns, row));
+            text
+        });
         parts.iter().try_for_each(|part| out.write_all(part))?;
     }
     Ok(())

@@ -7,11 +7,11 @@ use std::ops::Range;
 
 use codegen::vector::{self, Arithmetic};
 use faer::{Mat, MatMut, MatRef};
-use rayon::prelude::*;
 
 use super::folds::Folds;
 use super::products::{add_products, mirrored};
 use super::spanning::Unfolding;
+use crate::parallel;
 
 /// What is left of a column, as a share of its sum of squares, below which it counts as explained by those before it.
 const NOTHING: f64 = 1e-13;
@@ -87,7 +87,7 @@ impl Cells {
         let mut products = vec![0.0; fold_of_cell.len() * width * width];
         // Memory that is written before it is read is cheaper: what is read first has to be moved as soon as it is written, and every
         // processor told of it.
-        products.par_chunks_mut(width * width).for_each(|own| own.fill(0.0));
+        parallel::each_of(products.chunks_mut(width * width), |own| own.fill(0.0));
         let cells = Self { width, rows_of_fold: folds.rows_of_fold.clone(), products, fold_of_cell };
         (cells, cell_of_group)
     }
@@ -108,12 +108,12 @@ impl Cells {
         give: impl Fn(usize, &mut dyn FnMut(MatRef<'_, f64>)) -> Result<T, E> + Sync,
     ) -> Result<Vec<T>, E> {
         let width = self.width;
-        let cells = self.products.par_chunks_mut(width * width).enumerate();
-        let filled = cells.map(|(cell, products)| {
+        let cells = self.products.chunks_mut(width * width).enumerate();
+        let filled = parallel::each_of(cells, |(cell, products)| {
             let mut products = MatMut::from_column_major_slice_mut(products, width, width);
             give(cell, &mut |rows| add_products(products.as_mut(), rows))
         });
-        filled.collect()
+        filled.into_iter().collect()
     }
 
     /// Takes in parts of the rows, each put in the order of its cells.
@@ -124,8 +124,8 @@ impl Cells {
                 own[*cell].push(rows.subrows(places.start, places.len()));
             }
         }
-        let cells = self.products.par_chunks_mut(width * width).zip(own);
-        cells.filter(|(_, own)| !own.is_empty()).for_each(|(products, own)| {
+        let cells = self.products.chunks_mut(width * width).zip(own);
+        parallel::each_of(cells.filter(|(_, own)| !own.is_empty()), |(products, own)| {
             let mut products = MatMut::from_column_major_slice_mut(products, width, width);
             own.into_iter().for_each(|rows| add_products(products.as_mut(), rows));
         });
@@ -135,9 +135,8 @@ impl Cells {
     #[must_use]
     pub fn merged(self, unfolding: &Unfolding) -> (Mat<f64>, Folds) {
         let Self { width, fold_of_cell, rows_of_fold, mut products } = self;
-        let cells = products.par_chunks_mut(width * width);
-        let roots: Vec<Vec<usize>> =
-            cells.map(|products| root(products, width, unfolding.behind())).collect();
+        let cells = products.chunks_mut(width * width);
+        let roots = parallel::each_of(cells, |products| root(products, width, unfolding.behind()));
         let of_cell = |(cell, rows): (usize, &Vec<usize>)| std::iter::repeat_n(cell as u32, rows.len());
         let group_of_row: Vec<u32> = roots.iter().enumerate().flat_map(of_cell).collect();
         let fold_of_group = fold_of_cell.into_iter().map(|fold| fold as u32).collect();
@@ -148,8 +147,8 @@ impl Cells {
             parts.push(part);
             rest = others;
         }
-        let cells = parts.into_par_iter().zip(&roots).zip(products.par_chunks(width * width));
-        cells.for_each(|((part, root), products)| {
+        let cells = parts.into_iter().zip(&roots).zip(products.chunks(width * width));
+        parallel::each_of(cells, |((part, root), products)| {
             let behind = unfolding.behind();
             let own = Mat::from_fn(root.len(), behind.len(), |i, j| products[root[i] * width + behind[j]]);
             unfolding.unfold(own.as_ref(), part);

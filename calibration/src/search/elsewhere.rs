@@ -5,13 +5,13 @@
 
 use faer::Mat;
 use model_core::{SymbolId, SymbolKind};
-use rayon::prelude::*;
 
 use super::folds::Folds;
 use super::problem::Problem;
 use super::select::select;
 use super::state::State;
 use crate::data::SiUnit;
+use crate::parallel;
 use crate::search::context::Context;
 use crate::search::round::Round;
 
@@ -80,10 +80,8 @@ pub(crate) fn elsewhere(whole: &Context<'_>, last: &Round<'_>, units: &[SiUnit])
             thirds.extend(ends.map(|(from, to)| (*id, from, to)));
         }
     }
-    thirds
-        .into_par_iter()
-        .filter_map(|(joint, from, to)| judged(whole, last, units, joint, from, to))
-        .collect()
+    let each = parallel::each_of(thirds, |(joint, from, to)| judged(whole, last, units, joint, from, to));
+    each.into_iter().flatten().collect()
 }
 
 fn judged(

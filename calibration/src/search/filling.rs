@@ -5,7 +5,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use faer::Mat;
-use rayon::prelude::*;
 
 use super::cells::{ByCell, Cells};
 use super::chunk::{Chunk, Unfilled, whitening_scales};
@@ -18,6 +17,7 @@ use super::spanning::Spanning;
 use super::stretches::{Chunks, stretches};
 use super::{SearchError, Stage};
 use crate::data::golden;
+use crate::parallel;
 
 /// Rows of one cell whose columns are made at a time: what a processor just made is still near it when their products are taken.
 const PORTION: usize = 128;
@@ -178,8 +178,7 @@ pub(super) fn each_chunk<T: Send, E: Send>(
     let apart = chunks.count().div_ceil(AT_ONCE);
     for first in 0..apart {
         let some: Vec<usize> = (first..chunks.count()).step_by(apart).collect();
-        let made: Vec<Result<T, E>> =
-            some.into_par_iter().map(|chunk| make(&chunks.stretches(chunk))).collect();
+        let made = parallel::each_of(some, |chunk| make(&chunks.stretches(chunk)));
         take(made.into_iter().collect::<Result<_, _>>()?);
     }
     Ok(())

@@ -6,7 +6,6 @@
 //! large model spaces", Biometrika 95 (2008).
 
 use faer::Mat;
-use rayon::prelude::*;
 
 use super::contest::ln_choices;
 use super::round::Round;
@@ -14,6 +13,7 @@ use super::sweep::Sweep;
 use crate::fit::noise::Run;
 use crate::fit::noise::serial::{FEWEST, Model, longest, models};
 use crate::fit::noise::space;
+use crate::parallel;
 
 /// Twice the logarithm of the likelihood that a memory gains over white noise at least, to be held against effects.
 ///
@@ -58,7 +58,7 @@ pub(crate) fn explains(last: &Round<'_>) -> bool {
     let axes = space::axes(&rows.observations);
     let models: Vec<_> = models(length, rows.runs(), axes.as_deref()).collect();
     let remembering = |columns: &[Vec<f64>]| {
-        let tried: Vec<f64> = models.par_iter().map(|(model, _)| deviance(columns, Some(model))).collect();
+        let tried = parallel::each_of(&models, |(model, _)| deviance(columns, Some(model)));
         tried.into_iter().fold(f64::INFINITY, f64::min) + 2.0 * each
     };
     let (white, memory) = (deviance(&declared, None), remembering(&declared));

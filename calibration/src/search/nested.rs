@@ -1,11 +1,10 @@
 //! Nested cross-validation: the whole search repeated without each fold, and judged on that fold.
 
-use rayon::prelude::*;
-
 use super::confounded::{ConfoundedSet, SetId};
 use super::problem::Problem;
 use super::select::{Options, select};
 use super::state::State;
+use crate::parallel;
 
 /// What the searches without each fold found, and the regressions that predict it.
 #[derive(Debug, Clone)]
@@ -56,7 +55,7 @@ fn without_each(problem: &Problem, columns: &[usize]) -> Vec<Vec<(usize, f64)>> 
         state.add(columns);
         state.coefficients()
     };
-    (0..problem.folds()).into_par_iter().map(of_fold).collect()
+    parallel::each(problem.folds(), of_fold)
 }
 
 /// The sum of squares that coefficients leave in a fold.
@@ -73,14 +72,11 @@ fn left(problem: &Problem, fold: usize, coefficients: &[(usize, f64)]) -> f64 {
 /// Repeats the search without each fold.
 #[must_use]
 pub fn nested(problem: &Problem, sets: &[ConfoundedSet], options: &Options) -> HeldOut {
-    let folds: Vec<(Vec<SetId>, State, State)> = (0..problem.folds())
-        .into_par_iter()
-        .map(|fold| {
-            let selection = select(problem, sets, &[], |f| f != fold, options);
-            let chosen = selection.accepted.iter().map(|a| a.set).collect();
-            (chosen, State::declared(problem, |f| f != fold), selection.state)
-        })
-        .collect();
+    let folds: Vec<(Vec<SetId>, State, State)> = parallel::each(problem.folds(), |fold| {
+        let selection = select(problem, sets, &[], |f| f != fold, options);
+        let chosen = selection.accepted.iter().map(|a| a.set).collect();
+        (chosen, State::declared(problem, |f| f != fold), selection.state)
+    });
     HeldOut {
         before: folds.iter().map(|fold| fold.1.coefficients()).collect(),
         after: folds.iter().map(|fold| fold.2.coefficients()).collect(),

@@ -12,12 +12,12 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use faer::{Mat, MatRef};
-use rayon::prelude::*;
 
 use super::folds::Folds;
 use super::products::{add_products, mirrored, picked, taken_out};
 use super::reach::Reach;
 use crate::candidate::EffectId;
+use crate::parallel;
 
 pub(crate) use stated::with_stated;
 
@@ -217,7 +217,7 @@ impl Problem {
     /// The Gram matrix of each fold's rows.
     fn form_grams(&mut self) {
         let of_fold = |fold| self.gram_of(&self.rows_of_folds(|other| other == fold));
-        self.grams = (0..self.folds()).into_par_iter().map(of_fold).collect();
+        self.grams = parallel::each(self.folds(), of_fold);
     }
 
     /// The Gram matrix of some rows.

@@ -3,7 +3,8 @@
 use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::{Accum, Mat, MatMut, MatRef, Par};
-use rayon::prelude::*;
+
+use crate::parallel;
 
 /// Columns that one processor works on at a time.
 const COLUMNS_AT_ONCE: usize = 48;
@@ -55,7 +56,7 @@ pub(super) fn taken_out(basis: MatRef<'_, f64>, columns: MatMut<'_, f64>) -> Mat
         }
         absorbed
     };
-    let parts: Vec<Mat<f64>> = parts.into_par_iter().map(of_part).collect();
+    let parts = parallel::each_of(parts, of_part);
     let mut absorbed = Mat::zeros(basis.ncols(), count);
     let mut at = 0;
     for part in parts {

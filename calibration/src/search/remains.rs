@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use super::scan::{Left, Scan};
 use super::signs::Signs;
+use crate::parallel;
 
 /// Nearest neighbours of each observation in the space of all joints.
 const NEAREST: usize = 4;
@@ -67,13 +68,10 @@ impl Statistic {
             })
             .collect();
         let observed: f64 = products.iter().map(|(_, _, product, expected)| product - expected).sum();
-        let chance = (0..signs.flips())
-            .into_par_iter()
-            .map(|flip| {
-                let sign = signs.of_flip(flip);
-                products.iter().map(|&(a, b, product, _)| sign[a] * sign[b] * product).sum::<f64>().abs()
-            })
-            .collect();
+        let chance = parallel::each(signs.flips(), |flip| {
+            let sign = signs.of_flip(flip);
+            products.iter().map(|&(a, b, product, _)| sign[a] * sign[b] * product).sum::<f64>().abs()
+        });
         Self { what, observed: observed.abs(), chance }
     }
 }

@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use faer::Mat;
 use model_core::{Axis, BodyId, SymbolId, SymbolKind};
-use rayon::prelude::*;
 
 use super::filling::{Filled, each_chunk};
 use super::row_set::{RowSet, components, dealt};
@@ -12,6 +11,7 @@ use super::stretches::{Chunks, all_rows, sample};
 use crate::candidate::{EffectId, Freedom, Place};
 use crate::data::unknowns::OfStation;
 use crate::data::{Poses, golden};
+use crate::parallel;
 use crate::search::SearchError;
 use crate::search::columns::{Columns, Probed, keep, places};
 use crate::search::context::{Context, declared};
@@ -294,14 +294,10 @@ fn reach(
             (0..count).map(|i| if count < scale.len() { scattered(i) } else { i }).collect();
         let declared = Mat::from_fn(chosen.len(), declared.ncols(), |i, j| declared[(chosen[i], j)]);
         let own: Vec<&Vec<f64>> = effects.iter().flatten().collect();
-        let each: Vec<Vec<f64>> = own
-            .par_iter()
-            .enumerate()
-            .map(|(candidate, own)| {
-                let own: Vec<f64> = chosen.iter().map(|&row| own[row]).collect();
-                problem.before_whitening(problem.declared() + candidate, declared.as_ref(), &own)
-            })
-            .collect();
+        let each = parallel::each_of(own.iter().enumerate(), |(candidate, own)| {
+            let own: Vec<f64> = chosen.iter().map(|&row| own[row]).collect();
+            problem.before_whitening(problem.declared() + candidate, declared.as_ref(), &own)
+        });
         let reading =
             |readings: &[f64]| chosen.iter().map(|&at| readings[columns.row[at] as usize]).collect();
         let joints = of.columns.iter().filter(|(id, _)| fitted.chain.symbol(*id).kind == SymbolKind::Joint);

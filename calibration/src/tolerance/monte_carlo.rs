@@ -8,9 +8,9 @@ use model_core::budget::Sensitivity;
 use nalgebra::{DMatrix, SymmetricEigen};
 use rand::SeedableRng as _;
 use rand_chacha::ChaCha8Rng;
-use rayon::prelude::*;
 
 use super::{Distribution, Tolerance};
+use crate::parallel;
 
 /// What the draws came to.
 #[derive(Debug, Clone, PartialEq)]
@@ -117,28 +117,24 @@ pub fn simulate(
     });
     let reduced = Reduced::new(&(columns * makes));
     let blocks = draws.div_ceil(BLOCK);
-    let none = || (Vec::new(), vec![0_u64; BINS]);
-    type Part = (Vec<(f64, f64)>, Vec<u64>);
-    let parts: Vec<Part> = (0..blocks)
-        .into_par_iter()
-        .fold(none, |(mut found, mut bins), block| {
-            let count = BLOCK.min(draws - block * BLOCK);
-            let mut chance = ChaCha8Rng::seed_from_u64(seed);
-            chance.set_stream(block as u64);
-            for start in (0..count).step_by(LANES) {
-                let lanes = LANES.min(count - start);
-                let mut drawn = vec![[0.0; LANES]; sources.len()];
-                for lane in 0..lanes {
-                    drawn
-                        .iter_mut()
-                        .zip(&sources)
-                        .for_each(|(drawn, source)| drawn[lane] = source.draw(&mut chance));
-                }
-                found.extend_from_slice(&reduced.over_poses(&drawn, lanes, &mut bins)[..lanes]);
+    let parts = parallel::each(blocks, |block| {
+        let (mut found, mut bins) = (Vec::new(), vec![0_u64; BINS]);
+        let count = BLOCK.min(draws - block * BLOCK);
+        let mut chance = ChaCha8Rng::seed_from_u64(seed);
+        chance.set_stream(block as u64);
+        for start in (0..count).step_by(LANES) {
+            let lanes = LANES.min(count - start);
+            let mut drawn = vec![[0.0; LANES]; sources.len()];
+            for lane in 0..lanes {
+                drawn
+                    .iter_mut()
+                    .zip(&sources)
+                    .for_each(|(drawn, source)| drawn[lane] = source.draw(&mut chance));
             }
-            (found, bins)
-        })
-        .collect();
+            found.extend_from_slice(&reduced.over_poses(&drawn, lanes, &mut bins)[..lanes]);
+        }
+        (found, bins)
+    });
     let mut bins = vec![0_u64; BINS];
     let (mut rms, mut largest) = (Vec::with_capacity(draws), Vec::with_capacity(draws));
     for (found, of_part) in parts {

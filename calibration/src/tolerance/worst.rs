@@ -10,6 +10,7 @@ use model_core::budget::Sensitivity;
 
 use super::Tolerance;
 use super::spread::norm_squared;
+use crate::parallel;
 
 /// Two directions are one, or a direction lies in a plane, within this sine.
 const SINE: f64 = 1e-9;
@@ -17,14 +18,10 @@ const SINE: f64 = 1e-9;
 /// The most that any combination of errors within their sizes does at each pose, rad or m.
 #[must_use]
 pub fn worst_case(sensitivity: &Sensitivity, tolerances: &[Tolerance]) -> Vec<f64> {
-    use rayon::prelude::*;
-    (0..sensitivity.poses())
-        .into_par_iter()
-        .map(|pose| {
-            let scaled = sensitivity.at_pose(pose).iter().zip(tolerances);
-            longest(scaled.map(|(column, tolerance)| Vector3::from(*column) * tolerance.size))
-        })
-        .collect()
+    parallel::each(sensitivity.poses(), |pose| {
+        let scaled = sensitivity.at_pose(pose).iter().zip(tolerances);
+        longest(scaled.map(|(column, tolerance)| Vector3::from(*column) * tolerance.size))
+    })
 }
 
 /// The length of the longest sum of the columns, each with either sign.

@@ -5,7 +5,6 @@ use std::f64::consts::PI;
 
 use model_core::Chain;
 use nalgebra::{Rotation3, Vector3};
-use rayon::prelude::*;
 
 use super::Addition;
 use super::aim::{Aim, Goal, ranges_of};
@@ -15,6 +14,7 @@ use crate::data::{Measure, Measured, Observations, Series};
 use crate::design::generator;
 use crate::fit::robust::median;
 use crate::objects::{Row, rows};
+use crate::parallel;
 use crate::study::{NextPlaces, NextPoses};
 
 /// Places that are compared.
@@ -177,13 +177,11 @@ impl<'a> Candidates<'a> {
 
     /// What could be added of a kind.
     pub fn all(&self, adds: Addition, known: &Known) -> Vec<Candidate> {
-        (0..PLACES)
-            .into_par_iter()
-            .filter_map(|number| match adds {
-                Addition::Station => self.station(number, known),
-                _ => self.object(number, adds),
-            })
-            .collect()
+        let candidates = parallel::each(PLACES, |number| match adds {
+            Addition::Station => self.station(number, known),
+            _ => self.object(number, adds),
+        });
+        candidates.into_iter().flatten().collect()
     }
 
     /// Coordinate number so of a place, between the ends of where things are or where the study says.

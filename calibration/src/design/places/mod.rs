@@ -16,13 +16,13 @@ use std::collections::BTreeSet;
 
 use model_core::{Chain, SymbolId};
 use nalgebra::{DMatrix, Vector3};
-use rayon::prelude::*;
 
 use crate::data::unknowns::{Freedom, OF_OBJECT, Object, Shape, Station, Unknowns, WIDTH};
 use crate::data::{Measure, Measured, Observations, Poses, Series};
 use crate::design::Criterion;
 use crate::fit::noise::Layout;
 use crate::fit::{FitError, FitResult, Model, variance_of};
+use crate::parallel;
 use crate::study::{NextPlaces, NextPoses, Plan};
 use aim::ranges_of;
 use candidates::{Candidate, Candidates, New, as_the_others};
@@ -82,8 +82,8 @@ pub(crate) fn propose_places(
     let mut proposals = Vec::new();
     for (adds, count) in asked(wanted) {
         let places = candidates.all(adds, &known);
-        let seen = places.par_iter().map(|place| setting.pointed(place, &known));
-        let seen = seen.collect::<Result<Vec<_>, FitError>>()?;
+        let seen = parallel::each_of(&places, |place| setting.pointed(place, &known));
+        let seen = seen.into_iter().collect::<Result<Vec<_>, FitError>>()?;
         let places: Vec<(Candidate, Vec<Pointed>)> = places.into_iter().zip(seen).collect();
         for criterion in [Criterion::D, Criterion::A] {
             proposals.extend(setting.proposal(&places, &known, adds, count, criterion, next));
@@ -142,10 +142,9 @@ impl Setting<'_> {
         let mut places = Vec::new();
         let mut used: Vec<usize> = Vec::new();
         for _ in 0..count {
-            let trials: Vec<Option<Trial>> = candidates
-                .par_iter()
-                .map(|(candidate, seen)| self.trial(candidate, seen, known, &covariance, criterion))
-                .collect();
+            let trials = parallel::each_of(candidates, |(candidate, seen)| {
+                self.trial(candidate, seen, known, &covariance, criterion)
+            });
             let best = trials
                 .into_iter()
                 .enumerate()

@@ -7,6 +7,7 @@ use super::brought::{self, Component};
 use super::{Layout, Noise, NoiseOptions, Pools, variance};
 use crate::data::Observations;
 use crate::fit::robust;
+use crate::parallel;
 
 /// Rows at least that one processor looks through.
 const AT_ONCE: usize = 4096;
@@ -66,7 +67,7 @@ fn medians(pools: &Pools, layout: &Layout, residual: &[f64], stated: &[f64]) -> 
         let scaled = own.map(|(_, (residual, stated))| (residual / stated).abs()).collect();
         robust::median(scaled) / robust::median_norm(1)
     };
-    (0..pools.count()).into_par_iter().map(median).collect()
+    parallel::each(pools.count(), median)
 }
 
 /// The logarithm of how large residuals are by their medians, the mean over all components.

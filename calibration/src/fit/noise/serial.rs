@@ -6,10 +6,10 @@
 //! Hurvich, C.-L. Tsai, Biometrika 76 (1989) 297-307, for the price of parameters in few observations (AICc).
 
 use faer::{Mat, Side};
-use rayon::prelude::*;
 
 use super::space::Filter;
 use super::{Carried, Layout, Run, Serial};
+use crate::parallel;
 
 /// Components below which no serial correlation is looked for.
 pub(crate) const FEWEST: usize = 30;
@@ -145,7 +145,8 @@ pub fn fit(
     let problem = Problem::new(&layout.runs, axes, values, beside);
     let white = problem.tried(Kind { serial: WHITE, in_space: false, coefficients: 0.0 })?;
     let kinds = shortlist(layout, values, axes, Kind::all(length, axes.is_some()).collect());
-    let tried: Vec<Tried> = kinds.into_par_iter().filter_map(|kind| problem.tried(kind)).collect();
+    let tried = parallel::each_of(kinds, |kind| problem.tried(kind));
+    let tried: Vec<Tried> = tried.into_iter().flatten().collect();
     let best = tried.iter().min_by(|a, b| a.criterion.total_cmp(&b.criterion))?;
     if white.deviance - best.deviance < EARNS || best.criterion >= white.criterion {
         return None;
@@ -204,8 +205,7 @@ fn shortlist(layout: &Layout, values: &[f64], axes: Option<&[[f64; 3]]>, kinds: 
         runs.push(Run { start, end: own.len(), ..*stretch });
     }
     let problem = Problem::new(&runs, axes.map(|_| own_axes.as_slice()), &own, &Mat::zeros(own.len(), 0));
-    let tried: Vec<(Kind, Option<Tried>)> =
-        kinds.into_par_iter().map(|kind| (kind, problem.tried(kind))).collect();
+    let tried = parallel::each_of(kinds, |kind| (kind, problem.tried(kind)));
     let deviances = tried.iter().filter_map(|(_, tried)| Some(tried.as_ref()?.deviance));
     let least = deviances.fold(f64::INFINITY, f64::min);
     let is_listed = |(kind, tried): &(Kind, Option<Tried>)| {
@@ -342,8 +342,8 @@ impl<'a> Problem<'a> {
                         column
                     }
                 };
-                let columns: Vec<Vec<f64>> =
-                    after.par_iter_mut().enumerate().map(|(j, after)| coloured(j, after)).collect();
+                let columns =
+                    parallel::each_of(after.iter_mut().enumerate(), |(j, after)| coloured(j, after));
                 let rows = columns.first().map_or(0, Vec::len);
                 let all = Mat::from_fn(rows, columns.len(), |row, column| columns[column][row]);
                 product += all.transpose() * &all;

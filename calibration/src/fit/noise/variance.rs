@@ -19,6 +19,7 @@ use crate::data::waves::waves;
 use crate::data::{NoiseOf, Observations};
 use crate::fit::cluster::ALONE;
 use crate::fit::partial::{Partial, Rows};
+use crate::parallel;
 
 /// Components per coefficient below which no variance model is looked for.
 const COMPONENTS_PER_TERM: usize = 15;
@@ -94,11 +95,11 @@ fn of_components<I: Iterator<Item = (f64, f64)>>(
     };
     let Chosen { sources: chosen, coefficients } = model.chosen(count, excess)?;
     let factor = |fitted: f64| ((fitted - coefficients[0]).clamp(-REACH, REACH) / 2.0).exp();
-    let factors = blocks(rows.len()).into_par_iter().map(|block| {
+    let factors = parallel::each_of(blocks(rows.len()), |block| {
         let fitted = model.fitted(&model.functions(&block), &coefficients);
         fitted.into_iter().map(factor).collect::<Vec<f64>>()
     });
-    let mut factors = factors.collect::<Vec<Vec<f64>>>().concat();
+    let mut factors = factors.concat();
     if chosen.iter().any(|&number| matches!(sources[number], Source::Range(..))) {
         let least = surest(&factors, &rows);
         factors.iter_mut().for_each(|factor| *factor = factor.max(least));
@@ -187,7 +188,7 @@ fn means(sources: &[Source<'_>], rows: usize) -> Vec<f64> {
         let functions = sources.iter().flat_map(|source| source.functions(block.clone()));
         functions.map(|values| values.iter().sum()).collect()
     };
-    let sums = added(blocks(rows).into_par_iter().map(of_block).collect());
+    let sums = added(parallel::each_of(blocks(rows), of_block));
     sums.into_iter().map(|sum| sum / rows as f64).collect()
 }
 
@@ -252,7 +253,7 @@ impl Scoring<'_> {
             add(block, fitted, &mut sums);
             sums
         };
-        added(blocks(self.rows.len()).into_par_iter().map(of_block).collect())
+        added(parallel::each_of(blocks(self.rows.len()), of_block))
     }
 
     /// The readings that the data bear out: ranges, and then all joints if they gain enough beside them. A variance that grows with
@@ -322,7 +323,7 @@ impl Scoring<'_> {
             }
             Partial::new(width).with(rows)
         };
-        let parts: Vec<Partial> = blocks(self.rows.len()).into_par_iter().map(of_block).collect();
+        let parts = parallel::each_of(blocks(self.rows.len()), of_block);
         let whole = parts.into_iter().fold(Partial::new(width), |whole, part| {
             let Ok(merged) = whole.merge(&part) else { unreachable!("the parts have the same columns") };
             merged
@@ -341,7 +342,7 @@ impl Scoring<'_> {
             let product = |values: &Vec<f64>| values.iter().zip(&excess).map(|(a, b)| a * b).sum();
             std::iter::once(excess.iter().sum()).chain(functions.iter().map(product)).collect()
         };
-        added(blocks(self.rows.len()).into_par_iter().map(of_block).collect())
+        added(parallel::each_of(blocks(self.rows.len()), of_block))
     }
 
     /// Twice the log-likelihood that the functions gain over one variance for all.

@@ -12,11 +12,11 @@
 //! applications, Inverse Problems 19 (2003) R1-R26; eliminated block by block as in a bundle adjustment.
 
 use faer::{Mat, MatRef};
-use rayon::prelude::*;
 
 use super::gathered::Gathered;
 use crate::data::unknowns::{Freedom, OF_OBJECT, Unknowns, WIDTH};
 use crate::fit::{Partial, Rows};
+use crate::parallel;
 
 /// The weight of the rows that hold what nothing else holds, in units of the column's length. Much less, and rounding would
 /// move a frame that nothing holds further than a step does.
@@ -98,20 +98,17 @@ impl Eliminated {
         }
         let layout = Layout::new(unknowns, state, columns);
         let all: Vec<usize> = (0..of_object.len()).collect();
-        let parts: Vec<Sums> = all
-            .par_chunks(of_object.len().div_ceil(PARTS))
-            .map(|objects| {
-                let mut sums = Sums::new(&layout);
-                for &object in objects {
-                    if object == unknowns.objects.len() {
-                        sums.take_bare(&layout, &of_object[object]);
-                    } else {
-                        sums.take(&layout, object, &of_object[object]);
-                    }
+        let parts = parallel::each_of(all.chunks(of_object.len().div_ceil(PARTS)), |objects| {
+            let mut sums = Sums::new(&layout);
+            for &object in objects {
+                if object == unknowns.objects.len() {
+                    sums.take_bare(&layout, &of_object[object]);
+                } else {
+                    sums.take(&layout, object, &of_object[object]);
                 }
-                sums
-            })
-            .collect();
+            }
+            sums
+        });
         let mut sums = Sums::new(&layout);
         parts.into_iter().for_each(|part| sums.merge(part));
         let Sums { mut whole, of_station, bare, mut taken, mut objective, mut triangles, lengths } = sums;

@@ -5,11 +5,11 @@
 //! divided out, less what the row's object follows of that.
 
 use faer::{Mat, MatRef};
-use rayon::prelude::*;
 
 use super::eliminate::{Collected, Eliminated, OF_STATION, divided_out};
 use super::reduce::{reflected, units};
 use crate::data::unknowns::{Freedom, OF_OBJECT, Object, Unknowns, WIDTH};
+use crate::parallel;
 
 /// What is followed of a component's own residual, as shares of it.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -45,11 +45,10 @@ impl Eliminated {
             }
         }
         let by_stations = self.by_stations(root);
-        let own = of_object.par_iter_mut().enumerate().map(|(object, rows)| {
+        let own = parallel::each_of(of_object.iter_mut().enumerate(), |(object, rows)| {
             rows.sort_by_key(|&(_, row, _)| unknowns.station[row as usize]);
             of_rows(unknowns, rows, unknowns.objects.get(object), by_stations.as_ref(), root)
         });
-        let own: Vec<Vec<FollowedShare>> = own.collect();
         let mut followed = vec![FollowedShare::default(); components];
         for (rows, shares) in of_object.iter().zip(own) {
             rows.iter().zip(shares).for_each(|((at, ..), share)| followed[*at] = share);

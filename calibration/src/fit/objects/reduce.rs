@@ -8,11 +8,11 @@ use std::ops::Range;
 
 use faer::{Mat, Side};
 use nalgebra::Vector3;
-use rayon::prelude::*;
 
 use super::lanes::{add, dot};
 use super::within::Within;
 use crate::data::unknowns::{Freedom, Unknowns, WIDTH};
+use crate::parallel;
 
 /// A direction of an object of which less than this share is left by those before moves nothing of its own.
 const NOTHING: f64 = 1e-8;
@@ -54,9 +54,10 @@ impl Reduction {
     /// Of components that belong to `row`s of the observations, each with its derivatives by what is unknown before
     /// whitening and what whitening multiplies it by. Objects are unknown, whatever is stated of them.
     pub fn new(unknowns: &Unknowns, row: &[u32], unknown: &[[f64; WIDTH]], scale: Vec<f64>) -> Self {
-        let turned = components_of(unknowns, row).into_par_iter().zip(&unknowns.objects);
-        let turned = turned.filter_map(|(at, object)| Turned::new(at, object.numbers(), unknown, &scale));
-        Self { turned: turned.collect(), within: Vec::new(), scale }
+        let objects = components_of(unknowns, row).into_iter().zip(&unknowns.objects);
+        let turned =
+            parallel::each_of(objects, |(at, object)| Turned::new(at, object.numbers(), unknown, &scale));
+        Self { turned: turned.into_iter().flatten().collect(), within: Vec::new(), scale }
     }
 
     /// The same, but objects that are stated to within an uncertainty move no further than that lets them, and exact points that alone
@@ -154,7 +155,7 @@ impl Reduction {
             }
             column
         };
-        let columns_without: Vec<Vec<f64>> = (0..columns.ncols()).into_par_iter().map(without).collect();
+        let columns_without: Vec<Vec<f64>> = parallel::each(columns.ncols(), without);
         for (j, column) in columns_without.into_iter().enumerate() {
             columns.col_as_slice_mut(j).copy_from_slice(&column);
         }
@@ -196,7 +197,7 @@ fn moved_together(
 /// What `f` makes of some rows at a time, in order.
 fn in_chunks<T: Send>(rows: usize, f: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
     let chunk = |number: usize| number * CHUNK..((number + 1) * CHUNK).min(rows);
-    (0..rows.div_ceil(CHUNK)).into_par_iter().map(|number| f(chunk(number))).collect()
+    parallel::each(rows.div_ceil(CHUNK), |number| f(chunk(number)))
 }
 
 /// The inner products of the columns of one matrix with those of another.

@@ -13,7 +13,6 @@ mod shape;
 
 use faer::Mat;
 use model_core::{Chain, SymbolId, SymbolKind};
-use rayon::prelude::*;
 
 use self::grid::Driver;
 use self::refine::{Gain, orthonormal, refined};
@@ -25,6 +24,7 @@ use super::scan::{Left, Sheet};
 use super::signs::Signs;
 use crate::candidate::{Dependence, Effect, Function, Place};
 use crate::effects::{SHAPE, SmoothPlace, smooth};
+use crate::parallel;
 use crate::search::SearchError;
 use crate::search::columns::Columns;
 use crate::search::context::{Context, declared};
@@ -140,8 +140,8 @@ pub(crate) fn contest(whole: &Context<'_>, last: &Round<'_>) -> Result<Contest, 
 
     let places = smooths.len();
     smooths.retain(|smooth| Some(*smooth) == most || library.accepted_at(*smooth).next().is_some());
-    let judged: Vec<Judged> =
-        smooths.par_iter().flat_map_iter(|smooth| library.judged(*smooth, places)).collect();
+    let judged = parallel::each_of(&smooths, |smooth| library.judged(*smooth, places));
+    let judged: Vec<Judged> = judged.into_iter().flatten().collect();
     Ok(library.verdict(judged, most, p_value))
 }
 

@@ -76,10 +76,6 @@ fn studies_that_cannot_be_meant_are_refused() {
         (good.replace("kind    = \"target\"", "kind    = \"point\""), "known row by row"),
         (good.replace("kind    = \"target\"", "kind    = \"offset\""), "is a point"),
         (
-            good.replace("kind    = \"target\"", "kind    = \"circle\"") + "[next]\nposes = 3\n",
-            "kind \"circle\"",
-        ),
-        (
             good.replace("kind    = \"target\"", "kind    = \"sphere\"")
                 .replace("[observed]", "[observed]\nlength = \"d\""),
             "`length` is no column of this kind",

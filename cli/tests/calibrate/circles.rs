@@ -159,6 +159,8 @@ fn another_crank_is_worth_what_was_promised() {
         let (centre, axis) = (three(&place["place_m"]), three(&place["normal"]));
         let radius = number(&place["radius_m"]);
         assert_eq!(pointings.len(), 40);
+        // A crank as there is one: of 250 mm or of 230 mm.
+        assert!([0.25, 0.23].iter().any(|own| (radius - own).abs() < 1e-3), "{radius}");
         let mut rows = folder.read("rings.csv");
         let mut random = ChaCha8Rng::seed_from_u64(1);
         for readings in pointings {

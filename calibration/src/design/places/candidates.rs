@@ -309,7 +309,7 @@ impl<'a> Candidates<'a> {
     fn usual_radius_m(&self, series: usize) -> Option<f64> {
         let own = self.rows.iter().filter(|row| row.series == series).map(|row| row.object);
         let own: BTreeSet<usize> = own.collect();
-        own.into_iter().map(|object| self.radii_m[object]).collect::<Option<Vec<f64>>>().map(median)
+        own.into_iter().map(|object| self.radii_m[object]).collect::<Option<Vec<f64>>>().and_then(middle)
     }
 
     /// Whether a beam would be lost on a plane.
@@ -371,13 +371,18 @@ fn radii_m(observations: &Observations, unknowns: &Unknowns) -> Vec<Option<f64>>
     let radius_m = |(object, read): (&Object, Vec<f64>)| match object.shape {
         Shape::Circle => Some(object.offset),
         Shape::Wire if read.iter().all(|length_m| *length_m == 0.0) => Some(object.offset),
-        Shape::Ring | Shape::Point if !read.is_empty() => {
-            let usual = median(read.clone());
-            read.iter().all(|length_m| (length_m - usual).abs() <= ALIKE * usual).then_some(usual)
-        }
-        Shape::Wire | Shape::Plane | Shape::Ring | Shape::Point => None,
+        Shape::Ring => middle(read),
+        Shape::Point => middle(read.clone())
+            .filter(|usual| read.iter().all(|length_m| (length_m - usual).abs() <= ALIKE * usual)),
+        Shape::Wire | Shape::Plane => None,
     };
     unknowns.objects.iter().zip(read).map(radius_m).collect()
+}
+
+/// One in the middle of some lengths: of bars of two lengths no third one.
+fn middle(mut lengths_m: Vec<f64>) -> Option<f64> {
+    lengths_m.sort_by(f64::total_cmp);
+    lengths_m.get(lengths_m.len() / 2).copied()
 }
 
 fn length_m(measured: &Measured) -> Option<f64> {

@@ -156,6 +156,11 @@ pub enum Measured {
 }
 
 impl Measured {
+    /// The length that is read, m; none where what is measured is no such length.
+    pub(crate) fn length_m(&self) -> Option<f64> {
+        if let Self::Length { length_m } = self { Some(*length_m) } else { None }
+    }
+
     /// What would be measured where the chain is right: residuals are zero.
     ///
     /// `measure` is one that [`Measure::bare`] gives.

@@ -23,7 +23,6 @@ use ::parquet::errors::ParquetError;
 use ::parquet::file::reader::FileReader as _;
 use ::parquet::record::Field;
 use ::parquet::schema::types::{Type, TypePtr};
-use rayon::prelude::*;
 
 pub use cells::TypedCells;
 pub use write::{TextType, Writer};
@@ -32,6 +31,7 @@ use super::header::{ColumnName, unique};
 use super::{
     Cell, Cells, Chunk, DataError, Extent, Form, Input, Kept, Options, Ranged, TableReader, Texts, Wanted,
 };
+use crate::parallel;
 use bounded::BoundedFile;
 use open::Open;
 use ranges::Ranges;
@@ -130,22 +130,20 @@ impl Reader {
         let (file, name) = (&self.file, Arc::from(source.as_str()));
         let open = self.open.iter_mut().enumerate();
         let wanted: Vec<_> = open.filter(|(column, _)| columns.binary_search(column).is_ok()).collect();
-        wanted
-            .into_par_iter()
-            .map(|(column, place)| {
-                guarded(source, || {
-                    let open = match place {
-                        Some(open) => open,
-                        None => place.insert(Open::of(file, group, column)?),
-                    };
-                    let cells = open.cells(&types[column], taken, count, &name)?;
-                    if file.is_crowded(is_dear) {
-                        *place = None;
-                    }
-                    Ok(cells)
-                })
+        let read = parallel::each_of(wanted, |(column, place)| {
+            guarded(source, || {
+                let open = match place {
+                    Some(open) => open,
+                    None => place.insert(Open::of(file, group, column)?),
+                };
+                let cells = open.cells(&types[column], taken, count, &name)?;
+                if file.is_crowded(is_dear) {
+                    *place = None;
+                }
+                Ok(cells)
             })
-            .collect()
+        });
+        read.into_iter().collect()
     }
 
     /// Refuses times where numbers are wanted: those that a file holds as nanoseconds would be whole numbers of a thousand million.

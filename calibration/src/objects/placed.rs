@@ -8,8 +8,8 @@ use model_core::Chain;
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
+use crate::data::Observations;
 use crate::data::unknowns::{Freedom, Known, Object, Pose, Shape, Station, Unknowns};
-use crate::data::{Measured, Observations};
 use crate::fit::noise::Layout;
 use crate::fit::objects::Spread;
 use crate::fit::sweep::{Weighting, eliminated};
@@ -384,8 +384,8 @@ fn object(
 fn without_length(observations: &Observations, unknowns: &Unknowns) -> Vec<bool> {
     let mut without = vec![true; unknowns.objects.len()];
     for (object, measured) in unknowns.object.iter().zip(&observations.measured) {
-        if let (Some(object), Measured::Length { length_m }) = (object, measured) {
-            without[*object as usize] &= *length_m == 0.0;
+        if let (Some(object), Some(length_m)) = (object, measured.length_m()) {
+            without[*object as usize] &= length_m == 0.0;
         }
     }
     without

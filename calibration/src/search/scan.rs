@@ -6,7 +6,6 @@
 use std::ops::Range;
 
 use faer::{Mat, MatRef};
-use rayon::prelude::*;
 
 use super::flips::Chance;
 use super::problem::{Problem, VISIBLE};
@@ -14,6 +13,7 @@ use super::signs::Signs;
 use super::standardised::{Standardised, is_needed};
 use super::sweep::Sweep;
 use super::tail::Tails;
+use crate::parallel;
 
 /// Columns to scan, and which of them belong together.
 pub struct Sheet {
@@ -207,53 +207,47 @@ impl<'a> Left<'a> {
         let rows = self.residual.len();
         let standardised = is_needed(self.signs.with_sign(), self.basis.ncols())
             .then(|| Standardised::new(self.signs, self.basis.as_ref(), &self.flipped));
-        let each: Vec<Scanned> = (0..sheets)
-            .into_par_iter()
-            .map(|number| {
-                let sheet = sheet(number);
-                let q = self.known.ncols() - 1;
-                let gram = self.gram_of_blocks(sheet.columns.as_ref(), &sheet.blocks);
-                let before: Vec<f64> = (0..gram.ncols()).map(|j| gram[(j, j)]).collect();
-                let mut sweep = Sweep::new(gram);
-                let base: Vec<usize> = (0..q).filter(|&column| sweep.add(column)).collect();
-                let (residual, df) = (q + sheet.columns.ncols(), (rows - base.len()) as f64);
-                let tails = Tails::new(sheet.blocks.iter().map(ExactSizeIterator::len), df);
-                let scores = self.signs.scores(sheet.columns.as_ref(), &self.flipped);
-                let known = &self.known_scores;
-                let own = self.known.subcols(0, q);
-                let mut chance = Chance::new(self.signs.flips());
-                let mut found = Vec::new();
-                for block in &sheet.blocks {
-                    let seen: Vec<usize> = block
-                        .clone()
-                        .map(|j| q + j)
-                        .filter(|&j| sweep.entry(j, j) > VISIBLE * before[j])
-                        .collect();
-                    let whitener = sweep.whitener(&seen);
-                    let coefficients =
-                        Mat::from_fn(base.len(), seen.len(), |i, j| sweep.entry(base[i], seen[j]));
-                    if let Some(standardised) = &standardised {
-                        let mut columns =
-                            Mat::from_fn(rows, seen.len(), |i, j| sheet.columns[(i, seen[j] - q)]);
-                        let taken = Mat::from_fn(q, seen.len(), |i, j| {
-                            if base.contains(&i) { sweep.entry(i, seen[j]) } else { 0.0 }
-                        });
-                        columns -= own * taken;
-                        let orthonormal = columns * &whitener;
-                        chance.add_gains(orthonormal.ncols(), &standardised.gains(orthonormal.as_ref()));
-                    } else {
-                        let scores =
-                            Mat::from_fn(scores.nrows(), seen.len(), |g, j| scores[(g, seen[j] - q)]);
-                        let base_scores = Mat::from_fn(known.nrows(), base.len(), |g, j| known[(g, base[j])]);
-                        let effective = (scores - base_scores * coefficients) * &whitener;
-                        chance.add(self.signs.flip(effective.as_ref()).as_ref());
-                    }
-                    let (gain, rank) = sweep.gain(&seen, residual);
-                    found.push((tails.ln_p(rank, gain, sweep.entry(residual, residual)), rank));
+        let each: Vec<Scanned> = parallel::each(sheets, |number| {
+            let sheet = sheet(number);
+            let q = self.known.ncols() - 1;
+            let gram = self.gram_of_blocks(sheet.columns.as_ref(), &sheet.blocks);
+            let before: Vec<f64> = (0..gram.ncols()).map(|j| gram[(j, j)]).collect();
+            let mut sweep = Sweep::new(gram);
+            let base: Vec<usize> = (0..q).filter(|&column| sweep.add(column)).collect();
+            let (residual, df) = (q + sheet.columns.ncols(), (rows - base.len()) as f64);
+            let tails = Tails::new(sheet.blocks.iter().map(ExactSizeIterator::len), df);
+            let scores = self.signs.scores(sheet.columns.as_ref(), &self.flipped);
+            let known = &self.known_scores;
+            let own = self.known.subcols(0, q);
+            let mut chance = Chance::new(self.signs.flips());
+            let mut found = Vec::new();
+            for block in &sheet.blocks {
+                let seen: Vec<usize> = block
+                    .clone()
+                    .map(|j| q + j)
+                    .filter(|&j| sweep.entry(j, j) > VISIBLE * before[j])
+                    .collect();
+                let whitener = sweep.whitener(&seen);
+                let coefficients = Mat::from_fn(base.len(), seen.len(), |i, j| sweep.entry(base[i], seen[j]));
+                if let Some(standardised) = &standardised {
+                    let mut columns = Mat::from_fn(rows, seen.len(), |i, j| sheet.columns[(i, seen[j] - q)]);
+                    let taken = Mat::from_fn(q, seen.len(), |i, j| {
+                        if base.contains(&i) { sweep.entry(i, seen[j]) } else { 0.0 }
+                    });
+                    columns -= own * taken;
+                    let orthonormal = columns * &whitener;
+                    chance.add_gains(orthonormal.ncols(), &standardised.gains(orthonormal.as_ref()));
+                } else {
+                    let scores = Mat::from_fn(scores.nrows(), seen.len(), |g, j| scores[(g, seen[j] - q)]);
+                    let base_scores = Mat::from_fn(known.nrows(), base.len(), |g, j| known[(g, base[j])]);
+                    let effective = (scores - base_scores * coefficients) * &whitener;
+                    chance.add(self.signs.flip(effective.as_ref()).as_ref());
                 }
-                Scanned { found, chance, known: base.len() }
-            })
-            .collect();
+                let (gain, rank) = sweep.gain(&seen, residual);
+                found.push((tails.ln_p(rank, gain, sweep.entry(residual, residual)), rank));
+            }
+            Scanned { found, chance, known: base.len() }
+        });
         let most = each.iter().flat_map(|sheet| &sheet.found).map(|&(_, rank)| rank).max().unwrap_or(0);
         let df = (rows - each.first().map_or(0, |sheet| sheet.known)) as f64;
         let best = each.iter().flat_map(|sheet| &sheet.found).map(|&(ln_p, _)| ln_p).fold(0.0, f64::min);

@@ -46,7 +46,7 @@ fn the_eccentric_encoder_is_found_and_the_declaration_amended() {
     let mut lines = amended.lines();
     let is_kept = |line: &&str| lines.any(|own| own == *line);
     assert_eq!(study.text.lines().filter(is_kept).count(), study.text.lines().count(), "{amended}");
-    let amended = Chain::from_text(found.amended.as_ref().unwrap()).unwrap();
+    let amended = Chain::from_text(amended).unwrap();
     for observable in [0, 1, 2].map(model_core::ObservableId) {
         let by_text: Vec<String> = amended
             .way(observable)

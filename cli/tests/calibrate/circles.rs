@@ -17,21 +17,13 @@ const PLANTED: [(&str, f64); 5] =
     [("zero2", 0.8e-3), ("length2", 0.7e-3), ("zero3", -1.1e-3), ("length3", -0.5e-3), ("aside", 0.9e-3)];
 
 /// Where the arm's tip is without errors, m.
-fn tip([q1, q2, q3]: [f64; 3]) -> [f64; 3] {
+fn tip([q1, q2, q3]: [f64; 3]) -> Vector3<f64> {
     let reach = 0.6 * q2.cos() + 0.5 * (q2 + q3).cos();
-    [-q1.sin() * reach, q1.cos() * reach, 0.4 + 0.6 * q2.sin() + 0.5 * (q2 + q3).sin()]
+    Vector3::new(-q1.sin() * reach, q1.cos() * reach, 0.4 + 0.6 * q2.sin() + 0.5 * (q2 + q3).sin())
 }
 
 fn three(value: &Value) -> [f64; 3] {
     [0, 1, 2].map(|at| number(&value[at]))
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|at| a[at] - b[at])
 }
 
 /// Readings of a tip that is off by the noise of the example, 0.1 mm along each axis.
@@ -39,7 +31,7 @@ fn measured(readings: [f64; 3], random: &mut ChaCha8Rng) -> [f64; 3] {
     let by = |axis: usize, step: f64| {
         let mut there = readings;
         there[axis] += step;
-        Vector3::from(tip(there))
+        tip(there)
     };
     let columns = [0, 1, 2].map(|axis| (by(axis, 1e-6) - by(axis, -1e-6)) / 2e-6);
     let noise = Vector3::from_fn(|_, _| 1e-4 * random.sample::<f64, _>(StandardNormal));
@@ -156,7 +148,8 @@ fn another_crank_is_worth_what_was_promised() {
         folder.write("next.toml", format!("{study}\n[next]\nobjects = {{ circle = 1 }}\n"));
         let report = calibrated(&folder, "next.toml");
         let (place, pointings) = best(&report);
-        let (centre, axis) = (three(&place["place_m"]), three(&place["normal"]));
+        let (centre, axis) =
+            (Vector3::from(three(&place["place_m"])), Vector3::from(three(&place["normal"])));
         let radius = number(&place["radius_m"]);
         assert_eq!(pointings.len(), 40);
         // A crank as there is one: of 250 mm or of 230 mm.
@@ -164,9 +157,9 @@ fn another_crank_is_worth_what_was_promised() {
         let mut rows = folder.read("rings.csv");
         let mut random = ChaCha8Rng::seed_from_u64(1);
         for readings in pointings {
-            let from = minus(tip(readings), centre);
-            let off = dot(axis, from);
-            let out = (dot(from, from) - off * off).sqrt() - radius;
+            let from = tip(readings) - centre;
+            let off = axis.dot(&from);
+            let out = (from - axis * off).norm() - radius;
             // The errors are of a millimetre.
             assert!(off.abs() < 4e-3 && out.abs() < 4e-3, "{readings:?}: {off} and {out} off");
             let [q1, q2, q3] = measured(readings, &mut random);
@@ -197,10 +190,7 @@ fn another_pivot_is_proposed_for_the_bar_that_there_is() {
         for start in 0..4000 {
             let [q1, q2] = [0.618, 0.755].map(|step: f64| (f64::from(start) * step).fract());
             let (q1, q2) = (6.0 * q1 - 3.0, 3.0 * q2 - 1.2);
-            let away = |q3: f64| {
-                let from = minus(tip([q1, q2, q3]), pivot);
-                dot(from, from).sqrt() - BAR_M
-            };
+            let away = |q3: f64| (tip([q1, q2, q3]) - Vector3::from(pivot)).norm() - BAR_M;
             let (mut low, mut high) = (-2.4, -0.3);
             if count == 40 || away(low) * away(high) > 0.0 {
                 continue;
@@ -223,12 +213,11 @@ fn another_pivot_is_proposed_for_the_bar_that_there_is() {
     folder.write("bars.toml", study);
     let report = calibrated(&folder, "bars.toml");
     let (place, pointings) = best(&report);
-    let (centre, radius) = (three(&place["place_m"]), number(&place["radius_m"]));
+    let (centre, radius) = (Vector3::from(three(&place["place_m"])), number(&place["radius_m"]));
     assert!((radius - BAR_M).abs() < 1e-4, "{radius}");
     assert_eq!(pointings.len(), 12);
     for readings in pointings {
-        let from = minus(tip(readings), centre);
-        let away = dot(from, from).sqrt();
+        let away = (tip(readings) - centre).norm();
         assert!((away - BAR_M).abs() < 2e-3, "{readings:?}: {away} m away");
     }
     let told = run_in(&folder.0, &["calibrate", "bars.toml", "--verbose"], "").stdout;

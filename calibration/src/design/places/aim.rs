@@ -175,13 +175,8 @@ impl Aim {
 
     /// Different ways of pointing at something, at most so many.
     pub fn at(&self, goal: Goal, most: usize) -> Vec<Vec<f64>> {
-        let mut order: Vec<(f64, usize)> = self
-            .points
-            .iter()
-            .map(|point| goal.away(point))
-            .enumerate()
-            .map(|(at, away)| (away, at))
-            .collect();
+        let points = self.points.iter().enumerate();
+        let mut order: Vec<(f64, usize)> = points.map(|(at, point)| (goal.away(point), at)).collect();
         order.retain(|(away, _)| away.is_finite());
         order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let mut found: Vec<Vec<f64>> = Vec::new();

@@ -356,15 +356,15 @@ fn goal(measure: Measure, pose: &Pose, thing: &Object, radius_m: Option<f64>) ->
 
 /// What an object of a series is.
 fn kind(series: &Series, observations: &Observations) -> Option<Addition> {
-    let lengths = observations.measured[series.rows.clone()].iter().filter_map(length_m);
-    Addition::of(series.measure, lengths.into_iter().any(|length_m| length_m != 0.0))
+    let mut lengths = observations.measured[series.rows.clone()].iter().filter_map(Measured::length_m);
+    Addition::of(series.measure, lengths.any(|length_m| length_m != 0.0))
 }
 
 /// Per object how far from its centre its rows are, m: its radius, or the length that all of them read.
 fn radii_m(observations: &Observations, unknowns: &Unknowns) -> Vec<Option<f64>> {
     let mut read: Vec<Vec<f64>> = vec![Vec::new(); unknowns.objects.len()];
     for (object, measured) in unknowns.object.iter().zip(&observations.measured) {
-        if let (Some(object), Some(length_m)) = (object, length_m(measured)) {
+        if let (Some(object), Some(length_m)) = (object, measured.length_m()) {
             read[*object as usize].push(length_m);
         }
     }
@@ -383,10 +383,6 @@ fn radii_m(observations: &Observations, unknowns: &Unknowns) -> Vec<Option<f64>>
 fn middle(mut lengths_m: Vec<f64>) -> Option<f64> {
     lengths_m.sort_by(f64::total_cmp);
     lengths_m.get(lengths_m.len() / 2).copied()
-}
-
-fn length_m(measured: &Measured) -> Option<f64> {
-    if let Measured::Length { length_m } = measured { Some(*length_m) } else { None }
 }
 
 /// What would be known of one more: what is known of every other.

@@ -12,11 +12,11 @@ use ::parquet::errors::{ParquetError, Result};
 use ::parquet::file::properties::WriterProperties;
 use ::parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use ::parquet::schema::types::{ColumnPath, Type, TypePtr};
-use rayon::prelude::*;
 
 use super::TypedCells;
 use super::cells::Values;
 use crate::formats::{Column, Kept, Texts};
+use crate::parallel;
 
 /// Rows of a group, and bytes from which on it has fewer: what is held of a table whose types are known.
 const GROUP: usize = 1 << 17;
@@ -139,10 +139,8 @@ impl Writer {
     fn group(&mut self) -> Result<Vec<u8>> {
         let columns: Vec<_> =
             self.names.iter().zip(std::mem::take(&mut self.held)).zip(&self.types).collect();
-        let columns: Vec<TypedCells> = columns
-            .into_par_iter()
-            .map(|((name, column), of_texts)| typed(name, column, *of_texts))
-            .collect::<Result<_>>()?;
+        let columns = parallel::each_of(columns, |((name, column), of_texts)| typed(name, column, *of_texts));
+        let columns = columns.into_iter().collect::<Result<Vec<TypedCells>>>()?;
         self.rows = 0;
         let mut file = match self.file.take() {
             Some(file) => file,

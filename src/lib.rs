@@ -66,9 +66,11 @@ pub use codegen;
 pub use model_core;
 
 #[cfg(feature = "analysis")]
-pub use calibration::{calibrate::Calibration, study::Study};
+pub use calibration::calibrate::Calibration;
 #[cfg(feature = "analysis")]
 pub use model_core::{Chain, checker::Checker, forms::derive, identify::identify, print, remainder::bound};
+#[cfg(feature = "analysis")]
+pub use study::Study;
 
 /// What the expansion of [`chain!`] uses; not meant for anything else.
 #[doc(hidden)]

@@ -28,7 +28,7 @@ mod set_up;
 mod sizes;
 mod source;
 mod streaming;
-mod tables;
+mod table_files;
 mod terminal;
 mod waiting;
 mod wrap;
@@ -57,7 +57,7 @@ fn tell_panics_of_readers_as_errors() {
         let mut is = false;
         #[cfg(feature = "parquet")]
         {
-            is |= calibration::formats::parquet::is_reading();
+            is |= tables::formats::parquet::is_reading();
         }
         #[cfg(feature = "point-clouds")]
         {

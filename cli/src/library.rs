@@ -5,12 +5,12 @@
 
 use std::path::Path;
 
-use calibration::formats::memory::Reader;
-use calibration::formats::{ColumnName, TableReader, declared_columns};
 use codegen::Form;
 use model_core::expr::Expr;
 use model_core::{Chain, ObservableId, SymbolKind, forms, print, syntax};
 use serde_json::{Value, json};
+use tables::formats::memory::Reader;
+use tables::formats::{ColumnName, TableReader, declared_columns};
 
 use crate::budget::Measured;
 use crate::claims::{ClaimsFile, as_json};
@@ -19,7 +19,7 @@ use crate::evaluation;
 use crate::over_memory::has_room;
 use crate::ranges::{self, Range, RangeArgument};
 use crate::source::observables;
-use crate::{claims, errors_file, poses, report, tables};
+use crate::{claims, errors_file, poses, report, table_files};
 
 pub use crate::apply::Counted;
 pub use crate::calibrating::{Calibrated, Studied};
@@ -32,9 +32,9 @@ pub use crate::source::Source;
 pub use crate::streaming::{Foretold, Rows, Streaming, accumulated, validated};
 pub use crate::terminal::collecting;
 pub use calibration::calibrate::Stage;
-pub use calibration::fit::Validation;
-pub use calibration::formats::memory::Column;
 pub use codegen::Loadable;
+pub use fit::Validation;
+pub use tables::formats::memory::Column;
 
 /// An answer for reading, and the same for programs.
 #[derive(Debug, Clone, PartialEq)]
@@ -279,7 +279,7 @@ pub fn table<'a>(
     name: &str,
     columns: &[(&'a str, Column<'a>)],
 ) -> Result<Box<dyn TableReader + 'a>, Failure> {
-    Ok(Box::new(Reader::new(name, columns.iter().copied()).map_err(tables::failure)?))
+    Ok(Box::new(Reader::new(name, columns.iter().copied()).map_err(table_files::failure)?))
 }
 
 /// Reads a study's tables, from memory where `in_memory` has one of that name and else from the files, and calibrates.

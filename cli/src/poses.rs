@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use calibration::data::units::{Amount, Plausible};
 use model_core::algebra::Rational;
 use model_core::budget::{JointRange, Path, PathError};
 use model_core::expr::{Expr, Node};
 use model_core::{Chain, Mistake, Quantity, SymbolKind, names, syntax};
+use tables::units::{Amount, Plausible};
 
 use crate::terminal;
 

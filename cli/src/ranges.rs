@@ -1,7 +1,7 @@
 //! Ranges of joints and inputs on the command line: `--range "elevation=10 deg..80 deg"`.
 
-use calibration::data::units::{Amount, Plausible};
 use model_core::{Chain, SymbolId, SymbolKind, names};
+use tables::units::{Amount, Plausible};
 
 use crate::failure::Failure;
 use crate::source::listed;

@@ -6,10 +6,10 @@ use std::io::{self, Read as _};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use calibration::study::Study;
 use model_core::mistake::{Mistake, Mistakes};
 use model_core::{Chain, ObservableId, names};
 use serde::de::DeserializeOwned;
+use study::Study;
 
 use crate::failure::Failure;
 use crate::terminal;

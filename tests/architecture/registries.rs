@@ -7,8 +7,8 @@ const REGISTRIES: &[&str] = &[
     "cli/src/commands",
     "cli/src/init/templates",
     "codegen/src/backends",
-    "calibration/src/effects",
-    "calibration/src/formats",
+    "effects/src/families",
+    "tables/src/formats",
 ];
 
 #[test]

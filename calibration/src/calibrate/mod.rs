@@ -26,21 +26,21 @@ use std::cell::OnceCell;
 use model_core::{Chain, Mistakes};
 
 use crate::amend::{AmendError, amend, with_quantities_of};
-use crate::data::units::BareColumn;
 use crate::diagnose::shown::{DRAWN, Shown};
 use crate::diagnose::{Confirmed, Diagnosis, Trace, diagnose, rounding, trace};
-use crate::fit::{FitResult, Outcome};
-use crate::formats::DataError;
-use crate::objects::{Placed, StartError, check_scale_of_ranges, placed};
 use crate::report::amendment;
 use crate::search::SearchError;
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
-use crate::study::{Loaded, Open, Plan, Study};
 use choice::{Chosen, chosen};
 use confirm::{Judged, judged};
+use fit::{FitResult, Outcome};
+use network::{Placed, StartError, check_scale_of_ranges, placed};
 use rounds::rounds;
+use study::{Loaded, Open, Plan, Study};
+use tables::formats::DataError;
+use tables::units::BareColumn;
 
 pub use crate::search::{Request, Stage};
 pub use every_row::OfEveryRow;

@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::noise::NoiseFound;
 use super::uneven::Uneven;
-use crate::data::SiUnit;
-use crate::fit::FitResult;
+use fit::FitResult;
+use observe::SiUnit;
 
 /// Noise that is so many times what was stated is larger than stated, or smaller, if chance does not explain it.
 const LARGER: f64 = 1.3;

@@ -121,7 +121,7 @@ mod tests {
         let few = Ended::TooFewObservations { components: 2, parameters: 3, of_objects: 0 };
         let noisy = [Caution::NoiseExceedsStated { ratio: 2.3 }];
         let thin = [Caution::FewBehindAnEffect { effect: "drift".into(), observations: 3.1 }];
-        let rounded = [Caution::ResidualIsRounding { rms: 1e-16, unit: crate::data::SiUnit::RAD }];
+        let rounded = [Caution::ResidualIsRounding { rms: 1e-16, unit: observe::SiUnit::RAD }];
         let whole = Evidence {
             ended: &fine,
             unnamed: false,

@@ -6,8 +6,8 @@ use super::left::{function_form, remaining};
 use super::numbers::{short, times};
 use super::rivals::rival;
 use super::steps::{Step, fits_otherwise, is_misread, is_unconfirmed, is_worse, steps};
-use crate::data::SiUnit;
 use crate::diagnose::{Caution, Diagnosis, EffectFound, Ended, EveryRow, Rms, Verdict};
+use observe::SiUnit;
 
 /// Rows far out hide what became of the others where a figure over every row is so many times theirs.
 const HIDDEN: f64 = 1.5;

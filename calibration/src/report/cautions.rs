@@ -2,8 +2,8 @@
 
 use super::misreadings::{misread, strayed};
 use super::numbers::{reading, short, times, told, told_in};
-use crate::data::SiUnit;
 use crate::diagnose::{Caution, LengthsOff, Moved, TwoPlaces, Uneven};
+use observe::SiUnit;
 
 /// A caution in a sentence.
 #[must_use]

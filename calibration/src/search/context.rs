@@ -4,10 +4,10 @@ use model_core::{ObservableId, SymbolId};
 
 use super::select::Options;
 use super::{SearchError, Stage};
-use crate::candidate::{Effect, EffectId, Setting};
-use crate::catalogue::{Name, catalogue, chosen, known_names};
-use crate::data::Observations;
-use crate::study::Plan;
+use effects::candidate::{Effect, EffectId, Setting};
+use effects::catalogue::{Name, catalogue, chosen, known_names};
+use observe::Observations;
+use study::Plan;
 
 /// What to calibrate.
 #[derive(Clone, Copy)]

@@ -5,11 +5,11 @@
 
 use std::path::{Path, PathBuf};
 
-use calibration::data::Observations;
-use calibration::fit::{FitOptions, FitResult, Outcome, fit};
-use calibration::formats::{DataError, Input};
-use calibration::study::{Plan, Study};
+use fit::{FitOptions, FitResult, Outcome, fit};
 use model_core::Chain;
+use observe::Observations;
+use study::{Plan, Study};
+use tables::formats::{DataError, Input};
 
 const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;
 

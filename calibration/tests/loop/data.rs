@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use calibration::calibrate::{Calibration, Request, calibrate};
-use calibration::data::Observations;
-use calibration::formats::{DataError, Input};
-use calibration::study::{Plan, Study};
 use model_core::Chain;
+use observe::Observations;
+use study::{Plan, Study};
+use tables::formats::{DataError, Input};
 
 /// The workspace's root.
 pub fn root() -> PathBuf {

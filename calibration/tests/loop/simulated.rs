@@ -1,14 +1,14 @@
 //! Planted effects: eight kinds are named, two at once, none gives nothing, a bump in no catalogue is placed.
 
 use calibration::calibrate::{Calibration, Request, calibrate};
-use calibration::data::{Measure, Measured, Observations, Poses, Series, tangent_frame};
 use calibration::diagnose::{Diagnosis, EffectFound, Verdict};
-use calibration::study::{Plan, Study};
 use model_core::{Chain, SymbolId, exact};
 use nalgebra::Vector3;
+use observe::{Measure, Measured, Observations, Poses, Series, tangent_frame};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
+use study::{Plan, Study};
 
 use crate::data::root;
 

@@ -2,7 +2,7 @@
 
 use calibration::calibrate::{Request, calibrate};
 use calibration::design::{Addition, Criterion, Place, PlaceProposal, Pointing};
-use calibration::fit::fit;
+use fit::fit;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 use super::room::{Noise, Stand};

@@ -1,6 +1,6 @@
 //! The noise beside unknown targets: along a beam it is that of the range, across it that of the angles times the range.
 
-use calibration::fit::fit;
+use fit::fit;
 use nalgebra::Vector3;
 
 use super::room::{Noise, Stand};

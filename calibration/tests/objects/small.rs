@@ -2,10 +2,10 @@
 
 use std::fmt::Write as _;
 
-use calibration::fit::{FitResult, fit};
-use calibration::study::Plan;
+use fit::{FitResult, fit};
 use nalgebra::Vector3;
 use statrs::distribution::{ContinuousCDF, StudentsT};
+use study::Plan;
 
 use super::room::{Noise, Stand};
 use super::{read, text_of};

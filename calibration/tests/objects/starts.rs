@@ -3,10 +3,10 @@
 
 use std::fmt::Write as _;
 
-use calibration::fit::{FitResult, fit};
-use calibration::study::{Plan, Study};
+use fit::{FitResult, fit};
 use model_core::Chain;
 use nalgebra::Vector3;
+use study::{Plan, Study};
 
 use super::room::{Noise, Stand};
 use super::text_of;

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use calibration::data::units::{Amount, Unit};
 use calibration::tolerance::{Distribution, Shape, Tolerance, Written};
 use model_core::{Chain, ObservableKind, Quantity, SymbolId, SymbolKind, names};
+use tables::units::{Amount, Unit};
 
 use crate::errors_file;
 use crate::failure::Failure;

@@ -13,7 +13,7 @@ use crate::certificates::CertificateArguments;
 use crate::failure::Failure;
 use crate::set_up::SetUpSeen;
 use crate::source::{Source, listed, observables};
-use crate::tables::open_beside;
+use crate::table_files::open_beside;
 use crate::terminal;
 
 /// Say what no data can tell apart.

@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use calibration::calibrate::{Request, calibrate};
-use calibration::data::{Measure, Observations};
-use calibration::formats::{DataError, Input};
 use calibration::search::columns::Columns;
-use calibration::study::{Plan, Study};
 use model_core::{Chain, SymbolId};
+use observe::{Measure, Observations};
+use study::{Plan, Study};
+use tables::formats::{DataError, Input};
 
 use crate::design::Failure;
 use crate::rate::{Line, Target};

@@ -4,15 +4,15 @@ use std::f64::consts::PI;
 use std::time::{Duration, Instant};
 
 use calibration::calibrate::{Request, calibrate};
-use calibration::candidate::Effect;
-use calibration::data::Observations;
 use calibration::diagnose::{Diagnosis, EffectFound, Verdict};
-use calibration::study::NextPoses;
+use effects::candidate::Effect;
 use model_core::{Chain, Role, SymbolId, TransformKind};
+use observe::Observations;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
+use study::NextPoses;
 
 use crate::design::{Design, Failure, Poses, SIGMA_RAD, TEXT, rms};
 use crate::noise::Noise;

@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use calibration::data::units;
 use model_core::budget::{self, Measure, Poses};
 use model_core::checker::{Bound, Claim, Combined, Comparison, Limits, Size, SizeMeasure};
 use model_core::remainder::Domain;
 use model_core::{ObservableId, Quantity, Symbol, SymbolId, SymbolKind, names, validate};
+use tables::units;
 use toml::{Spanned, Value};
 
 use super::super::table::{ClaimTable, CompareTable, Sizes};

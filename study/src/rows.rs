@@ -1,0 +1,130 @@
+//! The rows of one source on their way from its files.
+
+use super::columns::Columns;
+use super::labels::says_nothing;
+use super::order::order_of;
+use super::plan::{Plan, SourcePlan};
+use observe::{Numbers, Places};
+use tables::formats::{Cell, Cells, DataError, Form, TableReader};
+use tables::units::BareColumn;
+
+/// Rows that are read at a time.
+const CHUNK: usize = 1 << 16;
+
+/// Memory that a number takes while a file is read: it is held as read, and among what was observed with a mark of what it is.
+const BYTES_A_NUMBER: usize = 3 * size_of::<f64>();
+
+/// The columns of one source as numbers and labels, in the order of [`Columns`].
+pub(super) struct Rows {
+    pub numbers: Vec<Vec<f64>>,
+    pub labels: Vec<Vec<String>>,
+    pub row_numbers: Numbers,
+    pub places: Places,
+    /// Of each column of numbers whether all files so far give it in SI.
+    pub in_si: Vec<bool>,
+    /// Memory that these take, in bytes.
+    bytes: usize,
+}
+
+impl Rows {
+    /// None yet, of these columns.
+    pub fn of(columns: &Columns) -> Self {
+        Self {
+            numbers: vec![Vec::new(); columns.plans.len()],
+            labels: vec![Vec::new(); columns.labels.len()],
+            row_numbers: Numbers::default(),
+            places: Places::default(),
+            in_si: vec![true; columns.plans.len()],
+            bytes: 0,
+        }
+    }
+
+    /// Appends all rows of one file, and the columns of it that are doubtful.
+    pub fn append(
+        &mut self,
+        (plan, source): (&Plan, &SourcePlan),
+        reader: &mut dyn TableReader,
+        file: u32,
+        columns: &Columns,
+        doubtful: &mut Vec<BareColumn>,
+    ) -> Result<(), DataError> {
+        let (wanted, mut bare) = columns.wanted(plan, source, reader)?;
+        for (in_si, column) in self.in_si.iter_mut().zip(&wanted) {
+            *in_si &= matches!(column.form, Form::Number(1.0));
+        }
+        let before = self.row_numbers.last().unwrap_or_default();
+        loop {
+            let chunk = reader.read(&wanted, CHUNK)?;
+            if chunk.rows.is_empty() {
+                break;
+            }
+            self.row_numbers.extend(chunk.rows.iter().map(|row| before + row));
+            let lines = chunk.lines.iter().copied().chain(std::iter::repeat(0));
+            self.places.extend(file, lines.take(chunk.rows.len()));
+            let mut numbers = self.numbers.iter_mut().enumerate();
+            let mut labels = self.labels.iter_mut().zip(&columns.labels);
+            for cells in chunk.columns {
+                match cells {
+                    Cells::Numbers(values) => {
+                        let Some((at, column)) = numbers.next() else { continue };
+                        if let Some((_, bare)) = bare.iter_mut().find(|(column, _)| *column == at) {
+                            bare.see(&values);
+                        }
+                        self.bytes += values.len() * BYTES_A_NUMBER;
+                        column.extend(&values);
+                    }
+                    Cells::Labels(values) => {
+                        let Some((column, name)) = labels.next() else { continue };
+                        let says_what = source.object.contains(name) || source.station.contains(name);
+                        let says_with_whom =
+                            plan.group.contains(name) || plan.hold_out.together.contains(name);
+                        for (at, label) in values.iter().map(|label| label.trim().to_owned()).enumerate() {
+                            let cell = || {
+                                let (file, column) = (reader.source().to_owned(), name.clone());
+                                let (line, row) = (chunk.lines.get(at).copied(), chunk.rows[at]);
+                                Cell { file, line, row, column }
+                            };
+                            if says_what && says_nothing(&label) {
+                                return Err(DataError::NoLabel { cell: cell() });
+                            }
+                            if says_with_whom && says_nothing(&label) {
+                                return Err(DataError::NoGroup { cell: cell() });
+                            }
+                            if plan.order.as_ref() == Some(name) && says_nothing(&label) {
+                                return Err(DataError::NoOrder { cell: cell() });
+                            }
+                            if label.contains(|letter: char| letter.is_control() && letter != '\t') {
+                                return Err(DataError::ControlCharacter { cell: cell() });
+                            }
+                            self.bytes += label.len() + size_of::<String>();
+                            column.push(label);
+                        }
+                    }
+                    Cells::Kept(_) => unreachable!("a study wants numbers and labels"),
+                }
+            }
+            plan.format.holds(self.bytes, reader.source())?;
+        }
+        doubtful.extend(bare.into_iter().map(|(_, bare)| bare).filter(BareColumn::is_doubtful));
+        Ok(())
+    }
+
+    /// Brings the rows into the [order](order_of) of a label.
+    pub fn sort_by_label(&mut self, label: usize) {
+        let Some(labels) = self.labels.get(label) else { return };
+        let order = order_of(labels);
+        for column in &mut self.numbers {
+            *column = order.iter().map(|&row| column[row]).collect();
+        }
+        for column in &mut self.labels {
+            *column = order.iter().map(|&row| column[row].clone()).collect();
+        }
+        self.row_numbers = self.row_numbers.select(&order);
+        self.places = self.places.select(&order);
+    }
+
+    /// The number of a row in its file.
+    pub fn number(&self, row: usize) -> u64 {
+        self.row_numbers.get(row).unwrap_or_default()
+    }
+}

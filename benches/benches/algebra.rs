@@ -7,8 +7,8 @@
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use model_core::algebra::Poly;
-use model_core::checker::{Checker, ClosedForm, Order, PrintedVector};
-use model_core::latex::PrintedSymbols;
+use claims::checker::{Checker, ClosedForm, Order, PrintedVector};
+use claims::latex::PrintedSymbols;
 use model_core::remainder::{Domain, bound};
 use model_core::{Chain, ObservableId, Quantity, SymbolKind, forms, identify, print, syntax};
 use std::fmt::Write;

@@ -4,8 +4,8 @@ use calibration::data::units::{Amount, Plausible};
 use model_core::{Chain, SymbolId, SymbolKind, names};
 
 use crate::failure::Failure;
-use crate::source::listed;
 use crate::terminal;
+use model_core::names::listed;
 
 /// One `--range` as typed.
 #[derive(Debug, Clone, PartialEq, Eq)]

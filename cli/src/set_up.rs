@@ -10,8 +10,9 @@ use model_core::{Chain, SymbolId};
 use serde_json::{Value, json};
 
 use crate::failure::Failure;
-use crate::source::{Source, listed};
+use crate::source::Source;
 use crate::{tables, terminal};
+use model_core::names::listed;
 
 /// Opens a data file by its path, and by where it is to be had if it is not there.
 pub type OpenData<'a> = dyn FnMut(&str, Option<&str>) -> Result<Input<'static>, DataError> + 'a;

@@ -15,6 +15,8 @@ fn no_two_modules_beside_each_other_need_each_other() {
     for package in [
         "src",
         "model-core/src",
+        "claims/src",
+        "proof/src",
         "model-macros/src",
         "codegen/src",
         "calibration/src",

@@ -10,11 +10,26 @@ use crate::sources::root;
 /// Each package of the workspace with the packages of the workspace that it may use, dev-dependencies aside.
 const MAY_USE: &[(&str, &[&str])] = &[
     ("trueaxis-core", &[]),
+    ("trueaxis-claims", &["trueaxis-core"]),
+    ("trueaxis-proof", &["trueaxis-core", "trueaxis-claims"]),
     ("trueaxis-codegen", &["trueaxis-core"]),
     ("trueaxis-macros", &["trueaxis-core", "trueaxis-codegen"]),
     ("trueaxis-calibration", &["trueaxis-core", "trueaxis-codegen"]),
-    ("trueaxis", &["trueaxis-core", "trueaxis-macros", "trueaxis-codegen", "trueaxis-calibration"]),
-    ("trueaxis-cli", &["trueaxis-core", "trueaxis-codegen", "trueaxis-calibration"]),
+    (
+        "trueaxis",
+        &[
+            "trueaxis-core",
+            "trueaxis-claims",
+            "trueaxis-proof",
+            "trueaxis-macros",
+            "trueaxis-codegen",
+            "trueaxis-calibration",
+        ],
+    ),
+    (
+        "trueaxis-cli",
+        &["trueaxis-core", "trueaxis-claims", "trueaxis-proof", "trueaxis-codegen", "trueaxis-calibration"],
+    ),
 ];
 
 fn packages() -> Vec<Value> {

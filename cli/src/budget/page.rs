@@ -2,9 +2,9 @@
 
 use calibration::data::SiUnit;
 use calibration::report::numbers;
+use claims::checker::Verdict;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use model_core::budget::Curves;
-use model_core::checker::Verdict;
 use model_core::{Chain, Symbol};
 
 use super::tables::{PARTS, samples};

@@ -9,8 +9,8 @@ use model_core::{Chain, Quantity, SymbolId};
 
 use super::dimensions::TIME;
 use crate::failure::Failure;
-use crate::source::listed;
 use crate::tables::{self, ReadingsTable};
+use model_core::names::listed;
 
 /// Steps of the table that are so many times longer than the usual one are gaps.
 const GAP: f64 = 10.0;

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 use codegen::{Form, Interpreter, Language, build};
 use model_core::expr::{Expr, Node};
-use model_core::latex::{PrintedSymbols, read_formula};
+use claims::latex::{PrintedSymbols, read_formula};
 
 use crate::case::{Case, FORMS};
 

@@ -49,7 +49,7 @@
 //! - [`chain!`] and [`chain_file!`] expand a declaration to a module: its exact and first-order errors, Jacobians,
 //!   closed forms. They work in `no_std` crates with the feature `libm` in place of the default ones.
 //! - With the feature `analysis` (on by default): [`Chain`], the declaration, and what follows from it by algebra
-//!   ([`model_core`]); generated evaluators in other languages ([`codegen`]); [`Study`] and [`Calibration`], measured data
+//!   ([`model_core`]); printed formulas checked ([`claims`]) and proved ([`proof`]); generated evaluators in other languages ([`codegen`]); [`Study`] and [`Calibration`], measured data
 //!   ([`calibration`]).
 //!
 //! This crate is a facade: it has no logic of its own.
@@ -61,14 +61,20 @@ pub use nalgebra;
 #[cfg(feature = "analysis")]
 pub use calibration;
 #[cfg(feature = "analysis")]
+pub use claims;
+#[cfg(feature = "analysis")]
 pub use codegen;
 #[cfg(feature = "analysis")]
 pub use model_core;
+#[cfg(feature = "analysis")]
+pub use proof;
 
 #[cfg(feature = "analysis")]
 pub use calibration::calibrate::Calibration;
 #[cfg(feature = "analysis")]
-pub use model_core::{Chain, checker::Checker, forms::derive, identify::identify, print, remainder::bound};
+pub use claims::checker::Checker;
+#[cfg(feature = "analysis")]
+pub use model_core::{Chain, forms::derive, identify::identify, print, remainder::bound};
 #[cfg(feature = "analysis")]
 pub use study::Study;
 

@@ -4,7 +4,7 @@ mod apply;
 mod budget;
 mod calibrating;
 mod certificates;
-mod claims;
+mod claims_file;
 #[cfg(feature = "point-clouds")]
 mod cloud;
 mod commands;

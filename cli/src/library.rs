@@ -13,13 +13,14 @@ use tables::formats::memory::Reader;
 use tables::formats::{ColumnName, TableReader, declared_columns};
 
 use crate::budget::Measured;
-use crate::claims::{ClaimsFile, as_json};
+use crate::claims_file::ClaimsFile;
 use crate::commands::{bound, budget, check, derive, generate, identify, simulate};
 use crate::evaluation;
 use crate::over_memory::has_room;
 use crate::ranges::{self, Range, RangeArgument};
 use crate::source::observables;
-use crate::{claims, errors_file, poses, report, table_files};
+use crate::{errors_file, poses, report, table_files};
+use claims::show::{Paint, as_json, as_text};
 
 pub use crate::apply::Counted;
 pub use crate::calibrating::{Calibrated, Studied};
@@ -63,7 +64,7 @@ pub fn observable(chain: &Chain, name: Option<&str>) -> Result<ObservableId, Fai
         &[only] => Ok(only),
         several => {
             let names = several.iter().map(|&id| chain.observable(id).name.as_str());
-            let names = crate::source::listed(names);
+            let names = model_core::names::listed(names);
             Err(Failure::Input(format!("chain {} declares {names}: name one of them", chain.name)))
         }
     }
@@ -242,8 +243,8 @@ pub fn budgeted(
 pub fn checked(claims: &Path) -> Result<Told, Failure> {
     let file = ClaimsFile::read(claims)?;
     let checked = check::checked(&file)?;
-    let json: Vec<Value> = checked.iter().map(|checked| as_json(&file, checked)).collect();
-    Ok(Told { text: plain(&claims::as_text(&file, &checked)), json: json!({ "claims": json }) })
+    let json: Vec<Value> = checked.iter().map(|checked| as_json(&file.said, checked)).collect();
+    Ok(Told { text: as_text(&file.said, &checked, &Paint::default()), json: json!({ "claims": json }) })
 }
 
 /// Measured data that are made up; as `simulate`: names of columns, and the columns in SI.

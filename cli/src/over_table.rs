@@ -12,9 +12,10 @@ use tables::formats::Column;
 use crate::errors_file::{self, FoundOver};
 use crate::evaluation::{Evaluator, Exactness, Quantity, column_names};
 use crate::failure::Failure;
-use crate::source::{Source, listed};
+use crate::source::Source;
 use crate::table_files::{self, ReadingsTable, Rows};
 use crate::{output, terminal};
+use model_core::names::listed;
 
 /// What is evaluated over which table, and where to.
 #[derive(Debug, clap::Args)]

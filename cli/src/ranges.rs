@@ -4,8 +4,8 @@ use model_core::{Chain, SymbolId, SymbolKind, names};
 use tables::units::{Amount, Plausible};
 
 use crate::failure::Failure;
-use crate::source::listed;
 use crate::terminal;
+use model_core::names::listed;
 
 /// One `--range` as typed.
 #[derive(Debug, Clone, PartialEq, Eq)]

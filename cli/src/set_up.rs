@@ -10,8 +10,9 @@ use serde_json::{Value, json};
 use tables::formats::{DataError, Input};
 
 use crate::failure::Failure;
-use crate::source::{Source, listed};
+use crate::source::Source;
 use crate::{table_files, terminal};
+use model_core::names::listed;
 
 /// Opens a data file by its path, and by where it is to be had if it is not there.
 pub type OpenData<'a> = dyn FnMut(&str, Option<&str>) -> Result<Input<'static>, DataError> + 'a;

@@ -10,6 +10,8 @@ use crate::sources::root;
 /// Each package of the workspace with the packages of the workspace that it may use, dev-dependencies aside.
 const MAY_USE: &[(&str, &[&str])] = &[
     ("trueaxis-core", &[]),
+    ("trueaxis-claims", &["trueaxis-core"]),
+    ("trueaxis-proof", &["trueaxis-core", "trueaxis-claims"]),
     ("trueaxis-codegen", &["trueaxis-core"]),
     ("trueaxis-macros", &["trueaxis-core", "trueaxis-codegen"]),
     ("trueaxis-parallel", &[]),
@@ -60,12 +62,22 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ),
     (
         "trueaxis",
-        &["trueaxis-core", "trueaxis-macros", "trueaxis-codegen", "trueaxis-calibration", "trueaxis-study"],
+        &[
+            "trueaxis-core",
+            "trueaxis-claims",
+            "trueaxis-proof",
+            "trueaxis-macros",
+            "trueaxis-codegen",
+            "trueaxis-calibration",
+            "trueaxis-study",
+        ],
     ),
     (
         "trueaxis-cli",
         &[
             "trueaxis-core",
+            "trueaxis-claims",
+            "trueaxis-proof",
             "trueaxis-codegen",
             "trueaxis-parallel",
             "trueaxis-tables",

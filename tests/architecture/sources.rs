@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 pub const LIBRARIES: &[&str] = &[
     "src",
     "model-core/src",
+    "claims/src",
+    "proof/src",
     "model-macros/src",
     "codegen/src",
     "parallel/src",

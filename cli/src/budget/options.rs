@@ -8,7 +8,8 @@ use tables::units::{Amount, Unit};
 
 use crate::errors_file;
 use crate::failure::Failure;
-use crate::source::{Source, listed};
+use crate::source::Source;
+use model_core::names::listed;
 
 /// What a designer asks.
 #[derive(Debug, clap::Args)]

@@ -1,9 +1,9 @@
 //! A budget as one page for a browser: nothing in it comes from elsewhere, and it has no script.
 
 use calibration::report::numbers;
+use claims::checker::Verdict;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use model_core::budget::Curves;
-use model_core::checker::Verdict;
 use model_core::{Chain, Symbol};
 use observe::SiUnit;
 

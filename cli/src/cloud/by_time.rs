@@ -9,8 +9,8 @@ use tables::formats::{ColumnName, DataError, Options};
 
 use super::dimensions::TIME;
 use crate::failure::Failure;
-use crate::source::listed;
 use crate::table_files::{self, ReadingsTable};
+use model_core::names::listed;
 
 /// Steps of the table that are so many times longer than the usual one are gaps.
 const GAP: f64 = 10.0;

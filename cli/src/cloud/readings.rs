@@ -9,8 +9,8 @@ use super::by_time::{Opened, Timetable};
 use super::dimensions::{Dimension, TIME};
 use super::points::{Cloud, Points};
 use crate::failure::Failure;
-use crate::source::listed;
 use crate::table_files::{self, factor_of};
+use model_core::names::listed;
 
 /// Points whose readings one processor gathers at a time.
 const PIECE: usize = 1 << 13;

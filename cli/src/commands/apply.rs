@@ -16,8 +16,9 @@ use crate::output;
 #[cfg(feature = "point-clouds")]
 use crate::over_table::Model;
 use crate::over_table::{Opened, OverTable};
-use crate::source::{listed, observables};
+use crate::source::observables;
 use crate::{table_files, terminal};
+use model_core::names::listed;
 
 /// Correct new data with a calibrated model.
 ///

@@ -2,16 +2,18 @@
 
 use std::path::PathBuf;
 
+use claims::checker::{Checker, Claim, Verdict};
 use model_core::Mistake;
-use model_core::certificate::{Certificate, Declared, Refusal};
-use model_core::checker::{Checker, Claim, Verdict};
+use proof::{Certificate, Declared, Refusal};
 use serde_json::{Value, json};
 
 use super::{Answer, TextOrJson};
 use crate::certificates::CertificateArguments;
-use crate::claims::{Checked, ClaimsFile, NamedClaim, as_json, as_text};
+use crate::claims_file::{self, ClaimsFile};
 use crate::failure::Failure;
 use crate::terminal;
+use claims::file::{Checked, NamedClaim};
+use claims::show::{as_json, as_text};
 
 /// Check published claims: is the printed formula what the chain implies?
 ///
@@ -37,9 +39,9 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let file = ClaimsFile::read(&arguments.claims)?;
     let checked = checked(&file)?;
     let output = match arguments.format {
-        TextOrJson::Text => as_text(&file, &checked),
+        TextOrJson::Text => as_text(&file.said, &checked, &claims_file::paint()),
         TextOrJson::Json => {
-            let claims: Vec<Value> = checked.iter().map(|checked| as_json(&file, checked)).collect();
+            let claims: Vec<Value> = checked.iter().map(|checked| as_json(&file.said, checked)).collect();
             format!("{:#}\n", json!({ "claims": claims }))
         }
     };
@@ -58,9 +60,9 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
 /// # Errors
 /// A claim that has no verdict, with its place.
 pub fn checked(file: &ClaimsFile) -> Result<Vec<Checked<'_>>, Failure> {
-    let mut checker = Checker::new(&file.chain);
-    let mut checked = Vec::with_capacity(file.claims.len());
-    for claim in &file.claims {
+    let mut checker = Checker::new(&file.said.chain);
+    let mut checked = Vec::with_capacity(file.said.claims.len());
+    for claim in &file.said.claims {
         let NamedClaim { claim: asked, place, .. } = claim;
         let verdict = checker
             .check(asked)

@@ -12,7 +12,8 @@ use crate::errors_file;
 use crate::failure::Failure;
 use crate::output;
 use crate::sizes::SizesArgument;
-use crate::source::{Source, listed, observables};
+use crate::source::{Source, observables};
+use model_core::names::listed;
 
 /// Generate evaluators in another language.
 ///

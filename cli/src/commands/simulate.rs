@@ -15,8 +15,9 @@ use crate::errors_file;
 use crate::evaluation::{Evaluator, Exactness, Quantity, column_names};
 use crate::failure::Failure;
 use crate::ranges::{self, Range, RangeArgument};
-use crate::source::{Source, listed, observables};
+use crate::source::{Source, observables};
 use crate::{output, table_files, terminal};
+use model_core::names::listed;
 
 /// Simulate measured data.
 ///

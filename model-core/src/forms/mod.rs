@@ -10,9 +10,10 @@ use crate::algebra::{AlgebraError, Fraction, Poly};
 use crate::chain::reading::Reading;
 use crate::chain::{Axis, Chain, ObservableId};
 use crate::symbol::{SymbolId, SymbolKind};
-use reading::{NoSeries, ReadSeries};
+use reading::NoSeries;
 
 pub use exact_symbolic::exact_symbolic;
+pub use reading::ReadSeries;
 
 /// What the errors add to what an observable shows, up to an order in the errors. Components of a direction have no unit,
 /// those of a point and ranges are in metres, angles in radians.
@@ -138,7 +139,10 @@ pub fn derive(chain: &Chain, observable: ObservableId, order: u32) -> Result<For
 }
 
 /// The vector of an observable without errors, in the frame that it is seen in.
-pub(crate) fn nominal(chain: &Chain, observable: ObservableId) -> Result<[Poly; 3], FormError> {
+///
+/// # Errors
+/// The chain has no closed form.
+pub fn nominal(chain: &Chain, observable: ObservableId) -> Result<[Poly; 3], FormError> {
     let parts = graded::parts_up_to(chain, observable, 0)?;
     match parts.into_iter().next() {
         Some(nominal) => Ok(nominal),
@@ -158,7 +162,10 @@ pub(crate) fn derive_vector(chain: &Chain, observable: ObservableId, order: u32)
 }
 
 /// What the errors would add to another reading of the same vector.
-pub(crate) fn derive_reading(
+///
+/// # Errors
+/// The reading has no such form.
+pub fn derive_reading(
     chain: &Chain,
     observable: ObservableId,
     order: u32,

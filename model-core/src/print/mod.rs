@@ -8,8 +8,6 @@ mod collect;
 mod fraction;
 mod notation;
 mod pieces;
-#[cfg(test)]
-mod tests;
 
 use crate::algebra::{Poly, Rational};
 use crate::chain::Chain;

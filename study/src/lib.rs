@@ -7,6 +7,7 @@
 mod amount;
 mod column_plan;
 mod columns;
+mod conversion;
 mod correlated;
 mod doubts;
 mod effects;
@@ -27,6 +28,7 @@ mod plan;
 mod ranges;
 mod repeated;
 mod rows;
+mod sample;
 mod short;
 mod shown;
 mod sights;
@@ -40,9 +42,11 @@ mod unsought;
 mod unstated;
 mod written;
 
+pub use conversion::{Conversion, Notation};
 pub use load::{Loaded, Open, OpenTable};
 pub use next::{NextObjects, NextPlaces, NextPoses};
 pub use plan::{HoldOut, Plan, Search, SourcePlan};
+pub use sample::{Change, Changed, Place, Read, Sample, SampledColumn};
 pub use timeless::Timeless;
 pub use unsought::Unsought;
 pub use unstated::Unstated;

@@ -11,6 +11,7 @@ use super::plan::{Plan, Reading, SourcePlan};
 use super::ranges::check_ranges;
 use super::repeated::{fitted_as_well, without_repeats};
 use super::rows::Rows;
+use super::sample::Sample;
 use super::stated::{of_components, of_pairs, of_readings};
 use super::written::Kind;
 use network::{Remark, StartError, check_named, check_scale, place};
@@ -38,6 +39,8 @@ pub struct Loaded {
     pub doubtful: Vec<BareColumn>,
     /// What is doubtful of rows.
     pub remarks: Vec<Remark>,
+    /// Some of the rows as the files have them, to be read otherwise.
+    pub sample: Sample,
 }
 
 impl Loaded {
@@ -75,15 +78,17 @@ impl Plan {
         let mut doubtful = Vec::new();
         let mut observations = self.no_observations();
         let mut groups = Numbered::default();
+        let mut sample = Sample::default();
         for source in &self.sources {
-            self.append(&mut observations, source, &source.paths, open, &mut groups, &mut doubtful)?;
+            let sample = Some(&mut sample);
+            self.append(&mut observations, source, &source.paths, open, &mut groups, &mut doubtful, sample)?;
         }
         let held_out = match (&self.hold_out.file, self.sources.first()) {
             // The file held out is read as the first source's files are.
             (Some(path), Some(source)) => {
                 let mut all = self.no_observations();
                 let paths = std::slice::from_ref(path);
-                self.append(&mut all, source, paths, open, &mut Numbered::default(), &mut doubtful)?;
+                self.append(&mut all, source, paths, open, &mut Numbered::default(), &mut doubtful, None)?;
                 let fitted = fitted_as_well(&all, &observations);
                 if 2 * fitted > all.rows() {
                     let (file, rows) = (path.clone(), all.rows());
@@ -96,10 +101,10 @@ impl Plan {
         let remarks = self
             .place_objects(&mut observations)
             .map_err(|error| DataError::NotPlaced { why: error.to_string() })?;
-        Ok(Loaded { observations, held_out, doubtful, remarks })
+        Ok(Loaded { observations, held_out, doubtful, remarks, sample })
     }
 
-    fn no_observations(&self) -> Observations {
+    pub(super) fn no_observations(&self) -> Observations {
         let in_sequence = self.order.is_some() || self.search.sequence;
         Observations { in_sequence, ..Observations::default() }
     }
@@ -112,12 +117,30 @@ impl Plan {
         open: &mut OpenTable<'_>,
         numbered: &mut Numbered,
         doubtful: &mut Vec<BareColumn>,
+        sample: Option<&mut Sample>,
     ) -> Result<(), DataError> {
         let columns = Columns::of(self, source);
-        let mut rows = Rows::of(&columns);
+        let mut rows = self.rows(all, source, paths, open, &columns, doubtful)?;
+        if let Some(sample) = sample {
+            sample.take(&columns, &rows);
+        }
+        self.observe(all, source, &columns, &mut rows, numbered)
+    }
+
+    /// The rows of the files of a source, in their order.
+    fn rows(
+        &self,
+        all: &mut Observations,
+        source: &SourcePlan,
+        paths: &[String],
+        open: &mut OpenTable<'_>,
+        columns: &Columns,
+        doubtful: &mut Vec<BareColumn>,
+    ) -> Result<Rows, DataError> {
+        let mut rows = Rows::of(columns);
         for path in paths {
             let file = all.origins.file(path);
-            rows.append((self, source), &mut *open(path, &self.format)?, file, &columns, doubtful)?;
+            rows.append((self, source), &mut *open(path, &self.format)?, file, columns, doubtful)?;
         }
         let file = paths.join(", ");
         if rows.row_numbers.is_empty() {
@@ -133,6 +156,23 @@ impl Plan {
             }
             rows.sort_by_label(at);
         }
+        rows.shift(columns);
+        if rows.row_numbers.is_empty() {
+            return Err(DataError::NoRows { file });
+        }
+        Ok(rows)
+    }
+
+    /// Appends what the rows of a source observe.
+    pub(super) fn observe(
+        &self,
+        all: &mut Observations,
+        source: &SourcePlan,
+        columns: &Columns,
+        rows: &mut Rows,
+        numbered: &mut Numbered,
+    ) -> Result<(), DataError> {
+        let file = source.paths.join(", ");
         let converted = columns.readings.iter().filter(|(_, at)| !rows.in_si[*at]).map(|(id, _)| *id);
         all.converted.extend(converted);
         let start = all.rows();
@@ -140,23 +180,23 @@ impl Plan {
         if u32::try_from(start + count).is_err() {
             return Err(DataError::TooManyRows { file });
         }
-        let readings = self.readings(source, &columns, &mut rows, &file)?;
-        check_ranges(&self.chain, source, &readings, &rows, &file)?;
-        append(&mut all.measured, self.measured(source, &columns, &rows, &readings, &file)?);
+        let readings = self.readings(source, columns, rows, &file)?;
+        check_ranges(&self.chain, source, &readings, rows, &file)?;
+        append(&mut all.measured, self.measured(source, columns, rows, &readings, &file)?);
         // Of many rows these are most of what is held.
         rows.numbers[columns.observed.clone()].fill_with(Vec::new);
         // A source that does not have a column has no use for it either; and a reading that states nothing is exact.
         append_columns(&mut all.poses.columns, start, count, readings);
-        append_columns(&mut all.reading_sigma, start, count, of_readings(source, &columns, &rows, &file)?);
-        append_columns(&mut all.reading_correlation, start, count, of_pairs(source, &columns, &rows, &file)?);
+        append_columns(&mut all.reading_sigma, start, count, of_readings(source, columns, rows, &file)?);
+        append_columns(&mut all.reading_correlation, start, count, of_pairs(source, columns, rows, &file)?);
         if !columns.sigma.is_empty() {
             all.sigma.resize(start, None);
-            all.sigma.extend(of_components(&columns, &rows, &file)?.into_iter().map(Some));
+            all.sigma.extend(of_components(columns, rows, &file)?.into_iter().map(Some));
         } else if !all.sigma.is_empty() {
             all.sigma.resize(start + count, None);
         }
         let grouping = self.group.len();
-        self.append_objects(all, source, &rows, start);
+        self.append_objects(all, source, rows, start);
         if grouping == 0 {
             all.groups.extend((start as u32..).take(count));
         } else {

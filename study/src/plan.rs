@@ -34,6 +34,8 @@ pub struct Plan {
     pub sources: Vec<SourcePlan>,
     /// What to estimate and how.
     pub fit: FitOptions,
+    /// How large errors may be that are findings, where the study says so, SI.
+    pub plausible: Vec<(SymbolId, f64)>,
     /// What to look for.
     pub search: Search,
     /// How to judge on data that no stage saw.
@@ -71,6 +73,15 @@ impl Plan {
         self.sources.iter().any(|source| !source.uncertain.sigma.is_empty())
     }
 
+    /// The key in `[observed]` of a component that a source observes.
+    #[must_use]
+    pub fn observed_key(&self, source: usize, component: usize) -> &'static str {
+        match self.sources.get(source).and_then(|source| source.observed_keys.get(component)) {
+            Some(key) => key,
+            None => unreachable!("a component that is observed has a key"),
+        }
+    }
+
     /// The same of these files alone, with as many sources.
     #[must_use]
     pub fn of_files(&self, paths: &[String]) -> Self {
@@ -104,6 +115,8 @@ pub struct SourcePlan {
     pub measure: Measure,
     pub(super) readings: Vec<(SymbolId, Reading)>,
     pub(super) observed: Vec<ColumnPlan>,
+    /// The key of each in `[observed]`.
+    observed_keys: Vec<&'static str>,
     pub(super) kind: Kind,
     /// What the angles are that are observed, where the declaration says so.
     pub(super) convention: Option<Convention>,
@@ -182,6 +195,7 @@ impl Study {
         }
         let places = sources.as_ref().and_then(|sources| mistakes.take(self.places(sources)));
         let sizes = sources.as_ref().and_then(|sources| mistakes.take(self.tolerances(&chain, sources)));
+        let plausible = mistakes.take(self.plausible(&chain));
         mistakes.none()?;
         let (
             Some(sources),
@@ -193,7 +207,8 @@ impl Study {
             Some(sigma),
             Some(places),
             Some(sizes),
-        ) = (sources, fit, search, hold_out, next, format, sigma, places, sizes)
+            Some(plausible),
+        ) = (sources, fit, search, hold_out, next, format, sigma, places, sizes, plausible)
         else {
             unreachable!("what is missing comes with a mistake")
         };
@@ -215,6 +230,7 @@ impl Study {
             hold_out,
             next,
             places,
+            plausible,
             data_from,
             doubts,
             unstated,
@@ -273,7 +289,7 @@ impl Study {
                 Some(observable),
                 Some(readings),
                 Some(uncertain),
-                Some(ObservedColumns { measure, columns, orientation }),
+                Some(ObservedColumns { measure, columns, keys, orientation }),
                 Some(convention),
                 Some(sigma),
             ) = (observable, readings, uncertain, shown, convention, sigma)
@@ -286,6 +302,7 @@ impl Study {
                 measure,
                 readings,
                 observed: columns,
+                observed_keys: keys,
                 kind: observed.get_ref().kind,
                 convention,
                 orientation,
@@ -352,8 +369,7 @@ impl Study {
                     return Ok(Reading::Derived(derived.clone()));
                 }
                 let (name, quantity) = (symbol.name.clone(), symbol.quantity);
-                let column = ColumnPlan { name, unit: None, quantity, declared: true, named: false };
-                return Ok(Reading::Column(column));
+                return Ok(Reading::Column(ColumnPlan::declared(name, quantity)));
             };
             match &column.get_ref().derive {
                 Some(text) => parse_derived(text)

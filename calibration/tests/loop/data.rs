@@ -61,6 +61,7 @@ impl Loaded {
             text: &self.text,
             plan: &self.plan,
             observations: &self.observations,
+            sample: None,
             second: self.second.as_ref(),
             when: "2026-11-21",
         })

@@ -144,6 +144,7 @@ fn proposals(next: &str) -> Vec<PlaceProposal> {
         text: &text,
         plan: &plan,
         observations: &loaded.observations,
+        sample: None,
         second: None,
         when: "2026-11-22",
     };

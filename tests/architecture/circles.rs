@@ -21,6 +21,7 @@ fn no_two_modules_beside_each_other_need_each_other() {
         "cli/src",
         "benches/src",
         "fuzz/src",
+        "testkit/src",
     ] {
         for (folder, needs) in folders(package) {
             if let Some(circle) = circle(&needs) {

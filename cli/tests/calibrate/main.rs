@@ -27,7 +27,6 @@ mod observations;
 mod orientations;
 mod outage;
 mod placed;
-mod random;
 mod ranges;
 mod readings;
 mod repeats;

@@ -5,8 +5,8 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use crate::figures::{calibrated, cautions};
-use crate::random::Random;
 use crate::support::{Folder, root, run_in};
+use testkit::Random;
 
 const STUDY: &str = "examples/ball-sockets/panda.toml";
 

@@ -65,11 +65,9 @@
 ///     }
 /// }
 ///
-/// fn main() {
-///     let table = turntable::Turntable::new(turntable::Errors { zero: 1e-5 });
-///     let error = table.arm_error(&turntable::Joints { alpha: 0.0 });
-///     assert!((error.y - 1e-5).abs() < 1e-15);
-/// }
+/// let table = turntable::Turntable::new(turntable::Errors { zero: 1e-5 });
+/// let error = table.arm_error(&turntable::Joints { alpha: 0.0 });
+/// assert!((error.y - 1e-5).abs() < 1e-15);
 /// ```
 pub use model_macros::chain;
 
@@ -78,11 +76,9 @@ pub use model_macros::chain;
 /// ```
 /// trueaxis::chain_file!("examples/alt-azimuth/alt-azimuth.chain");
 ///
-/// fn main() {
-///     let mount = alt_azimuth::AltAzimuth::new(alt_azimuth::Errors { collimation: 1e-4, ..Default::default() });
-///     let level = alt_azimuth::Joints { azimuth: 0.0, elevation: 0.0 };
-///     assert!((mount.sight_error(&level).x.abs() - 1e-4).abs() < 1e-11);
-/// }
+/// let mount = alt_azimuth::AltAzimuth::new(alt_azimuth::Errors { collimation: 1e-4, ..Default::default() });
+/// let level = alt_azimuth::Joints { azimuth: 0.0, elevation: 0.0 };
+/// assert!((mount.sight_error(&level).x.abs() - 1e-4).abs() < 1e-11);
 /// ```
 pub use model_macros::chain_file;
 
@@ -95,11 +91,9 @@ pub use model_macros::chain_file;
 ///     chain Turntable { body table on ground { motion: Rz(alpha); } observe arm: direction(1, 0, 0) of table; }
 /// }
 ///
-/// fn main() {
-///     let arm: trueaxis::nalgebra::Vector3<f64> =
-///         turntable::Turntable::new(turntable::Errors {}).arm(&turntable::Joints { alpha: 0.5 });
-///     assert!((arm.norm() - 1.0).abs() < 1e-15);
-/// }
+/// let arm: trueaxis::nalgebra::Vector3<f64> =
+///     turntable::Turntable::new(turntable::Errors {}).arm(&turntable::Joints { alpha: 0.5 });
+/// assert!((arm.norm() - 1.0).abs() < 1e-15);
 /// ```
 pub use nalgebra;
 

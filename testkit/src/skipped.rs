@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, OpenOptions};
 use std::io::Write as _;
 use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
 
 /// Where the tests of one run of `cargo test` note what they skip: each is a process of its own, and cargo is the parent of all.
 fn note() -> Option<PathBuf> {
@@ -23,11 +24,16 @@ pub(crate) fn skip(missing: &str, install: &str) {
     assert!(may, "{missing} is missing, CI is set and TESTS_WITHOUT does not name {missing}: {install}");
     let thread = std::thread::current();
     let test = thread.name().unwrap_or("a test");
+    let line = format!("{missing}\t{install}\t{test}");
+    static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    if !SAID.lock().unwrap_or_else(PoisonError::into_inner).insert(line.clone()) {
+        return;
+    }
     // Past what the harness keeps of a test that passes. A word that cannot be written changes no result.
     let _ = writeln!(std::io::stderr(), "skipped: {test} needs {missing} ({install})");
     let noted = note().and_then(|path| OpenOptions::new().create(true).append(true).open(path).ok());
     if let Some(mut file) = noted {
-        let _ = writeln!(file, "{missing}\t{install}\t{test}");
+        let _ = writeln!(file, "{line}");
     }
 }
 

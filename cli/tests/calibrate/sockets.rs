@@ -5,7 +5,7 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use crate::figures::{calibrated, cautions};
-use crate::support::{Folder, root, run_in};
+use crate::support::{Folder, run_in};
 use testkit::Random;
 
 const STUDY: &str = "examples/ball-sockets/panda.toml";

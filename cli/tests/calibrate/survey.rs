@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use crate::support::{Folder, root, run_in};
+use crate::support::{Folder, run_in};
 
 /// The cells of the survey's table, and the table that `prepare.py` makes of what one station saw.
 fn prepared(text: &str, station: &str, is_second: bool) -> String {

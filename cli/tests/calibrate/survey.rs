@@ -1,6 +1,4 @@
 //! A radio telescope before two total stations: measured directions and distances to targets on its dish.
-//!
-//! The data lie outside the project; without them the test says so and passes, except where `CI` is set.
 
 use std::collections::BTreeMap;
 

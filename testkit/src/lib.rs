@@ -12,7 +12,7 @@ mod skipped;
 mod tools;
 
 pub use data::{measured, root};
-pub use random::Random;
+pub use random::{Random, Xorshift};
 pub use rotations::{rotation, turned};
 pub use scanner::Stand;
 pub use skipped::last_line;

@@ -33,3 +33,24 @@ impl Random {
         (0..12).map(|_| self.even()).sum::<f64>() - 6.0
     }
 }
+
+/// Numbers by shifts, for the rooms of the tests of unknown objects, whose bounds were set with them.
+///
+/// Source: G. Marsaglia, Xorshift RNGs, Journal of Statistical Software 8 (2003).
+#[derive(Debug, Clone)]
+pub struct Xorshift(pub u64);
+
+impl Xorshift {
+    /// Even between 0 and 1.
+    pub fn even(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Near normal, with mean 0 and variance 1: a sum of twelve even ones.
+    pub fn normal(&mut self) -> f64 {
+        (0..12).map(|_| self.even()).sum::<f64>() - 6.0
+    }
+}

@@ -6,14 +6,14 @@ use calibration::fit::fit;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 use super::{read, text_of};
-use testkit::{Random, Stand, rotation};
+use testkit::{Stand, Xorshift, rotation};
 
 /// Noise along a beam and across it, whatever the range.
 const ALONG_M: f64 = 0.5e-3;
 const ACROSS_M: f64 = 0.4e-3;
 
 fn targets() -> Vec<Vector3<f64>> {
-    let mut random = Random::new(7);
+    let mut random = Xorshift(7);
     let mut within = |low: f64, high: f64| low + (high - low) * random.even();
     // A corner of the room alone.
     (0..16).map(|_| Vector3::new(within(2.0, 8.0), within(-5.0, 7.0), within(0.0, 3.0))).collect()
@@ -37,7 +37,7 @@ fn every(stands: usize, targets: usize) -> Vec<Aimed> {
     (0..stands).flat_map(at).collect()
 }
 
-fn table(stands: &[Stand], targets: &[Vector3<f64>], rows: &[Aimed], random: &mut Random) -> String {
+fn table(stands: &[Stand], targets: &[Vector3<f64>], rows: &[Aimed], random: &mut Xorshift) -> String {
     let mut text = "station,object,azimuth [rad],elevation [rad],range [m]\n".to_owned();
     for &(stand, target, face) in rows {
         let [azimuth, elevation, range] = stands[stand].read(&targets[target], face);
@@ -78,9 +78,8 @@ fn sigma(data: &str) -> [f64; 6] {
 
 /// At the median of some draws of the noise.
 fn usual_sigma(stands: &[Stand], targets: &[Vector3<f64>], rows: &[Aimed]) -> [f64; 6] {
-    let all: Vec<[f64; 6]> = (0..15)
-        .map(|draw| sigma(&table(stands, targets, rows, &mut Random::new(1000 + 77 * draw))))
-        .collect();
+    let all: Vec<[f64; 6]> =
+        (0..15).map(|draw| sigma(&table(stands, targets, rows, &mut Xorshift(1000 + 77 * draw)))).collect();
     std::array::from_fn(|at| {
         let mut own: Vec<f64> = all.iter().map(|one| one[at]).collect();
         own.sort_by(f64::total_cmp);
@@ -132,7 +131,7 @@ fn by_matrices(stands: &[Stand], targets: &[Vector3<f64>], rows: &[Aimed]) -> [f
 fn proposals(next: &str) -> Vec<PlaceProposal> {
     let text = text_of("examples/objects/scanner.chain");
     let (stands, targets) = (stands(), targets());
-    let data = table(&stands, &targets, &every(stands.len(), targets.len()), &mut Random::new(1));
+    let data = table(&stands, &targets, &every(stands.len(), targets.len()), &mut Xorshift(1));
     let (plan, loaded) = read(&text, &format!("{STUDY}{next}"), &data).unwrap();
     let request = Request {
         text: &text,

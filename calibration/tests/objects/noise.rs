@@ -4,7 +4,7 @@ use calibration::fit::fit;
 use nalgebra::Vector3;
 
 use super::{read, text_of};
-use testkit::{Random, Stand};
+use testkit::{Stand, Xorshift};
 
 const RANGE_M: f64 = 0.5e-3;
 const ANGLE_RAD: f64 = 4e-5;
@@ -15,7 +15,7 @@ const STUDY: &str = "chain = \"c\"\ndata = \"d\"\n[observed]\nkind = \"target\"\
 const ERRORS: [&str; 6] = ["axes_apart", "trunnion", "index", "beam_aside", "collimation", "range_zero"];
 
 /// Targets from half a metre to ten, each seen from four places in two faces; and the range of each row.
-fn table(random: &mut Random) -> (String, Vec<f64>) {
+fn table(random: &mut Xorshift) -> (String, Vec<f64>) {
     let stands = [
         Stand::new([0.0, 0.0, 1.6], 0.4),
         Stand::new([4.2, -1.1, 1.5], -2.0),
@@ -49,7 +49,7 @@ fn noise_along_and_across_a_beam_is_what_it_was_made_and_so_are_the_uncertaintie
     let mut nearest_over_made = 0.0;
     let mut pulls = [0.0; ERRORS.len()];
     for run in 0..RUNS {
-        let (data, ranges) = table(&mut Random::new(5000 + 131 * run));
+        let (data, ranges) = table(&mut Xorshift(5000 + 131 * run));
         let (plan, loaded) = read(&chain, STUDY, &data).unwrap();
         let result = fit(&plan.chain, &loaded.observations, &plan.fit).unwrap();
         let sigma = result.noise.sigma_without_memory();

@@ -90,11 +90,7 @@ fn page_of(set: &str) -> &str {
 /// Where SymPy is there, the scripts still say what is kept beside them.
 #[test]
 fn the_scripts_say_what_is_kept_of_them() {
-    let python = std::env::var("TRUEAXIS_PYTHON").unwrap_or_else(|_| "python3".to_owned());
-    let has_sympy = Command::new(&python).args(["-c", "import sympy"]).output();
-    if !has_sympy.is_ok_and(|output| output.status.success()) {
-        return;
-    }
+    let Some(python) = testkit::tool(testkit::SYMPY) else { return };
     // The quickest of them; the others run the same way.
     for set in ["mobile-lidar", "total-station"] {
         let output = Command::new(&python)

@@ -1,0 +1,91 @@
+//! A contest under way: what was reached, what is best, and how a search is started.
+
+use crate::bench::{Bench, Model, State};
+use crate::error::Error;
+use crate::families::Family;
+use crate::greedy::Greedy;
+use crate::likelihood::Active;
+use crate::linearise::Linearise;
+use crate::policy::Policy;
+use crate::problem::Problem;
+use crate::record::Recorder;
+use crate::setups::Cuts;
+
+/// A contest under way.
+pub(crate) struct Run<'a> {
+    pub bench: Bench<'a>,
+    pub chain: Option<&'a dyn Linearise>,
+    /// Every explanation that was reached.
+    pub reached: Vec<Model>,
+    pub record: Recorder,
+    /// Found cuts of the order.
+    pub cuts: Option<Cuts>,
+}
+
+impl<'a> Run<'a> {
+    pub fn new(problem: &'a Problem, policy: &'a Policy, chain: Option<&'a dyn Linearise>) -> Result<Self, Error> {
+        let bench = Bench::new(problem, policy)?;
+        Ok(Self { bench, chain, reached: Vec::new(), record: Recorder::new(), cuts: None })
+    }
+
+    /// The best explanation; of several within a nat the one with the fewest causes.
+    pub fn told(&self) -> Model {
+        let lead = self.best().odds - self.bench.policy.fewer_causes;
+        let near = self.reached.iter().filter(|model| model.odds > lead);
+        let key = |model: &Model| self.bench.causes(&model.active).len();
+        let told = near.min_by(|a, b| key(a).cmp(&key(b)).then(b.odds.total_cmp(&a.odds)));
+        told.unwrap_or_else(|| self.best()).clone()
+    }
+
+    /// The explanation with the highest odds.
+    pub fn best(&self) -> &Model {
+        let mut best = &self.reached[0];
+        for model in &self.reached[1..] {
+            if model.odds > best.odds {
+                best = model;
+            }
+        }
+        best
+    }
+
+    /// The state in which the noise is what an explanation leaves.
+    pub fn weighed(&mut self, active: &Active, state: State) -> State {
+        let noise = self.bench.noise_of(active, state.point);
+        self.bench.noises.push(noise);
+        State { noise: self.bench.noises.len() - 1, ..state }
+    }
+
+    /// A search over all families that are allowed.
+    pub fn search(&mut self, start: &Active, state: State, allowed: &dyn Fn(usize) -> bool) -> Model {
+        self.search_up_to(start, state, allowed, self.bench.policy.most_active as usize)
+    }
+
+    /// A search over families of the noise.
+    pub fn search_noise(&mut self, start: &Active, state: State) -> Model {
+        self.search_noise_up_to(start, state, self.bench.policy.most_active as usize)
+    }
+
+    pub fn search_noise_up_to(&mut self, start: &Active, state: State, most: usize) -> Model {
+        let noise: Vec<bool> = self.bench.dictionary.families.iter().map(Family::is_noise).collect();
+        self.search_up_to(start, state, &|family| noise[family], most)
+    }
+
+    pub fn search_up_to(
+        &mut self,
+        start: &Active,
+        state: State,
+        allowed: &dyn Fn(usize) -> bool,
+        most: usize,
+    ) -> Model {
+        let view = self.bench.view(state);
+        let active = Greedy { view: &view, allowed, most }.from(start, &mut self.record);
+        self.bench.model(active, state)
+    }
+}
+
+/// The families of an active set, by number.
+pub(crate) fn sorted(active: &[(usize, f64)]) -> Vec<usize> {
+    let mut families: Vec<usize> = active.iter().map(|&(family, _)| family).collect();
+    families.sort_unstable();
+    families
+}

@@ -41,14 +41,17 @@ pub(crate) fn half_log_det(factor: &Mat<f64>) -> f64 {
 }
 
 /// Inner product with four sums side by side.
+#[inline]
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (mut sums, split) = ([0.0; 4], a.len() / 4 * 4);
-    for (a, b) in a[..split].chunks_exact(4).zip(b[..split].chunks_exact(4)) {
+    let mut sums = [0.0; 4];
+    let (a_lanes, a_rest) = a.as_chunks::<4>();
+    let (b_lanes, b_rest) = b.as_chunks::<4>();
+    for (a, b) in a_lanes.iter().zip(b_lanes) {
         for lane in 0..4 {
             sums[lane] += a[lane] * b[lane];
         }
     }
-    let rest: f64 = a[split..].iter().zip(&b[split..]).map(|(a, b)| a * b).sum();
+    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
     sums[0] + sums[1] + (sums[2] + sums[3]) + rest
 }
 
@@ -118,12 +121,12 @@ fn tridiagonal(a: &mut [f64], vector: &mut [f64]) -> (Vec<f64>, Vec<f64>) {
 /// One implicit QL step between two small off-diagonals.
 fn rotate(diagonal: &mut [f64], beside: &mut [f64], vector: &mut [f64], low: usize, end: usize) {
     let g = (diagonal[low + 1] - diagonal[low]) / (2.0 * beside[low]);
-    let r = g.hypot(1.0);
+    let r = (g * g + 1.0).sqrt();
     let mut g = diagonal[end] - diagonal[low] + beside[low] / (g + r.copysign(g));
     let (mut sine, mut cosine, mut shift) = (1.0, 1.0, 0.0);
     for at in (low..end).rev() {
         let (f, b) = (sine * beside[at], cosine * beside[at]);
-        let r = f.hypot(g);
+        let r = (f * f + g * g).sqrt();
         beside[at + 1] = r;
         if r == 0.0 {
             diagonal[at + 1] -= shift;

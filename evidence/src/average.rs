@@ -5,6 +5,7 @@ use crate::families::Law;
 use crate::greedy::tune;
 use crate::likelihood::{Active, Posterior};
 use crate::margins::Finding;
+use crate::record::Recorder;
 use crate::run::Run;
 use crate::small::Small;
 
@@ -126,7 +127,7 @@ fn alternatives(
     for &(rival, score) in found.set.iter().skip(1).take(MEMBERS) {
         let mut active = others.clone();
         active.push((rival, view.one(&others, rival).variance.max(f64::MIN_POSITIVE)));
-        offer(score, tune(&view, &active, 1, &mut run.record.clone()));
+        offer(score, tune(&view, &active, 1, &mut Recorder::new()));
     }
     offer(found.set[0].1 - found.margin, others);
     members

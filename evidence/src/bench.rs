@@ -102,6 +102,8 @@ impl<'a> Bench<'a> {
                 columns: family.columns.iter().map(|column| first + column).collect(),
                 deviations: family.relative.iter().map(|relative| relative / median).collect(),
                 price: family.price,
+                site: family.site(),
+                is_noise: family.is_noise(),
             });
         }
     }

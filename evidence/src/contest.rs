@@ -11,6 +11,7 @@ use crate::policy::Policy;
 use crate::problem::Problem;
 use crate::record::Stage;
 use crate::run::{Run, sorted};
+use crate::small::Small;
 
 /// Points at which one explanation is linearised, at most, before the search goes on from where it is.
 const ROUNDS: usize = 2;
@@ -44,6 +45,7 @@ impl Run<'_> {
     fn causes_first(&mut self) -> Result<(), Error> {
         let start = State { noise: 0, memory: None, point: 0 };
         let mut state = self.weighed(&Active::new(), start);
+        self.bare = state.noise;
         let mut model = self.search(&Active::new(), state, &|_| true);
         self.record.stage = Stage::Relinearised;
         for _ in 0..ROUNDS {
@@ -60,13 +62,13 @@ impl Run<'_> {
             let tuned = tune(&self.bench.view(state), &model.active, 3, &mut self.record);
             model = self.search(&tuned, state, &|_| true);
         }
-        self.reached.push(model);
+        self.reach(model);
         Ok(())
     }
 
     /// The same without robust weights at first: a bump may be eaten as outliers.
     fn without_robust_weights(&mut self) {
-        if self.bench.noises[1].is_even() {
+        if self.bench.noises[self.bare].is_even() {
             return;
         }
         self.record.stage = Stage::Plain;
@@ -78,7 +80,7 @@ impl Run<'_> {
         let state = self.weighed(&first.active, state);
         let tuned = tune(&self.bench.view(state), &first.active, 3, &mut self.record);
         let second = self.search(&tuned, state, &|_| true);
-        self.reached.push(second);
+        self.reach(second);
     }
 
     /// Set-ups along the order, as families that compete from now on.
@@ -93,20 +95,19 @@ impl Run<'_> {
     /// Noise before causes: families of the noise, then memory, then causes beside them.
     fn noise_first(&mut self) {
         let best = self.best().clone();
-        let bare = self.bench.noises.len().min(2) - 1;
         let mut noises = vec![best.state.noise];
-        if bare != best.state.noise {
-            noises.push(bare);
+        if self.bare != best.state.noise {
+            noises.push(self.bare);
         }
         for noise in noises {
             self.record.stage = Stage::NoiseFirst;
             let state = State { noise, memory: None, point: best.state.point };
             let of_best = noise == best.state.noise;
             let only = self.search_noise(&Active::new(), state);
-            self.reached.push(only.clone());
+            self.reach(only.clone());
             if of_best && !only.active.is_empty() {
                 let both = self.search(&only.active, state, &|_| true);
-                self.reached.push(both);
+                self.reach(both);
             }
             self.record.stage = Stage::Memory;
             let mut starts = vec![Active::new(), only.active];
@@ -127,26 +128,25 @@ impl Run<'_> {
                 continue;
             }
             done.push(key);
-            let tuned = tune(&self.bench.view(state), start, 3, &mut self.record);
-            let first = self.bench.model(tuned, state);
-            self.reached.push(first.clone());
+            let tuned = Small::tuned(&self.bench, start, state, &mut self.record);
+            let first = self.reach(Model { active: tuned, state, odds: f64::NAN });
             if first.odds < self.best().odds - HOPELESS {
                 continue;
             }
             let noise = self.search_noise(&first.active, state);
-            self.reached.push(noise.clone());
+            self.reach(noise.clone());
             if !causes {
                 continue;
             }
             let mut all = self.search(&noise.active, state, &|_| true);
             let refitted = self.bench.memory_of(&all.active, state.noise, state.point);
             if refitted != memory {
-                self.reached.push(all.clone());
+                self.reach(all.clone());
                 state.memory = refitted;
                 let tuned = tune(&self.bench.view(state), &all.active, 3, &mut self.record);
                 all = self.search(&tuned, state, &|_| true);
             }
-            self.reached.push(all);
+            self.reach(all);
         }
     }
 
@@ -156,10 +156,12 @@ impl Run<'_> {
         if self.bench.causes(&best.active).is_empty() {
             return;
         }
+        // Its odds under its own noise, as the rivals' below: all are judged in one state.
+        let best = self.bench.model(best.active, best.state);
         self.record.stage = Stage::Unpack;
         let unpacked = self.bench.unpacked(&best, &mut self.record);
         let best = if unpacked.odds > best.odds {
-            self.reached.push(unpacked.clone());
+            self.reach(unpacked.clone());
             unpacked
         } else {
             best
@@ -167,10 +169,10 @@ impl Run<'_> {
         self.record.stage = Stage::Shapes;
         let shaped = self.bench.shaped(&best, &mut self.record);
         if shaped.active != best.active {
-            self.reached.push(shaped.clone());
+            self.reach(shaped.clone());
             let most = shaped.active.len() + 2;
             let grown = self.search_up_to(&shaped.active, shaped.state, &|_| true, most);
-            self.reached.push(grown);
+            self.reach(grown);
         }
     }
 
@@ -182,8 +184,7 @@ impl Run<'_> {
         let mut found = Vec::new();
         for _ in 0..=ROUNDS {
             if let Some(settled) = self.bench.settled(&told, self.chain, &mut self.record)? {
-                self.reached.push(settled.clone());
-                told = settled;
+                told = self.reach(settled);
             }
             let before = self.best().odds;
             found = findings(self, &told)?;
@@ -192,7 +193,6 @@ impl Run<'_> {
             }
             told = self.told();
         }
-        self.reached.push(told.clone());
         Ok((told, found))
     }
 }

@@ -16,6 +16,7 @@ impl Greedy<'_, '_> {
     /// The best active set that single steps reach from a start.
     pub fn from(&self, start: &[(usize, f64)], record: &mut Recorder) -> Active {
         let mut active = start.to_vec();
+        let mut judged = Vec::new();
         while active.len() < self.most {
             let Some((family, gain, score)) = self.best(&active) else { break };
             if score <= self.view.policy.enter {
@@ -25,7 +26,7 @@ impl Greedy<'_, '_> {
             record.note(family, true, Reason::Best, score);
             active = tune(self.view, &active, 2, record);
             for _ in 0..2 {
-                if !self.drop_or_swap(&mut active, record) {
+                if !self.drop_or_swap(&mut active, &mut judged, record) {
                     break;
                 }
             }
@@ -44,14 +45,23 @@ impl Greedy<'_, '_> {
     }
 
     /// Drops the first family that no longer gains, or swaps the first that another beats. Whether anything moved.
-    fn drop_or_swap(&self, active: &mut Active, record: &mut Recorder) -> bool {
+    /// A family whose own gain has not changed since it was judged keeps its place: the others' have not either.
+    fn drop_or_swap(&self, active: &mut Active, judged: &mut Vec<(usize, f64)>, record: &mut Recorder) -> bool {
         if active.len() < 2 {
             return false;
         }
         for &(family, _) in active.clone().iter() {
             let others: Active = active.iter().copied().filter(|&(other, _)| other != family).collect();
+            let own = self.view.one(&others, family).nats - self.view.families[family].price;
+            let same = |&(known, score): &(usize, f64)| {
+                known == family && (score - own).abs() < self.view.policy.swap_scan
+            };
+            if own > self.view.policy.enter && judged.iter().any(same) {
+                continue;
+            }
+            judged.retain(|&(known, _)| known != family);
+            judged.push((family, own));
             let gains = self.view.scan(&others, &|other| other == family || (self.allowed)(other));
-            let own = gains[family].nats - self.view.families[family].price;
             let Some((rival, gain, score)) = best_of(self.view, &gains) else { continue };
             if own <= self.view.policy.enter && score <= self.view.policy.enter {
                 record.note(family, false, Reason::NoGain, own);
@@ -61,7 +71,7 @@ impl Greedy<'_, '_> {
             if rival != family && score > own + self.view.policy.swap_scan {
                 let mut with_rival = others;
                 with_rival.push((rival, gain.variance));
-                let with_rival = tune(self.view, &with_rival, 2, &mut record.clone());
+                let with_rival = tune(self.view, &with_rival, 2, &mut Recorder::new());
                 if self.odds(&with_rival) > self.odds(active) + self.view.policy.swap_model {
                     record.note(family, false, Reason::Swapped(rival), own);
                     record.note(rival, true, Reason::Swapped(family), score);
@@ -73,11 +83,16 @@ impl Greedy<'_, '_> {
         false
     }
 
-    /// Replaces two families by one that explains both better.
+    /// Replaces two causes at one place or with one driver by one that explains both better.
     fn one_for_two(&self, active: &mut Active, record: &mut Recorder) {
         for first in 0..active.len() {
             for second in first + 1..active.len() {
                 let pair = [active[first].0, active[second].0];
+                let [a, b] = pair.map(|family| &self.view.families[family]);
+                let akin = a.site.0 == b.site.0 || a.site.1 == b.site.1;
+                if a.is_noise || b.is_noise || !akin {
+                    continue;
+                }
                 let others: Active = active.iter().copied().filter(|(other, _)| !pair.contains(other)).collect();
                 let Some((rival, gain, score)) = self.best(&others) else { continue };
                 if pair.contains(&rival) || others.iter().any(|&(other, _)| other == rival) {
@@ -85,7 +100,7 @@ impl Greedy<'_, '_> {
                 }
                 let mut with_rival = others;
                 with_rival.push((rival, gain.variance));
-                let with_rival = tune(self.view, &with_rival, 2, &mut record.clone());
+                let with_rival = tune(self.view, &with_rival, 2, &mut Recorder::new());
                 if self.odds(&with_rival) > self.odds(active) + self.view.policy.swap_model {
                     for family in pair {
                         record.note(family, false, Reason::OneForTwo(rival), f64::NAN);

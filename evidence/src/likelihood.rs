@@ -5,6 +5,7 @@ use std::rc::Rc;
 use faer::Mat;
 
 use crate::algebra::{cholesky, dot, half_log_det, solve_lower, solve_upper, spectrum};
+use crate::families::{Driver, Where};
 use crate::gram::Gram;
 use crate::policy::{Policy, SCALES};
 
@@ -20,6 +21,10 @@ pub(crate) struct Scaled {
     pub deviations: Vec<f64>,
     /// Log price, nats.
     pub price: f64,
+    /// Where it acts and what drives it.
+    pub site: (Where, Driver),
+    /// Whether it belongs to the noise.
+    pub is_noise: bool,
 }
 
 /// A Gram matrix with the families over it.
@@ -126,9 +131,15 @@ impl View<'_> {
         let mut gains = vec![ABSORBED; self.families.len()];
         let Some(solved) = self.solve(active) else { return gains };
         let products = &self.gram.products;
-        let mut projected = Mat::from_fn(solved.columns.len(), products.ncols(), |row, column| {
-            solved.deviations[row] * products[(solved.columns[row], column)]
-        });
+        let mut projected = Mat::zeros(solved.columns.len(), products.ncols());
+        for at in 0..products.ncols() {
+            let from = column(products, at);
+            let into = projected.col_mut(at).try_as_col_major_mut();
+            let rows = into.into_iter().flat_map(|into| into.as_slice_mut()).zip(&solved.columns);
+            for ((into, &row), deviation) in rows.zip(&solved.deviations) {
+                *into = deviation * from[row];
+            }
+        }
         solve_lower(solved.factor.as_ref(), projected.as_mut());
         for (family, gain) in gains.iter_mut().enumerate() {
             if wanted(family) && active.iter().all(|&(other, _)| other != family) {
@@ -178,11 +189,11 @@ impl View<'_> {
         let mut along = vec![0.0; size];
         let mut energy: f64 = 0.0;
         for i in 0..size {
-            let own = projected(i);
-            along[i] = deviations[i] * (products[(columns[i], 0)] - dot(own, &solved.forward));
-            energy = energy.max(products[(columns[i], columns[i])] * deviations[i] * deviations[i]);
+            let (own, with) = (projected(i), column(products, columns[i]));
+            along[i] = deviations[i] * (with[0] - dot(own, &solved.forward));
+            energy = energy.max(with[columns[i]] * deviations[i] * deviations[i]);
             for j in 0..=i {
-                let left = products[(columns[i], columns[j])] - dot(own, projected(j));
+                let left = with[columns[j]] - dot(own, projected(j));
                 let value = left * deviations[i] * deviations[j];
                 (block[i * size + j], block[j * size + i]) = (value, value);
             }

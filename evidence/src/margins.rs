@@ -4,7 +4,9 @@ use crate::bench::{Model, State};
 use crate::error::Error;
 use crate::greedy::tune;
 use crate::likelihood::Active;
+use crate::record::Recorder;
 use crate::run::Run;
+use crate::small::Small;
 
 /// Explanations of one cause that are weighed, at most: more never stood within the width of a set.
 const WEIGHED: usize = 12;
@@ -65,7 +67,7 @@ pub(crate) fn findings(run: &mut Run, told: &Model) -> Result<Vec<Finding>, Erro
 fn competitors(run: &Run, told: &Model, cause: usize) -> Vec<(usize, f64)> {
     let others: Active = told.active.iter().copied().filter(|&(family, _)| family != cause).collect();
     let view = run.bench.view(told.state);
-    let others = tune(&view, &others, 3, &mut run.record.clone());
+    let others = tune(&view, &others, 3, &mut Recorder::new());
     let gains = view.scan(&others, &|family| !run.bench.is_noise(family));
     let score = |family: usize| gains[family].nats - view.families[family].price;
     let mut near: Vec<(usize, f64)> = (0..gains.len())
@@ -89,7 +91,7 @@ fn without(run: &mut Run, told: &Model, cause: usize) -> Result<(), Error> {
         let memory = run.bench.memory_of(&rival.active, told.state.noise, told.state.point);
         if memory != told.state.memory {
             let state = State { memory, ..told.state };
-            let tuned = tune(&run.bench.view(state), &rival.active, 3, &mut run.record);
+            let tuned = Small::tuned(&run.bench, &rival.active, state, &mut run.record);
             let model = run.bench.model(tuned, state);
             settle(run, model)?;
         }
@@ -101,10 +103,10 @@ fn without(run: &mut Run, told: &Model, cause: usize) -> Result<(), Error> {
 fn settle(run: &mut Run, model: Model) -> Result<(), Error> {
     if let Some(settled) = run.bench.settled(&model, run.chain, &mut run.record)? {
         let again = run.search_noise(&settled.active, settled.state);
-        run.reached.push(settled);
-        run.reached.push(again);
+        run.reach(settled);
+        run.reach(again);
     }
-    run.reached.push(model);
+    run.reach(model);
     Ok(())
 }
 

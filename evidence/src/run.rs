@@ -18,6 +18,8 @@ pub(crate) struct Run<'a> {
     /// Every explanation that was reached.
     pub reached: Vec<Model>,
     pub record: Recorder,
+    /// The noise that the bare residual leaves.
+    pub bare: usize,
     /// Found cuts of the order.
     pub cuts: Option<Cuts>,
 }
@@ -25,7 +27,7 @@ pub(crate) struct Run<'a> {
 impl<'a> Run<'a> {
     pub fn new(problem: &'a Problem, policy: &'a Policy, chain: Option<&'a dyn Linearise>) -> Result<Self, Error> {
         let bench = Bench::new(problem, policy)?;
-        Ok(Self { bench, chain, reached: Vec::new(), record: Recorder::new(), cuts: None })
+        Ok(Self { bench, chain, reached: Vec::new(), record: Recorder::new(), bare: 0, cuts: None })
     }
 
     /// The best explanation; of several within a nat the one with the fewest causes.
@@ -50,9 +52,28 @@ impl<'a> Run<'a> {
 
     /// The state in which the noise is what an explanation leaves.
     pub fn weighed(&mut self, active: &Active, state: State) -> State {
-        let noise = self.bench.noise_of(active, state.point);
-        self.bench.noises.push(noise);
-        State { noise: self.bench.noises.len() - 1, ..state }
+        State { noise: self.bench.add_noise_of(active, state.point), ..state }
+    }
+
+    /// Notes an explanation, with its odds under the noise and the memory that it leaves itself: judged under the
+    /// noise of another explanation it would look worse than it is.
+    pub fn reach(&mut self, model: Model) -> Model {
+        let own = self.weighed(&model.active, model.state);
+        let mut noises = vec![own.noise];
+        if model.state.memory.is_some() {
+            // Weights are estimated as if rows forgot each other: with memory, even ones may be better.
+            noises.extend([model.state.noise, 0]);
+        }
+        let mut best = Model { odds: f64::NEG_INFINITY, ..model };
+        for noise in noises {
+            let state = State { noise, ..best.state };
+            let odds = self.bench.own_odds(&best.active, state);
+            if odds > best.odds {
+                best = Model { active: best.active, state, odds };
+            }
+        }
+        self.reached.push(best.clone());
+        best
     }
 
     /// A search over all families that are allowed.

@@ -2,9 +2,9 @@
 
 use crate::bench::{Bench, Model};
 use crate::error::Error;
-use crate::greedy::tune;
 use crate::linearise::{Linearise, checked};
 use crate::record::Recorder;
+use crate::small::Small;
 
 impl Bench<'_> {
     /// The same explanation at its own point, where that differs by more than rounding from the one it was found at.
@@ -64,8 +64,8 @@ impl Bench<'_> {
         there.inside = inside;
         self.points.push(there);
         let state = crate::bench::State { point: self.points.len() - 1, ..model.state };
-        let active = tune(&self.view(state), &model.active, 2, record);
-        Ok(Some(self.model(active, state)))
+        let active = Small::tuned(self, &model.active, state, record);
+        Ok(Some(Model { active, state, odds: f64::NAN }))
     }
 
     /// Whether a column changes the measured range, which is exactly linear and no part of the chain.

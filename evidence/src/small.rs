@@ -4,10 +4,12 @@ use std::rc::Rc;
 
 use faer::Mat;
 
-use crate::bench::Bench;
+use crate::bench::{Bench, State};
 use crate::gram::Gram;
+use crate::greedy::tune;
 use crate::likelihood::{Active, Scaled, View};
 use crate::noise::{Memory, Noise};
+use crate::record::Recorder;
 use crate::setups::Cuts;
 
 /// The columns of an active set, with its families renumbered.
@@ -68,7 +70,11 @@ impl<'a> Small<'a> {
         });
         let deviation = bench.scaled[family].deviations[0];
         let deviations = vec![deviation; count];
-        small.families.push(Scaled { columns: (from..from + count).collect(), deviations, price: 0.0 });
+        small.families.push(Scaled {
+            columns: (from..from + count).collect(),
+            deviations,
+            ..bench.scaled[family].clone()
+        });
         small.active.push((small.families.len() - 1, variance));
         small
     }
@@ -91,6 +97,18 @@ impl<'a> Small<'a> {
     /// The active set in this numbering.
     pub fn active(&self) -> &[(usize, f64)] {
         &self.active
+    }
+
+    /// An active set with its variances optimised in a state, without the Gram matrix of the whole dictionary.
+    pub fn tuned(bench: &Bench, active: &[(usize, f64)], state: State, record: &mut Recorder) -> Active {
+        let small = Small::of(bench, active, state.point);
+        let view = small.view(&bench.noises[state.noise], state.memory);
+        let mut steps = Recorder::new();
+        let kept = tune(&view, small.active(), 3, &mut steps);
+        for step in steps.steps {
+            record.note(active[step.family].0, step.came, step.reason, step.score);
+        }
+        kept.into_iter().map(|(local, variance)| (active[local].0, variance)).collect()
     }
 
     /// Residual of each value at the posterior mean, without weights; the given one where there is no posterior.

@@ -98,7 +98,7 @@ impl Bench<'_> {
                 break;
             }
             current.push((family, gain.variance));
-            let tuned = tune(&view, &current, 2, &mut record.clone());
+            let tuned = tune(&view, &current, 2, &mut Recorder::new());
             let shaped = self.model(tuned, model.state);
             if shaped.odds <= best.odds {
                 if round == 0 {
@@ -119,7 +119,7 @@ impl Bench<'_> {
                 let Some(&(_, variance)) = model.active.iter().find(|(own, _)| *own == open) else { continue };
                 let mut both = best.active.clone();
                 both.push((open, variance));
-                let tuned = tune(&self.view(model.state), &both, 2, &mut record.clone());
+                let tuned = tune(&self.view(model.state), &both, 2, &mut Recorder::new());
                 let both = self.model(tuned, model.state);
                 if both.odds > best.odds + self.policy.swap_scan {
                     best = both;

@@ -1,8 +1,8 @@
 //! The noise around an explanation: weights of its residual, and the memory that it leaves.
 
-use crate::bench::Bench;
+use crate::bench::{Bench, State};
 use crate::families::FEWEST_ROWS;
-use crate::likelihood::Active;
+use crate::likelihood::{Active, View};
 use crate::noise::tails::Tails;
 use crate::noise::{Memory, Noise};
 use crate::small::Small;
@@ -15,6 +15,31 @@ const ROUNDS: usize = 6;
 const SETTLED: f64 = 0.02;
 
 impl Bench<'_> {
+    /// The number of the noise that an active set leaves at a point: a known one where it is the same.
+    pub fn add_noise_of(&mut self, active: &Active, point: usize) -> usize {
+        let noise = self.noise_of(active, point);
+        let same = |known: &Noise| {
+            let close = |(a, b): (&f64, &f64)| (a / b).ln().abs() < SETTLED;
+            known.tails == noise.tails && known.weights.iter().zip(&noise.weights).all(close)
+        };
+        self.noises.iter().position(same).unwrap_or_else(|| {
+            self.noises.push(noise);
+            self.noises.len() - 1
+        })
+    }
+
+    /// Log evidence less prices of an active set under a noise that it left itself.
+    ///
+    /// The weights of t are those at which weighted squares and the t-density touch, so that the likelihood is whole:
+    /// no inflation divides what the families gain.
+    pub fn own_odds(&self, active: &Active, state: State) -> f64 {
+        let noise = &self.noises[state.noise];
+        let small = Small::of(self, active, state.point);
+        let view = View { inflation: 1.0, ..small.view(noise, state.memory) };
+        let memory = if state.memory.is_some() { self.policy.price_memory } else { 0.0 };
+        view.log_evidence(small.active()) - view.price(small.active()) - memory + noise.adjust
+    }
+
     /// The noise that an active set leaves at a point.
     pub fn noise_of(&self, active: &Active, point: usize) -> Noise {
         let (rows, components) = (self.problem.rows.count, self.problem.components);
@@ -27,15 +52,15 @@ impl Bench<'_> {
         for _ in 0..ROUNDS {
             let residual = small.residual(&noise);
             let deviations = self.features.deviations(&residual, &row_weights, self.policy);
-            let scaled: Vec<f64> = residual.iter().zip(&deviations).map(|(r, h)| r / h).collect();
+            let scaled: Vec<f64> = residual.iter().zip(&deviations.values).map(|(r, h)| r / h).collect();
             let squares: Vec<f64> =
                 scaled.chunks_exact(components).map(|row| row.iter().map(|r| r * r).sum()).collect();
             let tails = Tails::of(&squares, components, self.policy);
             let weights: Vec<f64> =
-                deviations.iter().enumerate().map(|(at, h)| tails.weights[at / components].sqrt() / h).collect();
+                deviations.values.iter().enumerate().map(|(at, h)| tails.weights[at / components].sqrt() / h).collect();
             let moved = weights.iter().zip(&noise.weights).fold(0.0, |most: f64, (a, b)| most.max((a / b).ln().abs()));
             row_weights = tails.weights;
-            noise = Noise { weights, tails: tails.degrees, adjust: tails.adjust, inflation: tails.inflation };
+            noise = Noise { weights, tails: tails.degrees, adjust: tails.adjust - deviations.price, inflation: tails.inflation };
             if moved < SETTLED {
                 break;
             }

@@ -6,6 +6,14 @@ use faer::linalg::solvers::Solve;
 use crate::policy::Policy;
 use crate::problem::Rows;
 
+/// Relative standard deviation of each value, and what the model of it costs.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Deviations {
+    pub values: Vec<f64>,
+    /// Nats: one a feature and a constant, so that a model is used only where it gains more.
+    pub price: f64,
+}
+
 /// Features of the rows that a variance may depend on, each with mean zero and about unit size.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Features {
@@ -35,7 +43,7 @@ impl Features {
     /// Relative standard deviation of each value, from residuals and the weights of their rows.
     ///
     /// Source: Verbyla (1993), Modelling variance heterogeneity: residual maximum likelihood and diagnostics.
-    pub fn deviations(&self, residual: &[f64], row_weights: &[f64], policy: &Policy) -> Vec<f64> {
+    pub fn deviations(&self, residual: &[f64], row_weights: &[f64], policy: &Policy) -> Deviations {
         let (values, m, k) = (residual.len(), self.components, self.columns.len());
         let squares: Vec<f64> =
             residual.iter().enumerate().map(|(at, r)| (row_weights[at / m] * r * r).max(f64::MIN_POSITIVE)).collect();
@@ -66,7 +74,7 @@ impl Features {
         for at in 0..m + k {
             hessian[(at, at)] += ridge(at);
         }
-        let Ok(factor) = hessian.llt(Side::Lower) else { return vec![1.0; values] };
+        let Ok(factor) = hessian.llt(Side::Lower) else { return Deviations { values: vec![1.0; values], price: 0.0 } };
         let mut reached = penalised(&theta);
         for _ in 0..12 {
             let eta = eta(&theta);
@@ -93,12 +101,13 @@ impl Features {
         let eta = eta(&theta);
         let likelihood =
             -0.5 * eta.iter().zip(&squares).map(|(eta, square)| eta + square * (-eta).exp()).sum::<f64>();
-        if k > 0 && likelihood - likelihood_each > k as f64 + policy.price_variance {
-            eta.iter().map(|eta| ((eta - all) / 2.0).exp()).collect()
+        let price = k as f64 + policy.price_variance;
+        if k > 0 && likelihood - likelihood_each > price {
+            Deviations { values: eta.iter().map(|eta| ((eta - all) / 2.0).exp()).collect(), price }
         } else if likelihood_each - likelihood_one > policy.price_variance {
-            by_component
+            Deviations { values: by_component, price: policy.price_variance }
         } else {
-            vec![1.0; values]
+            Deviations { values: vec![1.0; values], price: 0.0 }
         }
     }
 }

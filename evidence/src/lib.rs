@@ -30,6 +30,8 @@ pub mod policy;
 mod predict;
 pub mod problem;
 mod record;
+#[cfg(test)]
+mod reference;
 mod run;
 mod settle;
 mod setups;

@@ -180,19 +180,27 @@ impl Run<'_> {
     /// turns out better takes its place, and the margins are weighed anew.
     fn weigh_margins(&mut self) -> Result<(Model, Vec<Finding>), Error> {
         self.record.stage = Stage::Margins;
-        let mut told = self.told();
+        let mut told = self.told_at_its_point()?;
         let mut found = Vec::new();
         for _ in 0..=ROUNDS {
-            if let Some(settled) = self.bench.settled(&told, self.chain, &mut self.record)? {
-                told = self.reach(settled);
-            }
             let before = self.best().odds;
             found = findings(self, &told)?;
             if self.best().odds <= before + SAME {
                 break;
             }
-            told = self.told();
+            told = self.told_at_its_point()?;
         }
         Ok((told, found))
+    }
+
+    /// The explanation that is told once each that was ahead has been judged at its own point.
+    fn told_at_its_point(&mut self) -> Result<Model, Error> {
+        for _ in 0..=ROUNDS {
+            let told = self.told();
+            let Some(settled) = self.bench.settled(&told, self.chain, &mut self.record)? else { return Ok(told) };
+            self.reached.retain(|model| *model != told);
+            self.reach(settled);
+        }
+        Ok(self.told())
     }
 }

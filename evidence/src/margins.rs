@@ -11,6 +11,9 @@ use crate::small::Small;
 /// Explanations of one cause that are weighed, at most: more never stood within the width of a set.
 const WEIGHED: usize = 12;
 
+/// Points at which a rival is linearised, at most.
+const POINTS: usize = 2;
+
 /// One cause of the explanation that is told.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
@@ -31,7 +34,7 @@ pub(crate) fn findings(run: &mut Run, told: &Model) -> Result<Vec<Finding>, Erro
     let mut rivals = Vec::new();
     let causes = run.bench.causes(&told.active);
     for &cause in &causes {
-        let set = competitors(run, told, cause);
+        let set = competitors(run, told, cause)?;
         without(run, told, cause)?;
         rivals.push((cause, set));
     }
@@ -64,20 +67,49 @@ pub(crate) fn findings(run: &mut Run, told: &Model) -> Result<Vec<Finding>, Erro
 }
 
 /// The families that explain nearly as well in a cause's stead, the cause itself first.
-fn competitors(run: &Run, told: &Model, cause: usize) -> Vec<(usize, f64)> {
+fn competitors(run: &mut Run, told: &Model, cause: usize) -> Result<Vec<(usize, f64)>, Error> {
     let others: Active = told.active.iter().copied().filter(|&(family, _)| family != cause).collect();
     let view = run.bench.view(told.state);
     let others = tune(&view, &others, 3, &mut Recorder::new());
     let gains = view.scan(&others, &|family| !run.bench.is_noise(family));
     let score = |family: usize| gains[family].nats - view.families[family].price;
+    let own = score(cause);
+    let width = run.bench.policy.set_width;
+    // Judged at the point of another hypothesis a rival looks worse than it is, by as much as its effect is large.
+    let moved = told.state.point > 0;
+    let reach = if moved { f64::INFINITY } else { width };
     let mut near: Vec<(usize, f64)> = (0..gains.len())
-        .filter(|&family| family != cause && score(family) > score(cause) - run.bench.policy.set_width)
+        .filter(|&family| family != cause && score(family) > own - reach)
         .map(|family| (family, score(family)))
         .collect();
     near.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
     near.truncate(WEIGHED);
-    near.insert(0, (cause, score(cause)));
-    near
+    drop(view);
+    if moved {
+        for (family, score) in &mut near {
+            let mut active = others.clone();
+            active.push((*family, gains[*family].variance));
+            let active = Small::tuned(&run.bench, &active, told.state, &mut Recorder::new());
+            let rival = at_its_point(run, Model { active, ..told.clone() })?;
+            *score = own + rival.odds - told.odds;
+        }
+        near.retain(|&(_, score)| score > own - width);
+        near.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+    }
+    near.insert(0, (cause, own));
+    Ok(near)
+}
+
+/// An explanation judged at its own point.
+fn at_its_point(run: &mut Run, model: Model) -> Result<Model, Error> {
+    let mut here = model;
+    for _ in 0..POINTS {
+        match run.bench.settled(&here, run.chain, &mut run.record)? {
+            Some(settled) => here = settled,
+            None => break,
+        }
+    }
+    Ok(run.reach(here))
 }
 
 /// Explanations without a cause, with noise and memory optimised anew and, where it matters, at their own point.
@@ -101,12 +133,15 @@ fn without(run: &mut Run, told: &Model, cause: usize) -> Result<(), Error> {
 }
 
 fn settle(run: &mut Run, model: Model) -> Result<(), Error> {
-    if let Some(settled) = run.bench.settled(&model, run.chain, &mut run.record)? {
-        let again = run.search_noise(&settled.active, settled.state);
-        run.reach(settled);
-        run.reach(again);
+    match run.bench.settled(&model, run.chain, &mut run.record)? {
+        Some(settled) => {
+            let again = run.search_noise(&settled.active, settled.state);
+            run.reach(settled);
+            run.reach(again);
+        }
+        None => {
+            run.reach(model);
+        }
     }
-    run.reach(model);
     Ok(())
 }
-

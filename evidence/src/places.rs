@@ -49,7 +49,7 @@ impl Places {
     #[must_use]
     pub fn of(problem: &Problem, policy: &Policy) -> Self {
         let norm = |column: &[f64]| column.iter().map(|value| value * value).sum::<f64>().sqrt();
-        let norms: Vec<f64> = problem.places.iter().map(|place| norm(&place.column)).collect();
+        let norms: Vec<f64> = problem.places.iter().map(|place| norm(place.compared())).collect();
         // A rotation is compared with rotations, a shift with shifts: their columns have other units.
         let largest = |index: usize| {
             let turns = matches!(problem.places[index].freedom, Freedom::Rotation(_));
@@ -61,12 +61,12 @@ impl Places {
         let mut distinct: Vec<Distinct> = Vec::new();
         let mut stands_for = Vec::with_capacity(problem.places.len());
         for (index, place) in problem.places.iter().enumerate() {
-            if norms[index] <= policy.rounding * largest(index) || norms[index] == 0.0 {
+            if norms[index] <= policy.same_place * largest(index) || norms[index] == 0.0 {
                 stands_for.push(None);
                 continue;
             }
             let same = distinct.iter().position(|other| {
-                let (a, b) = (&place.column, &problem.places[other.place].column);
+                let (a, b) = (place.compared(), problem.places[other.place].compared());
                 let scale = a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() / norms[other.place].powi(2);
                 let apart: f64 = a.iter().zip(b).map(|(a, b)| (a - scale * b).powi(2)).sum();
                 apart.sqrt() <= policy.same_place * norms[index]

@@ -54,7 +54,7 @@ policy! {
     /// Singular value of the scaled declared columns, over the largest, below which a combination is not estimable.
     rank = 1e-6, "numerics: first-order columns by differences hold six digits";
     /// Distance of two places' columns, over their length, below which they are one place.
-    same_place = 3e-3, "declared errors of .2 degrees make columns of one place differ so much; visible only above 300 standard deviations";
+    same_place = 1e-5, "first-order columns by differences hold six digits; visible only above 1e5 standard deviations";
     /// Energy of a family behind the declared errors, over its energy before, below which the declared errors absorb it.
     absorbed = 1e-7, "36 families of a six-joint arm keep 1e-7 to 1e-4 (validation of the prototype)";
     /// Energy of one direction of a family, over its largest before projection, below which it is rounding.

@@ -76,10 +76,21 @@ pub struct Place {
     pub beside: Vec<usize>,
     /// Change of the measured components by a unit of it: N·m values, row by row.
     pub column: Vec<f64>,
+    /// The same where all declared errors are zero, if known: by it places are merged, and dropped where it is zero.
+    /// Errors that absorb much of an effect make columns of one place differ.
+    pub nominal: Option<Vec<f64>>,
     /// Down in this place's frame, three components of N values, where gravity is declared.
     pub gravity: Option<[Vec<f64>; 3]>,
     /// Torques of gravity about this place's axis.
     pub loads: Vec<Load>,
+}
+
+impl Place {
+    /// The column by which this place is compared with others.
+    #[must_use]
+    pub fn compared(&self) -> &[f64] {
+        self.nominal.as_deref().unwrap_or(&self.column)
+    }
 }
 
 /// A point of the chain at which degrees of freedom are offered, from the ground up.
@@ -155,6 +166,9 @@ impl Problem {
         for place in &self.places {
             let name = |what: &str| format!("{what} of place `{}`", place.name);
             check_list(&name("the column"), &place.column, values)?;
+            if let Some(nominal) = &place.nominal {
+                check_list(&name("the nominal column"), nominal, values)?;
+            }
             check_index(&name("the frame"), place.frame, "frames", self.frames.len())?;
             for &joint in place.own.iter().chain(&place.beside) {
                 check_index(&name("a joint"), joint, "joints", self.rows.joints.len())?;

@@ -36,6 +36,7 @@ fn problem(numbers: &BTreeMap<&'static str, Vec<f64>>) -> Problem {
         own: [Some(0), Some(1), None, None][number],
         beside: Vec::new(),
         column: numbers[format!("place{number}").as_str()].clone(),
+        nominal: None,
         gravity: None,
         loads: Vec::new(),
     };

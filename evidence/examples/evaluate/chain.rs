@@ -119,7 +119,7 @@ fn rows(data: &Data) -> Rows {
     }
 }
 
-fn places(given: &Linearisation) -> Vec<Place> {
+fn places(given: &Linearisation, nominal: Option<&Linearisation>) -> Vec<Place> {
     let place = |(number, column): (usize, &Vec<f64>)| {
         let (frame, axis) = (number / 3, number % 3);
         Place {
@@ -133,6 +133,7 @@ fn places(given: &Linearisation) -> Vec<Place> {
             },
             beside: vec![frame / 2],
             column: column.clone(),
+            nominal: nominal.map(|nominal| nominal.places[number].clone()),
             gravity: None,
             loads: Vec::new(),
         }
@@ -179,7 +180,7 @@ pub fn problem(data: &Data) -> Problem {
             })
             .collect(),
         frames: frames.collect(),
-        places: places(&given),
+        places: places(&given, Some(&columns(data, &[0.0; 6], &vec![[0.0; 12]; data.poses.len()]))),
     }
 }
 
@@ -187,9 +188,9 @@ pub fn problem(data: &Data) -> Problem {
 pub fn new_rows(data: &Data, e: &[f64], effects: &dyn Fn(&Rows, &[Place]) -> Vec<Amount>) -> (NewRows, Vec<f64>) {
     let count = data.poses.len();
     let bare = columns(data, e, &vec![[0.0; 12]; count]);
-    let extra = spread(&effects(&rows(data), &places(&bare)), count);
+    let extra = spread(&effects(&rows(data), &places(&bare, None)), count);
     let given = columns(data, e, &extra);
-    let places = places(&given);
+    let places = places(&given, None);
     (NewRows { rows: rows(data), declared: given.declared, places }, given.residual)
 }
 

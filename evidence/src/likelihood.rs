@@ -37,7 +37,7 @@ pub(crate) struct View<'a> {
     pub declared: usize,
     /// Measured values less estimable combinations.
     pub freedom: f64,
-    /// What heavy tails divide gains by.
+    /// What heavy tails multiply variances by.
     pub inflation: f64,
 }
 
@@ -110,15 +110,7 @@ impl View<'_> {
     /// Log marginal likelihood of an active set, up to a constant of the problem.
     pub fn log_evidence(&self, active: &[(usize, f64)]) -> f64 {
         let Some(solved) = self.solve(active) else { return f64::NEG_INFINITY };
-        let half = self.freedom / 2.0;
-        let fit = if self.inflation > 1.0 && !active.is_empty() {
-            // The noise's own likelihood is whole; what families gain is worth less.
-            let Some(alone) = self.solve(&[]) else { return f64::NEG_INFINITY };
-            -half * alone.rest.ln() - half / self.inflation * (solved.rest / alone.rest).ln()
-        } else {
-            -half * solved.rest.ln()
-        };
-        fit - solved.half_log_det + self.gram.log_det
+        -self.freedom / 2.0 * solved.rest.ln() - solved.half_log_det + self.gram.log_det
     }
 
     /// Sum of the prices of an active set.
@@ -127,6 +119,9 @@ impl View<'_> {
     }
 
     /// What each of some families gains beside an active set; those active gain nothing.
+    ///
+    /// Under weights of t that an active set left, the gain is a lower bound: the weighted squares lie below the
+    /// t-density and touch it there.
     pub fn scan(&self, active: &[(usize, f64)], wanted: &dyn Fn(usize) -> bool) -> Vec<Gain> {
         let mut gains = vec![ABSORBED; self.families.len()];
         let Some(solved) = self.solve(active) else { return gains };
@@ -175,7 +170,7 @@ impl View<'_> {
                 return ABSORBED;
             }
             let along = products[(0, at)] - dot(own, &solved.forward);
-            best_variance(&[left], &[along * along], left, solved.rest, self.freedom / self.inflation)
+            best_variance(&[left], &[along * along], left, solved.rest, self.freedom)
         };
         energies.iter().enumerate().map(gain).collect()
     }
@@ -207,7 +202,7 @@ impl View<'_> {
             *along = if *value > self.policy.rounding * energy { *along * *along } else { 0.0 };
             *value = value.max(0.0);
         }
-        best_variance(&values, &along, largest, solved.rest, self.freedom / self.inflation)
+        best_variance(&values, &along, largest, solved.rest, self.freedom)
     }
 
     /// Mean and covariance of all coefficients of an active set.

@@ -75,8 +75,8 @@ fn competitors(run: &mut Run, told: &Model, cause: usize) -> Result<Vec<(usize, 
     let score = |family: usize| gains[family].nats - view.families[family].price;
     let own = score(cause);
     let width = run.bench.policy.set_width;
-    // Judged at the point of another hypothesis a rival looks worse than it is, by as much as its effect is large.
-    let moved = told.state.point > 0;
+    // Judged at the point of another hypothesis, or under its noise, a rival looks worse than it is.
+    let moved = told.state.point > 0 || !run.bench.noises[told.state.noise].is_even();
     let reach = if moved { f64::INFINITY } else { width };
     let mut near: Vec<(usize, f64)> = (0..gains.len())
         .filter(|&family| family != cause && score(family) > own - reach)
@@ -106,7 +106,7 @@ fn at_its_point(run: &mut Run, model: Model) -> Result<Model, Error> {
     for _ in 0..POINTS {
         match run.bench.settled(&here, run.chain, &mut run.record)? {
             Some(settled) => here = settled,
-            None => break,
+            _ => break,
         }
     }
     Ok(run.reach(here))

@@ -41,7 +41,6 @@ struct Sums {
     /// Energy of the residual behind the declared errors.
     energy: f64,
     freedom: f64,
-    inflation: f64,
 }
 
 /// Log price of so many stretches of so many rows, nats.
@@ -150,7 +149,6 @@ impl Bench<'_> {
             declared: vec![vec![0.0; 2 * k]],
             energy: dot(&residual, &residual),
             freedom: self.scaling.freedom,
-            inflation: noise.inflation,
         };
         for row in 0..rows {
             let (mut own, mut with, mut beside) =
@@ -367,7 +365,7 @@ impl Sums {
         let evidence = |ratio: f64| {
             let Some((factor, forward)) = set.solved(ratio) else { return f64::NEG_INFINITY };
             let rest = (self.energy - dot(&forward, &forward)).max(1e-9 * self.energy);
-            -self.freedom / self.inflation / 2.0 * rest.ln()
+            -self.freedom / 2.0 * rest.ln()
                 - half_log_det(&factor)
                 - forward.len() as f64 / 2.0 * ratio.ln()
         };

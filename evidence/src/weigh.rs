@@ -2,7 +2,7 @@
 
 use crate::bench::{Bench, State};
 use crate::families::FEWEST_ROWS;
-use crate::likelihood::{Active, View};
+use crate::likelihood::Active;
 use crate::noise::tails::Tails;
 use crate::noise::{Memory, Noise};
 use crate::small::Small;
@@ -30,12 +30,11 @@ impl Bench<'_> {
 
     /// Log evidence less prices of an active set under a noise that it left itself.
     ///
-    /// The weights of t are those at which weighted squares and the t-density touch, so that the likelihood is whole:
-    /// no inflation divides what the families gain.
+    /// The weights of t are those at which weighted squares and the t-density touch, so that the likelihood is whole.
     pub fn own_odds(&self, active: &Active, state: State) -> f64 {
         let noise = &self.noises[state.noise];
         let small = Small::of(self, active, state.point);
-        let view = View { inflation: 1.0, ..small.view(noise, state.memory) };
+        let view = small.view(noise, state.memory);
         let memory = if state.memory.is_some() { self.policy.price_memory } else { 0.0 };
         view.log_evidence(small.active()) - view.price(small.active()) - memory + noise.adjust
     }

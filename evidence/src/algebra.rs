@@ -155,7 +155,8 @@ mod tests {
     #[test]
     fn the_spectrum_gives_traces_and_quadratic_forms_back() {
         for n in [1, 2, 3, 7, 29] {
-            let value = |i: usize, j: usize| ((i * 7 + j * 7 + i * j) as f64).sin() + if i == j { 3.0 } else { 0.0 };
+            let value =
+                |i: usize, j: usize| ((i * 7 + j * 7 + i * j) as f64).sin() + if i == j { 3.0 } else { 0.0 };
             let matrix: Vec<f64> = (0..n * n).map(|at| value(at / n, at % n)).collect();
             let vector: Vec<f64> = (0..n).map(|at| (at as f64 + 0.5).cos()).collect();
             let (mut a, mut g) = (matrix.clone(), vector.clone());
@@ -166,7 +167,8 @@ mod tests {
                 (0..n).map(|row| (0..n).map(|at| matrix[row * n + at] * vector[at]).sum()).collect()
             };
             let (once, twice) = (times(&vector), times(&times(&vector)));
-            let form = |power: i32| g.iter().zip(&values).map(|(g, value)| g * g * value.powi(power)).sum::<f64>();
+            let form =
+                |power: i32| g.iter().zip(&values).map(|(g, value)| g * g * value.powi(power)).sum::<f64>();
             assert!((form(1) - dot(&vector, &once)).abs() < 1e-11 * n as f64);
             assert!((form(2) - dot(&vector, &twice)).abs() < 1e-10 * n as f64);
         }

@@ -34,7 +34,12 @@ pub(crate) fn plain(run: &Run, active: &Active, state: State, quantity: &Quantit
 }
 
 /// The quantity averaged over everything that competes.
-pub(crate) fn averaged(run: &Run, told: &Model, findings: &[Finding], quantity: &Quantity) -> Option<Moments> {
+pub(crate) fn averaged(
+    run: &Run,
+    told: &Model,
+    findings: &[Finding],
+    quantity: &Quantity,
+) -> Option<Moments> {
     let own = plain(run, &told.active, told.state, quantity)?;
     let mut sum = Moments { mean: own.mean.clone(), variance: own.variance.clone() };
     let mut take = |members: Vec<(f64, Moments)>, moves_mean: bool| {
@@ -153,8 +158,10 @@ fn memories(run: &Run, told: &Model, quantity: &Quantity) -> Vec<(f64, Moments)>
 
 /// Cuttings of the order drawn with their posterior probability, where found set-ups act.
 fn cuttings(run: &Run, told: &Model, quantity: &Quantity) -> Vec<(f64, Moments)> {
-    let is_cut = |&(family, _): &(usize, f64)| matches!(run.bench.dictionary.families[family].law, Law::Setups(_));
-    let (Some(cuts), Some(&(family, variance))) = (&run.cuts, told.active.iter().find(|own| is_cut(own))) else {
+    let is_cut =
+        |&(family, _): &(usize, f64)| matches!(run.bench.dictionary.families[family].law, Law::Setups(_));
+    let (Some(cuts), Some(&(family, variance))) = (&run.cuts, told.active.iter().find(|own| is_cut(own)))
+    else {
         return Vec::new();
     };
     let others: Active = told.active.iter().copied().filter(|&(own, _)| own != family).collect();

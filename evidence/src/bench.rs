@@ -94,8 +94,11 @@ impl<'a> Bench<'a> {
             let mut sizes: Vec<f64> = family.columns.iter().map(|&column| self.size(column)).collect();
             sizes.sort_by(f64::total_cmp);
             let middle = sizes.len() / 2;
-            let median =
-                if sizes.len() % 2 == 0 { f64::midpoint(sizes[middle - 1], sizes[middle]) } else { sizes[middle] };
+            let median = if sizes.len().is_multiple_of(2) {
+                f64::midpoint(sizes[middle - 1], sizes[middle])
+            } else {
+                sizes[middle]
+            };
             // A family that moves nothing keeps its scale and is dropped by its energy.
             let median = if median > 0.0 { median } else { 1.0 };
             self.scaled.push(Scaled {
@@ -140,12 +143,14 @@ impl<'a> Bench<'a> {
     pub fn model(&self, active: Active, state: State) -> Model {
         let view = self.view(state);
         let memory = if state.memory.is_some() { self.policy.price_memory } else { 0.0 };
-        let odds = view.log_evidence(&active) - view.price(&active) - memory + self.noises[state.noise].adjust;
+        let odds =
+            view.log_evidence(&active) - view.price(&active) - memory + self.noises[state.noise].adjust;
         Model { active, state, odds }
     }
 
     fn gram(&self, state: State) -> Rc<Gram> {
-        let (point, noise, rows) = (&self.points[state.point], &self.noises[state.noise], self.problem.rows.count);
+        let (point, noise, rows) =
+            (&self.points[state.point], &self.noises[state.noise], self.problem.rows.count);
         let mut grams = self.grams.borrow_mut();
         let width = self.table.width(point);
         let known = grams.iter().position(|(of, _)| *of == state).map(|at| grams.remove(at).1);

@@ -197,7 +197,9 @@ impl Run<'_> {
     fn told_at_its_point(&mut self) -> Result<Model, Error> {
         for _ in 0..=ROUNDS {
             let told = self.told();
-            let Some(settled) = self.bench.settled(&told, self.chain, &mut self.record)? else { return Ok(told) };
+            let Some(settled) = self.bench.settled(&told, self.chain, &mut self.record)? else {
+                return Ok(told);
+            };
             self.reached.retain(|model| *model != told);
             self.reach(settled);
         }

@@ -47,7 +47,9 @@ pub enum Error {
         count: usize,
     },
     /// The declared errors leave no degree of freedom.
-    #[error("{values} measured values and {rank} estimable errors leave nothing to judge by; measure more rows")]
+    #[error(
+        "{values} measured values and {rank} estimable errors leave nothing to judge by; measure more rows"
+    )]
     NoFreedom {
         /// Measured values.
         values: usize,

@@ -93,9 +93,8 @@ impl Function {
         let over = |joint: usize, value: &dyn Fn(f64) -> f64| -> Vec<f64> {
             rows.joints[joint].values.iter().map(|&at| value(at)).collect()
         };
-        let directed = |joint: usize| {
-            rows.joints[joint].direction.clone().unwrap_or_else(|| vec![0.0; rows.count])
-        };
+        let directed =
+            |joint: usize| rows.joints[joint].direction.clone().unwrap_or_else(|| vec![0.0; rows.count]);
         let scaled = |span: &Span, value: &dyn Fn(f64) -> f64| -> Vec<f64> {
             rows.inputs[span.input].values.iter().map(|&at| value(at)).collect()
         };
@@ -126,7 +125,8 @@ impl Function {
             }
             Self::OrderStep(part) => {
                 let count = rows.count as f64;
-                let step: Vec<f64> = (0..rows.count).map(|row| f64::from(row as f64 / count >= *part)).collect();
+                let step: Vec<f64> =
+                    (0..rows.count).map(|row| f64::from(row as f64 / count >= *part)).collect();
                 let mean = step.iter().sum::<f64>() / count;
                 step.iter().map(|value| value - mean).collect()
             }
@@ -134,7 +134,9 @@ impl Function {
                 Some(labels) => labels.iter().map(|own| f64::from(own == label)).collect(),
                 None => vec![0.0; rows.count],
             },
-            Self::Stretch(from, to) => (0..rows.count).map(|row| f64::from((*from..*to).contains(&row))).collect(),
+            Self::Stretch(from, to) => {
+                (0..rows.count).map(|row| f64::from((*from..*to).contains(&row))).collect()
+            }
             Self::Gravity(component) => {
                 place.gravity.as_ref().map_or_else(|| vec![0.0; rows.count], |down| down[*component].clone())
             }

@@ -27,7 +27,14 @@ impl Gram {
     }
 
     /// The products once a table has more columns than a Gram matrix that is known.
-    pub fn grown(&self, table: &Table, point: &Point, rows: usize, noise: &Noise, memory: Option<Memory>) -> Self {
+    pub fn grown(
+        &self,
+        table: &Table,
+        point: &Point,
+        rows: usize,
+        noise: &Noise,
+        memory: Option<Memory>,
+    ) -> Self {
         let width = table.width(point);
         Self::extended(Some(&self.products), table, point, rows, noise, memory, width)
     }
@@ -52,7 +59,10 @@ impl Gram {
             let height = (to - from) * components;
             let weights = &noise.weights[from * components..to * components];
             for number in 0..width {
-                let column = &mut block.col_mut(number).try_as_col_major_mut().map_or(&mut [][..], |column| column.as_slice_mut())[..height];
+                let column = &mut block
+                    .col_mut(number)
+                    .try_as_col_major_mut()
+                    .map_or(&mut [][..], |column| column.as_slice_mut())[..height];
                 table.any(point, number, from..to, column);
                 for (value, weight) in column.iter_mut().zip(weights) {
                     *value *= weight;
@@ -77,7 +87,14 @@ impl Gram {
                     Par::Seq,
                 );
             } else {
-                faer::linalg::matmul::matmul(products.as_mut(), Accum::Add, whole.transpose(), new, 1.0, Par::Seq);
+                faer::linalg::matmul::matmul(
+                    products.as_mut(),
+                    Accum::Add,
+                    whole.transpose(),
+                    new,
+                    1.0,
+                    Par::Seq,
+                );
             }
         }
         let whole = Mat::from_fn(width, width, |row, column| {
@@ -85,7 +102,13 @@ impl Gram {
             match known {
                 Some(known) if high < old => known[(row, column)],
                 // The new columns are whole; of a first matrix only the lower part is filled.
-                _ => if old == 0 { products[(high, low)] } else { products[(low, high - old)] },
+                _ => {
+                    if old == 0 {
+                        products[(high, low)]
+                    } else {
+                        products[(low, high - old)]
+                    }
+                }
             }
         });
         Self { products: whole, log_det: noise.log_det(memory, rows, components) }

@@ -46,7 +46,12 @@ impl Greedy<'_, '_> {
 
     /// Drops the first family that no longer gains, or swaps the first that another beats. Whether anything moved.
     /// A family whose own gain has not changed since it was judged keeps its place: the others' have not either.
-    fn drop_or_swap(&self, active: &mut Active, judged: &mut Vec<(usize, f64)>, record: &mut Recorder) -> bool {
+    fn drop_or_swap(
+        &self,
+        active: &mut Active,
+        judged: &mut Vec<(usize, f64)>,
+        record: &mut Recorder,
+    ) -> bool {
         if active.len() < 2 {
             return false;
         }
@@ -93,7 +98,8 @@ impl Greedy<'_, '_> {
                 if a.is_noise || b.is_noise || !akin {
                     continue;
                 }
-                let others: Active = active.iter().copied().filter(|(other, _)| !pair.contains(other)).collect();
+                let others: Active =
+                    active.iter().copied().filter(|(other, _)| !pair.contains(other)).collect();
                 let Some((rival, gain, score)) = self.best(&others) else { continue };
                 if pair.contains(&rival) || others.iter().any(|&(other, _)| other == rival) {
                     continue;

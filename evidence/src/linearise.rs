@@ -34,7 +34,10 @@ pub trait Linearise {
 }
 
 /// Checks what a caller gave.
-pub(crate) fn checked(problem: &Problem, given: Result<Linearisation, String>) -> Result<Linearisation, Error> {
+pub(crate) fn checked(
+    problem: &Problem,
+    given: Result<Linearisation, String>,
+) -> Result<Linearisation, Error> {
     let given = given.map_err(|reason| Error::Linearise { reason })?;
     let values = problem.values();
     let lists = std::iter::once(&given.residual).chain(&given.declared).chain(&given.places);

@@ -25,7 +25,9 @@ pub struct Finding {
     pub set: Vec<(usize, f64)>,
     /// Posterior share of each family of the set, and at last that of having none of them.
     pub shares: Vec<f64>,
-    /// Whether place and driver are sure enough to be named.
+    /// Share of the members of the set that act at the same place with the same driver as the first.
+    pub site_share: f64,
+    /// Whether it is sure enough to be told: its place and driver where their share is large, else the set.
     pub named: bool,
 }
 
@@ -55,10 +57,15 @@ pub(crate) fn findings(run: &mut Run, told: &Model) -> Result<Vec<Finding>, Erro
         let best = scores.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let weights: Vec<f64> = scores.iter().map(|score| (score - best).exp()).collect();
         let sum: f64 = weights.iter().sum();
+        let site = |family: usize| run.bench.dictionary.families[family].site();
+        let here = set.iter().zip(&weights).filter(|((family, _), _)| site(*family) == site(cause));
+        let site_share =
+            here.map(|(_, weight)| weight).sum::<f64>() / weights[..set.len()].iter().sum::<f64>();
         found.push(Finding {
             family: cause,
             margin,
             set,
+            site_share,
             shares: weights.iter().map(|weight| weight / sum).collect(),
             named: margin > run.bench.policy.name_margin,
         });

@@ -200,7 +200,8 @@ impl<'a> Outcome<'a> {
     #[must_use]
     pub fn declared_alone(&self) -> Option<Vec<Estimate>> {
         let quantity = |posterior: &Posterior, point: usize| self.declared_moments(posterior, point);
-        plain(&self.run, &self.told.active, self.told.state, &quantity).map(|moments| self.estimates_of(&moments))
+        plain(&self.run, &self.told.active, self.told.state, &quantity)
+            .map(|moments| self.estimates_of(&moments))
     }
 
     /// The factor of a standard uncertainty for an interval of 95 %.
@@ -250,7 +251,8 @@ impl<'a> Outcome<'a> {
             for a in 0..combinations.ncols() {
                 mean[error] += unit * combinations[(error, a)] * posterior.mean[a];
                 for b in 0..combinations.ncols() {
-                    let product = combinations[(error, a)] * posterior.shape[(a, b)] * combinations[(error, b)];
+                    let product =
+                        combinations[(error, a)] * posterior.shape[(a, b)] * combinations[(error, b)];
                     variance[error] += product * posterior.variance * unit * unit;
                 }
             }

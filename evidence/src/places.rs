@@ -89,7 +89,8 @@ impl Places {
             add_new(&mut merged.beside, &place.beside);
             stands_for.push(Some(number));
         }
-        let pair = |pair: [usize; 2]| Some([stands_for[pair[0]]?, stands_for[pair[1]]?]).filter(|[a, b]| a != b);
+        let pair =
+            |pair: [usize; 2]| Some([stands_for[pair[0]]?, stands_for[pair[1]]?]).filter(|[a, b]| a != b);
         let placed = |(frame, given): (usize, &Frame)| PlacedFrame {
             frame,
             tilts: given.tilts.and_then(pair),

@@ -96,15 +96,19 @@ fn combinations(problem: &Problem, policy: &Policy) -> Mat<f64> {
     let scaled = Mat::from_fn(problem.values(), count, |row, at| columns[at][row] / scale(at));
     let Ok(svd) = scaled.thin_svd() else { return Mat::zeros(count, 0) };
     let values = svd.S().column_vector();
-    let kept = (0..values.nrows()).filter(|&at| values[at] > policy.rank * values[0] && values[at] > 0.0).count();
+    let kept =
+        (0..values.nrows()).filter(|&at| values[at] > policy.rank * values[0] && values[at] > 0.0).count();
     Mat::from_fn(count, kept, |error, at| svd.V()[(error, at)] / values[at] / scale(error))
 }
 
 /// Whether an error's unit vector lies in the span of what is estimable.
 fn determined(problem: &Problem, combinations: &Mat<f64>) -> Vec<bool> {
     let count = problem.declared.len();
-    let lengths: Vec<f64> =
-        problem.declared.iter().map(|error| crate::algebra::dot(&error.column, &error.column).sqrt()).collect();
+    let lengths: Vec<f64> = problem
+        .declared
+        .iter()
+        .map(|error| crate::algebra::dot(&error.column, &error.column).sqrt())
+        .collect();
     let span = Mat::from_fn(count, combinations.ncols(), |row, at| combinations[(row, at)] * lengths[row]);
     let gram = span.transpose() * &span;
     let Ok(factor) = gram.llt(Side::Lower) else { return vec![false; count] };

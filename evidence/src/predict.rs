@@ -35,8 +35,11 @@ impl Bench<'_> {
                 let mut variance = 0.0;
                 for (i, &a) in numbered.iter().enumerate() {
                     moments.mean[row] += unit * columns[(row, i)] * posterior.mean[a];
-                    let along: f64 =
-                        numbered.iter().enumerate().map(|(j, &b)| columns[(row, j)] * posterior.shape[(a, b)]).sum();
+                    let along: f64 = numbered
+                        .iter()
+                        .enumerate()
+                        .map(|(j, &b)| columns[(row, j)] * posterior.shape[(a, b)])
+                        .sum();
                     variance += columns[(row, i)] * along;
                 }
                 moments.variance[row] = variance * posterior.variance * unit * unit;

@@ -1,4 +1,5 @@
 //! The likelihood against reference numbers from dense covariance matrices: `tests/reference/likelihood.py`.
+#![allow(clippy::unwrap_used)]
 
 use std::collections::BTreeMap;
 
@@ -93,7 +94,10 @@ fn family(bench: &Bench, law: &str, place: &str, joint: &str) -> usize {
 }
 
 fn close(name: &str, ours: f64, reference: f64, scale: f64) {
-    assert!((ours - reference).abs() <= NUMERICS * scale, "{name}: {ours} where the reference has {reference}");
+    assert!(
+        (ours - reference).abs() <= NUMERICS * scale,
+        "{name}: {ours} where the reference has {reference}"
+    );
 }
 
 #[test]
@@ -127,14 +131,16 @@ fn log_evidence_gains_and_estimates_are_those_of_dense_covariances() {
             let alone = small.view(noise, state.memory).log_evidence(small.active());
             close(&key("evidence of the columns alone"), alone, evidence, 1.0);
             let posterior = view.posterior(active).unwrap();
-            let (estimates, uncertainties) = (&numbers[key("estimates").as_str()], &numbers[key("uncertainties").as_str()]);
+            let (estimates, uncertainties) =
+                (&numbers[key("estimates").as_str()], &numbers[key("uncertainties").as_str()]);
             for error in 0..3 {
                 let combinations = &bench.scaling.combinations;
                 let (mut mean, mut variance) = (0.0, 0.0);
                 for a in 0..3 {
                     mean += bench.scaling.unit * combinations[(error, a)] * posterior.mean[a];
                     for b in 0..3 {
-                        let product = combinations[(error, a)] * posterior.shape[(a, b)] * combinations[(error, b)];
+                        let product =
+                            combinations[(error, a)] * posterior.shape[(a, b)] * combinations[(error, b)];
                         variance += product * posterior.variance * bench.scaling.unit.powi(2);
                     }
                 }

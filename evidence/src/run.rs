@@ -25,7 +25,11 @@ pub(crate) struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    pub fn new(problem: &'a Problem, policy: &'a Policy, chain: Option<&'a dyn Linearise>) -> Result<Self, Error> {
+    pub fn new(
+        problem: &'a Problem,
+        policy: &'a Policy,
+        chain: Option<&'a dyn Linearise>,
+    ) -> Result<Self, Error> {
         let bench = Bench::new(problem, policy)?;
         Ok(Self { bench, chain, reached: Vec::new(), record: Recorder::new(), bare: 0, cuts: None })
     }

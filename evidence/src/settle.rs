@@ -25,7 +25,8 @@ impl Bench<'_> {
         let mut estimates = here.estimates.clone();
         for (error, estimate) in estimates.iter_mut().enumerate() {
             for combination in 0..first - 1 {
-                *estimate += unit * self.scaling.combinations[(error, combination)] * posterior.mean[combination];
+                *estimate +=
+                    unit * self.scaling.combinations[(error, combination)] * posterior.mean[combination];
             }
         }
         let mut inside: Vec<(usize, f64)> = Vec::new();

@@ -54,7 +54,13 @@ impl Shape {
             Kind::Clip => past.clamp(-self.width, self.width),
             Kind::Bump => (-(past / self.width).powi(2)).exp(),
             Kind::Saw => 2.0 * self.phase(joint) - 1.0,
-            Kind::Square => if self.phase(joint) < 0.5 { 1.0 } else { -1.0 },
+            Kind::Square => {
+                if self.phase(joint) < 0.5 {
+                    1.0
+                } else {
+                    -1.0
+                }
+            }
             Kind::Triangle => 2.0 * (2.0 * self.phase(joint) - 1.0).abs() - 1.0,
         }
     }
@@ -151,7 +157,8 @@ pub fn finer(shape: &Shape, joint: &[f64]) -> Vec<Shape> {
             .map(|by| Shape { position: (shape.position + by).rem_euclid(1.0), ..*shape })
             .collect(),
         _ => {
-            let widths: &[f64] = if shape.has_width() { &[0.6, 0.8, 0.9, 1.0, 1.1, 1.25, 1.6] } else { &[1.0] };
+            let widths: &[f64] =
+                if shape.has_width() { &[0.6, 0.8, 0.9, 1.0, 1.1, 1.25, 1.6] } else { &[1.0] };
             moves(9, step)
                 .flat_map(|by| widths.iter().map(move |&times| shape.moved(by).widened(times)))
                 .collect()

@@ -140,7 +140,12 @@ impl<'a> Small<'a> {
 }
 
 /// Columns after whitening.
-pub(crate) fn whitened(columns: &Mat<f64>, components: usize, weights: &[f64], memory: Option<Memory>) -> Mat<f64> {
+pub(crate) fn whitened(
+    columns: &Mat<f64>,
+    components: usize,
+    weights: &[f64],
+    memory: Option<Memory>,
+) -> Mat<f64> {
     let mut white = Mat::zeros(columns.nrows(), columns.ncols());
     let filter = memory.map(|memory| memory.filter(weights.len() / components));
     let mut values = vec![0.0; weights.len()];

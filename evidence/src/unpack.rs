@@ -116,7 +116,9 @@ impl Bench<'_> {
         // What a shape leaves may still be smooth.
         if best.active != model.active {
             for &open in here.iter().filter(|&&own| self.dictionary.families[own].is_open()) {
-                let Some(&(_, variance)) = model.active.iter().find(|(own, _)| *own == open) else { continue };
+                let Some(&(_, variance)) = model.active.iter().find(|(own, _)| *own == open) else {
+                    continue;
+                };
                 let mut both = best.active.clone();
                 both.push((open, variance));
                 let tuned = tune(&self.view(model.state), &both, 2, &mut Recorder::new());

@@ -55,11 +55,23 @@ impl Bench<'_> {
             let squares: Vec<f64> =
                 scaled.chunks_exact(components).map(|row| row.iter().map(|r| r * r).sum()).collect();
             let tails = Tails::of(&squares, components, self.policy);
-            let weights: Vec<f64> =
-                deviations.values.iter().enumerate().map(|(at, h)| tails.weights[at / components].sqrt() / h).collect();
-            let moved = weights.iter().zip(&noise.weights).fold(0.0, |most: f64, (a, b)| most.max((a / b).ln().abs()));
+            let weights: Vec<f64> = deviations
+                .values
+                .iter()
+                .enumerate()
+                .map(|(at, h)| tails.weights[at / components].sqrt() / h)
+                .collect();
+            let moved = weights
+                .iter()
+                .zip(&noise.weights)
+                .fold(0.0, |most: f64, (a, b)| most.max((a / b).ln().abs()));
             row_weights = tails.weights;
-            noise = Noise { weights, tails: tails.degrees, adjust: tails.adjust - deviations.price, inflation: tails.inflation };
+            noise = Noise {
+                weights,
+                tails: tails.degrees,
+                adjust: tails.adjust - deviations.price,
+                inflation: tails.inflation,
+            };
             if moved < SETTLED {
                 break;
             }

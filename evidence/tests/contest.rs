@@ -1,4 +1,5 @@
 //! Whole contests on small simulated problems: what is told, what is not, and what bad input gets.
+#![allow(clippy::unwrap_used)]
 
 mod simulated;
 
@@ -53,7 +54,8 @@ fn a_step_of_the_levelling_is_a_setup_and_no_cause() {
 fn the_outcome_is_the_same_twice_and_its_shares_are_whole() {
     let problem = problem(&Plan { amplitude: 0.5, order: 2.0, ..Plan::default() });
     let policy = Policy::default();
-    let (first, second) = (contest(&problem, &policy, None).unwrap(), contest(&problem, &policy, None).unwrap());
+    let (first, second) =
+        (contest(&problem, &policy, None).unwrap(), contest(&problem, &policy, None).unwrap());
     assert_eq!(first.findings(), second.findings());
     assert_eq!(first.steps(), second.steps());
     assert_eq!(first.declared(), second.declared());
@@ -115,9 +117,17 @@ fn bad_input_is_refused_with_its_place() {
     let rows = Plan::default().rows;
     assert_eq!(refused(&|problem| problem.components = 0), Error::Empty);
     assert!(matches!(refused(&|problem| problem.residual[3] = f64::NAN), Error::NotFinite { at: 3, .. }));
-    assert!(matches!(refused(&|problem| { problem.residual.pop(); }), Error::Length { .. }));
+    assert!(matches!(
+        refused(&|problem| {
+            problem.residual.pop();
+        }),
+        Error::Length { .. }
+    ));
     assert!(matches!(refused(&|problem| problem.residual.fill(0.0)), Error::NoNoise));
-    assert!(matches!(refused(&|problem| problem.sigma = Some(vec![0.0; 2 * rows])), Error::Sigma { at: 0, .. }));
+    assert!(matches!(
+        refused(&|problem| problem.sigma = Some(vec![0.0; 2 * rows])),
+        Error::Sigma { at: 0, .. }
+    ));
     let wrong_frame = refused(&|problem| problem.places[0].frame = 9);
     assert_eq!(
         wrong_frame.to_string(),

@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use evidence::families::{Driver, Law};
 use evidence::Kind;
+use evidence::families::{Driver, Law};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal, StudentT};
@@ -74,7 +74,18 @@ impl Term {
 }
 
 pub const INSIDE: [&str; 12] = [
-    "ecc1", "ell2", "per5", "gear", "ecc1_el", "sag", "backlash", "refraction", "scale", "wobble2", "couple", "product",
+    "ecc1",
+    "ell2",
+    "per5",
+    "gear",
+    "ecc1_el",
+    "sag",
+    "backlash",
+    "refraction",
+    "scale",
+    "wobble2",
+    "couple",
+    "product",
 ];
 pub const OUTSIDE: [&str; 6] = ["tanh", "bump", "clip", "dead", "exp", "rough"];
 
@@ -123,7 +134,9 @@ impl Effect {
         match (self.name, law) {
             ("backlash", Law::Direction) | ("scale", Law::Scale) | ("product", Law::Product) => true,
             ("refraction", Law::Cot | Law::Tan) | ("wobble2", Law::Whirl(2 | -2)) => true,
-            ("ecc1" | "ell2" | "per5" | "gear" | "ecc1_el" | "sag" | "couple", Law::Harmonic(n)) => n == order,
+            ("ecc1" | "ell2" | "per5" | "gear" | "ecc1_el" | "sag" | "couple", Law::Harmonic(n)) => {
+                n == order
+            }
             ("tanh", Law::Shape(shape)) => shape.kind == Kind::Tanh,
             ("bump", Law::Shape(shape)) => shape.kind == Kind::Bump,
             ("clip", Law::Shape(shape)) => shape.kind == Kind::Clip,
@@ -164,7 +177,8 @@ impl Cell {
 }
 
 pub fn case(cell: &Cell, seed: u64) -> Case {
-    let name = cell.name().bytes().fold(0u64, |hash, byte| hash.wrapping_mul(131).wrapping_add(u64::from(byte)));
+    let name =
+        cell.name().bytes().fold(0u64, |hash, byte| hash.wrapping_mul(131).wrapping_add(u64::from(byte)));
     let mut random = ChaCha8Rng::seed_from_u64(name.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ seed);
     let normal = |random: &mut ChaCha8Rng| -> f64 { StandardNormal.sample(random) };
     let count = cell.rows;
@@ -193,7 +207,8 @@ pub fn case(cell: &Cell, seed: u64) -> Case {
     };
     let mut data = place(&poses);
     // Amplitudes: RMS of what the declared errors do not absorb is the SNR.
-    let amplitudes: Vec<f64> = effects.iter().map(|effect| amplitude(&data, &errors, effect, cell.snr)).collect();
+    let amplitudes: Vec<f64> =
+        effects.iter().map(|effect| amplitude(&data, &errors, effect, cell.snr)).collect();
     let all = |data: &Data| -> Vec<[f64; 12]> {
         let mut extra = vec![[0.0; 12]; data.poses.len()];
         for (effect, amplitude) in effects.iter().zip(&amplitudes) {
@@ -278,9 +293,8 @@ fn session_tilts(poses: &mut [Pose], random: &mut ChaCha8Rng) -> (Vec<[f64; 2]>,
     let count = poses.len();
     let start = random.random_range(0.0..TAU);
     let size = SIGMA * random.random_range(2.0..8.0);
-    let tilts: Vec<[f64; 2]> = (0..6)
-        .map(|_| [0, 1].map(|_| size * Distribution::<f64>::sample(&StandardNormal, random)))
-        .collect();
+    let tilts: Vec<[f64; 2]> =
+        (0..6).map(|_| [0, 1].map(|_| size * Distribution::<f64>::sample(&StandardNormal, random))).collect();
     let labels: Vec<usize> = (0..count).map(|row| 6 * row / count).collect();
     for (pose, &label) in poses.iter_mut().zip(&labels) {
         pose.azimuth = wrapped(start + TAU / 6.0 * (label as f64 + random.random_range(0.0..1.0)));
@@ -343,7 +357,8 @@ fn values(data: &Data, effect: &Effect) -> Vec<(usize, Vec<f64>)> {
             sense
         })
         .collect();
-    let over = |term: Term| data.poses.iter().zip(&senses).map(|(&pose, &sense)| term.at(pose, sense)).collect();
+    let over =
+        |term: Term| data.poses.iter().zip(&senses).map(|(&pose, &sense)| term.at(pose, sense)).collect();
     effect.terms.iter().map(|&(place, term)| (place, over(term))).collect()
 }
 

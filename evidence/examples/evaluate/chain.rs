@@ -31,7 +31,8 @@ fn turn(axis: usize, angle: f64, v: Vector) -> Vector {
 /// Where the line of sight points. `extra[place]` is a small rotation at place `3 * frame + axis`.
 pub fn sight(pose: Pose, e: &[f64], extra: &[f64; 12]) -> Vector {
     let mut v = [0.0, 1.0, 0.0];
-    let place = |frame: usize, v: Vector| (0..3).rev().fold(v, |v, axis| turn(axis, extra[3 * frame + axis], v));
+    let place =
+        |frame: usize, v: Vector| (0..3).rev().fold(v, |v, axis| turn(axis, extra[3 * frame + axis], v));
     v = turn(2, e[5], v);
     v = turn(0, e[4], v);
     v = place(3, v);
@@ -185,7 +186,11 @@ pub fn problem(data: &Data) -> Problem {
 }
 
 /// New rows for a prediction, and the exact chain's residual there.
-pub fn new_rows(data: &Data, e: &[f64], effects: &dyn Fn(&Rows, &[Place]) -> Vec<Amount>) -> (NewRows, Vec<f64>) {
+pub fn new_rows(
+    data: &Data,
+    e: &[f64],
+    effects: &dyn Fn(&Rows, &[Place]) -> Vec<Amount>,
+) -> (NewRows, Vec<f64>) {
     let count = data.poses.len();
     let bare = columns(data, e, &vec![[0.0; 12]; count]);
     let extra = spread(&effects(&rows(data), &places(&bare, None)), count);
@@ -223,11 +228,10 @@ pub fn least_squares(columns: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
         row[i] += 1e-12;
     }
     for i in 0..size {
+        let pivot = a[i].clone();
         for k in i + 1..size {
-            let factor = a[k][i] / a[i][i];
-            for j in i..size {
-                a[k][j] -= factor * a[i][j];
-            }
+            let factor = a[k][i] / pivot[i];
+            a[k].iter_mut().zip(&pivot).for_each(|(into, from)| *into -= factor * from);
             b[k] -= factor * b[i];
         }
     }

@@ -79,7 +79,8 @@ fn scored(case: &Case, outcome: &Outcome, seconds: f64) -> String {
             format!("{{\"margin\":{:.2},\"set\":[{}]}}", found.margin, set.join(","))
         })
         .collect();
-    let noise: Vec<String> = outcome.noise().iter().map(|&family| format!("\"{}\"", outcome.name(family))).collect();
+    let noise: Vec<String> =
+        outcome.noise().iter().map(|&family| format!("\"{}\"", outcome.name(family))).collect();
     // Writing to a string does not fail.
     let _ = write!(
         text,
@@ -135,7 +136,8 @@ fn scored(case: &Case, outcome: &Outcome, seconds: f64) -> String {
         let Some(prediction) = outcome.predict(&new) else { continue };
         let errors: Vec<f64> = residual.iter().zip(&prediction.mean).map(|(r, mean)| r - mean).collect();
         let rms = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt() / SIGMA;
-        let covered = errors.iter().zip(&prediction.uncertainty).filter(|(e, u)| e.abs() < outcome.quantile() * *u);
+        let covered =
+            errors.iter().zip(&prediction.uncertainty).filter(|(e, u)| e.abs() < outcome.quantile() * *u);
         let covered = covered.count() as f64 / errors.len() as f64;
         let _ = write!(
             text,

@@ -23,7 +23,9 @@ pub(super) fn offer(setting: &Setting, dictionary: &mut Dictionary) {
                     let mut functions = vec![sense];
                     for order in 1..=ORDERS {
                         let deviation = (order as f64).powi(-2);
-                        functions.extend(waves(joint, order).map(|wave| (Function::DirectionWave(wave), deviation)));
+                        functions.extend(
+                            waves(joint, order).map(|wave| (Function::DirectionWave(wave), deviation)),
+                        );
                     }
                     dictionary.add((Class::Smooth, Law::DirectionSmooth), place, driver, functions, 0.0);
                 }

@@ -14,7 +14,13 @@ pub(super) fn offer(setting: &Setting, dictionary: &mut Dictionary) {
     for place in 0..setting.places.distinct.len() {
         let of_range = setting.places.distinct[place].is_range;
         if of_range {
-            dictionary.add((Class::Simple, Law::Constant), place, Driver::Nothing, vec![(Function::One, 1.0)], 0.0);
+            dictionary.add(
+                (Class::Simple, Law::Constant),
+                place,
+                Driver::Nothing,
+                vec![(Function::One, 1.0)],
+                0.0,
+            );
         } else if !setting.turns(place) {
             continue;
         }

@@ -235,7 +235,8 @@ impl Dictionary {
     #[must_use]
     pub fn of(problem: &Problem, places: &Places, policy: &Policy) -> Self {
         let given = |distinct: &crate::places::Distinct| &problem.places[distinct.place];
-        let moved = |load: &crate::problem::Load| load.torque.iter().any(|torque| torque.abs() > policy.rounding);
+        let moved =
+            |load: &crate::problem::Load| load.torque.iter().any(|torque| torque.abs() > policy.rounding);
         let setting = Setting {
             rows: &problem.rows,
             places,
@@ -243,7 +244,9 @@ impl Dictionary {
             loads: places
                 .distinct
                 .iter()
-                .map(|place| (0..).zip(&given(place).loads).filter(|(_, load)| moved(load)).map(|(at, _)| at).collect())
+                .map(|place| {
+                    (0..).zip(&given(place).loads).filter(|(_, load)| moved(load)).map(|(at, _)| at).collect()
+                })
                 .collect(),
             gravity: places.distinct.iter().map(|place| given(place).gravity.is_some()).collect(),
         };
@@ -283,7 +286,16 @@ impl Dictionary {
             columns.push(self.column(vec![(place, function)]));
             relative.push(deviation);
         }
-        self.push(Family { class, place: Where::Place(place), driver, law, columns, relative, extra, price: 0.0 });
+        self.push(Family {
+            class,
+            place: Where::Place(place),
+            driver,
+            law,
+            columns,
+            relative,
+            extra,
+            price: 0.0,
+        });
     }
 
     /// Adds a family.

@@ -47,7 +47,8 @@ fn whirls(setting: &Setting, dictionary: &mut Dictionary) {
         for order in 1..=orders {
             let [cos, sin] = waves(joint, order);
             for backward in [false, true] {
-                let signed = |wave, minus: bool| if minus { Function::MinusWave(wave) } else { Function::Wave(wave) };
+                let signed =
+                    |wave, minus: bool| if minus { Function::MinusWave(wave) } else { Function::Wave(wave) };
                 let first = vec![(x, Function::Wave(cos)), (y, signed(sin, backward))];
                 let second = vec![(x, signed(sin, !backward)), (y, Function::Wave(cos))];
                 let sense = if backward { -(order as i32) } else { order as i32 };

@@ -29,7 +29,8 @@ pub(crate) fn add(
     law: Law,
     price: f64,
 ) -> usize {
-    let terms = members.iter().flat_map(|&place| functions.iter().map(move |function| (place, function.clone())));
+    let terms =
+        members.iter().flat_map(|&place| functions.iter().map(move |function| (place, function.clone())));
     let columns: Vec<usize> = terms.map(|term| dictionary.column(vec![term])).collect();
     dictionary.push(Family {
         class: Class::Setup,

@@ -10,7 +10,13 @@ const CONSTANT_BESIDE_SCALE: f64 = 0.547_722_557_505_166_1;
 
 pub(super) fn offer(setting: &Setting, dictionary: &mut Dictionary) {
     for place in setting.chain_places() {
-        dictionary.add((Class::Simple, Law::Constant), place, Driver::Nothing, vec![(Function::One, 1.0)], 0.0);
+        dictionary.add(
+            (Class::Simple, Law::Constant),
+            place,
+            Driver::Nothing,
+            vec![(Function::One, 1.0)],
+            0.0,
+        );
         for joint in setting.joints().filter(|&joint| setting.owns(place, joint)) {
             let driver = Driver::Joint(joint);
             let scale = vec![(Function::Linear(joint), 1.0), (Function::One, CONSTANT_BESIDE_SCALE)];
@@ -21,7 +27,13 @@ pub(super) fn offer(setting: &Setting, dictionary: &mut Dictionary) {
                     dictionary.add((Class::Simple, Law::Cot), place, driver, functions, 0.0);
                 }
                 Some(law) => {
-                    dictionary.add((Class::Simple, law), place, driver, vec![(Function::Tan(joint), 1.0)], 0.0);
+                    dictionary.add(
+                        (Class::Simple, law),
+                        place,
+                        driver,
+                        vec![(Function::Tan(joint), 1.0)],
+                        0.0,
+                    );
                 }
                 None => {}
             }

@@ -21,7 +21,13 @@ pub(super) fn offer(setting: &Setting, dictionary: &mut Dictionary) {
                 dictionary.add((Class::Rough, Law::Smooth(1)), place, Driver::Joint(joint), flat, 0.0);
                 for (length, number) in LENGTHS_RAD.into_iter().zip(2..) {
                     let bell = spectrum(joint, highest, |n| (-0.25 * (n * length).powi(2)).exp());
-                    dictionary.add((Class::Rough, Law::Smooth(number)), place, Driver::Joint(joint), bell, 0.0);
+                    dictionary.add(
+                        (Class::Rough, Law::Smooth(number)),
+                        place,
+                        Driver::Joint(joint),
+                        bell,
+                        0.0,
+                    );
                 }
             }
         }

@@ -59,6 +59,8 @@ impl Filter {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
+
     use super::*;
     use crate::algebra::{cholesky, dot, half_log_det, solve_lower};
     use faer::Mat;
@@ -67,7 +69,8 @@ mod tests {
     fn the_recursion_whitens_as_the_dense_correlation_does() {
         let (rows, memory) = (9, Memory { carried: 0.9, part: 0.7 });
         let dense = Mat::from_fn(rows, rows, |i, j| {
-            memory.part * memory.carried.powi(i.abs_diff(j) as i32) + if i == j { 1.0 - memory.part } else { 0.0 }
+            memory.part * memory.carried.powi(i.abs_diff(j) as i32)
+                + if i == j { 1.0 - memory.part } else { 0.0 }
         });
         let factor = cholesky(&dense).unwrap();
         let values: Vec<f64> = (0..rows).map(|row| (row as f64 * 1.7).sin()).collect();

@@ -44,7 +44,8 @@ impl Tails {
             let weights = vec![1.0; squares.len()];
             return Self { degrees: f64::INFINITY, weights, adjust: 0.0, inflation: 1.0 };
         };
-        let constant = ln_gamma(f64::midpoint(degrees, m)) - ln_gamma(degrees / 2.0) - m / 2.0 * (degrees * PI).ln();
+        let constant =
+            ln_gamma(f64::midpoint(degrees, m)) - ln_gamma(degrees / 2.0) - m / 2.0 * (degrees * PI).ln();
         let (mut adjust, mut squared, mut slope, mut energy) = (0.0, 0.0, 0.0, 0.0);
         for (u, square) in weights.iter().zip(squares) {
             let d = square / variance;
@@ -67,7 +68,11 @@ fn fitted(squares: &[f64], m: f64, degrees: f64) -> (Vec<f64>, f64) {
     let mut sorted = squares.to_vec();
     sorted.sort_by(f64::total_cmp);
     let middle = sorted.len() / 2;
-    let median = if sorted.len() % 2 == 0 { f64::midpoint(sorted[middle - 1], sorted[middle]) } else { sorted[middle] };
+    let median = if sorted.len().is_multiple_of(2) {
+        f64::midpoint(sorted[middle - 1], sorted[middle])
+    } else {
+        sorted[middle]
+    };
     let mut variance = (median / m).max(f64::MIN_POSITIVE);
     let mut weights = vec![1.0; squares.len()];
     // Each round takes off most of what is left; 25 leave less than the grid of degrees can tell.

@@ -1,7 +1,7 @@
 //! Uneven noise: the logarithm of the variance as a linear function of joints, inputs and the stated uncertainty.
 
-use faer::{Mat, Side};
 use faer::linalg::solvers::Solve;
+use faer::{Mat, Side};
 
 use crate::policy::Policy;
 use crate::problem::Rows;
@@ -26,9 +26,14 @@ impl Features {
     /// Joints and inputs with their squares, and the logarithm of the stated uncertainty.
     pub fn of(rows: &Rows, stated: &[f64]) -> Self {
         let components = stated.len() / rows.count;
-        let spread = |values: &[f64]| values.iter().flat_map(|&value| vec![value; components]).collect::<Vec<f64>>();
+        let spread =
+            |values: &[f64]| values.iter().flat_map(|&value| vec![value; components]).collect::<Vec<f64>>();
         let mut columns = Vec::new();
-        let all = rows.joints.iter().map(|joint| &joint.values).chain(rows.inputs.iter().map(|input| &input.values));
+        let all = rows
+            .joints
+            .iter()
+            .map(|joint| &joint.values)
+            .chain(rows.inputs.iter().map(|input| &input.values));
         for values in all {
             let Some(scaled) = standard(values) else { continue };
             // A square's standard deviation is about 1.4.
@@ -45,8 +50,11 @@ impl Features {
     /// Source: Verbyla (1993), Modelling variance heterogeneity: residual maximum likelihood and diagnostics.
     pub fn deviations(&self, residual: &[f64], row_weights: &[f64], policy: &Policy) -> Deviations {
         let (values, m, k) = (residual.len(), self.components, self.columns.len());
-        let squares: Vec<f64> =
-            residual.iter().enumerate().map(|(at, r)| (row_weights[at / m] * r * r).max(f64::MIN_POSITIVE)).collect();
+        let squares: Vec<f64> = residual
+            .iter()
+            .enumerate()
+            .map(|(at, r)| (row_weights[at / m] * r * r).max(f64::MIN_POSITIVE))
+            .collect();
         let rows = (values / m) as f64;
         let each: Vec<f64> =
             (0..m).map(|own| squares.iter().skip(own).step_by(m).sum::<f64>() / rows).map(f64::ln).collect();
@@ -74,7 +82,9 @@ impl Features {
         for at in 0..m + k {
             hessian[(at, at)] += ridge(at);
         }
-        let Ok(factor) = hessian.llt(Side::Lower) else { return Deviations { values: vec![1.0; values], price: 0.0 } };
+        let Ok(factor) = hessian.llt(Side::Lower) else {
+            return Deviations { values: vec![1.0; values], price: 0.0 };
+        };
         let mut reached = penalised(&theta);
         for _ in 0..12 {
             let eta = eta(&theta);
@@ -87,7 +97,8 @@ impl Features {
             // A whole step overflows where one residual is far larger than the rest: halved until the likelihood grows.
             let tried = (0..20).find_map(|half| {
                 let size = 0.5f64.powi(half);
-                let next: Vec<f64> = theta.iter().enumerate().map(|(at, t)| t + size * step[(at, 0)]).collect();
+                let next: Vec<f64> =
+                    theta.iter().enumerate().map(|(at, t)| t + size * step[(at, 0)]).collect();
                 let value = penalised(&next);
                 (value.is_finite() && value >= reached).then_some((next, value))
             });

@@ -49,9 +49,9 @@ pub fn problem(plan: &Plan) -> Problem {
     let elevation: Vec<f64> = (0..plan.rows).map(|_| random.random_range(0.2..1.3)).collect();
     let columns: Vec<Vec<f64>> = (0..6).map(|place| column(&azimuth, &elevation, place)).collect();
     let mut residual = vec![0.0; 2 * plan.rows];
-    for row in 0..plan.rows {
+    for (row, angle) in azimuth.iter().enumerate() {
         let far = if random.random::<f64>() < plan.outliers { 30.0 } else { 1.0 };
-        let effect = plan.amplitude * (plan.order * azimuth[row] + 0.7).cos();
+        let effect = plan.amplitude * (plan.order * angle + 0.7).cos();
         let tilt = if 2 * row >= plan.rows { plan.moved } else { 0.0 };
         for at in 2 * row..2 * row + 2 {
             let noise: f64 = StandardNormal.sample(&mut random);

@@ -24,6 +24,7 @@ mod linearise;
 mod margins;
 mod noise;
 mod outcome;
+pub mod outside;
 mod places;
 mod point;
 pub mod policy;

@@ -1,7 +1,7 @@
 //! The workbench of a contest: dictionary, points, kinds of noise, and the Gram matrices that belong to them.
 
 use std::cell::RefCell;
-use std::rc::Rc;
+use std::sync::Arc;
 
 use crate::design::Table;
 use crate::error::Error;
@@ -57,7 +57,7 @@ pub(crate) struct Bench<'a> {
     pub points: Vec<Point>,
     pub noises: Vec<Noise>,
     pub scaled: Vec<Scaled>,
-    grams: RefCell<Vec<(State, Rc<Gram>)>>,
+    grams: RefCell<Vec<(State, Arc<Gram>)>>,
 }
 
 impl<'a> Bench<'a> {
@@ -148,7 +148,7 @@ impl<'a> Bench<'a> {
         Model { active, state, odds }
     }
 
-    fn gram(&self, state: State) -> Rc<Gram> {
+    fn gram(&self, state: State) -> Arc<Gram> {
         let (point, noise, rows) =
             (&self.points[state.point], &self.noises[state.noise], self.problem.rows.count);
         let mut grams = self.grams.borrow_mut();
@@ -156,13 +156,13 @@ impl<'a> Bench<'a> {
         let known = grams.iter().position(|(of, _)| *of == state).map(|at| grams.remove(at).1);
         let gram = match known {
             Some(gram) if gram.products.ncols() == width => gram,
-            Some(gram) => Rc::new(gram.grown(&self.table, point, rows, noise, state.memory)),
-            None => Rc::new(Gram::of(&self.table, point, rows, noise, state.memory)),
+            Some(gram) => Arc::new(gram.grown(&self.table, point, rows, noise, state.memory)),
+            None => Arc::new(Gram::of(&self.table, point, rows, noise, state.memory)),
         };
         if grams.len() >= KEPT {
             grams.remove(0);
         }
-        grams.push((state, Rc::clone(&gram)));
+        grams.push((state, Arc::clone(&gram)));
         gram
     }
 

@@ -1,8 +1,9 @@
 //! The likelihood of an active set over a Gram matrix, the gain of one more family, and the posterior.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use faer::Mat;
+use rayon::prelude::*;
 
 use crate::algebra::{cholesky, dot, half_log_det, solve_lower, solve_upper, spectrum};
 use crate::families::{Driver, Where};
@@ -30,7 +31,7 @@ pub(crate) struct Scaled {
 /// A Gram matrix with the families over it.
 #[derive(Clone)]
 pub(crate) struct View<'a> {
-    pub gram: Rc<Gram>,
+    pub gram: Arc<Gram>,
     pub families: &'a [Scaled],
     pub policy: &'a Policy,
     /// Columns of the declared errors.
@@ -136,11 +137,19 @@ impl View<'_> {
             }
         }
         solve_lower(solved.factor.as_ref(), projected.as_mut());
-        for (family, gain) in gains.iter_mut().enumerate() {
-            if wanted(family) && active.iter().all(|&(other, _)| other != family) {
+        let asked: Vec<usize> = (0..self.families.len())
+            .filter(|&family| wanted(family) && active.iter().all(|&(other, _)| other != family))
+            .collect();
+        // Each family by itself: the answer does not hang on how many processors share them out.
+        let found: Vec<(usize, Gain)> = asked
+            .into_par_iter()
+            .map(|family| {
                 let columns = &self.families[family].columns;
-                *gain = self.gain(&solved, family, |at| column(&projected, columns[at]));
-            }
+                (family, self.gain(&solved, family, |at| column(&projected, columns[at])))
+            })
+            .collect();
+        for (family, gain) in found {
+            gains[family] = gain;
         }
         gains
     }

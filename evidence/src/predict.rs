@@ -1,5 +1,7 @@
 //! A posterior carried to new rows.
 
+use faer::Mat;
+
 use crate::average::Moments;
 use crate::bench::Bench;
 use crate::design::Table;
@@ -31,16 +33,15 @@ impl Bench<'_> {
             let numbers: Vec<usize> = numbered.iter().map(|&at| posterior.columns[at]).collect();
             let columns = table.some(&point, &numbers, rows);
             let mut moments = Moments { mean: vec![0.0; values], variance: vec![0.0; values] };
+            let shape = Mat::from_fn(numbered.len(), numbered.len(), |i, j| {
+                posterior.shape[(numbered[i], numbered[j])]
+            });
+            let spread = &columns * shape;
             for row in 0..values {
                 let mut variance = 0.0;
                 for (i, &a) in numbered.iter().enumerate() {
                     moments.mean[row] += unit * columns[(row, i)] * posterior.mean[a];
-                    let along: f64 = numbered
-                        .iter()
-                        .enumerate()
-                        .map(|(j, &b)| columns[(row, j)] * posterior.shape[(a, b)])
-                        .sum();
-                    variance += columns[(row, i)] * along;
+                    variance += columns[(row, i)] * spread[(row, i)];
                 }
                 moments.variance[row] = variance * posterior.variance * unit * unit;
             }

@@ -11,6 +11,10 @@ use crate::problem::Problem;
 use crate::record::Recorder;
 use crate::setups::Cuts;
 
+/// Families after which a search without memory ends where the residual remembers. It only bounds work: with memory
+/// the search goes on from what was found.
+const TRACED: usize = 3;
+
 /// A contest under way.
 pub(crate) struct Run<'a> {
     pub bench: Bench<'a>,
@@ -20,6 +24,8 @@ pub(crate) struct Run<'a> {
     pub record: Recorder,
     /// The noise that the bare residual leaves.
     pub bare: usize,
+    /// Whether the residual remembers: then a search without memory ends early, for all that it adds traces noise.
+    pub remembers: bool,
     /// Found cuts of the order.
     pub cuts: Option<Cuts>,
 }
@@ -31,7 +37,15 @@ impl<'a> Run<'a> {
         chain: Option<&'a dyn Linearise>,
     ) -> Result<Self, Error> {
         let bench = Bench::new(problem, policy)?;
-        Ok(Self { bench, chain, reached: Vec::new(), record: Recorder::new(), bare: 0, cuts: None })
+        Ok(Self {
+            bench,
+            chain,
+            reached: Vec::new(),
+            record: Recorder::new(),
+            bare: 0,
+            remembers: false,
+            cuts: None,
+        })
     }
 
     /// The best explanation; of several within a nat the one with the fewest causes.
@@ -82,12 +96,18 @@ impl<'a> Run<'a> {
 
     /// A search over all families that are allowed.
     pub fn search(&mut self, start: &Active, state: State, allowed: &dyn Fn(usize) -> bool) -> Model {
-        self.search_up_to(start, state, allowed, self.bench.policy.most_active as usize)
+        self.search_up_to(start, state, allowed, self.most(state))
     }
 
     /// A search over families of the noise.
     pub fn search_noise(&mut self, start: &Active, state: State) -> Model {
-        self.search_noise_up_to(start, state, self.bench.policy.most_active as usize)
+        self.search_noise_up_to(start, state, self.most(state))
+    }
+
+    /// Families at most in a state.
+    fn most(&self, state: State) -> usize {
+        let all = self.bench.policy.most_active as usize;
+        if self.remembers && state.memory.is_none() { all.min(TRACED) } else { all }
     }
 
     pub fn search_noise_up_to(&mut self, start: &Active, state: State, most: usize) -> Model {

@@ -1,6 +1,6 @@
 //! An active set by itself: its columns over all rows, for what weighs rows or changes the correlation.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use faer::Mat;
 
@@ -85,7 +85,7 @@ impl<'a> Small<'a> {
         let white = whitened(&self.columns, problem.components, &noise.weights, memory);
         let log_det = noise.log_det(memory, problem.rows.count, problem.components);
         View {
-            gram: Rc::new(Gram { products: white.transpose() * &white, log_det }),
+            gram: Arc::new(Gram { products: white.transpose() * &white, log_det }),
             families: &self.families,
             policy: self.bench.policy,
             declared: self.bench.points[0].declared.len(),

@@ -47,7 +47,7 @@ impl Rungs for Bent {
 
     fn measured(&self, rows: &[usize]) -> Vec<f64> {
         // Noise of a tenth, plus and minus by turns.
-        let noise = |row: usize| if row % 2 == 0 { 0.1 } else { -0.1 };
+        let noise = |row: usize| if row.is_multiple_of(2) { 0.1 } else { -0.1 };
         rows.iter().flat_map(|&row| [2.0 * self.poses[row][0].powi(2) + noise(row), noise(row + 1)]).collect()
     }
 

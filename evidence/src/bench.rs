@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::design::Table;
 use crate::error::Error;
-use crate::families::Dictionary;
+use crate::families::{Dictionary, Family};
 use crate::gram::Gram;
 use crate::likelihood::{Active, Scaled, View};
 use crate::linearise::as_given;
@@ -61,10 +61,16 @@ pub(crate) struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    pub fn new(problem: &'a Problem, policy: &'a Policy) -> Result<Self, Error> {
+    /// A workbench with the families that a caller lets compete.
+    pub fn new(
+        problem: &'a Problem,
+        policy: &'a Policy,
+        lets: &dyn Fn(&Family) -> bool,
+    ) -> Result<Self, Error> {
         problem.check()?;
         let places = Places::of(problem, policy);
-        let dictionary = Dictionary::of(problem, &places, policy);
+        let mut dictionary = Dictionary::of(problem, &places, policy);
+        dictionary.families.retain(|family| lets(family));
         let scaling = Scaling::of(problem, policy)?;
         let estimates = problem.declared.iter().map(|error| error.estimate).collect();
         let points = vec![scaling.point(&places, &as_given(problem), estimates)];

@@ -2,6 +2,7 @@
 
 use crate::bench::{Model, State};
 use crate::error::Error;
+use crate::families::Family;
 use crate::greedy::tune;
 use crate::likelihood::Active;
 use crate::linearise::Linearise;
@@ -30,7 +31,22 @@ pub fn contest<'a>(
     policy: &'a Policy,
     chain: Option<&'a dyn Linearise>,
 ) -> Result<Outcome<'a>, Error> {
-    let mut run = Run::new(problem, policy, chain)?;
+    contest_among(problem, policy, chain, &|_| true)
+}
+
+/// Runs a contest among the families that a caller lets compete. Prices stay those of the whole dictionary; shapes
+/// compete only where smooth functions do.
+///
+/// # Errors
+///
+/// A problem that cannot be judged, or a chain that cannot be evaluated.
+pub fn contest_among<'a>(
+    problem: &'a Problem,
+    policy: &'a Policy,
+    chain: Option<&'a dyn Linearise>,
+    lets: &dyn Fn(&Family) -> bool,
+) -> Result<Outcome<'a>, Error> {
+    let mut run = Run::new(problem, policy, chain, lets)?;
     run.causes_first()?;
     run.without_robust_weights();
     run.find_setups();
@@ -172,6 +188,9 @@ impl Run<'_> {
         } else {
             best
         };
+        if !self.bench.dictionary.families.iter().any(Family::is_open) {
+            return;
+        }
         self.record.stage = Stage::Shapes;
         let shaped = self.bench.shaped(&best, &mut self.record);
         if shaped.active != best.active {

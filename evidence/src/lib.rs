@@ -41,13 +41,13 @@ mod small;
 mod unpack;
 mod weigh;
 
-pub use contest::contest;
+pub use contest::{contest, contest_among};
 pub use error::Error;
 pub use function::{Function, Span, Wave};
 pub use linearise::{Amount, Linearisation, Linearise};
 pub use margins::Finding;
 pub use noise::Memory;
-pub use outcome::{Competitor, Estimate, NewRows, Outcome, Prediction};
+pub use outcome::{Competitor, Estimate, Explanation, NewRows, Outcome, Prediction};
 pub use places::{Distinct, PlacedFrame, Places};
 pub use policy::Policy;
 pub use problem::Problem;

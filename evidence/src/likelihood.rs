@@ -70,6 +70,18 @@ pub(crate) struct Posterior {
     pub variance: f64,
 }
 
+/// A family behind an active set.
+struct Axes {
+    /// Its energy along each axis.
+    values: Vec<f64>,
+    /// Square of the residual's product with each axis.
+    squares: Vec<f64>,
+    /// The largest energy; none where the active set absorbs the family.
+    largest: Option<f64>,
+    /// Its energy before anything is taken out.
+    total: f64,
+}
+
 /// What a family gains beside an active set, and at which variance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Gain {
@@ -186,16 +198,26 @@ impl View<'_> {
 
     /// Gain of a family from its columns projected by the active set (L⁻¹ X′z of each).
     fn gain<'b>(&self, solved: &Solved, family: usize, projected: impl Fn(usize) -> &'b [f64]) -> Gain {
+        let axes = self.axes(solved, family, projected);
+        match axes.largest {
+            Some(largest) => best_variance(&axes.values, &axes.squares, largest, solved.rest, self.freedom),
+            None => ABSORBED,
+        }
+    }
+
+    /// What is left of a family behind an active set, in its own axes.
+    fn axes<'b>(&self, solved: &Solved, family: usize, projected: impl Fn(usize) -> &'b [f64]) -> Axes {
         let Scaled { columns, deviations, .. } = &self.families[family];
         let products = &self.gram.products;
         let size = columns.len();
         let mut block = vec![0.0; size * size];
         let mut along = vec![0.0; size];
-        let mut energy: f64 = 0.0;
+        let (mut energy, mut total): (f64, f64) = (0.0, 0.0);
         for i in 0..size {
             let (own, with) = (projected(i), column(products, columns[i]));
             along[i] = deviations[i] * (with[0] - dot(own, &solved.forward));
-            energy = energy.max(with[columns[i]] * deviations[i] * deviations[i]);
+            let whole = with[columns[i]] * deviations[i] * deviations[i];
+            (energy, total) = (energy.max(whole), total + whole);
             for j in 0..=i {
                 let left = with[columns[j]] - dot(own, projected(j));
                 let value = left * deviations[i] * deviations[j];
@@ -204,14 +226,35 @@ impl View<'_> {
         }
         let mut values = spectrum(&mut block, &mut along);
         let largest = values.iter().copied().fold(0.0, f64::max);
-        if largest <= self.policy.absorbed * energy || largest.is_nan() {
-            return ABSORBED;
-        }
         for (value, along) in values.iter_mut().zip(&mut along) {
             *along = if *value > self.policy.rounding * energy { *along * *along } else { 0.0 };
             *value = value.max(0.0);
         }
-        best_variance(&values, &along, largest, solved.rest, self.freedom)
+        let largest = (largest > self.policy.absorbed * energy).then_some(largest);
+        Axes { values, squares: along, largest, total }
+    }
+
+    /// Mean square of a family's effect at which its gain would be expected to reach so many nats beside an active
+    /// set. None where the others absorb it.
+    pub fn needed(&self, active: &[(usize, f64)], family: usize, nats: f64) -> Option<f64> {
+        let solved = self.solve(active)?;
+        let columns = &self.families[family].columns;
+        let mut projected = Mat::from_fn(solved.columns.len(), columns.len(), |row, at| {
+            solved.deviations[row] * self.gram.products[(solved.columns[row], columns[at])]
+        });
+        solve_lower(solved.factor.as_ref(), projected.as_mut());
+        let axes = self.axes(&solved, family, |at| column(&projected, at));
+        let largest = axes.largest?;
+        let expected = |variance: f64| {
+            let signal: f64 = axes.values.iter().map(|value| variance * value).sum();
+            let log_det: f64 = axes.values.iter().map(|value| (variance * value).ln_1p()).sum();
+            self.freedom / 2.0 * (signal / self.freedom).ln_1p() - log_det / 2.0
+        };
+        let (from, to, step) = SCALES;
+        let steps = ((to - from) / step).round() as usize;
+        let variances = (0..=steps).map(|index| 10f64.powf(from + step * index as f64) / largest);
+        let enough = variances.into_iter().find(|&variance| expected(variance) >= nats)?;
+        Some(enough * axes.total / (self.freedom + self.declared as f64) * solved.rest / self.freedom)
     }
 
     /// Mean and covariance of all coefficients of an active set.

@@ -48,6 +48,23 @@ pub struct Competitor {
     pub steps: Vec<Step>,
 }
 
+/// Why a hypothesis is or is not told.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Explanation {
+    /// Number of its family.
+    pub family: usize,
+    /// Whether it is part of the explanation that is told.
+    pub told: bool,
+    /// Gain of log evidence beside the others that are told, nats. Minus infinity where they absorb it.
+    pub gain: f64,
+    /// Price, nats.
+    pub price: f64,
+    /// RMS of the effect that the data show, in the unit of the residual.
+    pub shows: f64,
+    /// RMS of the effect that would be named, in the unit of the residual; none where the others absorb it.
+    pub needs: Option<f64>,
+}
+
 /// New rows at which a prediction is asked for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NewRows {
@@ -187,6 +204,33 @@ impl<'a> Outcome<'a> {
                 steps: self.steps().iter().filter(|step| step.family == family).copied().collect(),
             })
             .collect()
+    }
+
+    /// Why one hypothesis is or is not told. None for a number that is no family's.
+    #[must_use]
+    pub fn explain(&self, family: usize) -> Option<Explanation> {
+        let bench = &self.run.bench;
+        let price = self.families().get(family)?.price;
+        let mut active: Vec<(usize, f64)> =
+            self.told.active.iter().copied().filter(|&(own, _)| own != family).collect();
+        let view = bench.view(self.told.state);
+        let gain = view.one(&active, family);
+        let unit = bench.scaling.unit;
+        let needs = view.needed(&active, family, price + bench.policy.name_margin);
+        let mut shows = 0.0;
+        if gain.nats.is_finite() {
+            active.push((family, gain.variance));
+            shows = bench.shown(&active, self.told.state).unwrap_or(0.0);
+        }
+        let needs = needs.map(|square| unit * square.sqrt());
+        Some(Explanation {
+            family,
+            told: self.told.has(family),
+            gain: gain.nats,
+            price,
+            shows: unit * shows,
+            needs,
+        })
     }
 
     /// The declared errors, averaged over what competes. None where the products cannot be factored.

@@ -35,8 +35,9 @@ impl<'a> Run<'a> {
         problem: &'a Problem,
         policy: &'a Policy,
         chain: Option<&'a dyn Linearise>,
+        lets: &dyn Fn(&Family) -> bool,
     ) -> Result<Self, Error> {
-        let bench = Bench::new(problem, policy)?;
+        let bench = Bench::new(problem, policy, lets)?;
         Ok(Self {
             bench,
             chain,

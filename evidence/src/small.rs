@@ -139,6 +139,21 @@ impl<'a> Small<'a> {
     }
 }
 
+impl Bench<'_> {
+    /// RMS of the last family's effect at the posterior mean, without weights.
+    pub fn shown(&self, active: &[(usize, f64)], state: State) -> Option<f64> {
+        let posterior = self.view(state).posterior(active)?;
+        let own = self.scaled[active.last()?.0].columns.len();
+        let first = posterior.columns.len() - own;
+        let columns =
+            self.table.some(&self.points[state.point], &posterior.columns[first..], self.problem.rows.count);
+        let value =
+            |row: usize| (0..own).map(|at| columns[(row, at)] * posterior.mean[first + at]).sum::<f64>();
+        let squares: f64 = (0..columns.nrows()).map(|row| value(row).powi(2)).sum();
+        Some((squares / columns.nrows() as f64).sqrt())
+    }
+}
+
 /// Columns after whitening.
 pub(crate) fn whitened(
     columns: &Mat<f64>,

@@ -4,7 +4,7 @@
 mod simulated;
 
 use evidence::families::{Driver, Law};
-use evidence::{Error, Policy, Problem, contest};
+use evidence::{Error, Policy, Problem, contest, contest_among};
 use simulated::{Plan, problem};
 
 fn named(problem: &Problem) -> Vec<(String, Law, Driver)> {
@@ -68,6 +68,33 @@ fn the_outcome_is_the_same_twice_and_its_shares_are_whole() {
         let last = competitor.steps.last();
         assert!(!told.contains(&competitor.family) || last.is_some(), "what is told came at some step");
     }
+}
+
+#[test]
+fn what_is_not_told_is_explained_by_the_size_that_it_would_need() {
+    let problem = problem(&Plan { amplitude: 3.0, order: 3.0, ..Plan::default() });
+    let policy = Policy::default();
+    let outcome = contest(&problem, &policy, None).unwrap();
+    let find =
+        |name: &str| (0..outcome.families().len()).find(|&family| outcome.name(family) == name).unwrap();
+    let told = outcome.explain(find("harmonic 3|azimuth|base.Rz")).unwrap();
+    assert!(told.told && told.gain > told.price && told.shows > told.needs.unwrap(), "{told:?}");
+    let other = outcome.explain(find("harmonic 5|azimuth|base.Rz")).unwrap();
+    assert!(!other.told && other.gain < other.price && other.shows < other.needs.unwrap(), "{other:?}");
+    // The declared index of azimuth is a constant there.
+    let absorbed = outcome.explain(find("constant||base.Rz")).unwrap();
+    assert!(absorbed.needs.is_none() && absorbed.gain == f64::NEG_INFINITY, "{absorbed:?}");
+    assert!(outcome.explain(usize::MAX).is_none());
+}
+
+#[test]
+fn only_what_a_caller_lets_compete_is_told() {
+    let problem = problem(&Plan { amplitude: 3.0, order: 3.0, ..Plan::default() });
+    let policy = Policy::default();
+    let harmonics = |family: &evidence::families::Family| matches!(family.law, Law::Harmonic(1));
+    let outcome = contest_among(&problem, &policy, None, &harmonics).unwrap();
+    assert!(outcome.families().iter().all(|family| harmonics(family) || family.is_noise()));
+    assert!(outcome.findings().iter().all(|found| !found.named));
 }
 
 #[test]

@@ -18,6 +18,7 @@ fn no_two_modules_beside_each_other_need_each_other() {
         "model-macros/src",
         "codegen/src",
         "calibration/src",
+        "evidence/src",
         "cli/src",
         "benches/src",
         "fuzz/src",

@@ -13,6 +13,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("trueaxis-codegen", &["trueaxis-core"]),
     ("trueaxis-macros", &["trueaxis-core", "trueaxis-codegen"]),
     ("trueaxis-calibration", &["trueaxis-core", "trueaxis-codegen"]),
+    ("trueaxis-evidence", &[]),
     ("trueaxis", &["trueaxis-core", "trueaxis-macros", "trueaxis-codegen", "trueaxis-calibration"]),
     ("trueaxis-cli", &["trueaxis-core", "trueaxis-codegen", "trueaxis-calibration"]),
 ];

@@ -9,6 +9,7 @@ const REGISTRIES: &[&str] = &[
     "codegen/src/backends",
     "calibration/src/effects",
     "calibration/src/formats",
+    "evidence/src/families",
 ];
 
 #[test]

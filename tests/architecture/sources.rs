@@ -32,7 +32,7 @@ pub fn below(folder: &str) -> Vec<SourceFile> {
 
 /// The sources of every library crate: everything but the command, benchmarks and tests.
 pub fn libraries() -> Vec<SourceFile> {
-    ["src", "model-core/src", "model-macros/src", "codegen/src", "calibration/src"]
+    ["src", "model-core/src", "model-macros/src", "codegen/src", "calibration/src", "evidence/src"]
         .into_iter()
         .flat_map(below)
         .collect()

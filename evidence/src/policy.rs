@@ -99,6 +99,12 @@ policy! {
     few_joints = 3.0, "all families of a six-joint arm would be 50,000 columns";
     /// Shortest distance from 0 and half a turn at which cot of a joint is offered, rad.
     cot_margin = 0.1, "prototype of the directions";
+    /// Rows below which tails and uneven variance are not looked for.
+    rows_for_weights = 16.0, "prototype: below, the weights follow single rows";
+    /// Rows below which memory, wandering and set-ups along the order are not looked for.
+    rows_for_order = 20.0, "prototype: below, a random walk has fewer than four steps";
+    /// Fewest rows of a set-up that is found without a label.
+    rows_of_setup = 3.0, "two tilts of a stretch need two rows of two components, and one to judge them by";
     /// Cost of leaving Gaussian tails, nats.
     price_tails = 3.0, "prototype: t3 0 of 100 false, white 0 of 100";
     /// Gain beyond the number of its features at which a variance model is used, nats.

@@ -1,14 +1,11 @@
 //! The noise around an explanation: weights of its residual, and the memory that it leaves.
 
 use crate::bench::{Bench, State};
-use crate::families::FEWEST_ROWS;
 use crate::likelihood::Active;
 use crate::noise::tails::Tails;
 use crate::noise::{Memory, Noise};
 use crate::small::Small;
 
-/// Fewest rows that can show tails or an uneven variance.
-const FEWEST: usize = 16;
 /// Rounds of variance and tails; each changes the other less.
 const ROUNDS: usize = 6;
 /// Largest change of a weight's logarithm at which the rounds end.
@@ -43,7 +40,7 @@ impl Bench<'_> {
     pub fn noise_of(&self, active: &Active, point: usize) -> Noise {
         let (rows, components) = (self.problem.rows.count, self.problem.components);
         let mut noise = Noise::even(self.problem.values());
-        if rows < FEWEST {
+        if (rows as f64) < self.policy.rows_for_weights {
             return noise;
         }
         let small = Small::of(self, active, point);
@@ -81,7 +78,7 @@ impl Bench<'_> {
 
     /// The memory that an active set leaves, where it gains enough.
     pub fn memory_of(&self, active: &Active, noise: usize, point: usize) -> Option<Memory> {
-        if !self.problem.rows.in_order || self.problem.rows.count < FEWEST_ROWS {
+        if !self.problem.rows.in_order || (self.problem.rows.count as f64) < self.policy.rows_for_order {
             return None;
         }
         let (without, grid) = Small::of(self, active, point).memories(&self.noises[noise]);

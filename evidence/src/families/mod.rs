@@ -10,7 +10,6 @@ mod simple;
 mod smooth;
 mod surface;
 
-pub(crate) use order::FEWEST_ROWS;
 pub(crate) use session::add as add_setups;
 
 use crate::function::{Function, Wave};

@@ -3,11 +3,8 @@
 use super::{Class, Dictionary, Driver, Family, Law, Setting, Where};
 use crate::function::Function;
 
-/// Fewest rows that can show a wandering.
-pub(crate) const FEWEST_ROWS: usize = 20;
-
 pub(super) fn offer(setting: &Setting, dictionary: &mut Dictionary) {
-    if !setting.rows.in_order || setting.rows.count < FEWEST_ROWS {
+    if !setting.rows.in_order || (setting.rows.count as f64) < setting.policy.rows_for_order {
         return;
     }
     let steps = (setting.rows.count / 6).clamp(4, 32);

@@ -7,7 +7,7 @@ use faer::Mat;
 
 use crate::algebra::{cholesky, dot, solve_lower};
 use crate::bench::Bench;
-use crate::families::{FEWEST_ROWS, Law, Where, add_setups};
+use crate::families::{Law, Where, add_setups};
 use crate::function::Function;
 
 pub(crate) use sums::Cuts;
@@ -17,7 +17,10 @@ impl Bench<'_> {
     /// Cuts of the order into stretches, and how much they gain; none where one stretch explains the rows as well.
     pub(crate) fn cuts(&self, noise: usize, point: usize) -> Option<Cuts> {
         let rows = self.problem.rows.count;
-        if !self.problem.rows.in_order || rows < FEWEST_ROWS || self.problem.rows.labels.is_some() {
+        if !self.problem.rows.in_order
+            || (rows as f64) < self.policy.rows_for_order
+            || self.problem.rows.labels.is_some()
+        {
             return None;
         }
         let pair = self.places.frames.iter().find_map(|frame| frame.tilts)?;

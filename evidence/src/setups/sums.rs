@@ -11,8 +11,6 @@ use crate::policy::Policy;
 /// Variances of a stretch's tilts over the noise that the first cuts try, and those that judge a set of cuts.
 const FIRST: [f64; 4] = [1.0, 4.0, 16.0, 64.0];
 const JUDGED: [f64; 3] = [2.0, 16.0, 64.0];
-/// Fewest rows of a stretch.
-const SHORTEST: usize = 3;
 /// Nodes along the order that the first cuts may take, and places at which one more cut is tried.
 const NODES: usize = 250;
 const TRIED: usize = 66;
@@ -46,7 +44,7 @@ impl Sums {
     ///
     /// Source: Bellman (1961), On the approximation of curves by line segments using dynamic programming.
     pub fn first(&self, residual: &[[f64; 2]], variance: f64, policy: &Policy) -> Option<(f64, Cuts)> {
-        let step = self.rows.div_ceil(NODES);
+        let (step, shortest) = (self.rows.div_ceil(NODES), policy.rows_of_setup as usize);
         let mut nodes: Vec<usize> = (0..self.rows).step_by(step).collect();
         nodes.push(self.rows);
         let change = (self.rows as f64).ln();
@@ -56,7 +54,7 @@ impl Sums {
             reached[0].0 = change;
             for end in 1..nodes.len() {
                 for start in 0..end {
-                    if nodes[end] - nodes[start] < SHORTEST || !reached[start].0.is_finite() {
+                    if nodes[end] - nodes[start] < shortest || !reached[start].0.is_finite() {
                         continue;
                     }
                     let score = reached[start].0 - change
@@ -100,7 +98,7 @@ impl Sums {
         // Each round gains; the bound is only for the time it takes.
         for _ in 0..2 * policy.most_setups as usize {
             let mut best = (score + policy.move_cut, None);
-            for moved in self.moves(&cuts) {
+            for moved in self.moves(&cuts, policy) {
                 let tried = self.score(&moved, policy);
                 if tried > best.0 && (moved.len() as f64) < policy.most_setups {
                     best = (tried, Some(moved));
@@ -113,12 +111,12 @@ impl Sums {
     }
 
     /// Cuts with one more, one less, or one moved by a few rows.
-    fn moves(&self, cuts: &Cuts) -> Vec<Cuts> {
+    fn moves(&self, cuts: &Cuts, policy: &Policy) -> Vec<Cuts> {
         let mut moves = Vec::new();
-        let step = (self.rows / TRIED).max(1);
+        let (step, shortest) = ((self.rows / TRIED).max(1), policy.rows_of_setup as usize);
         let ends: Vec<usize> = std::iter::once(0).chain(cuts.iter().copied()).chain([self.rows]).collect();
         for pair in ends.windows(2) {
-            for cut in (pair[0] + SHORTEST..(pair[1] + 1).saturating_sub(SHORTEST)).step_by(step) {
+            for cut in (pair[0] + shortest..(pair[1] + 1).saturating_sub(shortest)).step_by(step) {
                 let mut more = cuts.clone();
                 more.push(cut);
                 more.sort_unstable();

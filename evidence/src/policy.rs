@@ -103,7 +103,7 @@ policy! {
     rows_for_weights = 16.0, "prototype: below, the weights follow single rows";
     /// Rows below which memory, wandering and set-ups along the order are not looked for.
     rows_for_order = 20.0, "prototype: below, a random walk has fewer than four steps";
-    /// Fewest rows of a set-up that is found without a label.
+    /// Fewest rows of a set-up that is found without a label, and fewest rows a label has in the mean.
     rows_of_setup = 3.0, "two tilts of a stretch need two rows of two components, and one to judge them by";
     /// Cost of leaving Gaussian tails, nats.
     price_tails = 3.0, "prototype: t3 0 of 100 false, white 0 of 100";

@@ -128,6 +128,11 @@ fn few_rows_and_useless_columns_are_judged_or_refused_in_words() {
     let outcome = contest(&zero, &policy, None).unwrap();
     let estimates = outcome.declared().unwrap();
     assert!(!estimates[0].determined && estimates[1].determined);
+    let mut labelled = problem(&Plan::default());
+    labelled.rows.labels = Some((0..labelled.rows.count).map(|row| usize::MAX - row).collect());
+    labelled.declared[0].name = "\u{202e}\0 | name".repeat(1000);
+    let families = contest(&labelled, &policy, None).unwrap().families().to_vec();
+    assert!(families.iter().all(|family| family.law != Law::Sessions));
     let mut bare = problem(&Plan::default());
     (bare.declared, bare.places, bare.frames) = (Vec::new(), Vec::new(), Vec::new());
     assert!(contest(&bare, &policy, None).unwrap().findings().is_empty());

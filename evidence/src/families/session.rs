@@ -9,6 +9,10 @@ pub(super) fn offer(setting: &Setting, dictionary: &mut Dictionary) {
     let mut levels = labels.clone();
     levels.sort_unstable();
     levels.dedup();
+    // Labels that hardly repeat name rows, not set-ups: nothing would be left to judge an offset of each by.
+    if levels.len() as f64 * setting.policy.rows_of_setup > setting.rows.count as f64 {
+        return;
+    }
     let functions: Vec<Function> = levels.into_iter().map(Function::Label).collect();
     let places: Vec<(Where, Vec<usize>)> = noise_places(setting)
         .into_iter()

@@ -124,7 +124,7 @@ policy! {
     /// Second-order remainder at which the chain is linearised anew, in standard deviations of the noise.
     relinearise = 0.1, "validation of the prototype, change 5";
     /// Margin at which place and driver are named, nats.
-    name_margin = 0.5, "about 1 percent false; 10 of 11 told at SNR .3, 7 of 11 at 1.5 (prototype)";
+    name_margin = 0.5, "examples/evaluate, seeds from 1000 and 50000 on: 5 of 482 null cases false, 46 of 48 effects told at SNR .3; at 1.5 nats 4 and 43, at 3 nats 0 and 41";
     /// Distance from the best within which an explanation stands in the set, nats.
     set_width = 3.0, "truth in the set 38 of 38 at SNR 1 and 3 (prototype)";
     /// Degrees of freedom below which Student's t replaces the normal quantile.

@@ -16,6 +16,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("trueaxis-proof", &["trueaxis-core", "trueaxis-claims"]),
     ("trueaxis-codegen", &["trueaxis-core"]),
     ("trueaxis-macros", &["trueaxis-core", "trueaxis-codegen"]),
+    ("trueaxis-evidence", &[]),
     ("trueaxis-parallel", &[]),
     ("trueaxis-tables", &["trueaxis-core", "trueaxis-parallel"]),
     ("trueaxis-observe", &["trueaxis-core", "trueaxis-codegen", "trueaxis-parallel", "trueaxis-tables"]),

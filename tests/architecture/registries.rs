@@ -9,6 +9,8 @@ const REGISTRIES: &[&str] = &[
     "codegen/src/backends",
     "effects/src/families",
     "tables/src/formats",
+    "calibration/src/misread/hypotheses",
+    "evidence/src/families",
 ];
 
 #[test]

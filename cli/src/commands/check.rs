@@ -36,8 +36,8 @@ pub struct Arguments {
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let is_certified = arguments.certificate.is_wanted()?;
-    let file = ClaimsFile::read(&arguments.claims)?;
-    let checked = checked(&file)?;
+    let file = ClaimsFile::read_all(&arguments.claims)?;
+    let (checked, undecided) = file.said.check();
     let output = match arguments.format {
         TextOrJson::Text => as_text(&file.said, &checked, &claims_file::paint()),
         TextOrJson::Json => {

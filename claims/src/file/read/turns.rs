@@ -54,6 +54,7 @@ impl Reader<'_> {
             name: format!("{}: {entries}", claim.name.get_ref()),
             place: claim.name.span(),
             claim: read,
+            otherwise: None,
             texts: vec![(*text).to_owned()],
             is_plain: false,
         };

@@ -34,7 +34,11 @@ impl ClaimsFile {
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let file = Self::read_all(path)?;
         let mistakes = file.said.mistakes();
-        if mistakes.is_empty() { Ok(file) } else { Err(file.source.mistakes(&Mistakes::locate(&file.source.text, mistakes))) }
+        if mistakes.is_empty() {
+            Ok(file)
+        } else {
+            Err(file.source.mistakes(&Mistakes::locate(&file.source.text, mistakes)))
+        }
     }
 
     /// The same where what cannot be read voids nothing but its own claim.
@@ -45,8 +49,21 @@ impl ClaimsFile {
         let source = Source::read(path)?;
         let file: File = source.toml()?;
         let declaration = Self::declaration(&source, &file)?;
+        Self::of_file(source, declaration, &file)
+    }
+
+    /// The claims of a text about a declaration.
+    ///
+    /// # Errors
+    /// The text is no claims file, or the declaration is none.
+    pub fn of_source(source: Source, declaration: Source) -> Result<Self, Failure> {
+        let file: File = source.toml()?;
+        Self::of_file(source, declaration, &file)
+    }
+
+    fn of_file(source: Source, declaration: Source, file: &File) -> Result<Self, Failure> {
         let chain = declaration.symbolic_chain()?;
-        let said = Claims::read(&source.text, &file, &chain, &Units);
+        let said = Claims::read(&source.text, file, &chain, &Units);
         Ok(Self { source, declaration, said })
     }
 

@@ -1,6 +1,7 @@
 //! The symbols that a formula prints, as far as they can be told without a table.
 
 use super::glyph::{self, Glyph};
+use super::layout;
 use super::token::{self, Kind};
 
 /// Every symbol of a formula in one normal form, in the order in which they stand; Δ, δ and d belong to the letter behind them.
@@ -51,4 +52,40 @@ fn without_power(glyph: Glyph) -> Glyph {
     let is_power = glyph.upper.parse::<i32>().is_ok_and(|power| !(0..=1).contains(&power))
         || super::lookup::After::of(&glyph.upper).is_some();
     if is_power { Glyph { upper: String::new(), ..glyph } } else { glyph }
+}
+
+/// The equations of a display as texts: a row each, with the rows that go on.
+#[must_use]
+pub fn rows_of(text: &str) -> Vec<String> {
+    let whole = || vec![text.to_owned()];
+    let Ok(tokens) = token::tokens(text) else { return whole() };
+    let Ok(rows) = layout::rows(text, tokens, false) else { return whole() };
+    let mut found = Vec::new();
+    for row in rows {
+        let places = row.name.iter().chain(&row.formula).map(|token| token.place.clone());
+        let Some(place) = places.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)) else { continue };
+        let Some(written) = text.get(place) else { continue };
+        found.push(written.trim().to_owned());
+    }
+    if found.is_empty() { whole() } else { found }
+}
+
+/// The name and the formula of `name = formula`, if the name is one symbol.
+#[must_use]
+pub fn definition_of(text: &str) -> Option<(String, String)> {
+    let tokens = token::tokens(text).ok()?;
+    let rows = layout::rows(text, tokens, false).ok()?;
+    let [row] = rows.as_slice() else { return None };
+    let mut glyphs = Vec::new();
+    let mut at = 0;
+    while at < row.name.len() {
+        let read = glyph::read(&row.name[at..]).ok()??;
+        at += read.tokens;
+        glyphs.push(read.glyph);
+    }
+    if glyphs.is_empty() || glyphs.len() > 3 {
+        return None;
+    }
+    let place = row.formula.first()?.place.start..row.end.start;
+    Some((glyph::normal_text(&glyphs), text.get(place)?.trim().to_owned()))
 }

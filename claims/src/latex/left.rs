@@ -19,7 +19,8 @@ pub(super) fn marked(tokens: Vec<Token>) -> Vec<Token> {
             continue;
         }
         if token.kind == Kind::Mark('{')
-            && kind(1).is_some_and(|kind| matches!(kind, Kind::Word(_) | Kind::Command(_)) && glyph::starts(kind))
+            && kind(1)
+                .is_some_and(|kind| matches!(kind, Kind::Word(_) | Kind::Command(_)) && glyph::starts(kind))
             && kind(2) == Some(&Kind::Mark('}'))
             && marked.last().is_none_or(|last| !takes_group(&last.kind))
         {

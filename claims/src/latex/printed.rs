@@ -203,6 +203,12 @@ impl PrintedSymbols {
         symbol_key(text).is_ok_and(|key| self.entries.contains_key(&key))
     }
 
+    /// Whether a text is one known symbol.
+    #[must_use]
+    pub fn knows_symbol(&self, text: &str) -> bool {
+        symbol_key(text).is_ok_and(|key| self.entry(&key.glyphs, &key.arguments).is_some())
+    }
+
     /// Whether a name is declared.
     pub(crate) fn declares(&self, name: &str) -> bool {
         self.names.contains_key(name)

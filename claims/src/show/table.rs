@@ -52,8 +52,12 @@ pub fn lines(file: &Claims, checked: &[Checked<'_>], undecided: &[Unread]) -> Ve
             let help = mistake.help.as_ref().map_or(String::new(), |help| format!("; {help}"));
             vec![Piece::Words(format!("{}{help}", mistake.message))]
         });
-        let line =
-            Line { name: one.name.clone(), equation: Vec::new(), verdict: "unread", remarks: remarks.collect() };
+        let line = Line {
+            name: one.name.clone(),
+            equation: Vec::new(),
+            verdict: "unread",
+            remarks: remarks.collect(),
+        };
         lines.push((one.place.start, line));
     }
     lines.sort_by_key(|(place, _)| *place);
@@ -92,11 +96,14 @@ pub fn of_claim(file: &Claims, Checked { claim, verdict }: &Checked<'_>) -> Line
                 remarks.push(vec![words(slip.describe(&file.chain, claimed.observable))]);
             }
             if claimed.printed.truncated && form.differences.is_empty() {
-                remarks.push(vec![words("compared to the claimed order; the print has terms beyond".to_owned())]);
+                remarks.push(vec![words(
+                    "compared to the claimed order; the print has terms beyond".to_owned(),
+                )]);
             }
         }
         (Verdict::Equality(equality), _) if !equality.difference.is_zero() => {
-            remarks.push(vec![words("the first less the second is ".to_owned()), latex(&equality.difference)]);
+            remarks
+                .push(vec![words("the first less the second is ".to_owned()), latex(&equality.difference)]);
         }
         (Verdict::Entries(entries), _) => {
             for difference in &entries.differences {
@@ -133,12 +140,26 @@ fn bare(text: &str) -> String {
     let text = text.trim().trim_matches('`').trim_matches('$').trim();
     let text = text.strip_prefix(r"\[").and_then(|inside| inside.strip_suffix(r"\]")).unwrap_or(text);
     let mut text = text.trim().to_owned();
-    for name in ["equation", "equation*", "align", "align*", "displaymath", "gather", "gather*", "eqnarray", "eqnarray*"] {
+    for name in [
+        "equation",
+        "equation*",
+        "align",
+        "align*",
+        "displaymath",
+        "gather",
+        "gather*",
+        "eqnarray",
+        "eqnarray*",
+    ] {
         let (begin, end) = (format!(r"\begin{{{name}}}"), format!(r"\end{{{name}}}"));
         if let Some(inside) = text.strip_prefix(&begin).and_then(|rest| rest.strip_suffix(&end)) {
             let inside = inside.trim();
             let is_aligned = inside.contains('&');
-            text = if is_aligned { format!(r"\begin{{aligned}}{inside}\end{{aligned}}") } else { inside.to_owned() };
+            text = if is_aligned {
+                format!(r"\begin{{aligned}}{inside}\end{{aligned}}")
+            } else {
+                inside.to_owned()
+            };
         }
     }
     text
@@ -157,7 +178,8 @@ pub fn as_table(title: &str, lines: &[Line], format: Format) -> String {
 }
 
 fn markdown(title: &str, lines: &[Line], total: &str) -> String {
-    let words = |text: &str| text.replace('\\', r"\\").replace('|', r"\|").replace('<', "&lt;").replace('\n', " ");
+    let words =
+        |text: &str| text.replace('\\', r"\\").replace('|', r"\|").replace('<', "&lt;").replace('\n', " ");
     let cell = |pieces: &[Piece]| -> String {
         let written = pieces.iter().map(|piece| match piece {
             Piece::Words(text) => words(text),
@@ -166,7 +188,8 @@ fn markdown(title: &str, lines: &[Line], total: &str) -> String {
         });
         written.collect()
     };
-    let mut out = format!("# {}\n\n| claim | equation | verdict | what differs |\n|---|---|---|---|\n", words(title));
+    let mut out =
+        format!("# {}\n\n| claim | equation | verdict | what differs |\n|---|---|---|---|\n", words(title));
     for line in lines {
         let remarks: Vec<String> = line.remarks.iter().map(|remark| cell(remark)).collect();
         let _ = writeln!(

@@ -193,10 +193,5 @@ fn formulas_are_compared_without_a_chain() {
         "+ \\cos",
         "- \\cos",
     );
-    holds_until(
-        "",
-        "[[claim]]\nname = \"a\"\nequal = ['x*tan(b)', 'x*sin(b)/cos(b)']\n",
-        "tan",
-        "cot",
-    );
+    holds_until("", "[[claim]]\nname = \"a\"\nequal = ['x*tan(b)', 'x*sin(b)/cos(b)']\n", "tan", "cot");
 }

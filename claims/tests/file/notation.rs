@@ -73,18 +73,19 @@ const TRUE: &[&str] = &[
 
 #[test]
 fn every_notation_of_a_true_formula_holds() {
-    let wrong: Vec<(&&str, String)> = TRUE
-        .iter()
-        .map(|text| (text, of_scanner("p", text)))
-        .filter(|(_, said)| said != "holds")
-        .collect();
+    let wrong: Vec<(&&str, String)> =
+        TRUE.iter().map(|text| (text, of_scanner("p", text))).filter(|(_, said)| said != "holds").collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
 #[test]
 fn a_slip_in_any_notation_is_no_truth() {
     for text in TRUE {
-        for (from, to) in [(r"\mathbf{r}", r"2\mathbf{r}"), (r"+ \vec{a}", r"- \vec{a}"), (r"\omega_x\rho", r"\omega_z\rho")] {
+        for (from, to) in [
+            (r"\mathbf{r}", r"2\mathbf{r}"),
+            (r"+ \vec{a}", r"- \vec{a}"),
+            (r"\omega_x\rho", r"\omega_z\rho"),
+        ] {
             let changed = text.replacen(from, to, 1);
             if changed != **text {
                 assert_ne!(of_scanner("p", &changed), "holds", "{changed}");
@@ -101,7 +102,9 @@ fn how_a_body_is_turned_is_read_as_matrix_or_quaternion() {
         r"(\mathbf{I} + [\vec\omega]_\times)(\mathbf{I} + [\vec\omega]_\times)(\mathbf{I} - [\vec\omega]_\times)",
         r"e^{[\vec\omega]_\times}",
     ] {
-        let file = format!("{SYMBOLS}\n[[claim]]\nname = \"a\"\nobservable = \"o\"\nkeep = ['w*']\ncomponents = '''{text}'''\n");
+        let file = format!(
+            "{SYMBOLS}\n[[claim]]\nname = \"a\"\nobservable = \"o\"\nkeep = ['w*']\ncomponents = '''{text}'''\n"
+        );
         let found = verdicts(SCANNER, &file);
         assert!(found.len() == 5 && found.iter().all(|(_, said)| said == "holds"), "{text}: {found:?}");
     }
@@ -118,7 +121,9 @@ fn how_a_body_is_turned_is_read_as_matrix_or_quaternion() {
 #[test]
 fn sums_are_written_out() {
     let claim = |text: &str| {
-        format!("{SYMBOLS}\n[[claim]]\nname = \"a\"\nobservable = \"o\"\nkeep = ['e*']\ncomponents = ['{text}', '0', '0']\n")
+        format!(
+            "{SYMBOLS}\n[[claim]]\nname = \"a\"\nobservable = \"o\"\nkeep = ['e*']\ncomponents = ['{text}', '0', '0']\n"
+        )
     };
     for text in [
         r"\sum_{k=1}^{3} e_k \cos(k\alpha)",
@@ -181,7 +186,9 @@ const POLAR: &str = "chain Eq {
 
 #[test]
 fn lines_of_programs_are_formulas() {
-    let file = |components: &str| format!("chain = \"p\"\n[[claim]]\nname = \"a\"\nobservable = 'sky'\ncomponents = {components}\n");
+    let file = |components: &str| {
+        format!("chain = \"p\"\n[[claim]]\nname = \"a\"\nobservable = 'sky'\ncomponents = {components}\n")
+    };
     for components in [
         "['+MA*cos(h)*tan(delta) + ME*sin(h)*tan(delta) + IH + NP*tan(delta) + CH/cos(delta)','-MA*sin(h) + ME*cos(h) + ID']",
         "['+MA*np.cos(h)*np.tan(delta) + ME*np.sin(h)*np.tan(delta) + IH + NP*np.tan(delta) + CH/np.cos(delta)','-MA*np.sin(h) + ME*np.cos(h) + ID']",
@@ -228,7 +235,9 @@ fn names_of_angles_are_no_components() {
 #[test]
 fn bold_letters_are_letters_of_their_own() {
     let file = |components: &str| {
-        format!("chain = \"b\"\n[symbols]\n'\\boldsymbol{{\\omega}}' = \"[wx, wy, wz]\"\n'\\omega' = \"wx\"\n'\\delta{{\\psi}}' = \"dax\"\n'\\delta\\boldsymbol{{\\theta}}' = \"[wx, wy, wz]\"\n'{{}}^0\\mathbf{{p}}' = \"[wx, wy, wz]\"\n'^{{b}}R_{{s}}' = \"[[1,0,0],[0,1,0],[0,0,1]]\"\n[[claim]]\nname = \"a\"\nobservable = \"o\"\nkeep = ['w*']\ncomponents = '''{components}'''\n")
+        format!(
+            "chain = \"b\"\n[symbols]\n'\\boldsymbol{{\\omega}}' = \"[wx, wy, wz]\"\n'\\omega' = \"wx\"\n'\\delta{{\\psi}}' = \"dax\"\n'\\delta\\boldsymbol{{\\theta}}' = \"[wx, wy, wz]\"\n'{{}}^0\\mathbf{{p}}' = \"[wx, wy, wz]\"\n'^{{b}}R_{{s}}' = \"[[1,0,0],[0,1,0],[0,0,1]]\"\n[[claim]]\nname = \"a\"\nobservable = \"o\"\nkeep = ['w*']\ncomponents = '''{components}'''\n"
+        )
     };
     for components in [
         r"\boldsymbol{\omega}",

@@ -40,7 +40,9 @@ impl Edge for Plain {
 pub fn verdicts(chain: &str, file: &str) -> Vec<(String, String)> {
     let parsed: File = toml::from_str(file).unwrap_or_else(|error| panic!("{file}: {error}"));
     let text = match &parsed.dh {
-        Some(table) => claims::file::declaration_of_dh(table.get_ref()).unwrap_or_else(|mistake| panic!("{mistake:?}")),
+        Some(table) => {
+            claims::file::declaration_of_dh(table.get_ref()).unwrap_or_else(|mistake| panic!("{mistake:?}"))
+        }
         None if chain.is_empty() => claims::file::declaration_of_formulas(&parsed),
         None => chain.to_owned(),
     };

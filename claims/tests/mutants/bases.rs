@@ -211,15 +211,51 @@ pub fn bases() -> Vec<Base> {
         base("product of small matrices", ARM, Kind::Error, small_product(), &letters),
         base("correction", ARM, Kind::Correction, corrected, &letters),
         base("tip", ARM, Kind::Shows(0), column(tip()), &joints),
-        base("tip by rotations", ARM, Kind::Shows(0), product([turn(2, q1()), sum([column([l1(), zero(), zero()]), product([turn(1, q2()), column([l2(), zero(), zero()])])])]), &joints),
+        base(
+            "tip by rotations",
+            ARM,
+            Kind::Shows(0),
+            product([
+                turn(2, q1()),
+                sum([
+                    column([l1(), zero(), zero()]),
+                    product([turn(1, q2()), column([l2(), zero(), zero()])]),
+                ]),
+            ]),
+            &joints,
+        ),
         base("tip with errors", ARM, Kind::Shows(1), sum([column(tip()), column([x, y, z])]), &letters),
         base("orientation", ARM, Kind::Frame(0, false), rotation(), &joints),
-        base("orientation with errors", ARM, Kind::Frame(1, false), product([sum([One, skew(column([tx(), ty(), zero()]))]), turn(2, sum([q1(), zero()])), sum([One, skew(column([zero(), zero(), e1()]))]), turn(1, q2()), sum([One, skew(column([zero(), e2(), zero()]))])]), &letters),
+        base(
+            "orientation with errors",
+            ARM,
+            Kind::Frame(1, false),
+            product([
+                sum([One, skew(column([tx(), ty(), zero()]))]),
+                turn(2, sum([q1(), zero()])),
+                sum([One, skew(column([zero(), zero(), e1()]))]),
+                turn(1, q2()),
+                sum([One, skew(column([zero(), e2(), zero()]))]),
+            ]),
+            &letters,
+        ),
         base("pose", ARM, Kind::Frame(0, true), homogeneous(), &joints),
         base("jacobian", ARM, Kind::Jacobian, jacobian(), &joints),
         base("image", CAMERA, Kind::Image, image(), &vec!["q_1", "X", "Y", "Z", "l_1"]),
-        base("sum of angles", "", Kind::Equal(|| cos(sum([q1(), q2()]))), double_angle(), &vec!["q_1", "q_2", "l_1"]),
-        base("quotient", "", Kind::Equal(|| over(product([l1(), sin(q1())]), cos(q1()))), over(product([l1(), sin(q1()), cos(q1())]), product([cos(q1()), cos(q1())])), &vec!["q_1", "q_2", "l_1"]),
+        base(
+            "sum of angles",
+            "",
+            Kind::Equal(|| cos(sum([q1(), q2()]))),
+            double_angle(),
+            &vec!["q_1", "q_2", "l_1"],
+        ),
+        base(
+            "quotient",
+            "",
+            Kind::Equal(|| over(product([l1(), sin(q1())]), cos(q1()))),
+            over(product([l1(), sin(q1()), cos(q1())]), product([cos(q1()), cos(q1())])),
+            &vec!["q_1", "q_2", "l_1"],
+        ),
     ]
 }
 
@@ -283,7 +319,9 @@ impl Base {
         let scaled = |s: f64| {
             let letters: BTreeMap<&str, f64> = NAMES
                 .iter()
-                .map(|(letter, name)| (*letter, if is_error(name) { s * values[letter] } else { values[letter] }))
+                .map(|(letter, name)| {
+                    (*letter, if is_error(name) { s * values[letter] } else { values[letter] })
+                })
                 .collect();
             let mut numbers = chain.nominal_values();
             for (letter, name) in NAMES {
@@ -309,20 +347,26 @@ impl Base {
         let tip = |s: f64| Some(Value(3, 1, shown("tip", &scaled(s).1)));
         let frame = |s: f64, is_homogeneous: bool| {
             let numbers = scaled(s).1;
-            let mut columns: Vec<Vec<f64>> = ["ex", "ey", "ez"].iter().map(|name| shown(name, &numbers)).collect();
+            let mut columns: Vec<Vec<f64>> =
+                ["ex", "ey", "ez"].iter().map(|name| shown(name, &numbers)).collect();
             if is_homogeneous {
                 columns.push(shown("tip", &numbers));
             }
             let width = columns.len();
-            let mut entries: Vec<f64> = (0..3).flat_map(|row| columns.iter().map(move |column| column[row])).collect();
+            let mut entries: Vec<f64> =
+                (0..3).flat_map(|row| columns.iter().map(move |column| column[row])).collect();
             if is_homogeneous {
                 entries.extend([0.0, 0.0, 0.0, 1.0]);
             }
             Some(Value(width, width, entries))
         };
         let both = |f: &dyn Fn(f64) -> Option<Value>, order: u32| {
-            let (Some((at, slope)), Some((said, said_slope))) = (first(f), first(&printed)) else { return false };
-            same(Some(at), Some(said)) && (order == 0 && same(Some(Value(1, 1, vec![0.0])), Some(flat(&said_slope))) || order > 0 && same(Some(slope), Some(said_slope)))
+            let (Some((at, slope)), Some((said, said_slope))) = (first(f), first(&printed)) else {
+                return false;
+            };
+            same(Some(at), Some(said))
+                && (order == 0 && same(Some(Value(1, 1, vec![0.0])), Some(flat(&said_slope)))
+                    || order > 0 && same(Some(slope), Some(said_slope)))
         };
         match self.kind {
             Kind::Error | Kind::Correction => {
@@ -335,9 +379,12 @@ impl Base {
                 };
                 both(&error, 1) && self.has_no_second_order(formula, &printed)
             }
-            Kind::Shows(order) => both(&tip, order) && (order == 0 || self.has_no_second_order(formula, &printed)),
+            Kind::Shows(order) => {
+                both(&tip, order) && (order == 0 || self.has_no_second_order(formula, &printed))
+            }
             Kind::Frame(order, is_homogeneous) => {
-                both(&|s| frame(s, is_homogeneous), order) && (order == 0 || self.has_no_second_order(formula, &printed))
+                both(&|s| frame(s, is_homogeneous), order)
+                    && (order == 0 || self.has_no_second_order(formula, &printed))
             }
             Kind::Jacobian => {
                 let numbers = scaled(0.0).1;
@@ -369,18 +416,23 @@ impl Base {
         if formula.latex().contains(r"_\times") {
             return true;
         }
-        let (Some(up), Some(at), Some(down)) = (printed(1.0), printed(0.0), printed(-1.0)) else { return false };
+        let (Some(up), Some(at), Some(down)) = (printed(1.0), printed(0.0), printed(-1.0)) else {
+            return false;
+        };
         let parts = up.2.iter().zip(&at.2).zip(&down.2);
         let curved = parts.map(|((up, at), down)| (up - 2.0 * at + down).abs()).fold(0.0, f64::max);
         let (Some(far), Some(near)) = (printed(2.0), printed(1.0)) else { return false };
-        let slope = far.2.iter().zip(&near.2).zip(&at.2).map(|((far, near), at)| (far - 2.0 * near + at).abs());
+        let slope =
+            far.2.iter().zip(&near.2).zip(&at.2).map(|((far, near), at)| (far - 2.0 * near + at).abs());
         curved < 1e-9 && slope.fold(0.0, f64::max) < 1e-9
     }
 }
 
 /// Whether two values are the same up to what differences of exact forms leave.
 fn same(a: Option<Value>, b: Option<Value>) -> bool {
-    let (Some(Value(rows, columns, a)), Some(Value(other_rows, other_columns, b))) = (a, b) else { return false };
+    let (Some(Value(rows, columns, a)), Some(Value(other_rows, other_columns, b))) = (a, b) else {
+        return false;
+    };
     (rows, columns) == (other_rows, other_columns)
         && a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-6 * (1.0 + a.abs()))
 }

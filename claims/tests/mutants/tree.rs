@@ -85,7 +85,12 @@ impl Tree {
                     match part {
                         Minus(inside) => text += &format!(" - {}", group(inside)),
                         part if at == 0 => text += &part.latex(),
-                        part => text += &format!(" + {}", if matches!(part, Number(n) if *n < 0) { group(part) } else { part.latex() }),
+                        part => {
+                            text += &format!(
+                                " + {}",
+                                if matches!(part, Number(n) if *n < 0) { group(part) } else { part.latex() }
+                            )
+                        }
                     }
                 }
                 if parts.is_empty() { "0".to_owned() } else { text }
@@ -185,7 +190,12 @@ impl Tree {
     fn children(&mut self) -> Vec<&mut Tree> {
         match self {
             Number(_) | Letter(_) | One => Vec::new(),
-            Sin(inside) | Cos(inside) | Minus(inside) | Turn(_, inside) | Transposed(inside) | Skew(inside) => {
+            Sin(inside)
+            | Cos(inside)
+            | Minus(inside)
+            | Turn(_, inside)
+            | Transposed(inside)
+            | Skew(inside) => {
                 vec![inside]
             }
             Over(above, below) => vec![above, below],
@@ -226,7 +236,8 @@ fn times(Value(rows, inner, a): &Value, Value(other, columns, b): &Value) -> Opt
     if inner != other {
         return None;
     }
-    let entry = |row: usize, column: usize| (0..*inner).map(|k| a[row * inner + k] * b[k * columns + column]).sum();
+    let entry =
+        |row: usize, column: usize| (0..*inner).map(|k| a[row * inner + k] * b[k * columns + column]).sum();
     let entries = (0..*rows).flat_map(|row| (0..*columns).map(move |column| entry(row, column)));
     Some(Value(*rows, *columns, entries.collect()))
 }
@@ -262,12 +273,28 @@ pub fn mutated(formula: &Tree, random: &mut Random, letters: &[&'static str]) ->
                 1 => Minus(Box::new(Letter(letter))),
                 _ => Letter(other),
             },
-            Sin(angle) => if choice == 0 { Minus(Box::new(Sin(angle))) } else { Cos(angle) },
-            Cos(angle) => if choice == 0 { Minus(Box::new(Cos(angle))) } else { Sin(angle) },
+            Sin(angle) => {
+                if choice == 0 {
+                    Minus(Box::new(Sin(angle)))
+                } else {
+                    Cos(angle)
+                }
+            }
+            Cos(angle) => {
+                if choice == 0 {
+                    Minus(Box::new(Cos(angle)))
+                } else {
+                    Sin(angle)
+                }
+            }
             Sum(mut parts) | Product(mut parts) if choice == 0 && parts.len() > 1 => {
                 let at = random.below(parts.len());
                 parts.remove(at);
-                if matches!(formula, Sum(_)) && matches!(node, Sum(_)) { Sum(parts) } else { rebuilt(node, parts) }
+                if matches!(formula, Sum(_)) && matches!(node, Sum(_)) {
+                    Sum(parts)
+                } else {
+                    rebuilt(node, parts)
+                }
             }
             Sum(mut parts) if !parts.is_empty() => {
                 let at = random.below(parts.len());
@@ -283,7 +310,13 @@ pub fn mutated(formula: &Tree, random: &mut Random, letters: &[&'static str]) ->
                 Product(parts)
             }
             Minus(inside) => *inside,
-            Over(above, below) => if choice == 0 { *above } else { Minus(Box::new(Over(above, below))) },
+            Over(above, below) => {
+                if choice == 0 {
+                    *above
+                } else {
+                    Minus(Box::new(Over(above, below)))
+                }
+            }
             Matrix(columns, mut entries) => {
                 let (a, b) = (random.below(entries.len()), random.below(entries.len()));
                 if choice == 0 {
@@ -299,7 +332,13 @@ pub fn mutated(formula: &Tree, random: &mut Random, letters: &[&'static str]) ->
                 _ => Transposed(Box::new(Turn(axis, angle))),
             },
             Transposed(inside) => *inside,
-            Skew(inside) => if choice == 0 { Transposed(Box::new(Skew(inside))) } else { Minus(Box::new(Skew(inside))) },
+            Skew(inside) => {
+                if choice == 0 {
+                    Transposed(Box::new(Skew(inside)))
+                } else {
+                    Minus(Box::new(Skew(inside)))
+                }
+            }
             One => Minus(Box::new(One)),
             unchanged => unchanged,
         };

@@ -27,6 +27,9 @@ pub struct PrintedTurn {
     pub diagonal: [Equality; 3],
 }
 
+/// Entries that slips may spoil where a matrix is still one of a small rotation.
+const MOST_MISFITS: usize = 2;
+
 impl PrintedTurn {
     /// Reads a matrix of three rows and three columns; nothing if the text is something else.
     ///
@@ -53,15 +56,16 @@ impl PrintedTurn {
             [Poly::zero(), Poly::one()].iter().position(|value| *entry == Fraction::whole(value.clone()))
         };
         let found: Vec<Option<usize>> = bare.iter().map(number).collect();
-        let is = |diagonal: usize| {
-            found.iter().enumerate().all(|(at, found)| *found == Some(if at % 4 == 0 { diagonal } else { 0 }))
+        let misfits = |diagonal: usize| {
+            let fits =
+                |(at, found): (usize, &Option<usize>)| *found == Some(if at % 4 == 0 { diagonal } else { 0 });
+            9 - found.iter().enumerate().filter(|entry| fits(*entry)).count()
         };
         // What is added to the identity has zeros where the rotation has ones.
-        let is_added = is(0);
-        if !is_added && !is(1) {
+        let is_added = misfits(0) < misfits(1);
+        if misfits(0).min(misfits(1)) > MOST_MISFITS {
             let place = entries[0].place.start..entries[8].place.end;
-            let message =
-                "without errors this matrix is neither the identity nor zero, so it is of no small rotation";
+            let message = "without errors this matrix is far from the identity and from zero, so it is of no small rotation";
             return Err(vec![in_text(
                 0,
                 Mistake::new(place, message).with_help("claim how the body stands: `frame = '…'`"),

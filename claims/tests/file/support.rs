@@ -61,6 +61,7 @@ pub fn verdicts(chain: &str, file: &str) -> Vec<(String, String)> {
 }
 
 /// The one verdict of a file with one claim.
+#[allow(dead_code, reason = "papers have many claims")]
 pub fn verdict(chain: &str, file: &str) -> String {
     let found = verdicts(chain, file);
     assert_eq!(found.len(), 1, "{found:?}");

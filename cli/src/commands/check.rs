@@ -166,6 +166,7 @@ fn certify(file: &ClaimsFile, checked: &[Checked<'_>]) -> Result<String, Failure
         Declared::from_text(&declaration.text).map_err(|mistakes| declaration.mistakes(&mistakes))?;
     let mut certificate = Certificate::new(&declared);
     for Checked { claim, verdict } in checked {
+        certificate.printed_as(&claim.texts);
         match (&claim.claim, verdict) {
             (Claim::ClosedForm(form), Verdict::ClosedForm(verdict)) => {
                 let written = certificate.closed_form(&claim.name, form, verdict);

@@ -7,4 +7,5 @@
 pub mod checker;
 pub mod file;
 pub mod latex;
+pub mod paper;
 pub mod show;

@@ -24,13 +24,8 @@ pub(super) enum Sines {
     OfAngles,
     /// Errors, too: the exact form.
     OfErrors,
-}
-
-impl Sines {
-    /// Those of an exact form, or of one to an order.
-    pub(super) fn of_form(is_exact: bool) -> Self {
-        if is_exact { Self::OfErrors } else { Self::OfAngles }
-    }
+    /// Errors, which may stand in divisors as well: what is expanded afterwards.
+    OfSeries,
 }
 
 /// What an expression over the symbols of an extended chain says.
@@ -83,7 +78,7 @@ impl Lowering<'_> {
     fn is_angle(&self, id: SymbolId) -> bool {
         let symbol = self.chain.symbol(id);
         symbol.quantity == Quantity::Angle
-            && (symbol.kind != SymbolKind::Error || self.sines == Sines::OfErrors)
+            && (symbol.kind != SymbolKind::Error || self.sines != Sines::OfAngles)
     }
 
     fn poly(&self, expression: &Written) -> Result<Poly, LowerError<Range<usize>>> {
@@ -135,7 +130,7 @@ impl Lowering<'_> {
 
     fn inverted(&self, value: &Fraction, expression: &Written) -> Result<Fraction, Refusal> {
         let is_error = |id: SymbolId| self.chain.symbol(id).kind == SymbolKind::Error;
-        if value.above.symbols().into_iter().any(is_error) {
+        if self.sines != Sines::OfSeries && value.above.symbols().into_iter().any(is_error) {
             return Err(Mistake::new(expression.place.clone(), "an error stands in a divisor")
                 .with_help("expand the quotient up to the order of the form"));
         }

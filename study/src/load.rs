@@ -75,20 +75,23 @@ impl Plan {
     /// # Errors
     /// What is wrong with a table, with its place.
     pub fn load_tables(&self, open: &mut OpenTable<'_>) -> Result<Loaded, DataError> {
-        let mut doubtful = Vec::new();
+        let (mut doubtful, mut sample) = (Vec::new(), Sample::default());
         let mut observations = self.no_observations();
         let mut groups = Numbered::default();
-        let mut sample = Sample::default();
         for source in &self.sources {
-            let sample = Some(&mut sample);
-            self.append(&mut observations, source, &source.paths, open, &mut groups, &mut doubtful, sample)?;
+            let columns = Columns::of(self, source);
+            let paths = &source.paths;
+            let mut rows = self.rows(&mut observations, source, paths, open, &columns, &mut doubtful)?;
+            sample.take(&columns, &rows);
+            self.observe(&mut observations, source, &columns, &mut rows, &mut groups)?;
         }
         let held_out = match (&self.hold_out.file, self.sources.first()) {
             // The file held out is read as the first source's files are.
             (Some(path), Some(source)) => {
                 let mut all = self.no_observations();
-                let paths = std::slice::from_ref(path);
-                self.append(&mut all, source, paths, open, &mut Numbered::default(), &mut doubtful, None)?;
+                let (paths, columns) = (std::slice::from_ref(path), Columns::of(self, source));
+                let mut rows = self.rows(&mut all, source, paths, open, &columns, &mut doubtful)?;
+                self.observe(&mut all, source, &columns, &mut rows, &mut Numbered::default())?;
                 let fitted = fitted_as_well(&all, &observations);
                 if 2 * fitted > all.rows() {
                     let (file, rows) = (path.clone(), all.rows());
@@ -109,24 +112,6 @@ impl Plan {
         Observations { in_sequence, ..Observations::default() }
     }
 
-    fn append(
-        &self,
-        all: &mut Observations,
-        source: &SourcePlan,
-        paths: &[String],
-        open: &mut OpenTable<'_>,
-        numbered: &mut Numbered,
-        doubtful: &mut Vec<BareColumn>,
-        sample: Option<&mut Sample>,
-    ) -> Result<(), DataError> {
-        let columns = Columns::of(self, source);
-        let mut rows = self.rows(all, source, paths, open, &columns, doubtful)?;
-        if let Some(sample) = sample {
-            sample.take(&columns, &rows);
-        }
-        self.observe(all, source, &columns, &mut rows, numbered)
-    }
-
     /// The rows of the files of a source, in their order.
     fn rows(
         &self,
@@ -137,14 +122,13 @@ impl Plan {
         columns: &Columns,
         doubtful: &mut Vec<BareColumn>,
     ) -> Result<Rows, DataError> {
-        let mut rows = Rows::of(columns);
+        let mut rows = Rows::of(columns, paths);
         for path in paths {
             let file = all.origins.file(path);
             rows.append((self, source), &mut *open(path, &self.format)?, file, columns, doubtful)?;
         }
-        let file = paths.join(", ");
         if rows.row_numbers.is_empty() {
-            return Err(DataError::NoRows { file });
+            return Err(DataError::NoRows { file: rows.file });
         }
         if let Some(order) = &self.order {
             // The column of the order is the last label.
@@ -152,13 +136,13 @@ impl Plan {
             if let Some((row, why)) = not_understood(&rows.labels[at]) {
                 let (line, row_number) = (rows.places.line(row), rows.number(row));
                 let why = format!("column `{order}`: `{}` {why}", clipped(&rows.labels[at][row]));
-                return Err(DataError::Impossible { file, line, row: row_number, why });
+                return Err(DataError::Impossible { file: rows.file, line, row: row_number, why });
             }
             rows.sort_by_label(at);
         }
         rows.shift(columns);
         if rows.row_numbers.is_empty() {
-            return Err(DataError::NoRows { file });
+            return Err(DataError::NoRows { file: rows.file });
         }
         Ok(rows)
     }
@@ -172,7 +156,7 @@ impl Plan {
         rows: &mut Rows,
         numbered: &mut Numbered,
     ) -> Result<(), DataError> {
-        let file = source.paths.join(", ");
+        let file = rows.file.clone();
         let converted = columns.readings.iter().filter(|(_, at)| !rows.in_si[*at]).map(|(id, _)| *id);
         all.converted.extend(converted);
         let start = all.rows();

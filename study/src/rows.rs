@@ -20,6 +20,8 @@ const BYTES_A_NUMBER: usize = 3 * size_of::<f64>();
 pub(super) struct Rows {
     pub numbers: Vec<Vec<f64>>,
     pub labels: Vec<Vec<String>>,
+    /// The files that they come from.
+    pub file: String,
     pub row_numbers: Numbers,
     pub places: Places,
     /// Of each column of numbers whether all files so far give it in SI.
@@ -33,11 +35,12 @@ pub(super) struct Rows {
 }
 
 impl Rows {
-    /// None yet, of these columns.
-    pub fn of(columns: &Columns) -> Self {
+    /// None yet, of these columns of files.
+    pub fn of(columns: &Columns, paths: &[String]) -> Self {
         Self {
             numbers: vec![Vec::new(); columns.plans.len()],
             labels: vec![Vec::new(); columns.labels.len()],
+            file: paths.join(", "),
             row_numbers: Numbers::default(),
             places: Places::default(),
             in_si: vec![true; columns.plans.len()],
@@ -169,6 +172,7 @@ impl Rows {
         Self {
             numbers: self.numbers.iter().map(numbers).collect(),
             labels: self.labels.iter().map(labels).collect(),
+            file: self.file.clone(),
             row_numbers: self.row_numbers.select(rows),
             places: self.places.select(rows),
             in_si: self.in_si.clone(),

@@ -15,6 +15,9 @@ use model_core::expr::{Expr, Node};
 use model_core::mistake::Mistake;
 use model_core::symbol::SymbolId;
 
+/// An expression as it is printed, each part with its place.
+type Printed = Expr<Range<usize>>;
+
 /// The three components of a printed formula.
 #[derive(Debug, Clone)]
 pub struct PrintedVector {
@@ -114,7 +117,7 @@ impl PrintedVector {
         symbols: &PrintedSymbols,
         axes: &[Option<usize>],
         texts: &[&str],
-    ) -> Result<(Vec<Expr<Range<usize>>>, Notes), Vec<Mistake<TextPlace>>> {
+    ) -> Result<(Vec<Printed>, Notes), Vec<Mistake<TextPlace>>> {
         let read = expressions(symbols, axes, texts)?;
         Ok((read.components.into_iter().map(|(_, expression)| expression).collect(), read.notes))
     }
@@ -134,7 +137,7 @@ impl PrintedVector {
                 notes.join(&written.notes);
                 let one = written.components.into_iter().next();
                 let (text_index, expression) = one.unwrap_or_else(|| unreachable!("one formula was read"));
-                match lowering::fraction(chain, &expression, Sines::OfSeries) {
+                match lowering::fraction(chain, &expression, Sines::Series) {
                     Ok(value) => Ok(PrintedComponent { text_index, expression, value }),
                     Err(mistake) => Err(vec![in_text(text_index, mistake)]),
                 }
@@ -314,11 +317,11 @@ pub(super) fn valued(
         }
         _ => {}
     }
-    let Order::UpTo(order) = order else { return lowering::fraction(chain, expression, Sines::OfErrors) };
+    let Order::UpTo(order) = order else { return lowering::fraction(chain, expression, Sines::Errors) };
     if !notes.truncates && notes.dropped.is_none() {
-        return lowering::fraction(chain, expression, Sines::OfAngles);
+        return lowering::fraction(chain, expression, Sines::Angles);
     }
-    let value = lowering::fraction(chain, expression, Sines::OfSeries)?;
+    let value = lowering::fraction(chain, expression, Sines::Series)?;
     let value = series::truncated(chain, &value, order);
     value
         .map(|value| algebraic::reduced_fraction(value, chain))

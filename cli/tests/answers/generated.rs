@@ -122,7 +122,7 @@ fn values_are_written_in() {
              const joints = {{ azimuth: 40 * Math.PI / 180, elevation: 25 * Math.PI / 180 }};
              console.log(exactError(prepareExactError({pass}), joints).tip.join(','));"
         );
-        let found = run(&node, &folder, &script).expect("it runs");
+        let found = run_node(&node, &folder, &script).expect("it runs");
         let eval = folder.trueaxis(&[
             "eval",
             "mount.chain",
@@ -143,7 +143,7 @@ fn values_are_written_in() {
 }
 
 /// What node prints, or what it complains of.
-fn run(node: &Path, folder: &Folder, script: &str) -> Result<String, String> {
+fn run_node(node: &Path, folder: &Folder, script: &str) -> Result<String, String> {
     let output = Command::new(node)
         .args(["--input-type=module", "-e", script])
         .current_dir(&folder.0)
@@ -164,7 +164,7 @@ fn javascript_refuses_fields_that_are_unknown_or_missing() {
             "import {{ prepareExactError as prepare, exactError, exactErrorRows, noErrors }} from './lidar.js';
              const p = prepare(noErrors), one = {{ alpha: 0, beta: 0, gamma: 0 }}; {call}"
         );
-        run(&node, &folder, &script).expect_err("it is refused")
+        run_node(&node, &folder, &script).expect_err("it is refused")
     };
     assert!(told("prepare({ ...noErrors, dthetay1: 1 })").contains("errors have no field dthetay1"));
     assert!(told("prepare({})").contains("errors lack the field dtheta_y1"));

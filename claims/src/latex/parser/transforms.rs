@@ -203,9 +203,9 @@ fn turn(matrix: &Matrix, components: &[Formula], amount: &Formula) -> Matrix {
         .map(|(a, b)| multiplied(a.clone(), b.clone()))
         .fold(number(0, place), added);
     let mut matrix = homogeneous(&rotation);
-    for row in 0..3 {
+    for (row, component) in components.iter().enumerate().take(3) {
         let shift = added(across.entries[row].clone(), negated(moved.entries[row].clone()));
-        let slide = multiplied(multiplied(components[row].clone(), along.clone()), amount.clone());
+        let slide = multiplied(multiplied(component.clone(), along.clone()), amount.clone());
         matrix.entries[row * 4 + 3] = added(shift, slide);
     }
     matrix

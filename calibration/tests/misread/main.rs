@@ -233,7 +233,6 @@ fn keys_that_say_how_a_column_is_written_are_checked() {
         ("{ column = 'a', notation = 'dms' }", "`dms` is an unknown notation"),
         ("{ column = 'a', unit = 'deg', notation = 'ddd.mmss' }", "is a unit already"),
         ("{ column = 'a', unit = 'deg', shift = 100000 }", "`shift` is 100000"),
-        ("{ derive = 'direction of e', sign = -1 }", "no sign, offset, notation or shift"),
     ] {
         let columns = format!("azimuth = {column}\nelevation = {{ column = 'e', unit = 'deg' }}");
         let study = Study::from_text(&mount_study(&columns, "azimuth = 'ta'\nelevation = 'te'")).unwrap();
@@ -244,4 +243,8 @@ fn keys_that_say_how_a_column_is_written_are_checked() {
         };
         assert!(mistakes.contains(complaint), "{column}: {mistakes}");
     }
+    let derived =
+        "azimuth = { derive = 'direction(e)', sign = -1 }\nelevation = { column = 'e', unit = 'deg' }";
+    let mistakes = Study::from_text(&mount_study(derived, "azimuth = 'ta'\nelevation = 'te'")).unwrap_err();
+    assert!(mistakes.to_string().contains("no sign, offset, notation or shift"), "{mistakes}");
 }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use super::glyph::{self, Glyph};
-use super::{Unreadable, token};
+use super::{Unreadable, left};
 use model_core::chain::Chain;
 use model_core::expr::{Expr, Node};
 use model_core::mistake::Mistake;
@@ -256,7 +256,7 @@ fn name(name: &str) -> Expr<()> {
 
 /// The glyphs of a text that is one symbol, and its arguments: `\delta_x(y)`.
 fn symbol_key(printed: &str) -> Result<Key, Unreadable> {
-    let tokens = token::tokens(printed)?;
+    let tokens = left::tokens(printed)?;
     let mut glyphs = Vec::new();
     let mut used = 0;
     while let Some(read) = glyph::read(&tokens[used..])? {

@@ -5,9 +5,10 @@ use super::powers::raised;
 use super::{Formula, Parser, Value};
 use crate::latex::Unreadable;
 use crate::latex::glyph::{self, Glyph, ReadGlyph};
+use crate::latex::left;
 use crate::latex::lookup::After;
 use crate::latex::printed::{Meaning, PrintedSymbols};
-use crate::latex::token::{self, Kind, Token};
+use crate::latex::token::{Kind, Token};
 use model_core::expr::{Expr, Function, Node};
 use model_core::mistake::Mistake;
 use model_core::symbol::SymbolKind;
@@ -15,7 +16,7 @@ use model_core::symbol::SymbolKind;
 /// Whether a text abbreviates both cosines and sines.
 pub(in crate::latex) fn abbreviates(texts: &[&str]) -> bool {
     let mut found = [false; 2];
-    for tokens in texts.iter().filter_map(|text| token::tokens(text).ok()) {
+    for tokens in texts.iter().filter_map(|text| left::tokens(text).ok()) {
         for pair in tokens.windows(2) {
             let [Token { kind: Kind::Word(word), .. }, next] = pair else { continue };
             let follows = next.kind == Kind::Mark('_')

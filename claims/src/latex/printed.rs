@@ -1,6 +1,5 @@
 //! The table from printed symbols to what they stand for: a declared name, or an abbreviation such as `s_\beta`.
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use super::glyph::{self, Glyph};
@@ -173,15 +172,6 @@ impl PrintedSymbols {
     pub fn turning(mut self, turned: Turned) -> Self {
         self.turned = turned;
         self
-    }
-
-    /// The same table for texts that abbreviate cosines and sines, if these do.
-    #[must_use]
-    pub fn reading(&self, texts: &[&str]) -> Cow<'_, Self> {
-        if self.abbreviates || !super::parser::abbreviates(texts) {
-            return Cow::Borrowed(self);
-        }
-        Cow::Owned(Self { abbreviates: true, ..self.clone() })
     }
 
     /// A symbol as it is set, or in another weight if only one is known.

@@ -31,6 +31,20 @@ pub fn caution(caution: &Caution) -> String {
             short(*before, *unit),
             short(*after, *unit)
         ),
+        Caution::FollowsOrder { effects, remembers, setups } => {
+            let why = match (setups, remembers) {
+                (2.., _) => {
+                    format!("the rows fall into about {setups} set-ups, and differences between those")
+                }
+                (_, true) => "the rows follow each other, each like the one before, and that".to_owned(),
+                _ => "noise".to_owned(),
+            };
+            format!(
+                "{} stood out, but {why} explains these data as well. It was left out. If the rows were measured in sessions, declare \
+                 their column: `group = \"…\"`. To decide, measure the same poses again in another order.",
+                effects.join("; ")
+            )
+        }
         Caution::WorseElsewhere { before, after, unit } => format!(
             "In regions of the joints that were left out it is worse with the effects: {} before, {} after. Correct only \
              where these data lie.",

@@ -6,7 +6,6 @@ use std::ops::Range;
 use calibration::calibrate::OfEveryRow;
 use fit::{Foretelling, Next, Pass, Streamed, StreamedResult, Tally, Validation};
 use model_core::SymbolId;
-use observe::unknowns::Shape;
 use observe::{Observations, Poses, Series};
 use study::{OpenTable, Plan, SourcePlan};
 use tables::formats::part::{Budget, Stretches, Within, count};
@@ -74,7 +73,7 @@ pub fn read(
 /// Whether a part of the rows can stand for all: not where they observe what nobody knows, or several things, or where readings are
 /// uncertain, which rows that are read chunk by chunk do not follow.
 fn may_be_drawn(plan: &Plan) -> bool {
-    let has_objects = |source: &SourcePlan| Shape::of(source.measure).is_some();
+    let has_objects = |source: &SourcePlan| source.measure.observes_object();
     plan.sources.len() == 1
         && plan.hold_out.file.is_none()
         && !plan.sources.iter().any(has_objects)

@@ -16,10 +16,11 @@ use super::timeless::{Timeless, timeless};
 use super::uncertain_readings::{UncertainReadings, uncertain};
 use super::unsought::{Unsought, unsought};
 use super::unstated::{Unstated, unstated};
-use super::written::{Column, Kind, Study, Table};
+use super::written::{Column, Study, Table};
 use effects::candidate::Effect;
 use fit::FitOptions;
 use fit::noise::NoiseOptions;
+use observe::kinds::Written;
 use observe::unknowns::Places;
 use observe::{Measure, derive::Derived, derive::parse_derived};
 use tables::formats::Options;
@@ -104,7 +105,8 @@ pub struct SourcePlan {
     pub measure: Measure,
     pub(super) readings: Vec<(SymbolId, Reading)>,
     pub(super) observed: Vec<ColumnPlan>,
-    pub(super) kind: Kind,
+    /// How it is written.
+    pub(super) way: &'static Written,
     /// What the angles are that are observed, where the declaration says so.
     pub(super) convention: Option<Convention>,
     /// How an orientation is written, where one is observed.
@@ -273,7 +275,7 @@ impl Study {
                 Some(observable),
                 Some(readings),
                 Some(uncertain),
-                Some(ObservedColumns { measure, columns, orientation }),
+                Some(ObservedColumns { measure, way, columns, orientation }),
                 Some(convention),
                 Some(sigma),
             ) = (observable, readings, uncertain, shown, convention, sigma)
@@ -286,7 +288,7 @@ impl Study {
                 measure,
                 readings,
                 observed: columns,
-                kind: observed.get_ref().kind,
+                way,
                 convention,
                 orientation,
                 sigma,

@@ -77,7 +77,7 @@ pub use instrument::{
     BodyShown, ErrorShown, ErrorState, Instrument, JointShown, ObservedShown, ReadingShown,
 };
 pub use lengths::LengthsOff;
-pub use mistakes::{MeasuredLengths, Misreading, StatedPlaces};
+pub use mistakes::{Misreading, StatedPlaces};
 pub use moved::Moved;
 pub(crate) use noise::expected_rms;
 pub use noise::{NoiseFound, SerialFound, SeriesNoise, UncertainReading, VarianceFound};

@@ -111,30 +111,21 @@ pub(super) fn told_places(proposal: &PlaceProposal) -> String {
 
 /// `a station at x 1.20 m, y −3.41 m, z 1.60 m, heading 37°`
 fn told(adds: Addition, place: &Place) -> String {
+    let [x, y, z] = place.place_m.map(|value| format!("{value:.2} m").replace('-', "−"));
     let what = match adds {
         Addition::Station => "a station",
-        Addition::Plane => "a plane",
-        Addition::Target => "a target",
-        Addition::Fixed => "a socket",
-        Addition::Circle => "a circle",
-        Addition::Sphere => "a sphere",
-        Addition::Wire => "a wire with its anchor",
-        Addition::Distance => "a pivot",
-        Addition::Sight => "a mark",
+        Addition::Object(thing) => thing.told,
     };
-    let [x, y, z] = place.place_m.map(|value| format!("{value:.2} m").replace('-', "−"));
     let mut text = format!("{what} at x {x}, y {y}, z {z}");
-    if let Some(radius_m) = place.radius_m {
-        text += &match adds {
-            Addition::Distance => format!(", {:.0} mm from every point", radius_m * 1e3),
-            _ => format!(" of radius {:.0} mm", radius_m * 1e3),
-        };
+    if let (Addition::Object(thing), Some(radius_m)) = (adds, place.radius_m) {
+        let [before, behind] = thing.radius;
+        text += &format!("{before}{:.0}{behind}", radius_m * 1e3);
     }
     if let Some(heading) = place.heading_rad {
         text += &format!(", heading {:.0}°", heading.to_degrees()).replace('-', "−");
     }
-    if let Some([x, y, z]) = place.normal {
-        let which = if adds == Addition::Circle { "axis" } else { "normal" };
+    if let (Addition::Object(thing), Some([x, y, z])) = (adds, place.normal) {
+        let which = thing.turned_by;
         text += &format!(" with its {which} along ({x:.2}, {y:.2}, {z:.2})").replace('-', "−");
     }
     text

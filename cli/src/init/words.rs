@@ -1,5 +1,7 @@
 //! What the name of a column says: which part of an instrument it is of, and whether it is the truth or a reading.
 
+use observe::kinds::headers;
+
 /// What a column is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
@@ -88,36 +90,53 @@ const ABOUT: &[&str] = &[
 ];
 const OFFSETS: &[&str] = &["offset", "error", "err", "residual", "delta", "diff", "difference", "correction"];
 
-const PARTS: &[(Part, &[&str])] = &[
-    (Part::Azimuth, &["azimuth", "az", "azi", "azm"]),
-    (Part::Elevation, &["elevation", "el", "elev", "altitude", "alt"]),
-    (Part::Zenith, &["zenith", "zd", "za", "vertical", "v", "va", "vz"]),
-    (Part::HourAngle, &["ha", "hourangle"]),
-    (Part::Declination, &["dec", "declination", "decl"]),
-    (Part::Horizontal, &["horizontal", "hz"]),
-    (Part::Pan, &["pan", "yaw"]),
-    (Part::Tilt, &["tilt", "pitch"]),
-    (Part::Roll, &["roll"]),
-    (Part::Alpha, &["alpha"]),
-    (Part::Beta, &["beta"]),
-    (Part::Gamma, &["gamma"]),
-    (Part::Range, &["range", "distance", "dist", "slope"]),
-    (Part::Temperature, &["temperature", "temp", "ambient", "celsius", "kelvin"]),
-    (Part::Pier, &["pier", "pierside"]),
-    (Part::Group, &["day", "night", "session", "run", "source", "date", "campaign"]),
-    (Part::Turn, &["angle", "turn", "table", "rotation", "theta", "position"]),
-    (Part::Station, &["station", "stations", "setup", "standpoint"]),
-    (Part::X, &["x", "east"]),
-    (Part::Y, &["y", "north"]),
-    (Part::Z, &["z", "up"]),
+/// By which words a part is known.
+enum Known {
+    /// By these.
+    By(&'static [&'static str]),
+    /// By those of a column that a kind of observation reads by this key.
+    As(&'static str),
+}
+
+const PARTS: &[(Part, Known)] = &[
+    (Part::Azimuth, Known::As("azimuth")),
+    (Part::Elevation, Known::As("elevation")),
+    (Part::Zenith, Known::By(&["zenith", "zd", "za", "vertical", "v", "va", "vz"])),
+    (Part::HourAngle, Known::As("ha")),
+    (Part::Declination, Known::As("dec")),
+    (Part::Horizontal, Known::By(&["horizontal", "hz"])),
+    (Part::Pan, Known::By(&["pan", "yaw"])),
+    (Part::Tilt, Known::By(&["tilt", "pitch"])),
+    (Part::Roll, Known::By(&["roll"])),
+    (Part::Alpha, Known::By(&["alpha"])),
+    (Part::Beta, Known::By(&["beta"])),
+    (Part::Gamma, Known::By(&["gamma"])),
+    (Part::Range, Known::As("range")),
+    (Part::Temperature, Known::By(&["temperature", "temp", "ambient", "celsius", "kelvin"])),
+    (Part::Pier, Known::By(&["pier", "pierside"])),
+    (Part::Group, Known::By(&["day", "night", "session", "run", "source", "date", "campaign"])),
+    (Part::Turn, Known::By(&["angle", "turn", "table", "rotation", "theta", "position"])),
+    (Part::Station, Known::By(&["station", "stations", "setup", "standpoint"])),
+    (Part::X, Known::As("x")),
+    (Part::Y, Known::As("y")),
+    (Part::Z, Known::As("z")),
     (
         Part::Name,
-        &[
+        Known::By(&[
             "id", "row", "name", "nr", "no", "number", "label", "star", "object", "target", "prism", "point",
             "pose",
-        ],
+        ]),
     ),
 ];
+
+impl Known {
+    fn words(&self) -> &'static [&'static str] {
+        match self {
+            Self::By(words) => words,
+            Self::As(key) => headers(key),
+        }
+    }
+}
 
 /// The words of a name, in small letters: `trueAz_2` is `true`, `az`, `2`.
 pub fn words(name: &str) -> Vec<String> {
@@ -145,10 +164,9 @@ fn any(words: &[String], of: &[&str]) -> bool {
 pub fn part(words: &[String], is_angle: bool) -> Option<Part> {
     let alone = |text: &str| words.len() == 1 && words.iter().any(|word| word == text);
     if any(words, OFFSETS) {
-        let along = ["along", "elevation", "el", "alt", "altitude", "dec", "declination"];
         return match () {
-            () if any(words, &["cross", "across", "xel", "xdec"]) => Some(Part::Cross),
-            () if any(words, &along) => Some(Part::Along),
+            () if any(words, headers("cross")) => Some(Part::Cross),
+            () if any(words, headers("along")) => Some(Part::Along),
             () => None,
         };
     }
@@ -170,7 +188,7 @@ pub fn part(words: &[String], is_angle: bool) -> Option<Part> {
     if let Some(number) = joint(words) {
         return Some(Part::Joint(number));
     }
-    let named = PARTS.iter().find(|(_, known)| any(words, known)).map(|(part, _)| *part);
+    let named = PARTS.iter().find(|(_, known)| any(words, known.words())).map(|(part, _)| *part);
     named.or_else(|| is_angle.then_some(Part::Turn))
 }
 

@@ -6,7 +6,6 @@ use std::path::Path;
 use calibration::diagnose::{Diagnosis, Shown};
 use model_core::Chain;
 use network::Placed;
-use observe::unknowns::Shape;
 use serde::Serialize;
 use study::Plan;
 use tables::formats::{Texts, Written};
@@ -34,7 +33,7 @@ const ROWS: usize = 100_000;
 
 /// The files that a calibration of a plan may write into its folder.
 pub fn file_names(plan: &Plan) -> impl Iterator<Item = &'static str> {
-    let has_objects = plan.sources.iter().any(|source| Shape::of(source.measure).is_some());
+    let has_objects = plan.sources.iter().any(|source| source.measure.observes_object());
     NAMES.into_iter().chain(places::NAMES.into_iter().filter(move |_| has_objects))
 }
 

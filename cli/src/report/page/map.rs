@@ -1,10 +1,8 @@
 //! Residuals as arrows over where was pointed, or where the point was: before, and after.
 
-use std::f64::consts::PI;
-
 use calibration::report::numbers;
 use maud::{Markup, PreEscaped, html};
-use observe::{Measure, Measured};
+use observe::kinds::Map;
 use rayon::prelude::*;
 
 use super::card::CARD;
@@ -27,18 +25,8 @@ pub fn maps(reported: &Reported<'_>, rows: &Rows) -> Markup {
     let observations = reported.observations;
     let [first, second, ..] = rows.components.as_slice() else { return html! {} };
     let Some(series) = observations.poses.series.first() else { return html! {} };
-    if series.measure != series.measure.bare() || series.measure == Measure::Orientation {
-        // Nobody knows where these rows pointed to, or it takes more than a map to say.
-        return html! {};
-    }
-    let direction = series.measure == Measure::Direction;
-    let place = |row: usize| match observations.measured[row] {
-        Measured::Direction(u) => {
-            Some((u.x.atan2(u.y) * 180.0 / PI, u.z.clamp(-1.0, 1.0).asin() * 180.0 / PI))
-        }
-        Measured::Point(point) => Some((point.x, point.y)),
-        _ => None,
-    };
+    // Nobody knows where the rows of others pointed to, or it takes more than a map to say.
+    let Some(Map { title, labels, place }) = series.measure.kind().map else { return html! {} };
     let arrows = |after: bool| -> Vec<Arrow> {
         let part = |component: &super::rows::Component, row: usize| {
             let every = &component.every;
@@ -49,7 +37,9 @@ pub fn maps(reported: &Reported<'_>, rows: &Rows) -> Markup {
             .clone()
             .into_par_iter()
             .filter(|&row| !rows.every_aside[row])
-            .filter_map(|row| Some((place(row)?, (part(first, row)?, part(second, row)?))))
+            .filter_map(|row| {
+                Some((place(&observations.measured[row])?, (part(first, row)?, part(second, row)?)))
+            })
             .collect()
     };
     // Where nothing changed, what was before is what is.
@@ -60,11 +50,6 @@ pub fn maps(reported: &Reported<'_>, rows: &Rows) -> Markup {
         if lengths.is_empty() { 1.0 } else { *lengths.select_nth_unstable_by(most, f64::total_cmp).1 };
     let typical = typical.max(f64::MIN_POSITIVE);
     let scale = numbers::told_in(typical * rows.unit.in_si, &rows.unit);
-    let (title, labels) = if direction {
-        ("Over the sky", ["azimuth, °", "elevation, °"])
-    } else {
-        ("In space, from above", ["x, m", "y, m"])
-    };
     let each =
         if before.len() > ARROWS { "the mean of a cell, drawn from its dot" } else { "drawn from its dot" };
     let picture = |arrows: Vec<Arrow>, when: &str, class: &str| {

@@ -1,22 +1,137 @@
-//! What one row makes of what is unknown, held to differences and to what it must not show.
+//! What one row makes of what is unknown, held to differences and to what it must not show; and the table as a whole.
 
 #![allow(clippy::unwrap_used)]
 
-use observe::unknowns::{Known, Shape, Station};
+use nalgebra::Vector3;
 
+use super::compare::Part;
+use super::seeing::to_no_residual;
 use super::*;
+use crate::unknowns::{Known, OF_OBJECT, Object, Pose, State, Station, Unknowns, WIDTH};
 
-const KINDS: [Measure; 9] = [
-    Measure::Plane,
-    Measure::Target,
-    Measure::Fixed,
-    Measure::Wire,
-    Measure::Distance,
-    Measure::Sight,
-    Measure::Beam,
-    Measure::Circle,
-    Measure::Ring,
-];
+/// The components of a row that observes an object, and their derivatives by what is unknown.
+type Seen = (Vec<Part>, Vec<[f64; WIDTH]>);
+
+/// One row compared.
+fn seen(
+    unknowns: &Unknowns,
+    numbers: &[f64],
+    measure: Measure,
+    measured: &Measured,
+    p: &Vector3<f64>,
+    beam: &Vector3<f64>,
+    turns_by: TurnsBy,
+) -> Result<Seen, Mismatch> {
+    let m = measure.components();
+    let state = State::new(unknowns, numbers);
+    let rows = Rows {
+        count: 1,
+        predicted: p.as_slice(),
+        measured: Some(std::slice::from_ref(measured)),
+        unknown: Some(Unknown { state: &state, start: 0, turns_by }),
+        beams: Some(beam.as_slice()),
+    };
+    let (mut residual, mut gradient) = (vec![f64::NAN; m], vec![f64::NAN; 3 * m]);
+    let (mut defined, mut unknown) = (Vec::new(), Vec::new());
+    let (of_residual, of_gradient) = (&mut residual[..], &mut gradient[..]);
+    let mut to = Compared {
+        residual: of_residual,
+        defined: &mut defined,
+        gradient: of_gradient,
+        unknown: &mut unknown,
+    };
+    (measure.kind().compare)(&rows, &mut to)?;
+    assert_eq!((defined, unknown.len()), (vec![true], m), "{measure:?}");
+    let gradients = gradient.chunks_exact(3).map(Vector3::from_column_slice);
+    Ok((residual.into_iter().zip(gradients).collect(), unknown))
+}
+
+/// Every kind says as much as its components need, and no two are written alike.
+#[test]
+fn the_table_is_whole() {
+    assert_eq!(Measure::ALL.len(), KINDS.len());
+    for (at, measure) in Measure::ALL.iter().enumerate() {
+        let kind = measure.kind();
+        assert_eq!(*measure as usize, at);
+        assert!((1..=MOST).contains(&kind.components.len()), "{measure:?}");
+        assert_eq!(kind.bare.bare(), kind.bare, "{measure:?}");
+        assert!(!kind.bare.observes_object(), "{measure:?}");
+        assert_eq!((kind.thing)(true).is_some(), measure.observes_object(), "{measure:?}");
+        assert!(!kind.written.is_empty(), "{measure:?}");
+        if let Some(map) = kind.map {
+            assert!(kind.components.len() > 1 && (map.place)(&Measured::Readings).is_none(), "{measure:?}");
+        }
+    }
+    let expected = [
+        "direction",
+        "spherical",
+        "offset",
+        "point",
+        "range",
+        "plane",
+        "target",
+        "fixed",
+        "circle",
+        "sphere",
+        "wire",
+        "distance",
+        "sight",
+        "orientation",
+    ];
+    assert_eq!(*NAMES, expected);
+    assert_eq!((headers("azimuth").first(), headers("radius").first()), (Some(&"azimuth"), None));
+    for names in [&[][..], &["radius"], &["azimuth"], &["ha"], &["azimuth", "elevation"], &["length"]] {
+        for shows_two in [false, true] {
+            for of in [Observes::Direction, Observes::Point, Observes::Orientation] {
+                let asked = Asked { names: &|key| names.contains(&key), shows_two };
+                let meant = ways().filter(|(_, way)| way.of == of && (way.is_meant)(&asked));
+                let mut meant: Vec<&str> = meant.map(|(_, way)| way.name).collect();
+                let known: Vec<&&str> = NAMES
+                    .iter()
+                    .filter(|name| ways().any(|(_, way)| way.of == of && way.name == **name))
+                    .collect();
+                meant.sort_unstable();
+                let count = meant.len();
+                meant.dedup();
+                assert_eq!((meant.len(), count), (known.len(), known.len()), "{names:?} {of:?}: {meant:?}");
+            }
+        }
+    }
+}
+
+/// What is measured otherwise than the series says, and what observes no object, is refused; poses alone leave no residual.
+#[test]
+fn rows_of_another_kind_are_refused_and_poses_leave_nothing() {
+    let predicted = [0.3, -0.2, 0.6, 0.1, 0.9, -0.4, 0.2, 0.5, 0.7];
+    for &measure in Measure::ALL {
+        let kind = measure.kind();
+        let vectors = kind.predicted.vectors();
+        let m = measure.components();
+        let compared = |measured: Option<&[Measured]>| {
+            let rows =
+                Rows { count: 1, predicted: &predicted[..3 * vectors], measured, unknown: None, beams: None };
+            let (mut residual, mut gradient) = (vec![f64::NAN; m], vec![f64::NAN; 3 * vectors * m]);
+            let (mut defined, mut unknown) = (Vec::new(), Vec::new());
+            let (of_residual, of_gradient) = (&mut residual[..], &mut gradient[..]);
+            let mut to = Compared {
+                residual: of_residual,
+                defined: &mut defined,
+                gradient: of_gradient,
+                unknown: &mut unknown,
+            };
+            (kind.compare)(&rows, &mut to)?;
+            assert!(gradient.iter().all(|part| part.is_finite()), "{measure:?}");
+            Ok(residual)
+        };
+        assert_eq!(compared(Some(&[Measured::Readings])), Err(Mismatch { row: 1 }), "{measure:?}");
+        match compared(None) {
+            Err(mismatch) => assert!(measure.observes_object(), "{measure:?}: {mismatch}"),
+            Ok(residual) => {
+                assert!(residual.iter().all(|own| own.abs() < 1e-15), "{measure:?}: {residual:?}")
+            }
+        }
+    }
+}
 
 /// One row, which observes this object from this station.
 fn of_one_row(object: Object, station: Station) -> Unknowns {
@@ -26,8 +141,8 @@ fn of_one_row(object: Object, station: Station) -> Unknowns {
 /// Every derivative against differences of the residual.
 #[test]
 fn derivatives_are_those_of_the_residual() {
-    for measure in KINDS {
-        let shape = Shape::of(measure).unwrap();
+    for measure in Measure::ALL.iter().copied().filter(|own| own.observes_object()) {
+        let shape = measure.shape().unwrap();
         let object = Object {
             place: Vector3::new(4.0, 7.0, 1.0),
             normal: Vector3::new(0.6, 0.8, 0.0),
@@ -41,7 +156,6 @@ fn derivatives_are_those_of_the_residual() {
             ..Station::unknown("S".to_owned())
         };
         let unknowns = of_one_row(object, station);
-        let first = [unknowns.first_of_stations(), unknowns.first_of_objects()];
         let mut state = vec![0.02, -0.01, 0.03, 0.2, -0.1, 0.3, 0.01, -0.02, 0.03, 0.01, -0.02, 0.04];
         state.truncate(unknowns.numbers());
         let there = unknowns.stations[0].pose.back(&unknowns.objects[0].place);
@@ -56,7 +170,7 @@ fn derivatives_are_those_of_the_residual() {
         let at = |state: &[f64], p: &Vector3<f64>| {
             let length = Measured::Length { length_m: 0.3 };
             let beam = if measure == Measure::Beam { p - eye } else { *p };
-            seen(&unknowns, &first, state, 0, measure, &length, p, &beam, TurnsBy::Object).unwrap()
+            seen(&unknowns, state, measure, &length, p, &beam, TurnsBy::Object).unwrap()
         };
         // The point that the row would have at no residual.
         let p = (0..20).fold(p, |p, _| {
@@ -101,12 +215,11 @@ fn a_beam_from_the_station_is_a_sight() {
     let station = Station { pose, known: Known::Yes, ..Station::unknown("S".to_owned()) };
     let there = pose.back(&object.place);
     let unknowns = of_one_row(object, station);
-    let first = [unknowns.first_of_stations(), unknowns.first_of_objects()];
     let state = vec![0.0; unknowns.numbers()];
     let sight = (there.normalize() + Vector3::new(2e-5, -3e-5, 1e-5)).normalize();
     let beam = sight * there.norm();
     for by in [TurnsBy::Object, TurnsBy::Prediction, TurnsBy::Adjusted] {
-        let at = |measure, p| seen(&unknowns, &first, &state, 0, measure, &Measured::Readings, p, p, by);
+        let at = |measure, p| seen(&unknowns, &state, measure, &Measured::Readings, p, p, by);
         let (sights, of_sight) = at(Measure::Sight, &sight).unwrap();
         let (beams, of_beam) = at(Measure::Beam, &beam).unwrap();
         for component in 0..2 {
@@ -132,13 +245,12 @@ fn noise_shows_no_range_of_a_sight() {
     let pose = Pose::new(Vector3::new(0.4, -0.7, 0.2), 0.02, 0.3, -0.9);
     let station = Station { pose, known: Known::Yes, ..Station::unknown("S".to_owned()) };
     let unknowns = of_one_row(object, station);
-    let first = [unknowns.first_of_stations(), unknowns.first_of_objects()];
     let state = vec![0.0; unknowns.numbers()];
     let to = pose.back(&place) - eye;
     let beam = (to.normalize() + Vector3::new(2e-4, -3e-4, 1e-4)).normalize() * to.norm();
     let change = |by| {
         let (measure, measured) = (Measure::Beam, Measured::Readings);
-        let of = seen(&unknowns, &first, &state, 0, measure, &measured, &(eye + beam), &beam, by);
+        let of = seen(&unknowns, &state, measure, &measured, &(eye + beam), &beam, by);
         of.unwrap().0.iter().map(|(_, gradient)| gradient.dot(&beam).abs()).fold(0.0, f64::max)
     };
     assert!(change(TurnsBy::Object) > 1e-5, "{}", change(TurnsBy::Object));
@@ -158,21 +270,16 @@ fn noise_shows_no_scale() {
     ] {
         let place = Vector3::new(4.0, 7.0, 1.0);
         let label = "A".to_owned();
-        let object = Object {
-            place,
-            normal,
-            known: Known::Yes,
-            ..Object::unknown(label, Shape::of(measure).unwrap())
-        };
+        let object =
+            Object { place, normal, known: Known::Yes, ..Object::unknown(label, measure.shape().unwrap()) };
         let station = Station { pose, known: Known::Yes, ..Station::unknown("S".to_owned()) };
         let unknowns = of_one_row(object, station);
-        let first = [unknowns.first_of_stations(), unknowns.first_of_objects()];
         let state = vec![0.0; unknowns.numbers()];
         // A row that is off by more than a little, and what its chain would do if all its lengths grew.
         let p = pose.back(&place) + Vector3::new(0.3, -0.2, 0.1);
         let change = |by: TurnsBy| {
             let (components, columns) =
-                seen(&unknowns, &first, &state, 0, measure, &Measured::Readings, &p, &p, by).unwrap();
+                seen(&unknowns, &state, measure, &Measured::Readings, &p, &p, by).unwrap();
             let of_object = match measure {
                 // Of a plane its distance grows.
                 Measure::Plane => vec![0.0, 0.0, normal.dot(&place)],

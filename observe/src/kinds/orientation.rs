@@ -1,8 +1,59 @@
-//! The residual of a measured orientation, and how it moves with the axes that the chain predicts.
+//! How a body is turned: the turn that takes the predicted orientation to the measured one.
 
+use model_core::Quantity;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
-use observe::orientation::{of_axes, rotation_vector};
+use super::compare::{Compared, Mismatch, Rows};
+use super::kind::{ANGLES, BaseShown, Kind, Predicted, Scale};
+use super::written::{Observes, OfReadings, Written};
+use super::{Measure, Measured};
+use crate::orientation::{of_axes, rotation_vector};
+
+pub(super) const KIND: Kind = Kind {
+    predicted: Predicted::Axes,
+    base: BaseShown::Turn,
+    scale: |_| Scale::Unseen,
+    ..Kind::new(
+        &["rotation_x", "rotation_y", "rotation_z"],
+        ANGLES,
+        Measure::Orientation,
+        &[ORIENTATION],
+        compare,
+    )
+};
+
+const ORIENTATION: Written = Written {
+    name: "orientation",
+    of: Observes::Orientation,
+    quantity: Quantity::Angle,
+    columns: &[],
+    of_readings: OfReadings::Nothing,
+    is_meant: |_| true,
+    read: |cells| cells.orientation().map(Measured::Orientation),
+};
+
+fn compare(rows: &Rows<'_>, to: &mut Compared<'_>) -> Result<(), Mismatch> {
+    let count = rows.count;
+    for row in 0..count {
+        let axes = Matrix3::from_fn(|component, axis| rows.predicted[(3 * axis + component) * count + row]);
+        let measured = match rows.measured.map(|measured| &measured[row]) {
+            None => None,
+            Some(Measured::Orientation(measured)) => Some(measured),
+            Some(_) => return Err(Mismatch { row: row + 1 }),
+        };
+        let components = components(measured, &axes);
+        let is_defined = components.iter().all(|(left, _)| left.is_finite());
+        to.defined.push(is_defined);
+        for (component, (left, by_axes)) in components.iter().enumerate() {
+            to.residual[component * count + row] = if is_defined { *left } else { 0.0 };
+            for (place, part) in by_axes.iter().flatten().enumerate() {
+                to.gradient[(9 * component + place) * count + row] = *part;
+            }
+        }
+    }
+    rows.nothing_unknown::<3>(to);
+    Ok(())
+}
 
 /// The three components of the turn that takes the predicted orientation to the measured one, rad, and of each component of what
 /// is predicted the gradient by the three axes of the body; nothing remains where nothing was `measured`.
@@ -12,7 +63,7 @@ use observe::orientation::{of_axes, rotation_vector};
 ///
 /// Source: J(ρ) = 1 + ½ ρ× + b ρ×², b = (1 − (θ/2) cot(θ/2))/θ², is the inverse of the right Jacobian of SO(3): J. Solà,
 /// J. Deray, D. Atchuthan, A micro Lie theory for state estimation in robotics (2018), equation 144.
-pub fn components(
+fn components(
     measured: Option<&UnitQuaternion<f64>>,
     predicted: &Matrix3<f64>,
 ) -> [(f64, [Vector3<f64>; 3]); 3] {

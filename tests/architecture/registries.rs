@@ -8,6 +8,7 @@ const REGISTRIES: &[&str] = &[
     "cli/src/init/templates",
     "codegen/src/backends",
     "effects/src/families",
+    "observe/src/kinds",
     "tables/src/formats",
 ];
 

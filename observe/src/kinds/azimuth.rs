@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use model_core::Quantity;
 use nalgebra::Vector3;
 
-use super::compare::Part;
 use super::kind::{ANGLES, Kind};
+use super::residual::Part;
 use super::written::{Asked, Key, Observes, OfReadings, Written};
 use super::{Measure, Measured};
 

@@ -5,7 +5,8 @@ use nalgebra::Vector3;
 
 use super::Measure;
 use super::kind::{ANGLES, BeamUse, Kind, PlaceShown, Scale};
-use super::seeing::{Component, Seeing, TurnsBy};
+use super::residual::Component;
+use super::seeing::{Seeing, TurnsBy};
 use super::sight::MARK;
 use super::tangent_plane::on_tangent_plane;
 use super::written::{Observes, Written};

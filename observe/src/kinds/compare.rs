@@ -5,11 +5,9 @@
 use nalgebra::Vector3;
 
 use super::measured::Measured;
-use super::seeing::{Component, Seeing, TurnsBy, adjusted};
+use super::residual::{Component, Part};
+use super::seeing::{Seeing, TurnsBy, adjusted};
 use crate::unknowns::{State, WIDTH};
-
-/// Measured minus predicted of a component, and the gradient of the predicted one by the observable's x, y, z.
-pub(super) type Part = (f64, Vector3<f64>);
 
 /// Consecutive rows of one series.
 #[derive(Debug, Clone, Copy)]

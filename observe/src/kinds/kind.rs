@@ -227,6 +227,12 @@ pub struct Kind {
 }
 
 impl Kind {
+    /// What rows could measure, where how long it would be read plays no part.
+    #[must_use]
+    pub fn anything_of_object(&self) -> Measured {
+        self.lengths.map_or(Measured::Readings, |_| Measured::Length { length_m: 1.0 })
+    }
+
     /// One that is known row by row and of which nothing else is remarkable.
     pub(super) const fn new(
         components: &'static [&'static str],

@@ -21,6 +21,7 @@ mod wire;
 mod compare;
 mod kind;
 mod measured;
+mod residual;
 mod seeing;
 mod tangent_plane;
 mod written;

@@ -5,7 +5,8 @@ use nalgebra::Vector3;
 
 use super::Measure;
 use super::kind::{AimedAt, GrowsWith, Kind, LENGTHS, Ranges, Scale, Thing};
-use super::seeing::{Component, Seeing};
+use super::residual::Component;
+use super::seeing::Seeing;
 use super::written::{Observes, Written};
 use crate::unknowns::{Shape, tilted};
 

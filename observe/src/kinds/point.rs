@@ -3,8 +3,8 @@
 use model_core::Quantity;
 use nalgebra::Vector3;
 
-use super::compare::Part;
 use super::kind::{BaseShown, Kind, LENGTHS, Map, SpaceAxes};
+use super::residual::Part;
 use super::written::{Key, Observes, OfReadings, Written};
 use super::{Measure, Measured};
 

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use super::compare::Part;
 use super::measured::Measured;
+use super::residual::{Component, Part};
 use crate::unknowns::{OF_OBJECT, Object, Pose, State, WIDTH, right_jacobian};
 
 /// An angle that is its sine to the last digit, rad.
@@ -23,14 +23,6 @@ pub enum TurnsBy {
     /// The object, where the row would hit it. Where everything could be larger the rows' noise would tell how much: a search would find a
     /// scale, and as surely as the noise is there.
     Adjusted,
-}
-
-/// A residual component of a row that observes an object.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Component {
-    pub part: Part,
-    /// The derivatives of what is predicted by the numbers of the object, then by those of the station.
-    pub unknown: [f64; WIDTH],
 }
 
 /// A row, the object that it observes, and where the station stands.

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::compare::Part;
+use super::residual::Part;
 use crate::tangent_frame;
 
 /// A direction across and along, on the tangent plane of what was measured.

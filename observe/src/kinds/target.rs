@@ -5,7 +5,8 @@ use nalgebra::Vector3;
 
 use super::Measure;
 use super::kind::{BeamUse, GrowsWith, Kind, LENGTHS, NoiseOf, PlaceShown, Ranges, Scale, Thing};
-use super::seeing::{Component, Seeing};
+use super::residual::Component;
+use super::seeing::Seeing;
 use super::written::{Observes, Written};
 use crate::tangent_frame;
 use crate::unknowns::Shape;

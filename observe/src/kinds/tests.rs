@@ -4,7 +4,7 @@
 
 use nalgebra::Vector3;
 
-use super::compare::Part;
+use super::residual::Part;
 use super::seeing::to_no_residual;
 use super::*;
 use crate::unknowns::{Known, OF_OBJECT, Object, Pose, State, Station, Unknowns, WIDTH};

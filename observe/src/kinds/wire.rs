@@ -5,7 +5,8 @@ use model_core::Quantity;
 use nalgebra::Vector3;
 
 use super::kind::{AimedAt, Kind, LENGTHS, MeasuredLengths, Scale, Thing};
-use super::seeing::{Component, Seeing};
+use super::residual::Component;
+use super::seeing::Seeing;
 use super::written::{Key, Observes, OfReadings, Written, length};
 use super::{Measure, Measured};
 use crate::unknowns::Shape;

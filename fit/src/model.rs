@@ -335,8 +335,11 @@ impl Model {
             }),
             beams: along.as_ref().map(|along| along.axes.as_slice()),
         };
-        (kind.compare)(&of_block, &mut Compared { residual, defined, gradient, unknown })
-            .map_err(|mismatch| FitError::WrongShape { why: mismatch.to_string() })?;
+        (kind.compare)(&of_block, &mut Compared { residual, defined, gradient, unknown }).map_err(
+            |mismatch| FitError::WrongShape {
+                why: format!("row {}: {mismatch}", rows.start + mismatch.row + 1),
+            },
+        )?;
         block.project();
         Ok(())
     }

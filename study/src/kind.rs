@@ -49,7 +49,7 @@ impl Kind {
 
     /// Whether it measures an observable that is this.
     pub fn measures(self, of: Observes) -> bool {
-        self.ways().any(|(_, way)| way.of == of)
+        self.ways_of(of).next().is_some()
     }
 
     /// The kinds by which an observable that is this may be measured.

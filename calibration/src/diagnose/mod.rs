@@ -81,6 +81,7 @@ pub use mistakes::{Misreading, StatedPlaces};
 pub use moved::Moved;
 pub(crate) use noise::expected_rms;
 pub use noise::{NoiseFound, SerialFound, SeriesNoise, UncertainReading, VarianceFound};
+pub use observe::kinds::MeasuredLengths;
 pub use of_data::{of_data, rounding};
 pub use otherwise::Otherwise;
 pub use precision::{Determined, NotSeparable, Precision, precision};

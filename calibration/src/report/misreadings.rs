@@ -1,9 +1,8 @@
 //! Mistakes in reading data and places, in words.
 
 use super::numbers::short;
-use crate::diagnose::{Misreading, Otherwise, StatedPlaces, Strayed};
+use crate::diagnose::{MeasuredLengths, Misreading, Otherwise, StatedPlaces, Strayed};
 use observe::SiUnit;
-use observe::kinds::MeasuredLengths;
 
 /// What is likely wrong, and what the residual is without it.
 pub(super) fn misread(otherwise: &Otherwise) -> String {

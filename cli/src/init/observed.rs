@@ -2,9 +2,7 @@
 
 use super::look::{Column, Look, Read};
 use super::words::Part;
-
-/// How far from one the length of a unit vector may be: written with three digits.
-const UNIT_TOLERANCE: f64 = 2e-3;
+use observe::kinds::UNIT_TOLERANCE;
 
 /// What was observed, with its columns.
 pub enum Observed {

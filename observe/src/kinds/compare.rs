@@ -51,9 +51,9 @@ pub struct Compared<'a> {
 
 /// A row that is none of its kind.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("row {row} of a series measures something else than the series, or observes an object that is none")]
+#[error("it measures something else than its series, or observes an object that is none")]
 pub struct Mismatch {
-    /// Which, counted from 1 among those that were compared.
+    /// Which, counted from 0 among those that were compared.
     pub row: usize,
 }
 
@@ -74,7 +74,7 @@ impl Rows<'_> {
         for row in 0..self.count {
             let predicted = self.at(row);
             let measured = self.measured.map_or_else(|| exactly(&predicted), |measured| measured[row]);
-            let parts = of(&measured, &predicted).ok_or(Mismatch { row: row + 1 })?;
+            let parts = of(&measured, &predicted).ok_or(Mismatch { row })?;
             to.put(self.count, row, &parts);
         }
         self.nothing_unknown::<M>(to);
@@ -109,7 +109,7 @@ impl Rows<'_> {
                     TurnsBy::Object | TurnsBy::Prediction => Some(seen),
                 }
             };
-            let components = seen().ok_or(Mismatch { row: row + 1 })?;
+            let components = seen().ok_or(Mismatch { row })?;
             to.put(self.count, row, &components.map(|own| own.part));
             to.unknown.extend(components.map(|own| own.unknown));
         }

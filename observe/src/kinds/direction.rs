@@ -120,7 +120,7 @@ fn compare(rows: &Rows<'_>, to: &mut Compared<'_>) -> Result<(), Mismatch> {
         let direction = match rows.measured.map(|measured| &measured[row]) {
             None => rows.at(row).normalize(),
             Some(Measured::Direction(direction)) => *direction,
-            Some(_) => return Err(Mismatch { row: row + 1 }),
+            Some(_) => return Err(Mismatch { row }),
         };
         (0..3).for_each(|axis| directions[axis * count + row] = direction[axis]);
     }
@@ -219,7 +219,7 @@ mod tests {
             compare(&rows, &mut Compared { residual, defined: &mut defined, gradient, unknown: &mut unknown })
         };
         compared(&measured).unwrap();
-        assert_eq!(compared(&[Measured::Readings; 5]), Err(Mismatch { row: 1 }));
+        assert_eq!(compared(&[Measured::Readings; 5]), Err(Mismatch { row: 0 }));
         assert_eq!(defined, [true, true, true, true, false]);
         for (row, (direction, predicted)) in pairs.iter().enumerate().take(4) {
             for (component, (left, slope)) in on_tangent_plane(direction, predicted).iter().enumerate() {

@@ -39,7 +39,7 @@ fn compare(rows: &Rows<'_>, to: &mut Compared<'_>) -> Result<(), Mismatch> {
         let measured = match rows.measured.map(|measured| &measured[row]) {
             None => None,
             Some(Measured::Orientation(measured)) => Some(measured),
-            Some(_) => return Err(Mismatch { row: row + 1 }),
+            Some(_) => return Err(Mismatch { row }),
         };
         let components = components(measured, &axes);
         let is_defined = components.iter().all(|(left, _)| left.is_finite());

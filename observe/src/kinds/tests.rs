@@ -123,7 +123,7 @@ fn rows_of_another_kind_are_refused_and_poses_leave_nothing() {
             assert!(gradient.iter().all(|part| part.is_finite()), "{measure:?}");
             Ok(residual)
         };
-        assert_eq!(compared(Some(&[Measured::Readings])), Err(Mismatch { row: 1 }), "{measure:?}");
+        assert_eq!(compared(Some(&[Measured::Readings])), Err(Mismatch { row: 0 }), "{measure:?}");
         match compared(None) {
             Err(mismatch) => assert!(measure.observes_object(), "{measure:?}: {mismatch}"),
             Ok(residual) => {

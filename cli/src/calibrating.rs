@@ -148,12 +148,13 @@ impl Measured {
     /// # Errors
     /// The study asks for something that cannot be fitted.
     pub fn calibrate(self, command: String, tell: &(dyn Fn(Stage) + Sync)) -> Result<Calibrated, Failure> {
-        let Self { studied, loaded: Loaded { observations, held_out, .. }, warnings } = self;
+        let Self { studied, loaded: Loaded { observations, held_out, sample, .. }, warnings } = self;
         let date = date::today();
         let request = Request {
             text: &studied.chain.text,
             plan: &studied.plan,
             observations: &observations,
+            sample: Some(&sample),
             second: held_out.as_ref(),
             when: &date,
         };

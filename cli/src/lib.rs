@@ -21,6 +21,7 @@ mod many;
 mod output;
 mod over_memory;
 mod over_table;
+mod paper;
 mod poses;
 mod ranges;
 mod report;

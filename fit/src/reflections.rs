@@ -9,7 +9,7 @@ pub(super) const LANES: usize = 8;
 const AT_ONCE: usize = 4;
 
 /// Reflections that turn a triangle on top of rows into a triangle alone. Nothing is fused, so that a factor has the
-/// same bits on every processor.
+/// same bits on every processor; `faer` fuses where the processor can.
 ///
 /// Source: G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., section 5.1; rows go in block by block as in
 /// J. Demmel et al., Communication-optimal Parallel and Sequential QR and LU Factorizations (2012), section 4.

@@ -131,6 +131,8 @@ pub struct Certificate<'a> {
     notes: Vec<String>,
     theorems: Vec<String>,
     influences: Vec<Influence>,
+    /// The print that the next statement is about.
+    printing: Vec<String>,
 }
 
 impl<'a> Certificate<'a> {
@@ -159,6 +161,7 @@ impl<'a> Certificate<'a> {
             notes: Vec::new(),
             theorems: Vec::new(),
             influences: Vec::new(),
+            printing: Vec::new(),
         }
     }
 
@@ -229,8 +232,14 @@ impl<'a> Certificate<'a> {
         Ok(())
     }
 
+    /// Says how the next statement is printed, so that a reader sees what the theorem is about.
+    pub fn printed_as(&mut self, texts: &[String]) {
+        self.printing = texts.to_vec();
+    }
+
     /// Says of a statement that the certificate does not speak of it, and why.
     pub fn not_certified(&mut self, title: &str, why: &str) {
+        self.printing.clear();
         self.notes.push(format!("{title}: {why}"));
     }
 
@@ -343,7 +352,12 @@ impl<'a> Certificate<'a> {
     }
 
     fn finish_section(&mut self, section: String, name: &str, theorem: &str) {
-        self.sections.push(section);
+        let mut text = String::new();
+        for printed in std::mem::take(&mut self.printing) {
+            let _ = writeln!(text, "(* As printed: {} *)", comment(&printed));
+        }
+        text.push_str(&section);
+        self.sections.push(text);
         self.theorems.push(format!("{name}.{theorem}"));
     }
 }

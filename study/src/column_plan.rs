@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use model_core::Quantity;
 
+use super::conversion::Conversion;
 use super::mistakes::{Outcome, mistake, plain};
 use super::written::Column;
 use tables::units::Unit;
@@ -18,12 +19,19 @@ pub(super) struct ColumnPlan {
     pub declared: bool,
     /// The study names it.
     pub named: bool,
+    /// How its numbers become readings.
+    pub conversion: Conversion,
 }
 
 impl ColumnPlan {
+    /// A column of a declared name, which a study need not name: its numbers are in SI.
+    pub fn declared(name: String, quantity: Quantity) -> Self {
+        Self { name, unit: None, quantity, declared: true, named: false, conversion: Conversion::NONE }
+    }
+
     /// A column that a study names, of numbers without a unit.
     pub fn of_numbers(name: &str) -> Self {
-        Self { name: name.to_owned(), unit: None, quantity: Quantity::Number, declared: true, named: true }
+        Self { named: true, ..Self::declared(name.to_owned(), Quantity::Number) }
     }
 }
 
@@ -57,8 +65,11 @@ pub(super) fn column_plan(
             "leave `correlation` out",
         ));
     }
+    let conversion = Conversion::of(column, quantity)?;
     match &column.column {
-        Some(name) => Ok(ColumnPlan { name: name.clone(), unit, quantity, declared: false, named: true }),
+        Some(name) => {
+            Ok(ColumnPlan { name: name.clone(), unit, quantity, declared: false, named: true, conversion })
+        }
         None => Err(mistake(place.clone(), "this column is measured, not derived", "write `column = \"…\"`")),
     }
 }

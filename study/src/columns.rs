@@ -14,6 +14,7 @@ use tables::units::{BareColumn, Plausible};
 type PlacedBareColumns = Vec<(usize, BareColumn)>;
 
 /// Which of the numbers read is what.
+#[derive(Debug, Clone)]
 pub(super) struct Columns {
     pub plans: Vec<ColumnPlan>,
     pub readings: Vec<(SymbolId, usize)>,
@@ -90,7 +91,11 @@ impl Columns {
             };
             let own = column.declared.then_some(name.as_str());
             let read = ReadAs { quantity: *quantity, stated: *unit, declared: own };
-            let factor = header[found].factor(read, file)?;
+            let factor = match column.conversion.notation {
+                // Its digits are degrees or hours whatever the header says.
+                Some(_) => 1.0,
+                None => header[found].factor(read, file)?,
+            };
             let symbol = self.readings.iter().find(|(_, reading)| *reading == at).map(|(symbol, _)| *symbol);
             let plausible = if let Some(symbol) = symbol {
                 Plausible::readings(&plan.chain, symbol)
@@ -99,7 +104,7 @@ impl Columns {
             } else {
                 Plausible::measured(&plan.chain, source.observable)
             };
-            if header[found].is_bare(read) {
+            if column.conversion.notation.is_none() && header[found].is_bare(read) {
                 bare.push((at, BareColumn::new(plausible, *quantity, &header[found].full, file)));
             }
             wanted.push(Wanted { column: found, form: Form::Number(factor) });

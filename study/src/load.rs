@@ -10,6 +10,7 @@ use super::plan::{Plan, Reading, SourcePlan};
 use super::ranges::check_ranges;
 use super::repeated::{fitted_as_well, without_repeats};
 use super::rows::Rows;
+use super::sample::Sample;
 use super::stated::{of_components, of_pairs, of_readings};
 use network::{Remark, StartError, check_named, check_scale, place};
 use observe::orientation::Turned;
@@ -36,6 +37,8 @@ pub struct Loaded {
     pub doubtful: Vec<BareColumn>,
     /// What is doubtful of rows.
     pub remarks: Vec<Remark>,
+    /// Some of the rows as the files have them, to be read otherwise.
+    pub sample: Sample,
 }
 
 impl Loaded {
@@ -70,18 +73,23 @@ impl Plan {
     /// # Errors
     /// What is wrong with a table, with its place.
     pub fn load_tables(&self, open: &mut OpenTable<'_>) -> Result<Loaded, DataError> {
-        let mut doubtful = Vec::new();
+        let (mut doubtful, mut sample) = (Vec::new(), Sample::default());
         let mut observations = self.no_observations();
         let mut groups = Numbered::default();
         for source in &self.sources {
-            self.append(&mut observations, source, &source.paths, open, &mut groups, &mut doubtful)?;
+            let columns = Columns::of(self, source);
+            let paths = &source.paths;
+            let mut rows = self.rows(&mut observations, source, paths, open, &columns, &mut doubtful)?;
+            sample.take(&columns, &rows);
+            self.observe(&mut observations, source, &columns, &mut rows, &mut groups)?;
         }
         let held_out = match (&self.hold_out.file, self.sources.first()) {
             // The file held out is read as the first source's files are.
             (Some(path), Some(source)) => {
                 let mut all = self.no_observations();
-                let paths = std::slice::from_ref(path);
-                self.append(&mut all, source, paths, open, &mut Numbered::default(), &mut doubtful)?;
+                let (paths, columns) = (std::slice::from_ref(path), Columns::of(self, source));
+                let mut rows = self.rows(&mut all, source, paths, open, &columns, &mut doubtful)?;
+                self.observe(&mut all, source, &columns, &mut rows, &mut Numbered::default())?;
                 let fitted = fitted_as_well(&all, &observations);
                 if 2 * fitted > all.rows() {
                     let (file, rows) = (path.clone(), all.rows());
@@ -94,32 +102,31 @@ impl Plan {
         let remarks = self
             .place_objects(&mut observations)
             .map_err(|error| DataError::NotPlaced { why: error.to_string() })?;
-        Ok(Loaded { observations, held_out, doubtful, remarks })
+        Ok(Loaded { observations, held_out, doubtful, remarks, sample })
     }
 
-    fn no_observations(&self) -> Observations {
+    pub(super) fn no_observations(&self) -> Observations {
         let in_sequence = self.order.is_some() || self.search.sequence;
         Observations { in_sequence, ..Observations::default() }
     }
 
-    fn append(
+    /// The rows of the files of a source, in their order.
+    fn rows(
         &self,
         all: &mut Observations,
         source: &SourcePlan,
         paths: &[String],
         open: &mut OpenTable<'_>,
-        numbered: &mut Numbered,
+        columns: &Columns,
         doubtful: &mut Vec<BareColumn>,
-    ) -> Result<(), DataError> {
-        let columns = Columns::of(self, source);
-        let mut rows = Rows::of(&columns);
+    ) -> Result<Rows, DataError> {
+        let mut rows = Rows::of(columns, paths);
         for path in paths {
             let file = all.origins.file(path);
-            rows.append((self, source), &mut *open(path, &self.format)?, file, &columns, doubtful)?;
+            rows.append((self, source), &mut *open(path, &self.format)?, file, columns, doubtful)?;
         }
-        let file = paths.join(", ");
         if rows.row_numbers.is_empty() {
-            return Err(DataError::NoRows { file });
+            return Err(DataError::NoRows { file: rows.file });
         }
         if let Some(order) = &self.order {
             // The column of the order is the last label.
@@ -127,10 +134,27 @@ impl Plan {
             if let Some((row, why)) = not_understood(&rows.labels[at]) {
                 let (line, row_number) = (rows.places.line(row), rows.number(row));
                 let why = format!("column `{order}`: `{}` {why}", clipped(&rows.labels[at][row]));
-                return Err(DataError::Impossible { file, line, row: row_number, why });
+                return Err(DataError::Impossible { file: rows.file, line, row: row_number, why });
             }
             rows.sort_by_label(at);
         }
+        rows.shift(columns);
+        if rows.row_numbers.is_empty() {
+            return Err(DataError::NoRows { file: rows.file });
+        }
+        Ok(rows)
+    }
+
+    /// Appends what the rows of a source observe.
+    pub(super) fn observe(
+        &self,
+        all: &mut Observations,
+        source: &SourcePlan,
+        columns: &Columns,
+        rows: &mut Rows,
+        numbered: &mut Numbered,
+    ) -> Result<(), DataError> {
+        let file = rows.file.clone();
         let converted = columns.readings.iter().filter(|(_, at)| !rows.in_si[*at]).map(|(id, _)| *id);
         all.converted.extend(converted);
         let start = all.rows();
@@ -138,23 +162,23 @@ impl Plan {
         if u32::try_from(start + count).is_err() {
             return Err(DataError::TooManyRows { file });
         }
-        let readings = self.readings(source, &columns, &mut rows, &file)?;
-        check_ranges(&self.chain, source, &readings, &rows, &file)?;
-        append(&mut all.measured, self.measured(source, &columns, &rows, &readings, &file)?);
+        let readings = self.readings(source, columns, rows, &file)?;
+        check_ranges(&self.chain, source, &readings, rows, &file)?;
+        append(&mut all.measured, self.measured(source, columns, rows, &readings, &file)?);
         // Of many rows these are most of what is held.
         rows.numbers[columns.observed.clone()].fill_with(Vec::new);
         // A source that does not have a column has no use for it either; and a reading that states nothing is exact.
         append_columns(&mut all.poses.columns, start, count, readings);
-        append_columns(&mut all.reading_sigma, start, count, of_readings(source, &columns, &rows, &file)?);
-        append_columns(&mut all.reading_correlation, start, count, of_pairs(source, &columns, &rows, &file)?);
+        append_columns(&mut all.reading_sigma, start, count, of_readings(source, columns, rows, &file)?);
+        append_columns(&mut all.reading_correlation, start, count, of_pairs(source, columns, rows, &file)?);
         if !columns.sigma.is_empty() {
             all.sigma.resize(start, None);
-            all.sigma.extend(of_components(&columns, &rows, &file)?.into_iter().map(Some));
+            all.sigma.extend(of_components(columns, rows, &file)?.into_iter().map(Some));
         } else if !all.sigma.is_empty() {
             all.sigma.resize(start + count, None);
         }
         let grouping = self.group.len();
-        self.append_objects(all, source, &rows, start);
+        self.append_objects(all, source, rows, start);
         if grouping == 0 {
             all.groups.extend((start as u32..).take(count));
         } else {

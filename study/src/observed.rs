@@ -19,6 +19,8 @@ pub(super) struct ObservedColumns {
     pub way: &'static Written,
     /// In their order.
     pub columns: Vec<ColumnPlan>,
+    /// The key of each in `[observed]`.
+    pub keys: Vec<&'static str>,
     /// How an orientation is written, where one is observed.
     pub orientation: Option<Form>,
 }
@@ -61,7 +63,7 @@ pub(super) fn observed_columns(
         return Err(mistake(place, format!("`{key}` is no column of this kind"), help));
     }
     // What `simulate` and `eval` write needs no naming.
-    let of_its_own = |name: String| ColumnPlan { name, unit: None, quantity, declared: true, named: false };
+    let of_its_own = |name: String| ColumnPlan::declared(name, quantity);
     let plan = |(key, column): (&str, &Option<Column>)| match column {
         Some(column) => column_plan(column, quantity, &place, false),
         None if matches!(orientation, None | Some(Form::FromDesign)) && is_of_vector(key) => {
@@ -77,8 +79,9 @@ pub(super) fn observed_columns(
             Err(mistake(place.clone(), format!("no column is named for `{key}`"), help))
         }
     };
+    let written: Vec<&'static str> = keys.iter().map(|(key, _)| *key).collect();
     let columns = every(keys.into_iter().map(plan))?;
-    Ok(ObservedColumns { measure, way, columns, orientation })
+    Ok(ObservedColumns { measure, way, columns, keys: written, orientation })
 }
 
 /// Whether a key is a component, whose column `simulate` and `eval` call by the observable and the key.

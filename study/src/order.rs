@@ -2,6 +2,8 @@
 
 use std::cmp::Ordering;
 
+use chrono::{FixedOffset, NaiveDate};
+
 use tables::formats::numbers;
 
 /// The rows by their labels, equal ones as they stand: by number if all are numbers, by the moment if all are points in time, else
@@ -33,24 +35,32 @@ pub(super) fn times(labels: &[String]) -> Result<Vec<f64>, usize> {
     // Where each alone says something, they do not together: one of those that begin otherwise than the first is shown.
     let is_number = |label: &String| numbers(std::slice::from_ref(label)).is_some();
     let first = labels.first().is_some_and(is_number);
-    let says_nothing = |label: &String| !is_number(label) && moment(label).is_none();
+    let says_nothing = |label: &String| !is_number(label) && moment(label).is_err();
     let row = labels.iter().position(says_nothing);
     Err(row.or_else(|| labels.iter().position(|label| is_number(label) != first)).unwrap_or(0))
 }
 
-/// The first label that is a point in time in a way that is not understood, and why, where names would be all that is left to go by:
-/// `31.01.2026` comes behind `01.02.2026` then.
+/// The first label that is a point in time in a way that is not understood, and why: one that no calendar or clock has, or one
+/// where names would be all that is left to go by, as `31.01.2026` comes behind `01.02.2026` then.
 pub(super) fn not_understood(labels: &[String]) -> Option<(usize, &'static str)> {
     if numbers(labels).is_some() || moments(labels).is_some() {
         return None;
     }
-    if labels.iter().all(|label| moment(label).is_some()) {
-        let bare = labels.iter().position(|label| moment(label).is_some_and(|moment| !moment.has_zone));
+    let impossible = |label: &String| match moment(label) {
+        Err(NoMoment::Impossible(why)) => Some(why),
+        _ => None,
+    };
+    let found = labels.iter().enumerate().find_map(|(row, label)| Some((row, impossible(label)?)));
+    if found.is_some() {
+        return found;
+    }
+    if labels.iter().all(|label| moment(label).is_ok()) {
+        let bare = labels.iter().position(|label| moment(label).is_ok_and(|moment| !moment.has_zone));
         return bare.map(|row| {
             (row, "says nothing of its zone, while other rows do: write it everywhere, or nowhere")
         });
     }
-    let row = labels.iter().position(|label| moment(label).is_none() && looks_like_time(label))?;
+    let row = labels.iter().position(|label| moment(label).is_err() && looks_like_time(label))?;
     Some((row, "is a point in time that is not understood: write it as 2026-01-31T18:01:00"))
 }
 
@@ -91,70 +101,81 @@ struct Moment {
     has_zone: bool,
 }
 
+/// Why a label is no point in time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum NoMoment {
+    /// It is something else.
+    Other,
+    /// It is written as one, but there is no such day, time of day or zone.
+    Impossible(&'static str),
+}
+
 /// All labels as points in time by ISO 8601; none where some have a zone and others do not, which nothing can put in order.
 fn moments(labels: &[String]) -> Option<Vec<Moment>> {
-    let moments: Vec<Moment> = labels.iter().map(|label| moment(label)).collect::<Option<_>>()?;
+    let moments: Vec<Moment> = labels.iter().map(|label| moment(label)).collect::<Result<_, _>>().ok()?;
     let zoned = moments.iter().filter(|moment| moment.has_zone).count();
     (zoned == 0 || zoned == moments.len()).then_some(moments)
 }
 
 /// `2026-10-25`, or with a time of day behind `T` or a blank, `02:59:30.25`, and with `Z` or `+02:00` behind that.
-fn moment(label: &str) -> Option<Moment> {
+fn moment(label: &str) -> Result<Moment, NoMoment> {
     let (date, clock) = match label.split_once(['T', 't', ' ']) {
         Some((date, clock)) => (date, Some(clock)),
         None => (label, None),
     };
     let mut parts = date.splitn(3, '-');
-    let mut next = |digits: usize| digits_of(parts.next()?, digits);
+    let mut next = |digits| parts.next().ok_or(NoMoment::Other).and_then(|part| digits_of(part, digits));
     let (year, month, day) = (next(4)?, next(2)?, next(2)?);
-    if !(1..=12).contains(&month) || !(1..=31).contains(&day) {
-        return None;
-    }
-    let midnight = days(year, month, day) as f64 * 86_400.0;
-    let Some(clock) = clock else { return Some(Moment { seconds: midnight, has_zone: false }) };
+    let date = i32::try_from(year).ok().and_then(|year| NaiveDate::from_ymd_opt(year, month, day));
+    let date = date.ok_or(NoMoment::Impossible("is no day of the calendar: correct the date"));
+    let Some(clock) = clock else {
+        return Ok(Moment { seconds: f64::from(date?.to_epoch_days()) * 86_400.0, has_zone: false });
+    };
     let clock = clock.trim();
     let (clock, zone) = match clock.find(['Z', 'z', '+', '-']) {
         Some(at) => (clock[..at].trim_end(), Some(&clock[at..])),
         None => (clock, None),
     };
     let mut parts = clock.splitn(3, ':');
-    let (hour, minute) = (digits_of(parts.next()?, 2)?, digits_of(parts.next()?, 2)?);
-    let second = match parts.next() {
+    let mut next = |digits| parts.next().ok_or(NoMoment::Other).and_then(|part| digits_of(part, digits));
+    let (hour, minute) = (next(2)?, next(2)?);
+    let second: f64 = match parts.next() {
         Some(second) if second.bytes().all(|letter| letter.is_ascii_digit() || letter == b'.') => {
-            second.parse().ok()?
+            second.parse().map_err(|_| NoMoment::Other)?
         }
-        Some(_) => return None,
+        Some(_) => return Err(NoMoment::Other),
         None => 0.0,
     };
-    let own = f64::from(hour * 3600 + minute * 60) + second;
-    let ahead = zone.map_or(Some(0), ahead_of_utc)?;
-    Some(Moment { seconds: midnight + own - f64::from(ahead), has_zone: zone.is_some() })
+    let ahead = zone.map_or(Ok(0), ahead_of_utc)?;
+    // A leap second is the 61st of its minute.
+    let seconds_of_minute = if minute == 59 { 61.0 } else { 60.0 };
+    if hour > 23 || minute > 59 || second >= seconds_of_minute {
+        return Err(NoMoment::Impossible("is no time of day: correct the hour, the minute or the second"));
+    }
+    let own = f64::from(hour * 3600 + minute * 60) + second - f64::from(ahead);
+    Ok(Moment { seconds: f64::from(date?.to_epoch_days()) * 86_400.0 + own, has_zone: zone.is_some() })
 }
 
 /// Seconds that a zone is ahead: `Z`, `+02:00`, `-0330`, `+02`.
-fn ahead_of_utc(zone: &str) -> Option<i32> {
+fn ahead_of_utc(zone: &str) -> Result<i32, NoMoment> {
     if zone.eq_ignore_ascii_case("z") {
-        return Some(0);
+        return Ok(0);
     }
-    let sign = if zone.starts_with('-') { -1 } else { 1 };
-    let digits = zone.get(1..)?.replace(':', "");
-    let (hours, minutes) = digits.split_at_checked(2)?;
+    let digits = zone.get(1..).ok_or(NoMoment::Other)?.replace(':', "");
+    let (hours, minutes) = digits.split_at_checked(2).ok_or(NoMoment::Other)?;
+    let hours = digits_of(hours, 2)?;
     let minutes = if minutes.is_empty() { 0 } else { digits_of(minutes, 2)? };
-    Some(sign * (digits_of(hours, 2)? * 3600 + minutes * 60))
+    let ahead = i32::try_from(hours * 3600 + minutes * 60).map_err(|_| NoMoment::Other)?;
+    let ahead = if zone.starts_with('-') { -ahead } else { ahead };
+    let offset = FixedOffset::east_opt(ahead).filter(|_| minutes < 60);
+    let offset = offset.ok_or(NoMoment::Impossible("is in no zone: correct what follows the time of day"))?;
+    Ok(offset.local_minus_utc())
 }
 
 /// A number of so many digits.
-fn digits_of(text: &str, digits: usize) -> Option<i32> {
+fn digits_of(text: &str, digits: usize) -> Result<u32, NoMoment> {
     let is_one = text.len() == digits && text.bytes().all(|letter| letter.is_ascii_digit());
-    if is_one { text.parse().ok() } else { None }
-}
-
-/// Days since 1970-01-01 in the calendar that is in use today. Years begin with March here, so that a leap day is the last.
-fn days(year: i32, month: i32, day: i32) -> i64 {
-    let (year, month) = if month > 2 { (year, month - 3) } else { (year - 1, month + 9) };
-    let (year, month, day) = (i64::from(year), i64::from(month), i64::from(day));
-    let leap_days = year.div_euclid(4) - year.div_euclid(100) + year.div_euclid(400);
-    365 * year + leap_days + (153 * month + 2) / 5 + day - 1 - 719_468
+    if is_one { text.parse().map_err(|_| NoMoment::Other) } else { Err(NoMoment::Other) }
 }
 
 /// Two names by their parts: digits by the number that they are, all else as text.
@@ -227,20 +248,41 @@ mod tests {
     #[test]
     fn an_instant_is_that_of_the_calendar() {
         let of = |label: &str| moment(label).map(|moment| moment.seconds);
-        assert_eq!(of("1970-01-01"), Some(0.0));
-        assert_eq!(of("2000-02-29T12:30:15.25Z"), Some(951_827_415.25));
-        assert_eq!(of("1969-12-31T19:00:00-05:00"), Some(0.0));
-        assert_eq!(of("2026-11-24T22:33:00+0330"), Some(1_795_546_980.0));
-        for wrong in [
-            "2026-13-01",
-            "2026-1-1",
-            "25.10.2026",
-            "2026-10-25T2:30",
-            "2026-10-25T02:30+2",
-            "2026-10-25T02:30:xx",
-        ] {
-            assert_eq!(of(wrong), None, "{wrong}");
+        assert_eq!(of("1970-01-01"), Ok(0.0));
+        assert_eq!(of("2000-02-29T12:30:15.25Z"), Ok(951_827_415.25));
+        assert_eq!(of("1969-12-31T19:00:00-05:00"), Ok(0.0));
+        assert_eq!(of("2026-11-24T22:33:00+0330"), Ok(1_795_546_980.0));
+        for wrong in
+            ["2026-1-1", "25.10.2026", "2026-10-25T2:30", "2026-10-25T02:30+2", "2026-10-25T02:30:xx"]
+        {
+            assert_eq!(of(wrong), Err(NoMoment::Other), "{wrong}");
         }
+    }
+
+    /// Python's `datetime.fromisoformat` refuses each, but for the leap second.
+    #[test]
+    fn what_no_calendar_or_clock_has_is_refused() {
+        for wrong in [
+            "2026-02-30",
+            "2026-02-30T00:00:00",
+            "2025-02-29",
+            "1900-02-29",
+            "2026-13-01",
+            "2026-00-01",
+            "2026-01-00",
+            "2026-10-25T25:00",
+            "2026-10-25T24:00:00",
+            "2026-10-25T00:75",
+            "2026-10-25T00:00:60",
+            "2026-10-25T02:30+99:00",
+            "2026-10-25T02:30+02:60",
+        ] {
+            assert!(matches!(moment(wrong), Err(NoMoment::Impossible(_))), "{wrong}");
+            let labels = ["2026-01-30T18:01", wrong].map(str::to_owned);
+            assert_eq!(not_understood(&labels).map(|(row, _)| row), Some(1), "{wrong}");
+        }
+        assert!(moment("2016-12-31T23:59:60Z").is_ok());
+        assert!(moment("2000-02-29T23:59:59.999-12:00").is_ok());
     }
 
     #[test]

@@ -10,7 +10,7 @@ use super::kind::{Kind, names_of, observes};
 use super::mistakes::{Outcome, every, mistake};
 use super::plan::SourcePlan;
 use super::sights::check_sight;
-use super::written::{ObjectTable, Observed, StationTable, Study};
+use super::written::{ObjectTable, Observed, StationTable, Study, Table};
 use fit::{BESIDE_OBJECTS, FitOptions};
 use observe::kinds::Observes;
 use observe::unknowns::{Freedom, Known, Object, Places, Pose, Shape, Station};
@@ -105,10 +105,25 @@ impl Study {
         let errors = chain.symbols_of(SymbolKind::Error);
         let mut sizes: Vec<(SymbolId, f64)> =
             if of_objects { errors.map(|id| (id, BESIDE_OBJECTS)).collect() } else { Vec::new() };
+        for (id, size) in self.sizes(chain, &self.fit.tolerance, "a tolerance is positive")? {
+            sizes.retain(|(known, _)| *known != id);
+            sizes.push((id, size));
+        }
+        Ok(sizes)
+    }
+
+    /// How large errors may be that are findings.
+    pub(super) fn plausible(&self, chain: &Chain) -> Outcome<Vec<(SymbolId, f64)>> {
+        self.sizes(chain, &self.fit.plausible, "a limit is positive")
+    }
+
+    /// Positive sizes of errors by their names or patterns, SI.
+    fn sizes(&self, chain: &Chain, written: &Table<Amount>, why: &str) -> Outcome<Vec<(SymbolId, f64)>> {
+        let mut sizes: Vec<(SymbolId, f64)> = Vec::new();
         // Patterns first, so that a plain name wins over them.
         let is_pattern = |name: &str| model_core::names::is_pattern(name);
         let (patterns, names): (Vec<_>, Vec<_>) =
-            self.fit.tolerance.iter().partition(|(name, _)| is_pattern(name.get_ref()));
+            written.iter().partition(|(name, _)| is_pattern(name.get_ref()));
         for (name, amount) in patterns.into_iter().chain(names) {
             for id in matching(chain, name)? {
                 let quantity = chain.symbol(id).quantity;
@@ -118,11 +133,7 @@ impl Study {
                     value => value?,
                 };
                 if !(value > 0.0 && value.is_finite()) {
-                    return Err(mistake(
-                        amount.span(),
-                        "a tolerance is positive",
-                        "write \"5 mm\" or \"1 mrad\"",
-                    ));
+                    return Err(mistake(amount.span(), why, "write \"5 mm\" or \"1 mrad\""));
                 }
                 sizes.retain(|(known, _)| *known != id);
                 sizes.push((id, value));

@@ -35,6 +35,8 @@ pub struct Plan {
     pub sources: Vec<SourcePlan>,
     /// What to estimate and how.
     pub fit: FitOptions,
+    /// How large errors may be that are findings, where the study says so, SI.
+    pub plausible: Vec<(SymbolId, f64)>,
     /// What to look for.
     pub search: Search,
     /// How to judge on data that no stage saw.
@@ -72,6 +74,15 @@ impl Plan {
         self.sources.iter().any(|source| !source.uncertain.sigma.is_empty())
     }
 
+    /// The key in `[observed]` of a component that a source observes.
+    #[must_use]
+    pub fn observed_key(&self, source: usize, component: usize) -> &'static str {
+        match self.sources.get(source).and_then(|source| source.observed_keys.get(component)) {
+            Some(key) => key,
+            None => unreachable!("a component that is observed has a key"),
+        }
+    }
+
     /// The same of these files alone, with as many sources.
     #[must_use]
     pub fn of_files(&self, paths: &[String]) -> Self {
@@ -107,6 +118,8 @@ pub struct SourcePlan {
     pub(super) observed: Vec<ColumnPlan>,
     /// How it is written.
     pub(super) way: &'static Written,
+    /// The key of each in `[observed]`.
+    observed_keys: Vec<&'static str>,
     /// What the angles are that are observed, where the declaration says so.
     pub(super) convention: Option<Convention>,
     /// How an orientation is written, where one is observed.
@@ -184,6 +197,7 @@ impl Study {
         }
         let places = sources.as_ref().and_then(|sources| mistakes.take(self.places(sources)));
         let sizes = sources.as_ref().and_then(|sources| mistakes.take(self.tolerances(&chain, sources)));
+        let plausible = mistakes.take(self.plausible(&chain));
         mistakes.none()?;
         let (
             Some(sources),
@@ -195,7 +209,8 @@ impl Study {
             Some(sigma),
             Some(places),
             Some(sizes),
-        ) = (sources, fit, search, hold_out, next, format, sigma, places, sizes)
+            Some(plausible),
+        ) = (sources, fit, search, hold_out, next, format, sigma, places, sizes, plausible)
         else {
             unreachable!("what is missing comes with a mistake")
         };
@@ -217,6 +232,7 @@ impl Study {
             hold_out,
             next,
             places,
+            plausible,
             data_from,
             doubts,
             unstated,
@@ -275,7 +291,7 @@ impl Study {
                 Some(observable),
                 Some(readings),
                 Some(uncertain),
-                Some(ObservedColumns { measure, way, columns, orientation }),
+                Some(ObservedColumns { measure, way, columns, keys, orientation }),
                 Some(convention),
                 Some(sigma),
             ) = (observable, readings, uncertain, shown, convention, sigma)
@@ -289,6 +305,7 @@ impl Study {
                 readings,
                 observed: columns,
                 way,
+                observed_keys: keys,
                 convention,
                 orientation,
                 sigma,
@@ -354,8 +371,7 @@ impl Study {
                     return Ok(Reading::Derived(derived.clone()));
                 }
                 let (name, quantity) = (symbol.name.clone(), symbol.quantity);
-                let column = ColumnPlan { name, unit: None, quantity, declared: true, named: false };
-                return Ok(Reading::Column(column));
+                return Ok(Reading::Column(ColumnPlan::declared(name, quantity)));
             };
             match &column.get_ref().derive {
                 Some(text) => parse_derived(text)

@@ -1,6 +1,7 @@
 //! The rows of one source on their way from its files.
 
 use super::columns::Columns;
+use super::conversion::Conversion;
 use super::labels::says_nothing;
 use super::order::order_of;
 use super::plan::{Plan, SourcePlan};
@@ -15,26 +16,36 @@ const CHUNK: usize = 1 << 16;
 const BYTES_A_NUMBER: usize = 3 * size_of::<f64>();
 
 /// The columns of one source as numbers and labels, in the order of [`Columns`].
+#[derive(Debug, Clone)]
 pub(super) struct Rows {
     pub numbers: Vec<Vec<f64>>,
     pub labels: Vec<Vec<String>>,
+    /// The files that they come from.
+    pub file: String,
     pub row_numbers: Numbers,
     pub places: Places,
     /// Of each column of numbers whether all files so far give it in SI.
     pub in_si: Vec<bool>,
+    /// Of each column of numbers what they were multiplied by to be in SI; `None` where files differ.
+    pub factors: Vec<Option<f64>>,
+    /// Of each column of numbers whether the header of some file says its unit.
+    pub headed: Vec<bool>,
     /// Memory that these take, in bytes.
     bytes: usize,
 }
 
 impl Rows {
-    /// None yet, of these columns.
-    pub fn of(columns: &Columns) -> Self {
+    /// None yet, of these columns of files.
+    pub fn of(columns: &Columns, paths: &[String]) -> Self {
         Self {
             numbers: vec![Vec::new(); columns.plans.len()],
             labels: vec![Vec::new(); columns.labels.len()],
+            file: paths.join(", "),
             row_numbers: Numbers::default(),
             places: Places::default(),
             in_si: vec![true; columns.plans.len()],
+            factors: vec![None; columns.plans.len()],
+            headed: vec![false; columns.plans.len()],
             bytes: 0,
         }
     }
@@ -49,8 +60,15 @@ impl Rows {
         doubtful: &mut Vec<BareColumn>,
     ) -> Result<(), DataError> {
         let (wanted, mut bare) = columns.wanted(plan, source, reader)?;
-        for (in_si, column) in self.in_si.iter_mut().zip(&wanted) {
-            *in_si &= matches!(column.form, Form::Number(1.0));
+        let is_first = self.row_numbers.is_empty();
+        let own = self.in_si.iter_mut().zip(&mut self.factors);
+        for ((in_si, factor), (column, plan)) in own.zip(wanted.iter().zip(&columns.plans)) {
+            *in_si &= matches!(column.form, Form::Number(1.0)) && plan.conversion == Conversion::NONE;
+            let this = if let Form::Number(factor) = column.form { Some(factor) } else { None };
+            *factor = this.filter(|_| is_first || *factor == this);
+        }
+        for (headed, column) in self.headed.iter_mut().zip(&wanted) {
+            *headed |= reader.header()[column.column].unit().is_some();
         }
         let before = self.row_numbers.last().unwrap_or_default();
         loop {
@@ -71,7 +89,12 @@ impl Rows {
                             bare.see(&values);
                         }
                         self.bytes += values.len() * BYTES_A_NUMBER;
-                        column.extend(&values);
+                        let conversion = columns.plans[at].conversion;
+                        if conversion == Conversion::NONE {
+                            column.extend(&values);
+                        } else {
+                            column.extend(values.iter().map(|number| conversion.value(*number)));
+                        }
                     }
                     Cells::Labels(values) => {
                         let Some((column, name)) = labels.next() else { continue };
@@ -121,6 +144,42 @@ impl Rows {
         }
         self.row_numbers = self.row_numbers.select(&order);
         self.places = self.places.select(&order);
+    }
+
+    /// Lets columns that a study shifts take their readings from other rows; rows that have none then are left out.
+    pub fn shift(&mut self, columns: &Columns) {
+        let rows = self.row_numbers.len() as i64;
+        let shifts = || columns.plans.iter().map(|plan| plan.conversion.shift);
+        let (forward, back) = (shifts().max().unwrap_or(0).max(0), shifts().min().unwrap_or(0).min(0));
+        if (forward, back) == (0, 0) {
+            return;
+        }
+        for (column, shift) in self.numbers.iter_mut().zip(shifts()) {
+            *column = (forward..rows + back).map(|row| column[(row - shift) as usize]).collect();
+        }
+        let kept: Vec<usize> = (forward..rows + back).map(|row| row as usize).collect();
+        for column in &mut self.labels {
+            *column = kept.iter().map(|&row| column[row].clone()).collect();
+        }
+        self.row_numbers = self.row_numbers.select(&kept);
+        self.places = self.places.select(&kept);
+    }
+
+    /// These rows, in the order given.
+    pub fn select(&self, rows: &[usize]) -> Self {
+        let numbers = |column: &Vec<f64>| rows.iter().map(|&row| column[row]).collect();
+        let labels = |column: &Vec<String>| rows.iter().map(|&row| column[row].clone()).collect();
+        Self {
+            numbers: self.numbers.iter().map(numbers).collect(),
+            labels: self.labels.iter().map(labels).collect(),
+            file: self.file.clone(),
+            row_numbers: self.row_numbers.select(rows),
+            places: self.places.select(rows),
+            in_si: self.in_si.clone(),
+            factors: self.factors.clone(),
+            headed: self.headed.clone(),
+            bytes: 0,
+        }
     }
 
     /// The number of a row in its file.

@@ -22,7 +22,7 @@ impl Study {
     /// # Example
     ///
     /// ```
-    /// use calibration::study::Study;
+    /// use study::Study;
     ///
     /// let text = "chain = 'mount.chain'\ndata = 'stars.csv'\n[observed]\nkind = 'direction'\nx = 'x'\ny = 'y'\nz = 'z'\n";
     /// let study = Study::from_text(text)?;

@@ -133,6 +133,14 @@ pub(super) struct Column {
     pub meaning: Option<Spanned<String>>,
     /// How uncertain a reading is.
     pub sigma: Option<Spanned<Sigma>>,
+    /// 1, or -1 where it counts the other way.
+    pub sign: Option<Spanned<i64>>,
+    /// What is added to each number.
+    pub offset: Option<Spanned<Amount>>,
+    /// `ddd.mmss` or `hhmmss`.
+    pub notation: Option<Spanned<String>>,
+    /// A row takes the reading of the row that stands so many before it.
+    pub shift: Option<Spanned<i64>>,
     /// How its error hangs together with that of other readings of the row.
     #[serde(default)]
     pub correlation: Table<Correlation>,
@@ -262,6 +270,8 @@ pub(super) struct FitTable {
     pub max_iterations: Spanned<u64>,
     /// How large errors may be that the data do not show.
     pub tolerance: Table<Amount>,
+    /// How large errors may be: a larger value is no finding.
+    pub plausible: Table<Amount>,
 }
 
 impl Default for FitTable {
@@ -274,6 +284,7 @@ impl Default for FitTable {
             robust: true,
             max_iterations: Spanned::new(0..0, 50),
             tolerance: Table::new(),
+            plausible: Table::new(),
         }
     }
 }

@@ -10,6 +10,8 @@ const REGISTRIES: &[&str] = &[
     "effects/src/families",
     "observe/src/kinds",
     "tables/src/formats",
+    "calibration/src/misread/hypotheses",
+    "evidence/src/families",
 ];
 
 #[test]

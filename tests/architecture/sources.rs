@@ -19,6 +19,7 @@ pub const LIBRARIES: &[&str] = &[
     "network/src",
     "study/src",
     "calibration/src",
+    "evidence/src",
 ];
 
 /// One source file: its path from the root of the workspace, with `/`, and its text.

@@ -77,6 +77,7 @@ pub use instrument::{
     BodyShown, ErrorShown, ErrorState, Instrument, JointShown, ObservedShown, ReadingShown,
 };
 pub use lengths::LengthsOff;
+pub(crate) use misread::Unsearched;
 pub use mistakes::{Misreading, StatedPlaces};
 pub use moved::Moved;
 pub(crate) use noise::expected_rms;
@@ -236,7 +237,7 @@ pub(crate) fn diagnose(
     whole: &Context<'_>,
     before: &FitResult,
     last: &Fitted,
-    confirmed: Result<Confirmed<'_>, Vec<BeforeAfter>>,
+    confirmed: Result<Confirmed<'_>, Unsearched>,
 ) -> Result<Diagnosis, SearchError> {
     let request = whole.request;
     let (observations, fit) = (request.observations, &last.fit);
@@ -248,7 +249,7 @@ pub(crate) fn diagnose(
         Err(_) => Found::default(),
     };
     let errors = errors::errors(whole, last, &found.by_cause);
-    let rms = confirmed.as_ref().map_or_else(|rms| rms.as_slice(), |confirmed| &confirmed.rms);
+    let rms = confirmed.as_ref().map_or_else(|own| own.rms.as_slice(), |confirmed| &confirmed.rms);
     let mut cautions = cautions(&found, whole, rms);
     cautions.extend(few::hardly_more(observations, fit));
     cautions.extend(foretold::badly(rms).filter(|_| rounding(observations, fit).is_none()));
@@ -283,7 +284,8 @@ pub(crate) fn diagnose(
         cautions.extend(lengths::lengths_off(whole, round).map(Caution::LengthsOff));
     }
     cautions.extend(misplaced);
-    let mut cautions = misread(whole, fit, &ended, cautions);
+    let columns = confirmed.as_ref().err().and_then(|own| own.misread.as_ref());
+    let mut cautions = misread(whole, last, &ended, cautions, columns);
     let remaining = found.remaining.as_ref();
     cautions.extend(noisy_readings(whole, last, &found)?);
     let alone = found

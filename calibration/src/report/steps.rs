@@ -1,29 +1,30 @@
 //! What to do next, step by step.
 
 use super::causes::{cause, sentence_case};
+use super::columns::{self, implausible_values, misread};
 use super::effects::CHANCE;
 use super::places::told_places;
 use super::rivals::{Rival, rival};
 use super::shell::shell_word;
+use super::step::Step;
 use crate::diagnose::few::WANTED;
 use crate::diagnose::{Caution, Diagnosis, EffectFound, Ended, Relation, Verdict};
-
-/// Something to do.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Step {
-    /// What, in a few words.
-    pub title: String,
-    /// Why and how.
-    pub text: String,
-    /// A command line that does it.
-    pub command: Option<String>,
-}
 
 /// What to do next, in order.
 pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
     let step = |title: &str, text: String| Step { title: title.to_owned(), text, command: None };
     let mut steps = Vec::new();
     match diagnosis.verdict {
+        Verdict::ColumnMisread if let Some(misread) = misread(diagnosis) => return columns::steps(misread),
+        Verdict::FitFailed if implausible_values(diagnosis).is_some() => {
+            steps.push(step(
+                "Do not correct with it",
+                "Compare units, signs and order of the columns with the file, and the lengths of the declaration with the instrument. Then \
+                 calibrate again."
+                    .to_owned(),
+            ));
+            return steps;
+        }
         Verdict::FitFailed if !fits_otherwise(diagnosis) => {
             steps.push(step(
                 "Check units, signs and axes",

@@ -389,6 +389,7 @@ mod tests {
             text: MOUNT,
             plan: &plan,
             observations: &observations,
+            sample: None,
             second: None,
             when: "2026-11-21",
         };

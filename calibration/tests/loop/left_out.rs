@@ -127,6 +127,7 @@ fn each_of_the_scanners_30_errors_is_named_or_said_to_be_hidden() {
             text: &text,
             plan: &lacking,
             observations: &observations,
+            sample: None,
             second: None,
             when: "2026-11-21",
         };
@@ -151,6 +152,7 @@ fn each_error_of_the_auxiliary_telescope_is_named_or_said_to_be_hidden() {
             text: &study.text,
             plan: &lacking,
             observations: &study.observations,
+            sample: None,
             second: None,
             when: "2026-11-21",
         };

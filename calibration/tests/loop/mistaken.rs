@@ -41,6 +41,7 @@ fn calibrated(droop: f64) -> Calibration {
         text: &text,
         plan: &plan,
         observations: &observations,
+        sample: None,
         second: None,
         when: "2026-11-21",
     })

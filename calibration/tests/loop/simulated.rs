@@ -91,7 +91,7 @@ pub(crate) fn pointing(chain: &Chain, errors: &[(&str, f64)], readings: [f64; 5]
 }
 
 pub(crate) fn search(text: &str, plan: &Plan, observations: &Observations) -> Calibration {
-    calibrate(Request { text, plan, observations, second: None, when: "2026-11-21" }).unwrap()
+    calibrate(Request { text, plan, observations, sample: None, second: None, when: "2026-11-21" }).unwrap()
 }
 
 /// The lidar with `lines` added to the middle frame's motion errors.

@@ -65,6 +65,7 @@ fn the_planted_effect_is_found_and_the_errors_are_those_planted() {
             text: &text,
             plan: &plan,
             observations: &observations,
+            sample: None,
             second: None,
             when: "2026-11-22",
         };

@@ -10,7 +10,6 @@ mod next;
 mod noise;
 mod refused;
 mod ridge;
-mod room;
 mod small;
 mod starts;
 mod visible;

@@ -45,8 +45,8 @@ pub(super) fn closed_form(
     errors.dedup();
     let symbols = PrintedSymbols::of_chain(chain);
     let shown = chain.observable(id);
-    let printed =
-        PrintedVector::read_shown(chain, &symbols, shown, components, false).map_err(|mistakes| {
+    let printed = PrintedVector::read_shown(chain, &symbols, shown, components, Order::UpTo(order)).map_err(
+        |mistakes| {
             let mut said = String::new();
             for mistake in mistakes {
                 let text = components.get(mistake.place.text_index).copied().unwrap_or_default();
@@ -54,7 +54,8 @@ pub(super) fn closed_form(
                 let _ = writeln!(said, "`{text}`, at `{place}`: {}", mistake.message);
             }
             said
-        })?;
+        },
+    )?;
     let order = Order::UpTo(order);
     let claim = ClosedForm { observable: id, order, only: None, faces: None, kept: errors, printed };
     let verdict = Checker::new(chain).closed_form(&claim).map_err(|error| error.to_string())?;

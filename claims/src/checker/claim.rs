@@ -1,10 +1,13 @@
 //! Claims as data: what somebody says of a chain.
 
+use super::entries::Entries;
 use super::equality::Equality;
 use super::formula::PrintedVector;
+use super::order::Order;
 use super::radicand::Total;
 use super::ranks::Rank;
 use super::sizes::{Bound, Size};
+use super::values::Values;
 use model_core::algebra::Poly;
 use model_core::budget::{Measure, Poses};
 use model_core::chain::{Axis, Chain, ObservableId};
@@ -19,6 +22,10 @@ pub enum Claim {
     ClosedForm(Box<ClosedForm>),
     /// Two printed formulas are one.
     Equality(Box<Equality>),
+    /// Formulas of what is there: a pose, a Jacobian, an image point.
+    Entries(Box<Entries>),
+    /// Numbers at one pose.
+    Values(Values),
     /// One error matters less than another.
     Comparison(Comparison),
     /// How many errors of a kind are declared.
@@ -31,6 +38,19 @@ pub enum Claim {
     Size(Size),
     /// How much the first order drops.
     Bound(Bound),
+}
+
+impl Claim {
+    /// Whether rotations about named axes were read as the table of symbols says.
+    #[must_use]
+    pub fn is_turned(&self) -> bool {
+        match self {
+            Self::ClosedForm(form) => form.printed.turned,
+            Self::Equality(equality) => equality.is_turned(),
+            Self::Entries(entries) => entries.printed.iter().any(|printed| printed.turned),
+            _ => false,
+        }
+    }
 }
 
 /// That the error of an observable has this closed form.
@@ -54,18 +74,9 @@ impl ClosedForm {
     /// Whether this is a form to an order, of one face, in the names of the chain alone.
     #[must_use]
     pub fn is_plain(&self) -> bool {
-        let PrintedVector { halves, has_roots, .. } = &self.printed;
-        self.faces.is_none() && self.order != Order::Exact && halves.is_empty() && !has_roots
+        let PrintedVector { halves, has_roots, truncated, .. } = &self.printed;
+        self.faces.is_none() && self.order != Order::Exact && halves.is_empty() && !has_roots && !truncated
     }
-}
-
-/// Which products of errors a form has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Order {
-    /// Those of up to this many errors, 1 to 3.
-    UpTo(u32),
-    /// All of them: sines and cosines of errors, nothing dropped.
-    Exact,
 }
 
 /// The same pose taken up a second time in another position of the joints, and what becomes of the two errors.
@@ -86,6 +97,8 @@ pub enum Combination {
     Difference,
     /// (first − second) / 2
     HalfDifference,
+    /// −first: what has to be added to a reading so that its error goes.
+    Correction,
 }
 
 /// That the influence of one error is at most `at_most` times that of another.

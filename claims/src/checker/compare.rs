@@ -113,6 +113,10 @@ pub(super) fn over_faces(chain: &Chain, implied: &Implied, faces: &Faces) -> Res
     };
     let mut result = implied.clone();
     for (place, combined) in result.columns.iter_mut().enumerate() {
+        if faces.combined == Combination::Correction {
+            combined.values_mut().for_each(|factor| *factor = -&*factor);
+            continue;
+        }
         if implied.below[place] != Poly::one() {
             return Err(CheckError::FacesOfQuotient(print::text(&implied.below[place], chain)));
         }
@@ -132,6 +136,7 @@ pub(super) fn over_faces(chain: &Chain, implied: &Implied, faces: &Faces) -> Res
             &match faces.combined {
                 Combination::Mean => (&first + &second).scale(&half),
                 Combination::Difference => &first - &second,
+                Combination::Correction => -&first,
                 Combination::HalfDifference => (&first - &second).scale(&half),
             },
         );

@@ -4,9 +4,9 @@
 use std::ops::Range;
 
 use super::angles;
-use super::claim::Order;
 use super::compare::{Columns, Pair};
 use super::lowering::{self, Sines};
+use super::order::Order;
 use super::slip::TermSlip;
 use super::terms::{PrintedTerm, TermFactor};
 use super::{ClosedForm, compare};
@@ -150,7 +150,7 @@ impl Case<'_> {
     }
 
     fn factor_fraction(&self, factor: &TermFactor<'_>) -> Option<Fraction> {
-        let sines = if self.claim.order == Order::Exact { Sines::OfErrors } else { Sines::OfAngles };
+        let sines = if self.claim.order == Order::Exact { Sines::Errors } else { Sines::Angles };
         let value = lowering::fraction(self.chain, factor.expression, sines).ok()?;
         let translate = |poly| self.claim.printed.translate(self.chain, poly).ok();
         let value = Fraction::new(translate(&value.above)?, translate(&value.below)?)?;

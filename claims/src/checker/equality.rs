@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::algebraic;
 use super::{CheckError, Checker, PrintedComponent, PrintedVector, TextPlace};
-use crate::latex::PrintedSymbols;
+use crate::latex::{Notes, PrintedSymbols};
 use model_core::algebra::{Fraction, Rational};
 use model_core::chain::Chain;
 use model_core::expr::{Expr, Node};
@@ -41,9 +41,10 @@ impl Equality {
     pub(super) fn of_expressions(
         chain: &Chain,
         [first, second]: [Expr<Range<usize>>; 2],
+        notes: Notes,
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
         let nothing = Expr { node: Node::Number(Rational::ZERO), place: first.place.clone() };
-        PrintedVector::of_expressions(chain, [first, second, nothing]).map(|printed| Self { printed })
+        PrintedVector::of_expressions(chain, [first, second, nothing], notes).map(|printed| Self { printed })
     }
 
     /// The two formulas.
@@ -53,11 +54,20 @@ impl Equality {
         [first, second]
     }
 
+    /// Whether rotations about named axes were read as the table of symbols says.
+    pub(super) fn is_turned(&self) -> bool {
+        self.printed.turned
+    }
+
     /// Whether both are in the names of the chain alone and without quotients.
     #[must_use]
     pub fn is_plain(&self) -> bool {
-        let PrintedVector { components, halves, has_roots } = &self.printed;
-        halves.is_empty() && !has_roots && components.iter().all(|component| component.value.is_whole())
+        let PrintedVector { components, halves, has_roots, truncated, turned } = &self.printed;
+        halves.is_empty()
+            && !has_roots
+            && !truncated
+            && !turned
+            && components.iter().all(|component| component.value.is_whole())
     }
 }
 

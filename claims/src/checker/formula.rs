@@ -4,14 +4,19 @@ use std::ops::Range;
 
 use super::algebraic;
 use super::lowering::{self, Sines};
-use crate::latex::{self, PrintedSymbols};
+use super::order::Order;
+use super::series;
+use super::written::{Read, TextPlace, Written, component, expressions, in_text};
+use crate::latex::{Notes, PrintedSymbols};
 use model_core::algebra::{AlgebraError, Fraction, Poly, Rational};
 use model_core::chain::reading::Reading;
 use model_core::chain::{Axis, Chain, Observable};
 use model_core::expr::{Expr, Node};
 use model_core::mistake::Mistake;
 use model_core::symbol::SymbolId;
-use model_core::syntax;
+
+/// An expression as it is printed, each part with its place.
+type Printed = Expr<Range<usize>>;
 
 /// The three components of a printed formula.
 #[derive(Debug, Clone)]
@@ -22,6 +27,11 @@ pub struct PrintedVector {
     pub(super) halves: Vec<(SymbolId, SymbolId)>,
     /// Whether roots of numbers are printed: then constants that are multiples of 15° are the numbers that they are.
     pub(super) has_roots: bool,
+    /// Whether terms of higher order than the claim's were dropped: a product of matrices that nobody multiplied out, or a print
+    /// that says so itself.
+    pub truncated: bool,
+    /// Whether rotations about named axes were read as the table of symbols says.
+    pub turned: bool,
 }
 
 /// One component of a printed formula.
@@ -33,15 +43,6 @@ pub struct PrintedComponent {
     pub expression: Expr<Range<usize>>,
     /// What it says.
     pub value: Fraction,
-}
-
-/// Where a printed vector cannot be read: in which text, and where in it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct TextPlace {
-    /// Which of the texts.
-    pub text_index: usize,
-    /// Byte range in it.
-    pub bytes: Range<usize>,
 }
 
 impl PrintedVector {
@@ -57,11 +58,13 @@ impl PrintedVector {
         symbols: &PrintedSymbols,
         texts: &[&str],
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
-        Self::read_with(chain, symbols, &[Some(0), Some(1), Some(2)], texts, Sines::OfAngles)
+        let symbols = symbols.reading(texts);
+        let axes = [Some(0), Some(1), Some(2)];
+        Self::read_with(chain, expressions(&symbols, &axes, texts)?, &axes, texts, Order::UpTo(1))
     }
 
     /// The same for what an observable shows: as many formulas as it shows numbers. In an exact form sines and cosines of
-    /// errors stand.
+    /// errors stand. How a body is turned may be printed as a quaternion, 1 and half of the rotation vector.
     ///
     /// # Errors
     /// What cannot be read, with its place.
@@ -70,11 +73,16 @@ impl PrintedVector {
         symbols: &PrintedSymbols,
         observable: &Observable,
         texts: &[&str],
-        is_exact: bool,
+        order: Order,
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
+        let symbols = symbols.reading(texts);
         let axes: Vec<Option<usize>> =
             observable.shown.iter().map(|reading| reading.component().map(Axis::index)).collect();
-        Self::read_with(chain, symbols, &axes, texts, Sines::of_form(is_exact))
+        let mut written = expressions(&symbols, &axes, texts)?;
+        if observable.is_orientation() && order == Order::UpTo(1) {
+            written.components = of_quaternion(written.components);
+        }
+        Self::read_with(chain, written, &axes, texts, order)
     }
 
     /// Reads the formula of one of the numbers that an observable shows; the others are not claimed.
@@ -87,17 +95,31 @@ impl PrintedVector {
         text: &str,
         observable: &Observable,
         place: Axis,
-        is_exact: bool,
+        order: Order,
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
+        let symbols = symbols.reading(&[text]);
         let axis = observable.shown.get(place.index()).and_then(Reading::component);
-        let written = written(symbols, 0, text, axis.map(Axis::index))?;
-        let sines = Sines::of_form(is_exact);
+        let written = component(&symbols, 0, text, axis.map(Axis::index))?;
+        let (_, expression) = &written.components[0];
         let value =
-            lowering::fraction(chain, &written.1, sines).map_err(|mistake| vec![in_text(0, mistake)])?;
-        let mut read = Self::of_one(chain, &written.1, value)
+            valued(chain, expression, written.notes, order).map_err(|mistake| vec![in_text(0, mistake)])?;
+        let mut read = Self::of_one(chain, expression, value)
             .map_err(|error| vec![in_text(0, Mistake::new(0..text.len(), error.to_string()))])?;
         read.components.swap(0, place.index());
-        Ok(read)
+        Ok(read.noting(written.notes))
+    }
+
+    /// The formulas of texts, each in a text of its own, or all in one; `axes` are the components that they may be named as.
+    ///
+    /// # Errors
+    /// What cannot be read, with its place.
+    pub fn texts(
+        symbols: &PrintedSymbols,
+        axes: &[Option<usize>],
+        texts: &[&str],
+    ) -> Result<(Vec<Printed>, Notes), Vec<Mistake<TextPlace>>> {
+        let read = expressions(symbols, axes, texts)?;
+        Ok((read.components.into_iter().map(|(_, expression)| expression).collect(), read.notes))
     }
 
     /// Reads two formulas that name no component, as x and y, so that both are said in the same terms.
@@ -106,11 +128,16 @@ impl PrintedVector {
         symbols: &PrintedSymbols,
         texts: [&str; 2],
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
+        let symbols = symbols.reading(&texts);
+        let mut notes = Notes::default();
         let mut components = Vec::with_capacity(3);
         let mut mistakes = Vec::new();
         for (index, text) in texts.into_iter().enumerate() {
-            let read = written(symbols, index, text, None).and_then(|(text_index, expression)| {
-                match lowering::fraction(chain, &expression, Sines::OfErrors) {
+            let read = component(&symbols, index, text, None).and_then(|written| {
+                notes.join(&written.notes);
+                let one = written.components.into_iter().next();
+                let (text_index, expression) = one.unwrap_or_else(|| unreachable!("one formula was read"));
+                match lowering::fraction(chain, &expression, Sines::Series) {
                     Ok(value) => Ok(PrintedComponent { text_index, expression, value }),
                     Err(mistake) => Err(vec![in_text(text_index, mistake)]),
                 }
@@ -127,26 +154,26 @@ impl PrintedVector {
         let zero = Expr { node: Node::Number(Rational::ZERO), place: whole.clone() };
         let nothing =
             PrintedComponent { text_index: 0, expression: zero, value: Fraction::whole(Poly::zero()) };
-        Self { components: [first, second, nothing], halves: Vec::new(), has_roots: false }
+        Self::of_components([first, second, nothing])
+            .noting(notes)
             .normalised(chain)
             .map_err(|error| vec![in_text(0, Mistake::new(whole, error.to_string()))])
     }
 
     fn read_with(
         chain: &Chain,
-        symbols: &PrintedSymbols,
+        Read { components: expressions, notes }: Read,
         axes: &[Option<usize>],
         texts: &[&str],
-        sines: Sines,
+        order: Order,
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
-        let expressions = expressions(symbols, axes, texts)?;
         let end = texts.len().saturating_sub(1);
         let at_end = || TextPlace { text_index: end, bytes: 0..texts.get(end).map_or(0, |text| text.len()) };
         let count = expressions.len();
         let mut values = Vec::new();
         let mut mistakes = Vec::new();
         for (text_index, expression) in &expressions {
-            match lowering::fraction(chain, expression, sines) {
+            match valued(chain, expression, notes, order) {
                 Ok(value) => values.push(value),
                 Err(mistake) => mistakes.push(in_text(*text_index, mistake)),
             }
@@ -186,27 +213,38 @@ impl PrintedVector {
         let Ok(components) = <[PrintedComponent; 3]>::try_from(components) else {
             return Err(vec![Mistake::new(at_end(), "a vector has three components")]);
         };
-        Self { components, halves: Vec::new(), has_roots: false }
+        Self::of_components(components)
+            .noting(notes)
             .normalised(chain)
             .map_err(|error| vec![Mistake::new(at_end(), error.to_string())])
+    }
+
+    fn of_components(components: [PrintedComponent; 3]) -> Self {
+        Self { components, halves: Vec::new(), has_roots: false, truncated: false, turned: false }
+    }
+
+    pub(super) fn noting(self, notes: Notes) -> Self {
+        Self { truncated: notes.truncates || notes.dropped.is_some(), turned: notes.turned, ..self }
     }
 
     /// Three formulas that were read from one text.
     pub(super) fn of_expressions(
         chain: &Chain,
         expressions: [Expr<Range<usize>>; 3],
+        notes: Notes,
     ) -> Result<Self, Vec<Mistake<TextPlace>>> {
         let (mut components, mut mistakes) = (Vec::new(), Vec::new());
         let [x, y, z] = expressions.each_ref().map(|expression| expression.place.clone());
         let whole = x.start.min(y.start).min(z.start)..x.end.max(y.end).max(z.end);
         for expression in expressions {
-            match lowering::fraction(chain, &expression, Sines::OfAngles) {
+            match valued(chain, &expression, notes, Order::UpTo(1)) {
                 Ok(value) => components.push(PrintedComponent { text_index: 0, expression, value }),
                 Err(mistake) => mistakes.push(in_text(0, mistake)),
             }
         }
         let Ok(components) = <[PrintedComponent; 3]>::try_from(components) else { return Err(mistakes) };
-        Self { components, halves: Vec::new(), has_roots: false }
+        Self::of_components(components)
+            .noting(notes)
             .normalised(chain)
             .map_err(|error| vec![in_text(0, Mistake::new(whole, error.to_string()))])
     }
@@ -219,8 +257,7 @@ impl PrintedVector {
     ) -> Result<Self, AlgebraError> {
         let component = |value| PrintedComponent { text_index: 0, expression: expression.clone(), value };
         let nothing = || component(Fraction::whole(Poly::zero()));
-        Self { components: [component(value), nothing(), nothing()], halves: Vec::new(), has_roots: false }
-            .normalised(chain)
+        Self::of_components([component(value), nothing(), nothing()]).normalised(chain)
     }
 
     /// Says everything in halves of the angles of which halves are printed.
@@ -255,100 +292,55 @@ impl PrintedVector {
     }
 }
 
-/// A component as written, and which of the texts it stands in.
-type Written = (usize, Expr<Range<usize>>);
-
-/// The components as written.
-fn expressions(
-    symbols: &PrintedSymbols,
-    axes: &[Option<usize>],
-    texts: &[&str],
-) -> Result<Vec<Written>, Vec<Mistake<TextPlace>>> {
-    if let ([text], [_, _, ..]) = (texts, axes) {
-        let components = latex::read_vector(text, symbols).map_err(|mistake| vec![in_text(0, mistake)])?;
-        return Ok(components.into_iter().map(|component| (0, component)).collect());
-    }
-    let mut expressions = Vec::new();
-    let mut mistakes = Vec::new();
-    for (index, text) in texts.iter().enumerate() {
-        // A fourth component stands behind z.
-        match written(symbols, index, text, axes.get(index).copied().unwrap_or(Some(index))) {
-            Ok(component) => expressions.push(component),
-            Err(found) => mistakes.extend(found),
+/// What an expression says, as far as a claim of this order goes.
+pub(super) fn valued(
+    chain: &Chain,
+    expression: &Expr<Range<usize>>,
+    notes: Notes,
+    order: Order,
+) -> Result<Fraction, Mistake<Range<usize>>> {
+    let refuse = |message: String, help: &str| {
+        Err(Mistake::new(expression.place.clone(), message).with_help(help.to_owned()))
+    };
+    match (order, notes.dropped) {
+        (Order::Exact, Some(_)) => {
+            return refuse(
+                "a print that drops terms is not exact".to_owned(),
+                "leave out `order = \"exact\"`",
+            );
         }
+        (Order::UpTo(order), Some(dropped)) if order + 1 != dropped => {
+            return refuse(
+                format!("the print drops terms of order {dropped}, and the claim is of order {order}"),
+                &format!("write `order = {}`", dropped.saturating_sub(1)),
+            );
+        }
+        _ => {}
     }
-    if mistakes.is_empty() { Ok(expressions) } else { Err(mistakes) }
+    let Order::UpTo(order) = order else { return lowering::fraction(chain, expression, Sines::Errors) };
+    if !notes.truncates && notes.dropped.is_none() {
+        return lowering::fraction(chain, expression, Sines::Angles);
+    }
+    let value = lowering::fraction(chain, expression, Sines::Series)?;
+    let value = series::truncated(chain, &value, order);
+    value
+        .map(|value| algebraic::reduced_fraction(value, chain))
+        .map_err(|error| Mistake::new(expression.place.clone(), error.to_string()))
 }
 
-/// One component, in LaTeX or in the plain syntax.
-fn written(
-    symbols: &PrintedSymbols,
-    text_index: usize,
-    text: &str,
-    axis: Option<usize>,
-) -> Result<Written, Vec<Mistake<TextPlace>>> {
-    let as_latex = || match axis {
-        Some(axis) => latex::read_component(text, symbols, axis),
-        None => latex::read_formula(text, symbols),
+/// Of a quaternion of a small rotation, 1 and half of the rotation vector, that vector.
+fn of_quaternion(components: Vec<Written>) -> Vec<Written> {
+    let is_one =
+        |(_, entry): &Written| matches!(&entry.node, Node::Number(number) if *number == Rational::ONE);
+    let rest = match components.as_slice() {
+        [first, rest @ ..] if rest.len() == 3 && is_one(first) => rest,
+        [rest @ .., last] if rest.len() == 3 && is_one(last) => rest,
+        _ => return components,
     };
-    if is_latex(text) {
-        return as_latex()
-            .map(|expression| (text_index, expression))
-            .map_err(|mistake| vec![in_text(text_index, mistake)]);
-    }
-    let (name_length, amount) = bare(text);
-    let moved = |place: &Range<usize>| place.start + name_length..place.end + name_length;
-    let plain = syntax::parse_amount(amount);
-    // `-x_3` and `R x_2` are LaTeX too, where these are printed symbols.
-    let is_plain = plain.is_ok() && words(amount).all(|word| symbols.declares(word) || !symbols.prints(word));
-    if !is_plain
-        && words(amount).next().is_some()
-        && words(amount).all(|word| symbols.prints(word))
-        && let Ok(expression) = as_latex()
-    {
-        return Ok((text_index, expression));
-    }
-    match plain {
-        Ok(expression) => Ok((text_index, expression.map_place(&moved))),
-        Err(found) => Err(found
-            .iter()
-            .map(|mistake| Mistake {
-                place: TextPlace { text_index, bytes: moved(&mistake.place.bytes) },
-                message: mistake.message.clone(),
-                help: mistake.help.clone(),
-            })
-            .collect()),
-    }
-}
-
-/// A plain amount without the name before `=` and the punctuation behind it, and where it begins.
-fn bare(text: &str) -> (usize, &str) {
-    let start = match text.split_once('=') {
-        Some((name, rest)) if !rest.contains('=') && is_name(name.trim()) => name.len() + 1,
-        _ => 0,
+    let doubled = |(index, entry): &Written| {
+        let two = Expr { node: Node::Number(Rational::from(2)), place: entry.place.clone() };
+        let place = entry.place.clone();
+        (*index, Expr { node: Node::Mul(Box::new(two), Box::new(entry.clone())), place })
     };
-    (start, text[start..].trim_end().trim_end_matches(['.', ',', ';']))
-}
-
-fn is_name(text: &str) -> bool {
-    text.starts_with(|c: char| c.is_ascii_alphabetic())
-        && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
-}
-
-/// Letters with digits and underscores behind them.
-fn words(text: &str) -> impl Iterator<Item = &str> {
-    let words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
-    words.filter(|word| word.starts_with(|c: char| c.is_ascii_alphabetic()))
-}
-
-fn is_latex(text: &str) -> bool {
-    text.chars().any(|c| matches!(c, '\\' | '{' | '}') || (c.is_alphabetic() && !c.is_ascii()))
-}
-
-fn in_text(text_index: usize, mistake: Mistake<Range<usize>>) -> Mistake<TextPlace> {
-    Mistake {
-        place: TextPlace { text_index, bytes: mistake.place },
-        message: mistake.message,
-        help: mistake.help,
-    }
+    rest.iter().map(doubled).collect()
 }

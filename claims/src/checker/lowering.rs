@@ -21,16 +21,11 @@ type Refusal = Mistake<Range<usize>>;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Sines {
     /// Joints, constants, inputs.
-    OfAngles,
+    Angles,
     /// Errors, too: the exact form.
-    OfErrors,
-}
-
-impl Sines {
-    /// Those of an exact form, or of one to an order.
-    pub(super) fn of_form(is_exact: bool) -> Self {
-        if is_exact { Self::OfErrors } else { Self::OfAngles }
-    }
+    Errors,
+    /// Errors, which may stand in divisors as well: what is expanded afterwards.
+    Series,
 }
 
 /// What an expression over the symbols of an extended chain says.
@@ -51,7 +46,7 @@ pub(super) fn fraction(chain: &Chain, expression: &Written, sines: Sines) -> Res
 /// # Errors
 /// A name that the chain does not have, with the nearest one, or what the algebra refuses.
 pub fn lower(chain: &Chain, expression: &Written) -> Result<Poly, Refusal> {
-    let lowering = Lowering { chain, sines: Sines::OfAngles };
+    let lowering = Lowering { chain, sines: Sines::Angles };
     lowering.poly(expression).map_err(|error| explained(chain, &error))
 }
 
@@ -83,7 +78,7 @@ impl Lowering<'_> {
     fn is_angle(&self, id: SymbolId) -> bool {
         let symbol = self.chain.symbol(id);
         symbol.quantity == Quantity::Angle
-            && (symbol.kind != SymbolKind::Error || self.sines == Sines::OfErrors)
+            && (symbol.kind != SymbolKind::Error || self.sines != Sines::Angles)
     }
 
     fn poly(&self, expression: &Written) -> Result<Poly, LowerError<Range<usize>>> {
@@ -135,7 +130,7 @@ impl Lowering<'_> {
 
     fn inverted(&self, value: &Fraction, expression: &Written) -> Result<Fraction, Refusal> {
         let is_error = |id: SymbolId| self.chain.symbol(id).kind == SymbolKind::Error;
-        if value.above.symbols().into_iter().any(is_error) {
+        if self.sines != Sines::Series && value.above.symbols().into_iter().any(is_error) {
             return Err(Mistake::new(expression.place.clone(), "an error stands in a divisor")
                 .with_help("expand the quotient up to the order of the form"));
         }

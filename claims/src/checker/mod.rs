@@ -13,20 +13,25 @@ mod assert;
 mod claim;
 mod compare;
 mod diagnosis;
+pub mod entries;
 mod equality;
 mod formula;
 pub mod hand;
 mod lowering;
 mod misreading;
+mod order;
 mod other_reading;
 mod radicand;
 mod ranks;
+mod series;
 mod sizes;
 mod slip;
 mod terms;
 mod total;
 mod turn;
+mod values;
 mod verdict;
+mod written;
 
 #[cfg(test)]
 mod tests;
@@ -46,18 +51,21 @@ use model_core::remainder::DomainError;
 
 pub use algebraic::extended;
 pub use assert::assert_closed_form;
-pub use claim::{Claim, ClosedForm, Combination, Comparison, Count, Faces, Order, errors_named};
+pub use claim::{Claim, ClosedForm, Combination, Comparison, Count, Faces, errors_named};
 pub use equality::{Equality, EqualityVerdict};
-pub use formula::{PrintedComponent, PrintedVector, TextPlace};
+pub use formula::{PrintedComponent, PrintedVector};
 pub use lowering::lower;
 pub use model_core::algebra::Fraction;
+pub use order::Order;
 pub use radicand::{Radicand, Total};
 pub use ranks::{Rank, RankSaid, RankVerdict};
 pub use sizes::{Bound, BoundVerdict, Combined, Limits, Outcome, Size, SizeMeasure, SizeVerdict};
 pub use slip::{FormSlip, FormSlipKind, TermSlip};
 pub use total::TotalVerdict;
 pub use turn::PrintedTurn;
+pub use values::{ValueVerdict, Values};
 pub use verdict::{Counted, Difference, FormVerdict, Means, Measured, Verdict};
+pub use written::TextPlace;
 
 /// Checks claims about one chain; what it derives for one claim it keeps for the next.
 #[derive(Debug)]
@@ -91,6 +99,12 @@ pub enum CheckError {
     /// A bound has no domain.
     #[error(transparent)]
     Domain(#[from] DomainError),
+    /// What a print takes for granted can be read in two ways, and only one of them holds.
+    #[error(
+        "`{0}` can turn vectors or axes; as a turn of vectors the formula differs, as one of axes it holds. Say which: \
+         `rotations = \"axes\"` or `rotations = \"vectors\"` above the claims"
+    )]
+    TwoReadings(String),
     /// The poses of a comparison do not give the observable a value.
     #[error(transparent)]
     Budget(#[from] BudgetError),
@@ -113,6 +127,8 @@ impl<'a> Checker<'a> {
             Claim::Comparison(claim) => Ok(Verdict::Comparison(self.comparison(claim)?)),
             Claim::Equality(claim) => Ok(Verdict::Equality(self.equality(claim)?)),
             Claim::Total(claim) => Ok(Verdict::Total(self.total(claim)?)),
+            Claim::Entries(claim) => Ok(Verdict::Entries(self.entries(claim)?)),
+            Claim::Values(claim) => Ok(Verdict::Values(self.values(claim))),
             Claim::Rank(claim) => Ok(Verdict::Rank(self.rank(claim)?)),
             Claim::Size(claim) => Ok(Verdict::Size(self.size(claim)?)),
             Claim::Bound(claim) => Ok(Verdict::Bound(self.bound(claim)?)),

@@ -36,7 +36,7 @@ impl Radicand {
     /// What cannot be read, with its place.
     pub fn read(chain: &Chain, symbols: &PrintedSymbols, text: &str) -> Result<Self, Mistake<Range<usize>>> {
         let expression = latex::read_total(text, symbols)?;
-        let value = lowering::fraction(chain, &expression, Sines::OfAngles)?;
+        let value = lowering::fraction(chain, &expression, Sines::Angles)?;
         let value = PrintedVector::of_one(chain, &expression, value)
             .map_err(|error| Mistake::new(expression.place.clone(), error.to_string()))?;
         Ok(Self { expression, value })

@@ -3,11 +3,13 @@
 use std::ops::Range;
 
 use super::compare;
+use super::entries::EntriesVerdict;
 use super::equality::EqualityVerdict;
 use super::ranks::RankVerdict;
 use super::sizes::{BoundVerdict, Outcome, SizeVerdict};
 use super::slip::{FormSlip, TermSlip};
 use super::total::TotalVerdict;
+use super::values::ValueVerdict;
 use model_core::algebra::{Fraction, Poly};
 use model_core::chain::{Axis, Chain};
 use model_core::print;
@@ -32,6 +34,10 @@ pub enum Verdict {
     Size(SizeVerdict),
     /// Of a bound.
     Bound(BoundVerdict),
+    /// Of formulas of what is there.
+    Entries(EntriesVerdict),
+    /// Of numbers at one pose.
+    Values(Vec<ValueVerdict>),
 }
 
 /// How a verdict was come by.
@@ -39,6 +45,8 @@ pub enum Verdict {
 pub enum Means {
     /// By exact algebra.
     Decided,
+    /// By numbers at one pose.
+    Computed,
     /// By numbers over many poses.
     Sampled,
     /// By a bound that holds everywhere, or an example against it.
@@ -61,6 +69,8 @@ impl Verdict {
             Self::Comparison(measured) => measured.holds,
             Self::Count(counted) => counted.found == counted.claimed,
             Self::Total(total) => total.differences.is_empty(),
+            Self::Entries(entries) => entries.differences.is_empty(),
+            Self::Values(values) => values.iter().all(ValueVerdict::holds),
             Self::Rank(rank) => rank.holds,
             Self::Size(size) => return size.outcome,
             Self::Bound(bound) => return bound.outcome,
@@ -72,10 +82,14 @@ impl Verdict {
     #[must_use]
     pub fn means(&self) -> Means {
         match self {
-            Self::ClosedForm(_) | Self::Equality(_) | Self::Count(_) | Self::Total(_) | Self::Rank(_) => {
-                Means::Decided
-            }
+            Self::ClosedForm(_)
+            | Self::Equality(_)
+            | Self::Count(_)
+            | Self::Total(_)
+            | Self::Rank(_)
+            | Self::Entries(_) => Means::Decided,
             Self::Comparison(_) | Self::Size(_) => Means::Sampled,
+            Self::Values(_) => Means::Computed,
             Self::Bound(_) => Means::Proven,
         }
     }

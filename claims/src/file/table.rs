@@ -4,25 +4,36 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::Deserialize;
-use serde::de::{Deserializer, SeqAccess, Visitor};
+use serde::de::{Deserializer, Error as _, MapAccess, SeqAccess, Visitor};
 use toml::{Spanned, Value};
 
 /// The whole file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct File {
-    /// The declaration, relative to this file.
-    pub chain: Spanned<String>,
+    /// The declaration, relative to this file. Without one the claims are equalities of formulas.
+    pub chain: Option<Spanned<String>>,
+    /// A Denavit–Hartenberg table in place of a declaration.
+    pub dh: Option<Spanned<DhTable>>,
+    /// What `R_z(\\psi)` turns where nothing defines it: vectors or axes.
+    pub rotations: Option<Spanned<String>>,
     /// Printed symbols and what they stand for.
     #[serde(default)]
-    pub symbols: BTreeMap<Spanned<String>, Spanned<String>>,
+    pub symbols: BTreeMap<Spanned<String>, Spanned<Meant>>,
     /// The claims.
     #[serde(default)]
     pub claim: Vec<Spanned<ClaimTable>>,
 }
 
-/// One claim: one of `components`, `equal`, `total`, `compare`, `size`, `bound`, `count`, `rank`, `confounded`, `separable`, and
-/// what goes with it.
+impl File {
+    /// Whether nothing is claimed but that formulas are equal.
+    #[must_use]
+    pub fn has_equalities_only(&self) -> bool {
+        !self.claim.is_empty() && self.claim.iter().all(|claim| claim.get_ref().equal.is_some())
+    }
+}
+
+/// One claim: one of the keys that name a kind, and what goes with it.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ClaimTable {
@@ -36,6 +47,18 @@ pub struct ClaimTable {
     pub path: Option<Spanned<String>>,
     pub range: Option<Spanned<Texts>>,
     pub components: Option<Spanned<Texts>>,
+    pub correction: Option<Spanned<Texts>>,
+    pub shows: Option<Spanned<Texts>>,
+    pub frame: Option<Spanned<String>>,
+    pub body: Option<Spanned<String>>,
+    #[serde(rename = "in")]
+    pub within: Option<Spanned<String>>,
+    pub jacobian: Option<Spanned<String>>,
+    pub by: Option<Spanned<Texts>>,
+    pub image: Option<Spanned<Texts>>,
+    pub camera: Option<Spanned<CameraTable>>,
+    pub value: Option<Spanned<ValueTable>>,
+    pub neglected: Option<Spanned<NeglectedTable>>,
     pub equal: Option<Spanned<Texts>>,
     pub total: Option<Spanned<String>>,
     pub compare: Option<Spanned<CompareTable>>,
@@ -45,6 +68,60 @@ pub struct ClaimTable {
     pub rank: Option<Spanned<CountTable>>,
     pub confounded: Option<Spanned<Texts>>,
     pub separable: Option<Spanned<Texts>>,
+}
+
+/// What a printed symbol stands for.
+#[derive(Debug)]
+pub enum Meant {
+    /// An amount, a vector or a matrix, in the plain syntax or in LaTeX.
+    Text(String),
+    /// A screw: angular and linear velocity.
+    Screw([Spanned<String>; 2]),
+}
+
+/// A Denavit–Hartenberg table.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DhTable {
+    pub convention: Spanned<String>,
+    pub rows: Vec<Spanned<BTreeMap<String, Spanned<String>>>>,
+    #[serde(default)]
+    pub constants: BTreeMap<Spanned<String>, Spanned<String>>,
+    #[serde(default)]
+    pub errors: bool,
+}
+
+/// A pinhole camera.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CameraTable {
+    pub focal: Spanned<Texts>,
+    pub center: Option<Spanned<Texts>>,
+    pub axes: Option<Spanned<Texts>>,
+    pub radial: Option<Spanned<Texts>>,
+    #[serde(default)]
+    pub change: bool,
+}
+
+/// Numbers at one pose.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ValueTable {
+    #[serde(default)]
+    pub at: BTreeMap<Spanned<String>, Spanned<String>>,
+    #[serde(default)]
+    pub errors: BTreeMap<Spanned<String>, Spanned<Value>>,
+    pub of: Option<Spanned<String>>,
+    pub equals: Spanned<Texts>,
+    pub within: Option<Spanned<String>>,
+}
+
+/// What a text leaves out because it is small.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NeglectedTable {
+    pub errors: Sizes,
+    pub at_most: Spanned<Value>,
 }
 
 /// The second face, and what is taken of both.
@@ -130,5 +207,38 @@ impl<'de> Deserialize<'de> for Texts {
         }
 
         deserializer.deserialize_any(TextsVisitor)
+    }
+}
+
+impl<'de> Deserialize<'de> for Meant {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct MeantVisitor;
+
+        impl<'de> Visitor<'de> for MeantVisitor {
+            type Value = Meant;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a string, or a screw `{ omega = \"[…]\", v = \"[…]\" }`")
+            }
+
+            fn visit_str<E>(self, text: &str) -> Result<Meant, E> {
+                Ok(Meant::Text(text.to_owned()))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Meant, A::Error> {
+                let (mut omega, mut v) = (None, None);
+                while let Some(key) = map.next_key::<String>()? {
+                    match key.as_str() {
+                        "omega" => omega = Some(map.next_value()?),
+                        "v" => v = Some(map.next_value()?),
+                        other => return Err(A::Error::unknown_field(other, &["omega", "v"])),
+                    }
+                }
+                let omega = omega.ok_or_else(|| A::Error::missing_field("omega"))?;
+                Ok(Meant::Screw([omega, v.ok_or_else(|| A::Error::missing_field("v"))?]))
+            }
+        }
+
+        deserializer.deserialize_any(MeantVisitor)
     }
 }

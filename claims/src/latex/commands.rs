@@ -2,7 +2,8 @@
 //! formula may hold.
 
 /// Control words that only move ink, or that size the bracket behind them.
-pub(super) const WITHOUT_MEANING: [&str; 32] = [
+pub(super) const WITHOUT_MEANING: [&str; 33] = [
+    "hline",
     "left",
     "right",
     "middle",
@@ -41,7 +42,8 @@ pub(super) const WITHOUT_MEANING: [&str; 32] = [
 pub(super) const SIZES: [&str; 3] = ["left", "right", "middle"];
 
 /// Control words that set what follows in another typeface.
-pub(super) const TYPEFACES: [&str; 13] = [
+pub(super) const TYPEFACES: [&str; 14] = [
+    "pmb",
     "mathrm",
     "mathit",
     "mathbf",
@@ -56,6 +58,9 @@ pub(super) const TYPEFACES: [&str; 13] = [
     "mbox",
     "operatorname",
 ];
+
+/// Of [`TYPEFACES`], those that make a letter another one: `\mathbf{r}` may be a vector where `r` is its length.
+pub(super) const BOLD: [&str; 5] = ["mathbf", "boldsymbol", "bm", "textbf", "pmb"];
 
 /// Control words that change the typeface up to the end of the group: `{\rm sin}`.
 pub(super) const SWITCHES: [&str; 6] = ["rm", "it", "bf", "sf", "normalfont", "mit"];

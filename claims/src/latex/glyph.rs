@@ -17,6 +17,18 @@ pub(super) struct Glyph {
     pub base: String,
     pub lower: String,
     pub upper: String,
+    /// The indices on its left, with their marks: `^0_1`.
+    pub left: String,
+    /// Whether it is set in bold type.
+    pub bold: bool,
+}
+
+impl Glyph {
+    /// A letter without anything around it.
+    pub fn bare(base: impl Into<String>) -> Self {
+        let nothing = String::new;
+        Self { base: base.into(), lower: nothing(), upper: nothing(), left: nothing(), bold: false }
+    }
 }
 
 /// A glyph as it stands in a text.
@@ -46,10 +58,15 @@ fn is_symbol(command: &str) -> bool {
         && refusal(command).is_none()
 }
 
+/// Whether a control word is a letter by itself: no accent, no function, no operator.
+pub(super) fn is_letter(command: &str) -> bool {
+    is_symbol(command) && !ACCENTS.contains(&command)
+}
+
 /// Whether a symbol starts with this token.
 pub(super) fn starts(kind: &Kind) -> bool {
     match kind {
-        Kind::Word(_) => true,
+        Kind::Word(_) | Kind::Left => true,
         Kind::Command(command) => is_symbol(command),
         _ => false,
     }
@@ -57,21 +74,35 @@ pub(super) fn starts(kind: &Kind) -> bool {
 
 /// Reads the glyph at the start of `tokens`; `None` where none stands.
 pub(super) fn read(tokens: &[Token]) -> Result<Option<ReadGlyph>, Unreadable> {
-    let Some(first) = tokens.first().filter(|token| starts(&token.kind)) else {
+    let mut used = 0;
+    let mut left = String::new();
+    if let Some(Token { kind: Kind::Left, place, .. }) = tokens.first() {
+        used = 1;
+        while let Some(Token { kind: Kind::Mark(mark @ ('^' | '_')), place, .. }) = tokens.get(used) {
+            let (inside, length) = argument(&tokens[used + 1..], place)?;
+            left.push(*mark);
+            left.push_str(&inside);
+            used += 1 + length;
+        }
+        if !tokens.get(used).is_some_and(|token| token.kind != Kind::Left && starts(&token.kind)) {
+            return Err(Mistake::new(place.clone(), "an index without its letter"));
+        }
+    }
+    let Some(first) = tokens.get(used).filter(|token| starts(&token.kind)) else {
         return Ok(None);
     };
-    let mut used = 1;
+    used += 1;
     let base = match &first.kind {
         Kind::Word(word) => word.clone(),
         Kind::Command(accent) if ACCENTS.contains(&accent.as_str()) => {
-            let (inside, length) = argument(&tokens[1..], &first.place)?;
+            let (inside, length) = argument(&tokens[used..], &first.place)?;
             used += length;
             format!("\\{accent}{{{inside}}}")
         }
         Kind::Command(command) => format!("\\{command}"),
         _ => return Ok(None),
     };
-    let mut glyph = Glyph { base, lower: String::new(), upper: String::new() };
+    let mut glyph = Glyph { left, bold: first.bold, ..Glyph::bare(base) };
     while let Some(token) = tokens.get(used) {
         let index = match token.kind {
             Kind::Mark('_') => &mut glyph.lower,
@@ -98,7 +129,8 @@ pub(super) fn read(tokens: &[Token]) -> Result<Option<ReadGlyph>, Unreadable> {
         *index = inside;
         used += 1 + length;
     }
-    let place = first.place.start..tokens[used - 1].place.end;
+    let start = tokens.first().map_or(first.place.start, |token| token.place.start);
+    let place = start..tokens[used - 1].place.end;
     Ok(Some(ReadGlyph { glyph, place, tokens: used }))
 }
 
@@ -168,7 +200,14 @@ fn plain(kind: &Kind) -> Option<String> {
 pub(super) fn normal_text(glyphs: &[Glyph]) -> String {
     let mut text = String::new();
     for glyph in glyphs {
-        text.push_str(&glyph.base);
+        if !glyph.left.is_empty() {
+            text.push_str(&format!("{{}}{}", glyph.left));
+        }
+        if glyph.bold {
+            text.push_str(&format!("\\mathbf{{{}}}", glyph.base));
+        } else {
+            text.push_str(&glyph.base);
+        }
         for (mark, index) in [('_', &glyph.lower), ('^', &glyph.upper)] {
             if !index.is_empty() {
                 text.push_str(&format!("{mark}{{{index}}}"));

@@ -103,6 +103,16 @@ fn without_math(text: &str, tokens: &mut Vec<Token>) -> Result<(), Unreadable> {
         let shown = &text[odd.place.clone()];
         return Err(Mistake::new(odd.place.clone(), format!("`{shown}` without its partner")));
     }
+    // Between two displays one formula ends.
+    let marks: Vec<usize> = (0..tokens.len()).filter(|&at| tokens[at].kind == Kind::Math).collect();
+    for pair in marks[1.min(marks.len())..].chunks(2) {
+        if let [close, open] = *pair
+            && open == close + 1
+        {
+            tokens[close].kind = Kind::Row;
+            tokens[open].kind = Kind::Wide;
+        }
+    }
     for at in 0..tokens.len() {
         if tokens[at].kind != Kind::Math {
             continue;

@@ -14,11 +14,16 @@
 //! * an upper index is part of a symbol if the symbol is known with it, and a power if it is not;
 //! * an error with its joint in parentheses, `\delta_x(x)`, is the error.
 
+mod collect;
 mod commands;
 mod glyph;
 mod layout;
+mod left;
+mod lookup;
+mod naming;
 mod parser;
 mod printed;
+pub mod program;
 mod token;
 mod typed;
 mod unknown;
@@ -33,10 +38,11 @@ use std::ops::Range;
 use layout::Row;
 use model_core::expr::Expr;
 use model_core::mistake::Mistake;
-use parser::{Parser, Value};
-use token::Kind;
+use parser::{Matrix, Parser, Value};
 
-pub use printed::PrintedSymbols;
+pub use collect::{definition_of, rows_of, symbols_in};
+pub use parser::Notes;
+pub use printed::{PrintedSymbols, Turned};
 
 /// Why and where a formula cannot be read: bytes of its text.
 pub type Unreadable = Mistake<Range<usize>>;
@@ -58,19 +64,19 @@ pub fn root_name(prime: i64) -> String {
 /// # Errors
 /// The first thing that cannot be read, with its place.
 pub fn read_formula(text: &str, symbols: &PrintedSymbols) -> Result<Formula, Unreadable> {
-    component(text, symbols, None)
+    read_component(text, symbols, None).map(|(formula, _)| formula)
 }
 
 /// Reads the formula of one component (0, 1, 2 for x, y, z); a name on the left of `=` may not say another one.
 ///
 /// # Errors
 /// The first thing that cannot be read, with its place.
-pub fn read_component(text: &str, symbols: &PrintedSymbols, axis: usize) -> Result<Formula, Unreadable> {
-    component(text, symbols, Some(axis))
-}
-
-fn component(text: &str, symbols: &PrintedSymbols, axis: Option<usize>) -> Result<Formula, Unreadable> {
-    let mut rows = layout::rows(text, token::tokens(text)?, false)?.into_iter();
+pub fn read_component(
+    text: &str,
+    symbols: &PrintedSymbols,
+    axis: Option<usize>,
+) -> Result<(Formula, Notes), Unreadable> {
+    let mut rows = layout::rows(text, left::tokens(text)?, false)?.into_iter();
     let Some(row) = rows.next() else {
         return Err(Mistake::new(0..text.len(), "a formula is missing"));
     };
@@ -79,37 +85,69 @@ fn component(text: &str, symbols: &PrintedSymbols, axis: Option<usize>) -> Resul
             second.name.first().or(second.formula.first()).map_or(second.end, |token| token.place.clone());
         return Err(Mistake::new(place, "a second formula, where one component stands"));
     }
-    check_name(text, &row, axis)?;
-    value(text, &row, symbols)?.scalar()
+    naming::check(text, &row, axis)?;
+    let (value, notes) = value(text, &row, symbols)?;
+    Ok((value.scalar()?, notes))
 }
 
 /// Reads a printed vector, `[a, b, c]^T`, `\begin{bmatrix} a \\ b \\ c \end{bmatrix}`, three rows, or sums and products of
-/// vectors and matrices, into its components.
+/// vectors and matrices, into its components. `axes` are the components that names on the left of `=` may say, row by row.
 ///
 /// # Errors
 /// The first thing that cannot be read, with its place.
-pub fn read_vector(text: &str, symbols: &PrintedSymbols) -> Result<Vec<Formula>, Unreadable> {
-    let rows = layout::rows(text, token::tokens(text)?, true)?;
+pub fn read_vector(
+    text: &str,
+    symbols: &PrintedSymbols,
+    axes: &[Option<usize>],
+) -> Result<(Vec<Formula>, Notes), Unreadable> {
+    let rows = layout::rows(text, left::tokens(text)?, true)?;
     let mut components = Vec::with_capacity(rows.len());
+    let mut notes = Notes::default();
     let alone = rows.len() == 1;
-    for (axis, row) in rows.iter().enumerate() {
-        check_name(text, row, (!alone).then_some(axis))?;
-        match value(text, row, symbols)? {
+    for (at, row) in rows.iter().enumerate() {
+        naming::check(text, row, axes.get(at).copied().flatten().filter(|_| !alone))?;
+        let (value, own) = value(text, row, symbols)?;
+        notes.join(&own);
+        match value {
             Value::Matrix(matrix) if alone && matrix.is_vector() => components.extend(matrix.entries),
             value => components.push(value.scalar()?),
         }
     }
-    Ok(components)
+    Ok((components, notes))
 }
 
-/// Reads a printed matrix of three rows and three columns, row after row; nothing if the text is something else.
-#[must_use]
-pub fn read_square(text: &str, symbols: &PrintedSymbols) -> Option<[Formula; 9]> {
-    let rows = layout::rows(text, token::tokens(text).ok()?, true).ok()?;
-    let [row] = rows.as_slice() else { return None };
-    match value(text, row, symbols).ok()? {
-        Value::Matrix(matrix) if matrix.rows == 3 && matrix.columns == 3 => matrix.entries.try_into().ok(),
-        _ => None,
+/// A printed matrix.
+#[derive(Debug, Clone)]
+pub struct PrintedMatrix {
+    /// Number of rows.
+    pub rows: usize,
+    /// Number of columns.
+    pub columns: usize,
+    /// Row after row; places are byte ranges of the text.
+    pub entries: Vec<Expr<Range<usize>>>,
+    /// What reading it took for granted.
+    pub notes: Notes,
+}
+
+/// Reads a printed matrix, a product of matrices included; what is no matrix is one of one entry.
+///
+/// # Errors
+/// The first thing that cannot be read, with its place.
+pub fn read_matrix(text: &str, symbols: &PrintedSymbols) -> Result<PrintedMatrix, Unreadable> {
+    let rows = layout::rows(text, left::tokens(text)?, false)?;
+    let [row] = rows.as_slice() else {
+        return Err(Mistake::new(0..text.len(), "one matrix is wanted"));
+    };
+    let (value, notes) = value(text, row, symbols)?;
+    PrintedMatrix::of(value, notes)
+}
+
+impl PrintedMatrix {
+    fn of(value: Value, notes: Notes) -> Result<Self, Unreadable> {
+        Ok(match value {
+            Value::Matrix(Matrix { rows, columns, entries, .. }) => Self { rows, columns, entries, notes },
+            value => Self { rows: 1, columns: 1, entries: vec![value.scalar()?], notes },
+        })
     }
 }
 
@@ -118,7 +156,7 @@ pub fn read_square(text: &str, symbols: &PrintedSymbols) -> Option<[Formula; 9]>
 /// # Errors
 /// The first thing that cannot be read, with its place.
 pub fn read_total(text: &str, symbols: &PrintedSymbols) -> Result<Formula, Unreadable> {
-    let rows = layout::rows(text, token::tokens(text)?, false)?;
+    let rows = layout::rows(text, left::tokens(text)?, false)?;
     let [row] = rows.as_slice() else {
         return Err(Mistake::new(0..text.len(), "one formula is wanted"));
     };
@@ -128,70 +166,9 @@ pub fn read_total(text: &str, symbols: &PrintedSymbols) -> Result<Formula, Unrea
     Ok(radicand)
 }
 
-fn value(text: &str, row: &Row, symbols: &PrintedSymbols) -> Result<Value, Unreadable> {
+fn value(text: &str, row: &Row, symbols: &PrintedSymbols) -> Result<(Value, Notes), Unreadable> {
     let mut parser = Parser::new(text, &row.formula, row.end.clone(), symbols);
     let value = parser.formula()?;
     parser.expect_end()?;
-    Ok(value)
-}
-
-/// A name is symbols and functions of them; one that ends in x, y or z says which component it is.
-fn check_name(text: &str, row: &Row, axis: Option<usize>) -> Result<(), Unreadable> {
-    let Some(first) = row.name.first() else { return Ok(()) };
-    let mut depth = 0;
-    for token in &row.name {
-        match token.kind {
-            Kind::Mark('{' | '(') => depth += 1,
-            Kind::Mark('}' | ')') => depth -= 1,
-            Kind::Mark('+' | '-' | '/') if depth == 0 => {
-                return Err(Mistake::new(
-                    token.place.clone(),
-                    "what stands on the left of `=` is more than a name",
-                )
-                .with_help("give the right-hand side alone"));
-            }
-            _ => {}
-        }
-    }
-    if matches!(first.kind, Kind::Digit(_)) {
-        return Err(Mistake::new(first.place.clone(), "a number stands on the left of `=`")
-            .with_help("give the right-hand side alone"));
-    }
-    let said = named_axis(row);
-    match (axis, said) {
-        (Some(axis), Some(said)) if axis != said => {
-            let letters = ["x", "y", "z"];
-            let place = first.place.start..row.name.last().unwrap_or(first).place.end;
-            let shown = &text[place.clone()];
-            Err(Mistake::new(
-                place,
-                format!(
-                    "`{shown}` is named as component {}, and stands where {} belongs",
-                    letters[said],
-                    letters.get(axis).unwrap_or(&"none")
-                ),
-            )
-            .with_help("write the components in the order x, y, z"))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// The component that a name ends in: `\Delta x`, `e_y`.
-fn named_axis(row: &Row) -> Option<usize> {
-    let mut last = None;
-    let mut at = 0;
-    while let Some(rest) = row.name.get(at..).filter(|rest| !rest.is_empty()) {
-        match glyph::read(rest) {
-            Ok(Some(read)) => {
-                at += read.tokens;
-                last = Some(read.glyph);
-            }
-            // An argument in parentheses ends the name.
-            _ => break,
-        }
-    }
-    let axis = |letter: &str| ["x", "y", "z"].iter().position(|axis| letter.eq_ignore_ascii_case(axis));
-    let last = last?;
-    axis(&last.base).filter(|_| last.lower.is_empty()).or_else(|| axis(&last.lower))
+    Ok((value, parser.notes))
 }

@@ -1,12 +1,9 @@
 //! The table from printed symbols to what they stand for: a declared name, or an abbreviation such as `s_\beta`.
 
 use std::collections::BTreeMap;
-use std::ops::Range;
 
-use super::glyph::{self, Glyph, ReadGlyph};
-use super::token::Token;
-use super::unknown::{self, Known};
-use super::{Unreadable, token};
+use super::glyph::{self, Glyph};
+use super::{Unreadable, left};
 use model_core::chain::Chain;
 use model_core::expr::{Expr, Node};
 use model_core::mistake::Mistake;
@@ -16,12 +13,36 @@ use model_core::symbol::SymbolKind;
 #[derive(Debug, Clone, Default)]
 pub struct PrintedSymbols {
     pub(super) entries: BTreeMap<Key, Entry>,
+    /// The same symbols with bold type ignored.
+    faces: BTreeMap<Key, Vec<Key>>,
     /// The largest number of glyphs in one symbol.
-    longest: usize,
+    pub(super) longest: usize,
     /// Every declared name and what it is for.
     pub(super) names: BTreeMap<String, SymbolKind>,
     /// The joints that an error may be a function of: those of the body that it belongs to.
-    joints: BTreeMap<String, Vec<String>>,
+    pub(super) joints: BTreeMap<String, Vec<String>>,
+    /// What a rotation about a named axis, `R_z(\psi)`, turns.
+    pub(super) turned: Turned,
+    /// Whether `c_1` and `s_1` are a cosine and a sine.
+    pub(super) abbreviates: bool,
+}
+
+/// What the matrix of a rotation about a named axis turns, where a print does not define it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Turned {
+    /// Vectors: `R_z(\psi)` takes x towards y.
+    #[default]
+    Vectors,
+    /// Axes: the transpose of that.
+    Axes,
+}
+
+impl Key {
+    fn without_bold(&self) -> Self {
+        let plain = |glyph: &Glyph| Glyph { bold: false, ..glyph.clone() };
+        let arguments = self.arguments.iter().map(|argument| argument.iter().map(plain).collect());
+        Self { glyphs: self.glyphs.iter().map(plain).collect(), arguments: arguments.collect() }
+    }
 }
 
 /// A printed symbol: its glyphs, and the arguments in parentheses that belong to it.
@@ -40,7 +61,7 @@ pub(super) struct Entry {
 
 impl Entry {
     /// The declared name that it stands for, if it is one.
-    fn name(&self) -> Option<&str> {
+    pub(super) fn name(&self) -> Option<&str> {
         match &self.meaning {
             Meaning::Amount(Expr { node: Node::Symbol(name), .. }) => Some(name),
             _ => None,
@@ -51,21 +72,16 @@ impl Entry {
 #[derive(Debug, Clone)]
 pub(super) enum Meaning {
     Amount(Expr<()>),
-    /// Three components.
-    Vector([Expr<()>; 3]),
+    /// Amounts in rows and columns, row after row.
+    Matrix {
+        rows: usize,
+        columns: usize,
+        entries: Vec<Expr<()>>,
+    },
+    /// A screw: the angular velocity and the linear one, of three components each.
+    Twist(Box<[Expr<()>; 6]>),
     /// Several declared names print alike.
     Ambiguous(Vec<String>),
-}
-
-/// A printed symbol found in a formula.
-pub(super) struct Found<'a> {
-    pub meaning: &'a Meaning,
-    /// Byte range in the text, the power left out.
-    pub place: Range<usize>,
-    /// Number of tokens it takes, the power included.
-    pub tokens: usize,
-    /// What stands as the upper index if that is a power.
-    pub power: Option<i32>,
 }
 
 impl PrintedSymbols {
@@ -109,8 +125,31 @@ impl PrintedSymbols {
     /// # Errors
     /// The printed form is no symbol.
     pub fn define_vector<S>(&mut self, printed: &str, components: &[Expr<S>; 3]) -> Result<(), Unreadable> {
+        self.define_matrix(printed, 1, components)
+    }
+
+    /// Declares that a printed symbol stands for a matrix, given row after row; one of one column is a vector.
+    ///
+    /// # Errors
+    /// The printed form is no symbol.
+    pub fn define_matrix<S>(
+        &mut self,
+        printed: &str,
+        columns: usize,
+        entries: &[Expr<S>],
+    ) -> Result<(), Unreadable> {
+        let rows = entries.len() / columns.max(1);
+        let entries = entries.iter().map(|entry| entry.map_place(&|_| ())).collect();
+        self.define_as(printed, Meaning::Matrix { rows, columns, entries })
+    }
+
+    /// Declares that a printed symbol stands for a screw: the angular velocity, then the linear one.
+    ///
+    /// # Errors
+    /// The printed form is no symbol.
+    pub fn define_twist<S>(&mut self, printed: &str, components: &[Expr<S>; 6]) -> Result<(), Unreadable> {
         let components = components.each_ref().map(|component| component.map_place(&|_| ()));
-        self.define_as(printed, Meaning::Vector(components))
+        self.define_as(printed, Meaning::Twist(Box::new(components)))
     }
 
     fn define_as(&mut self, printed: &str, meaning: Meaning) -> Result<(), Unreadable> {
@@ -121,16 +160,43 @@ impl PrintedSymbols {
 
     fn insert(&mut self, key: Key, entry: Entry) {
         self.longest = self.longest.max(key.glyphs.len());
+        let keys = self.faces.entry(key.without_bold()).or_default();
+        if !keys.contains(&key) {
+            keys.push(key.clone());
+        }
         self.entries.insert(key, entry);
     }
 
-    fn entry(&self, glyphs: &[Glyph], arguments: &[Vec<Glyph>]) -> Option<&Entry> {
-        self.entries.get(&Key { glyphs: glyphs.to_vec(), arguments: arguments.to_vec() })
+    /// The same table where rotations about named axes turn something else.
+    #[must_use]
+    pub fn turning(mut self, turned: Turned) -> Self {
+        self.turned = turned;
+        self
+    }
+
+    /// A symbol as it is set, or in another weight if only one is known.
+    pub(super) fn entry(&self, glyphs: &[Glyph], arguments: &[Vec<Glyph>]) -> Option<&Entry> {
+        let key = Key { glyphs: glyphs.to_vec(), arguments: arguments.to_vec() };
+        self.entries.get(&key).or_else(|| match self.faces.get(&key.without_bold())?.as_slice() {
+            [only] => self.entries.get(only),
+            _ => None,
+        })
+    }
+
+    /// The entry that a text is the printed form of, letter by letter: a name as programs have it.
+    pub(super) fn entry_written(&self, text: &str) -> Option<&Entry> {
+        self.entries.values().find(|entry| entry.printed == text)
     }
 
     /// Whether a text is one printed symbol.
     pub(crate) fn prints(&self, text: &str) -> bool {
         symbol_key(text).is_ok_and(|key| self.entries.contains_key(&key))
+    }
+
+    /// Whether a text is one known symbol.
+    #[must_use]
+    pub fn knows_symbol(&self, text: &str) -> bool {
+        symbol_key(text).is_ok_and(|key| self.entry(&key.glyphs, &key.arguments).is_some())
     }
 
     /// Whether a name is declared.
@@ -140,146 +206,7 @@ impl PrintedSymbols {
 
     /// Whether a letter is a symbol by itself.
     pub(super) fn knows(&self, letter: char) -> bool {
-        let glyph = Glyph { base: letter.to_string(), lower: String::new(), upper: String::new() };
-        self.entry(&[glyph], &[]).is_some()
-    }
-
-    /// The longest known symbol at the start of `tokens`, which starts one.
-    pub(super) fn find(&self, text: &str, tokens: &[Token]) -> Result<Found<'_>, Unreadable> {
-        let mut read: Vec<ReadGlyph> = Vec::new();
-        let mut used = 0;
-        while read.len() < self.longest.max(3) {
-            match glyph::read(&tokens[used..]) {
-                Ok(Some(next)) => {
-                    used += next.tokens;
-                    read.push(next);
-                }
-                Ok(None) => break,
-                Err(error) if read.is_empty() => return Err(error),
-                Err(_) => break,
-            }
-        }
-        for count in (1..=read.len()).rev() {
-            let glyphs: Vec<Glyph> = read[..count].iter().map(|read| read.glyph.clone()).collect();
-            let taken: usize = read[..count].iter().map(|read| read.tokens).sum();
-            let arguments = glyph::arguments(&tokens[taken..]);
-            let place = read[0].place.start..read[count - 1].place.end;
-            if let Some((arguments, length)) = &arguments
-                && let Some(entry) = self.entry(&glyphs, arguments)
-            {
-                let place = place.start..tokens[taken + length - 1].place.end;
-                return entry.found(place, taken + length, None);
-            }
-            let whole = self.entry(&glyphs, &[]).map(|entry| (entry, None));
-            let known = whole.or_else(|| {
-                let last = glyphs.last()?;
-                // Nobody prints the powers 0 and 1: there it is an index, and the symbol unknown.
-                let power = last.upper.parse().ok().filter(|power| !(0..=1).contains(power))?;
-                let mut base = glyphs.clone();
-                base.last_mut()?.upper.clear();
-                Some((self.entry(&base, &[])?, Some(power)))
-            });
-            match (known, arguments) {
-                (Some((entry, power)), None) => return entry.found(place, taken, power),
-                (Some((entry, power)), Some((arguments, length))) => {
-                    let inside = place.start..tokens[taken + length - 1].place.end;
-                    let is_function =
-                        power.is_none() && self.is_function_of(entry, &arguments, text, inside)?;
-                    let length = if is_function { length } else { 0 };
-                    return entry.found(place, taken + length, power);
-                }
-                (None, Some((_, length))) if self.has_arguments(&glyphs) => {
-                    let place = place.start..tokens[taken + length - 1].place.end;
-                    let message = format!("unknown symbol `{}`", &text[place.clone()]);
-                    let others = self.entries.iter().filter(|(key, _)| key.glyphs == glyphs);
-                    let known: Vec<String> =
-                        others.map(|(_, entry)| format!("`{}`", entry.printed)).collect();
-                    return Err(
-                        Mistake::new(place, message).with_help(format!("known are {}", known.join(", ")))
-                    );
-                }
-                (None, _) => {}
-            }
-        }
-        let known: Vec<Known<'_>> = self
-            .entries
-            .iter()
-            .map(|(key, entry)| Known { glyphs: &key.glyphs, printed: &entry.printed, name: entry.name() })
-            .collect();
-        Err(unknown::symbol(&known, |name| self.names.contains_key(name), text, &read))
-    }
-
-    /// Whether a symbol is known with other arguments.
-    fn has_arguments(&self, glyphs: &[Glyph]) -> bool {
-        self.entries.keys().any(|key| key.glyphs == glyphs && !key.arguments.is_empty())
-    }
-
-    /// Whether `e(\alpha)` says that an error is a function of its joint. A product is only read where the parentheses
-    /// cannot mean an argument.
-    fn is_function_of(
-        &self,
-        entry: &Entry,
-        arguments: &[Vec<Glyph>],
-        text: &str,
-        place: Range<usize>,
-    ) -> Result<bool, Unreadable> {
-        // Several factors in parentheses are no argument.
-        if arguments.iter().any(|argument| argument.len() > 1 && self.entry(argument, &[]).is_none()) {
-            return Ok(false);
-        }
-        let mut names = Vec::new();
-        for argument in arguments {
-            let name = match self.entry(argument, &[]).map(|entry| &entry.meaning) {
-                Some(Meaning::Amount(Expr { node: Node::Symbol(name), .. })) => Some(name),
-                _ => None,
-            };
-            names.push(name);
-        }
-        let varies = |name: &Option<&String>| {
-            name.is_none_or(|name| {
-                self.names.get(name).is_none_or(|kind| matches!(kind, SymbolKind::Joint | SymbolKind::Input))
-            })
-        };
-        if arguments.len() == 1 && !names.iter().any(varies) {
-            return Ok(false);
-        }
-        let ambiguous = |message: String| {
-            Err(Mistake::new(place.clone(), message).with_help(format!(
-                "for a product write `\\cdot` before the parenthesis; for a name of its own: '{}' = \"…\" under [symbols]",
-                &text[place.clone()]
-            )))
-        };
-        let Meaning::Amount(Expr { node: Node::Symbol(error), .. }) = &entry.meaning else {
-            return ambiguous("is this a function of its argument, or a product?".to_owned());
-        };
-        if self.names.get(error) != Some(&SymbolKind::Error) {
-            return ambiguous(format!("is this `{error}` as a function, or a product?"));
-        }
-        let own = self.joints.get(error).map_or(&[][..], Vec::as_slice);
-        match names.iter().find(|name| name.is_none_or(|name| !own.contains(name))) {
-            None => Ok(true),
-            Some(other) => {
-                let of = other.map_or("this", String::as_str);
-                let moved = match own {
-                    [] => "no joint moves its body".to_owned(),
-                    own => format!("its body is moved by {}", own.join(" and ")),
-                };
-                ambiguous(format!("`{error}` is no function of {of}: {moved}"))
-            }
-        }
-    }
-}
-
-impl Entry {
-    fn found(&self, place: Range<usize>, tokens: usize, power: Option<i32>) -> Result<Found<'_>, Unreadable> {
-        match &self.meaning {
-            Meaning::Ambiguous(names) => {
-                let message = format!("`{}` is the printed form of {}", self.printed, names.join(" and "));
-                Err(Mistake::new(place, message)
-                    .with_help(format!("say which under [symbols]: '{}' = \"{}\"", self.printed, names[0])))
-            }
-            meaning => Ok(Found { meaning, place, tokens, power }),
-        }
+        self.entry(&[Glyph::bare(letter)], &[]).is_some()
     }
 }
 
@@ -319,7 +246,7 @@ fn name(name: &str) -> Expr<()> {
 
 /// The glyphs of a text that is one symbol, and its arguments: `\delta_x(y)`.
 fn symbol_key(printed: &str) -> Result<Key, Unreadable> {
-    let tokens = token::tokens(printed)?;
+    let tokens = left::tokens(printed)?;
     let mut glyphs = Vec::new();
     let mut used = 0;
     while let Some(read) = glyph::read(&tokens[used..])? {

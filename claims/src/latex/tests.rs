@@ -31,6 +31,11 @@ pub(super) fn shown(formula: &Expr<Range<usize>>) -> String {
     }
 }
 
+/// The components of a vector.
+fn vector(text: &str, symbols: &PrintedSymbols) -> Result<Vec<Formula>, Unreadable> {
+    read_vector(text, symbols, &[Some(0), Some(1), Some(2)]).map(|(components, _)| components)
+}
+
 fn symbol(name: &str) -> Expr<()> {
     Expr { node: Node::Symbol(name.to_owned()), place: () }
 }
@@ -148,7 +153,7 @@ fn vectors_are_read_with_and_without_transposition() {
         r"\begin{bmatrix} x & -\alpha & 0 \end{bmatrix}^\top",
         r"\left[\begin{array}{c} x \\ -\alpha \\ 0 \\ \end{array}\right]",
     ] {
-        let components = read_vector(text, &symbols).unwrap_or_else(|mistake| panic!("{text}: {mistake:?}"));
+        let components = vector(text, &symbols).unwrap_or_else(|mistake| panic!("{text}: {mistake:?}"));
         assert_eq!(components.iter().map(shown).collect::<Vec<_>>(), ["x", "-alpha", "0"], "{text}");
     }
     // Rows, products and sums, and what each component says.
@@ -172,7 +177,7 @@ fn vectors_are_read_with_and_without_transposition() {
         (r"([1, x, 0] \cdot [2, 2, 2]) \, [x, 0, 0]", ["((2 + (x*2))*x)", "0", "0"]),
         (r"\frac{[x, 2, \alpha]}{2}", ["(x/2)", "(2/2)", "(alpha/2)"]),
     ] {
-        let components = read_vector(text, &symbols).unwrap_or_else(|mistake| panic!("{text}: {mistake:?}"));
+        let components = vector(text, &symbols).unwrap_or_else(|mistake| panic!("{text}: {mistake:?}"));
         assert_eq!(components.iter().map(shown).collect::<Vec<_>>(), said, "{text}");
     }
     for (text, place, wanted) in [
@@ -182,11 +187,11 @@ fn vectors_are_read_with_and_without_transposition() {
         (r"[x, 2, 0] [x, 2, 0]", "[x, 2, 0] [x, 2, 0]", "cannot be multiplied"),
         (r"x + \hat{x}", r"x + \hat{x}", "cannot be added"),
     ] {
-        let Err(mistake) = read_vector(text, &symbols) else { panic!("{text} was read") };
+        let Err(mistake) = vector(text, &symbols) else { panic!("{text} was read") };
         assert!(mistake.message.contains(wanted), "{text}: {}", mistake.message);
         assert_eq!(&text[mistake.place.clone()], place, "{text}: {}", mistake.message);
     }
-    let components = read_vector(r"(x + 1) \alpha, x", &symbols).unwrap_or_default();
+    let components = vector(r"(x + 1) \alpha, x", &symbols).unwrap_or_default();
     assert_eq!(components.iter().map(shown).collect::<Vec<_>>(), ["((x + 1)*alpha)", "x"]);
 }
 
@@ -240,7 +245,7 @@ fn what_cannot_be_read_is_refused_at_its_place() {
         (r"\sqrt[3]{2}", "[", "square roots"),
         (r"x < 2", "<", "a bound is a claim"),
         (r"x + \cdots", r"\cdots", "in full"),
-        (r"\sum x", r"\sum", "write out"),
+        (r"\sum x", r"\sum", "write the sum out"),
         ("x $ x", "$", "without its partner"),
         ("$x$ $x$ x", "$", "between two dollars"),
         (r"\tag x", r"\tag", "without braces"),
@@ -287,7 +292,7 @@ proptest::proptest! {
     fn no_text_is_a_panic(text in r"([a-zαβΔ \\{}\[\]()^_+*/,.0-9-]|\\sin|\\frac|\\Delta|\\theta|\\begin\{a\}|\\left|\\\\){0,40}") {
         for outcome in [
             read_formula(&text, &symbols()).map(|_| ()),
-            read_vector(&text, &symbols()).map(|_| ()),
+            vector(&text, &symbols()).map(|_| ()),
         ] {
             if let Err(mistake) = outcome {
                 proptest::prop_assert!(text.get(mistake.place.clone()).is_some(), "{:?}", mistake);

@@ -7,7 +7,7 @@
 use std::ops::Range;
 
 use super::commands::{
-    DISTANCES, FUNCTIONS, NOTES, RAMP, RELATIONS, SIZES, SWITCHES, TYPEFACES, WIDE, WITHOUT_MEANING,
+    BOLD, DISTANCES, FUNCTIONS, NOTES, RAMP, RELATIONS, SIZES, SWITCHES, TYPEFACES, WIDE, WITHOUT_MEANING,
     is_inverse,
 };
 use super::{Unreadable, typed};
@@ -18,6 +18,8 @@ use model_core::mistake::Mistake;
 pub(super) struct Token {
     pub kind: Kind,
     pub place: Range<usize>,
+    /// Set in bold type.
+    pub bold: bool,
 }
 
 /// What a token is.
@@ -45,14 +47,18 @@ pub(super) enum Kind {
     Wide,
     /// `$`, `\[` and the like: where mathematics begins or ends.
     Math,
+    /// In front of indices that stand on the left of their letter: `{}^0 p`.
+    Left,
+    /// A name of a declaration, as programs have it.
+    Name(String),
 }
 
 /// Units in which TeX measures a distance.
 const UNITS: [&str; 11] = ["pt", "mm", "cm", "in", "ex", "em", "bp", "pc", "dd", "cc", "sp"];
 
-/// Splits a text into tokens.
+/// Splits a text into tokens as they stand.
 pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Unreadable> {
-    let mut lexer = Lexer { text, at: 0, tokens: Vec::new() };
+    let mut lexer = Lexer { text, at: 0, tokens: Vec::new(), bold: 0..0, closers: Vec::new() };
     while let Some(next) = lexer.peek() {
         lexer.token(next)?;
     }
@@ -63,6 +69,10 @@ struct Lexer<'a> {
     text: &'a str,
     at: usize,
     tokens: Vec<Token>,
+    /// What is set in bold type.
+    bold: Range<usize>,
+    /// Where braces close that only a typeface opened.
+    closers: Vec<usize>,
 }
 
 impl Lexer<'_> {
@@ -71,7 +81,7 @@ impl Lexer<'_> {
     }
 
     fn push(&mut self, kind: Kind, start: usize) {
-        self.tokens.push(Token { kind, place: start..self.at });
+        self.tokens.push(Token { kind, place: start..self.at, bold: self.bold.contains(&start) });
     }
 
     fn token(&mut self, next: char) -> Result<(), Unreadable> {
@@ -90,7 +100,7 @@ impl Lexer<'_> {
             return Ok(());
         }
         if let Some((above, below)) = typed::fraction(next) {
-            if matches!(self.tokens.last(), Some(Token { kind: Kind::Digit(_), place }) if place.end == start)
+            if matches!(self.tokens.last(), Some(Token { kind: Kind::Digit(_), place, .. }) if place.end == start)
             {
                 let message = "a whole number and a fraction next to each other";
                 return Err(
@@ -111,6 +121,10 @@ impl Lexer<'_> {
             '$' => {
                 self.skip_while(|c| c == '$');
                 self.push(Kind::Math, start);
+            }
+            '`' if self.text[start..].starts_with("```") => self.fence(start),
+            '}' if self.closers.last() == Some(&start) => {
+                self.closers.pop();
             }
             ':' if self.peek() == Some('=') => {}
             c if typed::is_invisible(c) => {}
@@ -144,7 +158,8 @@ impl Lexer<'_> {
         }
         for (offset, letter) in run.char_indices() {
             let place = start + offset..start + offset + 1;
-            self.tokens.push(Token { kind: Kind::Word(letter.to_string()), place });
+            let bold = self.bold.contains(&place.start);
+            self.tokens.push(Token { kind: Kind::Word(letter.to_string()), place, bold });
         }
     }
 
@@ -152,7 +167,7 @@ impl Lexer<'_> {
     fn script(&mut self, mark: char, meaning: fn(char) -> Option<&'static str>, start: usize) {
         self.skip_while(|c| meaning(c).is_some());
         let place = start..self.at;
-        let mut push = |kind| self.tokens.push(Token { kind, place: place.clone() });
+        let mut push = |kind| self.tokens.push(Token { kind, place: place.clone(), bold: false });
         push(Kind::Mark(mark));
         push(Kind::Mark('{'));
         for c in self.text[place.clone()].chars().filter_map(meaning).flat_map(str::chars) {
@@ -191,7 +206,7 @@ impl Lexer<'_> {
                 self.push(Kind::Wide, start);
             }
             "phantom" | "hphantom" | "vphantom" | "color" => self.note(start, &name)?,
-            name if TYPEFACES.contains(&name) => self.typeface(start),
+            name if TYPEFACES.contains(&name) => self.typeface(start, BOLD.contains(&name)),
             name if RELATIONS.contains(&name) => self.push(Kind::Mark('='), start),
             "begin" | "end" => self.environment(start, name == "begin")?,
             "cdot" | "ast" | "bullet" => self.push(Kind::Mark('*'), start),
@@ -268,16 +283,47 @@ impl Lexer<'_> {
     }
 
     /// A typeface is dropped; a word that it sets is one symbol, or the function of that name.
-    fn typeface(&mut self, start: usize) {
+    fn typeface(&mut self, start: usize, bold: bool) {
         let after_command = self.at;
         self.skip_while(char::is_whitespace);
-        if self.peek() == Some('{') {
-            self.at += 1;
-            if self.word(start) {
-                return;
+        let inside = self.at + 1;
+        if self.peek() != Some('{') {
+            // Of a letter without braces, `\mathbf r`.
+            if bold {
+                self.bold = start..self.at + 1;
+            }
+            self.at = after_command;
+            return;
+        }
+        let close = closing(self.text, self.at);
+        if bold {
+            self.bold = start..close.unwrap_or(inside);
+        }
+        self.at = inside;
+        if self.word(start) {
+            return;
+        }
+        // Braces around letters with their indices take no ink.
+        let only_letters = |text: &str| {
+            text.trim_start().starts_with(|c: char| c == '\\' || c.is_alphabetic())
+                && !text.contains(['+', '-', '=', '*', '/', '&', '(', ')', '[', ']', ',', '$', '%'])
+        };
+        match close.filter(|&close| only_letters(&self.text[inside..close])) {
+            Some(close) => self.closers.push(close),
+            None => self.at = after_command,
+        }
+    }
+
+    /// Three backquotes, and what kind of text they open.
+    fn fence(&mut self, start: usize) {
+        self.skip_while(|c| c == '`');
+        for word in ["math", "latex", "tex"] {
+            if self.text[self.at..].starts_with(word) {
+                self.at += word.len();
+                break;
             }
         }
-        self.at = after_command;
+        self.push(Kind::Math, start);
     }
 
     /// `{\rm sin}`: a change of typeface at the start of a group, and the word behind it.
@@ -350,6 +396,27 @@ impl Lexer<'_> {
         self.at += length + 2;
         Some(inside[..length].trim().to_owned())
     }
+}
+
+/// Where the brace at `open` closes.
+fn closing(text: &str, open: usize) -> Option<usize> {
+    let mut depth = 0usize;
+    let mut escaped = false;
+    for (at, c) in text[open..].char_indices() {
+        match c {
+            _ if escaped => escaped = false,
+            '\\' => escaped = true,
+            '{' => depth += 1,
+            '}' => {
+                depth -= 1;
+                if depth == 0 {
+                    return Some(open + at);
+                }
+            }
+            _ => {}
+        }
+    }
+    None
 }
 
 /// `2pt`, `-.5ex`, `1.2 em`.

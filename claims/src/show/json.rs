@@ -5,7 +5,7 @@ use model_core::{Axis, print};
 use serde_json::{Value, json};
 
 use super::text::{place_in_text, product};
-use crate::file::{Checked, Claims, NamedClaim};
+use crate::file::{Checked, Claims, NamedClaim, Unread};
 
 /// One verdict.
 pub fn as_json(file: &Claims, checked: &Checked<'_>) -> Value {
@@ -16,6 +16,7 @@ pub fn as_json(file: &Claims, checked: &Checked<'_>) -> Value {
     };
     let means = match checked.verdict.means() {
         Means::Decided => "decided",
+        Means::Computed => "computed",
         Means::Sampled => "sampled",
         Means::Proven => "proven",
     };
@@ -81,11 +82,47 @@ pub fn as_json(file: &Claims, checked: &Checked<'_>) -> Value {
         Verdict::Size(size) => {
             claim["size"] = json!({"found": size.found, "between": size.between, "poses": size.poses});
         }
+        Verdict::Entries(entries) => {
+            claim["differences"] = entries
+                .differences
+                .iter()
+                .map(|difference| {
+                    json!({
+                        "entry": difference.label,
+                        "printed": difference.printed.show(&file.chain, print::Style::Text),
+                        "derived": difference.derived.show(&file.chain, print::Style::Text),
+                        "latex": {
+                            "printed": difference.printed.show(&file.printed, print::Style::Latex),
+                            "derived": difference.derived.show(&file.printed, print::Style::Latex),
+                        },
+                    })
+                })
+                .collect();
+        }
+        Verdict::Values(values) => {
+            claim["values"] = values
+                .iter()
+                .map(|value| {
+                    json!({"of": value.label, "found": value.found, "claimed": value.claimed, "within": value.within, "holds": value.holds()})
+                })
+                .collect();
+        }
         Verdict::Bound(bound) => {
             claim["bound"] = json!({"proven": bound.proven, "found": bound.found});
         }
     }
     claim
+}
+
+/// A claim without a verdict.
+#[must_use]
+pub fn unread_as_json(unread: &Unread) -> Value {
+    let mistakes: Vec<Value> = unread
+        .mistakes
+        .iter()
+        .map(|mistake| json!({"message": mistake.message, "help": mistake.help}))
+        .collect();
+    json!({"name": unread.name, "verdict": "unread", "mistakes": mistakes})
 }
 
 /// Coefficients in the plain syntax of amounts, for programs, and in LaTeX.

@@ -2,9 +2,10 @@
 
 use std::fmt::Write as _;
 
+use crate::checker::entries::EntriesVerdict;
 use crate::checker::{
     BoundVerdict, Claim, Counted, Difference, FormVerdict, Means, Measured, Outcome, RankSaid, RankVerdict,
-    SizeVerdict, TotalVerdict, Verdict, hand,
+    SizeVerdict, TotalVerdict, ValueVerdict, Verdict, hand,
 };
 use model_core::mistake::Excerpt;
 use model_core::print::Hand;
@@ -35,6 +36,7 @@ pub fn as_text(file: &Claims, checked: &[Checked<'_>], paint: &Paint) -> String 
         };
         let means = match verdict.means() {
             Means::Decided => "",
+            Means::Computed => " (computed)",
             Means::Sampled => " (sampled)",
             Means::Proven => " (proven)",
         };
@@ -63,6 +65,8 @@ pub fn as_text(file: &Claims, checked: &[Checked<'_>], paint: &Paint) -> String 
             Verdict::Rank(rank) => write_rank(&mut out, &file.chain, &claim.claim, rank),
             Verdict::Size(size) => write_size(&mut out, &file.chain, &claim.claim, size),
             Verdict::Bound(bound) => write_bound(&mut out, &file.chain, &claim.claim, bound),
+            Verdict::Entries(entries) => write_entries(&mut out, &file.printed, entries, style),
+            Verdict::Values(values) => write_values(&mut out, &file.chain, &claim.claim, values),
         }
     }
     let held = checked.iter().filter(|checked| checked.verdict.holds()).count();
@@ -173,6 +177,33 @@ pub(super) fn product(error: &[(model_core::SymbolId, u32)]) -> model_core::alge
     error.iter().fold(Poly::one(), |product, &(symbol, power)| {
         (0..power).fold(product, |product, _| &product * &Poly::symbol(symbol))
     })
+}
+
+fn write_entries(out: &mut String, chain: &Chain, verdict: &EntriesVerdict, style: print::Style) {
+    for difference in &verdict.differences {
+        let _ = writeln!(
+            out,
+            "    {}: printed {}, derived {}",
+            difference.label,
+            difference.printed.show(chain, style),
+            difference.derived.show(chain, style)
+        );
+    }
+}
+
+fn write_values(out: &mut String, chain: &Chain, claim: &Claim, verdict: &[ValueVerdict]) {
+    let Claim::Values(values) = claim else { return };
+    let shown = chain.observable(values.observable);
+    for (value, reading) in verdict.iter().zip(&shown.shown) {
+        if !value.holds() {
+            let unit = reading.unit(shown.kind);
+            let _ = writeln!(
+                out,
+                "    {}: printed {:e} {unit}, computed {:e} {unit}",
+                value.label, value.claimed, value.found
+            );
+        }
+    }
 }
 
 fn write_measured(out: &mut String, chain: &Chain, claim: &Claim, measured: &Measured) {

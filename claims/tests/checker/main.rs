@@ -12,7 +12,8 @@ use claims::checker::{Checker, ClosedForm, FormVerdict, Order, PrintedVector};
 use claims::latex::PrintedSymbols;
 use model_core::{Axis, Chain, ObservableId, SymbolKind, forms};
 
-use slips::{Expected, Formula, Random, Slip};
+use slips::{Expected, Formula, Slip};
+use testkit::Random;
 
 /// Mounts, scanners, arms, a tree; below the root of the workspace.
 const CHAINS: [&str; 8] = [
@@ -67,7 +68,7 @@ fn correct_formulas_hold() {
 
 #[test]
 fn two_hundred_random_slips_are_found_where_they_were_made() {
-    let mut random = Random(2019);
+    let mut random = Random::new(2019);
     let mut made = [0; Slip::ALL.len()];
     for path in CHAINS {
         let chain = chain(path);

@@ -4,16 +4,7 @@ use claims::checker::TermSlip;
 use model_core::forms::Form;
 use model_core::print::{self, Style};
 use model_core::{Axis, Chain};
-
-/// A linear congruential generator, enough to choose with.
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn below(&mut self, count: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        usize::try_from(self.0 >> 33).unwrap() % count
-    }
-}
+use testkit::Random;
 
 /// The slips that are made.
 #[derive(Debug, Clone, Copy)]

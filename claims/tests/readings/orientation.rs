@@ -20,7 +20,7 @@ const TURNED: [&str; 3] = [
 fn holds(chain: &Chain, texts: [&str; 3]) -> bool {
     let id = chain.find_observable("turned").unwrap();
     let (symbols, shown) = (PrintedSymbols::of_chain(chain), chain.observable(id));
-    let printed = PrintedVector::read_shown(chain, &symbols, shown, &texts, false).unwrap();
+    let printed = PrintedVector::read_shown(chain, &symbols, shown, &texts, Order::UpTo(1)).unwrap();
     let kept = chain.symbols_of(SymbolKind::Error).collect();
     let claim = ClosedForm { observable: id, order: Order::UpTo(1), only: None, faces: None, kept, printed };
     Checker::new(chain).closed_form(&claim).unwrap().differences.is_empty()

@@ -8,7 +8,8 @@ use model_core::{Chain, SymbolKind};
 fn said(chain: &Chain, observable: &str, texts: &[&str]) -> Vec<String> {
     let id = chain.find_observable(observable).unwrap();
     let symbols = PrintedSymbols::of_chain(chain);
-    let printed = PrintedVector::read_shown(chain, &symbols, chain.observable(id), texts, false).unwrap();
+    let printed =
+        PrintedVector::read_shown(chain, &symbols, chain.observable(id), texts, Order::UpTo(1)).unwrap();
     let mut kept: Vec<_> = ["tilt_x", "cross", "collimation", "index_a", "index_e"]
         .map(|name| chain.find_symbol(name).unwrap())
         .to_vec();

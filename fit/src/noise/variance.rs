@@ -10,7 +10,8 @@
 
 use std::ops::Range;
 
-use faer::Mat;
+use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
+use faer::{Mat, Par};
 use model_core::{Chain, Quantity, SymbolId, SymbolKind};
 use rayon::prelude::*;
 
@@ -385,18 +386,11 @@ impl Independent {
 
     /// The solution of RᵀRx = b, zero for the other columns.
     fn solved(&self, b: &[f64]) -> Vec<f64> {
-        let (r, count) = (&self.factor, self.columns.len());
-        let mut x: Vec<f64> = self.columns.iter().map(|&column| b[column]).collect();
-        for j in 0..count {
-            let before: f64 = (0..j).map(|i| r[(i, j)] * x[i]).sum();
-            x[j] = (x[j] - before) / r[(j, j)];
-        }
-        for i in (0..count).rev() {
-            let behind: f64 = (i + 1..count).map(|j| r[(i, j)] * x[j]).sum();
-            x[i] = (x[i] - behind) / r[(i, i)];
-        }
+        let mut x = Mat::from_fn(self.columns.len(), 1, |i, _| b[self.columns[i]]);
+        solve_lower_triangular_in_place(self.factor.transpose(), x.as_mut(), Par::Seq);
+        solve_upper_triangular_in_place(self.factor.as_ref(), x.as_mut(), Par::Seq);
         let mut all = vec![0.0; self.width];
-        self.columns.iter().zip(x).for_each(|(&column, x)| all[column] = x);
+        self.columns.iter().zip(x.col_as_slice(0)).for_each(|(&column, &x)| all[column] = x);
         all
     }
 }

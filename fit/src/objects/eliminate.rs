@@ -180,6 +180,8 @@ impl Eliminated {
 }
 
 /// The numbers whose product with the triangle of the first so many columns is `right`, zero where the triangle has no corner.
+///
+/// Not `faer`'s substitution, which divides by the corner whatever it is.
 pub(super) fn divided_out(factor: MatRef<'_, f64>, count: usize, right: impl Fn(usize) -> f64) -> Vec<f64> {
     let mut numbers = vec![0.0; count];
     for row in (0..count).rev() {

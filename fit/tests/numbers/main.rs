@@ -6,14 +6,13 @@
     reason = "a test may say what it measured, and fail loudly"
 )]
 
-mod independent;
 mod robust;
 
 use fit::{FitOptions, FitResult, fit};
-use independent::{ARCSEC, Measured, NAMES, Noise, Poses, measured};
 use model_core::Chain;
 use observe::{Measure, Observations, Series};
 use statrs::distribution::{ContinuousCDF, StudentsT};
+use testkit::mount::{ARCSEC, Measured, NAMES, Noise, Poses, measured};
 
 const MOUNT: &str = include_str!("../../../examples/alt-azimuth/alt-azimuth.chain");
 
@@ -90,7 +89,7 @@ fn few_rows_are_as_uncertain_as_they_are() {
 fn a_stated_noise_serves_few_rows() {
     for rows in [4, 6] {
         let of = |seed| (measured(rows, Poses::Random, Noise::White, ERRORS, 2000 + seed), false);
-        let state = |options: &mut FitOptions| options.noise.stated = Some(independent::SIGMA);
+        let state = |options: &mut FitOptions| options.noise.stated = Some(testkit::mount::SIGMA);
         let found = coverage(200, &state, &of);
         println!("{rows} rows, stated noise: {found:.3}");
         assert!((0.92..=0.98).contains(&found), "{rows} rows: {found}");

@@ -3,8 +3,8 @@
 use fit::{FitOptions, Outcome, fit};
 use model_core::Chain;
 
-use crate::independent::{ARCSEC, Noise, Poses, SIGMA, measured};
 use crate::{MOUNT, observations};
+use testkit::mount::{ARCSEC, Noise, Poses, SIGMA, measured};
 
 /// From starts far away and with a third of gross errors: the same bottom as from nothing, the same rows aside.
 #[test]

@@ -83,7 +83,7 @@ fn a_refuted_formula_altered_in_any_line_is_refused() {
 }
 
 #[test]
-#[ignore = "a minute of Coq; `.ci/run` has it"]
+#[ignore = "a minute of Coq; `.ci/long` has it"]
 fn the_papers_equations_altered_in_any_line_are_refused() {
     // The factors; the vector and the formulas of equation (6), as printed and as derived, and of (7); the signs in them.
     every_alteration_is_refused("altered_paper", &paper(), 33 + 10 + 22);

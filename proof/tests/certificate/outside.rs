@@ -67,7 +67,7 @@ fn titles_do_not_end_the_comments_that_they_stand_in() {
 }
 
 #[test]
-#[ignore = "a minute of Coq; `.ci/run` has it"]
+#[ignore = "a minute of Coq; `.ci/long` has it"]
 fn everything_at_once_altered_in_any_line_is_refused() {
     // The body beside the way and its joint do not enter.
     let alone: Vec<&str> = EVERYTHING.lines().filter(|line| !line.contains("body other")).collect();

@@ -70,8 +70,8 @@ fn claim(
     let id = observable(&declared, name);
     let (symbols, shown) = (PrintedSymbols::of_chain(chain), chain.observable(id));
     let printed = match only {
-        Some(place) => PrintedVector::read_one(chain, &symbols, printed[0], shown, place, false),
-        None => PrintedVector::read_shown(chain, &symbols, shown, printed, false),
+        Some(place) => PrintedVector::read_one(chain, &symbols, printed[0], shown, place, Order::UpTo(1)),
+        None => PrintedVector::read_shown(chain, &symbols, shown, printed, Order::UpTo(1)),
     };
     let form = ClosedForm {
         observable: id,

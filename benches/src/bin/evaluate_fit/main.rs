@@ -4,19 +4,17 @@
 //! and `left-open`; N the runs of each case (default 400). The mount is simulated by the independent program of the tests.
 #![allow(clippy::print_stdout)]
 
-#[path = "../../../../fit/tests/numbers/independent.rs"]
-mod independent;
 #[path = "../evaluate_search/rate.rs"]
 #[allow(dead_code)]
 mod rate;
 mod scanner;
 
 use fit::{FitOptions, fit};
-use independent::{ARCSEC, Measured, NAMES, Noise, Poses, SIGMA, measured};
 use model_core::Chain;
 use observe::{Measure, Observations, Series};
 use rate::Rate;
 use rayon::prelude::*;
+use testkit::mount::{ARCSEC, Measured, NAMES, Noise, Poses, SIGMA, measured};
 
 /// Why there is no figure.
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;

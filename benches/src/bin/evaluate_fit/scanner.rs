@@ -10,8 +10,8 @@ use rand_distr::StandardNormal;
 use rayon::prelude::*;
 
 use crate::Failure;
-use crate::independent::SIGMA;
 use crate::rate::Rate;
+use testkit::mount::SIGMA;
 
 const LIDAR: &str = include_str!("../../../../examples/mobile-lidar/mobile-lidar.chain");
 

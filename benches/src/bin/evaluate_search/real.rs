@@ -93,7 +93,14 @@ fn foretold(
     held.sort_unstable();
     seen.sort_unstable();
     let (held, seen) = (all.select(&held), all.select(&seen));
-    let made = calibrate(Request { text, plan, observations: &seen, second: None, when: "2026-11-21" })?;
+    let made = calibrate(Request {
+        text,
+        plan,
+        observations: &seen,
+        sample: None,
+        second: None,
+        when: "2026-11-21",
+    })?;
     let residual = |chain: &Chain, values: &[f64]| -> Result<Vec<f64>, Failure> {
         let columns = Columns::at(chain, &held, &plan.fit.estimate, values, &[])?;
         let mut squares = vec![0.0; held.rows()];

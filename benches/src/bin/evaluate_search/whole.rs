@@ -22,7 +22,14 @@ use crate::rate::{Line, Rate, Target};
 const DECLARED: f64 = 10.0;
 
 fn calibrated(design: &Design, observations: &Observations) -> Result<Diagnosis, Failure> {
-    let request = Request { text: TEXT, plan: &design.plan, observations, second: None, when: "2026-11-21" };
+    let request = Request {
+        text: TEXT,
+        plan: &design.plan,
+        observations,
+        sample: None,
+        second: None,
+        when: "2026-11-21",
+    };
     Ok(calibrate(request)?.diagnosis)
 }
 

@@ -14,25 +14,42 @@ use super::{Place, Reader, each};
 
 impl Reader<'_> {
     pub(super) fn closed_form(&mut self, claim: &ClaimTable) -> Option<Claim> {
-        let components = claim.components.as_ref()?;
+        let faces = self.faces(claim)?;
+        self.form(claim, claim.components.as_ref()?, faces)
+    }
+
+    /// What has to be added to a reading so that its error goes, to first order.
+    pub(super) fn correction(&mut self, claim: &ClaimTable) -> Option<Claim> {
+        if let Some(order) = claim.order.as_ref().filter(|order| *order.get_ref() != Value::Integer(1)) {
+            self.mistake(order.span(), "a correction is the error with its sign turned to first order only");
+            return None;
+        }
+        let faces = Faces { second: Vec::new(), combined: Combination::Correction };
+        self.form(claim, claim.correction.as_ref()?, Some(faces))
+    }
+
+    fn form(
+        &mut self,
+        claim: &ClaimTable,
+        components: &Spanned<Texts>,
+        faces: Option<Faces>,
+    ) -> Option<Claim> {
         let observable = self.observable(claim)?;
         let order = self.order(claim);
         let kept = self.kept(claim);
-        let faces = self.faces(claim)?;
         let shown = self.chain.observable(observable);
         let only = self.component(claim, shown)?;
         let texts = each(components);
         let plain: Vec<&str> = texts.iter().map(|(text, _)| *text).collect();
-        let is_exact = order == Some(Order::Exact);
         let read = match (only, plain.as_slice()) {
             (Some(axis), [text]) => {
-                PrintedVector::read_one(self.chain, &self.symbols, text, shown, axis, is_exact)
+                PrintedVector::read_one(self.chain, &self.symbols, text, shown, axis, order?)
             }
             (Some(_), _) => {
                 self.mistake(components.span(), "one component is claimed, and several formulas are given");
                 return None;
             }
-            (None, texts) => PrintedVector::read_shown(self.chain, &self.symbols, shown, texts, is_exact),
+            (None, texts) => PrintedVector::read_shown(self.chain, &self.symbols, shown, texts, order?),
         };
         match read {
             Ok(printed) => Some(Claim::ClosedForm(Box::new(ClosedForm {

@@ -52,7 +52,7 @@ impl Reader<'_> {
     }
 
     /// That every constant has a value, for a claim that is about numbers.
-    fn numbers(&mut self, place: Range<usize>) -> Option<()> {
+    pub(super) fn numbers(&mut self, place: Range<usize>) -> Option<()> {
         let chain = self.chain;
         let mut constants = chain.symbols_of(SymbolKind::Constant).map(|constant| chain.symbol(constant));
         // Halves of angles, which print has, are no constants of the declaration: no name is written like theirs.
@@ -65,7 +65,7 @@ impl Reader<'_> {
     }
 
     /// A quantity above zero, in SI.
-    fn quantity(&mut self, value: &Spanned<Value>, quantity: Quantity, what: &str) -> Option<f64> {
+    pub(super) fn quantity(&mut self, value: &Spanned<Value>, quantity: Quantity, what: &str) -> Option<f64> {
         let read = match value.get_ref() {
             Value::String(text) => self.edge.quantity(text, quantity),
             Value::Float(number) => Ok(*number),
@@ -86,7 +86,7 @@ impl Reader<'_> {
     }
 
     /// Sizes of errors by name or pattern, indexed by symbol; a plain name wins over a pattern.
-    fn sizes(&mut self, sizes: &Sizes) -> Option<Vec<f64>> {
+    pub(super) fn sizes(&mut self, sizes: &Sizes) -> Option<Vec<f64>> {
         let mut found = vec![0.0; self.chain.symbols.len()];
         let mut complete = !sizes.get_ref().is_empty();
         if !complete {
@@ -110,7 +110,7 @@ impl Reader<'_> {
     }
 
     /// What an observable's error is measured in.
-    fn measured_in(&self, observable: ObservableId) -> Quantity {
+    pub(super) fn measured_in(&self, observable: ObservableId) -> Quantity {
         if budget::unit(self.chain, observable) == "rad" { Quantity::Angle } else { Quantity::Length }
     }
 
@@ -207,7 +207,7 @@ impl Reader<'_> {
         }
     }
 
-    fn poses(&mut self, claim: &ClaimTable) -> Option<Poses> {
+    pub(super) fn poses(&mut self, claim: &ClaimTable) -> Option<Poses> {
         match (&claim.path, &claim.range) {
             (Some(_), Some(range)) => {
                 self.mistake(range.span(), "`path` and `range` are both given").help =

@@ -2,52 +2,64 @@
 //! the file is collected before any claim is checked. What a printed formula says is read in `formulas`, what is measured
 //! in `measures`.
 
+mod entries;
 mod formulas;
+mod kinds;
 mod measures;
+mod symbols;
 mod turns;
+mod values;
 
 use std::ops::Range;
 
-use model_core::expr::{Expr, Node};
 use model_core::names::{self, listed};
 use model_core::print::Hand;
-use model_core::{Chain, Mistake, Mistakes, ObservableId, ObservableKind, SymbolId, SymbolKind, syntax};
+use model_core::{Chain, Mistake, ObservableId, ObservableKind, SymbolId, SymbolKind};
 use toml::Spanned;
 
-use crate::checker::{Claim, Count, Rank, RankSaid, errors_named, extended, hand, lower};
-use crate::latex::PrintedSymbols;
+use crate::checker::{Claim, Count, Rank, RankSaid, errors_named, extended};
+use crate::latex::{PrintedSymbols, Turned};
 
-use super::strings::place_in_string;
+use kinds::{KINDS, Kind, particulars};
+
 use super::table::{ClaimTable, CountTable, File, Texts};
-use super::{Claims, Edge, NamedClaim};
+use super::{Claims, Edge, NamedClaim, Unread};
 
 type Place = Range<usize>;
 
-/// Reads the claims of a file about a declaration.
-///
-/// # Errors
-/// Every mistake, each with its place.
-pub(super) fn claims(text: &str, file: &File, chain: &Chain, edge: &dyn Edge) -> Result<Claims, Mistakes> {
+/// Reads the claims of a file about a declaration; what cannot be read is kept with its mistakes.
+pub(super) fn claims(text: &str, file: &File, chain: &Chain, edge: &dyn Edge) -> Claims {
     // With the roots and half angles that print has.
     let chain = extended(chain);
     let mut reader = Reader {
         text,
         edge,
         chain: &chain,
-        symbols: PrintedSymbols::of_chain(&chain),
+        symbols: PrintedSymbols::default(),
+        says_what_turns: false,
         hand: Hand::default(),
         mistakes: Vec::new(),
     };
+    reader.symbols = reader.turned(file);
     let printed = reader.printed_symbols(file);
-    let claims: Vec<NamedClaim> = file.claim.iter().flat_map(|claim| reader.claims_of(claim)).collect();
+    let mut mistakes = std::mem::take(&mut reader.mistakes);
+    let mut claims = Vec::new();
+    let mut unread = Vec::new();
+    for table in &file.claim {
+        let found = reader.claims_of(table);
+        let own = std::mem::take(&mut reader.mistakes);
+        if own.is_empty() {
+            claims.extend(found);
+        } else {
+            let name = &table.get_ref().name;
+            unread.push(Unread { name: name.get_ref().clone(), place: name.span(), mistakes: own });
+        }
+    }
     if file.claim.is_empty() {
-        reader.mistake(0..0, "this file makes no claim").help = Some("add a [[claim]]".to_owned());
+        mistakes.push(Mistake::new(0..0, "this file makes no claim").with_help("add a [[claim]]"));
     }
-    let Reader { mistakes, hand, .. } = reader;
-    if !mistakes.is_empty() {
-        return Err(Mistakes::locate(text, mistakes));
-    }
-    Ok(Claims { chain, printed, hand, claims })
+    let hand = reader.hand;
+    Claims { chain, printed, hand, claims, unread, mistakes }
 }
 
 struct Reader<'a> {
@@ -55,6 +67,7 @@ struct Reader<'a> {
     edge: &'a dyn Edge,
     chain: &'a Chain,
     symbols: PrintedSymbols,
+    says_what_turns: bool,
     hand: Hand,
     mistakes: Vec<Mistake<Place>>,
 }
@@ -64,86 +77,6 @@ impl Reader<'_> {
         self.mistakes.push(Mistake::new(place, message));
         let last = self.mistakes.len() - 1;
         &mut self.mistakes[last]
-    }
-
-    /// Fills the table of symbols; returns the chain with the printed forms that the file gives its names.
-    fn printed_symbols(&mut self, file: &File) -> Chain {
-        let mut printed = self.chain.clone();
-        for (symbol, meaning) in &file.symbols {
-            if meaning.get_ref().trim_start().starts_with('[') {
-                self.printed_vector(symbol, meaning);
-                continue;
-            }
-            let amount = match syntax::parse_amount(meaning.get_ref()) {
-                Ok(amount) => amount,
-                Err(mistakes) => {
-                    for mistake in &mistakes {
-                        let place = place_in_string(self.text, meaning.span(), mistake.place.bytes.clone());
-                        self.mistake(place, mistake.message.clone()).help.clone_from(&mistake.help);
-                    }
-                    continue;
-                }
-            };
-            if let Err(mistake) = lower(self.chain, &amount) {
-                let place = place_in_string(self.text, meaning.span(), mistake.place);
-                self.mistake(place, mistake.message).help = mistake.help;
-                continue;
-            }
-            if let Err(mistake) = self.symbols.define(symbol.get_ref(), &amount) {
-                let place = place_in_string(self.text, symbol.span(), mistake.place);
-                self.mistake(place, mistake.message).help = mistake.help;
-                continue;
-            }
-            hand::abbreviate(&mut self.hand, self.chain, symbol.get_ref().trim(), &amount);
-            if let Node::Symbol(name) = &amount.node
-                && let Some(id) = printed.find_symbol(name)
-            {
-                printed.symbols[id.index()].latex = symbol.get_ref().trim().to_owned();
-            }
-        }
-        printed
-    }
-
-    /// A printed symbol that stands for a vector: `"[sin(alpha), 0, cos(alpha)]"`.
-    fn printed_vector(&mut self, symbol: &Spanned<String>, meaning: &Spanned<String>) {
-        let text = meaning.get_ref();
-        let inside = text.trim().trim_start_matches('[').trim_end_matches(']');
-        let mut end = text.len() - text.trim_start().trim_start_matches('[').len();
-        let mut components: Vec<Expr<Place>> = Vec::new();
-        for part in inside.split(',') {
-            let start = end;
-            end += part.len() + 1;
-            let shift = |place: &Place| place.start + start..place.end + start;
-            let read = syntax::parse_amount(part).map(|amount| amount.map_place(&shift));
-            let read = read.map_err(|mistakes| {
-                let first = mistakes.iter().next().cloned();
-                first.map_or(Mistake::new(0..text.len(), "an amount is missing"), |first| Mistake {
-                    place: shift(&first.place.bytes),
-                    message: first.message,
-                    help: first.help,
-                })
-            });
-            match read.and_then(|amount| lower(self.chain, &amount).map(|_| amount)) {
-                Ok(amount) => components.push(amount),
-                Err(Mistake { place, message, help }) => {
-                    let place = place_in_string(self.text, meaning.span(), place);
-                    self.mistake(place, message).help = help;
-                    return;
-                }
-            }
-        }
-        let count = components.len();
-        let defined = match <[Expr<Place>; 3]>::try_from(components) {
-            Ok(components) => self.symbols.define_vector(symbol.get_ref(), &components),
-            Err(_) => {
-                self.mistake(meaning.span(), format!("{count} components, where a vector has three"));
-                return;
-            }
-        };
-        if let Err(Mistake { place, message, help }) = defined {
-            let place = place_in_string(self.text, symbol.span(), place);
-            self.mistake(place, message).help = help;
-        }
     }
 
     /// What a table claims: several things where it prints a matrix.
@@ -172,20 +105,54 @@ impl Reader<'_> {
                 self.mistake(place, message).help = Some("leave it out".to_owned());
             }
         }
-        let texts: Vec<String> = match (claim.components.as_ref().or(claim.equal.as_ref()), &claim.total) {
+        let formulas = [&claim.components, &claim.correction, &claim.shows, &claim.image, &claim.equal];
+        let single = [&claim.total, &claim.frame, &claim.jacobian].into_iter().find_map(Option::as_ref);
+        let texts: Vec<String> = match (formulas.into_iter().find_map(Option::as_ref), single) {
             (Some(formulas), _) => each(formulas).into_iter().map(|(text, _)| text.to_owned()).collect(),
-            (None, Some(total)) => vec![total.get_ref().clone()],
+            (None, Some(only)) => vec![only.get_ref().clone()],
             (None, None) => Vec::new(),
         };
         let is_plain = !texts.is_empty() && texts.iter().all(|text| !text.contains(['\\', '{']));
         let read = (kind.read)(self, claim)?;
+        let otherwise = if read.is_turned() { self.otherwise(kind, claim) } else { None };
         Some(NamedClaim {
             name: claim.name.get_ref().clone(),
             place: claim.name.span(),
             claim: read,
+            otherwise,
             texts,
             is_plain,
         })
+    }
+
+    /// The same claim where rotations about named axes turn the other thing, if the file does not say what they turn.
+    fn otherwise(&mut self, kind: &Kind, claim: &ClaimTable) -> Option<Claim> {
+        if self.says_what_turns {
+            return None;
+        }
+        let axes = self.symbols.clone().turning(Turned::Axes);
+        let vectors = std::mem::replace(&mut self.symbols, axes);
+        let count = self.mistakes.len();
+        let read = (kind.read)(self, claim);
+        self.mistakes.truncate(count);
+        self.symbols = vectors;
+        read
+    }
+
+    /// The symbols, with what rotations about named axes turn as the file says.
+    fn turned(&mut self, file: &File) -> PrintedSymbols {
+        let symbols = PrintedSymbols::of_chain(self.chain);
+        let Some(said) = &file.rotations else { return symbols };
+        self.says_what_turns = true;
+        match said.get_ref().as_str() {
+            "vectors" => symbols,
+            "axes" => symbols.turning(Turned::Axes),
+            other => {
+                self.mistake(said.span(), format!("rotations turn vectors or axes, not `{other}`")).help =
+                    Some("rotations = \"vectors\"".to_owned());
+                symbols
+            }
+        }
     }
 
     /// The observable that the claim names; otherwise the chain's only one, or for a comparison its first direction.
@@ -321,102 +288,6 @@ impl Reader<'_> {
         others.dedup();
         Some(Claim::Rank(Rank { observables, errors, said: RankSaid::Separable(others) }))
     }
-}
-
-/// A kind of claim: its key, its name in messages, the keys that go with it, and its reader.
-struct Kind {
-    key: &'static str,
-    name: &'static str,
-    takes: &'static [&'static str],
-    place: fn(&ClaimTable) -> Option<Place>,
-    read: fn(&mut Reader<'_>, &ClaimTable) -> Option<Claim>,
-}
-
-const KINDS: [Kind; 10] = [
-    Kind {
-        key: "components",
-        name: "a closed form",
-        takes: &["observable", "order", "keep", "neglect", "component", "faces"],
-        place: |claim| span(&claim.components),
-        read: |reader, claim| reader.closed_form(claim),
-    },
-    Kind {
-        key: "equal",
-        name: "an equality of two formulas",
-        takes: &[],
-        place: |claim| span(&claim.equal),
-        read: |reader, claim| reader.equality(claim),
-    },
-    Kind {
-        key: "total",
-        name: "a total error",
-        takes: &["observable", "keep", "neglect"],
-        place: |claim| span(&claim.total),
-        read: |reader, claim| reader.total(claim),
-    },
-    Kind {
-        key: "compare",
-        name: "a comparison",
-        takes: &["observable", "path", "range"],
-        place: |claim| span(&claim.compare),
-        read: |reader, claim| reader.comparison(claim),
-    },
-    Kind {
-        key: "size",
-        name: "a size",
-        takes: &["observable", "path", "range"],
-        place: |claim| span(&claim.size),
-        read: |reader, claim| reader.size(claim),
-    },
-    Kind {
-        key: "bound",
-        name: "a bound",
-        takes: &["observable", "range"],
-        place: |claim| span(&claim.bound),
-        read: |reader, claim| reader.bound(claim),
-    },
-    Kind {
-        key: "count",
-        name: "a count",
-        takes: &[],
-        place: |claim| span(&claim.count),
-        read: |reader, claim| reader.count(claim),
-    },
-    Kind {
-        key: "rank",
-        name: "a rank",
-        takes: &["observable"],
-        place: |claim| span(&claim.rank),
-        read: |reader, claim| reader.rank(claim),
-    },
-    Kind {
-        key: "confounded",
-        name: "a claim of what is confounded",
-        takes: &["observable"],
-        place: |claim| span(&claim.confounded),
-        read: |reader, claim| reader.confounded(claim),
-    },
-    Kind {
-        key: "separable",
-        name: "a claim of what is separable",
-        takes: &["observable", "keep", "neglect"],
-        place: |claim| span(&claim.separable),
-        read: |reader, claim| reader.separable(claim),
-    },
-];
-
-/// The keys that some kinds of claims have.
-fn particulars(claim: &ClaimTable) -> [(&'static str, Option<Place>); 8] {
-    [
-        ("observable", span(&claim.observable)),
-        ("order", span(&claim.order)),
-        ("keep", span(&claim.keep)),
-        ("neglect", span(&claim.neglect)),
-        ("component", span(&claim.component)),
-        ("faces", span(&claim.faces)),
-        ("path", span(&claim.path)),
-        ("range", span(&claim.range)),
-    ]
 }
 
 fn span<T>(value: &Option<Spanned<T>>) -> Option<Place> {

@@ -1,6 +1,7 @@
 //! Claims that print how a body is turned as a matrix: they are as many claims as say all of its entries.
 
 use crate::checker::{Claim, ClosedForm, Order, PrintedTurn};
+use crate::latex::Turned;
 use model_core::readings::ROTATION;
 
 use super::super::NamedClaim;
@@ -30,7 +31,15 @@ impl Reader<'_> {
         if chain.observable(observable).shown != ROTATION {
             return None;
         }
-        let turn = PrintedTurn::read(chain, &self.symbols, text)?;
+        let symbols = self.symbols.reading(&[text]).into_owned();
+        let turn = PrintedTurn::read(chain, &symbols, text)?;
+        // The same where rotations about named axes turn the other thing, if nobody said what they turn.
+        let otherwise = match &turn {
+            Ok(turn) if turn.plain.turned && !self.says_what_turns => {
+                PrintedTurn::read(chain, &symbols.turning(Turned::Axes), text).and_then(Result::ok)
+            }
+            _ => None,
+        };
         for place in [span(&claim.component), span(&claim.faces)].into_iter().flatten() {
             self.mistake(place, "this means nothing where a matrix is printed").help =
                 Some("leave it out, or claim the three components of the small rotation vector".to_owned());
@@ -50,10 +59,11 @@ impl Reader<'_> {
             }
         };
         let (Some(order), Some(kept)) = (order, kept) else { return Some(Vec::new()) };
-        let named = |entries: &str, read: Claim| NamedClaim {
+        let named = |entries: &str, read: Claim, otherwise: Option<Claim>| NamedClaim {
             name: format!("{}: {entries}", claim.name.get_ref()),
             place: claim.name.span(),
             claim: read,
+            otherwise,
             texts: vec![(*text).to_owned()],
             is_plain: false,
         };
@@ -67,12 +77,16 @@ impl Reader<'_> {
                 printed,
             }))
         };
+        let (plain, negated) = match otherwise {
+            Some(turn) => (Some(form(turn.plain)), Some(form(turn.negated))),
+            None => (None, None),
+        };
         let mut claims = vec![
-            named("entries 32, 13, 21", form(turn.plain)),
-            named("entries 23, 31, 12, their signs turned", form(turn.negated)),
+            named("entries 32, 13, 21", form(turn.plain), plain),
+            named("entries 23, 31, 12, their signs turned", form(turn.negated), negated),
         ];
         for (entry, said) in ["entry 11", "entry 22", "entry 33"].into_iter().zip(turn.diagonal) {
-            claims.push(named(entry, Claim::Equality(Box::new(said))));
+            claims.push(named(entry, Claim::Equality(Box::new(said)), None));
         }
         Some(claims)
     }

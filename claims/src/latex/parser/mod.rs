@@ -1,11 +1,17 @@
 //! The Pratt parser: tokens → expression. Functions, powers, roots and matrices, with their own conventions, have files
 //! of their own.
 
+mod abbreviations;
 mod functions;
 mod matrices;
+mod named;
 mod operands;
+mod orders;
+mod postfix;
 mod powers;
 mod roots;
+mod sums;
+mod transforms;
 mod value;
 
 use std::ops::Range;
@@ -37,11 +43,33 @@ pub(super) struct Parser<'a> {
     symbols: &'a PrintedSymbols,
     at: usize,
     depth: usize,
+    /// What the formula turned out to need.
+    pub notes: Notes,
+}
+
+/// What reading a formula took for granted, and what the formula itself says of its accuracy.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Notes {
+    /// Matrices with errors were multiplied, so that terms of higher order than a print keeps stand in the result.
+    pub truncates: bool,
+    /// Rotations about named axes were read as [`super::Turned`] says.
+    pub turned: bool,
+    /// `+ O(\varepsilon^2)`: from which order on the print drops terms.
+    pub dropped: Option<u32>,
+}
+
+impl Notes {
+    /// Those of another part of the same formula, too.
+    pub fn join(&mut self, other: &Self) {
+        self.truncates |= other.truncates;
+        self.turned |= other.turned;
+        self.dropped = self.dropped.or(other.dropped);
+    }
 }
 
 impl<'a> Parser<'a> {
     pub fn new(text: &'a str, tokens: &'a [Token], end: Range<usize>, symbols: &'a PrintedSymbols) -> Self {
-        Self { text, tokens, end, symbols, at: 0, depth: 0 }
+        Self { text, tokens, end, symbols, at: 0, depth: 0, notes: Notes::default() }
     }
 
     fn peek(&self) -> Option<&'a Token> {
@@ -131,29 +159,6 @@ impl<'a> Parser<'a> {
         Err(self.unexpected(&wanted))
     }
 
-    /// `^T`, `^{\mathrm{T}}`, `^\top`, `'`.
-    fn skip_transposition(&mut self) -> bool {
-        if self.is_at_mark('\'') {
-            self.advance();
-            return true;
-        }
-        let start = self.at;
-        if self.is_at_mark('^') {
-            self.advance();
-            let braced = self.is_at_mark('{');
-            self.at += usize::from(braced);
-            let is_mark = self.is_at(&Kind::Word("T".to_owned())) || self.is_at_command("top");
-            self.at += usize::from(is_mark);
-            let closed = !braced || self.is_at_mark('}');
-            self.at += usize::from(braced && closed);
-            if is_mark && closed {
-                return true;
-            }
-        }
-        self.at = start;
-        false
-    }
-
     /// A whole sum.
     pub fn formula(&mut self) -> Result<Value, Unreadable> {
         self.expression(Binding::Sum)
@@ -175,12 +180,20 @@ impl<'a> Parser<'a> {
         while let Some(token) = self.peek() {
             let (binding, written) = match token.kind {
                 Kind::Mark('+' | '-') => (Binding::Sum, true),
-                Kind::Mark('*' | '×' | '/') => (Binding::Product, true),
+                Kind::Mark('*' | '×' | '/' | '⊙') => (Binding::Product, true),
                 _ if self.starts_operand() => (Binding::Product, false),
                 _ => break,
             };
             if binding < at_least {
                 break;
+            }
+            if token.kind == Kind::Mark('+') && self.skip_order()? {
+                continue;
+            }
+            if token.kind == Kind::Mark('×') && self.is_last_in_brackets() {
+                self.advance();
+                left = self.skewed(left)?;
+                continue;
             }
             if written {
                 self.advance();
@@ -205,9 +218,10 @@ impl<'a> Parser<'a> {
                     stroke = Some(below.clone());
                     Value::quotient(left, Value::Scalar(below))?
                 }
-                Kind::Mark('*') => Value::product(left, right, Product::Dot)?,
-                Kind::Mark('×') => Value::product(left, right, Product::Cross)?,
-                _ => Value::product(left, right, Product::Plain)?,
+                Kind::Mark('⊙') => self.elementwise(left, right)?,
+                Kind::Mark('*') => self.multiplied(left, right, Product::Dot)?,
+                Kind::Mark('×') => self.multiplied(left, right, Product::Cross)?,
+                _ => self.multiplied(left, right, Product::Plain)?,
             };
         }
         Ok(left)
@@ -283,10 +297,10 @@ impl<'a> Parser<'a> {
             Kind::Command(name) => {
                 function(name).is_some()
                     || is_fraction(name)
-                    || name == "sqrt"
-                    || name == RAMP
+                    || matches!(name.as_str(), "sqrt" | "sum" | "exp" | RAMP)
                     || glyph::starts(&token.kind)
             }
+            Kind::Name(_) => true,
             kind => glyph::starts(kind),
         })
     }

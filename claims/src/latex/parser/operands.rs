@@ -2,14 +2,16 @@
 
 use super::functions::function;
 use super::powers::raised;
-use super::{Formula, Matrix, Parser, Value, is_fraction};
+use super::{Formula, Matrix, Parser, Value, is_fraction, transforms};
 use crate::latex::commands::RAMP;
+use crate::latex::lookup::After;
 use crate::latex::printed::Meaning;
 use crate::latex::token::Kind;
 use crate::latex::{Unreadable, glyph};
 use model_core::algebra::Rational;
 use model_core::expr::{Expr, Node};
 use model_core::mistake::Mistake;
+use model_core::names;
 
 /// Groups within groups that are read; print never comes near it.
 const DEEPEST: usize = 100;
@@ -23,8 +25,9 @@ impl Parser<'_> {
         match &token.kind {
             Kind::Digit(_) | Kind::Mark('.') => {
                 let number = self.number()?;
-                self.powered(number).map(Value::Scalar)
+                self.powered_value(Value::Scalar(number))
             }
+            Kind::Name(name) => self.declared(name),
             Kind::OpenBrace | Kind::Mark('(' | '[' | '{') => {
                 let group = self.group()?;
                 self.powered_value(group)
@@ -45,6 +48,14 @@ impl Parser<'_> {
                     let root = self.root()?;
                     return self.powered(root).map(Value::Scalar);
                 }
+                if name == "sum" {
+                    return self.sum();
+                }
+                if name == "exp" {
+                    let start = self.here().start;
+                    self.advance();
+                    return self.exponential_of_group(start);
+                }
                 if name == RAMP {
                     return self.ramp().map(Value::Scalar);
                 }
@@ -58,23 +69,6 @@ impl Parser<'_> {
                 Err(self.unexpected("a term").with_help("put parentheses around a signed factor"))
             }
             _ => Err(self.unexpected("a term")),
-        }
-    }
-
-    fn powered_value(&mut self, value: Value) -> Result<Value, Unreadable> {
-        match value {
-            Value::Scalar(formula) => self.powered(formula).map(Value::Scalar),
-            Value::Matrix(matrix) => {
-                // A list in brackets is a column either way.
-                let is_row = matrix.rows == 1 && matrix.columns > 1;
-                let turned = self.skip_transposition();
-                let matrix =
-                    if turned && (is_row || !matrix.is_vector()) { matrix.transposed() } else { matrix };
-                if self.is_at_mark('^') {
-                    return Err(self.unexpected("no power of a matrix"));
-                }
-                Ok(Value::Matrix(matrix))
-            }
         }
     }
 
@@ -175,24 +169,84 @@ impl Parser<'_> {
                 self.advance();
                 return self.powered(Expr { node: Node::Pi, place }).map(Value::Scalar);
             }
-            Err(mistake) => match self.unit_vector() {
-                Some(vector) => return Ok(vector),
-                None => return Err(mistake),
-            },
+            Err(mistake) => {
+                if let Some(vector) = self.unit_vector() {
+                    return Ok(vector);
+                }
+                return self.named().unwrap_or(Err(mistake));
+            }
         };
-        self.at += found.tokens;
-        let amount = match found.meaning {
-            Meaning::Amount(amount) => amount.map_place(&|()| found.place.clone()),
-            Meaning::Vector(components) => {
-                let entries = components.iter().map(|entry| entry.map_place(&|()| found.place.clone()));
-                return Ok(Value::Matrix(Matrix::column(entries.collect(), found.place.clone())));
+        let place = found.place.clone();
+        let entries =
+            |entries: &[Expr<()>]| entries.iter().map(|entry| entry.map_place(&|()| place.clone())).collect();
+        let (meaning, after, tokens) = (found.meaning, found.after, found.tokens);
+        self.at += tokens;
+        let amount = match meaning {
+            Meaning::Amount(amount) => amount.map_place(&|()| place.clone()),
+            Meaning::Matrix { rows, entries: own, .. } => {
+                let mut matrix = Matrix::new(*rows, entries(own), place.clone());
+                if let Some(after) = after {
+                    self.refuse_product_of_hat(after)?;
+                    matrix = self.changed(matrix, after)?;
+                }
+                return self.powered_value(Value::Matrix(matrix));
+            }
+            Meaning::Twist(components) if after == Some(After::Skew) => {
+                let components: Vec<Formula> = entries(components.as_slice());
+                let screw = transforms::screw(&components, &place);
+                return match screw {
+                    Some(screw) => self.powered_value(Value::Matrix(screw)),
+                    None => Err(Mistake::new(place, "a screw has six components")),
+                };
+            }
+            Meaning::Twist(_) => {
+                return Err(Mistake::new(place, "a screw stands in formulas as its matrix")
+                    .with_help(r"write `\hat{\xi}`"));
             }
             Meaning::Ambiguous(_) => return Err(self.unexpected("a symbol of one meaning")),
         };
-        let symbol = match found.power {
-            Some(power) => raised(amount, power, found.place.end),
-            None => amount,
+        let symbol = match after {
+            Some(After::Power(power)) => raised(amount, power, place.end),
+            _ => amount,
         };
         self.powered(symbol).map(Value::Scalar)
+    }
+
+    /// A hat over a vector is its matrix; before a dot or a cross it would be a unit vector, which nobody declared.
+    fn refuse_product_of_hat(&self, after: After) -> Result<(), Unreadable> {
+        let is_product = |token: Option<&Kind>| matches!(token, Some(Kind::Mark('*' | '×')));
+        if after == After::Skew && is_product(self.peek().map(|token| &token.kind)) {
+            return Err(Mistake::new(self.here(), "is the hat before this sign a matrix, or a unit vector?")
+                .with_help(
+                    r"write the matrix as `[\omega]_\times`, or name the unit vector under [symbols]",
+                ));
+        }
+        Ok(())
+    }
+
+    /// A name as programs have it.
+    fn declared(&mut self, name: &str) -> Result<Value, Unreadable> {
+        let place = self.here();
+        let amount = match self.symbols.entry_written(name).map(|entry| &entry.meaning) {
+            _ if self.symbols.declares(name) => {
+                Expr { node: Node::Symbol(name.to_owned()), place: place.clone() }
+            }
+            Some(Meaning::Amount(amount)) => amount.map_place(&|()| place.clone()),
+            Some(Meaning::Matrix { rows, entries, .. }) => {
+                let entries = entries.iter().map(|entry| entry.map_place(&|()| place.clone())).collect();
+                self.advance();
+                return self.powered_value(Value::Matrix(Matrix::new(*rows, entries, place)));
+            }
+            _ => {
+                let mistake = Mistake::new(place, format!("unknown name `{name}`"));
+                let near = names::nearest(name, self.symbols.names.keys().map(String::as_str));
+                return Err(match near {
+                    Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
+                    None => mistake.with_help(format!("name it under [symbols]: '{name}' = \"…\"")),
+                });
+            }
+        };
+        self.advance();
+        self.powered(amount).map(Value::Scalar)
     }
 }

@@ -14,6 +14,8 @@ use model_core::mistake::Mistake;
 pub(in crate::latex) enum Value {
     Scalar(Formula),
     Matrix(Matrix),
+    /// A multiple of an identity matrix of no stated size.
+    Identity(Formula),
 }
 
 /// Amounts in rows and columns.
@@ -24,6 +26,10 @@ pub(in crate::latex) struct Matrix {
     /// Row after row.
     pub entries: Vec<Formula>,
     pub place: Range<usize>,
+    /// Of the matrix of a vector product or a screw: the components, and the amount that they are multiplied by.
+    pub generator: Option<Box<(Vec<Formula>, Formula)>>,
+    /// Whether it is a named rotation, or a product of such: it may stand for the homogeneous matrix as well.
+    pub turns: bool,
 }
 
 /// How two parts are multiplied.
@@ -43,7 +49,7 @@ const LARGEST: usize = 20_000;
 impl Value {
     pub fn place(&self) -> Range<usize> {
         match self {
-            Self::Scalar(formula) => formula.place.clone(),
+            Self::Scalar(formula) | Self::Identity(formula) => formula.place.clone(),
             Self::Matrix(matrix) => matrix.place.clone(),
         }
     }
@@ -52,6 +58,9 @@ impl Value {
     pub fn scalar(self) -> Result<Formula, Unreadable> {
         match self {
             Self::Scalar(formula) => Ok(formula),
+            Self::Identity(formula) => {
+                Err(Mistake::new(formula.place, "an identity matrix stands where one amount is wanted"))
+            }
             Self::Matrix(matrix) => Err(Mistake::new(
                 matrix.place.clone(),
                 format!("{} stands where one amount is wanted", matrix.shape()),
@@ -62,6 +71,7 @@ impl Value {
     pub fn at(self, place: Range<usize>) -> Self {
         match self {
             Self::Scalar(formula) => Self::Scalar(Expr { node: formula.node, place }),
+            Self::Identity(formula) => Self::Identity(Expr { node: formula.node, place }),
             Self::Matrix(matrix) => Self::Matrix(Matrix { place, ..matrix }),
         }
     }
@@ -70,9 +80,11 @@ impl Value {
     pub fn negated(self, place: Range<usize>) -> Self {
         match self {
             Self::Scalar(formula) => Self::Scalar(Expr { node: Node::Neg(Box::new(formula)), place }),
+            Self::Identity(formula) => Self::Identity(Expr { node: Node::Neg(Box::new(formula)), place }),
             Self::Matrix(matrix) => {
                 let entries = matrix.entries.into_iter().map(negated).collect();
-                Self::Matrix(Matrix { entries, place, ..matrix })
+                let generator = matrix.generator.map(|inside| Box::new((inside.0, negated(inside.1))));
+                Self::Matrix(Matrix { entries, generator, place, turns: false, ..matrix })
             }
         }
     }
@@ -88,7 +100,18 @@ impl Value {
                 if left.rows == right.rows && left.columns == right.columns =>
             {
                 let entries = left.entries.into_iter().zip(right.entries).map(|(a, b)| added(a, b)).collect();
-                Ok(Self::Matrix(Matrix { rows: left.rows, columns: left.columns, entries, place }))
+                Ok(Self::Matrix(Matrix::new(left.rows, entries, place)))
+            }
+            (Self::Identity(left), Self::Identity(right)) => {
+                Ok(Self::Identity(Expr { node: added(left, right).node, place }))
+            }
+            (Self::Identity(scale), Self::Matrix(matrix)) if matrix.is_square() => {
+                let identity = Matrix::diagonal(vec![scale; matrix.rows], place);
+                Self::sum(Self::Matrix(identity), Self::Matrix(matrix))
+            }
+            (Self::Matrix(matrix), Self::Identity(scale)) if matrix.is_square() => {
+                let identity = Matrix::diagonal(vec![scale; matrix.rows], place);
+                Self::sum(Self::Matrix(matrix), Self::Matrix(identity))
             }
             (left, right) => {
                 Err(Mistake::new(place, format!("{} and {} cannot be added", left.shape(), right.shape())))
@@ -107,15 +130,23 @@ impl Value {
             (Self::Scalar(left), Self::Scalar(right)) => {
                 return Ok(Self::Scalar(Expr { node: Node::Mul(Box::new(left), Box::new(right)), place }));
             }
-            (Self::Scalar(factor), Self::Matrix(matrix)) => {
+            (Self::Identity(left), Self::Identity(right) | Self::Scalar(right))
+            | (Self::Scalar(left), Self::Identity(right)) => {
+                return Ok(Self::Identity(Expr { node: multiplied(left, right).node, place }));
+            }
+            (Self::Scalar(factor) | Self::Identity(factor), Self::Matrix(matrix)) => {
                 let entries =
                     matrix.entries.into_iter().map(|entry| multiplied(factor.clone(), entry)).collect();
-                Matrix { entries, place, ..matrix }
+                let generator =
+                    matrix.generator.map(|inside| Box::new((inside.0, multiplied(factor, inside.1))));
+                Matrix { entries, place, generator, turns: false, ..matrix }
             }
-            (Self::Matrix(matrix), Self::Scalar(factor)) => {
+            (Self::Matrix(matrix), Self::Scalar(factor) | Self::Identity(factor)) => {
                 let entries =
                     matrix.entries.into_iter().map(|entry| multiplied(entry, factor.clone())).collect();
-                Matrix { entries, place, ..matrix }
+                let generator =
+                    matrix.generator.map(|inside| Box::new((inside.0, multiplied(inside.1, factor))));
+                Matrix { entries, place, generator, turns: false, ..matrix }
             }
             (Self::Matrix(left), Self::Matrix(right)) => match how {
                 Product::Cross if left.is_vector() && right.is_vector() => cross(&left, &right, place),
@@ -137,13 +168,7 @@ impl Value {
                 }
             },
         };
-        let nodes: usize = product.entries.iter().map(size).sum();
-        if nodes > LARGEST {
-            return Err(Mistake::new(
-                product.place,
-                "this product of matrices is too large when written out",
-            ));
-        }
+        product.checked_size()?;
         match product.entries.as_slice() {
             [only] if product.rows == 1 && product.columns == 1 => {
                 Ok(Self::Scalar(Expr { node: only.node.clone(), place: product.place }))
@@ -162,12 +187,13 @@ impl Value {
         };
         Ok(match left {
             Self::Scalar(above) => Self::Scalar(over(above, place)),
+            Self::Identity(above) => Self::Identity(over(above, place)),
             Self::Matrix(matrix) => {
                 let entries = matrix.entries.into_iter().map(|entry| {
                     let place = entry.place.clone();
                     if is_number(&entry, &Rational::ZERO) { entry } else { over(entry, place) }
                 });
-                Self::Matrix(Matrix { entries: entries.collect(), place, ..matrix })
+                Self::Matrix(Matrix::new(matrix.rows, entries.collect(), place))
             }
         })
     }
@@ -175,15 +201,46 @@ impl Value {
     fn shape(&self) -> String {
         match self {
             Self::Scalar(_) => "an amount".to_owned(),
+            Self::Identity(_) => "an identity matrix".to_owned(),
             Self::Matrix(matrix) => matrix.shape(),
         }
     }
 }
 
 impl Matrix {
+    /// Entries row after row, in this many rows.
+    pub fn new(rows: usize, entries: Vec<Formula>, place: Range<usize>) -> Self {
+        Self { rows, columns: entries.len() / rows.max(1), entries, place, generator: None, turns: false }
+    }
+
     /// A column.
     pub fn column(entries: Vec<Formula>, place: Range<usize>) -> Self {
-        Self { rows: entries.len(), columns: 1, entries, place }
+        Self::new(entries.len(), entries, place)
+    }
+
+    /// Zeros beside a diagonal.
+    pub fn diagonal(diagonal: Vec<Formula>, place: Range<usize>) -> Self {
+        let size = diagonal.len();
+        let zero = Expr { node: Node::Number(Rational::ZERO), place: place.clone() };
+        let mut entries = vec![zero; size * size];
+        for (at, entry) in diagonal.into_iter().enumerate() {
+            entries[at * size + at] = entry;
+        }
+        Self::new(size, entries, place)
+    }
+
+    /// That the entries are not larger than print ever is.
+    pub fn checked_size(&self) -> Result<(), Unreadable> {
+        let nodes: usize = self.entries.iter().map(size).sum();
+        if nodes > LARGEST {
+            let message = "this product of matrices is too large when written out";
+            return Err(Mistake::new(self.place.clone(), message));
+        }
+        Ok(())
+    }
+
+    pub fn is_square(&self) -> bool {
+        self.rows == self.columns
     }
 
     pub fn is_vector(&self) -> bool {
@@ -191,12 +248,12 @@ impl Matrix {
     }
 
     pub fn transposed(self) -> Self {
-        let Self { rows, columns, entries, place } = self;
+        let Self { rows, columns, entries, place, turns, .. } = self;
         let entries = (0..columns)
             .flat_map(|column| (0..rows).map(move |row| row * columns + column))
             .map(|index| entries[index].clone())
             .collect();
-        Self { rows: columns, columns: rows, entries, place }
+        Self { turns, ..Self::new(columns, entries, place) }
     }
 
     pub fn shape(&self) -> String {
@@ -208,7 +265,7 @@ impl Matrix {
     }
 }
 
-fn product(left: &Matrix, right: &Matrix, place: Range<usize>) -> Matrix {
+pub(super) fn product(left: &Matrix, right: &Matrix, place: Range<usize>) -> Matrix {
     let entry = |row: usize, column: usize| {
         let terms = (0..left.columns).map(|inner| {
             let a = left.entries[row * left.columns + inner].clone();
@@ -219,7 +276,7 @@ fn product(left: &Matrix, right: &Matrix, place: Range<usize>) -> Matrix {
     let entries = (0..left.rows)
         .flat_map(|row| (0..right.columns).filter_map(move |column| entry(row, column)))
         .collect();
-    Matrix { rows: left.rows, columns: right.columns, entries, place }
+    Matrix { turns: left.turns && right.turns, ..Matrix::new(left.rows, entries, place) }
 }
 
 fn cross(left: &Matrix, right: &Matrix, place: Range<usize>) -> Matrix {
@@ -232,12 +289,12 @@ fn cross(left: &Matrix, right: &Matrix, place: Range<usize>) -> Matrix {
     Matrix::column(entries.collect(), place)
 }
 
-fn is_number(formula: &Formula, value: &Rational) -> bool {
+pub(super) fn is_number(formula: &Formula, value: &Rational) -> bool {
     matches!(&formula.node, Node::Number(number) if number == value)
 }
 
 /// A product without the zeros and ones of matrices; its place is that of the part that says more.
-fn multiplied(a: Formula, b: Formula) -> Formula {
+pub(super) fn multiplied(a: Formula, b: Formula) -> Formula {
     let (zero, one) = (Rational::ZERO, Rational::ONE);
     if is_number(&a, &zero) || is_number(&b, &one) {
         return a;
@@ -249,7 +306,7 @@ fn multiplied(a: Formula, b: Formula) -> Formula {
     Expr { node: Node::Mul(Box::new(a), Box::new(b)), place }
 }
 
-fn added(a: Formula, b: Formula) -> Formula {
+pub(super) fn added(a: Formula, b: Formula) -> Formula {
     if is_number(&a, &Rational::ZERO) {
         return b;
     }
@@ -260,7 +317,7 @@ fn added(a: Formula, b: Formula) -> Formula {
     Expr { node: Node::Add(Box::new(a), Box::new(b)), place }
 }
 
-fn negated(a: Formula) -> Formula {
+pub(super) fn negated(a: Formula) -> Formula {
     if is_number(&a, &Rational::ZERO) {
         return a;
     }

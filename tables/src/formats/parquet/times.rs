@@ -74,7 +74,8 @@ fn of_day(count: i64, parts: i64) -> String {
 
 /// The day of the Gregorian calendar so many days after 1970-01-01, before it and before there was one too.
 ///
-/// Counted from the first of March of a year 0, so that a leap day is the last of its year, in spans of 400 years.
+/// Counted from the first of March of a year 0, so that a leap day is the last of its year, in spans of 400 years. The calendar of
+/// `chrono` ends in the year 262142, and columns do not.
 fn day(since_1970: i64) -> String {
     let days = i128::from(since_1970) + 719_468;
     let (span, day) = (days.div_euclid(146_097), days.rem_euclid(146_097));

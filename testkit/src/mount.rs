@@ -1,9 +1,12 @@
-//! An alt-azimuth mount simulated without a line of ours: plain matrices, and noise of every kind on the tangent plane.
+//! An alt-azimuth mount simulated without a line of what is tested: rotations, and noise of every kind on the tangent plane.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 
+use crate::turned;
+
+/// One second of arc, rad.
 pub const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;
 
 /// Standard deviation of the noise of each component, rad.
@@ -12,8 +15,6 @@ pub const SIGMA: f64 = 2.0 * ARCSEC;
 /// The errors of the mount in the order that the chain declares them.
 pub const NAMES: [&str; 6] =
     ["tilt_east", "tilt_north", "azimuth_index", "nonperpendicularity", "elevation_index", "collimation"];
-
-type Matrix = [[f64; 3]; 3];
 
 /// What the noise of rows has to do with that of others.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,30 +39,18 @@ pub enum Poses {
 }
 
 /// What was measured.
+#[derive(Debug, Clone)]
 pub struct Measured {
     /// Readings, rad.
     pub azimuth: Vec<f64>,
+    /// Readings, rad.
     pub elevation: Vec<f64>,
+    /// Unit vectors.
     pub direction: Vec<[f64; 3]>,
+    /// Of each row.
     pub session: Vec<u32>,
     /// The errors as they are, rad.
     pub truth: [f64; 6],
-}
-
-fn rotation(axis: usize, angle: f64) -> Matrix {
-    let (s, c) = angle.sin_cos();
-    let mut m = [[0.0; 3]; 3];
-    let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
-    m[axis][axis] = 1.0;
-    m[i][i] = c;
-    m[j][j] = c;
-    m[i][j] = -s;
-    m[j][i] = s;
-    m
-}
-
-fn times(m: &Matrix, v: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|row| (0..3).map(|k| m[row][k] * v[k]).sum())
 }
 
 fn unit(v: [f64; 3]) -> [f64; 3] {
@@ -85,10 +74,11 @@ fn sight(errors: [f64; 6], azimuth: f64, elevation: f64) -> [f64; 3] {
         (x, tilt_east),
     ]
     .into_iter()
-    .fold([0.0, 1.0, 0.0], |v, (axis, angle)| times(&rotation(axis, angle), v))
+    .fold([0.0, 1.0, 0.0], |v, (axis, angle)| turned(axis, angle, v))
 }
 
 /// So many rows with errors of so many rad.
+#[must_use]
 pub fn measured(rows: usize, poses: Poses, noise: Noise, errors_rad: f64, seed: u64) -> Measured {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut normal = move || -> f64 { random.sample(StandardNormal) };

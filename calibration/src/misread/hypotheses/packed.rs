@@ -1,0 +1,36 @@
+//! Packed digits: 12.3456 for 12° 34′ 56″. A column of decimal numbers has digit pairs of 60 and more; one that is packed has none.
+
+use model_core::Quantity;
+
+use super::{Hypothesis, Reading, Tried, line, names, sets};
+use crate::misread::policy::PACKED_PRICE;
+use study::{Change, Notation, SampledColumn};
+
+/// Digit pairs behind the point of a packed number: minutes and seconds.
+const PAIRS: f64 = 2.0;
+
+pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
+    let notation = Notation::Degrees;
+    let hypothesis = |set: Vec<&SampledColumn>| Hypothesis {
+        reading: Reading::Packed { columns: names(&set), notation: notation.name() },
+        changes: set.iter().map(|column| (column.place, Change::Notation(notation))).collect(),
+        lines: set
+            .iter()
+            .map(|column| {
+                line(tried.plan, column, &column.name, &format!(", notation = \"{}\"", notation.name()))
+            })
+            .collect(),
+        price: PACKED_PRICE,
+        // Of a hundred pairs of digits sixty are below 60.
+        digits: set.iter().map(|column| -0.6_f64.ln() * PAIRS * column.written.len() as f64).sum(),
+    };
+    sets(tried, is_packed).into_iter().map(hypothesis).collect()
+}
+
+/// Whether a column of angles is read as degrees, and every number of it could be degrees, minutes and seconds.
+fn is_packed(column: &SampledColumn) -> bool {
+    column.quantity == Quantity::Angle
+        && column.factor == 1.0_f64.to_radians()
+        && column.written.iter().any(|number| number.fract() != 0.0)
+        && column.written.iter().all(|number| Notation::Degrees.unpack(*number).1)
+}

@@ -1,0 +1,29 @@
+//! Readings of joints stand one row off what was observed at them.
+
+use super::{Hypothesis, Reading, Tried, line, names, unit_of};
+use crate::misread::policy::SHIFTED_PRICE;
+use study::{Change, SampledColumn};
+
+pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
+    let mut sets: Vec<Vec<&SampledColumn>> = vec![tried.joints.clone()];
+    if tried.joints.len() > 1 {
+        sets.extend(tried.joints.iter().map(|column| vec![*column]));
+    }
+    let mut all = Vec::new();
+    for set in sets.iter().filter(|set| !set.is_empty()) {
+        for by in [1, -1] {
+            let how = |column: &SampledColumn| format!("{}, shift = {by}", unit_of(column));
+            all.push(Hypothesis {
+                reading: Reading::Shifted { columns: names(set), by },
+                changes: set.iter().map(|column| (column.place, Change::Shift(by))).collect(),
+                lines: set
+                    .iter()
+                    .map(|column| line(tried.plan, column, &column.name, &how(column)))
+                    .collect(),
+                price: SHIFTED_PRICE,
+                digits: 0.0,
+            });
+        }
+    }
+    all
+}

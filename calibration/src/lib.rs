@@ -1,9 +1,7 @@
-//! Measured data: search for what the declaration lacks, diagnosis, amendment, report data.
+//! Measured data: search for what the declaration lacks, diagnosis, amendment.
 
 pub mod amend;
 pub mod calibrate;
 pub mod design;
 pub mod diagnose;
-pub mod report;
 pub mod search;
-pub mod tolerance;

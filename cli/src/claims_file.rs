@@ -7,13 +7,14 @@ use claims::file::{Claims, Edge, File};
 use claims::show::Paint;
 use model_core::budget::{self, JointRange};
 use model_core::{Chain, Mistake, Quantity};
+use report::style::{BAD, GOOD, HEADING};
+use service::Source;
 use tables::units;
 
 use crate::failure::Failure;
 use crate::poses;
 use crate::ranges::{self, RangeArgument};
-use crate::source::Source;
-use crate::terminal::{BAD, GOOD, HEADING};
+use crate::{source, terminal};
 
 /// A claims file that was read.
 #[derive(Debug)]
@@ -32,21 +33,24 @@ impl ClaimsFile {
     /// # Errors
     /// Every mistake of the claims, each with its place; or what stands in the way of reading either file.
     pub fn read(path: &Path) -> Result<Self, Failure> {
-        let source = Source::read(path)?;
+        let source = source::read(path)?;
         let file: File = source.toml()?;
         let chain_path = file.chain.get_ref();
-        let declaration = source.read_beside(Path::new(chain_path)).map_err(|failure| match failure {
-            Failure::Read { why, .. } => {
-                let path = source.beside(Path::new(chain_path));
-                let message = format!("cannot read `{}`: {why}", path.display());
-                source.mistake(
-                    Mistake::new(file.chain.span(), message)
-                        .with_help("name a declaration, relative to this file"),
-                )
-            }
-            other => other,
-        })?;
-        let chain = declaration.symbolic_chain()?;
+        let declaration =
+            source::read_beside(&source, Path::new(chain_path)).map_err(|failure| match failure {
+                Failure::Read { why, .. } => {
+                    let path = source.beside(Path::new(chain_path));
+                    let message = format!("cannot read `{}`: {why}", path.display());
+                    source
+                        .mistake(
+                            Mistake::new(file.chain.span(), message)
+                                .with_help("name a declaration, relative to this file"),
+                        )
+                        .into()
+                }
+                other => other,
+            })?;
+        let chain = declaration.symbolic_chain(&terminal::warn)?;
         let said = Claims::read(&source.text, &file, &chain, &Units);
         let said = said.map_err(|mistakes| source.mistakes(&mistakes))?;
         Ok(Self { source, declaration, said })

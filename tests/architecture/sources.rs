@@ -19,6 +19,9 @@ pub const LIBRARIES: &[&str] = &[
     "network/src",
     "study/src",
     "calibration/src",
+    "report/src",
+    "service/src",
+    "init/src",
 ];
 
 /// One source file: its path from the root of the workspace, with `/`, and its text.

@@ -9,7 +9,9 @@ use tables::formats::{ColumnName, DataError, Options};
 
 use super::dimensions::TIME;
 use crate::failure::Failure;
-use crate::table_files::{self, ReadingsTable};
+use service::readings::ReadingsTable;
+
+use crate::table_files;
 use model_core::names::listed;
 
 /// Steps of the table that are so many times longer than the usual one are gaps.
@@ -45,7 +47,7 @@ impl<'c> Opened<'c> {
         time: Option<&str>,
         comment: Option<u8>,
     ) -> Result<Self, Failure> {
-        let table = ReadingsTable::open_readings(path, chain, comment)?;
+        let table = table_files::open_readings(path, chain, comment)?;
         let wanted = time.map_or_else(|| vec![TIME, "time"], |time| vec![time]);
         let stands = |name: &&str| table.header().iter().any(|column| table.means(column, name));
         let there: Vec<&str> = wanted.into_iter().filter(stands).collect();

@@ -9,7 +9,8 @@ use rayon::prelude::*;
 use super::header::{Header, field};
 use super::points::{Cloud, Points};
 use super::readings::{Columns, Readings};
-use crate::evaluation::{Evaluator, Exactness, Quantity};
+use service::evaluation::{Evaluator, Exactness, Quantity};
+
 use crate::failure::Failure;
 
 /// Points that one processor looks at or moves at a time.

@@ -9,7 +9,9 @@ use super::by_time::{Opened, Timetable};
 use super::dimensions::{Dimension, TIME};
 use super::points::{Cloud, Points};
 use crate::failure::Failure;
-use crate::table_files::{self, factor_of};
+use service::readings::factor_of;
+
+use crate::table_files;
 use model_core::names::listed;
 
 /// Points whose readings one processor gathers at a time.

@@ -57,8 +57,7 @@ pub struct Calibrated {
 }
 
 impl Studied {
-    /// Resolves a study with the declaration that it names, or with one that came from elsewhere; `read` gives the text of the file that
-    /// it names.
+    /// Resolves a study with the declaration that it names; `read` gives the text of a file that the study names.
     ///
     /// # Errors
     /// What is wrong with either, each with its place; or the file cannot be had.

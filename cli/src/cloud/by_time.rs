@@ -5,12 +5,11 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use model_core::{Chain, Quantity, SymbolId};
+use service::readings::ReadingsTable;
 use tables::formats::{ColumnName, DataError, Options};
 
 use super::dimensions::TIME;
 use crate::failure::Failure;
-use service::readings::ReadingsTable;
-
 use crate::table_files;
 use model_core::names::listed;
 

@@ -166,7 +166,7 @@ fn read_ahead(
 ) -> Result<ReadingsTable<'static>, Failure> {
     let (ready, rows) = mpsc::sync_channel(0);
     let reader = thread::spawn(move || {
-        while let Some(next) = table.next().transpose() {
+        while let Some(next) = table.next_rows().transpose() {
             let is_last = next.is_err();
             // Who takes no more has failed.
             if ready.send(next.map(|rows| (rows, table.share_read()))).is_err() || is_last {

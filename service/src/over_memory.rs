@@ -120,7 +120,7 @@ fn over_table(
         )));
     }
     let mut columns: Vec<Vec<f64>> = header.iter().map(|_| Vec::with_capacity(rows)).collect();
-    while let Some(rows) = table.next()? {
+    while let Some(rows) = table.next_rows()? {
         let readings: Vec<_> = rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
         outside.see(chain, &readings, &evaluator)?;
         let computed = evaluator.columns(&readings, rows.count)?;

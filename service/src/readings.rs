@@ -139,7 +139,7 @@ impl<'t> ReadingsTable<'t> {
             wanted,
         };
         let mut types = vec![TextType::default(); scanned.wanted.len()];
-        while let Some(rows) = scanned.next()? {
+        while let Some(rows) = scanned.next_rows()? {
             if let Some(share) = scanned.share_read() {
                 tell(share);
             }
@@ -282,7 +282,7 @@ impl<'t> ReadingsTable<'t> {
     ///
     /// # Errors
     /// A cell that cannot be read, with its place; no rows at all.
-    pub fn next(&mut self) -> Result<Option<Rows>, Refusal> {
+    pub fn next_rows(&mut self) -> Result<Option<Rows>, Refusal> {
         let chunk = self.reader.read(&self.wanted, CHUNK).map_err(Refusal::of)?;
         if chunk.rows.is_empty() {
             let file = self.reader.source().to_owned();

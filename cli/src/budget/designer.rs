@@ -131,7 +131,7 @@ fn readings(
     let needed = readings_of(chain, observable);
     table.want(chain, &needed)?;
     let mut found: Vec<(SymbolId, Vec<f64>)> = needed.iter().map(|&id| (id, Vec::new())).collect();
-    while let Some(rows) = table.next()? {
+    while let Some(rows) = table.next_rows()? {
         for ((_, all), (_, some)) in found.iter_mut().zip(rows.readings) {
             all.extend(some);
         }

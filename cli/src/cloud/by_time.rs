@@ -110,7 +110,7 @@ impl<'c> Opened<'c> {
         let quantity = |id: SymbolId| self.chain.symbol(id).quantity;
         let mut columns: Vec<_> = readings.iter().map(|&id| (id, quantity(id), Vec::new())).collect();
         let mut times: Vec<f64> = Vec::new();
-        while let Some(rows) = self.table.next()? {
+        while let Some(rows) = self.table.next_rows()? {
             let [more] = rows.others.as_slice() else { unreachable!("one column of times is wanted") };
             for time in more {
                 if let Some(before) = times.last().filter(|before| *before >= time) {

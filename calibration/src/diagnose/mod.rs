@@ -1,6 +1,6 @@
 //! What a calibration means, as data: the verdict and everything that decides it, without a sentence.
 //!
-//! English is made of it in [`crate::report`]; `report.json` is this data itself.
+//! English is made of it in the crate `report`; `report.json` is this data itself.
 
 mod at_zero;
 mod basis;
@@ -11,7 +11,7 @@ mod effects;
 mod ended;
 mod errors;
 mod every_row;
-pub(crate) mod few;
+pub mod few;
 mod foretold;
 mod function;
 mod harmonics;

@@ -49,6 +49,24 @@ impl Measured {
         }
     }
 
+    /// The unit vector, where a direction was measured.
+    #[must_use]
+    pub fn direction(&self) -> Option<&Vector3<f64>> {
+        if let Self::Direction(direction) = self { Some(direction) } else { None }
+    }
+
+    /// The point, m, where one was measured.
+    #[must_use]
+    pub fn point_m(&self) -> Option<&Vector3<f64>> {
+        if let Self::Point(point) = self { Some(point) } else { None }
+    }
+
+    /// The range, m, where one was measured alone.
+    #[must_use]
+    pub fn range_m(&self) -> Option<f64> {
+        if let Self::Range { range_m } = self { Some(*range_m) } else { None }
+    }
+
     /// The orientation, where one was measured.
     #[must_use]
     pub fn orientation(&self) -> Option<&UnitQuaternion<f64>> {

@@ -48,8 +48,8 @@ pub(super) fn settled<'a>(
         return Ok(Weighed { whole, round, left_out: None });
     }
     let names = found.iter().map(|found| whole.catalogue[found.effect].name.clone()).collect();
-    let left_out =
-        Some(Caution::FollowsOrder { effects: names, remembers: told.remembers, setups: told.setups });
+    let Told { remembers, setups, ref column, .. } = *told;
+    let left_out = Some(Caution::FollowsOrder { effects: names, remembers, setups, column: column.clone() });
     let may_remember = told.remembers && whole.request.plan.fit.noise.serial;
     let whole = if may_remember { remembering(whole, place) } else { whole };
     let round = Round::at(&whole, Fitted::with(&whole, Vec::new(), &round.fitted)?)?;

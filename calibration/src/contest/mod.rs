@@ -13,6 +13,8 @@ use crate::search::SearchError;
 use crate::search::context::{Context, Found};
 use crate::search::fitted::Fitted;
 use effects::candidate::EffectId;
+use problem::Asked;
+use study::Undeclared;
 
 /// Values that a contest reads at most: its time grows with them.
 const MOST_VALUES: usize = 4_000;
@@ -31,6 +33,8 @@ pub(crate) struct Told {
     pub remembers: bool,
     /// Set-ups that the rows fall into; one where they show no more.
     pub setups: usize,
+    /// A column that the study does not name, whose values say which rows belong together.
+    pub column: Option<String>,
 }
 
 impl Told {
@@ -52,10 +56,32 @@ pub(crate) fn is_asked(whole: &Context<'_>) -> bool {
 }
 
 /// What a contest at a fit tells; `None` where there is nothing to weigh: no residual, or no freedom.
+///
+/// A column of the file that the study does not name may say which rows belong together. Where a cause is told, each is asked
+/// whether its values explain the rows better.
 pub(crate) fn told(whole: &Context<'_>, fitted: &Fitted) -> Result<Option<Told>, SearchError> {
-    let asked = problem::asked(whole, fitted)?;
+    let mut asked = problem::asked(whole, fitted)?;
+    let Some((mut odds, mut best)) = of(&asked) else { return Ok(None) };
+    if best.is_nothing() {
+        return Ok(Some(best));
+    }
+    let sample = whole.request.sample;
+    let undeclared = sample.map_or_else(Vec::new, |sample| sample.undeclared(whole.request.observations));
+    let price = (undeclared.len() as f64).ln();
+    for Undeclared { column, of_row } in undeclared {
+        asked.problem.rows.labels = Some(of_row);
+        if let Some((other, told)) = of(&asked).filter(|(other, _)| other - price > odds) {
+            odds = other - price;
+            best = Told { column: Some(column), ..told };
+        }
+    }
+    Ok(Some(best))
+}
+
+/// What one contest tells, and its log odds.
+fn of(asked: &Asked) -> Option<(f64, Told)> {
     let policy = Policy::default();
-    let Ok(outcome) = contest(&asked.problem, &policy, None) else { return Ok(None) };
+    let outcome = contest(&asked.problem, &policy, None).ok()?;
     let effect = |family: usize| match outcome.families()[family].law {
         Law::Offered(number) => Some(asked.effects[number]),
         _ => None,
@@ -83,5 +109,5 @@ pub(crate) fn told(whole: &Context<'_>, fitted: &Fitted) -> Result<Option<Told>,
             told.causes.push(Found { effect: first, p_value, alike: vec![first] });
         }
     }
-    Ok(Some(told))
+    Some((outcome.odds(), told))
 }

@@ -76,6 +76,9 @@ pub enum Caution {
         remembers: bool,
         /// Set-ups that the rows fall into; one where they show no more.
         setups: usize,
+        /// A column that the study does not name, whose values say which rows belong together.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        column: Option<String>,
     },
     /// Effects make it worse in regions of the joints that no stage saw.
     #[serde(rename = "worse elsewhere")]

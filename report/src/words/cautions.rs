@@ -31,17 +31,24 @@ pub fn caution(caution: &Caution) -> String {
             short(*before, *unit),
             short(*after, *unit)
         ),
-        Caution::FollowsOrder { effects, remembers, setups } => {
-            let why = match (setups, remembers) {
-                (2.., _) => {
-                    format!("the rows fall into about {setups} set-ups, and differences between those")
+        Caution::FollowsOrder { effects, remembers, setups, column } => {
+            let why = match (column, setups, remembers) {
+                (Some(column), ..) => format!("the rows differ by their `{column}`, and that"),
+                (None, 2.., _) => {
+                    format!("the rows fall into about {setups} set-ups, and differences between them")
                 }
-                (_, true) => "the rows follow each other, each like the one before, and that".to_owned(),
-                _ => "noise".to_owned(),
+                (None, _, true) => "each row is off like the row before it, and that".to_owned(),
+                (None, ..) => "noise".to_owned(),
+            };
+            let explain = if column.is_none() && *setups > 1 { "explain" } else { "explains" };
+            let next = match column {
+                Some(column) => format!("Say that its rows belong together: `group = {column:?}` in the study."),
+                None => "If the rows were measured in sessions, name their column: `group = \"…\"` in the study. To decide, measure the \
+                         same poses again in another order."
+                    .to_owned(),
             };
             format!(
-                "{} stood out, but {why} explains these data as well. It was left out. If the rows were measured in sessions, declare \
-                 their column: `group = \"…\"`. To decide, measure the same poses again in another order.",
+                "{} stood out, but {why} {explain} these data as well. It was left out. {next}",
                 effects.join("; ")
             )
         }

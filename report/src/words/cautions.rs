@@ -42,7 +42,7 @@ pub fn caution(caution: &Caution) -> String {
             };
             let explain = if column.is_none() && *setups > 1 { "explain" } else { "explains" };
             let next = match column {
-                Some(column) => format!("Say that its rows belong together: `group = {column:?}` in the study."),
+                Some(_) => "Rows with one value of it belong together.".to_owned(),
                 None => "If the rows were measured in sessions, name their column: `group = \"…\"` in the study. To decide, measure the \
                          same poses again in another order."
                     .to_owned(),

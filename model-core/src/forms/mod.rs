@@ -41,6 +41,9 @@ fn instead(error: &AlgebraError) -> &'static str {
     }
 }
 
+/// Terms that a form may have on its way; far beyond what anybody reads, and still in memory.
+const TERMS_LIMIT: usize = 1_000_000;
+
 /// What has no closed form.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum FormError {
@@ -96,7 +99,7 @@ impl FormError {
         matches!(self, Self::Root { .. } | Self::NotSmooth { .. })
     }
 
-    fn new(body: &str, axis: Axis, error: AlgebraError) -> Self {
+    pub(crate) fn new(body: &str, axis: Axis, error: AlgebraError) -> Self {
         Self::Factor { body: body.to_owned(), axis, error }
     }
 
@@ -117,15 +120,25 @@ impl FormError {
 /// [`validate`](crate::validate) has none such), if the form would have more than a million terms, or if a reading has no closed
 /// form.
 pub fn derive(chain: &Chain, observable: ObservableId, order: u32) -> Result<Form, FormError> {
+    derive_within(chain, observable, order, TERMS_LIMIT)
+}
+
+/// The same for those who have no use for a form that has more than so many terms on its way.
+pub(crate) fn derive_within(
+    chain: &Chain,
+    observable: ObservableId,
+    order: u32,
+    terms: usize,
+) -> Result<Form, FormError> {
     if chain.observable(observable).is_orientation() {
-        let turned = reading::rotation(&graded::axes_up_to(chain, observable, order)?);
+        let turned = reading::rotation(&graded::axes_up_to(chain, observable, order, terms)?);
         let axes = chain.observable(observable).shown.iter().filter_map(Reading::rotation);
         let components: Vec<Fraction> =
             axes.map(|axis| Fraction::whole(turned[axis.index()].clone())).collect();
         let positive = vec![Vec::new(); components.len()];
         return Ok(Form { observable, order, components, positive });
     }
-    let parts = graded::parts_up_to(chain, observable, order)?;
+    let parts = graded::parts_up_to(chain, observable, order, terms)?;
     let (mut components, mut positive) = (Vec::new(), Vec::new());
     for reading in &chain.observable(observable).shown {
         let read = reading::read(reading, &parts);
@@ -139,7 +152,7 @@ pub fn derive(chain: &Chain, observable: ObservableId, order: u32) -> Result<For
 
 /// The vector of an observable without errors, in the frame that it is seen in.
 pub(crate) fn nominal(chain: &Chain, observable: ObservableId) -> Result<[Poly; 3], FormError> {
-    let parts = graded::parts_up_to(chain, observable, 0)?;
+    let parts = graded::parts_up_to(chain, observable, 0, TERMS_LIMIT)?;
     match parts.into_iter().next() {
         Some(nominal) => Ok(nominal),
         None => unreachable!("the part of degree zero is always there"),
@@ -148,7 +161,7 @@ pub(crate) fn nominal(chain: &Chain, observable: ObservableId) -> Result<[Poly; 
 
 /// What the errors add to the vector of an observable, whatever it shows of it.
 pub(crate) fn derive_vector(chain: &Chain, observable: ObservableId, order: u32) -> Result<Form, FormError> {
-    let parts = graded::parts_up_to(chain, observable, order)?;
+    let parts = graded::parts_up_to(chain, observable, order, TERMS_LIMIT)?;
     let component = |axis: usize| {
         let added = parts.iter().skip(1).map(|part| &part[axis]);
         Fraction::whole(added.fold(Poly::zero(), |sum, part| &sum + part))
@@ -164,7 +177,7 @@ pub(crate) fn derive_reading(
     order: u32,
     reading: &Reading,
 ) -> Result<ReadSeries, FormError> {
-    let parts = graded::parts_up_to(chain, observable, order)?;
+    let parts = graded::parts_up_to(chain, observable, order, TERMS_LIMIT)?;
     reading::read(reading, &parts).map_err(|why| FormError::of_reading(chain, observable, reading, why))
 }
 

@@ -4,6 +4,7 @@
 //! R − 1, so that it keeps full relative precision however small the errors are. Its first order and the rest are kept
 //! apart, so that the remainder keeps full relative precision too.
 
+mod each;
 mod reading;
 
 use nalgebra::Vector3;
@@ -14,6 +15,8 @@ use crate::chain::{Axis, Chain, ObservableId, ObservableKind, TransformKind};
 use crate::forms::error_table;
 use crate::ramp::Ramp;
 use crate::symbol::{SymbolId, SymbolKind};
+
+pub use each::Each;
 
 /// The factors of one observable, with every amount split by degree in the errors.
 #[derive(Debug, Clone)]

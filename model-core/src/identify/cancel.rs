@@ -11,7 +11,7 @@ use crate::symbol::SymbolId;
 /// Terms of a short sum that are tried at most.
 const BASIS: usize = 120;
 /// Terms above and below together that nobody needs to have fewer of.
-const SHORT: usize = 3;
+const SHORT: usize = 2;
 
 /// The same quotient, cancelled if a short one is found.
 pub(super) fn cancelled(ratio: &Ratio) -> Ratio {
@@ -76,7 +76,7 @@ fn fitted(above: &Poly, below: &Poly) -> Option<Ratio> {
         return None;
     }
     let pairs =
-        divisors.iter().enumerate().flat_map(|(at, one)| divisors[at + 1..].iter().map(move |two| one * two));
+        divisors.iter().enumerate().flat_map(|(at, one)| divisors[at..].iter().map(move |two| one * two));
     let divisors: Vec<Poly> = one().into_iter().chain(divisors.iter().cloned()).chain(pairs).collect();
     solutions(above, below, &basis, &divisors)?
         .into_iter()
@@ -167,7 +167,7 @@ mod tests {
             denominator: &(&sine * &cosine) * &cosine,
         };
         let short = cancelled(&long);
-        assert!(length(&short) == 2, "{short:?}");
+        assert!(length(&short) == 3, "{short:?}");
         assert_eq!(&short.numerator * &long.denominator, &long.numerator * &short.denominator);
     }
 }

@@ -9,6 +9,7 @@ use super::upper::Upper;
 use crate::algebra::{AngleSum, Poly};
 use crate::chain::{Chain, ObservableId, ObservableKind, TransformKind};
 use crate::forms::error_table;
+use crate::symbol::SymbolId;
 
 /// A rotation by a small amount, or a vector to be carried to the ground, along an axis of the cluster's frame.
 #[derive(Debug)]
@@ -78,7 +79,7 @@ fn odd_quarter_turns(nominal: &Poly) -> Option<bool> {
 }
 
 /// The axis across two different ones; `None` if they are the same: the cross product of coordinate axes.
-fn across(a: usize, b: usize) -> Option<usize> {
+pub(super) fn across(a: usize, b: usize) -> Option<usize> {
     (a != b).then(|| 3 - a - b)
 }
 
@@ -110,6 +111,26 @@ impl Cluster {
             sum[axis] = sum[axis] + amount.nominal;
         }
         sum
+    }
+
+    /// The amounts of its elements.
+    pub(super) fn amounts(&self) -> impl Iterator<Item = &Amount> {
+        self.elements.iter().map(|element| match element {
+            Element::Rotation(_, amount) | Element::Vector(_, amount) => amount,
+        })
+    }
+
+    /// The same with the parts of some errors only.
+    pub(super) fn only(&self, keep: impl Fn(SymbolId) -> bool + Copy) -> Self {
+        let elements = self.elements.iter().map(|element| match element {
+            Element::Rotation(axis, amount) => Element::Rotation(*axis, amount.only(keep)),
+            Element::Vector(axis, amount) => Element::Vector(*axis, amount.only(keep)),
+        });
+        let is_there = |element: &Element| match element {
+            Element::Rotation(_, amount) => !amount.is_zero(),
+            Element::Vector(_, amount) => !amount.is_zero(),
+        };
+        Self { elements: elements.filter(is_there).collect() }
     }
 
     /// The part of degree one of the vectors in the cluster's frame, by axis: θ × v₀ + v₁.

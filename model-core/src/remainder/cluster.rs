@@ -4,7 +4,9 @@
 //! as vectors there, and not as lengths. Between clusters stand rotations by joints and constants, which keep lengths.
 
 use super::domain::{Domain, DomainError};
+use super::interval::Interval;
 use super::quadratic::{Amount, Linear, Quadratic};
+use super::reach::Turn;
 use super::upper::Upper;
 use crate::algebra::{AngleSum, Poly};
 use crate::chain::{Chain, ObservableId, ObservableKind, TransformKind};
@@ -22,6 +24,8 @@ pub(super) enum Element {
 #[derive(Debug, Default)]
 pub(super) struct Cluster {
     pub(super) elements: Vec<Element>,
+    /// How the next one is turned against it; the last has none.
+    pub(super) turn: Option<Turn>,
 }
 
 /// The clusters of an observable, from the ground up; its own vector ends the last one.
@@ -51,6 +55,10 @@ pub(super) fn clusters(
                         Some(true) => frame.swap((axis + 1) % 3, (axis + 2) % 3),
                         Some(false) => {}
                         None => {
+                            // What has no range turns freely.
+                            let free = |_| Interval::new(Interval::turn());
+                            let angle = domain.enclose(chain, &nominal).unwrap_or_else(free);
+                            cluster.turn = Some(Turn::new(frame, axis, angle));
                             clusters.push(std::mem::take(&mut cluster));
                             frame = [0, 1, 2];
                         }
@@ -130,7 +138,7 @@ impl Cluster {
             Element::Rotation(_, amount) => !amount.is_zero(),
             Element::Vector(_, amount) => !amount.is_zero(),
         };
-        Self { elements: elements.filter(is_there).collect() }
+        Self { elements: elements.filter(is_there).collect(), turn: self.turn }
     }
 
     /// The part of degree one of the vectors in the cluster's frame, by axis: θ × v₀ + v₁.

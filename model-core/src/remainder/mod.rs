@@ -16,6 +16,7 @@ mod majorant;
 mod parameter;
 mod poles;
 mod quadratic;
+mod reach;
 mod search;
 mod shares;
 mod sight;
@@ -116,7 +117,7 @@ pub fn bound(chain: &Chain, observable: ObservableId, domain: &Domain) -> Result
             second_order: whole.second_order.get(),
             tail: whole.tail.get(),
             is_sum: whole.is_by_degree(),
-            shares: shares::shares(&clusters, whole.second_order),
+            shares: shares::shares(&clusters),
         };
         return Ok(Bound { observable, value: whole.remainder().get(), parts });
     }

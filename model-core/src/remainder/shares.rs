@@ -12,19 +12,25 @@ const ERRORS: usize = 500;
 
 /// The shares of pairs, largest first: of all errors, or of the largest where there are many. All pairs together have a share
 /// of one.
-pub(super) fn shares(clusters: &[Cluster], second_order: Upper) -> Vec<PairShare> {
+pub(super) fn shares(clusters: &[Cluster]) -> Vec<PairShare> {
     let errors = largest(clusters);
     let keep = |error: SymbolId| errors.binary_search(&error).is_ok();
     let mut prefix = Prefix { by_error: Vec::new(), by_pair: PairTable::new(&errors) };
+    // All pairs together: what the products of lengths add up to.
+    let (mut first, mut second, mut total) = (Upper::ZERO, Upper::ZERO, Upper::ZERO);
     let mut table = PairTable::new(&errors);
     for cluster in clusters {
-        let sums = Sums::of(cluster);
+        let [sums, _] = Sums::of(cluster, [Upper::ZERO; 3]);
         let nominal = Upper::norm(cluster.nominal());
+        total = total + second * nominal + first * Upper::norm(sums.first) + Upper::norm(sums.second);
+        let turned = Upper::norm(sums.turned);
+        second = second + first * turned + sums.rotation();
+        first = first + turned;
         let cluster = cluster.only(keep);
         prefix.carry(&cluster, nominal, &sums, &mut table);
         prefix.append(&cluster, &sums);
     }
-    let sum = second_order.get();
+    let sum = total.get();
     let share = |(one, other, value): (SymbolId, SymbolId, f64)| PairShare { one, other, share: value / sum };
     let mut shares: Vec<PairShare> = table.entries().map(share).collect();
     shares.sort_by(|a, b| b.share.total_cmp(&a.share));

@@ -5,6 +5,7 @@ use super::cluster::{Cluster, Element, clusters};
 use super::domain::{Domain, DomainError};
 use super::isometry::Isometry;
 use super::majorant::Majorant;
+use super::reach::Reach;
 use super::sums::Sums;
 use super::upper::Upper;
 use crate::chain::{Chain, ObservableId};
@@ -28,13 +29,33 @@ pub(super) fn bound(chain: &Chain, observable: ObservableId, domain: &Domain) ->
 
 /// Bounds the vector that clusters make.
 pub(super) fn of_clusters(clusters: &[Cluster]) -> Whole {
-    let mut prefix = Prefix::default();
+    // The vector without errors as it is seen behind each cluster, from the device to the ground.
+    let mut behind = vec![Reach::default(); clusters.len()];
+    let mut seen = Reach::default();
+    for (place, cluster) in behind.iter_mut().zip(clusters).rev() {
+        if let Some(turn) = &cluster.turn {
+            seen = turn.outward(seen);
+        }
+        *place = seen;
+        seen = seen.plus(Reach::of(cluster.nominal()));
+    }
+    // How all clusters before one turn it, to first order.
+    let mut turned = Reach::default();
     let (mut first_order, mut second_order) = (Upper::ZERO, Upper::ZERO);
-    for cluster in clusters {
-        let sums = Sums::of(cluster);
-        let [first, second] = prefix.carry(Upper::norm(cluster.nominal()), &sums);
-        (first_order, second_order) = (first_order + first, second_order + second);
-        prefix.append(&sums);
+    for (cluster, behind) in clusters.iter().zip(behind) {
+        let [own, whole] = Sums::of(cluster, behind.axes);
+        let moved = Reach {
+            axes: whole.first,
+            length: Upper::norm(whole.first)
+                .min(Upper::norm(own.first) + Upper::norm(own.turned) * behind.length),
+        };
+        let second = Upper::norm(whole.second).min(Upper::norm(own.second) + own.rotation() * behind.length);
+        first_order = first_order + moved.length;
+        second_order = second_order + turned.cross(moved) + second;
+        turned = turned.plus(Reach::of(own.turned));
+        if let Some(turn) = &cluster.turn {
+            turned = turn.inward(turned);
+        }
     }
     let isometry = Isometry::of(clusters);
     let tail = isometry.tail.map_or_else(|| tail(clusters), |other| other.min(tail(clusters)));
@@ -56,29 +77,6 @@ impl Whole {
     /// A bound on the whole error.
     pub(super) fn error(&self) -> Upper {
         (self.first_order + self.remainder()).min(self.moved)
-    }
-}
-
-/// Bounds on the product of all clusters passed, by degree in the errors.
-#[derive(Default)]
-struct Prefix {
-    first: Upper,
-    second: Upper,
-}
-
-impl Prefix {
-    /// The parts of degree one and two of a cluster's vectors in the ground frame.
-    fn carry(&self, nominal: Upper, sums: &Sums) -> [Upper; 2] {
-        let [first, second] = [sums.first, sums.second].map(Upper::norm);
-        [self.first * nominal + first, self.second * nominal + self.first * first + second]
-    }
-
-    /// Multiplies by the rotation of the cluster.
-    fn append(&mut self, sums: &Sums) {
-        let [first, crosses, amounts] = [sums.turned, sums.crosses, sums.amounts].map(Upper::norm);
-        let second = (first * first).half() + crosses + amounts;
-        self.second = self.second + self.first * first + second;
-        self.first = self.first + first;
     }
 }
 

@@ -129,11 +129,12 @@ pub fn as_json(chain: &Chain, bound: &Bound, found: &Found) -> serde_json::Value
     });
     let name = |id| &chain.symbol(id).name;
     match &bound.parts {
-        Parts::Vector { second_order, tail, shares } => {
+        Parts::Vector { second_order, tail, is_sum, shares } => {
             let share =
                 |pair: &PairShare| json!({"errors": [name(pair.one), name(pair.other)], "share": pair.share});
             value["second_order"] = (*second_order).into();
             value["tail"] = (*tail).into();
+            value["is_sum_of_degrees"] = (*is_sum).into();
             value["shares"] = shares.iter().map(share).collect();
         }
         Parts::Readings(readings) => {

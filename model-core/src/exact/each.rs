@@ -1,6 +1,8 @@
 //! What each error does by itself, for all errors of an observable in one pass along its way: the cost is that of the way and
 //! of the errors, not their product.
 
+use std::cell::RefCell;
+
 use nalgebra::{Matrix3, Vector3};
 
 use super::{Parts, Path};
@@ -74,9 +76,9 @@ impl Each {
     }
 
     /// The vector without errors, and what a unit of each error adds to it to first order, in the order of [`Self::errors`].
-    /// `values` has a value for every symbol, ramps included.
     #[must_use]
     pub fn slopes(&self, values: &[f64]) -> (Vector3<f64>, Vec<Vector3<f64>>) {
+        let values = &*self.path.with_ramps(values);
         self.pass(values, |one, values, axis, before| {
             let slope = one.slope.eval(values);
             match before {
@@ -87,28 +89,21 @@ impl Each {
     }
 
     /// The vector without errors, and what each error of its size adds to it when it acts alone: exact, with full relative
-    /// precision. `values` has all errors at zero, and ramps; `sizes` is in the order of [`Self::errors`].
+    /// precision. `values` has all errors at zero; `sizes` is in the order of [`Self::errors`].
     #[must_use]
     pub fn alone(&self, values: &mut [f64], sizes: &[f64]) -> (Vector3<f64>, Vec<Vector3<f64>>) {
-        let at_size = |one: &Use, values: &mut [f64]| {
-            let slot = self.errors[one.error].index();
-            let before = std::mem::replace(&mut values[slot], sizes[one.error]);
-            let amount = one.own.eval(values);
-            values[slot] = before;
-            amount
-        };
-        let mut scratch = values.to_vec();
-        let scratch = std::cell::RefCell::new(&mut scratch);
-        let (nominal, mut added) = self.pass(values, |one, _, axis, before| {
+        let scratch = RefCell::new(self.path.with_ramps(values).into_owned());
+        let start = scratch.borrow().clone();
+        let (nominal, mut added) = self.pass(&start, |one, _, axis, before| {
             if sizes[one.error] == 0.0 {
                 return Vector3::zeros();
             }
-            let amount = at_size(one, &mut scratch.borrow_mut());
-            let Some(before) = before else { return axis * amount };
-            let half = (amount / 2.0).sin();
-            // R(ε) − 1 = sin ε (axis ×) + (1 − cos ε) (axis × axis ×)
-            let across = axis.cross(&before);
-            across * amount.sin() + axis.cross(&across) * (2.0 * half * half)
+            let mut values = scratch.borrow_mut();
+            let slot = self.errors[one.error].index();
+            values[slot] = sizes[one.error];
+            let amount = one.own.eval(&values);
+            values[slot] = 0.0;
+            moved(axis, before, amount)
         });
         for (index, error) in self.errors.iter().enumerate().filter(|(index, _)| self.is_spread[*index]) {
             if sizes[index] != 0.0 {
@@ -118,6 +113,46 @@ impl Each {
             }
         }
         (nominal, added)
+    }
+
+    /// The same of one error, in the frame of the place where it acts: lengths and angles are those that the observable has in its
+    /// own frame, and nothing between that place and the ground counts. `None` for an error that acts at several places.
+    #[must_use]
+    pub fn one_alone(&self, values: &[f64], error: SymbolId, size: f64) -> Option<[Vector3<f64>; 2]> {
+        let index = self.errors.binary_search(&error).ok()?;
+        if self.is_spread[index] {
+            return None;
+        }
+        let mut values = self.path.with_ramps(values).into_owned();
+        let nominal = Vector3::from_fn(|axis, _| self.path.vector[axis].nominal.eval(&values));
+        let amount = |one: &Use, values: &mut [f64]| {
+            values[error.index()] = size;
+            one.own.eval(values)
+        };
+        let of = |uses: &'_ [Use]| uses.iter().position(|one| one.error == index);
+        for (axis, uses) in self.vector.iter().enumerate() {
+            if let Some(at) = of(uses) {
+                let amount = amount(&uses[at], &mut values);
+                return Some([nominal, moved(Vector3::ith(axis, 1.0), None, amount)]);
+            }
+        }
+        let mut parts = Parts { nominal, first: Vector3::zeros(), rest: Vector3::zeros() };
+        for (step, uses) in self.path.steps.iter().zip(&self.steps) {
+            let is_turn = step.kind == TransformKind::Rotation;
+            if let Some(at) = of(uses) {
+                let amount = amount(&uses[at], &mut values);
+                let axis = Vector3::ith(step.axis.index(), 1.0);
+                let added = moved(axis, is_turn.then_some(parts.nominal), amount);
+                // A shift moves what it has shifted; lengths do not count the difference, angles of directions have none.
+                return Some([parts.nominal, added]);
+            }
+            let by = step.amount.nominal.eval(&values);
+            match step.kind {
+                TransformKind::Translation => parts.nominal[step.axis.index()] += by,
+                TransformKind::Rotation => parts.rotate(step.axis, by, 0.0, 0.0),
+            }
+        }
+        Some([parts.nominal, Vector3::zeros()])
     }
 
     /// What the errors of a step add, given the unit vector of its axis and, of a rotation, the vector that it turns; carried to
@@ -157,6 +192,15 @@ impl Each {
         }
         (parts.nominal, sums)
     }
+}
+
+/// What an amount adds: along an axis, or to the vector that it turns about it.
+fn moved(axis: Vector3<f64>, before: Option<Vector3<f64>>, amount: f64) -> Vector3<f64> {
+    let Some(before) = before else { return axis * amount };
+    let half = (amount / 2.0).sin();
+    // R(ε) − 1 = sin ε (axis ×) + (1 − cos ε) (axis × axis ×)
+    let across = axis.cross(&before);
+    across * amount.sin() + axis.cross(&across) * (2.0 * half * half)
 }
 
 /// A frame times the rotation about one of its axes.

@@ -159,9 +159,15 @@ pub(crate) fn nominal(chain: &Chain, observable: ObservableId) -> Result<[Poly; 
     }
 }
 
-/// What the errors add to the vector of an observable, whatever it shows of it.
-pub(crate) fn derive_vector(chain: &Chain, observable: ObservableId, order: u32) -> Result<Form, FormError> {
-    let parts = graded::parts_up_to(chain, observable, order, TERMS_LIMIT)?;
+/// What the errors add to the vector of an observable, whatever it shows of it; refused if it has more than so many terms on
+/// its way.
+pub(crate) fn derive_vector_within(
+    chain: &Chain,
+    observable: ObservableId,
+    order: u32,
+    terms: usize,
+) -> Result<Form, FormError> {
+    let parts = graded::parts_up_to(chain, observable, order, terms)?;
     let component = |axis: usize| {
         let added = parts.iter().skip(1).map(|part| &part[axis]);
         Fraction::whole(added.fold(Poly::zero(), |sum, part| &sum + part))

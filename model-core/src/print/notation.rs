@@ -23,22 +23,12 @@ pub(super) trait Notation {
     fn product(&self, factors: &[String]) -> String;
 }
 
-/// A positive number that somebody wrote as a decimal: exact in a few digits, and no plain fraction such as 3/8.
+/// A number that somebody wrote as a decimal: exact in a few digits, and no plain fraction such as 3/8.
 fn decimal(value: &Rational) -> Option<String> {
-    /// More digits are no easier to read than a fraction.
-    const DIGITS: usize = 15;
     /// Halves and their like come from squares of sines, and are fractions.
     const DYADIC: i64 = 64;
-    if (value * &Rational::from(DYADIC)).to_integer().is_some() {
-        return None;
-    }
-    let mut scaled = value.clone();
-    (1..=DIGITS).find_map(|digits| {
-        scaled = &scaled * &Rational::from(10);
-        let written = format!("{:0>width$}", scaled.to_integer()?, width = digits + 1);
-        let (whole, fraction) = written.split_at(written.len() - digits);
-        Some(format!("{whole}.{fraction}"))
-    })
+    let is_dyadic = (value * &Rational::from(DYADIC)).to_integer().is_some();
+    if is_dyadic { None } else { value.to_decimal() }
 }
 
 /// The plain syntax of amounts.

@@ -8,6 +8,7 @@ mod collect;
 mod fraction;
 mod notation;
 mod pieces;
+mod table;
 #[cfg(test)]
 mod tests;
 
@@ -20,6 +21,7 @@ use notation::{Latex, Notation, Text};
 use pieces::Piece;
 
 pub use pieces::Hand;
+pub use table::table;
 
 /// How a formula is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -68,6 +70,17 @@ pub fn by_hand(poly: &Poly, chain: &Chain, style: Style, hand: &Hand) -> String 
         Style::Latex => write_sum(poly, chain, &Latex, hand),
         Style::Markdown => format!("${}$", write_sum(poly, chain, &Latex, hand)),
     }
+}
+
+/// How many addends a formula is written in.
+pub(crate) fn addends(poly: &Poly) -> usize {
+    groups(poly)
+        .iter()
+        .map(|group| {
+            let functions = pieces::shortest(&group.angular, &Hand::default()).len();
+            group.monomials.len() * functions
+        })
+        .sum()
 }
 
 /// The components of a form, one a line, each with its name; in LaTeX as an `aligned` block, in Markdown as a list.

@@ -6,6 +6,7 @@
 mod columns;
 mod numbers;
 mod printed;
+mod table;
 
 use model_core::Chain;
 

@@ -14,6 +14,10 @@ import time
 from pathlib import Path
 
 
+# Sizes by the first letter of an error: turns and shifts.
+SIZES = [*((letter, "2 arcsec") for letter in "abcr"), *((letter, "0.01 mm") for letter in "uvwt")]
+
+
 def joints(count):
     lines = ["chain Arm {"]
     for j in range(count):
@@ -33,7 +37,7 @@ def errors(count):
     for j in range(3):
         lower = "ground" if j == 0 else f"b{j - 1}"
         factors = ", ".join(
-            f"{'RT'[k % 2]}{'xyz'[k % 3]}(e{j}_{k})" for k in range(count // 3 + (j < count % 3))
+            f"{'RT'[k % 2]}{'xyz'[k % 3]}({'rt'[k % 2]}{j}_{k})" for k in range(count // 3 + (j < count % 3))
         )
         lines.append(f" body b{j} on {lower} {{ motion: R{'zxy'[j]}(q{j}); motion_error: {factors}; position: Tx(0.{j + 3}); }}")
     lines.append(" observe tip: point(0.1, 0, 0.3) of b2;")
@@ -58,7 +62,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
         sizes = folder / "sizes.toml"
-        sizes.write_text('"*" = "1e-5"\n')
+        sizes.write_text("".join(f"\"{letter}*\" = \"{size}\"\n" for letter, size in SIZES))
         for count in (3, 6, 10, 14):
             chain = folder / f"joints-{count}.chain"
             chain.write_text(joints(count))
@@ -68,7 +72,7 @@ def main():
             chain.write_text(errors(count))
             run(f"bound, {count} errors", [program, "bound", chain, "--sizes", sizes])
             run(f"derive, {count} errors", [program, "derive", chain])
-            run(f"generate, {count} errors", [program, "generate", chain, "--lang", "rust", "--out", folder / "out"])
+            run(f"generate, {count} errors", [program, "generate", chain, "--language", "rust", "--out", folder / "out.rs"])
     peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
     print(f"memory at most: {peak:.0f} MB")
 

@@ -5,6 +5,7 @@
 mod exact_symbolic;
 mod graded;
 mod reading;
+mod steps;
 mod table;
 
 use crate::algebra::{AlgebraError, Fraction, Poly};
@@ -14,6 +15,7 @@ use crate::symbol::{SymbolId, SymbolKind};
 use reading::{NoSeries, ReadSeries};
 
 pub use exact_symbolic::exact_symbolic;
+pub use steps::{Elementary, Group, Steps, steps};
 pub use table::{Table, TableError, table};
 
 /// What the errors add to what an observable shows, up to an order in the errors. Components of a direction have no unit,

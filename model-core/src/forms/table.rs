@@ -34,7 +34,7 @@ pub struct Table {
 pub enum TableError {
     /// It shows single readings.
     #[error(
-        "a table has the three components of a vector, and `{0}` shows readings: derive it without --table"
+        "tables and steps are of the three components of a vector, and `{0}` shows readings: derive it without them"
     )]
     Readings(String),
     /// A rotation is by no sum of angles.

@@ -8,6 +8,7 @@ mod collect;
 mod fraction;
 mod notation;
 mod pieces;
+mod steps;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -21,6 +22,7 @@ use notation::{Latex, Notation, Text};
 use pieces::Piece;
 
 pub use pieces::Hand;
+pub use steps::steps;
 pub use table::table;
 
 /// How a formula is written.

@@ -122,7 +122,7 @@ fn canonical(written: &Expr<Span>, scope: &Scope, mistakes: &mut Vec<Mistake<Spa
         LowerError::Algebra { error, place } => mistakes.push(match error {
             AlgebraError::NotAnAngle => Mistake::new(
                 place,
-                "a sine or cosine can be taken of whole multiples of angles and of pi/2 only",
+                "a sine or cosine can be taken of numbers and of whole multiples of angles only",
             )
             .with_help("declare any other angle: `const tilt: angle = pi/6;`, and write `tilt` here"),
             AlgebraError::NotDivisible => {

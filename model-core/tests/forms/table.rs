@@ -32,7 +32,8 @@ fn read_back(table: &Table) -> Vec<(SymbolId, [Poly; 3])> {
     if has_definitions {
         for cell in cells(&latex, 0).into_iter().flatten() {
             let (name, formula) = cell.split_once(" = ").unwrap();
-            let read = read_formula(formula, &symbols).unwrap_or_else(|why| panic!("{formula}: {}", why.message));
+            let read =
+                read_formula(formula, &symbols).unwrap_or_else(|why| panic!("{formula}: {}", why.message));
             match chain.symbols.iter().position(|symbol| symbol.latex == name) {
                 Some(index) => {
                     let id = SymbolId(u16::try_from(index).unwrap());

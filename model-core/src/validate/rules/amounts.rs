@@ -134,7 +134,7 @@ pub fn position_turns_by_angles(subject: &Subject<'_>, mistakes: &mut Vec<Mistak
             mistakes.push(
                 Mistake::new(
                     amount.written.place,
-                    "a position turns by whole multiples of constant angles and of pi/2 only",
+                    "a position turns by numbers and by whole multiples of constant angles only",
                 )
                 .with_help("declare any other angle: `const tilt: angle = pi/6;`, and write `tilt` here"),
             );
@@ -191,7 +191,7 @@ pub fn motion_is_linear(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>
         if !is_linear {
             let (what, help) = match kind {
                 TransformKind::Rotation => (
-                    "a motion turns by whole multiples of joints, constant angles and pi/2 only",
+                    "a motion turns by whole multiples of joints, by constant angles and by numbers only",
                     "write `Rz(alpha)`, `Rz(-alpha)` or `Rx(alpha - pi/2)`; what depends on a joint otherwise belongs in `motion_error`",
                 ),
                 TransformKind::Translation => (

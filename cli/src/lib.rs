@@ -13,6 +13,7 @@ mod date;
 mod draw;
 mod errors_file;
 mod evaluation;
+mod expected;
 mod failure;
 mod init;
 mod letters;

@@ -8,6 +8,7 @@ use serde_json::json;
 
 use super::{Answer, TextOrJson};
 use crate::errors_file;
+use crate::expected::{self, Work};
 use crate::failure::Failure;
 use crate::ranges::{self, Range, RangeArgument};
 use crate::sizes::SizesArgument;
@@ -49,6 +50,7 @@ const STARTS: u32 = 24;
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let (chain, sizes) = errors_file::chain_and_sizes(&arguments.chain, arguments.sizes.needed()?)?;
     let ranges = ranges::of_chain(&chain, &arguments.range)?;
+    expected::announce(&chain, Work::Bound);
     let answers = bounds(&chain, &sizes, &ranges, &arguments.observable, arguments.seed)?;
     match arguments.format {
         TextOrJson::Text => {

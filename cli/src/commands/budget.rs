@@ -12,6 +12,7 @@ use serde_json::{Value, json};
 use super::{Answer, TextOrJson};
 use crate::budget::{self, Designed, DesignerArguments, Measured, Shown};
 use crate::claims::{Checked, ClaimsFile};
+use crate::expected::{self, Work};
 use crate::failure::Failure;
 use crate::ranges::{self, RangeArgument};
 use crate::sizes::SizesArgument;
@@ -74,6 +75,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         })?),
         None => Poses::Ranges(poses::joint_ranges(&ranges::of_chain(&chain, &arguments.range)?)),
     };
+    expected::announce(&chain, Work::Budget);
     let is_named = !arguments.observable.is_empty();
     let mut all = Vec::new();
     for budget in measured(&chain, &sizes, &poses, &arguments.observable)? {

@@ -10,6 +10,7 @@ use serde_json::json;
 
 use super::Answer;
 use crate::certificates::CertificateArguments;
+use crate::expected::{self, Work};
 use crate::failure::Failure;
 use crate::source::{Source, observables};
 use crate::terminal::{self, HEADING};
@@ -64,6 +65,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let is_certified = arguments.certificate.is_wanted()?;
     let source = Source::read(&arguments.chain)?;
     let chain = source.symbolic_chain()?;
+    expected::announce(&chain, Work::Derive);
     let chosen = observables(&chain, &arguments.observable)?;
     if arguments.table || arguments.steps {
         if is_certified {

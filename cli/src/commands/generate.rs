@@ -9,6 +9,7 @@ use model_core::{Chain, ObservableId, SymbolKind};
 
 use super::Answer;
 use crate::errors_file;
+use crate::expected::{self, Work};
 use crate::failure::Failure;
 use crate::output;
 use crate::sizes::SizesArgument;
@@ -128,6 +129,7 @@ impl From<FormName> for Form {
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let source = Source::read(&arguments.chain)?;
     let chain = source.chain()?;
+    expected::announce(&chain, Work::Generate);
     let chosen = observables(&chain, &arguments.observable)?;
     let sizes = arguments.sizes.given();
     let remarks = match sizes {

@@ -63,7 +63,8 @@ pub enum Parts {
         tail: f64,
         /// Whether the bound is their sum. If not, it is what turns and shifts by such errors can do at all.
         is_sum: bool,
-        /// What share of `second_order` each pair of errors has, largest first. All pairs together have a share of one; of
+        /// What share each pair of errors has in the products of two errors, as their lengths add up, largest first. All pairs
+        /// together have a share of one; of
         /// more than 500 errors the pairs of the 500 largest are listed.
         shares: Vec<PairShare>,
     },

@@ -38,7 +38,6 @@ fn the_bound_is_within_twice_the_largest_difference_found() {
         };
         let shares: f64 = shares.iter().map(|pair| pair.share).sum();
         assert!((shares - 1.0).abs() < 1e-12, "{observable}: {shares}");
-        // What the shares divide up is the bound of second order itself, not only something like it.
         assert!(bound.value <= (second_order + tail) * (1.0 + 1e-15));
     }
 }

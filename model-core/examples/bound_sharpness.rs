@@ -7,7 +7,7 @@
 use std::fmt::Write;
 
 use model_core::remainder::{Domain, bound, search};
-use model_core::{Chain, ObservableId, Quantity, SymbolKind};
+use model_core::{Chain, ObservableId, SymbolKind};
 
 const SEED: u64 = 20_261_127;
 const CHAINS: u64 = 200;
@@ -113,8 +113,8 @@ fn main() {
         let Ok(chain) = Chain::from_text(&std::fs::read_to_string(file).unwrap()) else { continue };
         let mut domain = Domain::new(&chain);
         for error in chain.symbols_of(SymbolKind::Error) {
-            let size = if chain.symbol(error).quantity == Quantity::Length { 1e-3 } else { 1e-3 };
-            domain.set_size(&chain, error, size).unwrap();
+            // A milliradian, or a millimetre.
+            domain.set_size(&chain, error, 1e-3).unwrap();
         }
         for moved in chain.symbols_of(SymbolKind::Joint).chain(chain.symbols_of(SymbolKind::Input)) {
             domain.set_range(&chain, moved, 0.2, 1.2).unwrap();

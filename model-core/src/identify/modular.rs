@@ -87,12 +87,12 @@ impl Place {
     }
 
     fn symbol(&self, symbol: SymbolId) -> u64 {
-        scattered(self.0 << 20 | 2 * u64::from(symbol.0)) % PRIME
+        scattered((self.0 << 20) | (2 * u64::from(symbol.0))) % PRIME
     }
 
     /// The cosine and sine of a multiple, from t = tan of half the angle.
     fn wave(&self, symbol: SymbolId, harmonic: u32) -> (u64, u64) {
-        let t = scattered(self.0 << 20 | (2 * u64::from(symbol.0) + 1)) % PRIME;
+        let t = scattered((self.0 << 20) | (2 * u64::from(symbol.0) + 1)) % PRIME;
         let square = product(t, t);
         let over = inverse((1 + square) % PRIME);
         let one = (product(difference(1, square), over), product(product(2, t), over));

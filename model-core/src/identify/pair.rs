@@ -31,7 +31,7 @@ impl Pair {
         let (raised, digits) = (bits >> DIGITS, bits & ((1 << DIGITS) - 1));
         let (digits, exponent) = match i32::try_from(raised).unwrap_or(0) {
             0 => (digits, 1),
-            exponent => (digits | 1 << DIGITS, exponent),
+            exponent => (digits | (1 << DIGITS), exponent),
         };
         // 1023 is the bias of exponents.
         let exponent = exponent - 1023 - DIGITS;

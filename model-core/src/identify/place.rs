@@ -20,7 +20,7 @@ impl Place {
     pub(super) fn new(chain: &Chain, number: u64) -> Self {
         // 53 bits of a scattered number, between −1 and 1.
         let uniform = |seed: u64| (scattered(seed) >> 11) as f64 / (1u64 << 52) as f64 - 1.0;
-        let anywhere = |id: usize, stream: u64| uniform(number << 20 | (id as u64) << 2 | stream);
+        let anywhere = |id: usize, stream: u64| uniform((number << 20) | ((id as u64) << 2) | stream);
         let place = |(id, symbol): (usize, &crate::Symbol)| match (symbol.kind, symbol.value) {
             (SymbolKind::Pi, value) => {
                 let pi = Pair::transcendental(scattered(0), value.unwrap_or(std::f64::consts::PI));

@@ -3,7 +3,8 @@
 use model_core::{Chain, SymbolKind, exact, print, syntax};
 
 fn value(text: &str) -> [f64; 3] {
-    let chain = Chain::from_text(text).unwrap_or_else(|mistakes| panic!("{}", mistakes.render("angles", text)));
+    let chain =
+        Chain::from_text(text).unwrap_or_else(|mistakes| panic!("{}", mistakes.render("angles", text)));
     let mut values = chain.nominal_values();
     for (name, value) in [("q", 0.4), ("sag", 1e-3)] {
         values[chain.find_symbol(name).unwrap().index()] = value;
@@ -34,7 +35,8 @@ fn numbers_turn_as_constants_do() {
 
 #[test]
 fn equal_numbers_are_one_constant_and_quarter_turns_are_none() {
-    let text = chain("", "Rx(0.7), Ry(-0.7), Rz(pi/2), Rx(22.5 deg)", "Rz(q + pi/2)", "Rx(sag*cos(q - 0.70))");
+    let text =
+        chain("", "Rx(0.7), Ry(-0.7), Rz(pi/2), Rx(22.5 deg)", "Rz(q + pi/2)", "Rx(sag*cos(q - 0.70))");
     let chain = Chain::from_text(&text).unwrap();
     let names: Vec<&str> =
         chain.symbols_of(SymbolKind::Constant).map(|id| chain.symbol(id).name.as_str()).collect();

@@ -5,10 +5,10 @@
 //! number of terms.
 #![allow(missing_docs)]
 
+use claims::checker::{Checker, ClosedForm, Order, PrintedVector};
+use claims::latex::PrintedSymbols;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use model_core::algebra::Poly;
-use model_core::checker::{Checker, ClosedForm, Order, PrintedVector};
-use model_core::latex::PrintedSymbols;
 use model_core::remainder::{Domain, bound};
 use model_core::{Chain, ObservableId, Quantity, SymbolKind, forms, identify, print, syntax};
 use std::fmt::Write;

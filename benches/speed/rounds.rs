@@ -1,7 +1,7 @@
 //! Who takes part, the rounds, and the table.
 
 use crate::candidates::{self, Buffers};
-use crate::validate;
+use crate::check;
 use crate::floors::Width;
 use crate::lidar::{Path, path_taken};
 use crate::threads;

@@ -5,15 +5,15 @@ use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
 
 use calibration::calibrate::{Calibration, Request, Stage, calibrate_telling};
-use calibration::data::Observations;
-use calibration::formats::sha256;
-use calibration::study::{Loaded, OpenTable, Plan, Study};
+use observe::Observations;
+use study::{Loaded, OpenTable, Plan, Study};
+use tables::formats::sha256;
 
 use crate::failure::Failure;
 use crate::report::{FileRead, Provenance, Reported, file_names};
 use crate::source::{self, Source};
-use crate::tables::Files;
-use crate::{date, output, tables, terminal};
+use crate::table_files::Files;
+use crate::{date, output, table_files, terminal};
 
 /// A study that was read, with the declaration that it names.
 #[derive(Clone)]
@@ -92,7 +92,7 @@ impl Studied {
     /// # Errors
     /// What is wrong with a table, with its place.
     pub fn load(self, open: &mut OpenTable<'_>) -> Result<Measured, Failure> {
-        let loaded = self.plan.load_tables(open).map_err(tables::failure)?;
+        let loaded = self.plan.load_tables(open).map_err(table_files::failure)?;
         Ok(self.with_data(loaded.without_repeats()))
     }
 
@@ -133,7 +133,7 @@ impl Studied {
         let read: Vec<FileRead> =
             [study, chain].into_iter().chain(tables).map(read).collect::<Result<_, _>>()?;
         // A checksum is that of what was calibrated with.
-        self.tables().try_for_each(|path| self.files.check(path)).map_err(tables::failure)?;
+        self.tables().try_for_each(|path| self.files.check(path)).map_err(table_files::failure)?;
         Ok(read)
     }
 }
@@ -148,12 +148,13 @@ impl Measured {
     /// # Errors
     /// The study asks for something that cannot be fitted.
     pub fn calibrate(self, command: String, tell: &(dyn Fn(Stage) + Sync)) -> Result<Calibrated, Failure> {
-        let Self { studied, loaded: Loaded { observations, held_out, .. }, warnings } = self;
+        let Self { studied, loaded: Loaded { observations, held_out, sample, .. }, warnings } = self;
         let date = date::today();
         let request = Request {
             text: &studied.chain.text,
             plan: &studied.plan,
             observations: &observations,
+            sample: Some(&sample),
             second: held_out.as_ref(),
             when: &date,
         };

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use model_core::certificate::{LIBRARY, LIBRARY_FILE};
+use proof::{LIBRARY, LIBRARY_FILE};
 
 use crate::failure::Failure;
 use crate::output;

@@ -6,10 +6,10 @@ use std::fmt;
 use std::ops::Range;
 use std::path::Path;
 
-use calibration::data::units::{Amount, Plausible};
 use model_core::mistake::Mistake;
 use model_core::{Chain, SymbolId, SymbolKind, names};
 use serde::de::{self, Deserialize, Deserializer, IntoDeserializer as _};
+use tables::units::{Amount, Plausible};
 use toml::Spanned;
 
 use crate::failure::Failure;

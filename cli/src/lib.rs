@@ -4,7 +4,7 @@ mod apply;
 mod budget;
 mod calibrating;
 mod certificates;
-mod claims;
+mod claims_file;
 #[cfg(feature = "point-clouds")]
 mod cloud;
 mod commands;
@@ -22,6 +22,7 @@ mod many;
 mod output;
 mod over_memory;
 mod over_table;
+mod paper;
 mod poses;
 mod ranges;
 mod report;
@@ -29,7 +30,7 @@ mod set_up;
 mod sizes;
 mod source;
 mod streaming;
-mod tables;
+mod table_files;
 mod terminal;
 mod waiting;
 mod wrap;
@@ -58,7 +59,7 @@ fn tell_panics_of_readers_as_errors() {
         let mut is = false;
         #[cfg(feature = "parquet")]
         {
-            is |= calibration::formats::parquet::is_reading();
+            is |= tables::formats::parquet::is_reading();
         }
         #[cfg(feature = "point-clouds")]
         {

@@ -5,21 +5,22 @@
 
 use std::path::Path;
 
-use calibration::formats::memory::Reader;
-use calibration::formats::{ColumnName, TableReader, declared_columns};
 use codegen::Form;
 use model_core::expr::Expr;
 use model_core::{Chain, ObservableId, SymbolKind, forms, print, syntax};
 use serde_json::{Value, json};
+use tables::formats::memory::Reader;
+use tables::formats::{ColumnName, TableReader, declared_columns};
 
 use crate::budget::Measured;
-use crate::claims::{ClaimsFile, as_json};
+use crate::claims_file::ClaimsFile;
 use crate::commands::{bound, budget, check, derive, generate, identify, simulate};
 use crate::evaluation;
 use crate::over_memory::has_room;
 use crate::ranges::{self, Range, RangeArgument};
 use crate::source::observables;
-use crate::{claims, errors_file, poses, report, tables};
+use crate::{errors_file, poses, report, table_files};
+use claims::show::{Paint, as_json, as_text};
 
 pub use crate::apply::Counted;
 pub use crate::calibrating::{Calibrated, Studied};
@@ -32,9 +33,9 @@ pub use crate::source::Source;
 pub use crate::streaming::{Foretold, Rows, Streaming, accumulated, validated};
 pub use crate::terminal::collecting;
 pub use calibration::calibrate::Stage;
-pub use calibration::fit::Validation;
-pub use calibration::formats::memory::Column;
 pub use codegen::Loadable;
+pub use fit::Validation;
+pub use tables::formats::memory::Column;
 
 /// An answer for reading, and the same for programs.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,7 +64,7 @@ pub fn observable(chain: &Chain, name: Option<&str>) -> Result<ObservableId, Fai
         &[only] => Ok(only),
         several => {
             let names = several.iter().map(|&id| chain.observable(id).name.as_str());
-            let names = crate::source::listed(names);
+            let names = model_core::names::listed(names);
             Err(Failure::Input(format!("chain {} declares {names}: name one of them", chain.name)))
         }
     }
@@ -242,8 +243,8 @@ pub fn budgeted(
 pub fn checked(claims: &Path) -> Result<Told, Failure> {
     let file = ClaimsFile::read(claims)?;
     let checked = check::checked(&file)?;
-    let json: Vec<Value> = checked.iter().map(|checked| as_json(&file, checked)).collect();
-    Ok(Told { text: plain(&claims::as_text(&file, &checked)), json: json!({ "claims": json }) })
+    let json: Vec<Value> = checked.iter().map(|checked| as_json(&file.said, checked)).collect();
+    Ok(Told { text: as_text(&file.said, &checked, &Paint::default()), json: json!({ "claims": json }) })
 }
 
 /// Measured data that are made up; as `simulate`: names of columns, and the columns in SI.
@@ -279,7 +280,7 @@ pub fn table<'a>(
     name: &str,
     columns: &[(&'a str, Column<'a>)],
 ) -> Result<Box<dyn TableReader + 'a>, Failure> {
-    Ok(Box::new(Reader::new(name, columns.iter().copied()).map_err(tables::failure)?))
+    Ok(Box::new(Reader::new(name, columns.iter().copied()).map_err(table_files::failure)?))
 }
 
 /// Reads a study's tables, from memory where `in_memory` has one of that name and else from the files, and calibrates.

@@ -4,19 +4,19 @@
 use std::ops::Range;
 
 use calibration::calibrate::OfEveryRow;
-use calibration::data::unknowns::Shape;
-use calibration::data::{Observations, Poses, Series};
-use calibration::fit::{Foretelling, Next, Pass, Streamed, StreamedResult, Tally, Validation};
-use calibration::formats::part::{Budget, Stretches, Within, count};
-use calibration::study::{OpenTable, Plan, SourcePlan};
+use fit::{Foretelling, Next, Pass, Streamed, StreamedResult, Tally, Validation};
 use model_core::SymbolId;
+use observe::unknowns::Shape;
+use observe::{Observations, Poses, Series};
+use study::{OpenTable, Plan, SourcePlan};
+use tables::formats::part::{Budget, Stretches, Within, count};
 
 use crate::calibrating::{Calibrated, Measured, Studied};
 use crate::draw::stretches;
 use crate::failure::Failure;
 use crate::source::Source;
 use crate::streaming::{input, options};
-use crate::tables;
+use crate::table_files;
 
 /// Rows of a chunk.
 const CHUNK: u64 = 1 << 18;
@@ -51,13 +51,13 @@ pub fn read(
     let loaded =
         plan.load_tables(&mut |path, options| Ok(Box::new(Within::new(open(path, options)?, &budget))));
     if !budget.is_exceeded() {
-        let loaded = loaded.map_err(tables::failure)?;
+        let loaded = loaded.map_err(table_files::failure)?;
         return Ok((studied.with_data(loaded.without_repeats()), None));
     }
     drop(loaded);
     let paths = plan.sources.iter().flat_map(|source| &source.paths);
     let rows = paths.map(|path| Ok((path.clone(), count(&mut *open(path, plan.options())?)?)));
-    let rows: Vec<(String, u64)> = rows.collect::<Result<_, _>>().map_err(tables::failure)?;
+    let rows: Vec<(String, u64)> = rows.collect::<Result<_, _>>().map_err(table_files::failure)?;
     let counts: Vec<u64> = rows.iter().map(|(_, rows)| *rows).collect();
     let stretches = stretches(&counts, at_most as u64, plan.hold_out.seed);
     let drawn = |((path, rows), stretches)| Drawn { path, rows, stretches };
@@ -67,7 +67,7 @@ pub fn read(
         let Some(file) = left.next() else { unreachable!("each file of the study is read once: {path}") };
         Ok(Box::new(Stretches::new(open(path, options)?, 0, file.stretches.iter().cloned())))
     });
-    let loaded = loaded.map_err(tables::failure)?;
+    let loaded = loaded.map_err(table_files::failure)?;
     Ok((studied.with_data(loaded), Some(Others { files })))
 }
 
@@ -182,7 +182,7 @@ fn each_chunk(
     mut take: impl FnMut(u64, Observations) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let plan = plan.of_files(std::slice::from_ref(&file.path));
-    let mut reader = open(&file.path, plan.options()).map_err(tables::failure)?;
+    let mut reader = open(&file.path, plan.options()).map_err(table_files::failure)?;
     let mut first = 0;
     while first < file.rows {
         let end = (first + CHUNK).min(file.rows);
@@ -191,7 +191,7 @@ fn each_chunk(
             Some(chunk) => Ok(Box::new(chunk)),
             None => unreachable!("one file is read once: {path}"),
         });
-        take(first, loaded.map_err(tables::failure)?.observations)?;
+        take(first, loaded.map_err(table_files::failure)?.observations)?;
         first = end;
     }
     Ok(())

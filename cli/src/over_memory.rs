@@ -1,7 +1,7 @@
 //! Observables over tables in memory: what `eval` and `apply` compute, for a program that has no command line.
 
-use calibration::formats::memory::{Column, Reader};
 use model_core::Chain;
+use tables::formats::memory::{Column, Reader};
 
 use crate::apply::{Counted, Outside};
 use crate::errors_file;
@@ -9,7 +9,7 @@ use crate::evaluation::{self, Evaluator, Exactness, Quantity};
 use crate::failure::Failure;
 use crate::over_table::warn_of_replaced;
 use crate::source::Source;
-use crate::tables::{self, ReadingsTable};
+use crate::table_files::{self, ReadingsTable};
 use crate::terminal;
 
 /// Names of columns, and the columns in SI.
@@ -27,7 +27,7 @@ impl<'a> Held<'a> {
     /// # Errors
     /// No columns, a name twice, or columns of different lengths.
     pub fn new(name: &str, columns: &[(&'a str, Column<'a>)]) -> Result<Self, Failure> {
-        let reader = Reader::new(name, columns.iter().copied()).map_err(tables::failure)?;
+        let reader = Reader::new(name, columns.iter().copied()).map_err(table_files::failure)?;
         Ok(Self { reader, rows: columns.first().map_or(0, |(_, column)| column.rows()) })
     }
 }

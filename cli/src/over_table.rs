@@ -6,15 +6,16 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use calibration::formats::Column;
 use model_core::Chain;
+use tables::formats::Column;
 
 use crate::errors_file::{self, FoundOver};
 use crate::evaluation::{Evaluator, Exactness, Quantity, column_names};
 use crate::failure::Failure;
-use crate::source::{Source, listed};
-use crate::tables::{self, ReadingsTable, Rows};
+use crate::source::Source;
+use crate::table_files::{self, ReadingsTable, Rows};
 use crate::{output, terminal};
+use model_core::names::listed;
 
 /// What is evaluated over which table, and where to.
 #[derive(Debug, clap::Args)]
@@ -126,7 +127,7 @@ impl OverTable {
         let mut done = 0_usize;
         let progress = terminal::progress();
         progress.set_message("reading the header");
-        let table = tables::write(&self.out, |writer| {
+        let table = table_files::write(&self.out, |writer| {
             // A large table is read once for the types of its texts.
             writer.header_beside(&header, &table, &is_kept, |share| {
                 progress.set_message(format!(

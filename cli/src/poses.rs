@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use calibration::data::units::{Amount, Plausible};
 use model_core::algebra::Rational;
 use model_core::budget::{JointRange, Path, PathError};
 use model_core::expr::{Expr, Node};
 use model_core::{Chain, Mistake, Quantity, SymbolKind, names, syntax};
+use tables::units::{Amount, Plausible};
 
 use crate::terminal;
 
@@ -84,7 +84,7 @@ fn not_movable(chain: &Chain, name: &str, place: Range<usize>) -> Mistake<Range<
     let mistake = Mistake::new(place, format!("chain {} has no joint or input `{name}`", chain.name));
     match names::nearest(name, movable()) {
         Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
-        None => mistake.with_help(format!("it has {}", crate::source::listed(movable()))),
+        None => mistake.with_help(format!("it has {}", names::listed(movable()))),
     }
 }
 

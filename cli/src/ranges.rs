@@ -1,11 +1,11 @@
 //! Ranges of joints and inputs on the command line: `--range "elevation=10 deg..80 deg"`.
 
-use calibration::data::units::{Amount, Plausible};
 use model_core::{Chain, SymbolId, SymbolKind, names};
+use tables::units::{Amount, Plausible};
 
 use crate::failure::Failure;
-use crate::source::listed;
 use crate::terminal;
+use model_core::names::listed;
 
 /// One `--range` as typed.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -3,15 +3,16 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use calibration::formats::{DataError, Input};
-use calibration::objects::{SetUp, Visible, identify};
 use calibration::report::remedy_would_show;
 use model_core::{Chain, SymbolId};
+use network::{SetUp, Visible, identify};
 use serde_json::{Value, json};
+use tables::formats::{DataError, Input};
 
 use crate::failure::Failure;
-use crate::source::{Source, listed};
-use crate::{tables, terminal};
+use crate::source::Source;
+use crate::{table_files, terminal};
+use model_core::names::listed;
 
 /// Opens a data file by its path, and by where it is to be had if it is not there.
 pub type OpenData<'a> = dyn FnMut(&str, Option<&str>) -> Result<Input<'static>, DataError> + 'a;
@@ -31,7 +32,8 @@ impl SetUpSeen {
         let study = source.study()?;
         let chain = source.read_beside(Path::new(study.chain.get_ref()))?.chain()?;
         let plan = study.plan(&chain).map_err(|mistakes| source.mistakes(&mistakes))?;
-        let loaded = plan.load(&mut |path| open(path, plan.data_from.as_deref())).map_err(tables::failure)?;
+        let loaded =
+            plan.load(&mut |path| open(path, plan.data_from.as_deref())).map_err(table_files::failure)?;
         let loaded = loaded.without_repeats();
         loaded.doubtful.iter().for_each(terminal::warn);
         loaded.remarks.iter().for_each(terminal::warn);

@@ -6,10 +6,10 @@ use std::io::{self, Read as _};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use calibration::study::Study;
 use model_core::mistake::{Mistake, Mistakes};
 use model_core::{Chain, ObservableId, names};
 use serde::de::DeserializeOwned;
+use study::Study;
 
 use crate::failure::Failure;
 use crate::terminal;
@@ -204,14 +204,9 @@ pub fn observable(chain: &Chain, name: &str) -> Result<ObservableId, Failure> {
     chain.find_observable(name).ok_or_else(|| {
         let declared = || chain.observables.iter().map(|observable| observable.name.as_str());
         let instead = names::nearest(name, declared()).map_or_else(
-            || format!("it declares {}", listed(declared())),
+            || format!("it declares {}", names::listed(declared())),
             |near| format!("did you mean `{near}`?"),
         );
         Failure::Input(format!("chain {} has no observable `{name}`; {instead}", chain.name))
     })
-}
-
-/// Names in backquotes, separated by commas.
-pub fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }

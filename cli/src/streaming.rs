@@ -1,19 +1,19 @@
 //! The fit of a study whose rows somebody else deals out, to processes or machines: passes and sums of them as bytes.
 
 use calibration::calibrate::OfEveryRow;
-use calibration::data::Observations;
-use calibration::fit::{FitOptions, Foretelling, Next, Pass, Streamed, StreamedResult, Tally, Validation};
-use calibration::formats::part::{Stretches, count};
-use calibration::formats::{DataError, Options, TableReader, open};
-use calibration::study::{Loaded, Plan};
+use fit::{FitOptions, Foretelling, Next, Pass, Streamed, StreamedResult, Tally, Validation};
 use model_core::SymbolKind;
+use observe::Observations;
 use serde_json::{Value, json};
+use study::{Loaded, Plan};
+use tables::formats::part::{Stretches, count};
+use tables::formats::{DataError, Options, TableReader, open};
 
 use crate::calibrating::{Calibrated, Studied};
 use crate::draw::stretches;
 use crate::failure::Failure;
 use crate::source::Source;
-use crate::{errors_file, tables, terminal};
+use crate::{errors_file, table_files, terminal};
 
 /// A fit between passes, or done.
 #[derive(Clone)]
@@ -184,13 +184,15 @@ fn load(studied: &Studied, rows: Rows<'_>) -> Result<Option<Loaded>, Failure> {
              machine",
         );
     }
-    let beside =
-        |file: &str, options: &Options| open(tables::open_beside(&studied.study, file, None)?, file, options);
+    let beside = |file: &str, options: &Options| {
+        open(table_files::open_beside(&studied.study, file, None)?, file, options)
+    };
     let loaded = match rows {
         Rows::Drawn(files, wanted) => {
             let options = studied.plan.options();
             let rows = |file: &String| count(&mut *beside(file, options)?);
-            let counts = files.iter().map(rows).collect::<Result<Vec<u64>, _>>().map_err(tables::failure)?;
+            let counts =
+                files.iter().map(rows).collect::<Result<Vec<u64>, _>>().map_err(table_files::failure)?;
             let mut stretches = stretches(&counts, wanted, studied.plan.hold_out.seed).into_iter();
             studied.plan.of_files(files).load_tables(&mut |path, options| match stretches.next() {
                 Some(own) => Ok(Box::new(Stretches::new(beside(path, options)?, 0, own))),
@@ -208,7 +210,7 @@ fn load(studied: &Studied, rows: Rows<'_>) -> Result<Option<Loaded>, Failure> {
     };
     let loaded = match loaded {
         Err(DataError::NoRows { .. }) => return Ok(None),
-        loaded => loaded.map_err(tables::failure)?,
+        loaded => loaded.map_err(table_files::failure)?,
     };
     if loaded.observations.unknowns.is_some() {
         return refused(

@@ -1,4 +1,6 @@
 //! Text set to a width: words are never cut, lines after the first hang under it.
+//!
+//! Not `textwrap` 0.16, which counts `″` as two letters unless it brings the tables of `unicode-width`.
 
 use std::fmt::Write as _;
 

@@ -3,10 +3,10 @@
 use std::borrow::Cow;
 
 use calibration::amend::{Addition, NewInput, amend};
-use calibration::data::units::Amount;
-use calibration::formats::{self, ColumnName, Form, Kept, Options, Wanted, write_row};
-use calibration::study::Study;
 use model_core::{BodyId, Chain, Role, syntax};
+use study::Study;
+use tables::formats::{self, ColumnName, Form, Kept, Options, Wanted, write_row};
+use tables::units::Amount;
 
 /// Takes one input; panics if something is wrong with how it is taken.
 pub type Target = fn(&[u8]);

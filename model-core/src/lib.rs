@@ -1,20 +1,16 @@
 //! The declaration of an instrument as a chain of bodies, and everything that follows from it by algebra.
 //!
-//! The pipeline reads: text → [`syntax`] → [`validate`] → [`chain`] → [`forms`] (over [`algebra`]) → verdicts, bounds and
-//! null spaces. Nothing here reads a file, prints, or knows a clock.
+//! The pipeline reads: text → [`syntax`] → [`validate`] → [`chain`] → [`forms`] (over [`algebra`]) → bounds and null spaces. Nothing here reads a file, prints, or knows a clock.
 
 pub mod algebra;
 pub mod amount;
 pub mod budget;
 pub mod caution;
-pub mod certificate;
 pub mod chain;
-pub mod checker;
 pub mod exact;
 pub mod expr;
 pub mod forms;
 pub mod identify;
-pub mod latex;
 pub mod mistake;
 pub mod names;
 pub mod print;

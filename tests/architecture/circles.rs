@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::sources::{SourceFile, below};
+use crate::sources::{LIBRARIES, SourceFile, below};
 
 /// A module's way from the root of its package: `["fit", "noise"]`.
 type Way = Vec<String>;
@@ -12,16 +12,9 @@ type Needs = BTreeMap<String, BTreeMap<String, String>>;
 
 #[test]
 fn no_two_modules_beside_each_other_need_each_other() {
-    for package in [
-        "src",
-        "model-core/src",
-        "model-macros/src",
-        "codegen/src",
-        "calibration/src",
-        "cli/src",
-        "benches/src",
-        "fuzz/src",
-    ] {
+    for package in
+        LIBRARIES.iter().copied().chain(["cli/src", "benches/src", "fuzz/src", "testkit/src", "python/src"])
+    {
         for (folder, needs) in folders(package) {
             if let Some(circle) = circle(&needs) {
                 let steps: Vec<String> = circle

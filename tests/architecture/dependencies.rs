@@ -9,12 +9,89 @@ use crate::sources::root;
 
 /// Each package of the workspace with the packages of the workspace that it may use, dev-dependencies aside.
 const MAY_USE: &[(&str, &[&str])] = &[
+    // What it makes shares no code with what it tests.
+    ("trueaxis-testkit", &[]),
     ("trueaxis-core", &[]),
+    ("trueaxis-claims", &["trueaxis-core"]),
+    ("trueaxis-proof", &["trueaxis-core", "trueaxis-claims"]),
     ("trueaxis-codegen", &["trueaxis-core"]),
     ("trueaxis-macros", &["trueaxis-core", "trueaxis-codegen"]),
-    ("trueaxis-calibration", &["trueaxis-core", "trueaxis-codegen"]),
-    ("trueaxis", &["trueaxis-core", "trueaxis-macros", "trueaxis-codegen", "trueaxis-calibration"]),
-    ("trueaxis-cli", &["trueaxis-core", "trueaxis-codegen", "trueaxis-calibration"]),
+    ("trueaxis-evidence", &[]),
+    ("trueaxis-parallel", &[]),
+    ("trueaxis-tables", &["trueaxis-core", "trueaxis-parallel"]),
+    ("trueaxis-observe", &["trueaxis-core", "trueaxis-codegen", "trueaxis-parallel", "trueaxis-tables"]),
+    ("trueaxis-effects", &["trueaxis-core", "trueaxis-codegen"]),
+    (
+        "trueaxis-fit",
+        &["trueaxis-core", "trueaxis-codegen", "trueaxis-parallel", "trueaxis-tables", "trueaxis-observe"],
+    ),
+    (
+        "trueaxis-network",
+        &[
+            "trueaxis-core",
+            "trueaxis-codegen",
+            "trueaxis-parallel",
+            "trueaxis-tables",
+            "trueaxis-observe",
+            "trueaxis-fit",
+        ],
+    ),
+    (
+        "trueaxis-study",
+        &[
+            "trueaxis-core",
+            "trueaxis-codegen",
+            "trueaxis-parallel",
+            "trueaxis-tables",
+            "trueaxis-observe",
+            "trueaxis-effects",
+            "trueaxis-fit",
+            "trueaxis-network",
+        ],
+    ),
+    (
+        "trueaxis-calibration",
+        &[
+            "trueaxis-core",
+            "trueaxis-codegen",
+            "trueaxis-parallel",
+            "trueaxis-tables",
+            "trueaxis-observe",
+            "trueaxis-effects",
+            "trueaxis-fit",
+            "trueaxis-network",
+            "trueaxis-study",
+        ],
+    ),
+    (
+        "trueaxis",
+        &[
+            "trueaxis-core",
+            "trueaxis-claims",
+            "trueaxis-proof",
+            "trueaxis-macros",
+            "trueaxis-codegen",
+            "trueaxis-calibration",
+            "trueaxis-study",
+        ],
+    ),
+    (
+        "trueaxis-cli",
+        &[
+            "trueaxis-core",
+            "trueaxis-claims",
+            "trueaxis-proof",
+            "trueaxis-codegen",
+            "trueaxis-parallel",
+            "trueaxis-tables",
+            "trueaxis-observe",
+            "trueaxis-effects",
+            "trueaxis-fit",
+            "trueaxis-network",
+            "trueaxis-study",
+            "trueaxis-calibration",
+        ],
+    ),
 ];
 
 fn packages() -> Vec<Value> {

@@ -7,8 +7,10 @@ const REGISTRIES: &[&str] = &[
     "cli/src/commands",
     "cli/src/init/templates",
     "codegen/src/backends",
-    "calibration/src/effects",
-    "calibration/src/formats",
+    "effects/src/families",
+    "tables/src/formats",
+    "calibration/src/misread/hypotheses",
+    "evidence/src/families",
 ];
 
 #[test]

@@ -3,6 +3,25 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+/// Where the sources of the library crates are.
+pub const LIBRARIES: &[&str] = &[
+    "src",
+    "model-core/src",
+    "claims/src",
+    "proof/src",
+    "model-macros/src",
+    "codegen/src",
+    "parallel/src",
+    "tables/src",
+    "observe/src",
+    "effects/src",
+    "fit/src",
+    "network/src",
+    "study/src",
+    "calibration/src",
+    "evidence/src",
+];
+
 /// One source file: its path from the root of the workspace, with `/`, and its text.
 pub struct SourceFile {
     pub path: String,
@@ -32,10 +51,7 @@ pub fn below(folder: &str) -> Vec<SourceFile> {
 
 /// The sources of every library crate: everything but the command, benchmarks and tests.
 pub fn libraries() -> Vec<SourceFile> {
-    ["src", "model-core/src", "model-macros/src", "codegen/src", "calibration/src"]
-        .into_iter()
-        .flat_map(below)
-        .collect()
+    LIBRARIES.iter().copied().flat_map(below).collect()
 }
 
 fn collect(folder: &Path, paths: &mut Vec<PathBuf>) {

@@ -105,14 +105,8 @@ pub const CASES: [Case; 18] = [
     case!("codegen/tests/chains/ramps.chain", ramps::Ramps(Joints, Inputs), focus focus_error focus_first_order focus_jacobian),
 ];
 
-/// Numbers from −1 to 1 that a seed decides: a linear congruential generator.
-///
-/// Source: constants of Knuth's MMIX.
+/// Numbers from −1 to 1 that a seed decides.
 pub fn numbers(seed: u64) -> impl Iterator<Item = f64> {
-    let mut state = seed;
-    std::iter::repeat_with(move || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((state >> 11) as f64) / ((1_u64 << 52) as f64) - 1.0
-    })
-    .skip(8)
+    let mut random = testkit::Random::new(seed);
+    std::iter::repeat_with(move || 2.0 * random.even() - 1.0).skip(8)
 }

@@ -10,12 +10,10 @@ use std::io::Write as _;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use calibration::data::{
-    Grouping, Measure, Measured, Observations, Origins, Poses, Series, direction_from_offset,
-};
-use calibration::fit::{FitOptions, Next, Partial, Rows, Streamed, StreamedResult, fit};
 use faer::Mat;
+use fit::{FitOptions, Next, Partial, Rows, Streamed, StreamedResult, fit};
 use model_core::{Chain, SymbolId, SymbolKind, exact};
+use observe::{Grouping, Measure, Measured, Observations, Origins, Poses, Series, direction_from_offset};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};

@@ -2,8 +2,8 @@
 //!
 //! Generates the mobile lidar's evaluators once for each path, compiles them with the program in `benches/speed`, and runs
 //! that; it prints the table. Run it with nothing else at work:
-//! `cargo run --release -p trueaxis-benches --bin batch_speed`. With `--lint` it only has clippy read that program,
-//! which no package holds.
+//! `cargo run --release -p trueaxis-benches --bin batch_speed`. With `--lint` it only has clippy read that program and the
+//! one of `benches/peers`, which no package holds.
 
 use std::error::Error;
 use std::fs;
@@ -23,11 +23,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     write_evaluators(&here.join("../examples/mobile-lidar/mobile-lidar.chain"), &out)?;
 
     if std::env::args().any(|argument| argument == "--lint") {
-        let mut clippy = Command::new("clippy-driver");
-        clippy
-            .args(["--edition", "2024", "--emit", "metadata", "-D", "warnings", "-o"])
-            .arg(out.join("lint"));
-        return run(clippy.arg(here.join("speed/main.rs")).env("OUT_DIR", &out));
+        for (program, kind) in [("speed/main.rs", "bin"), ("peers/ours.rs", "lib")] {
+            let mut clippy = Command::new("clippy-driver");
+            clippy.args(["--edition", "2024", "--emit", "metadata", "-D", "warnings", "--crate-type", kind]);
+            clippy.arg("-o").arg(out.join("lint")).env("OUT_DIR", &out).env("LIDAR", &out);
+            run(clippy.arg(here.join(program)))?;
+        }
+        return Ok(());
     }
 
     let program = out.join("speed");
@@ -49,6 +51,7 @@ fn write_evaluators(chain: &Path, out: &Path) -> Result<(), Box<dyn Error>> {
         ["pointing", "position"].iter().filter_map(|name| chain.find_observable(name)).collect();
     let unit = Unit::new(&chain, &declaration, &observables, &FORMS);
     for file in generate(&unit, Language::Rust, "lidar")? {
+        fs::write(out.join("lidar.rs"), &file.text)?;
         for path in ["Portable", "V3", "V4"] {
             let text = file.text.replace("sine_cosine::path(),", &format!("sine_cosine::Path::{path},"));
             fs::write(out.join(format!("lidar_{}.rs", path.to_lowercase())), text)?;

@@ -11,12 +11,12 @@ use super::heard::{Places, are_any, heard};
 use super::whole_objects::are_cut_across;
 use crate::diagnose::Rms;
 use crate::diagnose::rms::share;
-use crate::fit::FitResult;
 use crate::search::SearchError;
 use crate::search::context::Context;
 use crate::search::library::AsGood;
 use crate::search::round::Round;
-use crate::study::Plan;
+use fit::FitResult;
+use study::Plan;
 
 /// By how much a function has to gain where it was not fitted: its thresholds, not its coefficients, saw every row.
 const GAINS: f64 = 0.95;

@@ -8,11 +8,11 @@
 use super::{held_out, whole_objects};
 use crate::diagnose::Caution;
 use crate::diagnose::rms::{BeforeAfter, Worse, worse};
-use crate::fit::FitResult;
 use crate::search::context::{Context, Found};
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
 use crate::search::{HeldOut, SearchError, Stage, nested};
+use fit::FitResult;
 
 /// Fewer observations than this are no evidence of an effect.
 const FEW: f64 = 6.0;

@@ -4,7 +4,7 @@ use model_core::Chain;
 
 use super::Calibration;
 use crate::diagnose::{Caution, EveryRow, Foretold, SharedByFiles};
-use crate::fit::{StreamedResult, Validation};
+use fit::{StreamedResult, Validation};
 
 /// An effect is borne out if one of its coefficients differs from zero by so many of its standard uncertainties.
 const BORNE_OUT: f64 = 3.0;

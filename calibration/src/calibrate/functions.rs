@@ -4,16 +4,16 @@
 use std::cell::OnceCell;
 
 use super::rounds::rounds;
-use crate::candidate::{Effect, EffectId, Function};
-use crate::effects::{HIGH_HARMONIC, SHAPE};
-use crate::fit::Outcome;
 use crate::search::Request;
 use crate::search::SearchError;
 use crate::search::context::{Context, Found};
 use crate::search::fitted::Fitted;
 use crate::search::library::{AsGood, ShapeKind, Taken, contest};
 use crate::search::round::Round;
-use crate::study::Plan;
+use effects::candidate::{Effect, EffectId, Function};
+use effects::families::{HIGH_HARMONIC, SHAPE};
+use fit::Outcome;
+use study::Plan;
 
 /// Functions that one calibration takes up at most.
 pub(super) const MOST: usize = 4;

@@ -14,7 +14,7 @@ use crate::search::context::Context;
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
 use crate::search::{Request, SearchError};
-use crate::study::Plan;
+use study::Plan;
 
 /// Where the studies live that these loops read.
 #[derive(Default)]

@@ -6,13 +6,9 @@
 
 use std::borrow::Cow;
 
-use crate::candidate::EffectId;
-use crate::data::{Observations, SiUnit};
 use crate::diagnose::Rms;
 use crate::diagnose::expected_rms;
 use crate::diagnose::rms::BeforeAfter;
-use crate::fit::noise::Layout;
-use crate::fit::{FitResult, robust};
 use crate::search::HeldOut;
 use crate::search::SearchError;
 use crate::search::columns::Columns;
@@ -21,6 +17,10 @@ use crate::search::elsewhere::{Elsewhere, Judged, elsewhere};
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
 use crate::search::row_set::RowSet;
+use effects::candidate::EffectId;
+use fit::noise::Layout;
+use fit::{FitResult, robust};
+use observe::{Observations, SiUnit};
 
 /// Unit by unit of the residuals: in sample; held out from the study's second file, or else from the nested folds; and in the outer thirds of the joints'
 /// ranges, from searches that did not see them.

@@ -5,13 +5,13 @@ use std::cell::OnceCell;
 
 use super::CalibrateError;
 use super::rounds::rounds;
-use crate::fit::noise::NoiseOptions;
 use crate::search::Request;
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
 use crate::search::memory::explains;
 use crate::search::round::Round;
-use crate::study::Plan;
+use fit::noise::NoiseOptions;
+use study::Plan;
 
 /// The last round, or that of a search in which rows may remember; `place` is where the study that says so lives.
 pub(super) fn settled<'a>(

@@ -26,21 +26,22 @@ use std::cell::OnceCell;
 use model_core::{Chain, Mistakes};
 
 use crate::amend::{AmendError, amend, with_quantities_of};
-use crate::data::units::BareColumn;
 use crate::diagnose::shown::{DRAWN, Shown};
-use crate::diagnose::{Confirmed, Diagnosis, Trace, diagnose, rounding, trace};
-use crate::fit::{FitResult, Outcome};
-use crate::formats::DataError;
-use crate::objects::{Placed, StartError, check_scale_of_ranges, placed};
+use crate::diagnose::{Confirmed, Diagnosis, Trace, Unsearched, diagnose, rounding, trace};
+use crate::misread::{Misread, implausible, misread};
 use crate::report::amendment;
 use crate::search::SearchError;
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
-use crate::study::{Loaded, Open, Plan, Study};
 use choice::{Chosen, chosen};
 use confirm::{Judged, judged};
+use fit::{FitResult, Outcome};
+use network::{Placed, StartError, check_scale_of_ranges, placed};
 use rounds::rounds;
+use study::{Loaded, Open, Plan, Study};
+use tables::formats::DataError;
+use tables::units::BareColumn;
 
 pub use crate::search::{Request, Stage};
 pub use every_row::OfEveryRow;
@@ -115,12 +116,13 @@ impl Calibration {
     pub fn of(text: &str, study: &Study, open: &mut Open<'_>, when: &str) -> Result<Self, StudyError> {
         let chain = Chain::from_text(text).map_err(StudyError::Chain)?;
         let plan = study.plan(&chain).map_err(StudyError::Study)?;
-        let Loaded { observations, held_out, doubtful, .. } = plan.load(open)?.without_repeats();
+        let Loaded { observations, held_out, doubtful, sample, .. } = plan.load(open)?.without_repeats();
         if let Some(column) = doubtful.into_iter().next() {
             return Err(StudyError::Doubtful(column));
         }
         let second = held_out.as_ref();
-        Ok(calibrate(Request { text, plan: &plan, observations: &observations, second, when })?)
+        let sample = Some(&sample);
+        Ok(calibrate(Request { text, plan: &plan, observations: &observations, sample, second, when })?)
     }
 }
 
@@ -147,10 +149,15 @@ pub fn calibrate_telling(
     let (by_place, by_stretch) = (OnceCell::new(), OnceCell::new());
     let whole = Context { tell, ..Context::new(request, &observables, HELD)? };
 
+    let misread = request.sample.and_then(|sample| misread(request.plan, sample));
     let (whole, first) = places::grouped(whole, &by_place)?;
-    if !matches!(first.fit.outcome, Outcome::Converged { .. }) {
-        // What a failed fit leaves is no residual to search.
-        return unusable(&whole, first);
+    let is_plausible = || {
+        implausible(&request.plan.chain, request.observations, &first.fit, &request.plan.plausible).is_empty()
+    };
+    let has_converged = matches!(first.fit.outcome, Outcome::Converged { .. });
+    if misread.is_some() || !has_converged || !is_plausible() {
+        // What a failed fit leaves, or one of misread columns, is no residual to search.
+        return unusable(&whole, first, misread);
     }
     let mut before = first.fit.clone();
     let round = Round::at(&whole, first)?;
@@ -211,9 +218,13 @@ fn searched<'a>(
 }
 
 /// What a first fit that cannot be gone on with comes to.
-fn unusable(whole: &Context<'_>, first: Fitted) -> Result<Calibration, CalibrateError> {
+fn unusable(
+    whole: &Context<'_>,
+    first: Fitted,
+    misread: Option<Misread>,
+) -> Result<Calibration, CalibrateError> {
     let rms = held_out::of_fit(whole.request.observations, &first);
-    let diagnosis = diagnose(whole, &first.fit, &first, Err(rms))?;
+    let diagnosis = diagnose(whole, &first.fit, &first, Err(Unsearched { rms, misread }))?;
     let Fitted { chain, fit, .. } = first;
     let drawn = Shown::of(whole.request.observations, &fit, DRAWN).rows;
     Ok(Calibration {

@@ -10,15 +10,15 @@
 //! large model spaces", Biometrika 95 (2008).
 
 use super::rounds::{names, rounds};
-use crate::data::Observations;
-use crate::fit::robust;
 use crate::search::Request;
 use crate::search::SearchError;
 use crate::search::contest::ln_choices;
 use crate::search::context::{Context, Found};
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
-use crate::study::Plan;
+use fit::robust;
+use observe::Observations;
+use study::Plan;
 
 /// Rows from which on some are asked before all are.
 const MANY: usize = 50_000;

@@ -10,10 +10,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
-use crate::data::{Grouping, Observations, places};
 use crate::search::SearchError;
 use crate::search::context::{Context, Request};
 use crate::search::fitted::Fitted;
+use observe::{Grouping, Observations, places};
 
 /// The chance at which rows that share nothing are grouped all the same: it costs them nothing but degrees of freedom.
 const CHANCE: f64 = 0.05;

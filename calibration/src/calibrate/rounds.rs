@@ -1,11 +1,11 @@
 //! Rounds of fit and search, from a first one until one changes nothing.
 
-use crate::candidate::EffectId;
 use crate::search::SearchError;
 use crate::search::Stage;
 use crate::search::context::{Context, Found};
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
+use effects::candidate::EffectId;
 
 /// Rounds of fit and search at most.
 const ROUNDS: usize = 8;

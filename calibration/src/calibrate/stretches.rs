@@ -12,12 +12,12 @@ use std::ops::Range;
 use nalgebra::Vector3;
 
 use super::choice::Chosen;
-use crate::data::unknowns::OF_OBJECT;
-use crate::data::{Grouping, Observations};
-use crate::fit::{Block, Model, Outcome, pulled};
 use crate::search::SearchError;
 use crate::search::context::{Context, Request};
 use crate::search::fitted::Fitted;
+use fit::{Block, Model, Outcome, pulled};
+use observe::unknowns::OF_OBJECT;
+use observe::{Grouping, Observations};
 
 /// The first distance, in rows, at which rows have to agree. Neighbours of a path through the joints agree where a
 /// function is missing; that is not asked here.

@@ -5,12 +5,12 @@
 //! those are was found with all rows, and what drifts was the same for all objects: the figure takes nothing up.
 
 use super::held_out;
-use crate::data::{Grouping, Observations};
 use crate::diagnose::rms::BeforeAfter;
-use crate::fit::FitResult;
 use crate::search::context::Context;
 use crate::search::round::Round;
 use crate::search::{HeldOut, Request, SearchError};
+use fit::FitResult;
+use observe::{Grouping, Observations};
 
 /// Whether stretches that were found count as one each.
 pub(super) fn are_cut_across(observations: &Observations) -> bool {

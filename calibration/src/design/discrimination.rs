@@ -13,13 +13,12 @@ use faer::Mat;
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
-use crate::candidate::{Effect, EffectId};
-use crate::data::Poses;
 use crate::design::{OFTEN, joints, spread};
-use crate::parallel;
 use crate::search::columns::{Probed, places};
 use crate::search::context::{Context, declared};
 use crate::search::round::Round;
+use effects::candidate::{Effect, EffectId};
+use observe::Poses;
 
 /// Poses that are proposed where the study does not say how many.
 const POSES: usize = 12;

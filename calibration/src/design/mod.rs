@@ -12,8 +12,8 @@ use model_core::{Chain, Quantity, SymbolId, SymbolKind};
 use nalgebra::{DMatrix, Matrix3};
 use serde::Serialize;
 
-use crate::data::{Observations, Poses};
-use crate::fit::{FitError, FitResult, Model};
+use fit::{FitError, FitResult, Model};
+use observe::{Observations, Poses};
 
 pub use discrimination::{Separation, Told};
 pub use places::{Addition, Place, PlaceProposal, Pointing};

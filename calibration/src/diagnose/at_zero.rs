@@ -6,12 +6,12 @@ use model_core::{Chain, Role, SymbolId, SymbolKind};
 use serde::Serialize;
 
 use super::units::of_reading;
-use crate::candidate::{Effect, Place, Setting};
-use crate::data::{Observations, SiUnit};
-use crate::effects::SHAPE;
-use crate::fit::FitResult;
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
+use effects::candidate::{Effect, Place, Setting};
+use effects::families::SHAPE;
+use fit::FitResult;
+use observe::{Observations, SiUnit};
 
 /// Standard deviations of an input that its mean is from zero where the data lie far from there.
 const FAR: f64 = 3.0;

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use model_core::{Chain, Quantity, SymbolId, SymbolKind};
 
-use crate::data::Poses;
+use observe::Poses;
 
 /// The order of either series.
 const ORDER: u32 = 8;

@@ -7,10 +7,10 @@ use faer::Mat;
 use model_core::SymbolId;
 
 use super::effects::Others;
-use crate::candidate::EffectId;
 use crate::search::context::{Context, declared};
 use crate::search::round::Round;
 use crate::search::sweep::Sweep;
+use effects::candidate::EffectId;
 
 /// What the other causes of the accepted effects would make of the declared errors.
 #[derive(Default)]

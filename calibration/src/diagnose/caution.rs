@@ -4,8 +4,9 @@ use serde::Serialize;
 
 use super::noise::NoiseFound;
 use super::uneven::Uneven;
-use crate::data::SiUnit;
-use crate::fit::FitResult;
+use crate::misread::{Implausible, Misread};
+use fit::FitResult;
+use observe::SiUnit;
 
 /// Noise that is so many times what was stated is larger than stated, or smaller, if chance does not explain it.
 const LARGER: f64 = 1.3;
@@ -274,6 +275,15 @@ pub enum Caution {
     /// The data are explained by a mistake in reading them.
     #[serde(rename = "fits otherwise")]
     FitsOtherwise(super::otherwise::Otherwise),
+    /// Columns are not what the study says.
+    #[serde(rename = "column misread")]
+    ColumnMisread(Misread),
+    /// Values that no small error has: the model or a column is wrong.
+    #[serde(rename = "implausible")]
+    Implausible {
+        /// Which.
+        values: Vec<Implausible>,
+    },
     /// Rows of an object lie at two places.
     #[serde(rename = "rows at two places")]
     TwoPlaces(super::two_places::TwoPlaces),

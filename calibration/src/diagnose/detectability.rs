@@ -7,12 +7,12 @@ use model_core::{Chain, SymbolId, SymbolKind};
 use serde::Serialize;
 
 use super::rms::BeforeAfter;
-use crate::candidate::{Effect, EffectId, Place};
-use crate::data::SiUnit;
-use crate::effects::assembly_name;
 use crate::search::SearchError;
 use crate::search::context::{Context, declared};
 use crate::search::round::Round;
+use effects::candidate::{Effect, EffectId, Place};
+use effects::families::assembly_name;
+use observe::SiUnit;
 
 /// Standard deviations at which an effect is found four times out of five, corrected for the size of the catalogue.
 const FOUND: f64 = 4.4;

@@ -10,14 +10,14 @@ use super::detectability;
 use super::rms::BeforeAfter;
 use super::rms::observables_of;
 use super::units::unit_of;
-use crate::candidate::{Dependence, Effect, EffectId};
-use crate::data::SiUnit;
-use crate::effects::{FAMILIES, SHAPE};
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
 use crate::search::state::State;
 use crate::search::{AS_GOOD, CompetingModel, SetColumns, competing_models};
+use effects::candidate::{Dependence, Effect, EffectId};
+use effects::families::{FAMILIES, SHAPE};
+use observe::SiUnit;
 
 /// Units of log-likelihood behind the best within which an explanation is kept in view when poses are chosen.
 const IN_VIEW: f64 = 10.0;

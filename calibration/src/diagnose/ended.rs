@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::fit::{Outcome, Reason};
+use fit::{Outcome, Reason};
 
 /// How a fit ended.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]

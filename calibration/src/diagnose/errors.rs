@@ -5,9 +5,9 @@ use serde::Serialize;
 
 use super::by_cause::ByCause;
 use super::units::unit_of;
-use crate::data::SiUnit;
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
+use observe::SiUnit;
 
 /// An error (or freed constant) and its estimate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -87,7 +87,7 @@ pub(super) fn errors(whole: &Context<'_>, fitted: &Fitted, by_cause: &ByCause) -
 /// Every combination of several errors that these data determine, in the order of their first errors.
 pub(super) fn estimable(whole: &Context<'_>, fitted: &Fitted, by_cause: &ByCause) -> Vec<Estimable> {
     let several = fitted.fit.estimable.iter().filter(|one| one.combination.len() > 1);
-    let of = |one: &crate::fit::Estimable| {
+    let of = |one: &fit::Estimable| {
         let part = |&(id, factor): &(SymbolId, f64)| Part {
             error: fitted.chain.symbol(id).name.clone(),
             ratio: fraction(factor),

@@ -1,9 +1,9 @@
 //! Few numbers: where what is estimated uses them up, nothing says how good it is.
 
 use super::caution::Caution;
-use crate::data::Observations;
-use crate::fit::FitResult;
-use crate::fit::noise::Layout;
+use fit::FitResult;
+use fit::noise::Layout;
+use observe::Observations;
 
 /// Numbers that are to be left over for the noise to be known within a third.
 const LEFT_OVER: f64 = 4.0;

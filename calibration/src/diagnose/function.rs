@@ -6,9 +6,9 @@ use model_core::{Chain, Quantity};
 use serde::Serialize;
 
 use super::basis::Basis;
-use crate::candidate::{Dependence, Place};
-use crate::data::SiUnit;
 use crate::search::contest::Contender;
+use effects::candidate::{Dependence, Place};
+use observe::SiUnit;
 
 /// Points of the shape that is reported.
 const POINTS: usize = 61;

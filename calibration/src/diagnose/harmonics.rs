@@ -5,11 +5,10 @@ use model_core::{Chain, Quantity, SymbolKind};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
-use crate::data::Observations;
-use crate::data::waves::waves;
-use crate::fit::FitResult;
-use crate::parallel;
 use crate::search::products::add_products;
+use fit::FitResult;
+use observe::Observations;
+use observe::waves::waves;
 
 /// Harmonics that are told.
 const ORDERS: usize = 12;

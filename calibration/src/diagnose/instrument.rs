@@ -5,8 +5,8 @@ use serde::Serialize;
 
 use super::errors::ErrorFound;
 use super::units::of_reading;
-use crate::candidate::Setting;
-use crate::data::{Observations, SiUnit};
+use effects::candidate::Setting;
+use observe::{Observations, SiUnit};
 
 /// The chain.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -4,9 +4,9 @@ use faer::Mat;
 use serde::Serialize;
 
 use super::rivals::{Winner, contest};
-use crate::data::Measure;
 use crate::search::context::Context;
 use crate::search::round::Round;
+use observe::Measure;
 
 /// A zero of the lengths that explains the data better than what was found.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -8,10 +8,10 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::caution::Caution;
 use super::uneven::Uneven;
-use crate::data::Observations;
-use crate::data::unknowns::{Freedom, Unknowns, own_numbers};
-use crate::fit::{FitResult, align_robustly, robust};
-use crate::objects::{Row, is_in_a_line, rows, tells};
+use fit::{FitResult, align_robustly, robust};
+use network::{Row, is_in_a_line, rows, tells};
+use observe::Observations;
+use observe::unknowns::{Freedom, Unknowns, own_numbers};
 
 /// What chance explains less often than this, over all that is stated, is told.
 const UNLIKELY: f64 = 0.001;

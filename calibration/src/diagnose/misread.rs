@@ -4,8 +4,8 @@ use super::caution::Caution;
 use super::ended::Ended;
 use super::otherwise::{Doubt, otherwise};
 use super::strayed::strayed;
-use crate::fit::FitResult;
 use crate::search::context::Context;
+use fit::FitResult;
 
 /// The cautions, with the mistake that explains them first where there is one; behind them that stations come out elsewhere.
 pub(super) fn misread(

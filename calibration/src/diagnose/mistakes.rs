@@ -5,9 +5,9 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use model_core::{Chain, Quantity, SymbolId, SymbolKind};
 use serde::Serialize;
 
-use crate::data::unknowns::{Known, Places, Pose, Unknowns};
-use crate::data::{Measure, Measured, Observations};
-use crate::fit::range_of;
+use fit::range_of;
+use observe::unknowns::{Known, Places, Pose, Unknowns};
+use observe::{Measure, Measured, Observations};
 
 /// Joints that are tried one by one at most.
 const JOINTS: usize = 8;

@@ -42,12 +42,9 @@ mod verdict;
 use model_core::SymbolId;
 use serde::Serialize;
 
-use crate::candidate::EffectId;
-use crate::data::unknowns::Unknowns;
-use crate::data::{Origin, SiUnit};
 use crate::design::discrimination::separation;
 use crate::design::{PlaceProposal, Proposal, Separation};
-use crate::fit::FitResult;
+use crate::misread::{Misread, implausible};
 use crate::search::HeldOut;
 use crate::search::aside::{Shared, shared};
 use crate::search::context::Context;
@@ -55,11 +52,15 @@ use crate::search::fitted::Fitted;
 use crate::search::library::AsGood;
 use crate::search::round::Round;
 use crate::search::{SearchError, Stage};
+use ::effects::candidate::EffectId;
 use by_cause::ByCause;
 use effects::Others;
+use fit::FitResult;
 use misread::misread;
 use next::{Next, next};
 use noisy::Noisy;
+use observe::unknowns::Unknowns;
+use observe::{Origin, SiUnit};
 use rms::BeforeAfter;
 use scale_or_places::scale_or_places;
 use verdict::Evidence;
@@ -230,12 +231,19 @@ pub(crate) struct Confirmed<'a> {
     pub left_out: Vec<Caution>,
 }
 
+/// Residuals where no search was made, and the misread columns that are why, if they are.
+pub(crate) struct Unsearched {
+    /// One for each unit of residuals.
+    pub rms: Vec<BeforeAfter>,
+    pub misread: Option<Misread>,
+}
+
 /// What fits and search come to. Without a search the fit alone is told: it failed, or had too few observations.
 pub(crate) fn diagnose(
     whole: &Context<'_>,
     before: &FitResult,
     last: &Fitted,
-    confirmed: Result<Confirmed<'_>, Vec<BeforeAfter>>,
+    confirmed: Result<Confirmed<'_>, Unsearched>,
 ) -> Result<Diagnosis, SearchError> {
     let request = whole.request;
     let (observations, fit) = (request.observations, &last.fit);
@@ -247,7 +255,7 @@ pub(crate) fn diagnose(
         Err(_) => Found::default(),
     };
     let errors = errors::errors(whole, last, &found.by_cause);
-    let rms = confirmed.as_ref().map_or_else(|rms| rms.as_slice(), |confirmed| &confirmed.rms);
+    let rms = confirmed.as_ref().map_or_else(|own| own.rms.as_slice(), |confirmed| &confirmed.rms);
     let mut cautions = cautions(&found, whole, rms);
     cautions.extend(few::hardly_more(observations, fit));
     cautions.extend(foretold::badly(rms).filter(|_| rounding(observations, fit).is_none()));
@@ -283,6 +291,15 @@ pub(crate) fn diagnose(
     }
     cautions.extend(misplaced);
     let mut cautions = misread(whole, fit, &ended, cautions);
+    let implausible = implausible(&last.chain, observations, fit, &request.plan.plausible);
+    if let Err(Unsearched { misread: Some(misread), .. }) = &confirmed {
+        // What a misread column brings about is no news beside it.
+        cautions.clear();
+        cautions.push(Caution::ColumnMisread(misread.clone()));
+    } else if !implausible.is_empty() && !cautions.iter().any(|own| matches!(own, Caution::FitsOtherwise(_)))
+    {
+        cautions.insert(0, Caution::Implausible { values: implausible });
+    }
     let remaining = found.remaining.as_ref();
     cautions.extend(noisy_readings(whole, last, &found)?);
     let alone = found

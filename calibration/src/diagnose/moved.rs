@@ -5,9 +5,9 @@ use faer::Mat;
 use serde::Serialize;
 
 use super::rivals::{Winner, contest};
-use crate::data::unknowns::{OF_OBJECT, Unknowns};
 use crate::search::context::Context;
 use crate::search::round::Round;
+use observe::unknowns::{OF_OBJECT, Unknowns};
 
 /// Rows of a station from which on a motion can be told.
 const FEWEST: usize = 12;

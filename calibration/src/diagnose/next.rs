@@ -3,11 +3,11 @@
 use super::caution::Caution;
 use crate::design::places::propose_places;
 use crate::design::{Criterion, PlaceProposal, Proposal, propose};
-use crate::fit::FitError;
-use crate::objects::{Visible, identify};
 use crate::search::Request;
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
+use fit::FitError;
+use network::{Visible, identify};
 
 /// What was asked for, and why it is missing where it cannot be computed.
 #[derive(Default)]

@@ -3,9 +3,9 @@
 use model_core::{Chain, SymbolId};
 use serde::Serialize;
 
-use crate::data::{NoiseOf, Observations, SiUnit};
-use crate::fit::FitResult;
-use crate::fit::noise::{Layout, VarianceTerm};
+use fit::FitResult;
+use fit::noise::{Layout, VarianceTerm};
+use observe::{NoiseOf, Observations, SiUnit};
 
 /// The noise.
 #[derive(Debug, Clone, PartialEq, Serialize)]

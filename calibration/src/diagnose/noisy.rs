@@ -7,9 +7,9 @@
 
 use model_core::{Chain, SymbolId};
 
-use crate::data::{Observations, SiUnit};
-use crate::fit::noise::Layout;
-use crate::fit::{FitError, FitResult, Model, pulled, residuals};
+use fit::noise::Layout;
+use fit::{FitError, FitResult, Model, pulled, residuals};
+use observe::{Observations, SiUnit};
 
 /// By how much a reading is moved to see what it does: rad or m.
 const MOVED: f64 = 1e-6;

@@ -4,9 +4,9 @@ use model_core::{Chain, Quantity, SymbolKind};
 
 use super::caution::{Caution, SOME_FREEDOM};
 use super::two_places::two_places;
-use crate::data::{Grouping, Measure, Measured, Observations, Series, SiUnit};
-use crate::fit::noise::Layout;
-use crate::fit::{FitResult, robust};
+use fit::noise::Layout;
+use fit::{FitResult, robust};
+use observe::{Grouping, Measure, Measured, Observations, Series, SiUnit};
 
 /// Residuals of this share of what was measured (of a radian for directions) are no noise: something is read wrongly.
 const OUT_OF_PLACE: f64 = 0.2;

@@ -6,12 +6,12 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 use super::mistakes::{Misreading, Undo, mistakes, range};
-use crate::data::unknowns::{Station, Unknowns};
-use crate::data::{Observations, SiUnit};
-use crate::fit::noise::{Layout, NoiseOptions};
-use crate::fit::{FitOptions, Model, fit, residuals, robust};
-use crate::objects::{place, rows};
 use crate::search::context::Context;
+use fit::noise::{Layout, NoiseOptions};
+use fit::{FitOptions, Model, fit, residuals, robust};
+use network::{place, rows};
+use observe::unknowns::{Station, Unknowns};
+use observe::{Observations, SiUnit};
 
 /// Rows that are fitted at most, evenly spread.
 const ROWS: usize = 1500;

@@ -4,10 +4,10 @@ use faer::Mat;
 use model_core::{Chain, Quantity, SymbolId, SymbolKind};
 use serde::Serialize;
 
-use crate::data::{Observations, Series};
-use crate::fit::noise::Layout;
-use crate::fit::sweep::design;
-use crate::fit::{FitError, FitResult, Model, Subspace};
+use fit::noise::Layout;
+use fit::sweep::design;
+use fit::{FitError, FitResult, Model, Subspace};
+use observe::{Observations, Series};
 
 /// Correlations from here on are listed.
 const STRONG: f64 = 0.9;

@@ -8,11 +8,6 @@ use serde::Serialize;
 use super::basis::Basis;
 use super::function::{Form, Function, Kind};
 use super::units::of_reading;
-use crate::candidate::{Effect, Freedom, Place};
-use crate::data::{Observations, SiUnit};
-use crate::effects::{SmoothPlace, smooth, tensor};
-use crate::fit::noise::Layout;
-use crate::parallel;
 use crate::search::SearchError;
 use crate::search::columns::{self, Columns};
 use crate::search::contest::{Price, contender, criterion, most_telling};
@@ -22,6 +17,10 @@ use crate::search::round::Round;
 use crate::search::scan::{Left, Sheet};
 use crate::search::search_problem::least_of_function;
 use crate::search::signs::Signs;
+use effects::candidate::{Effect, Freedom, Place};
+use effects::families::{SmoothPlace, smooth, tensor};
+use fit::noise::Layout;
+use observe::{Observations, SiUnit};
 
 /// Harmonics of each joint that are scanned, unless the study asks for more.
 const HARMONICS: u32 = 32;
@@ -213,7 +212,7 @@ fn spelt_out(whole: &Context<'_>, last: &Round<'_>, smooth: SmoothPlace) -> bool
 fn harmonics(whole: &Context<'_>) -> Vec<(Place, SymbolId, u32)> {
     let most = HARMONICS.max(whole.setting.harmonics);
     let mut sheets = Vec::new();
-    for joint in whole.setting.joints().into_iter().filter(crate::candidate::JointAxis::turns) {
+    for joint in whole.setting.joints().into_iter().filter(effects::candidate::JointAxis::turns) {
         for freedom in Freedom::ALL.into_iter().filter(|freedom| freedom.kind == joint.freedom.kind) {
             let place = Place { body: joint.body, role: Role::MotionError, freedom };
             sheets.extend((1..=most).step_by(A_SHEET as usize).map(|first| (place, joint.symbol, first)));

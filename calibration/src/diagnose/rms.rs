@@ -3,7 +3,7 @@
 use model_core::Chain;
 use serde::Serialize;
 
-use crate::data::{Observations, SiUnit};
+use observe::{Observations, SiUnit};
 
 /// Root mean square over observations of the length of the residual, SI: over every row, and over the rows kept.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]

@@ -3,11 +3,11 @@
 
 use super::caution::Caution;
 use super::misplaced::{Misplaced, by_what_is_stated};
-use crate::candidate::{Dependence, EffectId};
-use crate::effects::RANGE;
 use crate::search::context::{Context, Found};
 use crate::search::fitted::Fitted;
 use crate::search::round::Round;
+use effects::candidate::{Dependence, EffectId};
+use effects::families::RANGE;
 
 /// A scale is no chance from so many of its standard uncertainties on.
 const SURE: f64 = 4.0;

@@ -4,9 +4,9 @@ use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-use crate::data::Observations;
-use crate::fit::FitResult;
-use crate::fit::noise::Layout;
+use fit::FitResult;
+use fit::noise::Layout;
+use observe::Observations;
 
 /// Rows that pictures draw at most.
 pub(crate) const DRAWN: usize = 2000;

@@ -6,9 +6,9 @@ use serde::Serialize;
 
 use super::mistakes::{Misreading, Undo, mistakes};
 use super::otherwise::{left_by, placed, sample};
-use crate::data::unknowns::{Freedom, Pose, Station, Unknowns};
-use crate::fit::{FitResult, robust};
 use crate::search::context::Context;
+use fit::{FitResult, robust};
+use observe::unknowns::{Freedom, Pose, Station, Unknowns};
 
 /// Most stations are off by more than this, as a share of how far away objects are and in rad together.
 const FAR: f64 = 0.5;

@@ -4,12 +4,12 @@
 use model_core::{SymbolId, SymbolKind};
 
 use super::units::of_reading;
-use crate::candidate::{Dependence, Effect, Function};
-use crate::data::{Poses, SiUnit};
 use crate::search::SearchError;
 use crate::search::columns::functions::Functions;
 use crate::search::context::Context;
 use crate::search::round::Round;
+use effects::candidate::{Dependence, Effect, Function};
+use observe::{Poses, SiUnit};
 
 /// Points of a curve.
 const POINTS: usize = 73;

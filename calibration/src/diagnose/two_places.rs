@@ -4,10 +4,10 @@ use model_core::Chain;
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
-use crate::data::Observations;
-use crate::data::unknowns::Shape;
-use crate::fit::FitResult;
-use crate::objects::{Row, rows, tells};
+use fit::FitResult;
+use network::{Row, rows, tells};
+use observe::Observations;
+use observe::unknowns::Shape;
 
 /// About two places rows have less than this share of the variance that they have about one; noise leaves a third.
 const ABOUT: f64 = 0.01;

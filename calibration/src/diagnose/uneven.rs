@@ -6,10 +6,10 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, FisherSnedecor, Normal};
 
-use crate::data::Observations;
-use crate::data::unknowns::{Shape, Unknowns};
-use crate::fit::FitResult;
-use crate::fit::noise::Layout;
+use fit::FitResult;
+use fit::noise::Layout;
+use observe::Observations;
+use observe::unknowns::{Shape, Unknowns};
 
 /// What chance explains less often than this, over all objects and stations, is told.
 const UNLIKELY: f64 = 0.001;

@@ -3,8 +3,8 @@
 use model_core::algebra::Poly;
 use model_core::{Chain, SymbolId, SymbolKind, TransformKind};
 
-use crate::candidate::{Kind, Setting};
-use crate::data::SiUnit;
+use effects::candidate::{Kind, Setting};
+use observe::SiUnit;
 
 /// The unit of an error or constant of a chain that has it; that of its quantity where it stands in no factor alone.
 pub(crate) fn unit_of(setting: &Setting<'_>, chain: &Chain, id: SymbolId) -> SiUnit {

@@ -32,7 +32,10 @@ pub enum Verdict {
     /// Too few observations for what is to be estimated, or an effect that hangs on fewer than six is all that stands out.
     #[serde(rename = "too few observations")]
     TooFewObservations,
-    /// The fit did not end at a minimum: its numbers mean nothing.
+    /// A column is not what the study says: its unit, its sign, its place among the others.
+    #[serde(rename = "column misread")]
+    ColumnMisread,
+    /// The fit did not end at a minimum, or with values that no small error has: its numbers mean nothing.
     #[serde(rename = "fit failed")]
     FitFailed,
 }
@@ -50,6 +53,7 @@ impl Verdict {
             Self::NoiseExceedsStated => "noise exceeds stated",
             Self::NothingDetectable => "nothing detectable",
             Self::TooFewObservations => "too few observations",
+            Self::ColumnMisread => "column misread",
             Self::FitFailed => "fit failed",
         }
     }
@@ -57,7 +61,7 @@ impl Verdict {
     /// Whether there is a model to correct with.
     #[must_use]
     pub fn is_usable(self) -> bool {
-        !matches!(self, Self::TooFewObservations | Self::FitFailed)
+        !matches!(self, Self::TooFewObservations | Self::ColumnMisread | Self::FitFailed)
     }
 }
 
@@ -83,9 +87,15 @@ pub(super) struct Evidence<'a> {
 /// The first that holds, the worst first.
 pub(super) fn verdict(evidence: Evidence<'_>) -> Verdict {
     let any = |is: fn(&Caution) -> bool| evidence.cautions.iter().any(is);
+    if any(|caution| matches!(caution, Caution::ColumnMisread(_) | Caution::FitsOtherwise(_))) {
+        return Verdict::ColumnMisread;
+    }
     match evidence.ended {
         Ended::TooFewObservations { .. } => return Verdict::TooFewObservations,
         Ended::NotConverged { .. } | Ended::FarOff { .. } => return Verdict::FitFailed,
+        Ended::Converged { .. } if any(|caution| matches!(caution, Caution::Implausible { .. })) => {
+            return Verdict::FitFailed;
+        }
         Ended::Converged { .. } => {}
     }
     let few = any(|caution| matches!(caution, Caution::FewBehindAnEffect { .. }));
@@ -121,7 +131,7 @@ mod tests {
         let few = Ended::TooFewObservations { components: 2, parameters: 3, of_objects: 0 };
         let noisy = [Caution::NoiseExceedsStated { ratio: 2.3 }];
         let thin = [Caution::FewBehindAnEffect { effect: "drift".into(), observations: 3.1 }];
-        let rounded = [Caution::ResidualIsRounding { rms: 1e-16, unit: crate::data::SiUnit::RAD }];
+        let rounded = [Caution::ResidualIsRounding { rms: 1e-16, unit: observe::SiUnit::RAD }];
         let whole = Evidence {
             ended: &fine,
             unnamed: false,

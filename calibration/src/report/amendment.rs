@@ -3,9 +3,9 @@
 use model_core::{Chain, Quantity, Symbol, SymbolId, SymbolKind};
 
 use crate::amend::{Addition, NewInput};
-use crate::candidate::Function;
 use crate::diagnose::Diagnosis;
 use crate::search::context::{Context, Found};
+use effects::candidate::Function;
 
 /// The lines to add to the declaration, for the effects of a chain that has them.
 pub(crate) fn additions(

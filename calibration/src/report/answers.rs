@@ -1,13 +1,14 @@
 //! The five answers that stand first: what happened, what it is, where, how much better, what to do next.
 
 use super::causes::{each_once, sentence_case};
+use super::columns::{self, implausible_values, misread};
 use super::effects::{chance_of_all, headline, place};
 use super::left::{function_form, remaining};
 use super::numbers::{short, times};
 use super::rivals::rival;
 use super::steps::{Step, fits_otherwise, is_misread, is_unconfirmed, is_worse, steps};
-use crate::data::SiUnit;
 use crate::diagnose::{Caution, Diagnosis, EffectFound, Ended, EveryRow, Rms, Verdict};
+use observe::SiUnit;
 
 /// Rows far out hide what became of the others where a figure over every row is so many times theirs.
 const HIDDEN: f64 = 1.5;
@@ -118,7 +119,7 @@ fn is_worse_elsewhere(diagnosis: &Diagnosis) -> bool {
 
 fn tone(diagnosis: &Diagnosis) -> Tone {
     match diagnosis.verdict {
-        Verdict::FitFailed | Verdict::TooFewObservations => Tone::Bad,
+        Verdict::FitFailed | Verdict::ColumnMisread | Verdict::TooFewObservations => Tone::Bad,
         _ if is_worse(diagnosis) => Tone::Bad,
         _ if is_misread(diagnosis)
             || is_worse_elsewhere(diagnosis)
@@ -136,6 +137,7 @@ fn tone(diagnosis: &Diagnosis) -> Tone {
 fn badge(diagnosis: &Diagnosis) -> String {
     let count = diagnosis.effects.len();
     match diagnosis.verdict {
+        Verdict::ColumnMisread if misread(diagnosis).is_some() => "A column is misread".to_owned(),
         _ if fits_otherwise(diagnosis) => "Likely read wrongly".to_owned(),
         _ if let Some(rival) = rival(diagnosis) => rival.badge.to_owned(),
         _ if is_worse(diagnosis) => "Worse on data that nobody fitted".to_owned(),
@@ -149,6 +151,8 @@ fn badge(diagnosis: &Diagnosis) -> String {
         Verdict::NothingDetectable if is_unconfirmed(diagnosis).is_some() => "Not confirmed".to_owned(),
         Verdict::NothingDetectable => "Nothing missing found".to_owned(),
         Verdict::TooFewObservations => "Too few observations".to_owned(),
+        Verdict::ColumnMisread => "A column is misread".to_owned(),
+        Verdict::FitFailed if implausible_values(diagnosis).is_some() => "Model or column wrong".to_owned(),
         Verdict::FitFailed => "The fit failed".to_owned(),
     }
 }
@@ -269,6 +273,13 @@ fn happened(diagnosis: &Diagnosis) -> String {
             "No effect that the declaration lacks stands out from the noise.".to_owned()
         }
         Verdict::TooFewObservations => too_few(diagnosis),
+        Verdict::ColumnMisread => {
+            let otherwise = || "The data fit when they are read otherwise than the study says.".to_owned();
+            misread(diagnosis).map_or_else(otherwise, columns::told)
+        }
+        Verdict::FitFailed if let Some(values) = implausible_values(diagnosis) => {
+            columns::implausible(values)
+        }
         Verdict::FitFailed => {
             let why = match diagnosis.fit.amended {
                 Ended::NotConverged { steps } => format!("reached no minimum in {steps} steps"),

@@ -1,7 +1,7 @@
 //! Physical causes, plainly: the words that a person at the instrument would use for what the catalogue names.
 
-use crate::candidate::Dependence;
 use crate::diagnose::Cause;
+use effects::candidate::Dependence;
 
 /// A cause as one would say it: `the encoder of beta sits off centre`.
 #[must_use]

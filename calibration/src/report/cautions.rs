@@ -1,9 +1,10 @@
 //! Cautions in words.
 
+use super::columns;
 use super::misreadings::{misread, strayed};
 use super::numbers::{reading, short, times, told, told_in};
-use crate::data::SiUnit;
 use crate::diagnose::{Caution, LengthsOff, Moved, TwoPlaces, Uneven};
+use observe::SiUnit;
 
 /// A caution in a sentence.
 #[must_use]
@@ -192,6 +193,8 @@ pub fn caution(caution: &Caution) -> String {
                 told(*measured, SiUnit::METRE)
             ),
         },
+        Caution::ColumnMisread(misread) => columns::told(misread),
+        Caution::Implausible { values } => columns::implausible(values),
         Caution::FitsOtherwise(otherwise) => misread(otherwise),
         Caution::StationsStrayed(own) => strayed(own),
         Caution::Moved(own) => moved(own),

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::causes::{form, sentence_case};
 use super::numbers;
-use crate::data::SiUnit;
 use crate::diagnose::{Diagnosis, EffectFound, Side};
+use observe::SiUnit;
 
 /// Errors that are named for one effect.
 const NAMED: usize = 3;

@@ -1,8 +1,8 @@
 //! Declared errors in words: one table, one unit for each kind of quantity; natural order of names.
 
 use super::numbers::{self, Reading};
-use crate::data::SiUnit;
 use crate::diagnose::{AtZero, BesideFunction, Diagnosis, ErrorFound, Estimable};
+use observe::SiUnit;
 
 /// A line of the table of estimates.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,8 +1,8 @@
 //! What is left after the effects, in words.
 
 use super::numbers;
-use crate::data::SiUnit;
 use crate::diagnose::{Diagnosis, Form};
+use observe::SiUnit;
 
 /// What is left, a sentence each.
 #[must_use]

@@ -2,8 +2,8 @@
 
 use super::next::{PoseTable, tables_of_poses};
 use super::places::tables_of_places;
-use crate::data::SiUnit;
 use crate::diagnose::Diagnosis;
+use observe::SiUnit;
 
 /// Every proposal: poses, then places.
 #[must_use]

@@ -1,8 +1,8 @@
 //! Mistakes in reading data and places, in words.
 
 use super::numbers::short;
-use crate::data::SiUnit;
 use crate::diagnose::{MeasuredLengths, Misreading, Otherwise, StatedPlaces, Strayed};
+use observe::SiUnit;
 
 /// What is likely wrong, and what the residual is without it.
 pub(super) fn misread(otherwise: &Otherwise) -> String {

@@ -7,6 +7,7 @@ pub(crate) mod amendment;
 mod answers;
 mod causes;
 mod cautions;
+mod columns;
 mod effects;
 mod errors;
 mod hidden;

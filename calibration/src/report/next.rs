@@ -1,9 +1,9 @@
 //! Where to measure next, as tables: poses that determine the errors best, and poses that tell effects apart.
 
 use super::numbers::{self, Reading};
-use crate::data::SiUnit;
 use crate::design::{Criterion, Proposal, Separation};
 use crate::diagnose::Diagnosis;
+use observe::SiUnit;
 
 /// Errors whose uncertainty is told for proposed poses, those that gain most.
 const ERRORS: usize = 5;

@@ -1,8 +1,8 @@
 //! The noise in words.
 
 use super::numbers::{times, told};
-use crate::data::NoiseOf;
 use crate::diagnose::{Diagnosis, VarianceFound};
+use observe::NoiseOf;
 
 /// What was found of the noise, a sentence each.
 #[must_use]

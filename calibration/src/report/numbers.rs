@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::data::SiUnit;
+use observe::SiUnit;
 
 /// A unit for reading, with its size in SI.
 #[derive(Debug, Clone, PartialEq)]

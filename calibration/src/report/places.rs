@@ -3,10 +3,10 @@
 use super::errors::combination;
 use super::next::{Gain, PoseTable, gained};
 use super::numbers::{self, Reading};
-use crate::data::SiUnit;
 use crate::design::{Addition, Criterion, Place, PlaceProposal};
 use crate::diagnose::Diagnosis;
-use crate::objects::Remedy;
+use network::Remedy;
+use observe::SiUnit;
 
 /// Pointings of one proposal that a table holds.
 const POINTINGS: usize = 12;

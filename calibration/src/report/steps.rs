@@ -1,6 +1,7 @@
 //! What to do next, step by step.
 
 use super::causes::{cause, sentence_case};
+use super::columns::{self, implausible_values, misread};
 use super::effects::CHANCE;
 use super::places::told_places;
 use super::rivals::{Rival, rival};
@@ -24,6 +25,16 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
     let step = |title: &str, text: String| Step { title: title.to_owned(), text, command: None };
     let mut steps = Vec::new();
     match diagnosis.verdict {
+        Verdict::ColumnMisread if let Some(misread) = misread(diagnosis) => return columns::steps(misread),
+        Verdict::FitFailed if implausible_values(diagnosis).is_some() => {
+            steps.push(step(
+                "Do not correct with it",
+                "Compare units, signs and order of the columns with the file, and the lengths of the declaration with the instrument. Then \
+                 calibrate again."
+                    .to_owned(),
+            ));
+            return steps;
+        }
         Verdict::FitFailed if !fits_otherwise(diagnosis) => {
             steps.push(step(
                 "Check units, signs and axes",

@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rayon::prelude::*;
 
-use crate::data::Poses;
+use observe::Poses;
 
 /// Rows set aside below which they cannot share anything.
 const FEWEST: usize = 4;

@@ -11,7 +11,6 @@ use faer::{Mat, MatMut, MatRef};
 use super::folds::Folds;
 use super::products::{add_products, mirrored};
 use super::spanning::Unfolding;
-use crate::parallel;
 
 /// What is left of a column, as a share of its sum of squares, below which it counts as explained by those before it.
 const NOTHING: f64 = 1e-13;

@@ -4,7 +4,7 @@ use std::ops::Index;
 
 use super::problem::Problem;
 use super::sweep::Sweep;
-use crate::candidate::EffectId;
+use effects::candidate::EffectId;
 
 /// Overlap of the projected spaces above which two candidates are confounded.
 const SAME: f64 = 0.995;

@@ -4,10 +4,10 @@ use model_core::{ObservableId, SymbolId};
 
 use super::select::Options;
 use super::{SearchError, Stage};
-use crate::candidate::{Effect, EffectId, Setting};
-use crate::catalogue::{Name, catalogue, chosen, known_names};
-use crate::data::Observations;
-use crate::study::Plan;
+use effects::candidate::{Effect, EffectId, Setting};
+use effects::catalogue::{Name, catalogue, chosen, known_names};
+use observe::Observations;
+use study::{Plan, Sample};
 
 /// What to calibrate.
 #[derive(Clone, Copy)]
@@ -18,6 +18,8 @@ pub struct Request<'a> {
     pub plan: &'a Plan,
     /// The measured data.
     pub observations: &'a Observations,
+    /// Some of the rows as their files have them, so that columns can be read otherwise; without them none is.
+    pub sample: Option<&'a Sample>,
     /// A second file that no stage sees, if the study names one.
     pub second: Option<&'a Observations>,
     /// The date that the amended declaration gives: `2026-11-21`.

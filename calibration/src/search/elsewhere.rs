@@ -10,10 +10,9 @@ use super::folds::Folds;
 use super::problem::Problem;
 use super::select::select;
 use super::state::State;
-use crate::data::SiUnit;
-use crate::parallel;
 use crate::search::context::Context;
 use crate::search::round::Round;
+use observe::SiUnit;
 
 /// Different readings below which a joint has no regions.
 const DIFFERENT: usize = 12;

@@ -1,7 +1,7 @@
 //! Why the declaration cannot be fitted to the data, or the residual not be searched.
 
 use super::ProblemError;
-use crate::fit::FitError;
+use fit::FitError;
 
 /// Why there is no search.
 #[derive(Debug, thiserror::Error)]

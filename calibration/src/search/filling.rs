@@ -16,8 +16,7 @@ use super::row_set::{RowSet, components};
 use super::spanning::Spanning;
 use super::stretches::{Chunks, stretches};
 use super::{SearchError, Stage};
-use crate::data::golden;
-use crate::parallel;
+use observe::golden;
 
 /// Rows of one cell whose columns are made at a time: what a processor just made is still near it when their products are taken.
 const PORTION: usize = 128;

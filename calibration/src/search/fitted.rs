@@ -6,14 +6,14 @@ use model_core::{Chain, Quantity, SymbolId};
 use super::context::{Context, Found, declared};
 use super::readings::{ByReading, adjusted};
 use super::{SearchError, Stage};
-use crate::candidate::{Effect, EffectId};
-use crate::data::Poses;
-use crate::data::unknowns::{OfStation, Unknowns};
-use crate::fit::noise::Layout;
-use crate::fit::{BESIDE_OBJECTS, FitError, FitOptions, FitResult, fit};
 use crate::search::ProblemError;
 use crate::search::columns::{Columns, Probed, places};
-use crate::study::Plan;
+use effects::candidate::{Effect, EffectId};
+use fit::noise::Layout;
+use fit::{BESIDE_OBJECTS, FitError, FitOptions, FitResult, fit};
+use observe::Poses;
+use observe::unknowns::{OfStation, Unknowns};
+use study::Plan;
 
 /// The columns of each effect, one a function.
 pub(crate) type OfEffects = Vec<Vec<Vec<f64>>>;

@@ -10,10 +10,9 @@ use faer::Mat;
 use super::contest::ln_choices;
 use super::round::Round;
 use super::sweep::Sweep;
-use crate::fit::noise::Run;
-use crate::fit::noise::serial::{FEWEST, Model, longest, models};
-use crate::fit::noise::space;
-use crate::parallel;
+use fit::noise::Run;
+use fit::noise::serial::{FEWEST, Model, longest, models};
+use fit::noise::space;
 
 /// Twice the logarithm of the likelihood that a memory gains over white noise at least, to be held against effects.
 ///

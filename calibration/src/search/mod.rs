@@ -2,7 +2,7 @@
 //!
 //! Everything here is linear algebra on one whitened problem ([`Problem`]): the declared columns, a block of
 //! columns for each candidate effect, the residual, and which rows belong together. What a candidate *is* (a
-//! place in the chain, a degree of freedom, a function) lives in [`crate::effects`]; the loop around the search
+//! place in the chain, a degree of freedom, a function) lives in [`effects::families`]; the loop around the search
 //! (fit, whiten, search, amend, fit again) in [`crate::calibrate`].
 //!
 //! The pipeline reads from one place: deal groups to folds (`folds`), merge rows where they are many (`filling` of

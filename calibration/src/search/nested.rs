@@ -4,7 +4,6 @@ use super::confounded::{ConfoundedSet, SetId};
 use super::problem::Problem;
 use super::select::{Options, select};
 use super::state::State;
-use crate::parallel;
 
 /// What the searches without each fold found, and the regressions that predict it.
 #[derive(Debug, Clone)]

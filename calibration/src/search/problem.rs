@@ -16,8 +16,7 @@ use faer::{Mat, MatRef};
 use super::folds::Folds;
 use super::products::{add_products, mirrored, picked, taken_out};
 use super::reach::Reach;
-use crate::candidate::EffectId;
-use crate::parallel;
+use effects::candidate::EffectId;
 
 pub(crate) use stated::with_stated;
 

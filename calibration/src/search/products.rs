@@ -4,8 +4,6 @@ use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 
-use crate::parallel;
-
 /// Columns that one processor works on at a time.
 const COLUMNS_AT_ONCE: usize = 48;
 

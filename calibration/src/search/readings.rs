@@ -12,9 +12,9 @@ use model_core::{Chain, SymbolId};
 use nalgebra::{Matrix3, Vector3};
 
 use self::still::still;
-use crate::data::Observations;
-use crate::fit::noise::Layout;
-use crate::fit::{FitError, FitResult, Model, correlated, pulls};
+use fit::noise::Layout;
+use fit::{FitError, FitResult, Model, correlated, pulls};
+use observe::Observations;
 
 /// Of each joint and input its readings.
 pub(crate) type ByReading = Vec<(SymbolId, Vec<f64>)>;

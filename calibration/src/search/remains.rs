@@ -8,7 +8,6 @@ use rayon::prelude::*;
 
 use super::scan::{Left, Scan};
 use super::signs::Signs;
-use crate::parallel;
 
 /// Nearest neighbours of each observation in the space of all joints.
 const NEAREST: usize = 4;

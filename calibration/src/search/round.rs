@@ -5,9 +5,9 @@ use super::confounded::SetId;
 use super::context::{Context, Found};
 use super::fitted::Fitted;
 use super::state::State;
-use crate::candidate::EffectId;
 use crate::search::search_problem::SearchProblem;
 use crate::search::{Accepted, ConfoundedSet, Selection, confounded_sets, select};
+use effects::candidate::EffectId;
 
 /// Degrees of freedom of a residual, and groups of its rows, below which nothing can be told of its structure.
 const FEWEST: usize = 20;

@@ -6,15 +6,15 @@ use std::ops::Range;
 
 use faer::Mat;
 
-use crate::candidate::EffectId;
-use crate::data::Observations;
-use crate::data::unknowns::{Freedom, Object};
-use crate::fit::noise::{Layout, Noise, Run};
-use crate::fit::objects::Reduction;
 use crate::search::columns::{Columns, Probed, Seen, keep};
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
 use crate::search::{Folds, SearchError};
+use effects::candidate::EffectId;
+use fit::noise::{Layout, Noise, Run};
+use fit::objects::Reduction;
+use observe::Observations;
+use observe::unknowns::{Freedom, Object};
 
 /// Some rows, with their columns at a fit.
 pub(crate) struct RowSet<'a> {

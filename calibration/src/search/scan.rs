@@ -13,7 +13,6 @@ use super::signs::Signs;
 use super::standardised::{Standardised, is_needed};
 use super::sweep::Sweep;
 use super::tail::Tails;
-use crate::parallel;
 
 /// Columns to scan, and which of them belong together.
 pub struct Sheet {

@@ -8,10 +8,6 @@ use model_core::{Axis, BodyId, SymbolId, SymbolKind};
 use super::filling::{Filled, each_chunk};
 use super::row_set::{RowSet, components, dealt};
 use super::stretches::{Chunks, all_rows, sample};
-use crate::candidate::{EffectId, Freedom, Place};
-use crate::data::unknowns::OfStation;
-use crate::data::{Poses, golden};
-use crate::parallel;
 use crate::search::SearchError;
 use crate::search::columns::{Columns, Probed, keep, places};
 use crate::search::context::{Context, declared};
@@ -20,6 +16,9 @@ use crate::search::problem::with_stated;
 use crate::search::reach::{Part, Reach, further_out};
 use crate::search::standardised::MANY;
 use crate::search::{Folds, Problem, ProblemError};
+use effects::candidate::{EffectId, Freedom, Place};
+use observe::unknowns::OfStation;
+use observe::{Poses, golden};
 
 /// Cells of merged rows at most: as many as sign flips tell apart.
 const CELLS: usize = 400;
@@ -330,12 +329,12 @@ mod tests {
     use model_core::{Chain, exact};
 
     use super::*;
-    use crate::formats::{DataError, Input};
     use crate::search::context::Found;
     use crate::search::nested;
     use crate::search::round::Round;
     use crate::search::{Request, Stage};
-    use crate::study::Study;
+    use study::Study;
+    use tables::formats::{DataError, Input};
 
     const MOUNT: &str = include_str!("../../../examples/alt-azimuth/alt-azimuth.chain");
     const ROWS: usize = 20_000;
@@ -390,6 +389,7 @@ mod tests {
             text: MOUNT,
             plan: &plan,
             observations: &observations,
+            sample: None,
             second: None,
             when: "2026-11-21",
         };

@@ -15,7 +15,7 @@ use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 
 use super::folds::number;
-use crate::data::golden;
+use observe::golden;
 
 /// Groups beyond this number are flipped together with their neighbours in the data: still a valid flip, and as
 /// good a sample of chance, at a cost that does not grow with the data.

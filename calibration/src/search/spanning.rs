@@ -8,7 +8,7 @@ use faer::linalg::matmul::matmul;
 use faer::reborrow::ReborrowMut as _;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 
-use crate::data::golden;
+use observe::golden;
 
 /// What is left of a column beside others, as a share of its length, below which it is a combination of them.
 const NOTHING: f64 = 1e-13;

@@ -8,8 +8,8 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rayon::prelude::*;
 
-use crate::data::Observations;
-use crate::data::unknowns::Unknowns;
+use observe::Observations;
+use observe::unknowns::Unknowns;
 
 /// Rows of a chunk.
 const CHUNK: usize = 1024;

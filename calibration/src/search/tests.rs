@@ -9,7 +9,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 use super::state::State;
 use super::*;
-use crate::candidate::EffectId;
+use effects::candidate::EffectId;
 
 /// A problem of n rows: `p` declared columns, `count` candidates of one or two columns that are smooth functions of
 /// three angles, one of them planted with `amplitude` (in σ), unit noise.

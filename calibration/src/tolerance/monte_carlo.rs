@@ -10,7 +10,6 @@ use rand::SeedableRng as _;
 use rand_chacha::ChaCha8Rng;
 
 use super::{Distribution, Tolerance};
-use crate::parallel;
 
 /// What the draws came to.
 #[derive(Debug, Clone, PartialEq)]

@@ -10,7 +10,6 @@ use model_core::budget::Sensitivity;
 
 use super::Tolerance;
 use super::spread::norm_squared;
-use crate::parallel;
 
 /// Two directions are one, or a direction lies in a plane, within this sine.
 const SINE: f64 = 1e-9;

@@ -2,7 +2,7 @@
 //! means what was found.
 
 use calibration::amend::{Addition, NewInput, amend};
-use calibration::candidate::Effect;
+use effects::candidate::Effect;
 use model_core::{Chain, Role, print};
 use proptest::prelude::*;
 

@@ -1,6 +1,6 @@
 //! Which effects follow from which chain.
 
-use calibration::effects::FAMILIES;
+use effects::families::FAMILIES;
 
 use crate::support::{Asked, SCANNER, example};
 

@@ -1,6 +1,6 @@
 //! Names of other fields: each is held to the column that the algebra derives from a chain at its place.
 
-use calibration::catalogue::{catalogue, chosen, known_names, published};
+use effects::catalogue::{catalogue, chosen, known_names, published};
 use model_core::algebra::{AngleSum, Poly};
 use model_core::{Chain, SymbolId, forms, syntax};
 

@@ -1,7 +1,7 @@
 //! The user's own effects in a study, and what is said where they cannot be.
 
-use calibration::study::Study;
 use model_core::{Chain, Mistakes, Role};
+use study::Study;
 
 use crate::support::{Asked, SCANNER};
 

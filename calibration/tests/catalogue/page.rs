@@ -5,9 +5,9 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use calibration::candidate::Effect;
-use calibration::catalogue::{known_names, published};
-use calibration::effects::FAMILIES;
+use effects::candidate::Effect;
+use effects::catalogue::{known_names, published};
+use effects::families::FAMILIES;
 
 use crate::pattern;
 use crate::support::{Asked, example, mounts, root};

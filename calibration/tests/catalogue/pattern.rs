@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
-use calibration::candidate::Effect;
-use calibration::data::tangent_frame;
+use effects::candidate::Effect;
 use model_core::{Chain, SymbolKind, exact};
+use observe::tangent_frame;
 
 /// Half the width of a picture.
 const HALF: f64 = 110.0;

@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use calibration::candidate::{Effect, Setting};
-use calibration::catalogue::catalogue;
-use calibration::study::{Plan, Study};
+use effects::candidate::{Effect, Setting};
+use effects::catalogue::catalogue;
 use model_core::{Chain, ObservableId};
+use study::{Plan, Study};
 
 /// A scanner or total station: azimuth, elevation and a measured range.
 pub const SCANNER: &str = "/// A terrestrial scanner.

@@ -1,12 +1,12 @@
 //! A base that stands anywhere, turned by any angle, is found from nothing.
 
-use calibration::fit::{FitOptions, Outcome, fit};
+use fit::{FitOptions, Outcome, fit};
 use model_core::SymbolKind;
 use nalgebra::{Rotation3, Unit, Vector3};
 use rand::RngExt;
 
 use crate::simulated::Simulation;
-use calibration::data::Measured;
+use observe::Measured;
 
 /// The arm before a tracker, its base turned by an angle about an axis that is none of the frame's.
 fn arm(turned_rad: f64, seed: u64) -> Simulation {

@@ -1,6 +1,6 @@
 //! What is said of the uncertainty is so: intervals hold the truth as often as they claim.
 
-use calibration::fit::{FitOptions, Outcome, fit};
+use fit::{FitOptions, Outcome, fit};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use crate::simulated::Simulation;

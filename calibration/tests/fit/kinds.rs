@@ -4,11 +4,11 @@
 use std::collections::BTreeMap;
 
 use calibration::diagnose::precision;
-use calibration::fit::{FitResult, Outcome, fit};
-use calibration::formats::{DataError, Input};
-use calibration::study::Study;
+use fit::{FitResult, Outcome, fit};
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
+use study::Study;
+use tables::formats::{DataError, Input};
 
 use crate::simulated::Simulation;
 

@@ -12,7 +12,7 @@ mod simulated;
 mod streamed;
 mod undetermined;
 
-use calibration::fit::{FitOptions, Outcome, fit};
+use fit::{FitOptions, Outcome, fit};
 use simulated::Simulation;
 
 const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;

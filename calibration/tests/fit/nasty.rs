@@ -1,8 +1,8 @@
 //! Data as they should not be: an outcome that names the trouble, never a panic, never a silent wrong answer.
 
-use calibration::data::{Measured, Observations};
 use calibration::diagnose::{Caution, of_data, precision};
-use calibration::fit::{FitOptions, FitResult, Outcome, Reason, Why, fit};
+use fit::{FitOptions, FitResult, Outcome, Reason, Why, fit};
+use observe::{Measured, Observations};
 use rand::RngExt;
 
 use crate::simulated::{Simulation, swapped};

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use calibration::data::{Measure, Measured, Observations, Series};
-use calibration::fit::{FitOptions, FitResult, Model, Outcome, fit};
-use calibration::formats::{DataError, Input};
-use calibration::study::Study;
+use fit::{FitOptions, FitResult, Model, Outcome, fit};
 use model_core::{ObservableId, SymbolKind, exact};
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, UnitQuaternion, Vector3};
+use observe::{Measure, Measured, Observations, Series};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
+use study::Study;
+use tables::formats::{DataError, Input};
 
 use crate::simulated::Simulation;
 
@@ -123,9 +123,8 @@ fn poses_that_nobody_measured_leave_nothing_and_move_as_residuals_do() {
     let errors: Vec<_> = simulation.chain.symbols_of(SymbolKind::Error).collect();
     let model = Model::new(&simulation.chain, &observations.poses, &errors).unwrap();
     let values = simulation.chain.nominal_values();
-    let of = |block: &calibration::fit::Block| {
-        (block.residual.clone(), block.columns().flatten().copied().collect::<Vec<_>>())
-    };
+    let of =
+        |block: &fit::Block| (block.residual.clone(), block.columns().flatten().copied().collect::<Vec<_>>());
     let poses = model.map_poses(&observations.poses, &values, |_, _, block| of(block)).unwrap();
     let rows = model.map_blocks(&observations, &values, |_, _, block| of(block)).unwrap();
     for ((nothing, own), (_, expected)) in poses.into_iter().zip(rows) {

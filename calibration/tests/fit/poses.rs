@@ -1,9 +1,9 @@
 //! Poses at which nothing was measured: what would be seen there moves as the exact chain says, wherever the beam points.
 
-use calibration::data::{Measure, Poses, Series};
-use calibration::fit::Model;
+use fit::Model;
 use model_core::{Chain, SymbolKind, exact};
 use nalgebra::Vector3;
+use observe::{Measure, Poses, Series};
 
 const MOUNT: &str = include_str!("../../../examples/alt-azimuth/alt-azimuth.chain");
 

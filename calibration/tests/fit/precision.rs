@@ -2,7 +2,7 @@
 
 use calibration::design::{Criterion, propose};
 use calibration::diagnose::{Caution, of_data, precision};
-use calibration::fit::{FitOptions, fit};
+use fit::{FitOptions, fit};
 
 use model_core::identify::identify;
 use model_core::{Chain, ObservableId, ObservableKind, SymbolId, SymbolKind};
@@ -81,7 +81,7 @@ fn a_narrow_range_inflates_variances_and_new_poses_mend_it() {
 
 #[test]
 fn wrong_units_and_signs_are_hinted_at() {
-    let said = |change: &dyn Fn(&mut calibration::data::Observations)| {
+    let said = |change: &dyn Fn(&mut observe::Observations)| {
         let mut simulation = mount(0.2, 1.3, 100);
         let mut observations = simulation.directions("sight", 2.0 * ARCSEC);
         change(&mut observations);
@@ -92,7 +92,7 @@ fn wrong_units_and_signs_are_hinted_at() {
     let any = |said: &[Caution], is: fn(&Caution) -> bool| assert!(said.iter().any(is), "{said:?}");
     assert_eq!(said(&|_| {}), []);
     let column = |at: usize, factor: f64| {
-        move |observations: &mut calibration::data::Observations| {
+        move |observations: &mut observe::Observations| {
             observations.poses.columns[at].1.iter_mut().for_each(|value| *value *= factor);
         }
     };

@@ -1,10 +1,8 @@
 //! Instruments with known errors at random poses, observed with known noise.
 
-use calibration::data::{
-    Grouping, Measure, Measured, Observations, Origins, Poses, Series, direction_from_offset,
-};
 use model_core::{Chain, SymbolId, SymbolKind, exact, names};
 use nalgebra::Vector3;
+use observe::{Grouping, Measure, Measured, Observations, Origins, Poses, Series, direction_from_offset};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};

@@ -1,9 +1,7 @@
 //! Rows in chunks give what all rows at once give.
 
-use calibration::data::{Observations, Series};
-use calibration::fit::{
-    FitError, FitOptions, FitResult, Next, PartialError, Pass, Streamed, StreamedResult, Tally, fit,
-};
+use fit::{FitError, FitOptions, FitResult, Next, PartialError, Pass, Streamed, StreamedResult, Tally, fit};
+use observe::{Observations, Series};
 
 use crate::simulated::{Simulation, swapped};
 

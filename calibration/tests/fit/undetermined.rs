@@ -1,6 +1,6 @@
 //! What the data cannot separate stays so however the fit came about, and unknown within its size it widens the rest.
 
-use calibration::fit::{FitOptions, FitResult, Outcome, fit};
+use fit::{FitOptions, FitResult, Outcome, fit};
 use model_core::SymbolKind;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 

@@ -34,6 +34,7 @@ fn nothing_more(path: &str) {
         text: &amended,
         plan: &plan,
         observations: &observations(path, &plan),
+        sample: None,
         second: None,
         when: "2026-11-22",
     })

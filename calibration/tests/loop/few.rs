@@ -1,9 +1,9 @@
 //! An effect that hangs on a handful of observations is told as one.
 
-use calibration::data::{Observations, Poses};
 use calibration::diagnose::{Caution, Diagnosis, Verdict};
-use calibration::study::Study;
 use model_core::Chain;
+use observe::{Observations, Poses};
+use study::Study;
 
 use crate::simulated::{lidar, measured, pointing, search};
 

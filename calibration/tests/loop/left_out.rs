@@ -2,17 +2,17 @@
 //! says that the data cannot show it.
 
 use calibration::calibrate::{Request, calibrate};
-use calibration::candidate::Freedom;
-use calibration::data::{Measure, Measured, Observations, tangent_frame};
 use calibration::diagnose::{Diagnosis, EffectFound};
-use calibration::effects::assembly_name;
-use calibration::study::{Plan, Study};
+use effects::candidate::Freedom;
+use effects::families::assembly_name;
 use model_core::algebra::Poly;
 use model_core::{Chain, Factor, Role, SymbolId, SymbolKind, TransformKind, exact};
 use nalgebra::Vector3;
+use observe::{Measure, Measured, Observations, tangent_frame};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
+use study::{Plan, Study};
 
 use crate::data::{load, root};
 use crate::simulated::observed_alone;
@@ -127,6 +127,7 @@ fn each_of_the_scanners_30_errors_is_named_or_said_to_be_hidden() {
             text: &text,
             plan: &lacking,
             observations: &observations,
+            sample: None,
             second: None,
             when: "2026-11-21",
         };
@@ -151,6 +152,7 @@ fn each_error_of_the_auxiliary_telescope_is_named_or_said_to_be_hidden() {
             text: &study.text,
             plan: &lacking,
             observations: &study.observations,
+            sample: None,
             second: None,
             when: "2026-11-21",
         };

@@ -2,12 +2,12 @@
 //! simulated data that have the effect.
 
 use calibration::calibrate::{Calibration, Request, calibrate};
-use calibration::data::{Measure, Measured, direction_from_spherical, tangent_frame};
-use calibration::study::Study;
 use model_core::{Chain, SymbolId};
+use observe::{Measure, Measured, direction_from_spherical, tangent_frame};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
+use study::Study;
 
 use crate::data::root;
 use crate::simulated::observed_alone;
@@ -41,6 +41,7 @@ fn calibrated(droop: f64) -> Calibration {
         text: &text,
         plan: &plan,
         observations: &observations,
+        sample: None,
         second: None,
         when: "2026-11-21",
     })

@@ -1,7 +1,7 @@
 //! A function that no effect of the catalogue is, offered for the study: written there, it is found and declared.
 
 use calibration::diagnose::Verdict;
-use calibration::study::{Plan, Study};
+use study::{Plan, Study};
 use model_core::Chain;
 
 use crate::simulated::{lidar, measured, pointing, search};

@@ -1,14 +1,14 @@
 //! Noise that remembers, along a slow path through the joints, in an order that nobody declared: it looks like smooth functions
 //! of the joints, and is told as what it is.
 
-use calibration::data::{Measure, Measured, direction_from_spherical, tangent_frame};
 use calibration::diagnose::{Diagnosis, EffectFound};
 use calibration::report::noise;
-use calibration::study::Study;
 use model_core::Chain;
+use observe::{Measure, Measured, direction_from_spherical, tangent_frame};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
+use study::Study;
 
 use crate::data::root;
 use crate::simulated::{lidar, observed_alone, pointing, search};

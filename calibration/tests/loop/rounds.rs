@@ -1,12 +1,12 @@
 //! Targets that are observed in several rounds: each stands a little wrong, the same way in every round.
 
-use calibration::data::{Measure, Measured, Observations, tangent_frame};
 use calibration::diagnose::{Caution, Diagnosis};
-use calibration::study::Study;
 use model_core::Chain;
+use observe::{Measure, Measured, Observations, tangent_frame};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
+use study::Study;
 
 use crate::simulated::{lidar, observed_alone, pointing, search};
 

@@ -1,14 +1,14 @@
 //! Planted effects: eight kinds are named, two at once, none gives nothing, a bump in no catalogue is placed.
 
 use calibration::calibrate::{Calibration, Request, calibrate};
-use calibration::data::{Measure, Measured, Observations, Poses, Series, tangent_frame};
 use calibration::diagnose::{Diagnosis, EffectFound, Verdict};
-use calibration::study::{Plan, Study};
 use model_core::{Chain, SymbolId, exact};
 use nalgebra::Vector3;
+use observe::{Measure, Measured, Observations, Poses, Series, tangent_frame};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
+use study::{Plan, Study};
 
 use crate::data::root;
 
@@ -91,7 +91,7 @@ pub(crate) fn pointing(chain: &Chain, errors: &[(&str, f64)], readings: [f64; 5]
 }
 
 pub(crate) fn search(text: &str, plan: &Plan, observations: &Observations) -> Calibration {
-    calibrate(Request { text, plan, observations, second: None, when: "2026-11-21" }).unwrap()
+    calibrate(Request { text, plan, observations, sample: None, second: None, when: "2026-11-21" }).unwrap()
 }
 
 /// The lidar with `lines` added to the middle frame's motion errors.

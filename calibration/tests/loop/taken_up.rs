@@ -3,8 +3,8 @@
 
 use calibration::calibrate::Calibration;
 use calibration::diagnose::Verdict;
-use calibration::study::{Plan, Study};
 use model_core::Chain;
+use study::{Plan, Study};
 
 use crate::simulated::{lidar, measured, pointing, search};
 

@@ -1,10 +1,10 @@
 //! Whatever frame a fit starts in, the errors are the same, and they are those that were planted.
 
 use calibration::calibrate::{Request, calibrate};
-use calibration::data::unknowns::Pose;
-use calibration::fit::{Outcome, fit};
-use calibration::study::Plan;
+use fit::{Outcome, fit};
 use nalgebra::Vector3;
+use observe::unknowns::Pose;
+use study::Plan;
 
 use super::{example, text_of};
 
@@ -20,7 +20,7 @@ const PLANTED: [(&str, f64); 6] = [
     ("range_zero", 1.5e-3),
 ];
 
-fn values(plan: &Plan, of: &calibration::fit::FitResult) -> Vec<(f64, f64)> {
+fn values(plan: &Plan, of: &fit::FitResult) -> Vec<(f64, f64)> {
     let value = |name: &(&str, f64)| {
         let id = plan.chain.find_symbol(name.0).unwrap();
         (of.values[id.index()], of.standard_uncertainty(id).unwrap())
@@ -65,6 +65,7 @@ fn the_planted_effect_is_found_and_the_errors_are_those_planted() {
             text: &text,
             plan: &plan,
             observations: &observations,
+            sample: None,
             second: None,
             when: "2026-11-22",
         };

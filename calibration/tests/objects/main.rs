@@ -10,17 +10,16 @@ mod next;
 mod noise;
 mod refused;
 mod ridge;
-mod room;
 mod small;
 mod starts;
 mod visible;
 
 use std::path::{Path, PathBuf};
 
-use calibration::data::Observations;
-use calibration::formats::DataError;
-use calibration::study::{Loaded, Plan, Study};
 use model_core::Chain;
+use observe::Observations;
+use study::{Loaded, Plan, Study};
+use tables::formats::DataError;
 
 /// The workspace's root.
 fn root() -> PathBuf {

@@ -2,19 +2,19 @@
 
 use calibration::calibrate::{Request, calibrate};
 use calibration::design::{Addition, Criterion, Place, PlaceProposal, Pointing};
-use calibration::fit::fit;
+use fit::fit;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
-use super::room::{Noise, Stand};
 use super::{read, text_of};
+use testkit::{Stand, Xorshift, rotation};
 
 /// Noise along a beam and across it, whatever the range.
 const ALONG_M: f64 = 0.5e-3;
 const ACROSS_M: f64 = 0.4e-3;
 
 fn targets() -> Vec<Vector3<f64>> {
-    let mut random = Noise(7);
-    let mut within = |low: f64, high: f64| low + (high - low) * random.uniform();
+    let mut random = Xorshift(7);
+    let mut within = |low: f64, high: f64| low + (high - low) * random.even();
     // A corner of the room alone.
     (0..16).map(|_| Vector3::new(within(2.0, 8.0), within(-5.0, 7.0), within(0.0, 3.0))).collect()
 }
@@ -37,7 +37,7 @@ fn every(stands: usize, targets: usize) -> Vec<Aimed> {
     (0..stands).flat_map(at).collect()
 }
 
-fn table(stands: &[Stand], targets: &[Vector3<f64>], rows: &[Aimed], random: &mut Noise) -> String {
+fn table(stands: &[Stand], targets: &[Vector3<f64>], rows: &[Aimed], random: &mut Xorshift) -> String {
     let mut text = "station,object,azimuth [rad],elevation [rad],range [m]\n".to_owned();
     for &(stand, target, face) in rows {
         let [azimuth, elevation, range] = stands[stand].read(&targets[target], face);
@@ -79,7 +79,7 @@ fn sigma(data: &str) -> [f64; 6] {
 /// At the median of some draws of the noise.
 fn usual_sigma(stands: &[Stand], targets: &[Vector3<f64>], rows: &[Aimed]) -> [f64; 6] {
     let all: Vec<[f64; 6]> =
-        (0..15).map(|draw| sigma(&table(stands, targets, rows, &mut Noise(1000 + 77 * draw)))).collect();
+        (0..15).map(|draw| sigma(&table(stands, targets, rows, &mut Xorshift(1000 + 77 * draw)))).collect();
     std::array::from_fn(|at| {
         let mut own: Vec<f64> = all.iter().map(|one| one[at]).collect();
         own.sort_by(f64::total_cmp);
@@ -87,20 +87,13 @@ fn usual_sigma(stands: &[Stand], targets: &[Vector3<f64>], rows: &[Aimed]) -> [f
     })
 }
 
-fn about(axis: usize, angle: f64) -> Matrix3<f64> {
-    let (sine, cosine) = angle.sin_cos();
-    let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
-    let mut turn = Matrix3::identity();
-    (turn[(i, i)], turn[(i, j)], turn[(j, i)], turn[(j, j)]) = (cosine, -sine, sine, cosine);
-    turn
-}
-
 /// Where the beam ends in the scanner's frame; the errors in the order of [`ERRORS`].
 fn point(errors: &[f64], [azimuth, elevation, range]: [f64; 3]) -> Vector3<f64> {
+    let p = rotation(2, errors[4]) * Vector3::new(0.0, range + errors[5], 0.0)
+        + Vector3::new(errors[3], 0.0, 0.0);
     let p =
-        about(2, errors[4]) * Vector3::new(0.0, range + errors[5], 0.0) + Vector3::new(errors[3], 0.0, 0.0);
-    let p = about(1, errors[1]) * about(0, elevation + errors[2]) * p + Vector3::new(0.0, errors[0], 0.0);
-    about(2, -azimuth) * p
+        rotation(1, errors[1]) * rotation(0, elevation + errors[2]) * p + Vector3::new(0.0, errors[0], 0.0);
+    rotation(2, -azimuth) * p
 }
 
 /// The standard uncertainties of the errors by one large matrix, the first stand being the frame.
@@ -110,7 +103,7 @@ fn by_matrices(stands: &[Stand], targets: &[Vector3<f64>], rows: &[Aimed]) -> [f
     for (row, &(stand, target, face)) in rows.iter().enumerate() {
         let (own, read) = (&stands[stand], stands[stand].read(&targets[target], face));
         let seen = |numbers: &[f64; 15]| {
-            let turn = about(0, numbers[9]) * about(1, numbers[10]) * about(2, numbers[11]);
+            let turn = rotation(0, numbers[9]) * rotation(1, numbers[10]) * rotation(2, numbers[11]);
             let shift = Vector3::from_column_slice(&numbers[6..9]);
             let there = targets[target] + Vector3::from_column_slice(&numbers[12..15]);
             own.turn * turn * point(&numbers[..6], read) + own.shift + shift - there
@@ -138,12 +131,13 @@ fn by_matrices(stands: &[Stand], targets: &[Vector3<f64>], rows: &[Aimed]) -> [f
 fn proposals(next: &str) -> Vec<PlaceProposal> {
     let text = text_of("examples/objects/scanner.chain");
     let (stands, targets) = (stands(), targets());
-    let data = table(&stands, &targets, &every(stands.len(), targets.len()), &mut Noise(1));
+    let data = table(&stands, &targets, &every(stands.len(), targets.len()), &mut Xorshift(1));
     let (plan, loaded) = read(&text, &format!("{STUDY}{next}"), &data).unwrap();
     let request = Request {
         text: &text,
         plan: &plan,
         observations: &loaded.observations,
+        sample: None,
         second: None,
         when: "2026-11-22",
     };

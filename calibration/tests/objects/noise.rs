@@ -1,10 +1,10 @@
 //! The noise beside unknown targets: along a beam it is that of the range, across it that of the angles times the range.
 
-use calibration::fit::fit;
+use fit::fit;
 use nalgebra::Vector3;
 
-use super::room::{Noise, Stand};
 use super::{read, text_of};
+use testkit::{Stand, Xorshift};
 
 const RANGE_M: f64 = 0.5e-3;
 const ANGLE_RAD: f64 = 4e-5;
@@ -15,14 +15,14 @@ const STUDY: &str = "chain = \"c\"\ndata = \"d\"\n[observed]\nkind = \"target\"\
 const ERRORS: [&str; 6] = ["axes_apart", "trunnion", "index", "beam_aside", "collimation", "range_zero"];
 
 /// Targets from half a metre to ten, each seen from four places in two faces; and the range of each row.
-fn table(random: &mut Noise) -> (String, Vec<f64>) {
+fn table(random: &mut Xorshift) -> (String, Vec<f64>) {
     let stands = [
         Stand::new([0.0, 0.0, 1.6], 0.4),
         Stand::new([4.2, -1.1, 1.5], -2.0),
         Stand::new([1.0, 3.9, 1.7], 1.1),
         Stand::new([-3.1, 1.7, 0.9], 2.6),
     ];
-    let mut within = |low: f64, high: f64| low + (high - low) * random.uniform();
+    let mut within = |low: f64, high: f64| low + (high - low) * random.even();
     let targets: Vec<Vector3<f64>> =
         (0..50).map(|_| Vector3::new(within(-7.0, 8.0), within(-5.0, 7.0), within(0.0, 3.4))).collect();
     let mut text = "station,object,azimuth [rad],elevation [rad],range [m]\n".to_owned();
@@ -49,7 +49,7 @@ fn noise_along_and_across_a_beam_is_what_it_was_made_and_so_are_the_uncertaintie
     let mut nearest_over_made = 0.0;
     let mut pulls = [0.0; ERRORS.len()];
     for run in 0..RUNS {
-        let (data, ranges) = table(&mut Noise(5000 + 131 * run));
+        let (data, ranges) = table(&mut Xorshift(5000 + 131 * run));
         let (plan, loaded) = read(&chain, STUDY, &data).unwrap();
         let result = fit(&plan.chain, &loaded.observations, &plan.fit).unwrap();
         let sigma = result.noise.sigma_without_memory();

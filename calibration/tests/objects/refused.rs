@@ -1,7 +1,7 @@
 //! What cannot be placed is named, with what to add.
 
-use calibration::study::Study;
 use model_core::Chain;
+use study::Study;
 
 use super::{read, text_of};
 

@@ -2,7 +2,7 @@
 //!
 //! `ridge.csv` is run 433 of `benches/blind/objects.py` (walls, nothing planted), which said what was drawn.
 
-use calibration::fit::{Outcome, fit};
+use fit::{Outcome, fit};
 
 use super::{read, text_of};
 

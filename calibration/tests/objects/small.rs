@@ -2,13 +2,13 @@
 
 use std::fmt::Write as _;
 
-use calibration::fit::{FitResult, fit};
-use calibration::study::Plan;
+use fit::{FitResult, fit};
 use nalgebra::Vector3;
 use statrs::distribution::{ContinuousCDF, StudentsT};
+use study::Plan;
 
-use super::room::{Noise, Stand};
 use super::{read, text_of};
+use testkit::{Stand, Xorshift};
 
 const ERRORS: [&str; 6] = ["axes_apart", "trunnion", "index", "beam_aside", "collimation", "range_zero"];
 /// The noise of a range, m, and of an angle, rad.
@@ -37,7 +37,7 @@ const WALLS: [([f64; 3], f64); 8] = [
 
 fn row(
     text: &mut String,
-    random: &mut Noise,
+    random: &mut Xorshift,
     (range_m, angle_rad): Precision,
     names: (usize, usize),
     read: [f64; 3],
@@ -48,13 +48,13 @@ fn row(
 }
 
 /// Forty rows from each station, wherever the beam points, in both faces; with rough places of the stations.
-fn walls(random: &mut Noise, precision: Precision) -> (String, String) {
+fn walls(random: &mut Xorshift, precision: Precision) -> (String, String) {
     let mut text = HEADER.to_owned();
     let mut stations = "[stations]\n".to_owned();
     for (number, [x, y, z, heading]) in STANDS.into_iter().enumerate() {
         let stand = Stand::new([x, y, z], heading);
         for face in 0..40 {
-            let (azimuth, elevation) = (6.3 * random.uniform(), 2.2 * random.uniform() - 0.9);
+            let (azimuth, elevation) = (6.3 * random.even(), 2.2 * random.even() - 0.9);
             let level = f64::cos(elevation);
             let beam = Vector3::new(level * azimuth.sin(), level * azimuth.cos(), elevation.sin());
             let along = |(normal, distance): ([f64; 3], f64)| {
@@ -76,8 +76,8 @@ fn walls(random: &mut Noise, precision: Precision) -> (String, String) {
 }
 
 /// Thirty targets, each seen once from three stations, in either face.
-fn once(random: &mut Noise, precision: Precision) -> (String, String) {
-    let mut within = |low: f64, high: f64| low + (high - low) * random.uniform();
+fn once(random: &mut Xorshift, precision: Precision) -> (String, String) {
+    let mut within = |low: f64, high: f64| low + (high - low) * random.even();
     let places: Vec<Vector3<f64>> =
         (0..30).map(|_| Vector3::new(within(-7.0, 8.0), within(-5.0, 7.0), within(0.0, 3.4))).collect();
     let mut text = HEADER.to_owned();
@@ -105,11 +105,11 @@ fn fitted(kind: &str, (data, stations): &(String, String)) -> (Plan, FitResult) 
 fn held(
     kind: &str,
     precision: Precision,
-    scene: fn(&mut Noise, Precision) -> (String, String),
+    scene: fn(&mut Xorshift, Precision) -> (String, String),
 ) -> (f64, f64, usize) {
     let (mut inside, mut squares, mut spoiled) = (0.0, 0.0, 0);
     for run in 0..RUNS {
-        let (plan, found) = fitted(kind, &scene(&mut Noise(7000 + 131 * run), precision));
+        let (plan, found) = fitted(kind, &scene(&mut Xorshift(7000 + 131 * run), precision));
         spoiled += usize::from(!found.set_aside.is_empty());
         for name in ERRORS {
             let id = plan.chain.find_symbol(name).unwrap();
@@ -150,7 +150,7 @@ fn rows_whose_noise_is_chance_are_not_set_aside() {
 fn rows_that_are_far_off_are_set_aside_alone() {
     let (mut found_wrong, mut found_right) = (0, 0);
     for run in 0..20 {
-        let random = &mut Noise(5501 + 97 * run);
+        let random = &mut Xorshift(5501 + 97 * run);
         let (data, stations) = once(random, ALONG);
         let wrong: Vec<usize> = (0..5).map(|number| 18 * number + run as usize % 18).collect();
         let rows = data.lines().enumerate().map(|(at, line)| {

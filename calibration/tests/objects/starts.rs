@@ -3,13 +3,13 @@
 
 use std::fmt::Write as _;
 
-use calibration::fit::{FitResult, fit};
-use calibration::study::{Plan, Study};
+use fit::{FitResult, fit};
 use model_core::Chain;
 use nalgebra::Vector3;
+use study::{Plan, Study};
 
-use super::room::{Noise, Stand};
 use super::text_of;
+use testkit::{Stand, Xorshift};
 
 const ERRORS: [&str; 6] = ["axes_apart", "trunnion", "index", "beam_aside", "collimation", "range_zero"];
 const RANGE_M: f64 = 0.4e-3;
@@ -31,7 +31,7 @@ const WALLS: [([f64; 3], f64); 6] = [
 ];
 
 /// The rows of one station before walls, in either face.
-fn walls(random: &mut Noise, number: usize, rows: usize) -> String {
+fn walls(random: &mut Xorshift, number: usize, rows: usize) -> String {
     let [x, y, z, heading] = STANDS[number];
     let stand = Stand::new([x, y, z], heading);
     let mut text = String::new();
@@ -53,8 +53,8 @@ fn walls(random: &mut Noise, number: usize, rows: usize) -> String {
 }
 
 /// The rows of all stations before twelve targets, in both faces, the first row that of the first target from the first station.
-fn targets(random: &mut Noise) -> (String, Vec<Vector3<f64>>) {
-    let mut within = |low: f64, high: f64| low + (high - low) * random.uniform();
+fn targets(random: &mut Xorshift) -> (String, Vec<Vector3<f64>>) {
+    let mut within = |low: f64, high: f64| low + (high - low) * random.even();
     let places: Vec<Vector3<f64>> =
         (0..12).map(|_| Vector3::new(within(-20.0, 22.0), within(-25.0, 20.0), within(-2.0, 9.0))).collect();
     let mut text = String::new();
@@ -107,12 +107,12 @@ fn estimates(plan: &Plan, found: &FitResult, errors: &[&str]) -> Vec<[f64; 2]> {
 fn rough_starts_determine_what_good_ones_do() {
     let chain = text_of("examples/objects/scanner.chain");
     for run in 0..4 {
-        let random = &mut Noise(9000 + 77 * run);
+        let random = &mut Xorshift(9000 + 77 * run);
         let data: String = HEADER.to_owned() + &(0..4).map(|at| walls(random, at, 60)).collect::<String>();
         let mut stations = |off_m: f64, off_rad: f64| {
             let mut text = "[stations]\n".to_owned();
             for (number, [x, y, z, heading]) in STANDS.into_iter().enumerate() {
-                let mut off = |size: f64| size * (2.0 * random.uniform() - 1.0);
+                let mut off = |size: f64| size * (2.0 * random.even() - 1.0);
                 let [x, y, z] = [x, y, z].map(|value| value + off(off_m));
                 let heading = heading + off(off_rad);
                 writeln!(
@@ -148,7 +148,7 @@ fn a_single_length_has_the_noise_of_the_ranges() {
         let (mut pulls, mut of_scale) = (0.0, 0.0);
         let runs = 12;
         for run in 0..runs {
-            let random = &mut Noise(31 + 1013 * run);
+            let random = &mut Xorshift(31 + 1013 * run);
             let (rows, places) = targets(random);
             let pairs = [[0, 6], [1, 7], [2, 8], [3, 9], [4, 10]];
             let first = STANDS[0];
@@ -195,7 +195,7 @@ fn a_single_length_has_the_noise_of_the_ranges() {
 #[test]
 fn rows_that_are_set_aside_make_nothing_surer() {
     let chain = text_of("examples/objects/scanner.chain");
-    let random = &mut Noise(271);
+    let random = &mut Xorshift(271);
     let (rows, _) = targets(random);
     // The last station counts elevation from the other side in one face.
     let spoiled: String = rows
@@ -227,7 +227,7 @@ fn rows_that_are_set_aside_make_nothing_surer() {
 #[test]
 fn a_row_with_the_label_of_another_target_takes_no_others_with_it() {
     let chain = text_of("examples/objects/scanner.chain");
-    let (rows, _) = targets(&mut Noise(8081));
+    let (rows, _) = targets(&mut Xorshift(8081));
     let labels = |line: &str| line.starts_with("S3,T5,");
     let mut rows: Vec<String> =
         rows.lines().filter(|line| !labels(line)).map(|line| format!("{line}\n")).collect();

@@ -1,6 +1,6 @@
 //! How many combinations of errors a set-up sees, beside the ranks that `tests/reference/objects_rank.py` printed.
 
-use calibration::objects::{Remedy, identify};
+use network::{Remedy, identify};
 use std::fmt::Write as _;
 
 use super::{read, text_of};

@@ -4,10 +4,10 @@
 mod amended;
 mod marks;
 
-use calibration::data::{Measure, Observations};
-use calibration::formats::{DataError, Input};
-use calibration::study::Study;
 use model_core::Chain;
+use observe::{Measure, Observations};
+use study::Study;
+use tables::formats::{DataError, Input};
 
 const MOUNT: &str = include_str!("../../../examples/alt-azimuth/alt-azimuth.chain");
 

@@ -1,7 +1,7 @@
 //! Tables whose numbers have a decimal point here and a comma there.
 
-use calibration::formats::csv::Reader;
-use calibration::formats::{Form, Options, TableReader, Wanted};
+use tables::formats::csv::Reader;
+use tables::formats::{Form, Options, TableReader, Wanted};
 
 /// So many rows that several processors read them.
 const MANY: usize = 100_000;

@@ -14,7 +14,7 @@ use super::options::{DesignerArguments, at_observable, is_meant_for};
 use super::size;
 use crate::evaluation::readings_of;
 use crate::failure::Failure;
-use crate::tables::ReadingsTable;
+use crate::table_files::ReadingsTable;
 use crate::terminal;
 
 /// What the tolerances come to at one observable.

@@ -9,7 +9,9 @@ mod text;
 use model_core::Chain;
 use model_core::budget::{Budget, Curves};
 
-use crate::claims::{Checked, ClaimsFile};
+use claims::file::Checked;
+
+use crate::claims_file::ClaimsFile;
 
 pub use designer::Designed;
 pub use options::DesignerArguments;

@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
-use calibration::data::units::{Amount, Unit};
 use calibration::tolerance::{Distribution, Shape, Tolerance, Written};
 use model_core::{Chain, ObservableKind, Quantity, SymbolId, SymbolKind, names};
+use tables::units::{Amount, Unit};
 
 use crate::errors_file;
 use crate::failure::Failure;
-use crate::source::{Source, listed};
+use crate::source::Source;
+use model_core::names::listed;
 
 /// What a designer asks.
 #[derive(Debug, clap::Args)]

@@ -1,11 +1,11 @@
 //! A budget as one page for a browser: nothing in it comes from elsewhere, and it has no script.
 
-use calibration::data::SiUnit;
 use calibration::report::numbers;
+use claims::checker::Verdict;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use model_core::budget::Curves;
-use model_core::checker::Verdict;
 use model_core::{Chain, Symbol};
+use observe::SiUnit;
 
 use super::tables::{PARTS, samples};
 use super::{Designed, Measured, Shown, reading_unit, short, size};

@@ -4,13 +4,13 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use calibration::formats::{ColumnName, DataError, Options};
 use model_core::{Chain, Quantity, SymbolId};
+use tables::formats::{ColumnName, DataError, Options};
 
 use super::dimensions::TIME;
 use crate::failure::Failure;
-use crate::source::listed;
-use crate::tables::{self, ReadingsTable};
+use crate::table_files::{self, ReadingsTable};
+use model_core::names::listed;
 
 /// Steps of the table that are so many times longer than the usual one are gaps.
 const GAP: f64 = 10.0;
@@ -118,7 +118,7 @@ impl<'c> Opened<'c> {
                          what stands there twice"
                     );
                     let (file, row) = (self.table.source().to_owned(), times.len() as u64 + 1);
-                    return Err(tables::failure(DataError::Impossible { file, line: None, row, why }));
+                    return Err(table_files::failure(DataError::Impossible { file, line: None, row, why }));
                 }
                 times.push(*time);
             }
@@ -126,7 +126,7 @@ impl<'c> Opened<'c> {
                 column.extend(more);
             }
             let bytes = size_of::<f64>() * times.len() * (columns.len() + 1);
-            Options::default().holds(bytes, self.table.source()).map_err(tables::failure)?;
+            Options::default().holds(bytes, self.table.source()).map_err(table_files::failure)?;
         }
         let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let middle = steps.len() / 2;

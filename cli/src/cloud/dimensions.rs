@@ -3,8 +3,8 @@
 //!
 //! Source: LAS Specification 1.4, revision 15, ASPRS (2019), "Extra Bytes", tables 24 and 25.
 
-use calibration::data::units::Unit;
-use calibration::formats::ColumnName;
+use tables::formats::ColumnName;
+use tables::units::Unit;
 
 use super::header::{Header, field};
 use super::records::text;

@@ -23,11 +23,12 @@ use crate::errors_file::FoundOver;
 use crate::evaluation::readings_of;
 use crate::failure::Failure;
 use crate::over_table::so_far;
-use crate::source::{listed, observable};
-use crate::{output, tables, terminal};
+use crate::source::observable;
+use crate::{output, table_files, terminal};
 use by_time::Opened;
 pub use chunks::is_decoding;
 use correct::Corrector;
+use model_core::names::listed;
 use points::Cloud;
 use readings::Readings;
 use write::Writer;
@@ -63,7 +64,7 @@ pub struct Correction<'a> {
 pub fn correct(correction: Correction<'_>) -> Result<(), Failure> {
     let Correction { chain, values, found, named, data, readings, time, comment, tolerance_m, out } =
         correction;
-    if !tables::is_point_cloud(out) {
+    if !table_files::is_point_cloud(out) {
         return Err(Failure::Input(format!(
             "`{}`: a point cloud stays one: write a .las or .laz file",
             out.display()
@@ -77,7 +78,7 @@ pub fn correct(correction: Correction<'_>) -> Result<(), Failure> {
     let mut outside = Outside::new(found);
     let (progress, began) = (terminal::progress(), Instant::now());
     output::write_file_with(out, |file| {
-        let mut writer = Writer::start(out, file, &mut cloud, tables::is_compressed_cloud(out))?;
+        let mut writer = Writer::start(out, file, &mut cloud, table_files::is_compressed_cloud(out))?;
         while let Some(mut points) = cloud.next()? {
             let columns = corrector.readings.columns(&cloud, &points)?;
             let slices: Vec<_> = columns.iter().map(|(id, column)| (*id, column.as_slice())).collect();

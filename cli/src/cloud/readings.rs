@@ -1,16 +1,16 @@
 //! Where the readings of points come from: a dimension of each point, or a table by time.
 
-use calibration::data::units::Plausible;
-use calibration::formats::{DataError, declared_columns, find_reading};
 use model_core::{Chain, Quantity, SymbolId};
 use rayon::prelude::*;
+use tables::formats::{DataError, declared_columns, find_reading};
+use tables::units::Plausible;
 
 use super::by_time::{Opened, Timetable};
 use super::dimensions::{Dimension, TIME};
 use super::points::{Cloud, Points};
 use crate::failure::Failure;
-use crate::source::listed;
-use crate::tables::{self, factor_of};
+use crate::table_files::{self, factor_of};
+use model_core::names::listed;
 
 /// Points whose readings one processor gathers at a time.
 const PIECE: usize = 1 << 13;
@@ -69,7 +69,7 @@ impl Readings {
                     continue;
                 }
                 Err(DataError::MissingColumn { .. }) => return Err(missing(cloud, table.as_ref(), name)),
-                Err(other) => return Err(tables::failure(other)),
+                Err(other) => return Err(table_files::failure(other)),
             };
             if let Some(table) = table.as_ref().filter(|_| in_both) {
                 return Err(cloud.wrong(format_args!(
@@ -83,7 +83,7 @@ impl Readings {
                 cloud.wrong(format_args!("`{name}` cannot be read of dimension `{}`: {why}", names[at].full))
             })?;
             let (factor, is_bare) =
-                factor_of(&names[at], chain.symbol(symbol), &file).map_err(tables::failure)?;
+                factor_of(&names[at], chain.symbol(symbol), &file).map_err(table_files::failure)?;
             let plausible = is_bare.then(|| Plausible::readings(chain, symbol));
             in_points.push(InPoint { symbol, dimension, factor, name: names[at].full.clone(), plausible });
         }

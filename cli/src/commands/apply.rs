@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use calibration::data::units;
 use model_core::{ObservableId, Quantity as Measures, SymbolId, SymbolKind};
+use tables::units;
 
 use super::Answer;
 use crate::apply::{As, Outside, Seen, Solver};
@@ -16,8 +16,9 @@ use crate::output;
 #[cfg(feature = "point-clouds")]
 use crate::over_table::Model;
 use crate::over_table::{Opened, OverTable};
-use crate::source::{listed, observables};
-use crate::{tables, terminal};
+use crate::source::observables;
+use crate::{table_files, terminal};
+use model_core::names::listed;
 
 /// Correct new data with a calibrated model.
 ///
@@ -74,14 +75,14 @@ const REACHED: f64 = 1e-9;
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     #[cfg(feature = "point-clouds")]
-    if tables::is_point_cloud(&arguments.table.data) {
+    if table_files::is_point_cloud(&arguments.table.data) {
         correct_cloud(arguments)?;
         return Ok(Answer::Done);
     }
     let of_clouds =
         [("--readings", arguments.readings.is_some()), ("--tolerance", arguments.tolerance.is_some())];
     if let Some((option, _)) = of_clouds.iter().find(|(_, is_given)| *is_given)
-        && !tables::is_point_cloud(&arguments.table.data)
+        && !table_files::is_point_cloud(&arguments.table.data)
     {
         return Err(Failure::Input(format!(
             "{option} is for point clouds, and `{}` is a table: leave it out, or name a .las or .laz file with --data",

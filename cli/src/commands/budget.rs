@@ -2,22 +2,23 @@
 
 use std::path::{Path, PathBuf};
 
+use claims::checker::{Checker, Claim};
 use model_core::Chain;
 use model_core::budget::{Budget, BudgetError, Curves, Poses};
-use model_core::checker::{Checker, Claim};
 use model_core::mistake::Mistake;
 use model_core::remainder::DomainError;
 use serde_json::{Value, json};
 
 use super::{Answer, TextOrJson};
 use crate::budget::{self, Designed, DesignerArguments, Measured, Shown};
-use crate::claims::{Checked, ClaimsFile};
+use crate::claims_file::ClaimsFile;
 use crate::expected::{self, Work};
 use crate::failure::Failure;
 use crate::ranges::{self, RangeArgument};
 use crate::sizes::SizesArgument;
 use crate::source::{Source, observables};
 use crate::{curves, errors_file, output, poses, terminal};
+use claims::file::Checked;
 
 /// Measure what each error alone does, what all do together, and what tolerances come to.
 ///
@@ -207,8 +208,8 @@ fn in_words(arguments: &Arguments) -> String {
 
 /// The verdicts on what somebody stated of the size of influences.
 fn comparisons(file: &ClaimsFile) -> Result<Vec<Checked<'_>>, Failure> {
-    let mut checker = Checker::new(&file.chain);
-    let compared = file.claims.iter().filter(|named| matches!(named.claim, Claim::Comparison(_)));
+    let mut checker = Checker::new(&file.said.chain);
+    let compared = file.said.claims.iter().filter(|named| matches!(named.claim, Claim::Comparison(_)));
     compared
         .map(|claim| match checker.check(&claim.claim) {
             Ok(verdict) => Ok(Checked { claim, verdict }),

@@ -4,8 +4,8 @@ use std::io;
 use std::path::PathBuf;
 
 use calibration::calibrate::Calibration;
-use calibration::formats;
-use calibration::study::Plan;
+use study::Plan;
+use tables::formats;
 
 use super::{Answer, TextOrJson};
 use crate::calibrating::Studied;

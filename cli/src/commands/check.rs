@@ -2,52 +2,146 @@
 
 use std::path::PathBuf;
 
-use model_core::Mistake;
-use model_core::certificate::{Certificate, Declared, Refusal};
-use model_core::checker::{Checker, Claim, Verdict};
+use claims::checker::{Claim, Verdict};
+use claims::file::{Checked, Unread};
+use claims::show::{self, as_json, as_text, unread_as_json};
+use model_core::Mistakes;
+use proof::{Certificate, Declared, Refusal};
 use serde_json::{Value, json};
 
-use super::{Answer, TextOrJson};
+use super::Answer;
 use crate::certificates::CertificateArguments;
-use crate::claims::{Checked, ClaimsFile, NamedClaim, as_json, as_text};
+use crate::claims_file::{self, ClaimsFile};
 use crate::failure::Failure;
-use crate::terminal;
+use crate::{paper, terminal};
 
 /// Check published claims: is the printed formula what the chain implies?
 ///
-/// A claims file names a declaration and claims about it: closed forms in LaTeX as printed, equalities of two formulas, total
-/// errors, comparisons of influences, sizes, bounds, counts, ranks. Formulas are decided by exact algebra. What differs is shown term by term, with the
-/// place in the printed formula and the usual slip behind it. Exit code 1 if a claim does not hold.
+/// A claims file names a declaration and claims about it: closed forms in LaTeX as printed, positions, frames, Jacobians, image
+/// points, equalities of two formulas, total errors, comparisons of influences, sizes, bounds, counts, ranks. Formulas are
+/// decided by exact algebra. What differs is shown term by term, with the place in the printed formula and the usual slip
+/// behind it. A claim that cannot be read voids no other one.
+///
+/// Of a paper's source (.tex or .md) the equations are found and drawn up as a claims file, its guesses marked, and checked.
+///
+/// Exit code 1 if a claim does not hold, 2 if one cannot be read.
 ///
 /// Example: trueaxis check examples/mobile-lidar/paper.toml
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The claims file
+    /// The claims file, or a paper's source
     claims: PathBuf,
+    /// The declaration that a paper is about; otherwise the one that it names, or the only one beside it
+    #[arg(long, value_name = "FILE")]
+    chain: Option<PathBuf>,
+    /// Where the claims of a paper are written to; otherwise PAPER.claims.toml
+    #[arg(long, value_name = "FILE")]
+    claims_file: Option<PathBuf>,
     /// How to print the verdicts
-    #[arg(long, value_enum, default_value_t = TextOrJson::Text)]
-    format: TextOrJson,
+    #[arg(long, value_enum, default_value_t = Shape::Text)]
+    format: Shape,
     #[command(flatten)]
     certificate: CertificateArguments,
+}
+
+/// How verdicts are printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Shape {
+    /// For reading
+    Text,
+    /// A table in Markdown
+    Markdown,
+    /// A table in LaTeX
+    Latex,
+    /// A page with a table
+    Html,
+    /// For programs
+    Json,
 }
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let is_certified = arguments.certificate.is_wanted()?;
-    let file = ClaimsFile::read(&arguments.claims)?;
-    let checked = checked(&file)?;
+    let kind = paper::kind_of(&arguments.claims);
+    if kind.is_none() {
+        let given = [("--chain", &arguments.chain), ("--claims-file", &arguments.claims_file)];
+        if let Some((name, _)) = given.into_iter().find(|(_, path)| path.is_some()) {
+            let why = format!(
+                "`{name}` is for a paper's source, .tex or .md; a claims file names its chain itself"
+            );
+            return Err(Failure::Input(why));
+        }
+    }
+    let (file, mut notes) = match kind {
+        Some(kind) => {
+            let (file, notes) = paper::read(
+                &arguments.claims,
+                kind,
+                arguments.chain.as_deref(),
+                arguments.claims_file.as_deref(),
+            )?;
+            (file, notes)
+        }
+        None => (ClaimsFile::read_all(&arguments.claims)?, Vec::new()),
+    };
+    let (checked, undecided) = file.said.check();
+    let mut mistakes = file.said.mistakes();
+    mistakes.extend(undecided.iter().flat_map(|unread| unread.mistakes.clone()));
+    let unread: Vec<&Unread> = file.said.unread.iter().chain(&undecided).collect();
+    let table = |format| {
+        let mut lines = show::lines(&file.said, &checked, &undecided);
+        lines.extend(notes.iter().map(|(line, equation, reason)| show::Line {
+            name: format!("line {line}"),
+            equation: vec![show::Piece::Formula(equation.clone())],
+            verdict: "unread",
+            remarks: vec![vec![show::Piece::Words(reason.clone())]],
+        }));
+        show::as_table(&arguments.claims.display().to_string(), &lines, format)
+    };
     let output = match arguments.format {
-        TextOrJson::Text => as_text(&file, &checked),
-        TextOrJson::Json => {
-            let claims: Vec<Value> = checked.iter().map(|checked| as_json(&file, checked)).collect();
-            format!("{:#}\n", json!({ "claims": claims }))
+        Shape::Text if checked.is_empty() => String::new(),
+        Shape::Text => as_text(&file.said, &checked, &claims_file::paint()),
+        Shape::Markdown => table(show::Format::Markdown),
+        Shape::Latex => table(show::Format::Latex),
+        Shape::Html => table(show::Format::Html),
+        Shape::Json => {
+            let verdicts = checked.iter().map(|checked| as_json(&file.said, checked));
+            let claims: Vec<Value> =
+                verdicts.chain(unread.iter().map(|unread| unread_as_json(unread))).collect();
+            let equations: Vec<Value> = notes
+                .iter()
+                .map(|(line, equation, reason)| json!({"line": line, "equation": equation, "reason": reason}))
+                .collect();
+            let mut said = json!({ "claims": claims });
+            if kind.is_some() {
+                said["unread"] = equations.into();
+            }
+            format!("{said:#}\n")
         }
     };
-    let certificate = is_certified.then(|| certify(&file, &checked)).transpose()?;
+    let certificate = if is_certified { Some(certify(&file, &checked)?) } else { None };
     arguments.certificate.write(certificate.as_deref())?;
     match arguments.format {
-        TextOrJson::Text => terminal::print_formulas(&output)?,
-        TextOrJson::Json => terminal::print(&output)?,
+        Shape::Text => terminal::print_formulas(&output)?,
+        _ => terminal::print(&output)?,
+    }
+    if arguments.format == Shape::Text {
+        for (line, equation, reason) in notes.drain(..) {
+            terminal::print_formulas(&format!("unread   line {line}: {reason}\n    {equation}\n"))?;
+        }
+    }
+    if !mistakes.is_empty() {
+        let failure = file.source.mistakes(&Mistakes::locate(&file.source.text, mistakes));
+        if checked.is_empty() || checked.iter().all(|checked| checked.verdict.holds()) {
+            return Err(failure);
+        }
+        terminal::report_failure(&failure);
+    }
+    if checked.is_empty() {
+        return Err(Failure::Input(format!(
+            "`{}` makes no claim that was recognised; name its letters in lines such as `% trueaxis: \\epsilon_x = ex`",
+            arguments.claims.display()
+        )));
     }
     let all_hold = checked.iter().all(|checked| checked.verdict.holds());
     Ok(if all_hold { Answer::Done } else { Answer::No })
@@ -58,16 +152,11 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
 /// # Errors
 /// A claim that has no verdict, with its place.
 pub fn checked(file: &ClaimsFile) -> Result<Vec<Checked<'_>>, Failure> {
-    let mut checker = Checker::new(&file.chain);
-    let mut checked = Vec::with_capacity(file.claims.len());
-    for claim in &file.claims {
-        let NamedClaim { claim: asked, place, .. } = claim;
-        let verdict = checker
-            .check(asked)
-            .map_err(|error| file.source.mistake(Mistake::new(place.clone(), error.to_string())))?;
-        checked.push(Checked { claim, verdict });
+    let (checked, undecided) = file.said.check();
+    match undecided.into_iter().flat_map(|unread| unread.mistakes).next() {
+        None => Ok(checked),
+        Some(mistake) => Err(file.source.mistake(mistake)),
     }
-    Ok(checked)
 }
 
 /// The verdicts as a certificate.
@@ -77,6 +166,7 @@ fn certify(file: &ClaimsFile, checked: &[Checked<'_>]) -> Result<String, Failure
         Declared::from_text(&declaration.text).map_err(|mistakes| declaration.mistakes(&mistakes))?;
     let mut certificate = Certificate::new(&declared);
     for Checked { claim, verdict } in checked {
+        certificate.printed_as(&claim.texts);
         match (&claim.claim, verdict) {
             (Claim::ClosedForm(form), Verdict::ClosedForm(verdict)) => {
                 let written = certificate.closed_form(&claim.name, form, verdict);
@@ -93,7 +183,10 @@ fn certify(file: &ClaimsFile, checked: &[Checked<'_>]) -> Result<String, Failure
             (_, Verdict::Bound(_)) => {
                 certificate.not_certified(&claim.name, "the bound is proved in rounded numbers, not in Coq");
             }
-            (_, Verdict::Rank(_) | Verdict::Total(_)) => {
+            (_, Verdict::Values(_)) => {
+                certificate.not_certified(&claim.name, "numbers are computed in floating point, not proved");
+            }
+            (_, Verdict::Rank(_) | Verdict::Total(_) | Verdict::Entries(_)) => {
                 certificate.not_certified(&claim.name, "certificates speak of closed forms");
             }
             _ => certificate

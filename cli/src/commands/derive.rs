@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use model_core::algebra::{Fraction, Poly};
-use model_core::certificate::{Certificate, Declared};
 use model_core::forms::{self, Form, TableError};
 use model_core::{Chain, ObservableId, ObservableKind, print};
+use proof::{Certificate, Declared};
 use serde_json::json;
 
 use super::Answer;

@@ -13,7 +13,8 @@ use crate::expected::{self, Work};
 use crate::failure::Failure;
 use crate::output;
 use crate::sizes::SizesArgument;
-use crate::source::{Source, listed, observables};
+use crate::source::{Source, observables};
+use model_core::names::listed;
 
 /// Generate evaluators in another language.
 ///

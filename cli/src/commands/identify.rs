@@ -2,19 +2,20 @@
 
 use std::path::PathBuf;
 
-use model_core::certificate::{Certificate, Declared, Refusal};
 use model_core::forms::{self, FormError};
 use model_core::identify::{self, Candidate, Holds, Identifiability, Mistaken, Ratio, Verdict};
 use model_core::{BodyId, Chain, Mistakes, ObservableId, Role, names, print};
+use proof::{Certificate, Declared, Refusal};
 use serde_json::{Value, json};
 
 use super::{Answer, TextOrJson};
 use crate::certificates::CertificateArguments;
 use crate::failure::Failure;
 use crate::set_up::SetUpSeen;
-use crate::source::{Source, listed, observables};
-use crate::tables::open_beside;
+use crate::source::{Source, observables};
+use crate::table_files::open_beside;
 use crate::terminal;
+use model_core::names::listed;
 
 /// Say what no data can tell apart.
 ///

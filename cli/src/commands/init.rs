@@ -4,17 +4,17 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use calibration::formats::{self, DataError, Input, Options};
 use calibration::report::shell_word;
-use calibration::study::Study;
 use model_core::Chain;
+use study::Study;
+use tables::formats::{self, DataError, Input, Options};
 
 use super::Answer;
 use crate::failure::Failure;
 use crate::init::templates::{self, TEMPLATES};
 use crate::init::{self, Draft, Look};
 use crate::wrap::paragraph;
-use crate::{output, source, tables, terminal};
+use crate::{output, source, table_files, terminal};
 
 /// Begin: write a chain and a study for a table of data.
 ///
@@ -111,7 +111,7 @@ fn open(data: &Path) -> Result<Input<'static>, DataError> {
         file: data.display().to_string(),
         why: source::not_readable(data, error).to_string(),
     };
-    tables::open(data).map_err(|error| unreadable(&error))
+    table_files::open(data).map_err(|error| unreadable(&error))
 }
 
 /// Holds what is to be written to what it is read with: the chain, the study, and every row of the data.

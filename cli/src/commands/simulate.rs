@@ -3,20 +3,21 @@
 use std::f64::consts::PI;
 use std::path::PathBuf;
 
-use calibration::data::units::{Amount, Plausible};
-use calibration::formats::{Column, ColumnName};
 use model_core::{Chain, Observable, ObservableId, ObservableKind, Quantity as Measures, SymbolId};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
+use tables::formats::{Column, ColumnName};
+use tables::units::{Amount, Plausible};
 
 use super::Answer;
 use crate::errors_file;
 use crate::evaluation::{Evaluator, Exactness, Quantity, column_names};
 use crate::failure::Failure;
 use crate::ranges::{self, Range, RangeArgument};
-use crate::source::{Source, listed, observables};
-use crate::{output, tables, terminal};
+use crate::source::{Source, observables};
+use crate::{output, table_files, terminal};
+use model_core::names::listed;
 
 /// Simulate measured data.
 ///
@@ -74,7 +75,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let given = ranges::of_chain(&chain, &arguments.range)?;
     let mut simulation =
         Simulation::new(&chain, &values, &arguments.noise, &arguments.observable, &given, arguments.seed)?;
-    tables::write(&arguments.out, |writer| {
+    table_files::write(&arguments.out, |writer| {
         writer.header(&simulation.header)?;
         let mut left = arguments.poses as usize;
         while left > 0 {

@@ -1,8 +1,8 @@
 //! A table as `init` looks at it: its columns with what their names and numbers say.
 
-use calibration::data::units::Unit;
-use calibration::formats::{Cells, ColumnName, DataError, Form, TableReader, Texts, Wanted};
 use model_core::Quantity;
+use tables::formats::{Cells, ColumnName, DataError, Form, TableReader, Texts, Wanted};
+use tables::units::Unit;
 
 use super::words::{self, Part, Side};
 

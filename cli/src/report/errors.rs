@@ -2,10 +2,10 @@
 
 use std::fmt::Write as _;
 
-use calibration::data::Observations;
 use calibration::diagnose::ErrorFound;
 use calibration::report::numbers;
 use model_core::{Chain, Quantity, SymbolKind};
+use observe::Observations;
 
 use crate::errors_file::{FOUND_OVER, FoundOver};
 
@@ -115,10 +115,10 @@ mod tests {
     use std::path::PathBuf;
 
     use calibration::amend::{Addition, amend, with_quantities_of};
-    use calibration::candidate::Setting;
-    use calibration::catalogue::catalogue;
-    use calibration::data::SiUnit;
+    use effects::candidate::Setting;
+    use effects::catalogue::catalogue;
     use model_core::SymbolId;
+    use observe::SiUnit;
     use proptest::prelude::*;
 
     use super::*;

@@ -3,13 +3,13 @@
 use std::io::Write;
 use std::path::Path;
 
-use calibration::data::unknowns::Shape;
 use calibration::diagnose::{Diagnosis, Shown};
-use calibration::formats::{Texts, Written};
-use calibration::objects::Placed;
-use calibration::study::Plan;
 use model_core::Chain;
+use network::Placed;
+use observe::unknowns::Shape;
 use serde::Serialize;
+use study::Plan;
+use tables::formats::{Texts, Written};
 
 use super::errors::{errors_toml, ranges_of};
 use super::page::page;
@@ -18,7 +18,7 @@ use super::{Provenance, Reported, diff, places, residuals};
 use crate::errors_file::FoundOver;
 use crate::failure::Failure;
 use crate::output::Folder;
-use crate::{tables, terminal};
+use crate::{table_files, terminal};
 
 /// The number of the promise that the keys of `report.json` are.
 const SCHEMA: u32 = 4;
@@ -147,7 +147,7 @@ pub fn json(reported: &Reported<'_>) -> Result<String, Failure> {
 
 /// Columns as separated values, row by row; a cell is empty where there is no number.
 fn write_table(columns: &[(String, Cells<'_>)], path: &Path, file: &mut dyn Write) -> Result<(), Failure> {
-    tables::csv_row(file, path, columns.iter().map(|(name, _)| name.as_str()))?;
+    table_files::csv_row(file, path, columns.iter().map(|(name, _)| name.as_str()))?;
     let texts: Vec<Option<Texts>> = columns
         .iter()
         .map(|(_, cells)| if let Cells::Texts(texts) = cells { Some(texts.iter().collect()) } else { None })
@@ -165,5 +165,5 @@ fn write_table(columns: &[(String, Cells<'_>)], path: &Path, file: &mut dyn Writ
         (Cells::Texts(_), Some(texts)) => Written::Texts(texts),
         (Cells::Texts(_), None) => unreachable!("texts were gathered above"),
     });
-    tables::csv_rows(file, path, &written.collect::<Vec<_>>(), rows)
+    table_files::csv_rows(file, path, &written.collect::<Vec<_>>(), rows)
 }

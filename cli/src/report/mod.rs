@@ -10,8 +10,8 @@ mod residuals;
 mod text;
 
 use calibration::calibrate::Calibration;
-use calibration::data::Observations;
-use calibration::study::Plan;
+use observe::Observations;
+use study::Plan;
 
 pub use files::{errors, file_names, found_over, json, rows_written, write_all};
 pub use page::{excerpt, page};

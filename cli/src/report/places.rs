@@ -1,6 +1,6 @@
 //! Where objects and stations came out, as tables.
 
-use calibration::objects::{Origin, Placed, PlacedObject, PlacedStation};
+use network::{Origin, Placed, PlacedObject, PlacedStation};
 
 use super::residuals::Cells;
 

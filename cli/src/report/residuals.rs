@@ -3,13 +3,13 @@
 use std::borrow::Cow;
 
 use calibration::calibrate::Calibration;
-use calibration::data::SiUnit;
 use calibration::diagnose::Shown;
-use calibration::fit::FitResult;
-use calibration::fit::noise::Layout;
-use calibration::formats::ColumnName;
+use fit::FitResult;
+use fit::noise::Layout;
 use model_core::SymbolId;
+use observe::SiUnit;
 use rayon::prelude::*;
+use tables::formats::ColumnName;
 
 use super::Reported;
 

@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
-use calibration::data::SiUnit;
 use calibration::diagnose::{Diagnosis, EffectFound, Rms};
 use calibration::report::{self as words, Answers, Tone, numbers, sentence_case};
+use observe::SiUnit;
 use similar::TextDiff;
 
 use super::{Reported, counted};

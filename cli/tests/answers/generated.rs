@@ -1,5 +1,6 @@
 //! Generated evaluators as files.
 
+use std::path::Path;
 use std::process::Command;
 
 use crate::support::{Folder, Run, root, trueaxis};
@@ -87,6 +88,7 @@ fn single_precision_has_no_double() {
 /// With values written in, the file asks for no errors, and computes what `eval` computes with them.
 #[test]
 fn values_are_written_in() {
+    let Some(node) = testkit::tool(testkit::NODE) else { return };
     let folder = Folder::new("generate-values");
     let declaration = "chain Mount {
         const arm: length = -0.25;
@@ -120,7 +122,7 @@ fn values_are_written_in() {
              const joints = {{ azimuth: 40 * Math.PI / 180, elevation: 25 * Math.PI / 180 }};
              console.log(exactError(prepareExactError({pass}), joints).tip.join(','));"
         );
-        let found = node(&folder, &script).expect("it runs");
+        let found = run_node(&node, &folder, &script).expect("it runs");
         let eval = folder.trueaxis(&[
             "eval",
             "mount.chain",
@@ -141,18 +143,19 @@ fn values_are_written_in() {
 }
 
 /// What node prints, or what it complains of.
-fn node(folder: &Folder, script: &str) -> Result<String, String> {
-    let output = Command::new("node")
+fn run_node(node: &Path, folder: &Folder, script: &str) -> Result<String, String> {
+    let output = Command::new(node)
         .args(["--input-type=module", "-e", script])
         .current_dir(&folder.0)
         .output()
-        .expect("node is there");
+        .expect("node runs");
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
     if output.status.success() { Ok(text(output.stdout)) } else { Err(text(output.stderr)) }
 }
 
 #[test]
 fn javascript_refuses_fields_that_are_unknown_or_missing() {
+    let Some(node) = testkit::tool(testkit::NODE) else { return };
     let options = ["--observable", "pointing", "--only", "exact-error"];
     let (folder, _) = generated("generate-javascript", "javascript", "lidar.js", &options);
     folder.write("package.json", "{\"type\": \"module\"}");
@@ -161,7 +164,7 @@ fn javascript_refuses_fields_that_are_unknown_or_missing() {
             "import {{ prepareExactError as prepare, exactError, exactErrorRows, noErrors }} from './lidar.js';
              const p = prepare(noErrors), one = {{ alpha: 0, beta: 0, gamma: 0 }}; {call}"
         );
-        node(&folder, &script).expect_err("it is refused")
+        run_node(&node, &folder, &script).expect_err("it is refused")
     };
     assert!(told("prepare({ ...noErrors, dthetay1: 1 })").contains("errors have no field dthetay1"));
     assert!(told("prepare({})").contains("errors lack the field dtheta_y1"));

@@ -1,5 +1,4 @@
 //! The pages to play with: their code is what `generate` writes, and a browser shows the numbers that `eval` computes.
-#![allow(clippy::print_stderr, reason = "a test that is skipped says so")]
 
 use std::fs;
 use std::process::Command;
@@ -52,9 +51,10 @@ fn the_pages_run_what_generate_writes() {
 
 /// A page as a browser leaves it, and what it wrote to its console; `None` where no browser is.
 fn browse(page: &str) -> Option<(String, String)> {
+    let browser = testkit::tool(testkit::BROWSER)?;
     let profile = Folder::new(&format!("book-browser-{}", page.replace(|c: char| !c.is_alphanumeric(), "-")));
     let address = format!("file://{}/docs/src/interactive/{page}", root().display());
-    let output = Command::new("chromium")
+    let output = Command::new(browser)
         .args([
             "--headless",
             "--no-sandbox",
@@ -71,20 +71,11 @@ fn browse(page: &str) -> Option<(String, String)> {
         ])
         .arg(format!("--user-data-dir={}", profile.0.display()))
         .arg(address)
-        .output();
-    match output {
-        Ok(output) => {
-            let console = String::from_utf8_lossy(&output.stderr).into_owned();
-            let console =
-                console.lines().filter(|line| line.contains("CONSOLE")).collect::<Vec<_>>().join("\n");
-            Some((String::from_utf8(output.stdout).expect("UTF-8"), console))
-        }
-        Err(_) if std::env::var_os("CI").is_none() => {
-            eprintln!("skipped: no chromium on this machine");
-            None
-        }
-        Err(error) => panic!("chromium, which the pages are tested in: {error}"),
-    }
+        .output()
+        .expect("the browser runs");
+    let said = String::from_utf8_lossy(&output.stderr);
+    let console: Vec<&str> = said.lines().filter(|line| line.contains("CONSOLE")).collect();
+    Some((String::from_utf8(output.stdout).expect("UTF-8"), console.join("\n")))
 }
 
 /// The numbers of a table of the page, row by row.

@@ -9,8 +9,8 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use crate::figures::{calibrated, number};
-use crate::random::Random;
 use crate::support::Folder;
+use testkit::{Random, turned};
 
 type Point = [f64; 3];
 
@@ -33,14 +33,6 @@ const PLANES: [(&str, Point, f64); 8] = [
 
 /// Standard deviations by which poses are off: east, north, up, m; heading, pitch, roll, rad.
 const OFF: [f64; 6] = [0.01, 0.01, 0.015, 3e-4, 1e-4, 1e-4];
-
-fn turned(axis: usize, angle: f64, point: Point) -> Point {
-    let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
-    let mut out = point;
-    out[i] = angle.cos() * point[i] - angle.sin() * point[j];
-    out[j] = angle.sin() * point[i] + angle.cos() * point[j];
-    out
-}
 
 fn dot(a: Point, b: Point) -> f64 {
     (0..3).map(|at| a[at] * b[at]).sum()

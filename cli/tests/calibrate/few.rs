@@ -3,9 +3,9 @@
 use serde_json::Value;
 
 use crate::figures::simulate_pan;
-use crate::random::Random;
 use crate::room::{Room, STUDY, TRACKER};
 use crate::support::Folder;
+use testkit::Random;
 
 const PAN: &str = "chain Pan {
     body base on ground { motion: Rz(pan); motion_error: Rz(index); }
@@ -82,15 +82,11 @@ const MOUNT: &str = "chain Mount {
 /// What somebody measured with a mount that has a collimation error of 30 arcsec, worked out by hand: azimuth, elevation, x, y and z, with
 /// noise of 2 arcsec, or 10 µm of a point at 1 m.
 fn rows(count: usize, seed: u64) -> String {
-    let mut state = seed;
-    let mut uniform = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    };
+    let mut random = Random::new(seed);
     let mut table = "azimuth,elevation,x,y,z\n".to_owned();
     for _ in 0..count {
-        let (azimuth, elevation) = (6.0 * uniform() - 3.0, 0.2 + uniform());
-        let mut noise = || 1e-5 * ((0..12).map(|_| uniform()).sum::<f64>() - 6.0);
+        let (azimuth, elevation) = (6.0 * random.even() - 3.0, 0.2 + random.even());
+        let mut noise = || 1e-5 * random.normal();
         // The line of sight in the telescope is turned about z, lifted by the elevation, and turned by the azimuth.
         let (across, along) = (30.0 * std::f64::consts::PI / 648_000.0_f64).sin_cos();
         let (level, up) = (along * elevation.cos(), along * elevation.sin());

@@ -1,9 +1,9 @@
 //! A few exact targets beside free stations: they hold the frame of all others.
 
 use crate::figures::{calibrated, number};
-use crate::random::Random;
 use crate::room::{Room, STUDY, TRACKER};
 use crate::support::Folder;
+use testkit::Random;
 
 /// What nobody fitted is foretold as well as with nothing known: without some of these points a fold does not know where all of it is.
 #[test]

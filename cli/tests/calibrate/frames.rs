@@ -6,8 +6,8 @@ use std::f64::consts::PI;
 use std::fmt::Write;
 
 use crate::figures::{calibrated, first_effect, holds};
-use crate::random::Random;
 use crate::support::Folder;
+use testkit::Random;
 
 const GANTRY: &str = "chain Gantry {
     body carriage on ground { motion: Tx(x); }

@@ -1,6 +1,4 @@
 //! Every example's study on measured data, through the whole command.
-//!
-//! The data lie outside the project; without them the tests say so and pass, except where `CI` is set.
 
 use serde_json::Value;
 
@@ -8,18 +6,13 @@ use crate::support::{root, trueaxis};
 
 const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;
 
-/// The report of a study of `examples/`; `None`, with a word about it, where its data are not at hand.
-#[allow(clippy::print_stdout, reason = "a skipped test says so")]
+/// The report of a study of `examples/`; `None` where its data are missing.
 fn report(study: &str) -> Option<Value> {
     let path = format!("examples/{study}.toml");
     let text = std::fs::read_to_string(root().join(&path)).expect("the study is there");
-    let data = text.lines().find_map(|line| line.strip_prefix("data       = \"")).expect("it names its data");
-    let data = root().join(&path).with_file_name(data.trim_end_matches('"'));
-    if !data.exists() {
-        assert!(std::env::var_os("CI").is_none(), "{} is missing", data.display());
-        println!("skipped: {} is missing", data.display());
-        return None;
-    }
+    let data = "data       = \"../../../shared/data/";
+    let data = text.lines().find_map(|line| line.strip_prefix(data)).expect("it names its data");
+    testkit::measured(data.trim_end_matches('"'))?;
     let run = trueaxis(&["calibrate", &path, "--format", "json"]);
     assert_eq!(run.code, 0, "{run}");
     Some(serde_json::from_str(&run.stdout).expect("JSON"))

@@ -5,9 +5,9 @@ use std::fmt::Write;
 use nalgebra::{Rotation3, Vector3};
 
 use crate::figures::{calibrated, cautions, holds, number};
-use crate::random::Random;
 use crate::room::{Room, STUDY, TRACKER};
 use crate::support::{Folder, run_in};
+use testkit::Random;
 
 const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;
 const LEVELLED: &str = "[stations]\n\"*\" = { levelled = \"5 arcsec\" }\n";

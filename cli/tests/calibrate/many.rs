@@ -7,6 +7,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 use serde_json::Value;
+use testkit::turned;
 use trueaxis_cli::library::stretches;
 
 use crate::support::{Folder, trueaxis};
@@ -38,15 +39,6 @@ folds = 3
 seed = 4
 "#;
 
-fn turned([x, y, z]: [f64; 3], axis: char, angle: f64) -> [f64; 3] {
-    let (sin, cos) = angle.sin_cos();
-    match axis {
-        'x' => [x, cos * y - sin * z, sin * y + cos * z],
-        'y' => [cos * x + sin * z, y, cos * z - sin * x],
-        _ => [cos * x - sin * y, sin * x + cos * y, z],
-    }
-}
-
 /// A turntable whose circle sits off centre by `off_centre` of a row, in files; the sight by rotations written down here.
 fn folder(name: &str, off_centre: impl Fn(u64) -> f64) -> Folder {
     let folder = Folder::new(name);
@@ -58,8 +50,8 @@ fn folder(name: &str, off_centre: impl Fn(u64) -> f64) -> Folder {
         for row in number * ROWS..(number + 1) * ROWS {
             let (alpha, beta): (f64, f64) = (random.random_range(-3.0..3.0), random.random_range(-0.7..0.7));
             let circle = alpha + off_centre(row) * alpha.sin();
-            let mut sight = turned([0.0, 1.0, 0.0], 'x', beta);
-            sight = turned(turned(sight, 'z', circle), 'x', TILT);
+            let mut sight = turned(0, beta, [0.0, 1.0, 0.0]);
+            sight = turned(0, TILT, turned(2, circle, sight));
             sight.iter_mut().for_each(|value| *value += NOISE * random.sample::<f64, _>(StandardNormal));
             let length = sight.iter().map(|value| value * value).sum::<f64>().sqrt();
             let [x, y, z] = sight.map(|value| value / length);

@@ -6,9 +6,9 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use crate::figures::{calibrated, cautions};
-use crate::random::Random;
 use crate::room::{Point, Room, STUDY, TRACKER};
 use crate::support::{Folder, run_in};
+use testkit::Random;
 
 /// A room's rows with other numbers, and the first targets as a study has them.
 fn study(name: &str, change: impl Fn([f64; 3]) -> [f64; 3], place: impl Fn(Point) -> Point) -> Folder {

@@ -1,9 +1,9 @@
 //! Stations that move while they measure: nothing of the instrument is to be named for it.
 
 use crate::figures::{calibrated, cautions, number};
-use crate::random::Random;
 use crate::room::{Room, STUDY, TRACKER};
 use crate::support::{Folder, run_in};
+use testkit::Random;
 
 #[test]
 fn a_tripod_that_sinks_is_told_and_no_cause_in_the_instrument() {

@@ -7,8 +7,8 @@ use std::f64::consts::PI;
 use std::fmt::Write;
 
 use crate::figures::{calibrated, error};
-use crate::random::Random;
 use crate::support::Folder;
+use testkit::Random;
 
 const SCANNER: &str = "chain Scanner {
     body alidade on ground { motion: Rz(-azimuth); }

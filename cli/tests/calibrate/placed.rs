@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::random::Random;
 use crate::room::{Room, STUDY, TRACKER};
 use crate::support::{Folder, root, run_in};
+use testkit::Random;
 
 /// The rows of a table by the label in their first column; each cell by its column.
 fn table(folder: &Folder, file: &str) -> BTreeMap<String, BTreeMap<String, String>> {

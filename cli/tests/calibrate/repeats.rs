@@ -54,14 +54,10 @@ fn readings_of_few_digits_repeat_by_chance() {
         "chain Table { body top on ground { motion: Rz(angle); motion_error: Rz(index); }
             observe mark: direction(1, 0, 0) of top; }",
     );
-    let mut state = 1_u64;
-    let mut random = |below: u64| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) % below
-    };
+    let mut random = testkit::Random::new(1);
     let mut row = || {
-        let angle = random(40);
-        format!("{angle},{}\n", angle + random(3))
+        let angle = random.below(40);
+        format!("{angle},{}\n", angle + random.below(3))
     };
     let rows: String = (0..400).map(|_| row()).collect();
     folder.write("d.csv", format!("angle [deg],truth [deg]\n{rows}"));

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-use crate::random::Random;
+use testkit::Random;
 
 /// A tracker in two faces.
 pub const TRACKER: &str = "chain Tracker {

@@ -1,27 +1,18 @@
 //! Robot arms whose ball sits in unknown sockets: measured data, each robot's rows by themselves.
-//!
-//! The data lie outside the project; without them the tests say so and pass, except where `CI` is set.
 
 use std::fmt::Write;
 
 use serde_json::Value;
 
 use crate::figures::{calibrated, cautions};
-use crate::random::Random;
-use crate::support::{Folder, root, run_in};
+use crate::support::{Folder, run_in};
+use testkit::Random;
 
 const STUDY: &str = "examples/ball-sockets/panda.toml";
 
-/// A folder with the example and the rows of one robot under the name that the study asks for; `None`, with a word about it,
-/// where the data are not at hand.
-#[allow(clippy::print_stdout, reason = "a skipped test says so")]
+/// A folder with the example and the rows of one robot under the name that the study asks for; `None` where the data are missing.
 fn robot(name: &str, folder: &str) -> Option<Folder> {
-    let data = root().join("../shared/data/ball-sockets.csv");
-    let Ok(text) = std::fs::read_to_string(&data) else {
-        assert!(std::env::var_os("CI").is_none(), "{} is missing", data.display());
-        println!("skipped: {} is missing", data.display());
-        return None;
-    };
+    let text = std::fs::read_to_string(testkit::measured("ball-sockets.csv")?).expect("text");
     let mut lines = text.lines();
     let header = lines.next().expect("a header");
     let own: Vec<&str> = lines.filter(|line| line.split(',').next() == Some(name)).collect();

@@ -6,9 +6,9 @@ use std::f64::consts::PI;
 use std::fmt::Write;
 
 use crate::figures::{calibrated, cautions, error, first_effect, holds, number};
-use crate::random::Random;
 use crate::room::{Room, STUDY, TRACKER};
 use crate::support::{Folder, run_in};
+use testkit::Random;
 
 const CONTROLS: usize = 8;
 const LONGER: f64 = 1e-4;

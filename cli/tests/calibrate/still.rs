@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 use std::fmt::Write;
 
 use crate::figures::{calibrated, first_effect};
-use crate::random::Random;
 use crate::room::{Room, STUDY, TRACKER};
 use crate::support::Folder;
+use testkit::Random;
 
 /// Of reports on data that hold nothing but noise, no more than one sees anything.
 fn see_nothing(verdicts: &[String]) {

@@ -5,8 +5,8 @@ use std::fmt::Write;
 use insta::assert_snapshot;
 
 use crate::figures::{calibrated, error};
-use crate::random::Random;
 use crate::support::Folder;
+use testkit::Random;
 
 /// A fine stage on a coarse one.
 const SLIDE: &str = "chain Slide {

@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use serde_json::Value;
 
 use crate::figures::{calibrated, first_effect, holds};
-use crate::random::Random;
 use crate::room::{Room, STUDY, TRACKER};
 use crate::support::Folder;
+use testkit::Random;
 
 /// What a calibration makes of a room that something reads like this.
 fn report(name: &str, seed: u64, read: impl Fn([f64; 3]) -> [f64; 3]) -> Value {

@@ -5,9 +5,9 @@ use std::f64::consts::PI;
 use std::fmt::Write;
 
 use crate::figures::{calibrated, holds};
-use crate::random::Random;
 use crate::room::{Room, STUDY, TRACKER};
 use crate::support::Folder;
+use testkit::Random;
 
 const NONE: [(&str, f64); 4] = [("trunnion", 0.0), ("index", 0.0), ("beam_aside", 0.0), ("collimation", 0.0)];
 

@@ -35,7 +35,7 @@ fn the_papers_equations_are_written_with_their_verdicts_and_the_library_beside_t
     // The other ten claims are comparisons and counts, and both the file and the command say so.
     assert_eq!(text.matches("(* Not certified: ").count(), 10, "{text}");
     assert_eq!(run.stderr.matches("not certified: ").count(), 10, "{}", run.stderr);
-    assert_eq!(folder.read("TrueAxis.v"), model_core::certificate::LIBRARY);
+    assert_eq!(folder.read("TrueAxis.v"), proof::LIBRARY);
 }
 
 #[test]
@@ -43,7 +43,7 @@ fn the_library_goes_where_it_is_wanted() {
     let folder = folder("library");
     let run = folder.trueaxis(&["derive", "mobile-lidar.chain", "--certificate-library", "Lib.v"]);
     assert_eq!((run.code, run.stderr.as_str()), (0, ""));
-    assert_eq!(folder.read("Lib.v"), model_core::certificate::LIBRARY);
+    assert_eq!(folder.read("Lib.v"), proof::LIBRARY);
     let arguments = ["identify", "mobile-lidar.chain", "--observable", "pointing", "--certificate", "c.v"];
     let run = folder.trueaxis(&[&arguments[..], &["--certificate-library", "Lib.v"]].concat());
     assert_eq!(run.code, 0, "{}", run.stderr);

@@ -47,7 +47,7 @@ fn reference(set: &str) -> BTreeMap<String, String> {
 #[test]
 fn every_verdict_is_that_of_the_independent_derivation() {
     let sets = files("toml");
-    assert!(sets.len() >= 12, "{} sets", sets.len());
+    assert!(sets.len() >= 21, "{} sets", sets.len());
     let mut compared = 0;
     for set in sets.iter().map(|path| name(path)) {
         let verdicts = verdicts(&set);
@@ -90,11 +90,7 @@ fn page_of(set: &str) -> &str {
 /// Where SymPy is there, the scripts still say what is kept beside them.
 #[test]
 fn the_scripts_say_what_is_kept_of_them() {
-    let python = std::env::var("TRUEAXIS_PYTHON").unwrap_or_else(|_| "python3".to_owned());
-    let has_sympy = Command::new(&python).args(["-c", "import sympy"]).output();
-    if !has_sympy.is_ok_and(|output| output.status.success()) {
-        return;
-    }
+    let Some(python) = testkit::tool(testkit::SYMPY) else { return };
     // The quickest of them; the others run the same way.
     for set in ["mobile-lidar", "total-station"] {
         let output = Command::new(&python)

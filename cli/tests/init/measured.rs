@@ -1,5 +1,4 @@
 //! Measured data, the project's own and others' that lie outside of it: `init` begins, and `calibrate` ends with a verdict.
-#![allow(clippy::print_stderr, reason = "a test that is skipped says so")]
 
 use std::fs;
 
@@ -43,15 +42,9 @@ fn the_projects_own_data() {
     }
 }
 
-/// A file of others' data; without it the test says so, except where `CI` is set.
+/// A file of others' data; `None` where it is missing.
 fn of_others(file: &str) -> Option<String> {
-    let path = root().join("../shared/data").join(file);
-    if !path.exists() {
-        assert!(std::env::var_os("CI").is_none(), "{} is missing", path.display());
-        eprintln!("skipped: {} is missing", path.display());
-        return None;
-    }
-    Some(fs::read_to_string(path).expect("text"))
+    Some(fs::read_to_string(testkit::measured(file)?).expect("text"))
 }
 
 #[test]

@@ -1,11 +1,9 @@
 //! The report in a browser: it renders, says no error, and answers to hover, marking and the choice of before and after.
-//!
-//! Without Chromium the tests say so and pass, except where `CI` is set.
 
 #[path = "../support/mod.rs"]
 mod support;
 
-use std::path::PathBuf;
+use std::path::Path;
 use std::process::Command;
 
 use support::{Folder, trueaxis};
@@ -60,22 +58,8 @@ addEventListener("load", () => {
 });
 </script></body>"##;
 
-/// The browser; `None`, with a word about it, where there is none.
-#[allow(clippy::print_stdout, reason = "a skipped test says so")]
-fn browser() -> Option<PathBuf> {
-    let names = ["chromium", "chromium-browser", "google-chrome"];
-    let found = std::env::split_paths(&std::env::var_os("PATH")?)
-        .flat_map(|folder| names.map(|name| folder.join(name)))
-        .find(|path| path.is_file());
-    if found.is_none() {
-        assert!(std::env::var_os("CI").is_none(), "Chromium is missing");
-        println!("skipped: Chromium is missing");
-    }
-    found
-}
-
 /// What the browser makes of a page at a width, and what it says meanwhile.
-fn rendered(browser: &PathBuf, folder: &Folder, page: &str, width: u32) -> (String, String) {
+fn rendered(browser: &Path, folder: &Folder, page: &str, width: u32) -> (String, String) {
     let profile = folder.0.join(format!("profile-{width}"));
     let out = Command::new(browser)
         .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"])
@@ -91,7 +75,7 @@ fn rendered(browser: &PathBuf, folder: &Folder, page: &str, width: u32) -> (Stri
 
 #[test]
 fn the_page_answers_to_a_person() {
-    let Some(browser) = browser() else { return };
+    let Some(browser) = testkit::tool(testkit::BROWSER) else { return };
     let folder = Folder::new("page-in-a-browser");
     let out = folder.0.to_str().expect("UTF-8");
     let run = trueaxis(&["calibrate", "examples/mobile-lidar/study.toml", "--out", out]);

@@ -5,9 +5,9 @@
 
 use std::collections::HashMap;
 
+use claims::latex::{PrintedSymbols, read_formula};
 use codegen::{Form, Interpreter, Language, build};
 use model_core::expr::{Expr, Node};
-use model_core::latex::{PrintedSymbols, read_formula};
 
 use crate::case::{Case, FORMS};
 

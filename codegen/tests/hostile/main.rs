@@ -40,21 +40,21 @@ fn compiles(unit: &Unit<'_>, folder: &Path) {
         for file in generate(unit, language, "file").unwrap() {
             fs::write(folder.join(format!("file.{}", file.extension)), file.text).unwrap();
         }
-        let command = |program: &str, arguments: &[&str]| {
+        let command = |program: &Path, arguments: &[&str]| {
             quiet(Command::new(program).current_dir(folder).args(arguments));
         };
         match language {
             // As a private module of which nothing is used.
             Language::Rust => {
                 fs::write(folder.join("lib.rs"), "#![no_std]\nmod file;\n").unwrap();
-                let rustc = std::env::var("RUSTC").unwrap_or_else(|_| "rustc".into());
+                let rustc = PathBuf::from(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()));
                 command(
                     &rustc,
                     &["--edition=2024", "-Dwarnings", "--crate-type=lib", "--emit=metadata", "lib.rs"],
                 );
             }
             Language::C => {
-                let cc = std::env::var("CC").unwrap_or_else(|_| "cc".into());
+                let cc = PathBuf::from(std::env::var_os("CC").unwrap_or_else(|| "cc".into()));
                 let strict =
                     ["-std=c99", "-trigraphs", "-pedantic", "-Wall", "-Wextra", "-Werror", "-fsyntax-only"];
                 command(&cc, &[strict.as_slice(), &["file.c"]].concat());
@@ -62,13 +62,15 @@ fn compiles(unit: &Unit<'_>, folder: &Path) {
                 command(&cc, &["-std=gnu11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "file.c"]);
             }
             Language::Javascript => {
+                let Some(node) = testkit::tool(testkit::NODE) else { continue };
                 fs::write(folder.join("package.json"), "{\"type\": \"module\"}").unwrap();
                 let load = "await import('./file.js'); if (globalThis.injected) throw new Error('injected');";
-                command("node", &["--input-type=module", "-e", load]);
+                command(&node, &["--input-type=module", "-e", load]);
             }
             Language::Numpy => {
+                let Some(python) = testkit::tool(testkit::PYTHON) else { continue };
                 fs::write(folder.join("numpy.py"), "ndarray = object\n").unwrap();
-                command("python3", &["-B", "-W", "error", "-c", "import file"]);
+                command(&python, &["-B", "-W", "error", "-c", "import file"]);
             }
             Language::Latex => {
                 let text = fs::read_to_string(folder.join("file.tex")).unwrap();

@@ -33,7 +33,8 @@ impl Fraction {
     }
 
     /// A quotient with the division carried out where it can be; `None` for a division by zero.
-    pub(crate) fn new(above: Poly, below: Poly) -> Option<Self> {
+    #[must_use]
+    pub fn new(above: Poly, below: Poly) -> Option<Self> {
         if below.is_zero() {
             return None;
         }
@@ -51,7 +52,11 @@ impl Fraction {
         }
     }
 
-    pub(crate) fn sum(&self, other: &Self) -> Result<Self, AlgebraError> {
+    /// The sum.
+    ///
+    /// # Errors
+    /// [`AlgebraError::TooLarge`] if it would be unreasonably large.
+    pub fn sum(&self, other: &Self) -> Result<Self, AlgebraError> {
         if self.below == other.below {
             let above = &self.above + &other.above;
             return Ok(Self::new(above, self.below.clone()).unwrap_or_else(|| Self::whole(Poly::zero())));
@@ -61,7 +66,11 @@ impl Fraction {
         Ok(Self::new(above, below).unwrap_or_else(|| Self::whole(Poly::zero())))
     }
 
-    pub(crate) fn product(&self, other: &Self) -> Result<Self, AlgebraError> {
+    /// The product.
+    ///
+    /// # Errors
+    /// [`AlgebraError::TooLarge`] if it would be unreasonably large.
+    pub fn product(&self, other: &Self) -> Result<Self, AlgebraError> {
         if self.below == other.above && !self.is_whole() {
             return Ok(Self { above: self.above.clone(), below: other.below.clone() });
         }
@@ -71,7 +80,8 @@ impl Fraction {
     }
 
     /// One over this; `None` if it is zero.
-    pub(crate) fn inverse(&self) -> Option<Self> {
+    #[must_use]
+    pub fn inverse(&self) -> Option<Self> {
         Self::new(self.below.clone(), self.above.clone())
     }
 

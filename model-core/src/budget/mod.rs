@@ -218,7 +218,10 @@ pub fn unit(chain: &Chain, observable: ObservableId) -> &'static str {
 }
 
 /// What an observable shows has to be of one unit, so that its errors can be added up.
-pub(crate) fn one_unit(chain: &Chain, id: ObservableId) -> Result<(), BudgetError> {
+///
+/// # Errors
+/// It shows numbers of two units.
+pub fn one_unit(chain: &Chain, id: ObservableId) -> Result<(), BudgetError> {
     let observable = chain.observable(id);
     match observable.of_other_unit() {
         None => Ok(()),

@@ -12,9 +12,10 @@ use crate::algebra::{AlgebraError, Fraction, Poly};
 use crate::chain::reading::Reading;
 use crate::chain::{Axis, Chain, ObservableId};
 use crate::symbol::{SymbolId, SymbolKind};
-use reading::{NoSeries, ReadSeries};
+use reading::NoSeries;
 
 pub use exact_symbolic::exact_symbolic;
+pub use reading::ReadSeries;
 pub use steps::{Elementary, Group, Steps, steps};
 pub use table::{Table, TableError, table};
 
@@ -155,7 +156,10 @@ pub(crate) fn derive_within(
 }
 
 /// The vector of an observable without errors, in the frame that it is seen in.
-pub(crate) fn nominal(chain: &Chain, observable: ObservableId) -> Result<[Poly; 3], FormError> {
+///
+/// # Errors
+/// The chain has no closed form.
+pub fn nominal(chain: &Chain, observable: ObservableId) -> Result<[Poly; 3], FormError> {
     let parts = graded::parts_up_to(chain, observable, 0, TERMS_LIMIT)?;
     match parts.into_iter().next() {
         Some(nominal) => Ok(nominal),
@@ -181,7 +185,10 @@ pub(crate) fn derive_vector_within(
 }
 
 /// What the errors would add to another reading of the same vector.
-pub(crate) fn derive_reading(
+///
+/// # Errors
+/// The reading has no such form.
+pub fn derive_reading(
     chain: &Chain,
     observable: ObservableId,
     order: u32,

@@ -11,7 +11,8 @@ use crate::chain::reading::{Measures, Reading, SignedAxis};
 
 /// The error of a reading up to an order in the errors.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct ReadSeries {
+pub struct ReadSeries {
+    /// The error of the reading: radians or metres.
     pub value: Fraction,
     /// What has to be positive for this to be right, numbers apart: roots of squares that the form has a sign for.
     pub positive: Vec<Poly>,

@@ -302,7 +302,8 @@ fn without_placement(chain: &Chain, observable: ObservableId) -> Chain {
 
 /// The constants for whose declared values special relations hold, with what they are: zero, and of angles quarter turns, as a
 /// body is turned onto the next axis.
-pub(crate) fn special(chain: &Chain) -> Vec<(SymbolId, Poly)> {
+#[must_use]
+pub fn special(chain: &Chain) -> Vec<(SymbolId, Poly)> {
     let value = |id: SymbolId| {
         let symbol = chain.symbol(id);
         let value = symbol.value?;
@@ -325,7 +326,7 @@ pub(crate) fn special(chain: &Chain) -> Vec<(SymbolId, Poly)> {
 ///
 /// # Errors
 /// They make a divisor zero.
-pub(crate) fn put_in(formula: &Poly, values: &[(SymbolId, Poly)]) -> Result<Poly, AlgebraError> {
+pub fn put_in(formula: &Poly, values: &[(SymbolId, Poly)]) -> Result<Poly, AlgebraError> {
     values.iter().try_fold(formula.clone(), |formula, (symbol, value)| formula.substitute(*symbol, value))
 }
 

@@ -10,8 +10,6 @@ mod notation;
 mod pieces;
 mod steps;
 mod table;
-#[cfg(test)]
-mod tests;
 
 use crate::algebra::{Poly, Rational};
 use crate::chain::Chain;

@@ -75,12 +75,18 @@ impl Chain {
     ///
     /// Every other mistake in it, sorted by place.
     pub fn symbolic_from_text(text: &str) -> Result<Self, Mistakes> {
-        let tokens = syntax::tokens_of(text).map_err(|mistake| syntax::located(text, vec![mistake]))?;
-        match read_symbolic(tokens) {
-            Ok((_, chain)) => Ok(chain),
-            Err(mistakes) => Err(syntax::located(text, mistakes)),
-        }
+        read_symbolic_text(text).map(|(_, chain)| chain)
     }
+}
+
+/// A declaration as it is written beside the chain that it means; constants need no value.
+///
+/// # Errors
+///
+/// Every mistake in it, sorted by place.
+pub fn read_symbolic_text(text: &str) -> Result<(Declaration, Chain), Mistakes> {
+    let tokens = syntax::tokens_of(text).map_err(|mistake| syntax::located(text, vec![mistake]))?;
+    read_symbolic(tokens).map_err(|mistakes| syntax::located(text, mistakes))
 }
 
 /// Reads and checks a declaration: all mistakes of form and of meaning, sorted by place.

@@ -7,7 +7,6 @@ mod columns;
 mod numbers;
 mod printed;
 mod steps;
-mod table;
 
 use model_core::Chain;
 

@@ -52,17 +52,13 @@ fn long(joints: usize) -> Chain {
 /// The rank of the columns at many poses, in floating point.
 fn rank_of_numbers(chain: &Chain) -> usize {
     let columns = forms::derive(chain, ObservableId(0), 1).unwrap().columns(chain);
-    let mut state = 1_u64;
-    let mut random = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    };
+    let mut random = testkit::Random::new(1);
     let poses = 2 * columns.len();
     let mut rows = Vec::new();
     for _ in 0..poses {
         let mut values = chain.nominal_values();
         for joint in chain.symbols_of(SymbolKind::Joint) {
-            values[joint.index()] = 6.0 * random();
+            values[joint.index()] = 6.0 * random.even();
         }
         for axis in 0..3 {
             rows.extend(columns.iter().map(|(_, column)| column[axis].eval(&values)));

@@ -4,7 +4,6 @@
 mod language;
 mod numbers;
 mod orientation;
-mod slips;
 
 use model_core::Chain;
 

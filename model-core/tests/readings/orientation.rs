@@ -1,7 +1,5 @@
 //! How bodies are turned: the small rotation vector against 120-digit arithmetic, and what the language says of it.
 
-use model_core::checker::{Checker, ClosedForm, Order, PrintedVector};
-use model_core::latex::PrintedSymbols;
 use model_core::remainder::{self, Domain};
 use model_core::syntax::Declaration;
 use model_core::{Chain, SymbolKind, exact, forms, print};
@@ -50,34 +48,6 @@ fn validate_the_forms_of_rotation_vectors_to_third_order() {
             assert!((found - expected).abs() <= 1e-9, "{what}: {found:?} is not {expected:?}");
         }
     }
-}
-
-/// By hand: each error turns the tube about the axis of its joint, as that axis stands.
-const TURNED: [&str; 3] = [
-    "tilt_x + cross*cos(azimuth) + (index_e - sag*cos(elevation))*sin(azimuth) - collimation*cos(azimuth)*sin(elevation)",
-    "tilt_y + cross*sin(azimuth) - (index_e - sag*cos(elevation))*cos(azimuth) - collimation*sin(azimuth)*sin(elevation)",
-    "index_a + collimation*cos(elevation)",
-];
-
-fn holds(chain: &Chain, texts: [&str; 3]) -> bool {
-    let id = chain.find_observable("turned").unwrap();
-    let (symbols, shown) = (PrintedSymbols::of_chain(chain), chain.observable(id));
-    let printed = PrintedVector::read_shown(chain, &symbols, shown, &texts, false).unwrap();
-    let kept = chain.symbols_of(SymbolKind::Error).collect();
-    let claim = ClosedForm { observable: id, order: Order::UpTo(1), only: None, faces: None, kept, printed };
-    Checker::new(chain).closed_form(&claim).unwrap().differences.is_empty()
-}
-
-#[test]
-fn claims_on_rotation_vectors_are_decided() {
-    let chain = chain();
-    let shown = chain.find_observable("turned").map(|id| chain.observable(id)).unwrap();
-    assert!(shown.is_orientation() && shown.labels().eq(["rotation_x", "rotation_y", "rotation_z"]));
-    assert!(holds(&chain, TURNED));
-    let [x, y, z] = TURNED;
-    let slip = y.replace("- collimation*sin(azimuth)", "+ collimation*sin(azimuth)");
-    assert_ne!(slip, y);
-    assert!(!holds(&chain, [x, &slip, z]));
 }
 
 /// A whole turn about one axis is that turn, and none is none.

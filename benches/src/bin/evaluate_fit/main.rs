@@ -4,19 +4,17 @@
 //! and `left-open`; N the runs of each case (default 400). The mount is simulated by the independent program of the tests.
 #![allow(clippy::print_stdout)]
 
-#[path = "../../../../calibration/tests/numbers/independent.rs"]
-mod independent;
 #[path = "../evaluate_search/rate.rs"]
 #[allow(dead_code)]
 mod rate;
 mod scanner;
 
-use calibration::data::{Measure, Observations, Series};
-use calibration::fit::{FitOptions, fit};
-use independent::{ARCSEC, Measured, NAMES, Noise, Poses, SIGMA, measured};
+use fit::{FitOptions, fit};
 use model_core::Chain;
+use observe::{Measure, Observations, Series};
 use rate::Rate;
 use rayon::prelude::*;
+use testkit::mount::{ARCSEC, Measured, NAMES, Noise, Poses, SIGMA, measured};
 
 /// Why there is no figure.
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;
@@ -141,7 +139,7 @@ fn observations(chain: &Chain, measured: &Measured, declared: bool) -> Result<Ob
     columns.sort_by_key(|(id, _)| *id);
     let sessions = measured.session.last().map_or(0, |last| *last as usize + 1);
     Ok(Observations {
-        poses: calibration::data::Poses {
+        poses: observe::Poses {
             series: vec![Series {
                 observable: chain.find_observable("sight").ok_or("no sight")?,
                 measure: Measure::Direction,
@@ -150,11 +148,7 @@ fn observations(chain: &Chain, measured: &Measured, declared: bool) -> Result<Ob
             }],
             columns,
         },
-        measured: measured
-            .direction
-            .iter()
-            .map(|u| calibration::data::Measured::Direction((*u).into()))
-            .collect(),
+        measured: measured.direction.iter().map(|u| observe::Measured::Direction((*u).into())).collect(),
         groups: if declared { measured.session.clone() } else { (0..rows as u32).collect() },
         in_sequence: declared && sessions == rows,
         row_numbers: (1..=rows as u64).collect(),

@@ -1,17 +1,17 @@
 //! The scanner of thirty errors, of which directions determine eight combinations: what is left open moves the rest by products.
 
-use calibration::data::{Measure, Measured, Observations, Poses, Series, direction_from_offset};
-use calibration::fit::{FitOptions, fit};
+use fit::{FitOptions, fit};
 use model_core::{Chain, Quantity, SymbolKind, exact};
 use nalgebra::Vector3;
+use observe::{Measure, Measured, Observations, Poses, Series, direction_from_offset};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 use rayon::prelude::*;
 
 use crate::Failure;
-use crate::independent::SIGMA;
 use crate::rate::Rate;
+use testkit::mount::SIGMA;
 
 const LIDAR: &str = include_str!("../../../../examples/mobile-lidar/mobile-lidar.chain");
 
@@ -68,7 +68,7 @@ fn one(chain: &Chain, observable: &str, errors: f64, seed: u64) -> Result<Vec<bo
         ..Observations::default()
     };
     let result = fit(chain, &observations, &FitOptions::for_chain(chain))?;
-    let hit = |one: &calibration::fit::Estimable| {
+    let hit = |one: &fit::Estimable| {
         let truth: f64 = one.combination.iter().map(|(id, ratio)| ratio * values[id.index()]).sum();
         one.half_width(0.95).is_some_and(|reach| (one.value - truth).abs() <= reach)
     };

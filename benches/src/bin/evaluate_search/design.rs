@@ -3,18 +3,18 @@
 use std::error::Error;
 use std::f64::consts::TAU;
 
-use calibration::candidate::{Effect, EffectId};
-use calibration::catalogue::catalogue;
-use calibration::data::{Measure, Measured, Observations, Series, tangent_frame};
 use calibration::search::columns::{Columns, places};
 use calibration::search::{ConfoundedSet, Problem, SetId, confounded_sets};
-use calibration::study::{Plan, Study};
+use effects::candidate::{Effect, EffectId};
+use effects::catalogue::catalogue;
 use faer::Mat;
 use model_core::{Chain, SymbolId, exact};
 use nalgebra::Vector3;
+use observe::{Measure, Measured, Observations, Series, tangent_frame};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
+use study::{Plan, Study};
 
 /// The instrument.
 pub const TEXT: &str = include_str!("../../../../examples/mobile-lidar/mobile-lidar.chain");
@@ -228,7 +228,7 @@ fn readings(plan: &Plan, rows: usize, poses: Poses, seed: u64) -> Result<Observa
     columns.sort_by_key(|(id, _)| *id);
     let observable = plan.chain.find_observable("pointing").ok_or("no pointing")?;
     let mut readings = Observations {
-        poses: calibration::data::Poses {
+        poses: observe::Poses {
             series: vec![Series {
                 observable,
                 measure: Measure::Direction,

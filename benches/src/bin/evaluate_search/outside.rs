@@ -111,6 +111,7 @@ fn case(
         text: TEXT,
         plan: &design.plan,
         observations: &observations,
+        sample: None,
         second: None,
         when: "2026-11-21",
     };

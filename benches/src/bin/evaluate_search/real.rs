@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use calibration::calibrate::{Request, calibrate};
-use calibration::data::{Measure, Observations};
-use calibration::formats::{DataError, Input};
 use calibration::search::columns::Columns;
-use calibration::study::{Plan, Study};
 use model_core::{Chain, SymbolId};
+use observe::{Measure, Observations};
+use study::{Plan, Study};
+use tables::formats::{DataError, Input};
 
 use crate::design::Failure;
 use crate::rate::{Line, Target};
@@ -93,7 +93,14 @@ fn foretold(
     held.sort_unstable();
     seen.sort_unstable();
     let (held, seen) = (all.select(&held), all.select(&seen));
-    let made = calibrate(Request { text, plan, observations: &seen, second: None, when: "2026-11-21" })?;
+    let made = calibrate(Request {
+        text,
+        plan,
+        observations: &seen,
+        sample: None,
+        second: None,
+        when: "2026-11-21",
+    })?;
     let residual = |chain: &Chain, values: &[f64]| -> Result<Vec<f64>, Failure> {
         let columns = Columns::at(chain, &held, &plan.fit.estimate, values, &[])?;
         let mut squares = vec![0.0; held.rows()];

@@ -4,15 +4,15 @@ use std::f64::consts::PI;
 use std::time::{Duration, Instant};
 
 use calibration::calibrate::{Request, calibrate};
-use calibration::candidate::Effect;
-use calibration::data::Observations;
 use calibration::diagnose::{Diagnosis, EffectFound, Verdict};
-use calibration::study::NextPoses;
+use effects::candidate::Effect;
 use model_core::{Chain, Role, SymbolId, TransformKind};
+use observe::Observations;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
+use study::NextPoses;
 
 use crate::design::{Design, Failure, Poses, SIGMA_RAD, TEXT, rms};
 use crate::noise::Noise;
@@ -22,7 +22,14 @@ use crate::rate::{Line, Rate, Target};
 const DECLARED: f64 = 10.0;
 
 fn calibrated(design: &Design, observations: &Observations) -> Result<Diagnosis, Failure> {
-    let request = Request { text: TEXT, plan: &design.plan, observations, second: None, when: "2026-11-21" };
+    let request = Request {
+        text: TEXT,
+        plan: &design.plan,
+        observations,
+        sample: None,
+        second: None,
+        when: "2026-11-21",
+    };
     Ok(calibrate(request)?.diagnosis)
 }
 

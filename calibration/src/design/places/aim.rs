@@ -6,8 +6,8 @@ use std::ops::Range;
 use model_core::{Chain, ObservableId, Quantity, SymbolId, SymbolKind, exact};
 use nalgebra::{DMatrix, DVector, Vector3};
 
-use crate::data::Poses;
 use crate::design::{joints, spread};
+use observe::Poses;
 
 /// Readings nearest to what is aimed at that are tried, at least.
 const TRIED: usize = 48;

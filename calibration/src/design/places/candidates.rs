@@ -9,13 +9,12 @@ use nalgebra::{Rotation3, Vector3};
 use super::Addition;
 use super::aim::{Aim, Goal, ranges_of};
 use super::known::{Known, extent};
-use crate::data::unknowns::{Freedom, Known as Placed, Object, Pose, Shape, Station, Unknowns};
-use crate::data::{Measure, Measured, Observations, Series};
 use crate::design::generator;
-use crate::fit::robust::median;
-use crate::objects::{Row, rows};
-use crate::parallel;
-use crate::study::{NextPlaces, NextPoses};
+use fit::robust::median;
+use network::{Row, rows};
+use observe::unknowns::{Freedom, Known as Placed, Object, Pose, Shape, Station, Unknowns};
+use observe::{Measure, Measured, Observations, Series};
+use study::{NextPlaces, NextPoses};
 
 /// Places that are compared.
 const PLACES: usize = 96;

@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use nalgebra::{DMatrix, Vector3};
 
 use super::seen::Seen;
-use crate::data::Observations;
-use crate::data::unknowns::{Freedom, OF_OBJECT, Shape, Unknowns, WIDTH};
-use crate::fit::noise::Layout;
-use crate::fit::{FitError, FitResult, Model};
+use fit::noise::Layout;
+use fit::{FitError, FitResult, Model};
+use observe::Observations;
+use observe::unknowns::{Freedom, OF_OBJECT, Shape, Unknowns, WIDTH};
 
 /// Objects that a new station may aim at, those with the most rows; all others are eliminated, as a fit does.
 const AIMED_AT: usize = 150;

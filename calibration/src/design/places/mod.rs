@@ -17,19 +17,18 @@ use std::collections::BTreeSet;
 use model_core::{Chain, SymbolId};
 use nalgebra::{DMatrix, Vector3};
 
-use crate::data::unknowns::{Freedom, OF_OBJECT, Object, Shape, Station, Unknowns, WIDTH};
-use crate::data::{Measure, Measured, Observations, Poses, Series};
 use crate::design::Criterion;
-use crate::fit::noise::Layout;
-use crate::fit::{FitError, FitResult, Model, variance_of};
-use crate::parallel;
-use crate::study::{NextPlaces, NextPoses, Plan};
 use aim::ranges_of;
 use candidates::{Candidate, Candidates, New, as_the_others};
+use fit::noise::Layout;
+use fit::{FitError, FitResult, Model, variance_of};
 use known::{Known, OF_STATION, of_object, roots};
 use noise::Usual;
+use observe::unknowns::{Freedom, OF_OBJECT, Object, Shape, Station, Unknowns, WIDTH};
+use observe::{Measure, Measured, Observations, Poses, Series};
 pub use proposal::{Addition, Place, PlaceProposal, Pointing};
 use seen::Seen;
+use study::{NextPlaces, NextPoses, Plan};
 use weigh::{Pointed, badness, chosen, measured};
 
 /// The size of what the study states none of: coefficients of effects.

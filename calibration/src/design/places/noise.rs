@@ -2,8 +2,8 @@
 
 use model_core::SymbolId;
 
-use crate::data::Observations;
-use crate::fit::noise::{Layout, Noise, VarianceTerm};
+use fit::noise::{Layout, Noise, VarianceTerm};
+use observe::Observations;
 
 /// Of each series and component a usual row with its standard deviation, and the smallest one of all.
 pub(super) struct Usual<'a> {

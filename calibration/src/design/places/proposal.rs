@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use crate::data::Measure;
 use crate::design::Criterion;
-use crate::objects::Remedy;
+use network::Remedy;
+use observe::Measure;
 
 /// What is added.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]

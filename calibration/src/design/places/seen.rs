@@ -1,9 +1,9 @@
 //! What single components of rows tell, whitened: of the errors, of their object and of their station.
 
-use crate::data::Observations;
-use crate::data::unknowns::WIDTH;
-use crate::fit::noise::Layout;
-use crate::fit::{FitError, Model};
+use fit::noise::Layout;
+use fit::{FitError, Model};
+use observe::Observations;
+use observe::unknowns::WIDTH;
 
 /// One component.
 pub(super) struct Seen {

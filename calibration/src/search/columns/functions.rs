@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use model_core::algebra::{Poly, Wave};
 use model_core::{Chain, SymbolId};
 
-use crate::data::Poses;
-use crate::data::waves::waves;
+use observe::Poses;
+use observe::waves::waves;
 
 /// Evaluates functions of joints and inputs over the rows of some poses.
 pub(crate) struct Functions<'a> {

@@ -14,11 +14,11 @@ use faer::Mat;
 use model_core::algebra::Poly;
 use model_core::{Chain, SymbolId, SymbolKind};
 
-use crate::candidate::{Effect, EffectId, Place, add_error, insert};
-use crate::data::unknowns::{Unknowns, WIDTH};
-use crate::data::{Observations, Poses};
-use crate::fit::{Block, FitError, Model};
+use effects::candidate::{Effect, EffectId, Place, add_error, insert};
+use fit::{Block, FitError, Model};
 use functions::Functions;
+use observe::unknowns::{Unknowns, WIDTH};
+use observe::{Observations, Poses};
 use seen::Extent;
 
 pub use seen::Seen;

@@ -4,7 +4,7 @@ use faer::Mat;
 use model_core::TransformKind;
 
 use super::UNSEEN;
-use crate::candidate::{Effect, Place};
+use effects::candidate::{Effect, Place};
 
 /// Values of a function more than this many times its RMS make the column hang on a single observation.
 const TOO_STEEP: f64 = 1e3;

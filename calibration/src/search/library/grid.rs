@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use model_core::{Chain, Quantity, SymbolId, SymbolKind};
 
 use super::shape::{Shape, Wave};
-use crate::data::Poses;
+use observe::Poses;
 
 /// Different readings that a function must be seen at.
 const DIFFERENT: usize = 8;

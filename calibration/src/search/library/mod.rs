@@ -22,14 +22,13 @@ use super::contest::{Contender, Price, contender, criterion, likelihood, predict
 use super::flips::familywise;
 use super::scan::{Left, Sheet};
 use super::signs::Signs;
-use crate::candidate::{Dependence, Effect, Function, Place};
-use crate::effects::{SHAPE, SmoothPlace, smooth};
-use crate::parallel;
 use crate::search::SearchError;
 use crate::search::columns::Columns;
 use crate::search::context::{Context, declared};
 use crate::search::round::Round;
 use crate::search::search_problem::least_of_function;
+use effects::candidate::{Dependence, Effect, Function, Place};
+use effects::families::{SHAPE, SmoothPlace, smooth};
 
 /// Penalised log-likelihood by which a function must beat what the catalogue made of it: six units of Schwarz's criterion.
 const BETTER: f64 = 3.0;

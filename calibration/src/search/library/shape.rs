@@ -6,7 +6,7 @@ use faer::Mat;
 use model_core::algebra::{AngleSum, Poly, Rational};
 use model_core::{Chain, Quantity, SymbolId};
 
-use crate::data::waves::waves;
+use observe::waves::waves;
 
 /// Digits of a threshold, relative to the range of the readings.
 const DIGITS: f64 = 4.0;

@@ -3,8 +3,8 @@
 use faer::{Mat, MatRef};
 
 use super::Problem;
-use crate::data::unknowns::OfStation;
 use crate::search::folds::Folds;
+use observe::unknowns::OfStation;
 
 /// Whitened rows and their folds with what is stated of stations behind them, each number a row; those of several stations are held out
 /// station by station.

@@ -8,7 +8,7 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-use crate::data::{Poses, Series};
+use observe::{Poses, Series};
 
 /// How far each joint's range is widened on either side, as a share of it.
 const WIDENED: f64 = 0.5;

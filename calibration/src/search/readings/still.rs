@@ -10,9 +10,9 @@ use std::iter::repeat_n;
 use model_core::{Chain, Quantity, SymbolId, SymbolKind, exact};
 
 use super::ByReading;
-use crate::data::{Observations, SiUnit, golden};
-use crate::fit::noise::Layout;
-use crate::fit::{FitError, FitResult, Model, pulled, robust};
+use fit::noise::Layout;
+use fit::{FitError, FitResult, Model, pulled, robust};
+use observe::{Observations, SiUnit, golden};
 
 /// Readings that differ by so many times their noise are of a joint that moved between them, and so are those that spread over so many
 /// times as much.

@@ -4,9 +4,9 @@
 
 use std::fmt::Write as _;
 
-use calibration::fit::fit;
-use calibration::study::Study;
+use fit::fit;
 use model_core::Chain;
+use study::Study;
 
 use super::{Beside, Template};
 use crate::init::look::{Look, Read};

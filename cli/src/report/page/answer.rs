@@ -1,9 +1,9 @@
 //! The first screen: what happened, what it is, where, how much better, what to do next.
 
-use calibration::data::SiUnit;
 use calibration::diagnose::{Diagnosis, Rms};
 use calibration::report::{self as words, Answers, Tone, numbers};
 use maud::{Markup, PreEscaped, html};
+use observe::SiUnit;
 
 use super::chain;
 use crate::report::Reported;

@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use calibration::data::{Measure, Measured};
 use calibration::report::numbers;
 use maud::{Markup, PreEscaped, html};
+use observe::{Measure, Measured};
 use rayon::prelude::*;
 
 use super::card::CARD;

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use calibration::data::SiUnit;
 use calibration::report::numbers::{self, Reading};
+use observe::SiUnit;
 
 use crate::report::Reported;
 use crate::report::residuals;

@@ -1,0 +1,37 @@
+//! Two columns of the same quantity stand for each other.
+
+use super::{Hypothesis, Line, Reading, Tried, line, unit_of};
+use study::{Change, SampledColumn};
+
+/// An exchange is rarer than a wrong unit.
+const PRICE: f64 = 0.5;
+
+pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
+    let mut all = Vec::new();
+    for columns in [&tried.joints, &tried.observed] {
+        for (at, one) in columns.iter().enumerate() {
+            for other in &columns[at + 1..] {
+                if one.quantity == other.quantity && one.place.source == other.place.source {
+                    all.push(hypothesis(tried, one, other));
+                }
+            }
+        }
+    }
+    all
+}
+
+fn hypothesis(tried: &Tried<'_>, one: &SampledColumn, other: &SampledColumn) -> Hypothesis {
+    let reads = |column: &SampledColumn, from: &SampledColumn| -> Line {
+        line(tried.plan, column, &from.name, &unit_of(from))
+    };
+    Hypothesis {
+        reading: Reading::Exchanged { columns: [one.name.clone(), other.name.clone()] },
+        changes: vec![
+            (one.place, Change::Exchanged(other.place)),
+            (other.place, Change::Exchanged(one.place)),
+        ],
+        lines: vec![reads(one, other), reads(other, one)],
+        price: PRICE,
+        digits: 0.0,
+    }
+}

@@ -1,0 +1,148 @@
+//! What a study may misread: a registry, one file a kind of mistake, each with the readings that it tries.
+
+mod exchanged;
+mod packed;
+mod sense;
+mod shifted;
+mod unit;
+
+use model_core::SymbolKind;
+use serde::Serialize;
+
+use super::policy::RARE;
+use study::{Change, Changed, Notation, Plan, Read, SampledColumn};
+
+/// Every kind of mistake.
+const KINDS: &[fn(&Tried<'_>) -> Vec<Hypothesis>] =
+    &[unit::tried, packed::tried, sense::tried, exchanged::tried, shifted::tried];
+
+/// What the kinds of mistake are tried on.
+pub(super) struct Tried<'a> {
+    pub plan: &'a Plan,
+    /// Columns of joints.
+    pub joints: Vec<&'a SampledColumn>,
+    /// Columns of what was observed.
+    pub observed: Vec<&'a SampledColumn>,
+}
+
+/// One way to read the data otherwise.
+#[derive(Debug, Clone)]
+pub(super) struct Hypothesis {
+    pub reading: Reading,
+    pub changes: Vec<Changed>,
+    pub lines: Vec<Line>,
+    /// How improbable it is beforehand, nats.
+    pub price: f64,
+    /// What the digits alone say for it, nats.
+    pub digits: f64,
+}
+
+impl Hypothesis {
+    /// How much a reading of a column changes with the number as it is written.
+    pub fn factor(&self, column: &SampledColumn) -> f64 {
+        let own = self.changes.iter().find(|(place, _)| *place == column.place);
+        match own.map(|(_, change)| *change) {
+            Some(Change::Factor(factor)) => factor,
+            Some(Change::Notation(Notation::Degrees)) => 1.0_f64.to_radians(),
+            Some(Change::Notation(Notation::Hours)) => 15e-4_f64.to_radians(),
+            _ => column.factor,
+        }
+    }
+}
+
+/// What is read otherwise.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "what", rename_all = "snake_case")]
+pub enum Reading {
+    /// Columns are in another unit.
+    Unit {
+        /// The columns of the file.
+        columns: Vec<String>,
+        /// The unit that they are in, and the one that they were read in.
+        is: &'static str,
+        /// The same as the study reads it; none where it is no unit of the table.
+        read: Option<&'static str>,
+    },
+    /// Digits of columns are degrees, minutes and seconds.
+    Packed {
+        /// The columns of the file.
+        columns: Vec<String>,
+        /// How they are written.
+        notation: &'static str,
+    },
+    /// A column counts the other way.
+    Reversed {
+        /// The column of the file.
+        column: String,
+    },
+    /// A column is an angle from the zenith, and was read as one from the horizon.
+    FromZenith {
+        /// The column of the file.
+        column: String,
+    },
+    /// Two columns are exchanged.
+    Exchanged {
+        /// The columns of the file.
+        columns: [String; 2],
+    },
+    /// Readings of joints stand in other rows than what was observed at them.
+    Shifted {
+        /// The columns of the file.
+        columns: Vec<String>,
+        /// A row takes the readings of the row that stands so many before.
+        by: i64,
+    },
+}
+
+/// A line to write into a study.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Line {
+    /// The table: `columns` or `observed`.
+    pub table: &'static str,
+    /// `azimuth = { column = "az", unit = "gon" }`
+    pub text: String,
+}
+
+/// Every hypothesis about the columns of a study. Of one kind each is as likely as the others.
+pub(super) fn all(plan: &Plan, columns: &[SampledColumn]) -> Vec<Hypothesis> {
+    let of = |is: &dyn Fn(&SampledColumn) -> bool| columns.iter().filter(|column| is(column)).collect();
+    let is_joint = |column: &SampledColumn| match column.read {
+        Read::Reading(id) => plan.chain.symbol(id).kind == SymbolKind::Joint,
+        Read::Observed(_) => false,
+    };
+    let joints: Vec<&SampledColumn> = of(&is_joint);
+    let observed: Vec<&SampledColumn> = of(&|column| matches!(column.read, Read::Observed(_)));
+    let tried = Tried { plan, joints, observed };
+    let mut all = Vec::new();
+    for kind in KINDS {
+        let mut own = kind(&tried);
+        let alternatives = (own.len().max(1) as f64).ln();
+        own.iter_mut().for_each(|hypothesis| hypothesis.price += alternatives - RARE.ln());
+        all.extend(own);
+    }
+    all
+}
+
+/// A line that reads a column so: `how` is what stands behind its name, `, unit = "gon"`.
+fn line(plan: &Plan, column: &SampledColumn, file_column: &str, how: &str) -> Line {
+    let quoted = toml::Value::String(file_column.to_owned());
+    let (table, key) = match column.read {
+        Read::Reading(id) => ("columns", plan.chain.symbol(id).name.clone()),
+        Read::Observed(at) => ("observed", plan.observed_key(column.place.source, at).to_owned()),
+    };
+    Line { table, text: format!("{key} = {{ column = {quoted}{how} }}") }
+}
+
+/// The unit of the study's line for a column, to be kept in a line that changes something else.
+fn unit_of(column: &SampledColumn) -> String {
+    match named(column) {
+        Some(unit) if column.unit_is_of_study => format!(", unit = \"{unit}\""),
+        _ => String::new(),
+    }
+}
+
+/// The unit that a column is read in.
+fn named(column: &SampledColumn) -> Option<&'static str> {
+    let is = |unit: &tables::units::Unit| unit.quantity == column.quantity && unit.in_si == column.factor;
+    tables::units::Unit::all().find(is).map(|unit| unit.name)
+}

@@ -1,0 +1,59 @@
+//! Another unit: of one column, of all joints, of all that was observed, or of all that measures the same.
+
+use model_core::Quantity;
+use tables::units::Unit;
+
+use super::{Hypothesis, Line, Reading, Tried, line, named};
+use study::{Change, SampledColumn};
+
+/// Units that files are written in.
+const ANGLES: &[&str] = &["deg", "rad", "gon", "hour", "arcmin", "arcsec", "mrad", "mas", "turn"];
+const LENGTHS: &[&str] = &["m", "mm", "cm", "um", "inch", "ft"];
+
+pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
+    let mut all = Vec::new();
+    for (quantity, units) in [(Quantity::Angle, ANGLES), (Quantity::Length, LENGTHS)] {
+        let of = |columns: &[&'_ SampledColumn]| -> Vec<usize> {
+            (0..columns.len()).filter(|&at| columns[at].quantity == quantity).collect()
+        };
+        let joints: Vec<&SampledColumn> = of(&tried.joints).into_iter().map(|at| tried.joints[at]).collect();
+        let observed: Vec<&SampledColumn> =
+            of(&tried.observed).into_iter().map(|at| tried.observed[at]).collect();
+        let mut sets: Vec<Vec<&SampledColumn>> = vec![joints.clone(), observed.clone()];
+        sets.push(joints.iter().chain(&observed).copied().collect());
+        sets.extend(joints.iter().chain(&observed).map(|column| vec![*column]));
+        let mut seen: Vec<Vec<&SampledColumn>> = Vec::new();
+        for set in sets {
+            if set.is_empty() || seen.contains(&set) {
+                continue;
+            }
+            all.extend(units.iter().filter_map(|unit| hypothesis(tried, &set, unit)));
+            seen.push(set);
+        }
+    }
+    all
+}
+
+/// Columns in a unit that none of them is read in. Where a header says the unit, the study cannot say another.
+fn hypothesis(tried: &Tried<'_>, columns: &[&SampledColumn], unit: &str) -> Option<Hypothesis> {
+    let unit = Unit::find(unit)?;
+    let is_open = |column: &&SampledColumn| column.factor != unit.in_si && column.unit_is_open;
+    if !columns.iter().all(is_open) {
+        return None;
+    }
+    let how = format!(", unit = \"{}\"", unit.name);
+    let lines: Vec<Line> =
+        columns.iter().map(|column| line(tried.plan, column, &column.name, &how)).collect();
+    let read = columns.first().and_then(|column| named(column));
+    Some(Hypothesis {
+        reading: Reading::Unit {
+            columns: columns.iter().map(|column| column.name.clone()).collect(),
+            is: unit.name,
+            read,
+        },
+        changes: columns.iter().map(|column| (column.place, Change::Factor(unit.in_si))).collect(),
+        lines,
+        price: 0.0,
+        digits: 0.0,
+    })
+}

@@ -1,0 +1,87 @@
+//! The numbers that decide whether a column is called misread, or a value implausible, each with its source.
+
+use std::f64::consts::PI;
+
+/// A hypothesis is told when its score is so much better than that of the study's own reading.
+pub(super) const MARGIN: f64 = 5.0;
+/// And the residual shrinks to this share.
+pub(super) const RATIO: f64 = 0.5;
+/// Or the errors become plausible, by so much of the prior, while the residual grows by no more than this factor.
+pub(super) const CLEARED: f64 = 6.0;
+pub(super) const SAME: f64 = 1.2;
+/// Rows that are shifted leave a residual that is smaller than this share: what drifts slowly gains a little by any shift.
+pub(super) const RATIO_ROWS: f64 = 0.3;
+/// Hypotheses within this of the best are told as "one of".
+pub(super) const ONE_OF: f64 = 4.0;
+/// A column is misread with this prior probability.
+pub(super) const RARE: f64 = 1e-3;
+/// An axis is about so far from where the declaration puts it, rad; lengths and tools, as shares of the reach.
+pub(super) const TILT_RAD: f64 = PI / 180.0;
+pub(super) const LENGTH_SHARE: f64 = 0.02;
+pub(super) const TOOL_SHARE: f64 = 0.1;
+/// Beyond these a value is no finding: a tilt, rad; a length, as a share of the reach; a residual, as a share of what was measured.
+pub(super) const MOST_TILT_RAD: f64 = PI / 36.0;
+pub(super) const MOST_LENGTH_SHARE: f64 = 0.1;
+pub(super) const MOST_RESIDUAL_SHARE: f64 = 0.03;
+
+/// Hypotheses that are fitted to the end; the steps that all others are fitted by. They bound work.
+pub(super) const FITTED: usize = 9;
+pub(super) const SCREENED_STEPS: usize = 4;
+
+/// A number that decides: its name, value, meaning and source.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Threshold {
+    /// Its name.
+    pub name: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// What it decides.
+    pub meaning: &'static str,
+    /// Where it comes from.
+    pub source: &'static str,
+}
+
+const TRIALS: &str =
+    "402 clean and 190 misread simulated studies of eight instruments, thresholds moved once between halves";
+const ASKED: &str = "specification: beyond this a value is no small error";
+
+/// Every number that decides here.
+pub const THRESHOLDS: &[Threshold] = &[
+    row("misread.margin", MARGIN, "nats by which another reading must win", TRIALS),
+    row("misread.ratio", RATIO, "share of the residual that another reading may leave", TRIALS),
+    row(
+        "misread.cleared",
+        CLEARED,
+        "nats of the prior on errors that another reading must save, else",
+        TRIALS,
+    ),
+    row("misread.same", SAME, "factor by which the residual may grow then", TRIALS),
+    row("misread.ratio_rows", RATIO_ROWS, "share of the residual that shifted rows may leave", TRIALS),
+    row("misread.one_of", ONE_OF, "nats within which readings are told together", TRIALS),
+    row("misread.rare", RARE, "prior probability that a column is misread", TRIALS),
+    row("prior.tilt_rad", TILT_RAD, "size of a tilt, scale of its prior", TRIALS),
+    row(
+        "prior.length_share",
+        LENGTH_SHARE,
+        "size of a length error over the reach, scale of its prior",
+        TRIALS,
+    ),
+    row(
+        "prior.tool_share",
+        TOOL_SHARE,
+        "size of an error of a tool over the reach, scale of its prior",
+        TRIALS,
+    ),
+    row("plausible.tilt_rad", MOST_TILT_RAD, "largest tilt that is a finding", ASKED),
+    row(
+        "plausible.length_share",
+        MOST_LENGTH_SHARE,
+        "largest length error over the reach that is a finding",
+        ASKED,
+    ),
+    row("plausible.residual_share", MOST_RESIDUAL_SHARE, "largest residual over what was measured", ASKED),
+];
+
+const fn row(name: &'static str, value: f64, meaning: &'static str, source: &'static str) -> Threshold {
+    Threshold { name, value, meaning, source }
+}

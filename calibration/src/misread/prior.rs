@@ -1,0 +1,228 @@
+//! How large the declared errors may be: by where they stand, a tilt, a length, a placement or an index.
+
+use model_core::algebra::Poly;
+use model_core::{Chain, ObservableId, Quantity, Role, SymbolId, SymbolKind, TransformKind};
+use nalgebra::Vector3;
+use serde::Serialize;
+
+use super::estimated;
+use super::policy::{
+    LENGTH_SHARE, MOST_LENGTH_SHARE, MOST_RESIDUAL_SHARE, MOST_TILT_RAD, TILT_RAD, TOOL_SHARE,
+};
+use fit::FitResult;
+use observe::{Measured, Observations, SiUnit};
+use study::Plan;
+
+/// What an error is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Part {
+    /// An axis against where the declaration puts it.
+    Tilt,
+    /// A length between joints.
+    Length,
+    /// A shift behind the last joint.
+    Tool,
+    /// Where a joint is zero, where the instrument stands, how it is turned, or what multiplies something: any size is plausible.
+    Free,
+}
+
+/// The scale of each estimated error; errors without one may be of any size.
+pub(super) struct Priors {
+    scales: Vec<(SymbolId, f64)>,
+}
+
+impl Priors {
+    pub fn of(plan: &Plan, observations: &Observations) -> Self {
+        let reach_m = reach_m(&plan.chain, observations);
+        let scale = |id: SymbolId| match part(&plan.chain, observations, id) {
+            Part::Tilt => Some((id, TILT_RAD)),
+            Part::Length => Some((id, LENGTH_SHARE * reach_m)),
+            Part::Tool => Some((id, TOOL_SHARE * reach_m)),
+            Part::Free => None,
+        };
+        Self { scales: estimated(plan).filter_map(scale).collect() }
+    }
+
+    /// What errors of this size cost, nats: a t distribution with three degrees of freedom, against its value at zero.
+    pub fn penalty(&self, values: &[f64]) -> f64 {
+        let cost = |(id, scale): &(SymbolId, f64)| 2.0 * ((values[id.index()] / scale).powi(2) / 3.0).ln_1p();
+        self.scales.iter().map(cost).sum()
+    }
+}
+
+/// A value that no small error has.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "what", rename_all = "snake_case")]
+pub enum Implausible {
+    /// An error is beyond its limit.
+    Error {
+        /// Its name.
+        name: String,
+        /// Its value, SI.
+        value: f64,
+        /// The limit, SI.
+        limit: f64,
+        /// Their unit.
+        unit: SiUnit,
+    },
+    /// What is left is a large part of what was measured.
+    Residual {
+        /// RMS of the residual, SI.
+        rms: f64,
+        /// The size of what was measured, SI: a radian of directions, the usual distance from their middle of points.
+        size: f64,
+        /// Their unit.
+        unit: SiUnit,
+    },
+}
+
+/// What no small error explains of a fit: errors beyond their limits, and a residual that is a large part of what was measured.
+///
+/// `limits` are the study's own, SI; an error with one is held to it alone. Errors that are not small by right have none: indices, homes,
+/// placements, constants and what multiplies something.
+#[must_use]
+pub fn implausible(
+    chain: &Chain,
+    observations: &Observations,
+    fit: &FitResult,
+    limits: &[(SymbolId, f64)],
+) -> Vec<Implausible> {
+    if observations.unknowns.is_some() {
+        return Vec::new();
+    }
+    let reach_m = reach_m(chain, observations);
+    let mut found = Vec::new();
+    for (at, &id) in fit.parameters.iter().enumerate() {
+        let symbol = chain.symbol(id);
+        let own = limits.iter().find(|(limited, _)| *limited == id).map(|(_, limit)| *limit);
+        let limit = own.or_else(|| match part(chain, observations, id) {
+            Part::Tilt => Some(MOST_TILT_RAD),
+            Part::Length => Some(MOST_LENGTH_SHARE * reach_m),
+            Part::Tool | Part::Free => None,
+        });
+        let value = fit.values[id.index()];
+        let Some(limit) = limit.filter(|limit| value.abs() > *limit) else { continue };
+        // A value that these data do not determine is no value.
+        let is_determined = fit.separable.get(at).copied().unwrap_or(false)
+            && fit.standard_uncertainty(id).is_some_and(|own| own < value.abs() - limit);
+        if is_determined {
+            let unit = symbol.quantity.into();
+            found.push(Implausible::Error { name: symbol.name.clone(), value, limit, unit });
+        }
+    }
+    if let Some(series) = observations.poses.series.first() {
+        let unit = series.measure.unit();
+        let size = if unit == SiUnit::RAD { 1.0 } else { spread_m(observations) };
+        let rms = fit.rms;
+        let of_one_unit = observations.poses.series.iter().all(|own| own.measure.unit() == unit);
+        if of_one_unit && size > 0.0 && rms > MOST_RESIDUAL_SHARE * size {
+            found.push(Implausible::Residual { rms, size, unit });
+        }
+    }
+    found
+}
+
+/// What an error is of, by the factors that it stands in.
+fn part(chain: &Chain, observations: &Observations, id: SymbolId) -> Part {
+    if chain.symbol(id).kind != SymbolKind::Error {
+        return Part::Free;
+    }
+    let observables = observations.poses.series.iter().map(|series| series.observable);
+    observables
+        .map(|observable| part_of_way(chain, observable, id))
+        .max_by_key(|part| *part == Part::Free)
+        .unwrap_or(Part::Free)
+}
+
+/// The same on the way to one observable.
+fn part_of_way(chain: &Chain, observable: ObservableId, id: SymbolId) -> Part {
+    let way = chain.way(observable);
+    let is_motion =
+        |amount: &Poly| amount.symbols().iter().any(|symbol| chain.symbol(*symbol).kind == SymbolKind::Joint);
+    let moves: Vec<usize> = (0..way.len())
+        .filter(|&at| way[at].factor.role == Role::Motion && is_motion(&way[at].factor.amount))
+        .collect();
+    let (Some(&first), Some(&last)) = (moves.first(), moves.last()) else { return Part::Free };
+    let own: Vec<usize> =
+        (0..way.len()).filter(|&at| way[at].factor.amount.symbols().contains(&id)).collect();
+    let [at] = own[..] else { return Part::Free };
+    let factor = &way[at].factor;
+    // What multiplies a function, or is multiplied by a constant, is no size of its own.
+    let is_alone =
+        factor.amount.terms().all(|term| {
+            term.powers.iter().all(|(symbol, _)| *symbol == id)
+                || !term.powers.iter().any(|(symbol, _)| *symbol == id)
+        }) && factor.amount.symbols().iter().all(|symbol| chain.symbol(*symbol).kind != SymbolKind::Joint);
+    if !is_alone {
+        return Part::Free;
+    }
+    let shows_direction = chain.observable(observable).is_vector() && factor.kind == TransformKind::Rotation;
+    let beside = |other: usize| {
+        let near = &way[other].factor;
+        near.kind == factor.kind
+            && near.axis == factor.axis
+            && (other.min(at)..=other.max(at)).all(|between| {
+                way[between].factor.axis == factor.axis && way[between].factor.kind == factor.kind
+            })
+    };
+    let is_index = moves.iter().any(|&motion| {
+        beside(motion)
+            || (way[motion].body == way[at].body
+                && way[motion].factor.axis == factor.axis
+                && way[motion].factor.kind == factor.kind)
+    });
+    match factor.kind {
+        _ if is_index => Part::Free,
+        TransformKind::Rotation if at < first && !(shows_direction && is_direction(chain, observable)) => {
+            Part::Free
+        }
+        TransformKind::Rotation => Part::Tilt,
+        TransformKind::Translation if at < first => Part::Free,
+        TransformKind::Translation if at > last && way[at].body != way[last].body => Part::Tool,
+        TransformKind::Translation => Part::Length,
+    }
+}
+
+fn is_direction(chain: &Chain, observable: ObservableId) -> bool {
+    chain.observable(observable).kind == model_core::ObservableKind::Direction
+}
+
+/// How far the instrument reaches, m: its constant lengths on the way, or how far the points lie apart where there are none.
+fn reach_m(chain: &Chain, observations: &Observations) -> f64 {
+    let nominal = chain.nominal_values();
+    let observables = observations.poses.series.iter().map(|series| series.observable);
+    let of_way = |observable: ObservableId| -> f64 {
+        let way = chain.way(observable);
+        let lengths = way.iter().filter(|passed| {
+            passed.factor.kind == TransformKind::Translation && passed.factor.role == Role::Position
+        });
+        lengths.map(|passed| passed.factor.amount.eval(&nominal).abs()).sum()
+    };
+    let reach = observables.map(of_way).fold(0.0, f64::max);
+    let of_points = chain.symbols.iter().any(|symbol| symbol.quantity == Quantity::Length);
+    match reach {
+        reach if reach > 0.0 => reach,
+        _ if of_points => spread_m(observations),
+        _ => 1.0,
+    }
+}
+
+/// How far measured points usually lie from their middle, or how long ranges are, m.
+fn spread_m(observations: &Observations) -> f64 {
+    let points: Vec<Vector3<f64>> = observations
+        .measured
+        .iter()
+        .filter_map(|measured| match measured {
+            Measured::Point(point) => Some(*point),
+            Measured::Range { range_m } => Some(Vector3::x() * *range_m),
+            _ => None,
+        })
+        .collect();
+    if points.is_empty() {
+        return 0.0;
+    }
+    let ranges = observations.measured.iter().all(|measured| matches!(measured, Measured::Range { .. }));
+    let middle =
+        if ranges { Vector3::zeros() } else { points.iter().sum::<Vector3<f64>>() / points.len() as f64 };
+    (points.iter().map(|point| (point - middle).norm_squared()).sum::<f64>() / points.len() as f64).sqrt()
+}

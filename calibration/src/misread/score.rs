@@ -1,0 +1,137 @@
+//! One likelihood for every reading of the data: of the numbers as the file has them, with a prior on the errors.
+
+use fit::noise::Layout;
+use fit::{FitOptions, fit};
+use observe::{Measured, Observations};
+use statrs::function::gamma::ln_gamma;
+use study::{Plan, Read, SampledColumn};
+
+use super::hypotheses::Hypothesis;
+use super::prior::Priors;
+
+/// Degrees of freedom of the residual's distribution: heavy enough for outliers.
+const DEGREES: f64 = 4.0;
+
+/// The share of the rows furthest off that the RMS leaves out.
+const FURTHEST: f64 = 0.02;
+
+/// What a reading of the data comes to.
+#[derive(Debug, Clone)]
+pub(super) struct Score {
+    /// Logarithm of the likelihood with all prices.
+    pub total: f64,
+    /// The scale of the residual: the geometric mean over its units, SI.
+    pub scale: f64,
+    /// RMS of the residual of the first unit without the rows furthest off, SI.
+    pub rms: f64,
+    /// What the sizes of the errors cost.
+    pub penalty: f64,
+    /// Where the fit came to.
+    pub values: Vec<f64>,
+}
+
+/// The score of the data as they are read, fitted; `None` where there is no fit.
+pub(super) fn score(
+    plan: &Plan,
+    observations: &Observations,
+    options: &FitOptions,
+    priors: &Priors,
+    columns: &[SampledColumn],
+    hypothesis: Option<&Hypothesis>,
+) -> Option<Score> {
+    let fit = fit(&plan.chain, observations, options).ok()?;
+    let layout = Layout::of(observations);
+    let mut units: Vec<(observe::SiUnit, Vec<f64>, Vec<f64>)> = Vec::new();
+    let mut at = 0;
+    let norms: Vec<f64> = layout.norms(&fit.residuals.raw).collect();
+    for series in &observations.poses.series {
+        let (unit, components) = (series.measure.unit(), series.measure.components());
+        let own = fit.residuals.raw.get(at..at + components * series.rows.len())?;
+        at += own.len();
+        let norms = norms.get(series.rows.clone())?;
+        match units.iter_mut().find(|(known, ..)| *known == unit) {
+            Some((_, all, rows)) => {
+                all.extend(own);
+                rows.extend(norms);
+            }
+            None => units.push((unit, own.to_vec(), norms.to_vec())),
+        }
+    }
+    if units.iter().any(|(_, own, _)| own.iter().any(|value| !value.is_finite())) {
+        return None;
+    }
+    let numbers: usize = units.iter().map(|(_, own, _)| own.len()).sum();
+    let (mut log, mut scale) = (jacobian(observations, columns, hypothesis), 0.0);
+    for (_, own, _) in &units {
+        let width = width(own);
+        log += log_density(own, width);
+        scale += width.ln() * own.len() as f64 / numbers as f64;
+    }
+    let penalty = priors.penalty(&fit.values);
+    let free = (numbers as f64 - fit.rank as f64).max(1.0);
+    let (price, digits) = hypothesis.map_or((0.0, 0.0), |own| (own.price, own.digits));
+    Some(Score {
+        total: free / numbers as f64 * log - price + digits - penalty,
+        scale: scale.exp(),
+        rms: trimmed(&units.first()?.2),
+        penalty,
+        values: fit.values,
+    })
+}
+
+/// The logarithm of how much the residual changes with the numbers as they are written.
+fn jacobian(observations: &Observations, columns: &[SampledColumn], hypothesis: Option<&Hypothesis>) -> f64 {
+    let mut all = 0.0;
+    for (number, series) in observations.poses.series.iter().enumerate() {
+        let rows = series.rows.len() as f64;
+        let observed: Vec<&SampledColumn> = columns
+            .iter()
+            .filter(|column| column.place.source == number && matches!(column.read, Read::Observed(_)))
+            .collect();
+        for column in &observed {
+            let factor = hypothesis.map_or(column.factor, |own| own.factor(column));
+            all += rows * factor.abs().ln();
+        }
+        // An azimuth moves a direction by the cosine of the elevation.
+        if observed.len() == 2 {
+            let own = observations.measured.get(series.rows.clone()).unwrap_or_default();
+            all += own
+                .iter()
+                .filter_map(|measured| match measured {
+                    Measured::Direction(direction) => Some(direction.x.hypot(direction.y).max(1e-3).ln()),
+                    _ => None,
+                })
+                .sum::<f64>();
+        }
+    }
+    all
+}
+
+/// The scale of a t distribution that suits residuals best.
+fn width(residual: &[f64]) -> f64 {
+    let mut squares: Vec<f64> = residual.iter().map(|value| value * value).collect();
+    squares.sort_by(f64::total_cmp);
+    let middle = squares.get(squares.len() / 2).copied().unwrap_or(0.0);
+    let floor = 1e-18;
+    let mut variance = (1.44 * middle).max(floor);
+    for _ in 0..30 {
+        let weighted: f64 = squares.iter().map(|square| square / (DEGREES + square / variance)).sum();
+        variance = (weighted * (DEGREES + 1.0) / squares.len() as f64).max(floor);
+    }
+    variance.sqrt()
+}
+
+fn log_density(residual: &[f64], width: f64) -> f64 {
+    let constant = ln_gamma((DEGREES + 1.0) / 2.0)
+        - ln_gamma(DEGREES / 2.0)
+        - 0.5 * (DEGREES * std::f64::consts::PI).ln();
+    let kernel = |value: &f64| -(DEGREES + 1.0) / 2.0 * ((value / width).powi(2) / DEGREES).ln_1p();
+    residual.iter().map(kernel).sum::<f64>() + residual.len() as f64 * (constant - width.ln())
+}
+
+fn trimmed(norms: &[f64]) -> f64 {
+    let mut squares: Vec<f64> = norms.iter().map(|norm| norm * norm).collect();
+    squares.sort_by(f64::total_cmp);
+    squares.truncate(squares.len() - (squares.len() as f64 * FURTHEST) as usize);
+    (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt()
+}

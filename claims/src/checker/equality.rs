@@ -1,0 +1,87 @@
+//! That two printed formulas say the same at all values of their symbols: two ways of printing one thing.
+
+use std::ops::Range;
+
+use super::algebraic;
+use super::{CheckError, Checker, PrintedComponent, PrintedVector, TextPlace};
+use crate::latex::{Notes, PrintedSymbols};
+use model_core::algebra::{Fraction, Rational};
+use model_core::chain::Chain;
+use model_core::expr::{Expr, Node};
+use model_core::mistake::Mistake;
+
+/// That two formulas are equal wherever both are defined.
+#[derive(Debug, Clone)]
+pub struct Equality {
+    /// The two as x and y, so that both are said in the same terms; z is zero.
+    printed: PrintedVector,
+}
+
+/// What is said of an equality.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EqualityVerdict {
+    /// The first formula less the second. The claim holds if it is zero.
+    pub difference: Fraction,
+}
+
+impl Equality {
+    /// Reads two formulas, each in LaTeX or in the plain syntax of amounts. Errors may stand in sines and cosines.
+    ///
+    /// # Errors
+    /// What cannot be read, with its place.
+    pub fn read(
+        chain: &Chain,
+        symbols: &PrintedSymbols,
+        texts: [&str; 2],
+    ) -> Result<Self, Vec<Mistake<TextPlace>>> {
+        PrintedVector::read_pair(chain, symbols, texts).map(|printed| Self { printed })
+    }
+
+    /// Two formulas that were read from one text.
+    pub(super) fn of_expressions(
+        chain: &Chain,
+        [first, second]: [Expr<Range<usize>>; 2],
+        notes: Notes,
+    ) -> Result<Self, Vec<Mistake<TextPlace>>> {
+        let nothing = Expr { node: Node::Number(Rational::ZERO), place: first.place.clone() };
+        PrintedVector::of_expressions(chain, [first, second, nothing], notes).map(|printed| Self { printed })
+    }
+
+    /// The two formulas.
+    #[must_use]
+    pub fn formulas(&self) -> [&PrintedComponent; 2] {
+        let [first, second, _] = &self.printed.components;
+        [first, second]
+    }
+
+    /// Whether rotations about named axes were read as the table of symbols says.
+    pub(super) fn is_turned(&self) -> bool {
+        self.printed.turned
+    }
+
+    /// Whether both are in the names of the chain alone and without quotients.
+    #[must_use]
+    pub fn is_plain(&self) -> bool {
+        let PrintedVector { components, halves, has_roots, truncated, turned } = &self.printed;
+        halves.is_empty()
+            && !has_roots
+            && !truncated
+            && !turned
+            && components.iter().all(|component| component.value.is_whole())
+    }
+}
+
+impl Checker<'_> {
+    /// The verdict on an equality.
+    ///
+    /// # Errors
+    /// The difference has too many terms.
+    pub(super) fn equality(&self, claim: &Equality) -> Result<EqualityVerdict, CheckError> {
+        let [first, second] = claim.formulas();
+        let difference = algebraic::reduced_fraction(first.value.sum(&second.value.negated())?, self.chain);
+        let shown = |poly| algebraic::in_wholes(poly, self.chain);
+        let difference = Fraction::new(shown(&difference.above), shown(&difference.below))
+            .unwrap_or_else(|| unreachable!("no printed formula stands over zero"));
+        Ok(EqualityVerdict { difference })
+    }
+}

@@ -1,0 +1,141 @@
+//! Lines of programs, of NumPy, MATLAB or C, as formulas: the same tokens that LaTeX gives, with names for symbols.
+//!
+//! What means one thing in one language and another in the next (`^`, `1/2`, `*` between matrices) is refused where the
+//! language is not clear from the line, or where it is not what a formula would mean.
+
+mod lexer;
+mod lists;
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use super::layout::Row;
+use super::parser::{Notes, Parser, Value};
+use super::token::{Kind, Token};
+use super::{PrintedMatrix, PrintedSymbols, Unreadable, naming};
+use model_core::expr::Expr;
+use model_core::mistake::Mistake;
+
+pub use lexer::is_line_of_program;
+
+type Formula = Expr<Range<usize>>;
+
+/// Reads one line, the formula of one component.
+///
+/// # Errors
+/// The first thing that cannot be read, with its place.
+pub fn read_component(
+    text: &str,
+    symbols: &PrintedSymbols,
+    axis: Option<usize>,
+) -> Result<(Formula, Notes), Unreadable> {
+    let rows = rows(text, symbols)?;
+    let [row] = rows.as_slice() else {
+        return Err(Mistake::new(
+            0..text.len(),
+            format!("{} formulas, where one component stands", rows.len()),
+        ));
+    };
+    naming::check(text, row, axis)?;
+    let (value, notes) = value(text, row, symbols)?;
+    Ok((value.scalar()?, notes))
+}
+
+/// Reads lines, each a component, or one line with a list of components. Names that a line gives to what a later one uses are
+/// put in there.
+///
+/// # Errors
+/// The first thing that cannot be read, with its place.
+pub fn read_vector(
+    text: &str,
+    symbols: &PrintedSymbols,
+    axes: &[Option<usize>],
+) -> Result<(Vec<Formula>, Notes), Unreadable> {
+    let rows = rows(text, symbols)?;
+    let alone = rows.len() == 1;
+    let (mut components, mut notes) = (Vec::new(), Notes::default());
+    for (at, row) in rows.iter().enumerate() {
+        naming::check(text, row, axes.get(at).copied().flatten().filter(|_| !alone))?;
+        let (value, own) = value(text, row, symbols)?;
+        notes.join(&own);
+        match value {
+            Value::Matrix(matrix) if alone && matrix.is_vector() => components.extend(matrix.entries),
+            value => components.push(value.scalar()?),
+        }
+    }
+    Ok((components, notes))
+}
+
+/// Reads a list, a list of lists, or an amount, as a matrix.
+///
+/// # Errors
+/// The first thing that cannot be read, with its place.
+pub fn read_matrix(text: &str, symbols: &PrintedSymbols) -> Result<PrintedMatrix, Unreadable> {
+    let rows = rows(text, symbols)?;
+    let [row] = rows.as_slice() else {
+        return Err(Mistake::new(0..text.len(), "one matrix is wanted"));
+    };
+    let (value, notes) = value(text, row, symbols)?;
+    PrintedMatrix::of(value, notes)
+}
+
+fn value(text: &str, row: &Row, symbols: &PrintedSymbols) -> Result<(Value, Notes), Unreadable> {
+    let mut parser = Parser::new(text, &row.formula, row.end.clone(), symbols);
+    let value = parser.formula()?;
+    parser.expect_end()?;
+    Ok((value, parser.notes))
+}
+
+/// The formulas of a text, with what they call by a name of their own put in.
+fn rows(text: &str, symbols: &PrintedSymbols) -> Result<Vec<Row>, Unreadable> {
+    let tokens = lists::marked(lexer::tokens(text, |name| symbols.declares(name))?)?;
+    let mut given: BTreeMap<String, Vec<Token>> = BTreeMap::new();
+    let mut used: Vec<String> = Vec::new();
+    let mut rows: Vec<(Option<String>, Row)> = Vec::new();
+    let mut depth = 0;
+    let ends = |token: &Token| {
+        match token.kind {
+            Kind::Begin(_) => depth += 1,
+            Kind::End(_) => depth -= 1,
+            _ => {}
+        }
+        depth == 0 && token.kind == Kind::Row
+    };
+    for line in tokens.split(ends).filter(|line| !line.is_empty()) {
+        let equals: Vec<usize> = (0..line.len()).filter(|&at| line[at].kind == Kind::Mark('=')).collect();
+        let (name, formula) = match equals.as_slice() {
+            [] => (&line[..0], line),
+            [at] => (&line[..*at], &line[at + 1..]),
+            [_, second, ..] => {
+                return Err(Mistake::new(line[*second].place.clone(), "a second `=` in one line"));
+            }
+        };
+        let mut expanded = Vec::with_capacity(formula.len());
+        for token in formula {
+            match &token.kind {
+                Kind::Name(own) if given.contains_key(own) => {
+                    used.push(own.clone());
+                    let mark = |mark| Token { kind: Kind::Mark(mark), ..token.clone() };
+                    expanded.push(mark('('));
+                    expanded.extend(given[own].iter().cloned());
+                    expanded.push(mark(')'));
+                }
+                _ => expanded.push(token.clone()),
+            }
+        }
+        let own = match name {
+            [Token { kind: Kind::Name(own), .. }] => Some(own.clone()),
+            _ => None,
+        };
+        if let Some(own) = own.as_ref().filter(|own| !symbols.declares(own)) {
+            given.insert(own.clone(), expanded.clone());
+        }
+        let end = formula.last().map_or(text.len(), |token| token.place.end);
+        rows.push((own, Row { name: name.to_vec(), formula: expanded, end: end..end }));
+    }
+    rows.retain(|(own, _)| own.as_ref().is_none_or(|own| !used.contains(own)));
+    if rows.is_empty() {
+        return Err(Mistake::new(0..text.len(), "a formula is missing"));
+    }
+    Ok(rows.into_iter().map(|(_, row)| row).collect())
+}

@@ -1,0 +1,204 @@
+//! What of a chain an equation states.
+
+use model_core::chain::BodyId;
+use model_core::{Chain, ObservableId, SymbolId, SymbolKind};
+
+use crate::checker::entries::{Entries, EntriesOf};
+use crate::checker::{Checker, Claim, ClosedForm, Order, PrintedVector, Verdict};
+use crate::latex::{self, PrintedSymbols};
+
+/// A way to read an equation as a claim: the keys of a claims file that say so.
+#[derive(Debug, Clone)]
+pub(super) struct Guess {
+    /// Key and value as TOML has them, without the formula.
+    pub keys: Vec<(&'static str, String)>,
+    /// The key of the formula.
+    pub key: &'static str,
+    /// Whether it is a true statement.
+    pub holds: bool,
+    /// Terms that differ, of all that are compared.
+    pub differs: [usize; 2],
+}
+
+/// The statement about the chain that an equation makes: the first true one, or the one that most of its terms agree with.
+pub(super) fn of_equation(
+    checker: &mut Checker<'_>,
+    chain: &Chain,
+    symbols: &PrintedSymbols,
+    text: &str,
+) -> Option<Guess> {
+    let mut best: Option<Guess> = None;
+    let found = ways(chain);
+    for way in &found {
+        let Some(guess) = way.tried(checker, chain, symbols, text) else { continue };
+        if guess.holds {
+            return Some(guess);
+        }
+        let better = best
+            .as_ref()
+            .is_none_or(|best| guess.differs[0] * best.differs[1] < best.differs[0] * guess.differs[1]);
+        if better {
+            best = Some(guess);
+        }
+    }
+    // What agrees with nothing for the most part says nothing of this chain.
+    best.filter(|guess| guess.differs[0] * 2 < guess.differs[1])
+}
+
+/// One thing that an equation may state.
+enum Way {
+    /// The error of an observable, all numbers or one, and as a correction.
+    Form { observable: ObservableId, is_correction: bool },
+    /// One number of an observable's error.
+    One { observable: ObservableId, at: usize },
+    /// What an observable shows.
+    Shown { observable: ObservableId, order: u32 },
+    /// How a body stands.
+    Frame { body: BodyId, order: u32 },
+}
+
+fn ways(chain: &Chain) -> Vec<Way> {
+    let observables = || (0u16..).zip(&chain.observables).map(|(index, shown)| (ObservableId(index), shown));
+    let mut found = Vec::new();
+    for (observable, shown) in observables() {
+        found.push(Way::Form { observable, is_correction: false });
+        if shown.is_vector() && !shown.is_orientation() {
+            found.extend([0, 1].map(|order| Way::Shown { observable, order }));
+        }
+    }
+    for (observable, shown) in observables() {
+        found.extend((0..shown.shown.len()).map(|at| Way::One { observable, at }));
+        found.push(Way::Form { observable, is_correction: true });
+    }
+    for body in (0u16..).zip(&chain.bodies).map(|(index, _)| BodyId(index)) {
+        found.extend([0, 1].map(|order| Way::Frame { body, order }));
+    }
+    found
+}
+
+impl Way {
+    fn tried(
+        &self,
+        checker: &mut Checker<'_>,
+        chain: &Chain,
+        symbols: &PrintedSymbols,
+        text: &str,
+    ) -> Option<Guess> {
+        let all: Vec<SymbolId> = chain.symbols_of(SymbolKind::Error).collect();
+        match *self {
+            Self::Form { observable, is_correction } => {
+                let shown = chain.observable(observable);
+                let printed =
+                    PrintedVector::read_shown(chain, symbols, shown, &[text], Order::UpTo(1)).ok()?;
+                let key = if is_correction { "correction" } else { "components" };
+                let keys = vec![("observable", shown.name.clone())];
+                form(checker, chain, keys, key, (observable, None), &all, printed)
+            }
+            Self::One { observable, at } => {
+                let shown = chain.observable(observable);
+                let axis =
+                    [model_core::Axis::X, model_core::Axis::Y, model_core::Axis::Z].get(at).copied()?;
+                let printed =
+                    PrintedVector::read_one(chain, symbols, text, shown, axis, Order::UpTo(1)).ok()?;
+                let keys =
+                    vec![("observable", shown.name.clone()), ("component", shown.label(at).to_owned())];
+                form(checker, chain, keys, "components", (observable, Some(axis)), &all, printed)
+            }
+            Self::Shown { observable, order } => {
+                let shown = chain.observable(observable);
+                let axes = vec![None; shown.shown.len()];
+                let symbols = symbols.reading(&[text]);
+                let (entries, notes) = PrintedVector::texts(&symbols, &axes, &[text]).ok()?;
+                let matrix = latex::PrintedMatrix { rows: entries.len(), columns: 1, entries, notes };
+                if matrix.entries.len() != shown.shown.len() {
+                    return None;
+                }
+                let keys = vec![("observable", shown.name.clone()), ("order", order.to_string())];
+                let of = EntriesOf::Shown(observable);
+                entries_of(checker, chain, (keys, "shows"), of, order, &all, matrix)
+            }
+            Self::Frame { body, order } => {
+                let symbols = symbols.reading(&[text]);
+                let matrix = latex::read_matrix(text, &symbols).ok()?;
+                if !matches!([matrix.rows, matrix.columns], [3, 3] | [4, 4]) {
+                    return None;
+                }
+                let of = EntriesOf::Frame { body, frame: None, is_homogeneous: matrix.columns == 4 };
+                let keys = vec![("body", chain.body(body).name.clone()), ("order", order.to_string())];
+                entries_of(checker, chain, (keys, "frame"), of, order, &all, matrix)
+            }
+        }
+    }
+}
+
+/// A closed form, with all errors or with those that it names.
+fn form(
+    checker: &mut Checker<'_>,
+    chain: &Chain,
+    mut keys: Vec<(&'static str, String)>,
+    key: &'static str,
+    (observable, only): (ObservableId, Option<model_core::Axis>),
+    all: &[SymbolId],
+    printed: PrintedVector,
+) -> Option<Guess> {
+    let is_error = |id: &SymbolId| chain.symbol(*id).kind == SymbolKind::Error;
+    let mut named: Vec<SymbolId> =
+        printed.components.iter().flat_map(|part| part.value.symbols()).filter(is_error).collect();
+    named.sort_unstable();
+    named.dedup();
+    if named.is_empty() {
+        // A formula without errors says nothing of an error.
+        return None;
+    }
+    let is_correction = key == "correction";
+    let faces = is_correction.then(|| crate::checker::Faces {
+        second: Vec::new(),
+        combined: crate::checker::Combination::Correction,
+    });
+    let mut claim =
+        ClosedForm { observable, order: Order::UpTo(1), only, faces, kept: all.to_vec(), printed };
+    let mut verdict = checker.closed_form(&claim).ok()?;
+    if !verdict.differences.is_empty() && named.len() < all.len() {
+        claim.kept.clone_from(&named);
+        verdict = checker.closed_form(&claim).ok()?;
+        let names: Vec<String> = named.iter().map(|&id| format!("\"{}\"", chain.symbol(id).name)).collect();
+        keys.push(("keep", format!("[{}]", names.join(", "))));
+    }
+    let terms: usize = verdict
+        .derived
+        .iter()
+        .enumerate()
+        .filter(|(at, _)| only.is_none_or(|only| only.index() == *at))
+        .map(|(_, part)| named.iter().filter(|&&id| part.symbols().contains(&id)).count())
+        .sum();
+    let differs = verdict.differences.len();
+    // A product of errors is compared as well.
+    let compared = terms.max(differs).max(1);
+    if claim.printed.turned && differs > 0 {
+        return None;
+    }
+    Some(Guess { keys, key, holds: differs == 0, differs: [differs, compared] })
+}
+
+fn entries_of(
+    checker: &mut Checker<'_>,
+    chain: &Chain,
+    (keys, key): (Vec<(&'static str, String)>, &'static str),
+    of: EntriesOf,
+    order: u32,
+    kept: &[SymbolId],
+    matrix: latex::PrintedMatrix,
+) -> Option<Guess> {
+    let printed = Entries::read(chain, matrix, Order::UpTo(order)).ok()?;
+    let is_turned = printed.iter().any(|printed| printed.turned);
+    let labels = (1..=printed.len()).map(|at| at.to_string()).collect();
+    let claim = Entries { of, order: Order::UpTo(order), kept: kept.to_vec(), labels, printed };
+    let Verdict::Entries(verdict) = checker.check(&Claim::Entries(Box::new(claim))).ok()? else {
+        return None;
+    };
+    let differs = verdict.differences.len();
+    if is_turned && differs > 0 {
+        return None;
+    }
+    Some(Guess { keys, key, holds: differs == 0, differs: [differs, verdict.entries] })
+}

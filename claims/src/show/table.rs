@@ -1,0 +1,281 @@
+//! Verdicts as a table that a referee attaches: equation, verdict, what differs, in Markdown, LaTeX or HTML.
+
+use std::fmt::Write as _;
+
+use model_core::print;
+
+use crate::checker::{Claim, Outcome, Verdict};
+use crate::file::{Checked, Claims, Unread};
+
+/// How a table is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// A table of Markdown, formulas between dollars.
+    Markdown,
+    /// A `longtable` of LaTeX.
+    Latex,
+    /// A page of HTML, formulas as they are written in LaTeX.
+    Html,
+}
+
+/// A part of a cell.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Piece {
+    /// Words.
+    Words(String),
+    /// A formula in LaTeX.
+    Formula(String),
+    /// A formula in the plain syntax, or a line of a program.
+    Code(String),
+}
+
+/// One row of a table.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Line {
+    /// What the equation is called, or where it stands.
+    pub name: String,
+    /// The equation.
+    pub equation: Vec<Piece>,
+    /// `holds`, `differs`, `open` or `unread`.
+    pub verdict: &'static str,
+    /// What differs, or why there is no verdict.
+    pub remarks: Vec<Vec<Piece>>,
+}
+
+/// The rows of a file: claims with a verdict, and those without.
+#[must_use]
+pub fn lines(file: &Claims, checked: &[Checked<'_>], undecided: &[Unread]) -> Vec<Line> {
+    let mut lines: Vec<(usize, Line)> =
+        checked.iter().map(|one| (one.claim.place.start, of_claim(file, one))).collect();
+    for one in file.unread.iter().chain(undecided) {
+        let remarks = one.mistakes.iter().map(|mistake| {
+            let help = mistake.help.as_ref().map_or(String::new(), |help| format!("; {help}"));
+            vec![Piece::Words(format!("{}{help}", mistake.message))]
+        });
+        let line = Line {
+            name: one.name.clone(),
+            equation: Vec::new(),
+            verdict: "unread",
+            remarks: remarks.collect(),
+        };
+        lines.push((one.place.start, line));
+    }
+    lines.sort_by_key(|(place, _)| *place);
+    lines.into_iter().map(|(_, line)| line).collect()
+}
+
+/// The row of one claim.
+#[must_use]
+pub fn of_claim(file: &Claims, Checked { claim, verdict }: &Checked<'_>) -> Line {
+    let words = |text: String| Piece::Words(text);
+    let formula = |text: String| Piece::Formula(text);
+    let mut equation = Vec::new();
+    for text in &claim.texts {
+        if !equation.is_empty() {
+            equation.push(words(", ".to_owned()));
+        }
+        let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        equation.push(if claim.is_plain { Piece::Code(text) } else { formula(bare(&text)) });
+    }
+    let latex = |value: &crate::checker::Fraction| formula(value.show(&file.printed, print::Style::Latex));
+    let mut remarks = Vec::new();
+    match (verdict, &claim.claim) {
+        (Verdict::ClosedForm(form), Claim::ClosedForm(claimed)) => {
+            let shown = file.chain.observable(claimed.observable);
+            for difference in &form.differences {
+                remarks.push(vec![
+                    words(format!("{}, ", shown.label(difference.component.index()))),
+                    formula(print::latex(&difference.error_product(), &file.printed)),
+                    words(": printed ".to_owned()),
+                    latex(&difference.printed),
+                    words(", derived ".to_owned()),
+                    latex(&difference.derived),
+                ]);
+            }
+            for slip in &form.slips {
+                remarks.push(vec![words(slip.describe(&file.chain, claimed.observable))]);
+            }
+            if claimed.printed.truncated && form.differences.is_empty() {
+                remarks.push(vec![words(
+                    "compared to the claimed order; the print has terms beyond".to_owned(),
+                )]);
+            }
+        }
+        (Verdict::Equality(equality), _) if !equality.difference.is_zero() => {
+            remarks
+                .push(vec![words("the first less the second is ".to_owned()), latex(&equality.difference)]);
+        }
+        (Verdict::Entries(entries), _) => {
+            for difference in &entries.differences {
+                remarks.push(vec![
+                    words(format!("{}: printed ", difference.label)),
+                    latex(&difference.printed),
+                    words(", derived ".to_owned()),
+                    latex(&difference.derived),
+                ]);
+            }
+        }
+        (Verdict::Values(values), Claim::Values(claimed)) => {
+            let shown = file.chain.observable(claimed.observable);
+            for (value, reading) in values.iter().zip(&shown.shown).filter(|(value, _)| !value.holds()) {
+                let unit = reading.unit(shown.kind);
+                remarks.push(vec![words(format!(
+                    "{}: printed {:e} {unit}, computed {:e} {unit}",
+                    value.label, value.claimed, value.found
+                ))]);
+            }
+        }
+        _ => {}
+    }
+    let verdict = match verdict.outcome() {
+        Outcome::Holds => "holds",
+        Outcome::Differs => "differs",
+        Outcome::Undecided => "open",
+    };
+    Line { name: claim.name.clone(), equation, verdict, remarks }
+}
+
+/// A formula without what sets it on a page.
+fn bare(text: &str) -> String {
+    let text = text.trim().trim_matches('`').trim_matches('$').trim();
+    let text = text.strip_prefix(r"\[").and_then(|inside| inside.strip_suffix(r"\]")).unwrap_or(text);
+    let mut text = text.trim().to_owned();
+    for name in [
+        "equation",
+        "equation*",
+        "align",
+        "align*",
+        "displaymath",
+        "gather",
+        "gather*",
+        "eqnarray",
+        "eqnarray*",
+    ] {
+        let (begin, end) = (format!(r"\begin{{{name}}}"), format!(r"\end{{{name}}}"));
+        if let Some(inside) = text.strip_prefix(&begin).and_then(|rest| rest.strip_suffix(&end)) {
+            let inside = inside.trim();
+            let is_aligned = inside.contains('&');
+            text = if is_aligned {
+                format!(r"\begin{{aligned}}{inside}\end{{aligned}}")
+            } else {
+                inside.to_owned()
+            };
+        }
+    }
+    text
+}
+
+/// The table.
+#[must_use]
+pub fn as_table(title: &str, lines: &[Line], format: Format) -> String {
+    let held = lines.iter().filter(|line| line.verdict == "holds").count();
+    let total = format!("{held} of {} claims hold", lines.len());
+    match format {
+        Format::Markdown => markdown(title, lines, &total),
+        Format::Latex => latex(title, lines, &total),
+        Format::Html => html(title, lines, &total),
+    }
+}
+
+fn markdown(title: &str, lines: &[Line], total: &str) -> String {
+    let words =
+        |text: &str| text.replace('\\', r"\\").replace('|', r"\|").replace('<', "&lt;").replace('\n', " ");
+    let cell = |pieces: &[Piece]| -> String {
+        let written = pieces.iter().map(|piece| match piece {
+            Piece::Words(text) => words(text),
+            Piece::Formula(text) => format!("${}$", text.replace('|', r"\vert ").replace('\n', " ")),
+            Piece::Code(text) => format!("`{}`", text.replace('|', r"\|").replace('`', "'")),
+        });
+        written.collect()
+    };
+    let mut out =
+        format!("# {}\n\n| claim | equation | verdict | what differs |\n|---|---|---|---|\n", words(title));
+    for line in lines {
+        let remarks: Vec<String> = line.remarks.iter().map(|remark| cell(remark)).collect();
+        let _ = writeln!(
+            out,
+            "| {} | {} | {} | {} |",
+            words(&line.name),
+            cell(&line.equation),
+            line.verdict,
+            remarks.join("<br>")
+        );
+    }
+    let _ = writeln!(out, "\n{total}");
+    out
+}
+
+fn latex(title: &str, lines: &[Line], total: &str) -> String {
+    let words = |text: &str| -> String {
+        let mut out = String::new();
+        for c in text.chars() {
+            match c {
+                '\\' => out.push_str(r"\textbackslash{}"),
+                '~' => out.push_str(r"\textasciitilde{}"),
+                '^' => out.push_str(r"\textasciicircum{}"),
+                '&' | '%' | '$' | '#' | '_' | '{' | '}' => {
+                    out.push('\\');
+                    out.push(c);
+                }
+                c => out.push(c),
+            }
+        }
+        out
+    };
+    let cell = |pieces: &[Piece]| -> String {
+        let written = pieces.iter().map(|piece| match piece {
+            Piece::Words(text) => words(text),
+            Piece::Formula(text) => format!("${text}$"),
+            Piece::Code(text) => format!(r"\texttt{{{}}}", words(text)),
+        });
+        written.collect()
+    };
+    let mut out = format!(
+        "% {}\n% needs \\usepackage{{longtable,amsmath}}\n\\begin{{longtable}}{{p{{0.15\\textwidth}}p{{0.35\\textwidth}}p{{0.1\\textwidth}}p{{0.3\\textwidth}}}}\nclaim & equation & verdict & what differs \\\\ \\hline\n",
+        title.replace('\n', " ")
+    );
+    for line in lines {
+        let remarks: Vec<String> = line.remarks.iter().map(|remark| cell(remark)).collect();
+        let _ = writeln!(
+            out,
+            "{} & {} & {} & {} \\\\",
+            words(&line.name),
+            cell(&line.equation),
+            line.verdict,
+            remarks.join(r" \newline ")
+        );
+    }
+    let _ = writeln!(out, "\\end{{longtable}}\n{}", words(total));
+    out
+}
+
+fn html(title: &str, lines: &[Line], total: &str) -> String {
+    let words = |text: &str| {
+        text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    };
+    let cell = |pieces: &[Piece]| -> String {
+        let written = pieces.iter().map(|piece| match piece {
+            Piece::Words(text) => words(text),
+            Piece::Formula(text) | Piece::Code(text) => format!("<code>{}</code>", words(text)),
+        });
+        written.collect()
+    };
+    let mut out = format!(
+        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title>\n<style>body{{font-family:sans-serif}}td,th{{padding:.3em .6em;border-bottom:1px solid #ccc;text-align:left;vertical-align:top}}.differs,.unread{{color:#a00}}</style></head>\n<body><h1>{0}</h1>\n<table><thead><tr><th>claim</th><th>equation</th><th>verdict</th><th>what differs</th></tr></thead><tbody>\n",
+        words(title)
+    );
+    for line in lines {
+        let remarks: Vec<String> = line.remarks.iter().map(|remark| cell(remark)).collect();
+        let _ = writeln!(
+            out,
+            "<tr><td>{}</td><td>{}</td><td class=\"{}\">{}</td><td>{}</td></tr>",
+            words(&line.name),
+            cell(&line.equation),
+            line.verdict,
+            line.verdict,
+            remarks.join("<br>")
+        );
+    }
+    let _ = writeln!(out, "</tbody></table>\n<p>{}</p></body></html>", words(total));
+    out
+}

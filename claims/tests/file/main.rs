@@ -1,0 +1,8 @@
+//! Claims files as texts: notations, kinds of statements, what is unread.
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may fail loudly")]
+
+mod hostile;
+mod kinds;
+mod notation;
+mod support;
+mod unread;

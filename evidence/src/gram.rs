@@ -1,0 +1,116 @@
+//! The Gram matrix of [y J Z] after whitening: all that a contest reads of the rows.
+
+use faer::linalg::matmul::triangular::{self, BlockStructure};
+use faer::{Accum, Mat, Par};
+
+use crate::design::Table;
+use crate::noise::{Memory, Noise};
+use crate::point::Point;
+
+/// Rows of a block: enough for the products to run at full speed, few enough to stay in the processor's cache.
+const BLOCK: usize = 128;
+
+/// A Gram matrix with the logarithm of the determinant of the whitening.
+#[derive(Debug, Clone)]
+pub(crate) struct Gram {
+    /// Inner products of [y J Z], whole.
+    pub products: Mat<f64>,
+    /// Σ log weights − ½ m log|C|.
+    pub log_det: f64,
+}
+
+impl Gram {
+    /// The products of all columns of a table at a point.
+    pub fn of(table: &Table, point: &Point, rows: usize, noise: &Noise, memory: Option<Memory>) -> Self {
+        let width = table.width(point);
+        Self::extended(None, table, point, rows, noise, memory, width)
+    }
+
+    /// The products once a table has more columns than a Gram matrix that is known.
+    pub fn grown(
+        &self,
+        table: &Table,
+        point: &Point,
+        rows: usize,
+        noise: &Noise,
+        memory: Option<Memory>,
+    ) -> Self {
+        let width = table.width(point);
+        Self::extended(Some(&self.products), table, point, rows, noise, memory, width)
+    }
+
+    fn extended(
+        known: Option<&Mat<f64>>,
+        table: &Table,
+        point: &Point,
+        rows: usize,
+        noise: &Noise,
+        memory: Option<Memory>,
+        width: usize,
+    ) -> Self {
+        let components = point.residual.len() / rows;
+        let old = known.map_or(0, Mat::ncols);
+        let filter = memory.map(|memory| memory.filter(rows));
+        let mut states = vec![0.0; if filter.is_some() { width * components } else { 0 }];
+        let mut products = Mat::zeros(width, width - old);
+        let mut block = Mat::zeros(BLOCK.min(rows) * components, width);
+        for from in (0..rows).step_by(BLOCK) {
+            let to = (from + BLOCK).min(rows);
+            let height = (to - from) * components;
+            let weights = &noise.weights[from * components..to * components];
+            for number in 0..width {
+                let column = &mut block
+                    .col_mut(number)
+                    .try_as_col_major_mut()
+                    .map_or(&mut [][..], |column| column.as_slice_mut())[..height];
+                table.any(point, number, from..to, column);
+                for (value, weight) in column.iter_mut().zip(weights) {
+                    *value *= weight;
+                }
+                if let Some(filter) = &filter {
+                    let state = &mut states[number * components..(number + 1) * components];
+                    filter.apply(from, column, state);
+                }
+            }
+            let whole = block.as_ref().subrows(0, height);
+            let new = whole.subcols(old, width - old);
+            if old == 0 {
+                triangular::matmul(
+                    products.as_mut(),
+                    BlockStructure::TriangularLower,
+                    Accum::Add,
+                    whole.transpose(),
+                    BlockStructure::Rectangular,
+                    whole,
+                    BlockStructure::Rectangular,
+                    1.0,
+                    Par::Seq,
+                );
+            } else {
+                faer::linalg::matmul::matmul(
+                    products.as_mut(),
+                    Accum::Add,
+                    whole.transpose(),
+                    new,
+                    1.0,
+                    Par::Seq,
+                );
+            }
+        }
+        let whole = Mat::from_fn(width, width, |row, column| {
+            let (low, high) = (row.min(column), row.max(column));
+            match known {
+                Some(known) if high < old => known[(row, column)],
+                // The new columns are whole; of a first matrix only the lower part is filled.
+                _ => {
+                    if old == 0 {
+                        products[(high, low)]
+                    } else {
+                        products[(low, high - old)]
+                    }
+                }
+            }
+        });
+        Self { products: whole, log_det: noise.log_det(memory, rows, components) }
+    }
+}

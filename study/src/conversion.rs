@@ -1,0 +1,152 @@
+//! How the numbers of a column become readings: packed notation, sign, offset and a shift by rows.
+
+use std::f64::consts::PI;
+use std::ops::Range;
+
+use model_core::Quantity;
+use toml::Spanned;
+
+use super::amount::si;
+use super::mistakes::{Outcome, mistake};
+use super::written::Column;
+
+/// The largest shift by rows that a study may ask for.
+const MOST_SHIFT: i64 = 1000;
+
+/// Sexagesimal digits in one number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Notation {
+    /// Degrees before the point, then two digits of minutes, then seconds: 12.3456 is 12° 34′ 56″.
+    Degrees,
+    /// Hours, minutes and seconds as one number: 123456.7 is 12 h 34 min 56.7 s.
+    Hours,
+}
+
+impl Notation {
+    /// As a study writes it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Degrees => "ddd.mmss",
+            Self::Hours => "hhmmss",
+        }
+    }
+
+    /// The angle in rad, and whether its minutes and seconds are below 60.
+    #[must_use]
+    pub fn unpack(self, number: f64) -> (f64, bool) {
+        // Sexagesimal digits are decimal ones: what binary cannot hold is rounded away before they are cut apart.
+        let whole = match self {
+            Self::Degrees => (number.abs() * 1e12).round() / 1e8,
+            Self::Hours => (number.abs() * 1e8).round() / 1e8,
+        };
+        let large = (whole / 1e4).floor();
+        let rest = whole - large * 1e4;
+        let minutes = (rest / 100.0 + 1e-10).floor();
+        let seconds = (rest - minutes * 100.0).max(0.0);
+        let unit = match self {
+            Self::Degrees => PI / 180.0,
+            Self::Hours => PI / 12.0,
+        };
+        let angle_rad = (large + minutes / 60.0 + seconds / 3600.0) * unit;
+        (angle_rad.copysign(number), minutes < 60.0 && seconds < 60.0)
+    }
+}
+
+/// What is done to the numbers of a column: unpacked, turned round, moved, and taken from other rows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Conversion {
+    /// Digits that are degrees or hours, minutes and seconds.
+    pub notation: Option<Notation>,
+    /// Whether the sign is turned round.
+    pub negated: bool,
+    /// What is added after that, rad, m or 1.
+    pub offset_si: f64,
+    /// A row takes the reading of the row that stands so many before it.
+    pub shift: i64,
+}
+
+impl Conversion {
+    /// Readings are the numbers as they stand.
+    pub const NONE: Self = Self { notation: None, negated: false, offset_si: 0.0, shift: 0 };
+
+    /// What a study writes of a column.
+    pub(super) fn of(column: &Column, quantity: Quantity, place: &Range<usize>) -> Outcome<Self> {
+        let negated = match column.sign.as_ref().map(|sign| (*sign.get_ref(), sign.span())) {
+            None | Some((1, _)) => false,
+            Some((-1, _)) => true,
+            Some((other, span)) => {
+                return Err(mistake(span, format!("`sign` is {other}"), "write 1 or -1"));
+            }
+        };
+        let offset_si = match &column.offset {
+            None => 0.0,
+            Some(offset) => si(offset.get_ref(), quantity, &offset.span())?,
+        };
+        let notation = column.notation.as_ref().map(|word| notation(word, column, quantity)).transpose()?;
+        let shift = match &column.shift {
+            None => 0,
+            Some(shift) if shift.get_ref().abs() <= MOST_SHIFT => *shift.get_ref(),
+            Some(shift) => {
+                let help = format!("write a number of rows from -{MOST_SHIFT} to {MOST_SHIFT}");
+                return Err(mistake(shift.span(), format!("`shift` is {}", shift.get_ref()), help));
+            }
+        };
+        if column.column.is_none() && (negated || offset_si != 0.0 || notation.is_some() || shift != 0) {
+            return Err(mistake(
+                place.clone(),
+                "a derived column has no sign, offset, notation or shift",
+                "write them at the columns that it is derived from",
+            ));
+        }
+        Ok(Self { notation, negated, offset_si, shift })
+    }
+
+    /// A reading of a number times its unit, rad, m or 1; the number of a packed notation comes without a unit.
+    #[must_use]
+    pub fn value(&self, number: f64) -> f64 {
+        let plain = self.notation.map_or(number, |notation| notation.unpack(number).0);
+        (if self.negated { -plain } else { plain }) + self.offset_si
+    }
+}
+
+fn notation(word: &Spanned<String>, column: &Column, quantity: Quantity) -> Outcome<Notation> {
+    let known = [Notation::Degrees, Notation::Hours];
+    let Some(notation) = known.into_iter().find(|own| own.name() == word.get_ref().to_lowercase()) else {
+        let why = format!("`{}` is an unknown notation", word.get_ref());
+        return Err(mistake(word.span(), why, "write \"ddd.mmss\" or \"hhmmss\""));
+    };
+    if quantity != Quantity::Angle {
+        return Err(mistake(word.span(), "only an angle has minutes and seconds", "leave `notation` out"));
+    }
+    if column.unit.is_some() {
+        let why = format!("`notation = \"{}\"` is a unit already", notation.name());
+        return Err(mistake(word.span(), why, "leave `unit` out"));
+    }
+    Ok(notation)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn packed_digits_are_cut_apart_where_they_are_decimal() {
+        // 53° 07′ 25.28847717436″, with the digits of a file.
+        let (angle_rad, is_sexagesimal) = Notation::Degrees.unpack(53.072528847717436);
+        approx::assert_abs_diff_eq!(
+            angle_rad.to_degrees(),
+            53.0 + 7.0 / 60.0 + 25.28847717436 / 3600.0,
+            epsilon = 1e-12
+        );
+        assert!(is_sexagesimal);
+        // What binary holds as 12.3399999… has 34 minutes.
+        let (angle_rad, _) = Notation::Degrees.unpack(-12.34);
+        approx::assert_abs_diff_eq!(angle_rad.to_degrees(), -(12.0 + 34.0 / 60.0), epsilon = 1e-12);
+        let (angle_rad, _) = Notation::Hours.unpack(123_456.7);
+        let hours = 12.0 + 34.0 / 60.0 + 56.7 / 3600.0;
+        approx::assert_abs_diff_eq!(angle_rad.to_degrees(), 15.0 * hours, epsilon = 1e-10);
+        assert!(!Notation::Degrees.unpack(10.755).1);
+        assert!(!Notation::Degrees.unpack(10.1575).1);
+    }
+}

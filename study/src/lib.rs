@@ -1,0 +1,53 @@
+//! The study file: which chain, which data, what was observed, what to estimate and what to look for.
+//!
+//! [`Study`] is the file as written (`written`); with a chain it becomes a [`Plan`] in which every name is
+//! resolved (`plan`); with the data files the plan becomes [`Observations`](observe::Observations)
+//! (`load`). Whatever is wrong with a study is told at once, each mistake with its place (`mistakes`, `syntax`).
+
+mod amount;
+mod column_plan;
+mod columns;
+mod conversion;
+mod correlated;
+mod doubts;
+mod effects;
+mod estimated;
+mod format;
+mod inputs;
+mod kind;
+mod labels;
+mod load;
+mod memory;
+mod mistakes;
+mod next;
+mod observed;
+mod order;
+mod orientation;
+mod places;
+mod plan;
+mod ranges;
+mod repeated;
+mod rows;
+mod sample;
+mod short;
+mod shown;
+mod sights;
+mod sigma;
+mod stated;
+mod syntax;
+mod timeless;
+mod uncertain;
+mod uncertain_readings;
+mod unsought;
+mod unstated;
+mod written;
+
+pub use conversion::{Conversion, Notation};
+pub use load::{Loaded, Open, OpenTable};
+pub use next::{NextObjects, NextPlaces, NextPoses};
+pub use plan::{HoldOut, Plan, Search, SourcePlan};
+pub use sample::{Change, Changed, Place, Read, Sample, SampledColumn};
+pub use timeless::Timeless;
+pub use unsought::Unsought;
+pub use unstated::Unstated;
+pub use written::Study;

@@ -1,0 +1,205 @@
+//! Some of the rows of a study as its files have them, so that a column can be read otherwise than the study says.
+
+use model_core::{Quantity, SymbolId};
+
+use super::columns::Columns;
+use super::conversion::{Conversion, Notation};
+use super::labels::Numbered;
+use super::plan::Plan;
+use super::rows::Rows;
+use observe::Observations;
+use tables::formats::DataError;
+
+/// Rows of a source that are kept, in blocks of rows that follow each other.
+const ROWS: usize = 240;
+const BLOCKS: usize = 6;
+
+/// Decimal digits of a number as it was written that survive its conversion to SI and back.
+const DIGITS: i32 = 14;
+
+/// Rows of every source, with the columns that they were read by.
+#[derive(Debug, Clone, Default)]
+pub struct Sample {
+    sources: Vec<Sampled>,
+}
+
+#[derive(Debug, Clone)]
+struct Sampled {
+    columns: Columns,
+    rows: Rows,
+    /// To which block of rows that follow each other each belongs.
+    block: Vec<usize>,
+}
+
+/// A sample decides nothing of whether two sets of data are the same.
+impl PartialEq for Sample {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+/// Where a column stands among those of a plan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Place {
+    /// The source.
+    pub source: usize,
+    /// The column among those of the source.
+    pub column: usize,
+}
+
+/// What a column is read as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Read {
+    /// The readings of a joint or an input.
+    Reading(SymbolId),
+    /// A component of what was observed.
+    Observed(usize),
+}
+
+/// A column that may be read otherwise.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SampledColumn {
+    /// Where it stands.
+    pub place: Place,
+    /// What it is read as.
+    pub read: Read,
+    /// Its name in the file.
+    pub name: String,
+    /// Its quantity.
+    pub quantity: Quantity,
+    /// What its numbers are multiplied by to be in SI.
+    pub factor: f64,
+    /// Whether the study says its unit.
+    pub unit_is_of_study: bool,
+    /// Whether its header says none, so that a study may say another.
+    pub unit_is_open: bool,
+    /// Its numbers as the file has them.
+    pub written: Vec<f64>,
+}
+
+/// How a column is read otherwise.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Change {
+    /// Its numbers are this many rad or m.
+    Factor(f64),
+    /// Its digits are degrees or hours, minutes and seconds.
+    Notation(Notation),
+    /// It counts the other way, from here, rad or m.
+    Reversed(f64),
+    /// It counts from elsewhere: what is added, rad or m.
+    Offset(f64),
+    /// The other column stands there.
+    Exchanged(Place),
+    /// Rows take the number of the row that stands so many before.
+    Shift(i64),
+}
+
+/// A column with how it is read otherwise.
+pub type Changed = (Place, Change);
+
+impl Sample {
+    /// Takes some rows of a source.
+    pub(super) fn take(&mut self, columns: &Columns, rows: &Rows) {
+        let all = rows.row_numbers.len();
+        let length = ROWS / BLOCKS;
+        let kept: Vec<(usize, usize)> = if all <= ROWS {
+            (0..all).map(|row| (0, row)).collect()
+        } else {
+            let start = |block: usize| block * (all - length) / (BLOCKS - 1);
+            let block = |block: usize| (start(block)..start(block) + length).map(move |row| (block, row));
+            (0..BLOCKS).flat_map(block).collect()
+        };
+        let rows = rows.select(&kept.iter().map(|(_, row)| *row).collect::<Vec<_>>());
+        let block = kept.iter().map(|(block, _)| *block).collect();
+        self.sources.push(Sampled { columns: columns.clone(), rows, block });
+    }
+
+    /// Every column of joints, inputs and observed components whose numbers stand in the file as the study reads them.
+    #[must_use]
+    pub fn columns(&self) -> Vec<SampledColumn> {
+        let mut all = Vec::new();
+        for (source, Sampled { columns, rows, .. }) in self.sources.iter().enumerate() {
+            let readings = columns.readings.iter().map(|(id, at)| (Read::Reading(*id), *at));
+            let observed =
+                columns.observed.clone().enumerate().map(|(at, column)| (Read::Observed(at), column));
+            for (read, column) in readings.chain(observed) {
+                let (plan, factor) = (&columns.plans[column], rows.factors[column]);
+                let (Conversion::NONE, Some(factor)) = (plan.conversion, factor) else { continue };
+                all.push(SampledColumn {
+                    place: Place { source, column },
+                    read,
+                    name: plan.name.clone(),
+                    quantity: plan.quantity,
+                    factor,
+                    unit_is_of_study: plan.unit.is_some(),
+                    unit_is_open: !rows.headed[column],
+                    written: rows.numbers[column].iter().map(|si| as_written(*si, factor)).collect(),
+                });
+            }
+        }
+        all
+    }
+
+    /// What the rows observe, with some columns read otherwise; nothing is left out of the sample but rows that a shift leaves without a
+    /// number.
+    ///
+    /// # Errors
+    /// What is impossible in a row when it is read so.
+    pub fn observations(&self, plan: &Plan, changes: &[Changed]) -> Result<Observations, DataError> {
+        let mut all = plan.no_observations();
+        let mut numbered = Numbered::default();
+        for (number, (source, sampled)) in plan.sources.iter().zip(&self.sources).enumerate() {
+            let own: Vec<Changed> =
+                changes.iter().filter(|(place, _)| place.source == number).copied().collect();
+            for path in &source.paths {
+                all.origins.file(path);
+            }
+            let mut rows = sampled.changed(&own);
+            plan.observe(&mut all, source, &sampled.columns, &mut rows, &mut numbered)?;
+        }
+        Ok(all)
+    }
+}
+
+impl Sampled {
+    fn changed(&self, changes: &[Changed]) -> Rows {
+        let mut rows = self.rows.clone();
+        let mut kept = vec![true; self.block.len()];
+        for (place, change) in changes {
+            let own = &self.rows.numbers[place.column];
+            let factor = self.rows.factors[place.column].unwrap_or(1.0);
+            rows.numbers[place.column] = match *change {
+                Change::Factor(other) => own.iter().map(|si| as_written(*si, factor) * other).collect(),
+                Change::Notation(notation) => {
+                    own.iter().map(|si| notation.unpack(as_written(*si, factor)).0).collect()
+                }
+                Change::Reversed(from) => own.iter().map(|si| from - si).collect(),
+                Change::Offset(by) => own.iter().map(|si| si + by).collect(),
+                Change::Exchanged(other) => self.rows.numbers[other.column].clone(),
+                Change::Shift(by) => {
+                    let from = |row: usize| {
+                        let other = usize::try_from(row as i64 - by).ok();
+                        other.filter(|&other| self.block.get(other) == Some(&self.block[row]))
+                    };
+                    for (row, kept) in kept.iter_mut().enumerate() {
+                        *kept &= from(row).is_some();
+                    }
+                    (0..own.len()).map(|row| from(row).map_or(own[row], |other| own[other])).collect()
+                }
+            };
+        }
+        let kept: Vec<usize> = (0..kept.len()).filter(|&row| kept[row]).collect();
+        if kept.len() == self.block.len() { rows } else { rows.select(&kept) }
+    }
+}
+
+/// The number that was multiplied by a factor, as it was written.
+fn as_written(si: f64, factor: f64) -> f64 {
+    let number = si / factor;
+    if number == 0.0 || !number.is_finite() {
+        return number;
+    }
+    let scale = 10_f64.powi(DIGITS - number.abs().log10().ceil() as i32);
+    let rounded = (number * scale).round() / scale;
+    if rounded.is_finite() { rounded } else { number }
+}

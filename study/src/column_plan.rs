@@ -65,7 +65,7 @@ pub(super) fn column_plan(
             "leave `correlation` out",
         ));
     }
-    let conversion = Conversion::of(column, quantity, place)?;
+    let conversion = Conversion::of(column, quantity)?;
     match &column.column {
         Some(name) => {
             Ok(ColumnPlan { name: name.clone(), unit, quantity, declared: false, named: true, conversion })

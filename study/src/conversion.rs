@@ -1,7 +1,6 @@
 //! How the numbers of a column become readings: packed notation, sign, offset and a shift by rows.
 
 use std::f64::consts::PI;
-use std::ops::Range;
 
 use model_core::Quantity;
 use toml::Spanned;
@@ -71,7 +70,7 @@ impl Conversion {
     pub const NONE: Self = Self { notation: None, negated: false, offset_si: 0.0, shift: 0 };
 
     /// What a study writes of a column.
-    pub(super) fn of(column: &Column, quantity: Quantity, place: &Range<usize>) -> Outcome<Self> {
+    pub(super) fn of(column: &Column, quantity: Quantity) -> Outcome<Self> {
         let negated = match column.sign.as_ref().map(|sign| (*sign.get_ref(), sign.span())) {
             None | Some((1, _)) => false,
             Some((-1, _)) => true,
@@ -92,13 +91,6 @@ impl Conversion {
                 return Err(mistake(shift.span(), format!("`shift` is {}", shift.get_ref()), help));
             }
         };
-        if column.column.is_none() && (negated || offset_si != 0.0 || notation.is_some() || shift != 0) {
-            return Err(mistake(
-                place.clone(),
-                "a derived column has no sign, offset, notation or shift",
-                "write them at the columns that it is derived from",
-            ));
-        }
         Ok(Self { notation, negated, offset_si, shift })
     }
 

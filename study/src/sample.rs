@@ -86,8 +86,6 @@ pub enum Change {
     Notation(Notation),
     /// It counts the other way, from here, rad or m.
     Reversed(f64),
-    /// It counts from elsewhere: what is added, rad or m.
-    Offset(f64),
     /// The other column stands there.
     Exchanged(Place),
     /// Rows take the number of the row that stands so many before.
@@ -174,7 +172,6 @@ impl Sampled {
                     own.iter().map(|si| notation.unpack(as_written(*si, factor)).0).collect()
                 }
                 Change::Reversed(from) => own.iter().map(|si| from - si).collect(),
-                Change::Offset(by) => own.iter().map(|si| si + by).collect(),
                 Change::Exchanged(other) => self.rows.numbers[other.column].clone(),
                 Change::Shift(by) => {
                     let from = |row: usize| {

@@ -64,6 +64,14 @@ impl<'de> Visitor<'de> for Short<Column> {
             let help = "what is derived is as uncertain as what it is derived from: leave out";
             return Err(Error::custom(format!("{help} `{key}`")));
         }
+        let is_converted = column.sign.is_some()
+            || column.offset.is_some()
+            || column.notation.is_some()
+            || column.shift.is_some();
+        if column.derive.is_some() && is_converted {
+            let why = "a derived column has no sign, offset, notation or shift";
+            return Err(Error::custom(format!("{why}: write them at the columns that it is derived from")));
+        }
         match (&column.column, &column.unit, &column.derive) {
             (Some(_), _, None) | (None, None, Some(_)) => Ok(column),
             (Some(_), _, Some(_)) => {

@@ -3,23 +3,42 @@
 use super::caution::Caution;
 use super::ended::Ended;
 use super::otherwise::{Doubt, otherwise};
+use super::rms::BeforeAfter;
 use super::strayed::strayed;
+use crate::misread::{Misread, implausible};
 use crate::search::context::Context;
-use fit::FitResult;
+use crate::search::fitted::Fitted;
 
-/// The cautions, with the mistake that explains them first where there is one; behind them that stations come out elsewhere.
+/// Residuals where no search was made, and the misread columns that are why, if they are.
+pub(crate) struct Unsearched {
+    /// One for each unit of residuals.
+    pub rms: Vec<BeforeAfter>,
+    pub misread: Option<Misread>,
+}
+
+/// The cautions, with the mistake that explains them first where there is one; behind them that stations come out elsewhere. Beside
+/// misread columns there are no others: they would bring them about.
 pub(super) fn misread(
     whole: &Context<'_>,
-    fit: &FitResult,
+    last: &Fitted,
     ended: &Ended,
     mut cautions: Vec<Caution>,
+    columns: Option<&Misread>,
 ) -> Vec<Caution> {
+    if let Some(columns) = columns {
+        return vec![Caution::ColumnMisread(columns.clone())];
+    }
+    let (request, fit) = (whole.request, &last.fit);
     let has_failed = matches!(ended, Ended::NotConverged { .. } | Ended::FarOff { .. });
     if let Some(mistake) = doubt(&cautions, has_failed).and_then(|doubt| otherwise(whole, doubt)) {
         cautions.retain(|caution| !follows(caution));
         cautions.insert(0, Caution::FitsOtherwise(mistake));
     } else if !has_failed {
         cautions.extend(strayed(whole, fit).map(Caution::StationsStrayed));
+    }
+    let values = implausible(&last.chain, request.observations, fit, &request.plan.plausible);
+    if !values.is_empty() && !cautions.iter().any(|own| matches!(own, Caution::FitsOtherwise(_))) {
+        cautions.insert(0, Caution::Implausible { values });
     }
     cautions
 }

@@ -44,7 +44,6 @@ use serde::Serialize;
 
 use crate::design::discrimination::separation;
 use crate::design::{PlaceProposal, Proposal, Separation};
-use crate::misread::{Misread, implausible};
 use crate::search::HeldOut;
 use crate::search::aside::{Shared, shared};
 use crate::search::context::Context;
@@ -78,6 +77,7 @@ pub use instrument::{
     BodyShown, ErrorShown, ErrorState, Instrument, JointShown, ObservedShown, ReadingShown,
 };
 pub use lengths::LengthsOff;
+pub(crate) use misread::Unsearched;
 pub use mistakes::{MeasuredLengths, Misreading, StatedPlaces};
 pub use moved::Moved;
 pub(crate) use noise::expected_rms;
@@ -231,13 +231,6 @@ pub(crate) struct Confirmed<'a> {
     pub left_out: Vec<Caution>,
 }
 
-/// Residuals where no search was made, and the misread columns that are why, if they are.
-pub(crate) struct Unsearched {
-    /// One for each unit of residuals.
-    pub rms: Vec<BeforeAfter>,
-    pub misread: Option<Misread>,
-}
-
 /// What fits and search come to. Without a search the fit alone is told: it failed, or had too few observations.
 pub(crate) fn diagnose(
     whole: &Context<'_>,
@@ -290,16 +283,8 @@ pub(crate) fn diagnose(
         cautions.extend(lengths::lengths_off(whole, round).map(Caution::LengthsOff));
     }
     cautions.extend(misplaced);
-    let mut cautions = misread(whole, fit, &ended, cautions);
-    let implausible = implausible(&last.chain, observations, fit, &request.plan.plausible);
-    if let Err(Unsearched { misread: Some(misread), .. }) = &confirmed {
-        // What a misread column brings about is no news beside it.
-        cautions.clear();
-        cautions.push(Caution::ColumnMisread(misread.clone()));
-    } else if !implausible.is_empty() && !cautions.iter().any(|own| matches!(own, Caution::FitsOtherwise(_)))
-    {
-        cautions.insert(0, Caution::Implausible { values: implausible });
-    }
+    let columns = confirmed.as_ref().err().and_then(|own| own.misread.as_ref());
+    let mut cautions = misread(whole, last, &ended, cautions, columns);
     let remaining = found.remaining.as_ref();
     cautions.extend(noisy_readings(whole, last, &found)?);
     let alone = found

@@ -15,6 +15,11 @@ pub(super) const RATIO_ROWS: f64 = 0.3;
 pub(super) const ONE_OF: f64 = 4.0;
 /// A column is misread with this prior probability.
 pub(super) const RARE: f64 = 1e-3;
+/// Nats that a kind of mistake is rarer than a wrong unit or sign.
+pub(super) const EXCHANGED_PRICE: f64 = 0.5;
+pub(super) const PACKED_PRICE: f64 = 1.0;
+pub(super) const ZENITH_PRICE: f64 = 1.0;
+pub(super) const SHIFTED_PRICE: f64 = 1.5;
 /// An axis is about so far from where the declaration puts it, rad; lengths and tools, as shares of the reach.
 pub(super) const TILT_RAD: f64 = PI / 180.0;
 pub(super) const LENGTH_SHARE: f64 = 0.02;
@@ -59,6 +64,20 @@ pub const THRESHOLDS: &[Threshold] = &[
     row("misread.ratio_rows", RATIO_ROWS, "share of the residual that shifted rows may leave", TRIALS),
     row("misread.one_of", ONE_OF, "nats within which readings are told together", TRIALS),
     row("misread.rare", RARE, "prior probability that a column is misread", TRIALS),
+    row(
+        "misread.exchanged",
+        EXCHANGED_PRICE,
+        "nats that exchanged columns are rarer than a wrong unit",
+        TRIALS,
+    ),
+    row("misread.packed", PACKED_PRICE, "nats that packed digits are rarer than a wrong unit", TRIALS),
+    row(
+        "misread.zenith",
+        ZENITH_PRICE,
+        "nats that an angle from the zenith is rarer than a wrong unit",
+        TRIALS,
+    ),
+    row("misread.shifted", SHIFTED_PRICE, "nats that slipped rows are rarer than a wrong unit", TRIALS),
     row("prior.tilt_rad", TILT_RAD, "size of a tilt, scale of its prior", TRIALS),
     row(
         "prior.length_share",

@@ -6,7 +6,8 @@ use super::effects::{chance_of_all, headline, place};
 use super::left::{function_form, remaining};
 use super::numbers::{short, times};
 use super::rivals::rival;
-use super::steps::{Step, fits_otherwise, is_misread, is_unconfirmed, is_worse, steps};
+use super::step::Step;
+use super::steps::{fits_otherwise, is_misread, is_unconfirmed, is_worse, steps};
 use crate::diagnose::{Caution, Diagnosis, EffectFound, Ended, EveryRow, Rms, Verdict};
 use observe::SiUnit;
 

@@ -1,7 +1,7 @@
 //! Misread columns and implausible values, in words.
 
 use super::numbers::short;
-use super::steps::Step;
+use super::step::Step;
 use crate::diagnose::{Caution, Diagnosis};
 use crate::misread::{Implausible, Misread, Reading, Suspect};
 use observe::SiUnit;

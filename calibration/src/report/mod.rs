@@ -21,6 +21,7 @@ mod places;
 mod rivals;
 mod rows;
 mod shell;
+mod step;
 mod steps;
 
 pub use answers::{Answers, Tone, answers};
@@ -36,4 +37,4 @@ pub use noise::noise;
 pub use places::remedy_would_show;
 pub use rows::row;
 pub use shell::shell_word;
-pub use steps::Step;
+pub use step::Step;

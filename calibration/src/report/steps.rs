@@ -6,19 +6,9 @@ use super::effects::CHANCE;
 use super::places::told_places;
 use super::rivals::{Rival, rival};
 use super::shell::shell_word;
+use super::step::Step;
 use crate::diagnose::few::WANTED;
 use crate::diagnose::{Caution, Diagnosis, EffectFound, Ended, Relation, Verdict};
-
-/// Something to do.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Step {
-    /// What, in a few words.
-    pub title: String,
-    /// Why and how.
-    pub text: String,
-    /// A command line that does it.
-    pub command: Option<String>,
-}
 
 /// What to do next, in order.
 pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {

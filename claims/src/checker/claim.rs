@@ -3,6 +3,7 @@
 use super::entries::Entries;
 use super::equality::Equality;
 use super::formula::PrintedVector;
+use super::order::Order;
 use super::radicand::Total;
 use super::ranks::Rank;
 use super::sizes::{Bound, Size};
@@ -76,15 +77,6 @@ impl ClosedForm {
         let PrintedVector { halves, has_roots, truncated, .. } = &self.printed;
         self.faces.is_none() && self.order != Order::Exact && halves.is_empty() && !has_roots && !truncated
     }
-}
-
-/// Which products of errors a form has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Order {
-    /// Those of up to this many errors, 1 to 3.
-    UpTo(u32),
-    /// All of them: sines and cosines of errors, nothing dropped.
-    Exact,
 }
 
 /// The same pose taken up a second time in another position of the joints, and what becomes of the two errors.

@@ -4,9 +4,9 @@
 use std::ops::Range;
 
 use super::angles;
-use super::claim::Order;
 use super::compare::{Columns, Pair};
 use super::lowering::{self, Sines};
+use super::order::Order;
 use super::slip::TermSlip;
 use super::terms::{PrintedTerm, TermFactor};
 use super::{ClosedForm, compare};

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use super::algebraic;
-use super::claim::Order;
 use super::lowering::{self, Sines};
+use super::order::Order;
 use super::series;
 use super::written::{Read, TextPlace, Written, component, expressions, in_text};
 use crate::latex::{Notes, PrintedSymbols};

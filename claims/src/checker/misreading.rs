@@ -1,8 +1,9 @@
 //! The chain misread: what the closed form would be with two transforms in the wrong order, one left out, or one
 //! reversed. A printed formula that equals one of these tells where its author went astray.
 
-use super::claim::{ClosedForm, Order};
+use super::claim::ClosedForm;
 use super::compare::{self, AXES, Columns, Implied, Monomial};
+use super::order::Order;
 use super::slip::{FormSlip, FormSlipKind, factor_name};
 use model_core::algebra::Poly;
 use model_core::chain::{BodyId, Chain, Factor, ObservableId, Role, TransformKind};

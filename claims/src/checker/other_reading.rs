@@ -1,8 +1,9 @@
 //! Another reading than the one that is claimed: a print of ΔA where ΔA cos E is meant, of a zenith distance where an
 //! elevation is, of an angle that turns the other way.
 
-use super::claim::{ClosedForm, Order};
+use super::claim::ClosedForm;
 use super::compare::{AXES, Columns, Implied, multiplied};
+use super::order::Order;
 use super::slip::{FormSlip, FormSlipKind};
 use super::verdict::Difference;
 use model_core::chain::reading::{Measures, Reading, SignedAxis};

@@ -10,7 +10,7 @@ use model_core::remainder::{self, Domain};
 pub struct Size {
     /// To which observable.
     pub observable: ObservableId,
-    /// How large each error is, in SI, by [`SymbolId`](crate::SymbolId).
+    /// How large each error is, in SI, by [`SymbolId`](model_core::SymbolId).
     pub sizes: Vec<f64>,
     /// How the influences of several errors at one pose are added.
     pub combined: Combined,

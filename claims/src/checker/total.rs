@@ -2,8 +2,8 @@
 //! canonical form like any other, so that the claim is decided.
 
 use super::algebraic;
-use super::claim::Order;
 use super::compare::{self, Monomial};
+use super::order::Order;
 use super::radicand::Total;
 use super::{CheckError, Checker, ClosedForm};
 use model_core::algebra::{Fraction, Poly};

@@ -2,12 +2,13 @@
 
 use super::glyph::{self, Glyph};
 use super::layout;
-use super::token::{self, Kind};
+use super::left;
+use super::token::Kind;
 
 /// Every symbol of a formula in one normal form, in the order in which they stand; Δ, δ and d belong to the letter behind them.
 #[must_use]
 pub fn symbols_in(text: &str) -> Vec<String> {
-    let Ok(tokens) = token::tokens(text) else { return Vec::new() };
+    let Ok(tokens) = left::tokens(text) else { return Vec::new() };
     let mut found: Vec<String> = Vec::new();
     let mut before: Vec<Glyph> = Vec::new();
     let mut at = 0;
@@ -58,7 +59,7 @@ fn without_power(glyph: Glyph) -> Glyph {
 #[must_use]
 pub fn rows_of(text: &str) -> Vec<String> {
     let whole = || vec![text.to_owned()];
-    let Ok(tokens) = token::tokens(text) else { return whole() };
+    let Ok(tokens) = left::tokens(text) else { return whole() };
     let Ok(rows) = layout::rows(text, tokens, false) else { return whole() };
     let mut found = Vec::new();
     for row in rows {
@@ -73,7 +74,7 @@ pub fn rows_of(text: &str) -> Vec<String> {
 /// The name and the formula of `name = formula`, if the name is one symbol.
 #[must_use]
 pub fn definition_of(text: &str) -> Option<(String, String)> {
-    let tokens = token::tokens(text).ok()?;
+    let tokens = left::tokens(text).ok()?;
     let rows = layout::rows(text, tokens, false).ok()?;
     let [row] = rows.as_slice() else { return None };
     let mut glyphs = Vec::new();

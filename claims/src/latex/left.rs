@@ -1,10 +1,16 @@
 //! Indices that stand on the left of their letter: `{}^0\mathbf{p}`, `^bR_s`, `\prescript{0}{1}{T}`.
 
+use super::Unreadable;
 use super::glyph;
-use super::token::{Kind, Token};
+use super::token::{self, Kind, Token};
+
+/// Splits a text into tokens, with indices on the left marked.
+pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Unreadable> {
+    Ok(marked(token::tokens(text)?))
+}
 
 /// The same tokens with [`Kind::Left`] in front of indices on the left.
-pub(super) fn marked(tokens: Vec<Token>) -> Vec<Token> {
+fn marked(tokens: Vec<Token>) -> Vec<Token> {
     let tokens = without_prescripts(tokens);
     let mut marked: Vec<Token> = Vec::with_capacity(tokens.len());
     let mut at = 0;

@@ -6,7 +6,7 @@ use super::glyph::{self, Glyph, ReadGlyph};
 use super::printed::{Entry, Meaning, PrintedSymbols};
 use super::token::Token;
 use super::unknown::{self, Known};
-use super::{Unreadable, token};
+use super::{Unreadable, left};
 use model_core::expr::{Expr, Node};
 use model_core::mistake::Mistake;
 use model_core::symbol::SymbolKind;
@@ -136,7 +136,7 @@ impl PrintedSymbols {
             fits.then_some((entry, Some(after)))
         };
         if let Some(inside) = hatted(&last.base) {
-            let tokens = token::tokens(inside).ok()?;
+            let tokens = left::tokens(inside).ok()?;
             let mut bare = glyph::read(&tokens).ok()??.glyph;
             for (own, outer) in [(&mut bare.lower, &last.lower), (&mut bare.upper, &last.upper)] {
                 if own.is_empty() {

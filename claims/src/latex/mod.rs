@@ -76,7 +76,7 @@ pub fn read_component(
     symbols: &PrintedSymbols,
     axis: Option<usize>,
 ) -> Result<(Formula, Notes), Unreadable> {
-    let mut rows = layout::rows(text, token::tokens(text)?, false)?.into_iter();
+    let mut rows = layout::rows(text, left::tokens(text)?, false)?.into_iter();
     let Some(row) = rows.next() else {
         return Err(Mistake::new(0..text.len(), "a formula is missing"));
     };
@@ -100,7 +100,7 @@ pub fn read_vector(
     symbols: &PrintedSymbols,
     axes: &[Option<usize>],
 ) -> Result<(Vec<Formula>, Notes), Unreadable> {
-    let rows = layout::rows(text, token::tokens(text)?, true)?;
+    let rows = layout::rows(text, left::tokens(text)?, true)?;
     let mut components = Vec::with_capacity(rows.len());
     let mut notes = Notes::default();
     let alone = rows.len() == 1;
@@ -134,7 +134,7 @@ pub struct PrintedMatrix {
 /// # Errors
 /// The first thing that cannot be read, with its place.
 pub fn read_matrix(text: &str, symbols: &PrintedSymbols) -> Result<PrintedMatrix, Unreadable> {
-    let rows = layout::rows(text, token::tokens(text)?, false)?;
+    let rows = layout::rows(text, left::tokens(text)?, false)?;
     let [row] = rows.as_slice() else {
         return Err(Mistake::new(0..text.len(), "one matrix is wanted"));
     };
@@ -156,7 +156,7 @@ impl PrintedMatrix {
 /// # Errors
 /// The first thing that cannot be read, with its place.
 pub fn read_total(text: &str, symbols: &PrintedSymbols) -> Result<Formula, Unreadable> {
-    let rows = layout::rows(text, token::tokens(text)?, false)?;
+    let rows = layout::rows(text, left::tokens(text)?, false)?;
     let [row] = rows.as_slice() else {
         return Err(Mistake::new(0..text.len(), "one formula is wanted"));
     };

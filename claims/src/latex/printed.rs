@@ -1,10 +1,9 @@
 //! The table from printed symbols to what they stand for: a declared name, or an abbreviation such as `s_\beta`.
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use super::glyph::{self, Glyph};
-use super::{Unreadable, token};
+use super::{Unreadable, left};
 use model_core::chain::Chain;
 use model_core::expr::{Expr, Node};
 use model_core::mistake::Mistake;
@@ -175,15 +174,6 @@ impl PrintedSymbols {
         self
     }
 
-    /// The same table for texts that abbreviate cosines and sines, if these do.
-    #[must_use]
-    pub fn reading(&self, texts: &[&str]) -> Cow<'_, Self> {
-        if self.abbreviates || !super::parser::abbreviates(texts) {
-            return Cow::Borrowed(self);
-        }
-        Cow::Owned(Self { abbreviates: true, ..self.clone() })
-    }
-
     /// A symbol as it is set, or in another weight if only one is known.
     pub(super) fn entry(&self, glyphs: &[Glyph], arguments: &[Vec<Glyph>]) -> Option<&Entry> {
         let key = Key { glyphs: glyphs.to_vec(), arguments: arguments.to_vec() };
@@ -256,7 +246,7 @@ fn name(name: &str) -> Expr<()> {
 
 /// The glyphs of a text that is one symbol, and its arguments: `\delta_x(y)`.
 fn symbol_key(printed: &str) -> Result<Key, Unreadable> {
-    let tokens = token::tokens(printed)?;
+    let tokens = left::tokens(printed)?;
     let mut glyphs = Vec::new();
     let mut used = 0;
     while let Some(read) = glyph::read(&tokens[used..])? {

@@ -10,7 +10,7 @@ use super::commands::{
     BOLD, DISTANCES, FUNCTIONS, NOTES, RAMP, RELATIONS, SIZES, SWITCHES, TYPEFACES, WIDE, WITHOUT_MEANING,
     is_inverse,
 };
-use super::{Unreadable, left, typed};
+use super::{Unreadable, typed};
 use model_core::mistake::Mistake;
 
 /// One token and where it stands.
@@ -56,13 +56,13 @@ pub(super) enum Kind {
 /// Units in which TeX measures a distance.
 const UNITS: [&str; 11] = ["pt", "mm", "cm", "in", "ex", "em", "bp", "pc", "dd", "cc", "sp"];
 
-/// Splits a text into tokens.
+/// Splits a text into tokens as they stand.
 pub(super) fn tokens(text: &str) -> Result<Vec<Token>, Unreadable> {
     let mut lexer = Lexer { text, at: 0, tokens: Vec::new(), bold: 0..0, closers: Vec::new() };
     while let Some(next) = lexer.peek() {
         lexer.token(next)?;
     }
-    Ok(left::marked(lexer.tokens))
+    Ok(lexer.tokens)
 }
 
 struct Lexer<'a> {

@@ -106,9 +106,11 @@ impl Page {
         if let Some(chance) = &answers.chance {
             self.say("", &format!("{}.", sentence_case(chance)));
         }
-        for caution in &diagnosis.cautions {
+        // What the verdict says already is no caution beside it.
+        let cautions = diagnosis.cautions.iter().map(words::caution).filter(|own| *own != answers.happened);
+        for caution in cautions {
             let mut told = String::new();
-            paragraph(&mut told, "Caution: ", &words::caution(caution), self.layout.width);
+            paragraph(&mut told, "Caution: ", &caution, self.layout.width);
             let styled = format!("{CAREFUL}Caution{CAREFUL:#}");
             self.text.push_str(&told.replacen("Caution", &styled, 1));
         }

@@ -1,10 +1,8 @@
 //! Two columns of the same quantity stand for each other.
 
 use super::{Hypothesis, Line, Reading, Tried, line, unit_of};
+use crate::misread::policy::EXCHANGED_PRICE;
 use study::{Change, SampledColumn};
-
-/// An exchange is rarer than a wrong unit.
-const PRICE: f64 = 0.5;
 
 pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
     let mut all = Vec::new();
@@ -31,7 +29,7 @@ fn hypothesis(tried: &Tried<'_>, one: &SampledColumn, other: &SampledColumn) -> 
             (other.place, Change::Exchanged(one.place)),
         ],
         lines: vec![reads(one, other), reads(other, one)],
-        price: PRICE,
+        price: EXCHANGED_PRICE,
         digits: 0.0,
     }
 }

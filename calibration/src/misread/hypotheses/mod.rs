@@ -123,6 +123,27 @@ pub(super) fn all(plan: &Plan, columns: &[SampledColumn]) -> Vec<Hypothesis> {
     all
 }
 
+/// Columns that one habit may spoil: all joints, all that was observed, both, and each alone.
+fn sets<'a>(tried: &Tried<'a>, may: impl Fn(&SampledColumn) -> bool) -> Vec<Vec<&'a SampledColumn>> {
+    let of = |columns: &[&'a SampledColumn]| columns.iter().copied().filter(|column| may(column)).collect();
+    let (joints, observed): (Vec<&SampledColumn>, Vec<&SampledColumn>) =
+        (of(&tried.joints), of(&tried.observed));
+    let both = [joints.clone(), observed.clone()].concat();
+    let each: Vec<Vec<&SampledColumn>> = both.iter().map(|column| vec![*column]).collect();
+    let mut sets: Vec<Vec<&SampledColumn>> = Vec::new();
+    for set in [joints, observed, both].into_iter().chain(each) {
+        if !set.is_empty() && !sets.contains(&set) {
+            sets.push(set);
+        }
+    }
+    sets
+}
+
+/// Each of these columns by its name in the file.
+fn names(columns: &[&SampledColumn]) -> Vec<String> {
+    columns.iter().map(|column| column.name.clone()).collect()
+}
+
 /// A line that reads a column so: `how` is what stands behind its name, `, unit = "gon"`.
 fn line(plan: &Plan, column: &SampledColumn, file_column: &str, how: &str) -> Line {
     let quoted = toml::Value::String(file_column.to_owned());

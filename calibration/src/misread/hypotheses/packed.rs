@@ -2,35 +2,17 @@
 
 use model_core::Quantity;
 
-use super::{Hypothesis, Reading, Tried, line};
+use super::{Hypothesis, Reading, Tried, line, names, sets};
+use crate::misread::policy::PACKED_PRICE;
 use study::{Change, Notation, SampledColumn};
-
-/// What a pair of digits below 60 says for packed digits, nats: of a hundred pairs sixty are.
-const PAIR: f64 = 0.510_825_623_765_990_7;
 
 /// Digit pairs behind the point of a packed number: minutes and seconds.
 const PAIRS: f64 = 2.0;
 
 pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
-    let packed = |columns: &[&'_ SampledColumn]| -> Vec<usize> {
-        (0..columns.len()).filter(|&at| is_packed(columns[at])).collect()
-    };
-    let joints: Vec<&SampledColumn> = packed(&tried.joints).into_iter().map(|at| tried.joints[at]).collect();
-    let observed: Vec<&SampledColumn> =
-        packed(&tried.observed).into_iter().map(|at| tried.observed[at]).collect();
-    let all: Vec<&SampledColumn> = joints.iter().chain(&observed).copied().collect();
-    let mut sets: Vec<Vec<&SampledColumn>> = Vec::new();
-    for set in [all.clone(), joints, observed].into_iter().chain(all.iter().map(|column| vec![*column])) {
-        if !set.is_empty() && !sets.contains(&set) {
-            sets.push(set);
-        }
-    }
     let notation = Notation::Degrees;
     let hypothesis = |set: Vec<&SampledColumn>| Hypothesis {
-        reading: Reading::Packed {
-            columns: set.iter().map(|column| column.name.clone()).collect(),
-            notation: notation.name(),
-        },
+        reading: Reading::Packed { columns: names(&set), notation: notation.name() },
         changes: set.iter().map(|column| (column.place, Change::Notation(notation))).collect(),
         lines: set
             .iter()
@@ -38,10 +20,11 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
                 line(tried.plan, column, &column.name, &format!(", notation = \"{}\"", notation.name()))
             })
             .collect(),
-        price: 1.0,
-        digits: set.iter().map(|column| PAIR * PAIRS * column.written.len() as f64).sum(),
+        price: PACKED_PRICE,
+        // Of a hundred pairs of digits sixty are below 60.
+        digits: set.iter().map(|column| -0.6_f64.ln() * PAIRS * column.written.len() as f64).sum(),
     };
-    sets.into_iter().map(hypothesis).collect()
+    sets(tried, is_packed).into_iter().map(hypothesis).collect()
 }
 
 /// Whether a column of angles is read as degrees, and every number of it could be degrees, minutes and seconds.

@@ -5,10 +5,8 @@ use std::f64::consts::FRAC_PI_2;
 use model_core::Quantity;
 
 use super::{Hypothesis, Reading, Tried, line, unit_of};
+use crate::misread::policy::ZENITH_PRICE;
 use study::{Change, SampledColumn};
-
-/// An angle from the zenith is a rarer mistake than a sign.
-const ZENITH_PRICE: f64 = 1.0;
 
 pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
     let of_column = |column: &&SampledColumn| {

@@ -1,10 +1,8 @@
 //! Readings of joints stand one row off what was observed at them.
 
-use super::{Hypothesis, Reading, Tried, line, unit_of};
+use super::{Hypothesis, Reading, Tried, line, names, unit_of};
+use crate::misread::policy::SHIFTED_PRICE;
 use study::{Change, SampledColumn};
-
-/// Rows slip rarely.
-const PRICE: f64 = 1.5;
 
 pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
     let mut sets: Vec<Vec<&SampledColumn>> = vec![tried.joints.clone()];
@@ -16,16 +14,13 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
         for by in [1, -1] {
             let how = |column: &SampledColumn| format!("{}, shift = {by}", unit_of(column));
             all.push(Hypothesis {
-                reading: Reading::Shifted {
-                    columns: set.iter().map(|column| column.name.clone()).collect(),
-                    by,
-                },
+                reading: Reading::Shifted { columns: names(set), by },
                 changes: set.iter().map(|column| (column.place, Change::Shift(by))).collect(),
                 lines: set
                     .iter()
                     .map(|column| line(tried.plan, column, &column.name, &how(column)))
                     .collect(),
-                price: PRICE,
+                price: SHIFTED_PRICE,
                 digits: 0.0,
             });
         }

@@ -3,7 +3,7 @@
 use model_core::Quantity;
 use tables::units::Unit;
 
-use super::{Hypothesis, Line, Reading, Tried, line, named};
+use super::{Hypothesis, Line, Reading, Tried, line, named, names, sets};
 use study::{Change, SampledColumn};
 
 /// Units that files are written in.
@@ -13,22 +13,8 @@ const LENGTHS: &[&str] = &["m", "mm", "cm", "um", "inch", "ft"];
 pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
     let mut all = Vec::new();
     for (quantity, units) in [(Quantity::Angle, ANGLES), (Quantity::Length, LENGTHS)] {
-        let of = |columns: &[&'_ SampledColumn]| -> Vec<usize> {
-            (0..columns.len()).filter(|&at| columns[at].quantity == quantity).collect()
-        };
-        let joints: Vec<&SampledColumn> = of(&tried.joints).into_iter().map(|at| tried.joints[at]).collect();
-        let observed: Vec<&SampledColumn> =
-            of(&tried.observed).into_iter().map(|at| tried.observed[at]).collect();
-        let mut sets: Vec<Vec<&SampledColumn>> = vec![joints.clone(), observed.clone()];
-        sets.push(joints.iter().chain(&observed).copied().collect());
-        sets.extend(joints.iter().chain(&observed).map(|column| vec![*column]));
-        let mut seen: Vec<Vec<&SampledColumn>> = Vec::new();
-        for set in sets {
-            if set.is_empty() || seen.contains(&set) {
-                continue;
-            }
+        for set in sets(tried, |column| column.quantity == quantity) {
             all.extend(units.iter().filter_map(|unit| hypothesis(tried, &set, unit)));
-            seen.push(set);
         }
     }
     all
@@ -46,11 +32,7 @@ fn hypothesis(tried: &Tried<'_>, columns: &[&SampledColumn], unit: &str) -> Opti
         columns.iter().map(|column| line(tried.plan, column, &column.name, &how)).collect();
     let read = columns.first().and_then(|column| named(column));
     Some(Hypothesis {
-        reading: Reading::Unit {
-            columns: columns.iter().map(|column| column.name.clone()).collect(),
-            is: unit.name,
-            read,
-        },
+        reading: Reading::Unit { columns: names(columns), is: unit.name, read },
         changes: columns.iter().map(|column| (column.place, Change::Factor(unit.in_si))).collect(),
         lines,
         price: 0.0,

@@ -1,21 +1,24 @@
 //! `c\psi`, `\mathrm c_\psi`, `s_{23}`: cosines and sines as robotics abbreviates them. They are read where a print has both
 //! letters and declares neither.
 
+use std::borrow::Cow;
+
 use super::powers::raised;
 use super::{Formula, Parser, Value};
 use crate::latex::Unreadable;
 use crate::latex::glyph::{self, Glyph, ReadGlyph};
+use crate::latex::left;
 use crate::latex::lookup::After;
 use crate::latex::printed::{Meaning, PrintedSymbols};
-use crate::latex::token::{self, Kind, Token};
+use crate::latex::token::{Kind, Token};
 use model_core::expr::{Expr, Function, Node};
 use model_core::mistake::Mistake;
 use model_core::symbol::SymbolKind;
 
 /// Whether a text abbreviates both cosines and sines.
-pub(in crate::latex) fn abbreviates(texts: &[&str]) -> bool {
+fn abbreviates(texts: &[&str]) -> bool {
     let mut found = [false; 2];
-    for tokens in texts.iter().filter_map(|text| token::tokens(text).ok()) {
+    for tokens in texts.iter().filter_map(|text| left::tokens(text).ok()) {
         for pair in tokens.windows(2) {
             let [Token { kind: Kind::Word(word), .. }, next] = pair else { continue };
             let follows = next.kind == Kind::Mark('_')
@@ -30,6 +33,19 @@ pub(in crate::latex) fn abbreviates(texts: &[&str]) -> bool {
         }
     }
     found == [true; 2]
+}
+
+impl PrintedSymbols {
+    /// The same table for texts that abbreviate cosines and sines, if these do.
+    #[must_use]
+    pub fn reading(&self, texts: &[&str]) -> Cow<'_, Self> {
+        if self.abbreviates || !abbreviates(texts) {
+            return Cow::Borrowed(self);
+        }
+        let mut own = self.clone();
+        own.abbreviates = true;
+        Cow::Owned(own)
+    }
 }
 
 impl Parser<'_> {

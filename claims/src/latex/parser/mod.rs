@@ -24,7 +24,6 @@ use model_core::expr::{Expr, Node};
 use model_core::mistake::Mistake;
 use value::Product;
 
-pub(super) use abbreviations::abbreviates;
 pub(super) use value::{Matrix, Value};
 
 type Formula = Expr<Range<usize>>;

@@ -264,7 +264,7 @@ impl Parser<'_> {
 
     /// A formula in the text of an index.
     pub(super) fn inner(&self, text: &str, place: &Range<usize>) -> Option<Result<Formula, Unreadable>> {
-        let tokens = crate::latex::token::tokens(text).ok()?;
+        let tokens = crate::latex::left::tokens(text).ok()?;
         let moved: Vec<_> = tokens
             .into_iter()
             .map(|token| crate::latex::token::Token { place: place.clone(), ..token })

@@ -13,7 +13,7 @@ const LIDAR: &str = include_str!("../../examples/mobile-lidar/mobile-lidar.chain
 
 fn table(text: &str, observable: &str) -> (Chain, Table) {
     let chain = Chain::symbolic_from_text(text).unwrap();
-    let table = forms::table(&chain, chain.find_observable(observable).unwrap()).unwrap();
+    let table = forms::table(&chain, chain.find_observable(observable).unwrap(), print::is_short).unwrap();
     (chain, table)
 }
 
@@ -104,7 +104,7 @@ fn a_six_joint_arm_fits_a_page() {
 fn readings_have_no_table() {
     let text = "chain C { body a on ground { motion: Rz(q); motion_error: Rz(e); } observe s: azimuth of direction(1, 0, 0) of a; }";
     let chain = Chain::from_text(text).unwrap();
-    let error = forms::table(&chain, chain.find_observable("s").unwrap()).unwrap_err();
+    let error = forms::table(&chain, chain.find_observable("s").unwrap(), print::is_short).unwrap_err();
     assert!(matches!(error, TableError::Readings(_)));
     assert_eq!(chain.symbols_of(SymbolKind::Error).count(), 1);
 }

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use indicatif::ProgressBar;
 use model_core::algebra::{Fraction, Poly};
 use model_core::forms::{self, Form, TableError};
 use model_core::{Chain, ObservableId, ObservableKind, print};
@@ -65,14 +66,14 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let is_certified = arguments.certificate.is_wanted()?;
     let source = Source::read(&arguments.chain)?;
     let chain = source.symbolic_chain()?;
-    expected::announce(&chain, Work::Derive);
+    let waiting = expected::announce(&chain, Work::Derive);
     let chosen = observables(&chain, &arguments.observable)?;
     if arguments.table || arguments.steps {
         if is_certified {
             let why = "a certificate is of the form itself: ask for it without --table and --steps";
             return Err(Failure::Input(why.to_owned()));
         }
-        return show_parts(arguments, &chain, &chosen);
+        return show_parts(arguments, &chain, &chosen, waiting);
     }
     let mut forms: Vec<Form> = Vec::new();
     for &observable in &chosen {
@@ -101,6 +102,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     };
     let certificate = is_certified.then(|| certify(&source, &chosen, arguments.order)).transpose()?;
     arguments.certificate.write(certificate.as_deref())?;
+    drop(waiting);
     match arguments.format {
         Format::Text => terminal::print_formulas(&printed)?,
         Format::Latex | Format::Markdown | Format::Json => terminal::print(&printed)?,
@@ -109,7 +111,12 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
 }
 
 /// The columns as tables, or the derivations in steps; observables that show single readings have neither.
-fn show_parts(arguments: &Arguments, chain: &Chain, chosen: &[ObservableId]) -> Result<Answer, Failure> {
+fn show_parts(
+    arguments: &Arguments,
+    chain: &Chain,
+    chosen: &[ObservableId],
+    waiting: Option<ProgressBar>,
+) -> Result<Answer, Failure> {
     let style = match arguments.format {
         Format::Text => print::Style::Text,
         Format::Latex => print::Style::Latex,
@@ -124,7 +131,7 @@ fn show_parts(arguments: &Arguments, chain: &Chain, chosen: &[ObservableId]) -> 
     for &observable in chosen {
         let name = &chain.observable(observable).name;
         let printed = if arguments.table {
-            forms::table(chain, observable).map(|table| print::table(&table, style))
+            forms::table(chain, observable, print::is_short).map(|table| print::table(&table, style))
         } else {
             forms::steps(chain, observable).map(|steps| print::steps(&steps, chain, style))
         };
@@ -142,6 +149,7 @@ fn show_parts(arguments: &Arguments, chain: &Chain, chosen: &[ObservableId]) -> 
         }
     }
     let text = sections.join("\n");
+    drop(waiting);
     match style {
         print::Style::Text => terminal::print_formulas(&text)?,
         print::Style::Latex | print::Style::Markdown => terminal::print(&text)?,

@@ -58,18 +58,18 @@ struct Use {
     frame: usize,
 }
 
-/// The table of an observable.
+/// The table of an observable. Entries that are short, as whoever prints it says, get no name.
 ///
 /// # Errors
 /// See [`TableError`].
-pub fn table(chain: &Chain, id: ObservableId) -> Result<Table, TableError> {
+pub fn table(chain: &Chain, id: ObservableId, is_short: fn(&Poly) -> bool) -> Result<Table, TableError> {
     let observable = chain.observable(id);
     if !observable.is_vector() && !observable.is_orientation() {
         return Err(TableError::Readings(observable.name.clone()));
     }
     let is_error = error_table(chain);
     let is_error = |symbol: SymbolId| is_error[symbol.index()];
-    let mut builder = Builder { table: Table::empty(chain, id), letters: letters(chain) };
+    let mut builder = Builder { table: Table::empty(chain, id), letters: letters(chain), is_short };
     let way = chain.way(id);
     let is_fixed = |passed: &&Passed| {
         let symbols = passed.factor.amount.symbols();
@@ -190,6 +190,7 @@ struct Builder {
     table: Table,
     /// Of rotations and of levers.
     letters: [String; 2],
+    is_short: fn(&Poly) -> bool,
 }
 
 impl Builder {
@@ -225,7 +226,7 @@ impl Builder {
         (name, latex): (String, String),
         quantity: Quantity,
     ) -> Result<(), TableError> {
-        if crate::print::addends(entry) <= 1 {
+        if (self.is_short)(entry) {
             return Ok(());
         }
         let symbols = &mut self.table.chain.symbols;

@@ -72,15 +72,12 @@ pub fn by_hand(poly: &Poly, chain: &Chain, style: Style, hand: &Hand) -> String 
     }
 }
 
-/// How many addends a formula is written in.
-pub(crate) fn addends(poly: &Poly) -> usize {
-    groups(poly)
-        .iter()
-        .map(|group| {
-            let functions = pieces::shortest(&group.angular, &Hand::default()).len();
-            group.monomials.len() * functions
-        })
-        .sum()
+/// Whether a formula is written in one product, or as zero.
+#[must_use]
+pub fn is_short(poly: &Poly) -> bool {
+    let groups = groups(poly);
+    let functions = |angular: &Poly| pieces::shortest(angular, &Hand::default()).len();
+    groups.iter().map(|group| group.monomials.len() * functions(&group.angular)).sum::<usize>() <= 1
 }
 
 /// The components of a form, one a line, each with its name; in LaTeX as an `aligned` block, in Markdown as a list.

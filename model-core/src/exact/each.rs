@@ -21,6 +21,17 @@ pub struct Each {
     vector: [Vec<Use>; 3],
     /// Errors that act at several places, or with others only.
     is_spread: Vec<bool>,
+    /// The last place where each error acts.
+    places: Vec<Option<Place>>,
+    /// The steps that are there without errors.
+    design: Vec<usize>,
+}
+
+/// Where an error acts: in the amount of a step or in a component of the vector, and there in which use.
+#[derive(Debug, Clone, Copy)]
+enum Place {
+    Step(usize, usize),
+    Component(usize, usize),
 }
 
 /// An error in an amount.
@@ -63,10 +74,20 @@ impl Each {
             }
             found
         };
-        let steps = path.steps.iter().map(|step| of(&step.amount)).collect();
+        let steps: Vec<Vec<Use>> = path.steps.iter().map(|step| of(&step.amount)).collect();
         let vector = [of(&path.vector[0]), of(&path.vector[1]), of(&path.vector[2])];
         let is_spread = uses.iter().map(|&count| count > 1).collect();
-        Self { path, errors, steps, vector, is_spread }
+        let mut places = vec![None; errors.len()];
+        let mut act = |uses: &[Use], place: &dyn Fn(usize) -> Place| {
+            for (at, one) in uses.iter().enumerate() {
+                places[one.error] = Some(place(at));
+            }
+        };
+        steps.iter().enumerate().for_each(|(step, uses)| act(uses, &|at| Place::Step(step, at)));
+        vector.iter().enumerate().for_each(|(axis, uses)| act(uses, &|at| Place::Component(axis, at)));
+        let is_there = |&step: &usize| !path.steps[step].amount.nominal.is_zero();
+        let design = (0..path.steps.len()).filter(is_there).collect();
+        Self { path, errors, steps, vector, is_spread, places, design }
     }
 
     /// All errors of the chain, in order.
@@ -116,43 +137,51 @@ impl Each {
     }
 
     /// The same of one error, in the frame of the place where it acts: lengths and angles are those that the observable has in its
-    /// own frame, and nothing between that place and the ground counts. `None` for an error that acts at several places.
+    /// own frame, and nothing between that place and the ground counts. `None` for an error that acts at several places. `values`
+    /// has all errors at zero, and has them so afterwards.
     #[must_use]
-    pub fn one_alone(&self, values: &[f64], error: SymbolId, size: f64) -> Option<[Vector3<f64>; 2]> {
+    pub fn one_alone(&self, values: &mut [f64], error: SymbolId, size: f64) -> Option<[Vector3<f64>; 2]> {
         let index = self.errors.binary_search(&error).ok()?;
         if self.is_spread[index] {
             return None;
         }
-        let mut values = self.path.with_ramps(values).into_owned();
-        let nominal = Vector3::from_fn(|axis, _| self.path.vector[axis].nominal.eval(&values));
-        let amount = |one: &Use, values: &mut [f64]| {
-            values[error.index()] = size;
-            one.own.eval(values)
+        let mut with_ramps;
+        let values = if self.path.ramps.is_empty() {
+            values
+        } else {
+            with_ramps = self.path.with_ramps(values).into_owned();
+            &mut with_ramps
         };
-        let of = |uses: &'_ [Use]| uses.iter().position(|one| one.error == index);
-        for (axis, uses) in self.vector.iter().enumerate() {
-            if let Some(at) = of(uses) {
-                let amount = amount(&uses[at], &mut values);
+        let nominal = Vector3::from_fn(|axis, _| self.path.vector[axis].nominal.eval(values));
+        let mut amount = |one: &Use| {
+            values[error.index()] = size;
+            let amount = one.own.eval(values);
+            values[error.index()] = 0.0;
+            amount
+        };
+        let (acts_in, at) = match self.places[index] {
+            Some(Place::Step(step, at)) => (step, at),
+            Some(Place::Component(axis, at)) => {
+                let amount = amount(&self.vector[axis][at]);
                 return Some([nominal, moved(Vector3::ith(axis, 1.0), None, amount)]);
             }
-        }
+            None => return Some([nominal, Vector3::zeros()]),
+        };
+        let amount = amount(&self.steps[acts_in][at]);
         let mut parts = Parts { nominal, first: Vector3::zeros(), rest: Vector3::zeros() };
-        for (step, uses) in self.path.steps.iter().zip(&self.steps) {
-            let is_turn = step.kind == TransformKind::Rotation;
-            if let Some(at) = of(uses) {
-                let amount = amount(&uses[at], &mut values);
-                let axis = Vector3::ith(step.axis.index(), 1.0);
-                let added = moved(axis, is_turn.then_some(parts.nominal), amount);
-                // A shift moves what it has shifted; lengths do not count the difference, angles of directions have none.
-                return Some([parts.nominal, added]);
-            }
-            let by = step.amount.nominal.eval(&values);
+        for step in self.design.iter().take_while(|&&step| step < acts_in).map(|&step| &self.path.steps[step])
+        {
+            let by = step.amount.nominal.eval(values);
             match step.kind {
                 TransformKind::Translation => parts.nominal[step.axis.index()] += by,
                 TransformKind::Rotation => parts.rotate(step.axis, by, 0.0, 0.0),
             }
         }
-        Some([parts.nominal, Vector3::zeros()])
+        let step = &self.path.steps[acts_in];
+        let is_turn = step.kind == TransformKind::Rotation;
+        let axis = Vector3::ith(step.axis.index(), 1.0);
+        // A shift moves what it has shifted; lengths do not count the difference, angles of directions have none.
+        Some([parts.nominal, moved(axis, is_turn.then_some(parts.nominal), amount)])
     }
 
     /// What the errors of a step add, given the unit vector of its axis and, of a rotation, the vector that it turns; carried to

@@ -1,5 +1,6 @@
 //! What a command will take, said before it starts where that is long.
 
+use indicatif::{ProgressBar, ProgressStyle};
 use model_core::{Chain, SymbolKind};
 
 use crate::terminal;
@@ -20,19 +21,24 @@ pub enum Work {
 /// Seconds that nobody needs to be told of.
 const SHORT_S: f64 = 5.0;
 
-/// Says what a command will take, where that is more than a few seconds.
+/// Says what a command will take, where that is more than a few seconds. A line then says how long it has taken so far, where a
+/// person looks: drop it before anything is printed.
 ///
-/// The times are those of `benches/growth/chains.py` on one processor, see the page "As rows grow".
-pub fn announce(chain: &Chain, work: Work) {
+/// The times are those of `benches/growth/costs.py` on one processor, see the page "What it costs".
+#[must_use]
+pub fn announce(chain: &Chain, work: Work) -> Option<ProgressBar> {
     let errors = chain.symbols_of(SymbolKind::Error).count();
     let joints = chain.symbols_of(SymbolKind::Joint).count();
     let seconds = seconds(work, errors as f64, joints as f64);
-    if seconds > SHORT_S {
-        terminal::note(format_args!(
-            "{errors} errors and {joints} joints: this takes some {} on one processor",
-            in_words(seconds)
-        ));
+    if seconds <= SHORT_S {
+        return None;
     }
+    let expected = in_words(seconds);
+    terminal::note(format_args!(
+        "{errors} errors and {joints} joints: this takes some {expected} on one processor"
+    ));
+    let style = ProgressStyle::with_template("{spinner} {elapsed} of some {msg}").ok()?;
+    Some(terminal::progress().with_style(style).with_message(expected))
 }
 
 fn seconds(work: Work, errors: f64, joints: f64) -> f64 {

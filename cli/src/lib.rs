@@ -18,6 +18,8 @@ mod failure;
 mod init;
 mod letters;
 pub mod library;
+#[cfg(target_os = "linux")]
+mod limited;
 mod many;
 mod output;
 mod over_memory;
@@ -78,6 +80,10 @@ fn tell_panics_of_readers_as_errors() {
 /// Runs the command that the process was started with.
 #[must_use]
 pub fn main() -> ExitCode {
+    #[cfg(target_os = "linux")]
+    if let Some(code) = limited::run_apart() {
+        return code;
+    }
     #[cfg(any(feature = "parquet", feature = "point-clouds"))]
     tell_panics_of_readers_as_errors();
     output::clean_up_when_interrupted();

@@ -50,8 +50,9 @@ const STARTS: u32 = 24;
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let (chain, sizes) = errors_file::chain_and_sizes(&arguments.chain, arguments.sizes.needed()?)?;
     let ranges = ranges::of_chain(&chain, &arguments.range)?;
-    expected::announce(&chain, Work::Bound);
+    let waiting = expected::announce(&chain, Work::Bound);
     let answers = bounds(&chain, &sizes, &ranges, &arguments.observable, arguments.seed)?;
+    drop(waiting);
     match arguments.format {
         TextOrJson::Text => {
             let texts: Vec<String> =

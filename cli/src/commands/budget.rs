@@ -76,7 +76,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         })?),
         None => Poses::Ranges(poses::joint_ranges(&ranges::of_chain(&chain, &arguments.range)?)),
     };
-    expected::announce(&chain, Work::Budget);
+    let waiting = expected::announce(&chain, Work::Budget);
     let is_named = !arguments.observable.is_empty();
     let mut all = Vec::new();
     for budget in measured(&chain, &sizes, &poses, &arguments.observable)? {
@@ -102,6 +102,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     if let Some(folder) = &arguments.out {
         write_files(arguments, &chain, &measured, folder)?;
     }
+    drop(waiting);
     if !arguments.designer.is_asked() {
         measured.iter_mut().for_each(|one| one.designed = None);
     }

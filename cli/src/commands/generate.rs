@@ -130,7 +130,7 @@ impl From<FormName> for Form {
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let source = Source::read(&arguments.chain)?;
     let chain = source.chain()?;
-    expected::announce(&chain, Work::Generate);
+    let waiting = expected::announce(&chain, Work::Generate);
     let chosen = observables(&chain, &arguments.observable)?;
     let sizes = arguments.sizes.given();
     let remarks = match sizes {
@@ -154,6 +154,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     };
     let name = arguments.out.file_stem().unwrap_or_default().to_string_lossy();
     let files = codegen::generate(&unit, arguments.language.into(), &name).map_err(refused)?;
+    drop(waiting);
     if arguments.out == Path::new("-") && files.len() > 1 {
         let message =
             format!("this language takes {} files; name one with --out, the rest lie beside it", files.len());

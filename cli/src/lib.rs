@@ -9,8 +9,11 @@ mod cloud;
 mod commands;
 mod date;
 mod draw;
+mod expected;
 mod failure;
 pub mod library;
+#[cfg(target_os = "linux")]
+mod limited;
 mod many;
 mod output;
 mod over_table;
@@ -69,6 +72,10 @@ fn tell_panics_of_readers_as_errors() {
 /// Runs the command that the process was started with.
 #[must_use]
 pub fn main() -> ExitCode {
+    #[cfg(target_os = "linux")]
+    if let Some(code) = limited::run_apart() {
+        return code;
+    }
     #[cfg(any(feature = "parquet", feature = "point-clouds"))]
     tell_panics_of_readers_as_errors();
     output::clean_up_when_interrupted();

@@ -15,6 +15,7 @@ use service::source::observables;
 use super::{Answer, TextOrJson};
 use crate::budget::{DesignerArguments, designed};
 use crate::claims_file::ClaimsFile;
+use crate::expected::{self, Work};
 use crate::failure::Failure;
 use crate::ranges::{self, RangeArgument};
 use crate::sizes::SizesArgument;
@@ -77,6 +78,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         })?),
         None => Poses::Ranges(poses::joint_ranges(&ranges::of_chain(&chain, &arguments.range)?)),
     };
+    let waiting = expected::announce(&chain, Work::Budget);
     let is_named = !arguments.observable.is_empty();
     let mut all = Vec::new();
     for budget in measured(&chain, &sizes, &poses, &arguments.observable)? {
@@ -102,6 +104,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     if let Some(folder) = &arguments.out {
         write_files(arguments, &chain, &measured, folder)?;
     }
+    drop(waiting);
     if !arguments.designer.is_asked() {
         measured.iter_mut().for_each(|one| one.designed = None);
     }

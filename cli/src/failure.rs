@@ -4,12 +4,14 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use model_core::Mistakes;
+use model_core::escape::message;
 
-/// Why a command could not do its work. `Display` is what the user reads, without the leading `error: `.
+/// Why a command could not do its work. `Display` is what the user reads, without the leading
+/// `error: `: one line, but for mistakes shown with theirs, in which every letter is seen.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
     /// A file could not be read.
-    #[error("cannot read `{}`: {why}", path.display())]
+    #[error("cannot read `{}`: {}", message(&path.to_string_lossy()), message(why))]
     Read {
         /// The file as the user named it.
         path: PathBuf,
@@ -17,7 +19,7 @@ pub enum Failure {
         why: String,
     },
     /// A file could not be written.
-    #[error("cannot write `{}`: {why}", path.display())]
+    #[error("cannot write `{}`: {}", message(&path.to_string_lossy()), message(why))]
     Write {
         /// The file as the user named it.
         path: PathBuf,
@@ -36,7 +38,7 @@ pub enum Failure {
     #[error("standard output is closed")]
     ReaderGone,
     /// Anything else, in words that say what to write instead.
-    #[error("{0}")]
+    #[error("{}", message(.0))]
     Input(String),
 }
 

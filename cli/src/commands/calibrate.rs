@@ -4,6 +4,7 @@ use std::io;
 use std::path::PathBuf;
 
 use calibration::calibrate::Calibration;
+use model_core::escape;
 use study::Plan;
 use tables::formats;
 
@@ -62,7 +63,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let progress = terminal::progress();
     let reading = progress.clone();
     let mut open = move |path: &str, options: &formats::Options| {
-        reading.set_message(format!("reading {path}"));
+        reading.set_message(format!("reading {}", escape::message(path)));
         files.open(path, options)
     };
     let read = many::read(studied, arguments.search_rows, &mut open);
@@ -95,7 +96,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         if change.is_empty() {
             terminal::note(format_args!("the declaration would not change"));
         }
-        terminal::print(&match arguments.format {
+        terminal::print(match arguments.format {
             TextOrJson::Text => change,
             TextOrJson::Json => report::json(&reported)?,
         })?;
@@ -115,9 +116,9 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         terminal::note(format_args!("the report is in {}", folder.join("report.html").display()));
     }
     let layout = Layout { width: terminal::width(), verbose: arguments.verbose };
-    terminal::print(&match arguments.format {
+    terminal::print(match arguments.format {
         TextOrJson::Text => report::as_text(&reported, layout),
-        TextOrJson::Json => report::json(&reported)?,
+        TextOrJson::Json => report::json(&reported)?.into(),
     })?;
     Ok(answer(reported.calibration))
 }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use calibration::report::shell_word;
 use model_core::Chain;
+use model_core::escape::line;
 use study::Study;
 use tables::formats::{self, DataError, Input, Options};
 
@@ -87,12 +88,12 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     for remark in &draft.remarks {
         terminal::note(format_args!("note: {remark}"));
     }
-    terminal::print_text(&format!(
+    terminal::print_text(format!(
         "{}: {}\n  the declaration: {}\n  the study: {}\nnext: trueaxis calibrate {}\n",
         template.name,
         template.what,
-        chain_file.display(),
-        study_file.display(),
+        line(&chain_file.to_string_lossy()),
+        line(&study_file.to_string_lossy()),
         shell_word(&study_file.display().to_string())
     ))?;
     Ok(Answer::Done)
@@ -119,12 +120,11 @@ fn hold(draft: &Draft, study: &str, data: &Path) -> Result<(), Failure> {
     let ours = |what: &str, why: String| {
         Failure::Input(format!("{what} cannot be read again, and nothing is written: {why}"))
     };
-    let chain = Chain::from_text(&draft.chain).map_err(|mistakes| {
-        ours("the chain that was made of these data", mistakes.render("chain", &draft.chain))
-    })?;
+    let chain = Chain::from_text(&draft.chain)
+        .map_err(|mistakes| ours("the chain that was made of these data", mistakes.to_string()))?;
     let plan = Study::from_text(study)
         .and_then(|study| study.plan(&chain))
-        .map_err(|mistakes| ours("the study that was made of these data", mistakes.render("study", study)))?;
+        .map_err(|mistakes| ours("the study that was made of these data", mistakes.to_string()))?;
     let loaded = plan.load(&mut |_: &str| open(data)).map_err(|error| Failure::Input(error.to_string()))?;
     loaded.doubtful.iter().for_each(terminal::warn);
     Ok(())

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use calibration::diagnose::{Diagnosis, Shown};
-use model_core::Chain;
+use model_core::{Chain, escape};
 use network::Placed;
 use observe::unknowns::Shape;
 use serde::Serialize;
@@ -141,7 +141,7 @@ pub fn json(reported: &Reported<'_>) -> Result<String, Failure> {
         provenance: reported.provenance,
     };
     serde_json::to_string_pretty(&json)
-        .map(|text| text + "\n")
+        .map(|text| escape::json(&text).into_owned() + "\n")
         .map_err(|error| Failure::Input(format!("the report cannot be written as JSON: {error}")))
 }
 

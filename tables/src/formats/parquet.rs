@@ -29,7 +29,7 @@ pub use write::{TextType, Writer};
 
 use super::header::{ColumnName, unique};
 use super::{
-    Cell, Cells, Chunk, DataError, Extent, Form, Input, Kept, Options, Ranged, TableReader, Texts, Wanted,
+    clipped, Cell, Cells, Chunk, DataError, Extent, Form, Input, Kept, Options, Ranged, TableReader, Texts, Wanted,
 };
 use bounded::BoundedFile;
 use open::Open;
@@ -147,15 +147,25 @@ impl Reader {
 
     /// Refuses times where numbers are wanted: those that a file holds as nanoseconds would be whole numbers of a thousand million.
     fn check_times(&self, wanted: &[Wanted]) -> Result<(), DataError> {
-        let is_time = |want: &&Wanted| {
-            matches!(want.form, Form::Number(_)) && Time::of(&self.types[want.column]).is_some()
+        let why = |want: &Wanted| {
+            let of_type = &self.types[want.column];
+            if Time::of(of_type).is_some() {
+                Some("holds times, which are no numbers: write seconds since some instant")
+            } else if times::is_interval(of_type) {
+                Some("holds intervals of months, days and milliseconds, which are no numbers: write seconds")
+            } else {
+                None
+            }
         };
-        let Some(want) = wanted.iter().find(is_time) else { return Ok(()) };
-        Err(DataError::UnusableColumn {
-            file: self.source.clone(),
-            column: self.header[want.column].full.clone(),
-            why: "holds times, which are no numbers: write seconds since some instant".to_owned(),
-        })
+        let of_numbers = wanted.iter().filter(|want| matches!(want.form, Form::Number(_)));
+        match of_numbers.filter_map(|want| Some((want, why(want)?))).next() {
+            None => Ok(()),
+            Some((want, why)) => Err(DataError::UnusableColumn {
+                file: self.source.clone(),
+                column: self.header[want.column].full.clone(),
+                why: why.to_owned(),
+            }),
+        }
     }
 
     /// The place of a cell of this row, counted from 0.
@@ -189,13 +199,14 @@ impl Reader {
         let number = match field {
             Field::Double(number) => Some(number),
             Field::Float(number) => Some(f64::from(number)),
+            Field::Float16(number) => Some(number.to_f64()),
             Field::Null => return Err(DataError::EmptyCell { cell: self.cell(column, row) }),
             _ => text.trim().parse().ok(),
         };
         match number {
             Some(number) if number.is_finite() => Ok(number),
-            Some(_) => Err(DataError::NotFinite { cell: self.cell(column, row), text }),
-            None => Err(DataError::NotANumber { cell: self.cell(column, row), text }),
+            Some(_) => Err(DataError::NotFinite { cell: self.cell(column, row), text: clipped(&text) }),
+            None => Err(DataError::NotANumber { cell: self.cell(column, row), text: clipped(&text) }),
         }
     }
 }
@@ -207,6 +218,8 @@ fn text(field: &Field) -> String {
         Field::Str(text) => text.clone(),
         Field::Double(number) => format!("{number:?}"),
         Field::Float(number) => format!("{number:?}"),
+        // Of half precision the shortest digits are those of another number in any other precision.
+        Field::Float16(number) => format!("{:?}", number.to_f64()),
         // Without digits behind the point there is none.
         Field::Decimal(_) => field.to_string().trim_end_matches('.').to_owned(),
         other => other.to_string(),
@@ -225,6 +238,10 @@ impl TypedCells {
                     let count = place.and_then(|at| Time::count(&self.values, at));
                     count.map_or_else(String::new, |count| time.text(count))
                 });
+                return Ok(texts.collect());
+            }
+            if times::is_interval(&self.of_type) {
+                let texts = self.places().map(|place| place.map_or_else(String::new, |at| times::interval(&self.values, at)));
                 return Ok(texts.collect());
             }
             self.fields().map(|field| Ok(text(&field?))).collect()

@@ -45,6 +45,8 @@ types = {
     "clock": pa.array([time(23, 59, 59, 999000), None, time(0)], pa.time32("ms")),
     "fine_clock": pa.array([time(23, 59, 59, 999999), None, time(0)], pa.time64("us")),
     "decimal": pa.array([Decimal("12345.67"), None, Decimal("-0.01")], pa.decimal128(9, 2)),
+    "half": pa.array(np.array([0.1, 0, -65504], np.float16), mask=np.array([False, True, False])),
+    "interval": pa.array([(2, 3, 1_500_000_000), None, (0, 0, 0)], pa.month_day_nano_interval()),
     "long_decimal": pa.array([Decimal("123456789012345.67"), None, Decimal("-0.01")], pa.decimal128(30, 2)),
 }
 pq.write_table(pa.table(types), "types.parquet")

@@ -141,13 +141,29 @@ fn say(message: &Screen) {
 }
 
 /// A line on standard error that says where a long run is, where a person looks; drop it to take it away.
-pub fn progress() -> ProgressBar {
+pub fn progress() -> Progress {
     if QUIET.load(Ordering::Relaxed) {
-        return ProgressBar::hidden();
+        return Progress(ProgressBar::hidden());
     }
     let bar = ProgressBar::new_spinner();
     bar.enable_steady_tick(Duration::from_millis(100));
-    bar
+    Progress(bar)
+}
+
+/// A line that says where a long run is.
+#[derive(Clone)]
+pub struct Progress(ProgressBar);
+
+impl Progress {
+    /// What is being done now.
+    pub fn say(&self, message: &str) {
+        self.0.set_message(escape::message(message).into_owned());
+    }
+
+    /// Takes the line away.
+    pub fn finish_and_clear(&self) {
+        self.0.finish_and_clear();
+    }
 }
 
 /// Says on standard error why the command stopped.

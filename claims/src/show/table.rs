@@ -182,7 +182,11 @@ fn on_one_line(text: &str) -> String {
 }
 
 fn markdown(title: &str, lines: &[Line], total: &str) -> String {
-    let words = |text: &str| escape::markdown(&escape::line(text));
+    let words = |text: &str| {
+        let blank = |is: bool| if is { " " } else { "" };
+        let shown = escape::markdown(&escape::line(text));
+        format!("{}{shown}{}", blank(text.starts_with(' ')), blank(text.ends_with(' ')))
+    };
     let cell = |pieces: &[Piece]| -> String {
         let written = pieces.iter().map(|piece| match piece {
             Piece::Words(text) => words(text),

@@ -4,7 +4,6 @@ use std::io;
 use std::path::PathBuf;
 
 use calibration::calibrate::Calibration;
-use model_core::escape;
 use study::Plan;
 use tables::formats;
 
@@ -63,7 +62,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let progress = terminal::progress();
     let reading = progress.clone();
     let mut open = move |path: &str, options: &formats::Options| {
-        reading.set_message(format!("reading {}", escape::message(path)));
+        reading.say(&format!("reading {path}"));
         files.open(path, options)
     };
     let read = many::read(studied, arguments.search_rows, &mut open);
@@ -80,10 +79,10 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
 
     let (progress, waiting) = (terminal::progress(), Waiting::default());
     let calibrated =
-        measured.calibrate(terminal::command_line(), &|stage| progress.set_message(waiting.told(stage)));
+        measured.calibrate(terminal::command_line(), &|stage| progress.say(&waiting.told(stage)));
     let completed = calibrated.and_then(|mut calibrated| {
         if let Some(others) = others {
-            others.complete(&mut calibrated, &mut open, &|told| progress.set_message(told))?;
+            others.complete(&mut calibrated, &mut open, &|told| progress.say(&told))?;
         }
         Ok(calibrated)
     });

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use calibration::report::shell_word;
+use model_core::escape::comments;
 
 use super::look::Read;
 use super::words::Part;
@@ -13,9 +14,9 @@ const GROUPS: usize = 12;
 
 /// The study of a draft: the paths of its chain and its data as the study names them, and its own.
 pub fn study(draft: &Draft, look: &Look, [chain, data, own]: [&str; 3]) -> String {
-    let mut text = format!("# Begun by trueaxis init: trueaxis calibrate {}\n", shell_word(&one_line(own)));
+    let mut text = format!("# Begun by trueaxis init: trueaxis calibrate {}\n", shell_word(own));
     for remark in &draft.remarks {
-        let _ = writeln!(text, "# {}", one_line(remark));
+        let _ = writeln!(text, "# {}", comments::line(remark));
     }
     let _ = writeln!(text, "\nchain      = {}\nobservable = {}", quoted(chain), quoted(draft.observable));
     let _ = writeln!(text, "data       = {}", quoted(data));
@@ -86,11 +87,6 @@ fn list<'a>(texts: impl Iterator<Item = &'a str>) -> String {
 /// A text as TOML has it.
 fn quoted(text: &str) -> String {
     toml::Value::String(text.to_owned()).to_string()
-}
-
-/// A text that ends no comment.
-fn one_line(text: &str) -> String {
-    text.replace(|letter: char| letter.is_control() || matches!(letter, '\u{2028}' | '\u{2029}'), " ")
 }
 
 /// The column whose cells are names of the rows.

@@ -11,11 +11,14 @@ fn documented(text: &str) -> String {
     text.split(['\n', '\r', '\0']).map(|line| format!("/// {line}\n")).collect()
 }
 
-/// A chain of as many errors as there are hostile strings, each documented by one, as are bodies, inputs and observables by all.
+/// A chain whose errors are documented by some hostile strings each, and its bodies, inputs and observables by all.
 fn chain() -> String {
     let all = hostile();
-    let errors: String =
-        all.iter().enumerate().map(|(at, text)| format!("{}Rx(e{at}),\n", documented(text))).collect();
+    let errors: String = all
+        .chunks(8)
+        .enumerate()
+        .map(|(at, texts)| format!("{}Rx(e{at}),\n", documented(&texts.join("\n"))))
+        .collect();
     let every = documented(&all.join("\n"));
     format!(
         "{every}chain Words {{\n{every}input far: length;\n{every}const size: length = 0.5;\n{every}body table on ground {{\n\

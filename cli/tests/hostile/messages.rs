@@ -58,6 +58,9 @@ fn tables() {
         ] {
             folder.write("d.csv", table);
             run(&folder, &evaluate);
+            run(&folder, &["init", "d.csv", "--out", "begun.toml"]);
+            let _ = fs::remove_file(folder.0.join("begun.toml"));
+            let _ = fs::remove_file(folder.0.join("begun.chain"));
         }
         // Columns that are passed on stay as they are in the file, and the terminal gets none of them.
         folder.write("d.csv", format!("turn [deg],far [m],note\n1,1,{cell}\n"));

@@ -9,10 +9,12 @@ use super::letters::{is_unseen, replaced};
 pub fn latex(text: &str) -> Cow<'_, str> {
     replaced(
         text,
-        |letter| is_unseen(letter) || "\\~^&%$#_{}".contains(letter),
+        |letter| is_unseen(letter) || "\\~^&%$#_{}[]*".contains(letter),
         |out, letter| match letter {
             '\n' | '\t' | '\r' => out.push(' '),
             '\\' => out.push_str(r"\textbackslash{}"),
+            // Behind a line break they would belong to that.
+            '[' | ']' | '*' => out.extend(['{', letter, '}']),
             '~' => out.push_str(r"\textasciitilde{}"),
             '^' => out.push_str(r"\textasciicircum{}"),
             '&' | '%' | '$' | '#' | '_' | '{' | '}' => {
@@ -153,6 +155,7 @@ mod tests {
 
     #[test]
     fn words_are_words() {
+        assert_eq!(latex("[a]*"), "{[}a{]}{*}");
         assert_eq!(latex("50% of \\input{x}_1\n"), r"50\% of \textbackslash{}input\{x\}\_1 ");
     }
 

@@ -44,10 +44,12 @@ fn one_line(line: &str) -> String {
             '`' | '\\' | '*' | '[' | ']' | '<' | '>' | '#' | '~' | '|' | '&' | '!' => true,
             _ => begins,
         };
-        if is_mark {
-            out.push('\\');
+        match letter {
+            // Not every reader of Markdown takes a backslash before it.
+            '<' if is_mark => out.push_str("&lt;"),
+            letter if is_mark => out.extend(['\\', letter]),
+            letter => out.push(letter),
         }
-        out.push(letter);
     }
     out
 }
@@ -81,9 +83,9 @@ mod tests {
             ("> \tcode", "\\> code"),
             ("the `axis[0]` of dx_1", "the `axis[0]` of dx_1"),
             ("a ` b", "a \\` b"),
-            ("<script> [x](y) **b** _c_", "\\<script\\> \\[x\\](y) \\*\\*b\\*\\* \\_c\\_"),
+            ("<script> [x](y) **b** _c_", "&lt;script\\> \\[x\\](y) \\*\\*b\\*\\* \\_c\\_"),
             ("===", "\\==="),
-            ("é\u{202e}", "é\\<U+202E\\>"),
+            ("é\u{202e}", "é&lt;U+202E\\>"),
             ("Tilt about x, 0.5 m away.", "Tilt about x, 0.5 m away."),
         ] {
             assert_eq!(markdown(text), shown, "{text:?}");

@@ -4,6 +4,9 @@
 //! what comes as a stream is held in memory as it is; of a file, pages are read as they are needed. Cells are unpacked chunk by
 //! chunk, the columns of a chunk on all processors.
 
+#[cfg(test)]
+#[allow(clippy::expect_used)]
+mod attacks;
 mod bounded;
 mod cells;
 mod header;
@@ -29,7 +32,8 @@ pub use write::{TextType, Writer};
 
 use super::header::{ColumnName, unique};
 use super::{
-    clipped, Cell, Cells, Chunk, DataError, Extent, Form, Input, Kept, Options, Ranged, TableReader, Texts, Wanted,
+    Cell, Cells, Chunk, DataError, Extent, Form, Input, Kept, Options, Ranged, TableReader, Texts, Wanted,
+    clipped,
 };
 use bounded::BoundedFile;
 use open::Open;
@@ -241,7 +245,9 @@ impl TypedCells {
                 return Ok(texts.collect());
             }
             if times::is_interval(&self.of_type) {
-                let texts = self.places().map(|place| place.map_or_else(String::new, |at| times::interval(&self.values, at)));
+                let texts = self
+                    .places()
+                    .map(|place| place.map_or_else(String::new, |at| times::interval(&self.values, at)));
                 return Ok(texts.collect());
             }
             self.fields().map(|field| Ok(text(&field?))).collect()
@@ -409,6 +415,24 @@ mod tests {
             message(b"az_deg,note\n1,Mars\n"),
             message(&SNAPPY[..SNAPPY.len() - 20]),
         ]);
+    }
+
+    #[test]
+    fn half_precision_is_exact_and_intervals_are_no_numbers() {
+        let (half, interval): (&[u8], &[u8]) = (
+            include_bytes!("../../tests/reference/half.parquet"),
+            include_bytes!("../../tests/reference/interval.parquet"),
+        );
+        let read = |bytes: &[u8], form, rows| {
+            let chunk = open(bytes).and_then(|mut reader| reader.read(&[Wanted { column: 0, form }], rows));
+            chunk.map(|chunk| chunk.columns).map_err(|error| error.to_string())
+        };
+        let labels = |of: [&str; 3]| Ok(vec![Cells::Labels(of.map(str::to_owned).to_vec())]);
+        assert_eq!(read(half, Form::Number(1.0), 1), Ok(vec![Cells::Numbers(vec![0.099_975_585_937_5])]));
+        assert_eq!(read(half, Form::Label, 3), labels(["0.0999755859375", "", "-5.960464477539063e-8"]));
+        assert_eq!(read(interval, Form::Label, 3), labels(["P2M3DT1.500S", "", "P0M0DT0.000S"]));
+        let why = "run.parquet: column `interval` holds intervals of months, days and milliseconds, which are no numbers: write seconds";
+        assert_eq!(read(interval, Form::Number(1.0), 3), Err(why.to_owned()));
     }
 
     /// Every byte of a good file, spoiled: an error or other numbers, no panic.

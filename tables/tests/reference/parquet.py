@@ -45,8 +45,6 @@ types = {
     "clock": pa.array([time(23, 59, 59, 999000), None, time(0)], pa.time32("ms")),
     "fine_clock": pa.array([time(23, 59, 59, 999999), None, time(0)], pa.time64("us")),
     "decimal": pa.array([Decimal("12345.67"), None, Decimal("-0.01")], pa.decimal128(9, 2)),
-    "half": pa.array(np.array([0.1, 0, -65504], np.float16), mask=np.array([False, True, False])),
-    "interval": pa.array([(2, 3, 1_500_000_000), None, (0, 0, 0)], pa.month_day_nano_interval()),
     "long_decimal": pa.array([Decimal("123456789012345.67"), None, Decimal("-0.01")], pa.decimal128(30, 2)),
 }
 pq.write_table(pa.table(types), "types.parquet")
@@ -65,3 +63,12 @@ with open("claims.parquet", "r+b") as file:
     # The page is longer by what the claim is longer; the table of contents points to pages by their places, so the padding
     # before the dictionary's data would move them: the data page is read through the dictionary's offset alone.
     file.write(head[:at] + claim + head[at + 1 :])
+
+# half.parquet: half precision. interval.parquet: months, days and milliseconds, which DuckDB writes.
+import duckdb
+import numpy as np
+
+half = pa.array(np.array([0.1, 0, -6e-8], np.float16), mask=np.array([False, True, False]))
+pq.write_table(pa.table({"half": half}), "half.parquet")
+intervals = "(INTERVAL '2 months 3 days 1.5 seconds'), (NULL), (INTERVAL '0 seconds')"
+duckdb.sql(f"COPY (SELECT * FROM (VALUES {intervals}) t(\"interval\")) TO 'interval.parquet' (FORMAT parquet)")

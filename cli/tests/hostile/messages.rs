@@ -146,6 +146,10 @@ fn names_of_files_and_arguments() {
         ] {
             assert_ne!(run(&folder, arguments).code, 0, "{arguments:?}");
         }
+        if cfg!(windows) {
+            // No file has such a name there.
+            continue;
+        }
         // As the name of files that are there, in a folder of that name.
         let name = text.replace('/', "_");
         let own = folder.0.join(&name);

@@ -224,12 +224,12 @@ mod tests {
         assert_eq!((below.as_str(), padding.matches('\t').count()), ("WRO\\u{200b}NG", 1));
         let mistakes = Mistakes::locate(
             "a\nb\u{9b}c",
-            [Mistake::new(4..5, "no \u{1b}[2J\nerror: forged").with_help("x\ry")],
+            [Mistake::new(5..6, "no \u{1b}[2J\nerror: forged").with_help("x\ry")],
         );
         let rendered = mistakes.render("f\n\u{202e}", "a\nb\u{9b}c");
         assert_eq!(
             rendered,
-            "error: no \\u{1b}[2J\\nerror: forged\n --> f\\n\\u{202e}:2:3\n  |\n2 | b\\u{9b}c\n  |       ^\n  = help: x\\ry\n"
+            "error: no \\u{1b}[2J\\nerror: forged\n --> f\\n\\u{202e}:2:3\n  |\n2 | b\\u{9b}c\n  |        ^\n  = help: x\\ry\n"
         );
         assert_eq!(mistakes.to_string(), "2:3: no \\u{1b}[2J\\nerror: forged; x\\ry");
     }

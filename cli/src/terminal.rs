@@ -10,23 +10,13 @@ use std::io::{IsTerminal as _, Write as _};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use anstyle::{AnsiColor, Style};
-use calibration::report::shell_word;
 use indicatif::ProgressBar;
 use model_core::escape::{self, Screen};
+use report::style::{BAD, CAREFUL};
+use report::{shell_word, wrap};
 use serde_json::Value;
 
 use crate::failure::Failure;
-use crate::wrap;
-
-/// Style of the word `error`.
-pub const BAD: Style = AnsiColor::Red.on_default().bold();
-/// Style of the word `warning`.
-pub const CAREFUL: Style = AnsiColor::Yellow.on_default().bold();
-/// Style of a good answer.
-pub const GOOD: Style = AnsiColor::Green.on_default().bold();
-/// Style of headings.
-pub const HEADING: Style = Style::new().bold();
 
 /// Letters that a line of text has: as many as the variable `COLUMNS` says, or the terminal has, within reason.
 #[must_use]
@@ -112,7 +102,7 @@ pub fn warn(message: impl Display) {
     if is_collected {
         return;
     }
-    say_styled(CAREFUL, "warning", &message.to_string());
+    say_styled(CAREFUL, "warning", &escape::message(&message.to_string()));
 }
 
 /// Says on standard error what the command is doing.
@@ -126,7 +116,7 @@ pub fn note(message: impl Display) {
 fn say_styled(style: Style, word: &str, message: &str) {
     let mut said = Screen::default();
     said.styled([&style, &format_args!("{style:#}")], word);
-    let _ = write!(said, ": {}", escape::message(message));
+    let _ = write!(said, ": {message}");
     say(&said);
 }
 

@@ -5,4 +5,5 @@ mod dependencies;
 mod escaping;
 mod house_rules;
 mod registries;
+mod rooms;
 mod sources;

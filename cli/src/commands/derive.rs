@@ -7,13 +7,15 @@ use model_core::escape::{self, Screen};
 use model_core::forms::{self, Form};
 use model_core::{Chain, ObservableId, ObservableKind, print};
 use proof::{Certificate, Declared};
+use report::style::HEADING;
 use serde_json::json;
+use service::Source;
+use service::source::observables;
 
 use super::Answer;
 use crate::certificates::CertificateArguments;
 use crate::failure::Failure;
-use crate::source::{Source, observables};
-use crate::terminal::{self, HEADING};
+use crate::{source, terminal};
 
 /// Derive the closed form of the error of each observable.
 ///
@@ -57,8 +59,8 @@ enum Format {
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let is_certified = arguments.certificate.is_wanted()?;
-    let source = Source::read(&arguments.chain)?;
-    let chain = source.symbolic_chain()?;
+    let source = source::read(&arguments.chain)?;
+    let chain = source.symbolic_chain(&terminal::warn)?;
     let chosen = observables(&chain, &arguments.observable)?;
     let mut forms: Vec<Form> = Vec::new();
     for &observable in &chosen {

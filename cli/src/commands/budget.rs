@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use claims::checker::{Checker, Claim};
 use model_core::Chain;
 use model_core::budget::{Budget, BudgetError, Curves, Poses};
+use model_core::escape::{self, Screen};
 use model_core::mistake::Mistake;
 use model_core::remainder::DomainError;
 use serde_json::{Value, json};
@@ -15,6 +16,7 @@ use service::source::observables;
 use super::{Answer, TextOrJson};
 use crate::budget::{DesignerArguments, designed};
 use crate::claims_file::ClaimsFile;
+use crate::expected::{self, Work};
 use crate::failure::Failure;
 use crate::ranges::{self, RangeArgument};
 use crate::sizes::SizesArgument;
@@ -77,6 +79,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         })?),
         None => Poses::Ranges(poses::joint_ranges(&ranges::of_chain(&chain, &arguments.range)?)),
     };
+    let waiting = expected::announce(&chain, Work::Budget);
     let is_named = !arguments.observable.is_empty();
     let mut all = Vec::new();
     for budget in measured(&chain, &sizes, &poses, &arguments.observable)? {
@@ -102,18 +105,23 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     if let Some(folder) = &arguments.out {
         write_files(arguments, &chain, &measured, folder)?;
     }
+    drop(waiting);
     if !arguments.designer.is_asked() {
         measured.iter_mut().for_each(|one| one.designed = None);
     }
     match arguments.format {
         TextOrJson::Text => {
-            let tables: Vec<String> = measured.iter().map(|one| budget::as_text(&chain, one)).collect();
-            terminal::print_text(&tables.join("\n"))?;
+            let mut tables = Screen::default();
+            for (at, one) in measured.iter().enumerate() {
+                tables.append(&if at > 0 { "\n".into() } else { Screen::default() });
+                tables.append(&budget::as_text(&chain, one));
+            }
+            terminal::print_text(tables)?;
         }
         TextOrJson::Json => {
             let budgets: Vec<Value> =
                 measured.iter().map(|one| budget::as_json(&chain, one, &poses)).collect();
-            terminal::print(&format!("{:#}\n", json!({ "observables": budgets })))?;
+            terminal::print_json(&json!({ "observables": budgets }))?;
         }
     }
     Ok(Answer::Done)
@@ -186,7 +194,7 @@ fn write_files(
         };
         files.write_text(&format!("{name}.csv"), &curves::csv(chain, curves))?;
         match curves::svg(chain, budget.observable, curves) {
-            Some(figure) => files.write_text(&format!("{name}.svg"), &figure)?,
+            Some(figure) => files.write_text(&format!("{name}.svg"), &escape::page(&figure))?,
             // An earlier run's would speak of other sizes.
             None => files.remove(&format!("{name}.svg")),
         }

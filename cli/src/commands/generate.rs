@@ -10,6 +10,7 @@ use service::source::observables;
 use service::{Source, errors_file};
 
 use super::Answer;
+use crate::expected::{self, Work};
 use crate::failure::Failure;
 use crate::sizes::SizesArgument;
 use crate::{output, source, terminal};
@@ -129,6 +130,7 @@ impl From<FormName> for Form {
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let source = source::read(&arguments.chain)?;
     let chain = source.chain(&terminal::warn)?;
+    let waiting = expected::announce(&chain, Work::Generate);
     let chosen = observables(&chain, &arguments.observable)?;
     let sizes = arguments.sizes.given();
     let remarks = match sizes {
@@ -152,6 +154,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     };
     let name = arguments.out.file_stem().unwrap_or_default().to_string_lossy();
     let files = codegen::generate(&unit, arguments.language.into(), &name).map_err(refused)?;
+    drop(waiting);
     if arguments.out == Path::new("-") && files.len() > 1 {
         let message =
             format!("this language takes {} files; name one with --out, the rest lie beside it", files.len());

@@ -84,7 +84,7 @@ fn notes(diagnosis: &Diagnosis) -> Vec<String> {
     }
     notes.extend(diagnosis.at_zero.iter().map(at_zero));
     notes.extend(diagnosis.beside_functions.iter().map(beside_function));
-    for set in diagnosis.not_separable.iter().filter(|set| set.len() > 1) {
+    for set in &diagnosis.not_separable {
         let told = diagnosis
             .estimable
             .iter()

@@ -114,7 +114,7 @@ pub fn note(message: impl Display) {
 }
 
 /// A message behind the word that says what it is.
-fn say_styled(style: Style, word: &str, message: &str) {
+fn say_styled(style: impl Display, word: &str, message: &str) {
     let mut said = Screen::default();
     said.styled([&style, &format_args!("{style:#}")], word);
     let _ = write!(said, ": {message}");

@@ -354,7 +354,7 @@ fn what_is_asked_of_a_cloud_and_cannot_be_is_told() {
     assert!(
         said("table.csv", "out.csv", &["--readings", "t.csv"]).contains("--readings is for point clouds")
     );
-    std::fs::create_dir(folder.0.join("folder.las")).expect("a folder");
+    fs::create_dir(folder.0.join("folder.las")).expect("a folder");
     assert!(said("folder.las", "out.las", &[]).contains("it is a folder"));
     let run = folder.trueaxis(&[
         "eval",

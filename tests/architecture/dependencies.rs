@@ -64,6 +64,10 @@ const MAY_USE: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "trueaxis-class",
+        &["trueaxis-core", "trueaxis-codegen", "trueaxis-tables", "trueaxis-observe", "trueaxis-fit"],
+    ),
+    (
         "trueaxis",
         &[
             "trueaxis-core",
@@ -90,6 +94,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "trueaxis-network",
             "trueaxis-study",
             "trueaxis-calibration",
+            "trueaxis-class",
         ],
     ),
 ];

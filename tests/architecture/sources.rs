@@ -20,6 +20,7 @@ pub const LIBRARIES: &[&str] = &[
     "study/src",
     "calibration/src",
     "evidence/src",
+    "class/src",
 ];
 
 /// One source file: its path from the root of the workspace, with `/`, and its text.

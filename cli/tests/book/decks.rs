@@ -7,7 +7,8 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::PathBuf;
 
-use super::support::root;
+use super::interactive::browse_file;
+use super::support::{Folder, root};
 
 /// Words of a slide at most, code and formulas aside: one idea.
 const MOST_WORDS: usize = 45;
@@ -184,4 +185,22 @@ fn the_pages_of_the_decks_are_what_their_sources_say() {
         }
     }
     assert!(stale.is_empty(), "render them anew with UPDATE_BOOK=1: {stale:?}");
+}
+
+/// Says in the page which slides are higher than the screen.
+const MEASURE: &str = "<script>document.body.dataset.cut = [...document.querySelectorAll('section')].filter((slide) => \
+                       slide.offsetHeight > innerHeight + 1).map((slide) => slide.innerText.split('\\n')[0]).join('; ');</script>";
+
+#[test]
+fn a_browser_cuts_nothing_of_a_slide() {
+    let decks = root().join("docs/src/teaching/decks");
+    for (name, _) in sources() {
+        let folder = Folder::new(&format!("book-deck-{name}"));
+        let page = fs::read_to_string(decks.join(format!("{name}.html"))).expect("the deck's page");
+        let base = format!("<head><base href=\"file://{}/\">", decks.display());
+        folder.write("deck.html", page.replacen("<head>", &base, 1).replacen("</body>", &format!("{MEASURE}</body>"), 1));
+        let Some((shown, console)) = browse_file(&folder.0, "deck.html") else { return };
+        assert_eq!(console, "");
+        assert!(shown.contains("data-cut=\"\""), "{name}: higher than the screen: {shown}");
+    }
 }

@@ -14,10 +14,11 @@ pub struct Design<'c> {
 }
 
 impl<'c> Design<'c> {
-    /// The design of columns of one length; columns of zeros are allowed.
+    /// The design of columns of one length. Columns of zeros are allowed; one that is not finite is left out.
     #[must_use]
     pub fn new(columns: impl IntoIterator<Item = &'c Vec<f64>>) -> Self {
-        let columns: Vec<&[f64]> = columns.into_iter().map(Vec::as_slice).collect();
+        let is_finite = |column: &&[f64]| product(column, column).is_finite();
+        let columns: Vec<&[f64]> = columns.into_iter().map(Vec::as_slice).filter(is_finite).collect();
         let length = |column: &&[f64]| Some(product(column, column).sqrt()).filter(|own| *own > 0.0).unwrap_or(1.0);
         let lengths: Vec<f64> = columns.iter().map(length).collect();
         let count = columns.len();

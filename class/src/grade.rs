@@ -160,8 +160,8 @@ fn place(task: &Task, model: Declared<'_>, reading: Reading) -> (f64, String) {
         columns.iter_mut().flatten().for_each(|number| *number /= task.noise_rad());
         columns
     };
-    let declared: Vec<SymbolId> =
-        task.declared.iter().filter_map(|(name, _)| model.chain.find_symbol(name)).collect();
+    let is_declared = |id: &SymbolId| added.values().all(|new| !new.contains(id));
+    let declared: Vec<SymbolId> = model.errors().into_iter().filter(is_declared).collect();
     let declared = columns(&declared);
     let own: BTreeMap<&Place, Vec<Vec<f64>>> = added.iter().map(|(place, ids)| (place, columns(ids))).collect();
     let does = |place: &Place, effect: &Effect| {
@@ -209,7 +209,7 @@ fn cause(task: &Task, named: &[Vec<Cause>], reading: Reading) -> (f64, String) {
     let all = task.effects.len() + usize::from(is_misread);
     let told = named.len() + usize::from(reading != Reading::AsLabelled);
     let reading = if is_misread { format!("; the reading is `{}`", task.reading.word()) } else { String::new() };
-    let why = format!("The data allow {why}{reading}. One cause of several, or one too many, counts half.");
+    let why = format!("The data allow {why}{reading}. One cause of several counts half, and a cause too many counts against it.");
     (earned / all.max(told) as f64, why)
 }
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use model_core::{Chain, SymbolId};
+use model_core::{Chain, SymbolId, SymbolKind};
 use rand::{Rng, RngExt as _};
 
 use crate::instrument::Instrument;
@@ -50,7 +50,10 @@ pub fn drawn(instrument: &Instrument, rows: usize, random: &mut impl Rng) -> Vec
 pub fn columns(poses: &[Pose], instrument: &Instrument, chain: &Chain) -> Vec<(SymbolId, Vec<f64>)> {
     let [first, second] = instrument.joints();
     let of = |name: &str, value: &dyn Fn(&Pose) -> f64| {
-        Some((chain.find_symbol(name)?, poses.iter().map(value).collect()))
+        let id = chain.find_symbol(name)?;
+        // Somebody may have given the name to an error or a constant.
+        let is_read = matches!(chain.symbol(id).kind, SymbolKind::Joint | SymbolKind::Input);
+        is_read.then(|| (id, poses.iter().map(value).collect()))
     };
     let mut columns: Vec<_> = [
         of(first, &|pose| pose.joints_deg[0].to_radians()),

@@ -331,6 +331,7 @@ fn what_is_wrong_in_one_item_costs_that_item_alone() {
         ("chain X {}", "the declaration"),
         (long.as_str(), "more than"),
         (strange.as_str(), "needs readings of `pressure`"),
+        ("chain X { body a on ground { position_error: Rz(e); } observe other: direction(1, 0, 0) of a; }", "shows no direction"),
     ];
     for (chain, why) in chains {
         let marked = graded(&key, student, &good, chain);
@@ -341,6 +342,32 @@ fn what_is_wrong_in_one_item_costs_that_item_alone() {
     let marked = grade(&key, student, &handed).unwrap();
     assert_eq!(marked.points, full() - 8.0);
     assert!(feedback(&marked).contains("there is no `amended.chain`"), "{}", feedback(&marked));
+}
+
+/// Joints that are none, names of declared errors for other things, amounts that have no value, nothing to fit.
+#[test]
+fn strange_declarations_are_graded_without_harm() {
+    let (_, key, _) = class(&["Ada"], 1);
+    let student = &key.students[0];
+    let task = key.task(student).unwrap();
+    let good = perfect(&task, &student.mark);
+    let [first, second] = task.instrument.joints();
+    let bare = task.instrument.declaration;
+    let strange = [
+        "chain X { body a on ground { position: Rz(pi/2); } observe pointing: direction(1, 0, 0) of a; }".to_owned(),
+        format!(
+            "chain X {{ const {first}: angle = 1; const tilt_x: angle = 2; body a on ground {{ position: Rz({first}), Rx(tilt_x); \
+             position_error: Rz({second}); }} observe pointing: direction(1, 0, 0) of a; }}"
+        ),
+        bare.replacen("Rx(tilt_x)", &format!("Rx(tilt_x), Rx(far*tan({first})*tan(2*{first}))"), 1),
+        bare.replacen("Rx(tilt_x)", "Rx(tilt_x), Rx(never*cot(0*pi))", 1),
+        bare.replacen("Rx(tilt_x)", "Rx(tilt_x), Tx(shift), Rx(far*1e300), Rx(near*1e-300)", 1),
+    ];
+    for declaration in strange {
+        let marked = graded(&key, student, &good, &declaration);
+        assert!(of(&marked, Item::Place).points < 5.0, "{declaration}\n{marked:#?}");
+        assert!(marked.points >= full() - 8.0);
+    }
 }
 
 #[test]

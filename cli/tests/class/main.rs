@@ -26,7 +26,7 @@ fn a_class_is_made_answered_and_graded() {
     folder.write("names.csv", "name,group\nAda,1\n\"Schmidt, Bo\",2\n=cmd(),2\n");
     let made = new(&folder, "1", "class", &[]);
     assert_eq!(made.code, 0, "{made}");
-    assert!(made.stderr.contains("3 folders in `class`; the key is `class.key.toml`"), "{made}");
+    assert!(made.stderr.contains("Wrote 3 folders into `class`. The key is `class.key.toml`."), "{made}");
     let path = folder.0.join("class/001-ada");
     let names = ["answer.toml", "data.csv", "instrument.chain", "pose.csv", "sheet.md", "study.toml"];
     assert!(names.iter().all(|name| path.join(name).is_file()) && names.len() == fs::read_dir(&path).expect("it").count());

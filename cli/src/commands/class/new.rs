@@ -58,7 +58,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let names = names(&arguments.students)?;
     if arguments.seed.chars().count() < LONG_ENOUGH {
         terminal::warn(format_args!(
-            "the seed has fewer than {LONG_ENOUGH} letters: a student who has this program can find it by trying. Take a phrase"
+            "the seed has fewer than {LONG_ENOUGH} letters. A student who has this program can find it by trying. Take a phrase"
         ));
     }
     let (folders, sealed) = hand_out(&names, &arguments.seed, arguments.level)
@@ -72,7 +72,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     }
     output::write_text(&key, &sealed)?;
     terminal::note(format_args!(
-        "{} folders in `{}`; the key is `{}`: keep it, and give it to nobody",
+        "Wrote {} folders into `{}`. The key is `{}`. Keep it, and give it to nobody.",
         folders.len(),
         arguments.out.display(),
         key.display()

@@ -106,13 +106,21 @@ impl Cause {
             Self::FirstOffCentre => {
                 "the disc of the first encoder is off centre: an error once a turn, about the first axis"
             }
-            Self::FirstOval => "the disc of the first encoder is oval: an error twice a turn, about the first axis",
+            Self::FirstOval => {
+                "the disc of the first encoder is oval: an error twice a turn, about the first axis"
+            }
             Self::SecondOffCentre => {
                 "the disc of the second encoder is off centre: an error once a turn, about the second axis"
             }
-            Self::SecondOval => "the disc of the second encoder is oval: an error twice a turn, about the second axis",
-            Self::Wobble => "the bearing of the first axis has two lobes: the axis tilts about x, twice a turn",
-            Self::Gravity => "gravity bends what the second axis carries, about that axis, most where the sight is level",
+            Self::SecondOval => {
+                "the disc of the second encoder is oval: an error twice a turn, about the second axis"
+            }
+            Self::Wobble => {
+                "the bearing of the first axis has two lobes: the axis tilts about x, twice a turn"
+            }
+            Self::Gravity => {
+                "gravity bends what the second axis carries, about that axis, most where the sight is level"
+            }
             Self::Temperature => "warmth turns the second axis, in proportion to the temperature",
             Self::LevelledAnew => "the first axis was levelled anew between the two set-ups",
             Self::ZeroedAnew => "the zero of the first encoder changed between the two set-ups",
@@ -150,9 +158,11 @@ impl Cause {
             Self::SecondOffCentre => {
                 about(second, second.turn, &[("second_cos", Cos(Second, 1)), ("second_sin", Sin(Second, 1))])
             }
-            Self::SecondOval => {
-                about(second, second.turn, &[("second_cos_2", Cos(Second, 2)), ("second_sin_2", Sin(Second, 2))])
-            }
+            Self::SecondOval => about(
+                second,
+                second.turn,
+                &[("second_cos_2", Cos(Second, 2)), ("second_sin_2", Sin(Second, 2))],
+            ),
             Self::Wobble => {
                 about(first, "Rx", &[("wobble_cos", Cos(First, 2)), ("wobble_sin", Sin(First, 2))])
             }
@@ -163,7 +173,7 @@ impl Cause {
                 };
                 about(second, second.turn, &[("sag", level)])
             }
-            Self::Temperature => about(second, second.turn, &[("warmth", Function::Temperature)]),
+            Self::Temperature => about(second, second.turn, &[("per_kelvin", Function::Temperature)]),
             Self::LevelledAnew => [("Rx", "tilt_x_second"), ("Ry", "tilt_y_second")]
                 .map(|(moves, name)| Addition {
                     behind: instrument.levelled,

@@ -19,7 +19,8 @@ impl<'c> Design<'c> {
     pub fn new(columns: impl IntoIterator<Item = &'c Vec<f64>>) -> Self {
         let is_finite = |column: &&[f64]| product(column, column).is_finite();
         let columns: Vec<&[f64]> = columns.into_iter().map(Vec::as_slice).filter(is_finite).collect();
-        let length = |column: &&[f64]| Some(product(column, column).sqrt()).filter(|own| *own > 0.0).unwrap_or(1.0);
+        let length =
+            |column: &&[f64]| Some(product(column, column).sqrt()).filter(|own| *own > 0.0).unwrap_or(1.0);
         let lengths: Vec<f64> = columns.iter().map(length).collect();
         let count = columns.len();
         let scaled = |i: usize, j: usize| product(columns[i], columns[j]) / (lengths[i] * lengths[j]);
@@ -39,7 +40,11 @@ impl<'c> Design<'c> {
     /// The length of what no sum of the columns explains.
     #[must_use]
     pub fn left_of(&self, signature: &[f64]) -> f64 {
-        let along = self.columns.iter().zip(&self.lengths).map(|(column, length)| product(column, signature) / length);
+        let along = self
+            .columns
+            .iter()
+            .zip(&self.lengths)
+            .map(|(column, length)| product(column, signature) / length);
         let along = DVector::from_vec(along.collect());
         let explained: f64 = self.seen.iter().map(|(value, vector)| vector.dot(&along).powi(2) / value).sum();
         (product(signature, signature) - explained).max(0.0).sqrt()

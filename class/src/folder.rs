@@ -142,7 +142,8 @@ fn sheet(task: &Task, name: &str, mark: &str) -> String {
     let [first, second] = task.instrument.joints();
     let [one, two] = task.asked_pose.joints_deg;
     let list = |lines: Vec<String>| lines.iter().map(|line| format!("{line}\n")).collect::<String>();
-    let causes = list(Cause::ALL.iter().map(|cause| format!("- `{}`: {}", cause.word(), cause.words())).collect());
+    let causes =
+        list(Cause::ALL.iter().map(|cause| format!("- `{}`: {}", cause.word(), cause.words())).collect());
     let readings = Reading::ALL.iter();
     let readings =
         list(readings.map(|own| format!("- `{}`: {}", own.word(), own.words(&task.instrument))).collect());

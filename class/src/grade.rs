@@ -72,7 +72,8 @@ pub fn grade(key: &Key, student: &Student, handed: &Handed) -> Result<Marked, Ke
     Ok(Marked {
         name: student.name.clone(),
         folder: student.folder.clone(),
-        points: grades.iter().map(|grade| grade.points).sum(),
+        // The sum of nothing is −0 otherwise.
+        points: grades.iter().fold(0.0, |sum, grade| sum + grade.points),
         grades,
         not_graded,
         secret: student.secret.clone(),
@@ -88,7 +89,9 @@ fn read(key: &Key, student: &Student, handed: &Handed) -> Result<Answer, String>
         return Ok(answer);
     }
     Err(match key.students.iter().find(|other| other.mark == mark) {
-        Some(other) => format!("the answer carries the mark of the sheet of {} ({})", other.name, other.folder),
+        Some(other) => {
+            format!("the answer carries the mark of the sheet of {} ({})", other.name, other.folder)
+        }
         None => "the answer carries the mark of no sheet of this class".to_owned(),
     })
 }
@@ -163,7 +166,8 @@ fn place(task: &Task, model: Declared<'_>, reading: Reading) -> (f64, String) {
     let is_declared = |id: &SymbolId| added.values().all(|new| !new.contains(id));
     let declared: Vec<SymbolId> = model.errors().into_iter().filter(is_declared).collect();
     let declared = columns(&declared);
-    let own: BTreeMap<&Place, Vec<Vec<f64>>> = added.iter().map(|(place, ids)| (place, columns(ids))).collect();
+    let own: BTreeMap<&Place, Vec<Vec<f64>>> =
+        added.iter().map(|(place, ids)| (place, columns(ids))).collect();
     let does = |place: &Place, effect: &Effect| {
         places_of(task, effect).contains(place)
             || Design::new(declared.iter().chain(&own[place])).left_of(&effect.signature) < EXCLUDED
@@ -176,7 +180,9 @@ fn place(task: &Task, model: Declared<'_>, reading: Reading) -> (f64, String) {
     let all = task.effects.len() + is_misread;
     let why = match wrong {
         0 => format!("{right} of {all} found."),
-        _ => format!("{right} of {all} found. In {wrong} places something was added or read otherwise where nothing is missing."),
+        _ => format!(
+            "{right} of {all} found. In {wrong} places something was added or read otherwise where nothing is missing."
+        ),
     };
     (right as f64 / (all + wrong) as f64, why)
 }
@@ -208,8 +214,11 @@ fn cause(task: &Task, named: &[Vec<Cause>], reading: Reading) -> (f64, String) {
     }
     let all = task.effects.len() + usize::from(is_misread);
     let told = named.len() + usize::from(reading != Reading::AsLabelled);
-    let reading = if is_misread { format!("; the reading is `{}`", task.reading.word()) } else { String::new() };
-    let why = format!("The data allow {why}{reading}. One cause of several counts half, and a cause too many counts against it.");
+    let reading =
+        if is_misread { format!("; the reading is `{}`", task.reading.word()) } else { String::new() };
+    let why = format!(
+        "The data allow {why}{reading}. One cause of several counts half, and a cause too many counts against it."
+    );
     (earned / all.max(told) as f64, why)
 }
 
@@ -220,7 +229,9 @@ fn words(causes: &[Cause]) -> String {
 fn number(given: Option<Number>, asked: Asked) -> (f64, String) {
     let Asked { truth_arcsec: truth, uncertainty_arcsec: possible } = asked;
     let truth_is = format!("The true value is {truth:.1}″, and these data allow ± {possible:.1}″");
-    let Some(Number { value, uncertainty }) = given else { return (0.0, format!("Not answered. {truth_is}.")) };
+    let Some(Number { value, uncertainty }) = given else {
+        return (0.0, format!("Not answered. {truth_is}."));
+    };
     if !(value.is_finite() && uncertainty.is_finite() && uncertainty > 0.0) {
         return (0.0, format!("A value and a ± above zero are needed. {truth_is}."));
     }
@@ -248,7 +259,8 @@ fn unseen(task: &Task, model: Declared<'_>, reading: Reading) -> (f64, String) {
     let Some(own) = rms_arcsec(model, reading) else {
         return (0.0, "The amended declaration could not be fitted to your data.".to_owned());
     };
-    let fitted = task.declared.len() + task.effects.iter().map(|effect| effect.coefficients.len()).sum::<usize>();
+    let fitted =
+        task.declared.len() + task.effects.iter().map(|effect| effect.coefficients.len()).sum::<usize>();
     // Of the noise in two directions of each row, a fit of so many numbers keeps this share.
     let possible = task.level.difficulty().noise_arcsec * (fitted as f64 / task.rows.len() as f64).sqrt();
     let bare = Model::of(task.instrument.declaration, &task.instrument).ok();

@@ -55,10 +55,14 @@ pub enum KeyError {
     #[error("this is no key of `trueaxis class new`: {0}")]
     NoKey(String),
     /// Its seal is broken.
-    #[error("the key was changed after it was written: its seal does not fit. Take the file that `trueaxis class new` wrote")]
+    #[error(
+        "the key was changed after it was written: its seal does not fit. Take the file that `trueaxis class new` wrote"
+    )]
     Broken,
     /// It was written by another version.
-    #[error("the key is of another version of trueaxis, whose data sets are others: grade with the version that wrote it")]
+    #[error(
+        "the key is of another version of trueaxis, whose data sets are others: grade with the version that wrote it"
+    )]
     OtherVersion,
 }
 
@@ -117,7 +121,8 @@ pub fn hand_out(names: &[String], seed: &str, level: Level) -> Result<(Vec<Folde
         *again += 1;
     }
     let key = Key { format: FORMAT, level, seed: seed.to_owned(), students };
-    let body = toml::to_string(&key).unwrap_or_else(|error| unreachable!("texts and numbers are TOML: {error}"));
+    let body =
+        toml::to_string(&key).unwrap_or_else(|error| unreachable!("texts and numbers are TOML: {error}"));
     Ok((folders, format!("seal = \"{}\"\n{body}", digest(&body))))
 }
 
@@ -159,7 +164,12 @@ fn secret(task: &Task) -> Vec<String> {
         let additions = effect.cause.additions(&task.instrument);
         let factors: Vec<String> =
             additions.iter().map(|own| format!("{} of {}", own.factor(&task.instrument), own.body)).collect();
-        out.push(format!("{}: {}, size {:.1}″", words.join(" or "), factors.join(" and "), effect.size_arcsec));
+        out.push(format!(
+            "{}: {}, size {:.1}″",
+            words.join(" or "),
+            factors.join(" and "),
+            effect.size_arcsec
+        ));
     }
     if task.reading != Reading::AsLabelled {
         out.push(format!("{}: {}", task.reading.word(), task.reading.words(&task.instrument)));

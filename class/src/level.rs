@@ -9,7 +9,9 @@ pub struct Level(u8);
 
 /// A level that there is not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("there is no level {0}: choose 1 (one effect), 2 (two), 3 (three, one confounded) or 4 (a misread column or a changed set-up too)")]
+#[error(
+    "there is no level {0}: choose 1 (one effect), 2 (two), 3 (three, one confounded) or 4 (a misread column or a changed set-up too)"
+)]
 pub struct NoLevel(u8);
 
 impl TryFrom<u8> for Level {

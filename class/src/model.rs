@@ -31,7 +31,9 @@ pub enum ModelError {
     #[error("the declaration has a mistake: {0}")]
     Mistake(String),
     /// No direction of that name.
-    #[error("the declaration shows no direction `{OBSERVABLE}`: keep the line `observe {OBSERVABLE}: direction(…)`")]
+    #[error(
+        "the declaration shows no direction `{OBSERVABLE}`: keep the line `observe {OBSERVABLE}: direction(…)`"
+    )]
     NoPointing,
     /// A joint or an input that the data do not have.
     #[error("the declaration needs readings of `{0}`, and the data have none")]

@@ -22,7 +22,10 @@ pub fn unseen_rms_rad(model: &Model, instrument: &Instrument, rows: &[Row], unse
     }];
     let observations = Observations {
         poses: Poses { series, columns: columns(&poses, instrument, &model.chain) },
-        measured: rows.iter().map(|(_, shown)| Measured::Direction(Vector3::from(*shown).normalize())).collect(),
+        measured: rows
+            .iter()
+            .map(|(_, shown)| Measured::Direction(Vector3::from(*shown).normalize()))
+            .collect(),
         groups: (0..).take(rows.len()).collect(),
         ..Observations::default()
     };
@@ -35,7 +38,8 @@ pub fn unseen_rms_rad(model: &Model, instrument: &Instrument, rows: &[Row], unse
     };
     let poses: Vec<Pose> = unseen.iter().map(|(pose, _)| *pose).collect();
     let predicted = model.pointing(instrument, &poses, &values);
-    let off = predicted.iter().zip(unseen).map(|(own, (_, truth))| Vector3::from(*own) - Vector3::from(*truth));
+    let off =
+        predicted.iter().zip(unseen).map(|(own, (_, truth))| Vector3::from(*own) - Vector3::from(*truth));
     let rms = (off.map(|off| off.norm_squared()).sum::<f64>() / unseen.len() as f64).sqrt();
     rms.is_finite().then_some(rms)
 }

@@ -14,7 +14,8 @@ const WIDTH: usize = 24;
 /// A table for a terminal, with the reason behind what could not be graded.
 #[must_use]
 pub fn table(marked: &[Marked]) -> String {
-    let heads: Vec<String> = RUBRIC.iter().map(|(item, points)| format!("{} /{points}", item.word())).collect();
+    let heads: Vec<String> =
+        RUBRIC.iter().map(|(item, points)| format!("{} /{points}", item.word())).collect();
     let all = format!("all /{}", full());
     let mut text = format!("{:WIDTH$}  {}  {all}\n", "name", heads.join("  "));
     for own in marked {
@@ -42,9 +43,12 @@ pub fn csv(marked: &[Marked]) -> String {
     let head = ["name", "folder"].map(str::to_owned).into_iter().chain(words);
     let head: Vec<String> = head.chain(["all", "not_graded"].map(str::to_owned)).collect();
     let row = |own: &Marked| {
-        let points = (0..RUBRIC.len()).map(|at| own.grades.get(at).map_or(0.0, |grade| grade.points).to_string());
+        let points =
+            (0..RUBRIC.len()).map(|at| own.grades.get(at).map_or(0.0, |grade| grade.points).to_string());
         let cells = [harmless(&own.name), own.folder.clone()].into_iter().chain(points);
-        cells.chain([own.points.to_string(), harmless(own.not_graded.as_deref().unwrap_or_default())]).collect()
+        cells
+            .chain([own.points.to_string(), harmless(own.not_graded.as_deref().unwrap_or_default())])
+            .collect()
     };
     let mut bytes = Vec::new();
     for cells in std::iter::once(head).chain(marked.iter().map(row)) {

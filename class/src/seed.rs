@@ -26,7 +26,11 @@ impl Seed {
     #[must_use]
     pub fn new(teacher: &str, name: &str, again: usize, level: u8) -> Self {
         // Lengths keep the parts apart: no two different inputs give one text.
-        Self(digest(&format!("class 1\n{}:{teacher}\n{}:{name}\n{again}\n{level}", teacher.len(), name.len())))
+        Self(digest(&format!(
+            "class 1\n{}:{teacher}\n{}:{name}\n{again}\n{level}",
+            teacher.len(),
+            name.len()
+        )))
     }
 
     /// The mark of a sheet: ten letters that say whose it is and nothing else.

@@ -135,7 +135,8 @@ impl Ground {
             columns
         };
         let bare = model(&instrument, []);
-        let declared: Vec<String> = bare.errors().iter().map(|&id| bare.chain.symbol(id).name.clone()).collect();
+        let declared: Vec<String> =
+            bare.errors().iter().map(|&id| bare.chain.symbol(id).name.clone()).collect();
         let cause_columns = Cause::ALL.map(|cause| whitened(&parameters(cause, &instrument))).into();
         let declared_columns = whitened(&declared);
         Self { instrument, difficulty, poses, declared, declared_columns, cause_columns }
@@ -148,7 +149,8 @@ impl Ground {
     /// A secret, unless chance made one that cannot be found or has a doubtful answer.
     fn attempt(&self, chance: &mut ChaCha8Rng) -> Option<Secret> {
         let largest = DECLARED_ARCSEC * ARCSEC_RAD;
-        let declared: Vec<f64> = self.declared.iter().map(|_| chance.random_range(-largest..largest)).collect();
+        let declared: Vec<f64> =
+            self.declared.iter().map(|_| chance.random_range(-largest..largest)).collect();
         let (causes, reading) = self.causes(chance);
         let mut effects: Vec<Effect> = causes.iter().map(|&cause| self.effect(cause, chance)).collect();
         for at in 0..effects.len() {
@@ -190,10 +192,14 @@ impl Ground {
     /// decide about a cause.
     fn possible(&self, effects: &[Effect], at: usize) -> Option<Vec<Cause>> {
         let own = &effects[at];
-        let is_other = |cause: Cause| cause != own.cause && effects.iter().any(|effect| effect.cause == cause);
+        let is_other =
+            |cause: Cause| cause != own.cause && effects.iter().any(|effect| effect.cause == cause);
         let others = effects.iter().filter(|effect| effect.cause != own.cause);
-        let beside: Vec<&Vec<f64>> =
-            self.declared_columns.iter().chain(others.flat_map(|effect| self.columns_of(effect.cause))).collect();
+        let beside: Vec<&Vec<f64>> = self
+            .declared_columns
+            .iter()
+            .chain(others.flat_map(|effect| self.columns_of(effect.cause)))
+            .collect();
         if Design::new(beside.iter().copied()).left_of(&own.signature) < LEAST_SIGNATURE {
             return None;
         }
@@ -252,7 +258,8 @@ impl Ground {
 
     /// The size that is asked for, if it is beyond doubt which and how large.
     fn size(&self, effects: &[Effect]) -> Option<Asked> {
-        let mut sized: Vec<&Effect> = effects.iter().filter(|effect| effect.cause.follows_a_joint()).collect();
+        let mut sized: Vec<&Effect> =
+            effects.iter().filter(|effect| effect.cause.follows_a_joint()).collect();
         sized.sort_by(|a, b| b.size_arcsec.total_cmp(&a.size_arcsec));
         let largest = *sized.first()?;
         let next = sized.get(1).map_or(0.0, |effect| effect.size_arcsec);

@@ -106,9 +106,11 @@ fn a_wrong_place_and_cause_cost_a_part() {
     for student in &key.students {
         let task = key.task(student).unwrap();
         let used: Vec<Cause> = task.effects.iter().map(|effect| effect.cause).collect();
-        let places = |cause: Cause| cause.additions(&task.instrument).into_iter().map(|own| (own.body, own.moves));
-        let is_elsewhere =
-            |cause: &Cause| used.iter().all(|&own| places(own).all(|one| places(*cause).all(|other| other != one)));
+        let places =
+            |cause: Cause| cause.additions(&task.instrument).into_iter().map(|own| (own.body, own.moves));
+        let is_elsewhere = |cause: &Cause| {
+            used.iter().all(|&own| places(own).all(|one| places(*cause).all(|other| other != one)))
+        };
         let Some(wrong) = Cause::ALL.into_iter().find(is_elsewhere) else { continue };
         tried += 1;
         let amended = declaration(&task.instrument, [used[0], wrong]);
@@ -184,7 +186,9 @@ fn every_cause_of_the_list_at_once_is_no_answer() {
 
 #[test]
 fn a_reading_that_is_wrong_spoils_the_prediction() {
-    let (_, key, _) = class(&NAMES, 4);
+    let names: Vec<String> = (0..12).map(|number| format!("student {number}")).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let (_, key, _) = class(&names, 4);
     let mut misread = 0;
     for student in &key.students {
         let task = key.task(student).unwrap();
@@ -216,7 +220,18 @@ fn an_answer_to_another_sheet_is_noticed() {
 fn hostile_names_are_harmless() {
     let long = "x".repeat(200);
     let hostile = [
-        "../x", "..", "=cmd()", "Zoë 李", "李", "Ada", "Ada", "a/b\\c:d*?", "<script>", "| a `b`\n# c", &long, "CON",
+        "../x",
+        "..",
+        "=cmd()",
+        "Zoë 李",
+        "李",
+        "Ada",
+        "Ada",
+        "a/b\\c:d*?",
+        "<script>",
+        "| a `b`\n# c",
+        &long,
+        "CON",
     ];
     let (folders, key, sealed) = class(&hostile, 1);
     let names: BTreeSet<&str> = folders.iter().map(|folder| folder.name.as_str()).collect();
@@ -325,13 +340,17 @@ fn what_is_wrong_in_one_item_costs_that_item_alone() {
     assert!(of(&marked, Item::Place).why.contains("`backwards` is no reading"), "{marked:?}");
     let bare = task.instrument.declaration;
     let long = format!("{bare}{}", " ".repeat(70_000));
-    let strange = bare.replacen("body", "input pressure; body", 1).replacen("Rx(tilt_x)", "Rx(tilt_x*pressure)", 1);
+    let strange =
+        bare.replacen("body", "input pressure; body", 1).replacen("Rx(tilt_x)", "Rx(tilt_x*pressure)", 1);
     let chains = [
         ("", "has a mistake"),
         ("chain X {}", "the declaration"),
         (long.as_str(), "more than"),
         (strange.as_str(), "needs readings of `pressure`"),
-        ("chain X { body a on ground { position_error: Rz(e); } observe other: direction(1, 0, 0) of a; }", "shows no direction"),
+        (
+            "chain X { body a on ground { position_error: Rz(e); } observe other: direction(1, 0, 0) of a; }",
+            "shows no direction",
+        ),
     ];
     for (chain, why) in chains {
         let marked = graded(&key, student, &good, chain);
@@ -354,7 +373,8 @@ fn strange_declarations_are_graded_without_harm() {
     let [first, second] = task.instrument.joints();
     let bare = task.instrument.declaration;
     let strange = [
-        "chain X { body a on ground { position: Rz(pi/2); } observe pointing: direction(1, 0, 0) of a; }".to_owned(),
+        "chain X { body a on ground { position: Rz(pi/2); } observe pointing: direction(1, 0, 0) of a; }"
+            .to_owned(),
         format!(
             "chain X {{ const {first}: angle = 1; const tilt_x: angle = 2; body a on ground {{ position: Rz({first}), Rx(tilt_x); \
              position_error: Rz({second}); }} observe pointing: direction(1, 0, 0) of a; }}"

@@ -116,7 +116,10 @@ fn slide(source: &str) -> Slide {
             slide.notes = inline(notes);
             continue;
         }
-        let picture = line.strip_prefix("![").and_then(|rest| rest.strip_suffix(')')).and_then(|rest| rest.split_once("]("));
+        let picture = line
+            .strip_prefix("![")
+            .and_then(|rest| rest.strip_suffix(')'))
+            .and_then(|rest| rest.split_once("]("));
         let html = match (item, line.strip_prefix("> "), picture) {
             (_, _, Some((alt, file))) => format!("<img src=\"{file}\" alt=\"{}\">", escaped(alt)),
             (Some(text), ..) => format!("<li>{}</li>", inline(text)),
@@ -198,7 +201,10 @@ fn a_browser_cuts_nothing_of_a_slide() {
         let folder = Folder::new(&format!("book-deck-{name}"));
         let page = fs::read_to_string(decks.join(format!("{name}.html"))).expect("the deck's page");
         let base = format!("<head><base href=\"file://{}/\">", decks.display());
-        folder.write("deck.html", page.replacen("<head>", &base, 1).replacen("</body>", &format!("{MEASURE}</body>"), 1));
+        folder.write(
+            "deck.html",
+            page.replacen("<head>", &base, 1).replacen("</body>", &format!("{MEASURE}</body>"), 1),
+        );
         let Some((shown, console)) = browse_file(&folder.0, "deck.html") else { return };
         assert_eq!(console, "");
         assert!(shown.contains("data-cut=\"\""), "{name}: higher than the screen: {shown}");

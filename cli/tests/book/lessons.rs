@@ -16,7 +16,9 @@ fn read(file: &str) -> String {
 /// The part of a page below a heading, up to the next of the same rank.
 fn part<'a>(page: &'a str, heading: &str) -> &'a str {
     let rank = heading.split(' ').next().expect("a heading has a rank");
-    let from = page.find(&format!("\n{heading}\n")).unwrap_or_else(|| panic!("no {heading}:\n{page}")) + heading.len() + 2;
+    let from = page.find(&format!("\n{heading}\n")).unwrap_or_else(|| panic!("no {heading}:\n{page}"))
+        + heading.len()
+        + 2;
     let rest = &page[from..];
     let next = format!("\n{rank} ");
     &rest[..rest.find(&next).unwrap_or(rest.len())]
@@ -24,7 +26,9 @@ fn part<'a>(page: &'a str, heading: &str) -> &'a str {
 
 /// Items of a numbered list.
 fn numbered(text: &str) -> usize {
-    text.lines().filter(|line| line.split_once(". ").is_some_and(|(number, _)| number.parse::<u32>().is_ok())).count()
+    text.lines()
+        .filter(|line| line.split_once(". ").is_some_and(|(number, _)| number.parse::<u32>().is_ok()))
+        .count()
 }
 
 #[test]
@@ -70,7 +74,10 @@ fn numbers_of_solutions_are_computed() {
             let value = Formula { text: formula.as_bytes(), at: 0 }.value();
             let digits = shown.split('.').nth(1).map_or(0, str::len);
             assert_eq!(format!("{value:.digits$}"), shown, "{name}: {formula}");
-            let below = lines[at + 1..].iter().take(4).any(|line| line.replace('−', "-").replace(' ', "").contains(shown));
+            let below = lines[at + 1..]
+                .iter()
+                .take(4)
+                .any(|line| line.replace('−', "-").replace(' ', "").contains(shown));
             assert!(below, "{name}: {shown} is not shown below its formula");
             computed += 1;
         }

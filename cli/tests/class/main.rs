@@ -29,7 +29,10 @@ fn a_class_is_made_answered_and_graded() {
     assert!(made.stderr.contains("Wrote 3 folders into `class`. The key is `class.key.toml`."), "{made}");
     let path = folder.0.join("class/001-ada");
     let names = ["answer.toml", "data.csv", "instrument.chain", "pose.csv", "sheet.md", "study.toml"];
-    assert!(names.iter().all(|name| path.join(name).is_file()) && names.len() == fs::read_dir(&path).expect("it").count());
+    assert!(
+        names.iter().all(|name| path.join(name).is_file())
+            && names.len() == fs::read_dir(&path).expect("it").count()
+    );
     // The product finds the secret, and its own amended declaration is graded as right.
     let run = |arguments: &[&str]| support::run_in(&path, arguments, "");
     let found = run(&["calibrate", "study.toml", "--out", "result"]);
@@ -51,7 +54,11 @@ fn a_class_is_made_answered_and_graded() {
         let grades = report["students"][0]["grades"].as_array().expect("grades");
         grades.iter().find(|grade| grade["item"] == item).expect("the item")["points"].as_f64()
     };
-    assert_eq!([points("place"), points("unseen"), points("cause")], [Some(5.0), Some(3.0), Some(0.0)], "{graded}");
+    assert_eq!(
+        [points("place"), points("unseen"), points("cause")],
+        [Some(5.0), Some(3.0), Some(0.0)],
+        "{graded}"
+    );
     let why = |at: usize| report["students"][at]["not_graded"].clone();
     assert_eq!(why(1), "the answer carries the mark of the sheet of Ada (001-ada)");
     assert_eq!(why(2), "there is no `answer.toml`");
@@ -69,7 +76,16 @@ fn nothing_is_overwritten_and_bad_lists_are_refused() {
     let folder = Folder::new("class-refused");
     folder.write("names.csv", "name\nAda\n");
     let warned = folder.trueaxis(&[
-        "class", "new", "--students", "names.csv", "--seed", "7", "--level", "2", "--out", "class",
+        "class",
+        "new",
+        "--students",
+        "names.csv",
+        "--seed",
+        "7",
+        "--level",
+        "2",
+        "--out",
+        "class",
     ]);
     assert_eq!(warned.code, 0, "{warned}");
     assert!(warned.stderr.contains("the seed has fewer than 12 letters"), "{warned}");

@@ -56,7 +56,10 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let told = |error: KeyError| Failure::Input(format!("`{}`: {error}", arguments.key.display()));
     let key = Key::of(&source.text).map_err(told)?;
     if !arguments.answers.is_dir() {
-        let why = format!("`{}` is no folder; name the one that has the students' folders", arguments.answers.display());
+        let why = format!(
+            "`{}` is no folder; name the one that has the students' folders",
+            arguments.answers.display()
+        );
         return Err(Failure::Input(why));
     }
     warn_of_others(&arguments.answers, &key);
@@ -86,7 +89,9 @@ fn handed_in(folder: &Path, name: &str) -> Result<String, String> {
     for place in [folder, &path] {
         match fs::symlink_metadata(place) {
             Err(_) => return Err(format!("there is no `{name}`")),
-            Ok(own) if own.is_symlink() => return Err(format!("`{name}` is reached by a link, and links are not followed")),
+            Ok(own) if own.is_symlink() => {
+                return Err(format!("`{name}` is reached by a link, and links are not followed"));
+            }
             Ok(_) => {}
         }
     }

@@ -99,7 +99,7 @@ fn nothing_is_overwritten_and_bad_lists_are_refused() {
     for (list, why) in [
         ("Ada\nBo\n", "has no column `name`"),
         ("name\n", "the list has no names"),
-        ("", "no header"),
+        ("", "the file is empty"),
         ("name,group\nAda,1\n,2\n", "row 2 of the list has no name"),
     ] {
         folder.write("names.csv", list);

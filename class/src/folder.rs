@@ -171,7 +171,7 @@ second set-up and 0 in the first.
 **`causes`**: what is missing, by these words.
 
 {causes}
-**`reading`**: how the columns must be read.
+**`reading`**: how the columns must be read. Where two readings fit, the right one needs no error of {declared:.0}″ or more.
 
 {readings}
 **`size`**: the size of the largest effect that follows `{first}` or `{second}`. It is half the difference between the largest and the \

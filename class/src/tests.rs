@@ -10,6 +10,7 @@ use crate::key::{Folder, Key, KeyError, NewError, Student, hand_out};
 use crate::level::Level;
 use crate::misread::Reading;
 use crate::model::Model;
+use crate::policy::ARCSEC_RAD;
 use crate::report::{csv, feedback, table};
 use crate::rubric::{Item, full};
 use crate::seed::digest;
@@ -202,6 +203,26 @@ fn a_reading_that_is_wrong_spoils_the_prediction() {
         assert_eq!(of(&marked, Item::Place).points, 2.5);
     }
     assert!(misread > 0 && misread < key.students.len());
+}
+
+/// A turn of the first axis by a quarter can imitate another reading; the errors that a sheet allows cannot.
+#[test]
+fn one_reading_alone_needs_no_large_error() {
+    let (_, key, _) = class(&NAMES, 4);
+    for student in &key.students {
+        let task = key.task(student).unwrap();
+        let model = Model::of(task.instrument.declaration, &task.instrument).unwrap();
+        for reading in Reading::ALL {
+            let (poses, measured): (Vec<_>, Vec<_>) = task.rows.iter().map(|row| reading.read(*row)).unzip();
+            let nominal = model.pointing(&task.instrument, &poses, &model.chain.nominal_values());
+            let off = nominal
+                .iter()
+                .zip(&measured)
+                .map(|(a, b)| (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>());
+            let rms_arcsec = (off.sum::<f64>() / measured.len() as f64).sqrt() / ARCSEC_RAD;
+            assert_eq!(rms_arcsec < 500.0, reading == task.reading, "{reading:?}: {rms_arcsec}");
+        }
+    }
 }
 
 #[test]

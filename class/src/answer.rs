@@ -1,5 +1,6 @@
 //! What a student hands in, as read.
 
+use model_core::escape::clipped;
 use serde::Deserialize;
 
 use crate::cause::Cause;
@@ -97,9 +98,4 @@ impl Answer {
         let word = self.reading.as_deref().unwrap_or(Reading::AsLabelled.word()).trim();
         Reading::of_word(word).ok_or_else(|| AnswerError::NoReading(clipped(word)))
     }
-}
-
-/// The beginning of a text of somebody else's, on one line.
-fn clipped(text: &str) -> String {
-    text.chars().take(40).map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
 }

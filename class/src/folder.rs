@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use model_core::escape::{line, markdown};
+
 use crate::cause::Cause;
 use crate::level::Level;
 use crate::misread::Reading;
@@ -141,7 +143,7 @@ fn promise(level: Level) -> &'static str {
 fn sheet(task: &Task, name: &str, mark: &str) -> String {
     let [first, second] = task.instrument.joints();
     let [one, two] = task.asked_pose.joints_deg;
-    let list = |lines: Vec<String>| lines.iter().map(|line| format!("{line}\n")).collect::<String>();
+    let list = |lines: Vec<String>| lines.iter().map(|own| format!("{own}\n")).collect::<String>();
     let causes =
         list(Cause::ALL.iter().map(|cause| format!("- `{}`: {}", cause.word(), cause.words())).collect());
     let readings = Reading::ALL.iter();
@@ -187,7 +189,7 @@ smallest amount of its factor over your rows. For `a*cos({first}) + b*sin({first
 {sentences}
 Every number has the unit ″. Each ± is one standard uncertainty. A ± that is far too wide or too small costs points.
 ",
-        name = plain(name),
+        name = markdown(&line(name)),
         level = u8::from(task.level),
         words = task.instrument.words,
         promise = promise(task.level),
@@ -196,21 +198,4 @@ Every number has the unit ″. Each ± is one standard uncertainty. A ± that is
         noise = task.level.difficulty().noise_arcsec,
         asked = task.asked_error,
     )
-}
-
-/// A text of somebody else's as Markdown shows it, letter by letter, on one line.
-#[must_use]
-pub fn plain(text: &str) -> String {
-    let mut out = String::new();
-    for letter in text.chars() {
-        if letter.is_control() {
-            out.push(' ');
-            continue;
-        }
-        if letter.is_ascii_punctuation() {
-            out.push('\\');
-        }
-        out.push(letter);
-    }
-    out
 }

@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
+use model_core::escape::{line, markdown};
 use tables::formats::write_row;
 
-use crate::folder::plain;
 use crate::grade::Marked;
 use crate::rubric::{RUBRIC, full};
 
@@ -19,13 +19,13 @@ pub fn table(marked: &[Marked]) -> String {
     let all = format!("all /{}", full());
     let mut text = format!("{:WIDTH$}  {}  {all}\n", "name", heads.join("  "));
     for own in marked {
-        let mut name = one_line(&own.name);
+        let mut name = line(&own.name).into_owned();
         if name.chars().count() > WIDTH {
             name = name.chars().take(WIDTH - 1).chain(['…']).collect();
         }
         let _ = write!(text, "{name:WIDTH$}");
         if let Some(why) = &own.not_graded {
-            let _ = writeln!(text, "  0, not graded: {}", one_line(why));
+            let _ = writeln!(text, "  0, not graded: {}", line(why));
             continue;
         }
         for (grade, head) in own.grades.iter().zip(&heads) {
@@ -61,26 +61,22 @@ pub fn csv(marked: &[Marked]) -> String {
 /// What a student reads: every item with its points and the reason, and the secret.
 #[must_use]
 pub fn feedback(own: &Marked) -> String {
-    let mut text = format!("# {}: {} of {} points\n\n", plain(&own.name), own.points, full());
+    let mut text = format!("# {}: {} of {} points\n\n", markdown(&line(&own.name)), own.points, full());
     if let Some(why) = &own.not_graded {
-        let _ = writeln!(text, "Nothing was graded: {}.\n", plain(why));
+        let _ = writeln!(text, "Nothing was graded: {}.\n", markdown(&line(why)));
     }
     for grade in &own.grades {
-        let why = one_line(&grade.why);
+        let why = line(&grade.why);
         let _ = writeln!(text, "- **{}, {} of {}.** {why}", grade.item.word(), grade.points, grade.of);
     }
     text.push_str("\n## The secret\n\n");
-    for line in &own.secret {
-        let _ = writeln!(text, "- {line}");
+    for secret in &own.secret {
+        let _ = writeln!(text, "- {secret}");
     }
     text
 }
 
-fn one_line(text: &str) -> String {
-    text.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
-}
-
 fn harmless(text: &str) -> String {
-    let text = one_line(text);
-    if text.trim_start().starts_with(['=', '+', '-', '@']) { format!("'{text}") } else { text }
+    let text = line(text);
+    if text.trim_start().starts_with(['=', '+', '-', '@']) { format!("'{text}") } else { text.into_owned() }
 }

@@ -271,7 +271,7 @@ fn hostile_names_are_harmless() {
     assert!(marked.iter().all(|own| own.points == 0.0 && own.not_graded.is_some()));
     assert!(csv(&marked).contains("\n'=cmd(),003-cmd,"), "{}", csv(&marked));
     assert_eq!(table(&marked).lines().count(), 1 + hostile.len());
-    assert!(feedback(&marked[8]).starts_with("# \\<script\\>: 0 of 20 points"), "{}", feedback(&marked[8]));
+    assert!(!feedback(&marked[8]).contains("<script>"), "{}", feedback(&marked[8]));
     // Two of one name have two secrets.
     assert_ne!(folders[5].files, folders[6].files);
     for empty in ["", " \t "] {

@@ -1,6 +1,5 @@
 //! The `trueaxis` command as a library: arguments in, exit code out. What a command does stands in `commands`.
 
-mod apply;
 mod budget;
 mod calibrating;
 mod certificates;
@@ -8,23 +7,20 @@ mod claims_file;
 #[cfg(feature = "point-clouds")]
 mod cloud;
 mod commands;
-mod curves;
 mod date;
 mod draw;
-mod errors_file;
-mod evaluation;
+mod expected;
 mod failure;
-mod init;
-mod letters;
 pub mod library;
+#[cfg(target_os = "linux")]
+mod limited;
 mod many;
 mod output;
-mod over_memory;
 mod over_table;
 mod paper;
 mod poses;
 mod ranges;
-mod report;
+mod report_files;
 mod set_up;
 mod sizes;
 mod source;
@@ -32,11 +28,11 @@ mod streaming;
 mod table_files;
 mod terminal;
 mod waiting;
-mod wrap;
 
 use std::process::ExitCode;
 
 use clap::Parser as _;
+use model_core::escape;
 
 /// Declare an instrument as a chain of bodies with small errors; get everything that follows from it.
 ///
@@ -74,13 +70,30 @@ fn tell_panics_of_readers_as_errors() {
     }));
 }
 
+/// Says what is wrong with the arguments, or helps, and ends. An argument may hold anything, as the name of a file does.
+fn refused(error: &clap::Error) -> ! {
+    let seen = || std::env::args_os().map(|word| escape::line(&word.to_string_lossy()).into_owned());
+    match Arguments::try_parse_from(seen()) {
+        Err(error) => error.exit(),
+        // Escaped, they would do; as they are, they do not.
+        Ok(_) => {
+            terminal::report_failure(&failure::Failure::Input(error.kind().to_string()));
+            std::process::exit(2)
+        }
+    }
+}
+
 /// Runs the command that the process was started with.
 #[must_use]
 pub fn main() -> ExitCode {
+    #[cfg(target_os = "linux")]
+    if let Some(code) = limited::run_apart() {
+        return code;
+    }
     #[cfg(any(feature = "parquet", feature = "point-clouds"))]
     tell_panics_of_readers_as_errors();
     output::clean_up_when_interrupted();
-    let arguments = Arguments::parse();
+    let arguments = Arguments::try_parse().unwrap_or_else(|error| refused(&error));
     if arguments.quiet {
         terminal::be_quiet();
     }

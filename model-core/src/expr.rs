@@ -72,6 +72,19 @@ impl<S> Expr<S> {
         names
     }
 
+    /// What sines and cosines are taken of, from left to right; nothing stands in one of these itself that counts.
+    pub fn arguments<'a>(&'a self, found: &mut Vec<&'a Self>) {
+        match &self.node {
+            Node::Number(_) | Node::Measured(..) | Node::Pi | Node::Symbol(_) | Node::Ramp(_) => {}
+            Node::Call(_, argument) => found.push(argument),
+            Node::Neg(inner) | Node::Pow(inner, _) => inner.arguments(found),
+            Node::Add(left, right) | Node::Mul(left, right) | Node::Div(left, right) => {
+                left.arguments(found);
+                right.arguments(found);
+            }
+        }
+    }
+
     fn collect_names<'a>(&'a self, names: &mut Vec<(&'a str, S)>)
     where
         S: Clone,

@@ -5,6 +5,7 @@
 //! (`load`). Whatever is wrong with a study is told at once, each mistake with its place (`mistakes`, `syntax`).
 
 mod amount;
+mod cells;
 mod column_plan;
 mod columns;
 mod conversion;
@@ -38,6 +39,7 @@ mod syntax;
 mod timeless;
 mod uncertain;
 mod uncertain_readings;
+mod undeclared;
 mod unsought;
 mod unstated;
 mod written;
@@ -48,6 +50,7 @@ pub use next::{NextObjects, NextPlaces, NextPoses};
 pub use plan::{HoldOut, Plan, Search, SourcePlan};
 pub use sample::{Change, Changed, Place, Read, Sample, SampledColumn};
 pub use timeless::Timeless;
+pub use undeclared::Undeclared;
 pub use unsought::Unsought;
 pub use unstated::Unstated;
 pub use written::Study;

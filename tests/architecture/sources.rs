@@ -21,6 +21,9 @@ pub const LIBRARIES: &[&str] = &[
     "calibration/src",
     "evidence/src",
     "class/src",
+    "report/src",
+    "service/src",
+    "init/src",
 ];
 
 /// One source file: its path from the root of the workspace, with `/`, and its text.

@@ -2,7 +2,7 @@ model_macros::chain! {
 chain Mount {
     body fork on ground {
         motion:       Rz(alpha);
-        motion_error: Rx(a/0), Ry(a/(1 + alpha)), Rz(a*cos(1.5)), Tx((a + b + c + d + e + f + g + h)^32);
+        motion_error: Rx(a/0), Ry(a/(1 + alpha)), Rz(a*cos(alpha/2)), Tx((a + b + c + d + e + f + g + h)^32);
     }
 }
 }

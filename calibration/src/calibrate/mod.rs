@@ -6,8 +6,9 @@
 //! search is repeated without each fold (`held_out`), effects that do not help there are left out (`confirm`), and shapes are taken
 //! up where they help (`choice`). Where rows beside unknown objects that follow each other are off alike even so, all of it is done
 //! once more with stretches of them for groups (`stretches`), and what nobody fitted is whole objects (`whole_objects`).
-//! [`crate::diagnose`] says what it means, [`crate::report`] in words.
+//! [`crate::diagnose`] says what it means; the crate `report` says it in words.
 
+mod amendment;
 mod choice;
 mod confirm;
 mod every_row;
@@ -19,6 +20,7 @@ mod outliers;
 mod places;
 mod rounds;
 mod stretches;
+mod weighed;
 mod whole_objects;
 
 use std::cell::OnceCell;
@@ -29,7 +31,6 @@ use crate::amend::{AmendError, amend, with_quantities_of};
 use crate::diagnose::shown::{DRAWN, Shown};
 use crate::diagnose::{Confirmed, Diagnosis, Trace, Unsearched, diagnose, rounding, trace};
 use crate::misread::{Misread, implausible, misread};
-use crate::report::amendment;
 use crate::search::SearchError;
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;
@@ -42,6 +43,7 @@ use rounds::rounds;
 use study::{Loaded, Open, Plan, Study};
 use tables::formats::DataError;
 use tables::units::BareColumn;
+use weighed::Weighed;
 
 pub use crate::search::{Request, Stage};
 pub use every_row::OfEveryRow;
@@ -212,9 +214,17 @@ fn searched<'a>(
     first: Round<'a>,
     own: &'a Loop,
 ) -> Result<Chosen<'a>, CalibrateError> {
+    let weighed = weighed::weighed(whole, &first)?;
     let round = outliers::reconsidered(whole, rounds(whole, first)?)?;
-    let (whole, round) = memory::settled(whole.clone(), &own.remembering, round)?;
-    Ok(chosen(&whole, before, round, &own.studies)?)
+    let Some(told) = weighed else {
+        let (whole, round) = memory::settled(whole.clone(), &own.remembering, round)?;
+        return Ok(chosen(&whole, before, round, &own.studies)?);
+    };
+    let Weighed { whole, round, left_out } = weighed::settled(whole.clone(), &own.remembering, round, &told)?;
+    let Some(left_out) = left_out else { return Ok(chosen(&whole, before, round, &own.studies)?) };
+    let mut judged = judged(&whole, before, round)?;
+    judged.left_out.push(left_out);
+    Ok(Chosen { whole, judged, as_good: Vec::new() })
 }
 
 /// What a first fit that cannot be gone on with comes to.

@@ -48,7 +48,7 @@ pub struct Determined {
     pub smallest_detectable: f64,
 }
 
-/// A set of parameters that cannot be told apart.
+/// A set of parameters, two at least, that cannot be told apart.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct NotSeparable {
     /// Their names.
@@ -95,7 +95,8 @@ pub fn precision(chain: &Chain, observations: &Observations, fit: &FitResult) ->
 
 fn not_separable(chain: &Chain, observations: &Observations, fit: &FitResult) -> Vec<NotSeparable> {
     let all_round = all_round(chain, observations, fit);
-    let sets = fit.subspace.linked().into_iter();
+    // What moves nothing has nobody to be told from: it is not shown.
+    let sets = fit.subspace.linked().into_iter().filter(|(members, _)| members.len() > 1);
     sets.map(|(members, undetermined)| {
         let names = members.iter().map(|&at| chain.symbol(fit.parameters[at]).name.clone()).collect();
         let inside = |other: &&(Vec<usize>, usize)| other.0.iter().all(|at| members.contains(at));

@@ -153,14 +153,14 @@ fn sets_are_those_of_the_declaration() {
     }
 }
 
-/// The sets that the declaration's own columns link: each invisible error alone, and what combinations hold together.
+/// The sets that the declaration's own columns link: what combinations hold together.
 fn declared_sets(chain: &Chain, observable: ObservableId) -> Vec<Vec<String>> {
     let known = identify(chain, &[observable]).unwrap();
     let alike = known.alike.iter().map(|group| group.iter().map(|member| member.error).collect());
     let combined = known.combinations.iter().map(|dependence| {
         std::iter::once(dependence.error).chain(dependence.others.iter().map(|(other, _)| *other)).collect()
     });
-    let mut sets: Vec<Vec<SymbolId>> = known.invisible.iter().map(|&id| vec![id]).collect();
+    let mut sets: Vec<Vec<SymbolId>> = Vec::new();
     for link in alike.chain(combined) {
         let link: Vec<SymbolId> = link;
         let (joined, mut rest): (Vec<_>, Vec<_>) =

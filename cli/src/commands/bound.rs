@@ -5,14 +5,14 @@ use std::path::PathBuf;
 use model_core::remainder::{self, Bound, Domain, DomainError, Found, PairShare, Parts};
 use model_core::{Chain, SymbolKind};
 use serde_json::json;
+use service::source::observables;
 
 use super::{Answer, TextOrJson};
-use crate::errors_file;
+use crate::expected::{self, Work};
 use crate::failure::Failure;
 use crate::ranges::{self, Range, RangeArgument};
 use crate::sizes::SizesArgument;
-use crate::source::observables;
-use crate::terminal;
+use crate::{source, terminal};
 
 /// Bound what the first-order form leaves out.
 ///
@@ -47,18 +47,20 @@ const STARTS: u32 = 24;
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let (chain, sizes) = errors_file::chain_and_sizes(&arguments.chain, arguments.sizes.needed()?)?;
+    let (chain, sizes) = source::chain_and_sizes(&arguments.chain, arguments.sizes.needed()?)?;
     let ranges = ranges::of_chain(&chain, &arguments.range)?;
+    let waiting = expected::announce(&chain, Work::Bound);
     let answers = bounds(&chain, &sizes, &ranges, &arguments.observable, arguments.seed)?;
+    drop(waiting);
     match arguments.format {
         TextOrJson::Text => {
             let texts: Vec<String> =
                 answers.iter().map(|(bound, found)| remainder::text(bound, Some(found), &chain)).collect();
-            terminal::print_text(&texts.join("\n"))?;
+            terminal::print_text(texts.join("\n"))?;
         }
         TextOrJson::Json => {
             let bounds: Vec<_> = answers.iter().map(|(bound, found)| as_json(&chain, bound, found)).collect();
-            terminal::print(&format!("{:#}\n", json!({ "bounds": bounds })))?;
+            terminal::print_json(&json!({ "bounds": bounds }))?;
         }
     }
     Ok(Answer::Done)
@@ -129,11 +131,12 @@ pub fn as_json(chain: &Chain, bound: &Bound, found: &Found) -> serde_json::Value
     });
     let name = |id| &chain.symbol(id).name;
     match &bound.parts {
-        Parts::Vector { second_order, tail, shares } => {
+        Parts::Vector { second_order, tail, is_sum, shares } => {
             let share =
                 |pair: &PairShare| json!({"errors": [name(pair.one), name(pair.other)], "share": pair.share});
             value["second_order"] = (*second_order).into();
             value["tail"] = (*tail).into();
+            value["is_sum_of_degrees"] = (*is_sum).into();
             value["shares"] = shares.iter().map(share).collect();
         }
         Parts::Readings(readings) => {

@@ -3,16 +3,20 @@
 use std::path::PathBuf;
 
 use model_core::algebra::{Fraction, Poly};
-use model_core::forms::{self, Form};
+use model_core::escape::{self, Screen};
+use model_core::forms::{self, Form, TableError};
 use model_core::{Chain, ObservableId, ObservableKind, print};
 use proof::{Certificate, Declared};
+use report::style::HEADING;
 use serde_json::json;
+use service::Source;
+use service::source::observables;
 
 use super::Answer;
 use crate::certificates::CertificateArguments;
+use crate::expected::{self, Work};
 use crate::failure::Failure;
-use crate::source::{Source, observables};
-use crate::terminal::{self, HEADING};
+use crate::{source, terminal};
 
 /// Derive the closed form of the error of each observable.
 ///
@@ -33,6 +37,12 @@ pub struct Arguments {
     /// Keep products of up to this many errors
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=3))]
     order: u32,
+    /// A table: what each error adds, in named common parts (short sines and cosines, rotations, lever arms)
+    #[arg(long, conflicts_with_all = ["order", "steps"])]
+    table: bool,
+    /// The derivation step by step, as at the board: expand, drop products of errors, use the transpose, collect
+    #[arg(long, conflicts_with = "order")]
+    steps: bool,
     /// How to print the formulas
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -56,9 +66,17 @@ enum Format {
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let is_certified = arguments.certificate.is_wanted()?;
-    let source = Source::read(&arguments.chain)?;
-    let chain = source.symbolic_chain()?;
+    let source = source::read(&arguments.chain)?;
+    let chain = source.symbolic_chain(&terminal::warn)?;
+    let waiting = expected::announce(&chain, Work::Derive);
     let chosen = observables(&chain, &arguments.observable)?;
+    if arguments.table || arguments.steps {
+        if is_certified {
+            let why = "a certificate is of the form itself: ask for it without --table and --steps";
+            return Err(Failure::Input(why.to_owned()));
+        }
+        return show_parts(arguments, &chain, &chosen, waiting);
+    }
     let mut forms: Vec<Form> = Vec::new();
     for &observable in &chosen {
         match forms::derive(&chain, observable, arguments.order) {
@@ -76,19 +94,72 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     if forms.is_empty() {
         return Err(Failure::Input("no observable of this chain has a closed form".to_owned()));
     }
+    let plainly = |screen: &mut Screen, title: String| screen.append(&title.into());
     let printed = match arguments.format {
-        Format::Json => format!("{:#}\n", as_json(&chain, &forms, arguments.order)),
-        Format::Text => {
-            sections(&chain, &forms, print::Style::Text, |title| format!("{HEADING}{title}{HEADING:#}"))
-        }
-        Format::Latex => sections(&chain, &forms, print::Style::Latex, |title| format!("% {title}")),
-        Format::Markdown => sections(&chain, &forms, print::Style::Markdown, |title| format!("## {title}\n")),
+        Format::Json => escape::json(&format!("{:#}\n", as_json(&chain, &forms, arguments.order))).into(),
+        Format::Text => sections(&chain, &forms, print::Style::Text, |screen, title| {
+            screen.styled([&HEADING, &format_args!("{HEADING:#}")], title);
+        }),
+        Format::Latex => sections(&chain, &forms, print::Style::Latex, |screen, title| {
+            plainly(screen, format!("% {title}"));
+        }),
+        Format::Markdown => sections(&chain, &forms, print::Style::Markdown, |screen, title| {
+            plainly(screen, format!("## {}\n", escape::markdown(title)));
+        }),
     };
     let certificate = is_certified.then(|| certify(&source, &chosen, arguments.order)).transpose()?;
     arguments.certificate.write(certificate.as_deref())?;
+    drop(waiting);
     match arguments.format {
-        Format::Text => terminal::print_formulas(&printed)?,
-        Format::Latex | Format::Markdown | Format::Json => terminal::print(&printed)?,
+        Format::Text => terminal::print_formulas(printed)?,
+        Format::Latex | Format::Markdown | Format::Json => terminal::print(printed)?,
+    }
+    Ok(Answer::Done)
+}
+
+/// The columns as tables, or the derivations in steps; observables that show single readings have neither.
+fn show_parts(
+    arguments: &Arguments,
+    chain: &Chain,
+    chosen: &[ObservableId],
+    waiting: Option<terminal::Progress>,
+) -> Result<Answer, Failure> {
+    let style = match arguments.format {
+        Format::Text => print::Style::Text,
+        Format::Latex => print::Style::Latex,
+        Format::Markdown => print::Style::Markdown,
+        Format::Json => {
+            let why = "--format json prints whole formulas: leave out --table and --steps, or choose text, latex or markdown";
+            return Err(Failure::Input(why.to_owned()));
+        }
+    };
+    let what = if arguments.table { "what a unit of each error adds" } else { "its error in steps" };
+    let mut sections = Vec::new();
+    for &observable in chosen {
+        let name = &chain.observable(observable).name;
+        let printed = if arguments.table {
+            forms::table(chain, observable, print::is_short).map(|table| print::table(&table, style))
+        } else {
+            forms::steps(chain, observable).map(|steps| print::steps(&steps, chain, style))
+        };
+        match printed {
+            Ok(printed) => sections.push(match style {
+                print::Style::Text => format!("{HEADING}{name}: {what}{HEADING:#}\n{printed}"),
+                print::Style::Latex => format!("% {name}: {what}\n{printed}"),
+                print::Style::Markdown => format!("## {name}: {what}\n\n{printed}"),
+            }),
+            // Nobody asked for this observable in particular; the others still have an answer.
+            Err(error @ TableError::Readings(_)) if arguments.observable.is_empty() && chosen.len() > 1 => {
+                terminal::warn(format_args!("{name} is left out: {error}"));
+            }
+            Err(error) => return Err(Failure::Input(error.to_string())),
+        }
+    }
+    let text = sections.join("\n");
+    drop(waiting);
+    match style {
+        print::Style::Text => terminal::print_formulas(&text)?,
+        print::Style::Latex | print::Style::Markdown => terminal::print(&text)?,
     }
     Ok(Answer::Done)
 }
@@ -114,12 +185,21 @@ fn certify(source: &Source, chosen: &[ObservableId], order: u32) -> Result<Strin
 }
 
 /// The forms one after the other, each below its title.
-fn sections(chain: &Chain, forms: &[Form], style: print::Style, title: impl Fn(&str) -> String) -> String {
-    let sections: Vec<String> = forms
-        .iter()
-        .map(|form| format!("{}\n{}", title(&title_of(chain, form)), print::form(form, chain, style)))
-        .collect();
-    sections.join("\n")
+fn sections(
+    chain: &Chain,
+    forms: &[Form],
+    style: print::Style,
+    write_title: impl Fn(&mut Screen, &str),
+) -> Screen {
+    let mut screen = Screen::default();
+    for (at, form) in forms.iter().enumerate() {
+        if at > 0 {
+            screen.append(&"\n".into());
+        }
+        write_title(&mut screen, &title_of(chain, form));
+        screen.append(&format!("\n{}", print::form(form, chain, style)).into());
+    }
+    screen
 }
 
 /// `pointing: error of the direction of device, to first order in the errors`

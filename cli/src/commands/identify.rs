@@ -2,22 +2,26 @@
 
 use std::path::PathBuf;
 
-use model_core::forms;
-use model_core::identify::{self, Candidate, Identifiability, Mistaken, Ratio, Verdict};
+use model_core::forms::{self, FormError};
+use model_core::identify::{self, Candidate, Holds, Identifiability, Mistaken, Ratio, Verdict};
 use model_core::{BodyId, Chain, Mistakes, ObservableId, Role, names, print};
 use proof::{Certificate, Declared, Refusal};
 use serde_json::{Value, json};
+use service::Source;
+use service::source::observables;
 
 use super::{Answer, TextOrJson};
 use crate::certificates::CertificateArguments;
 use crate::failure::Failure;
 use crate::set_up::SetUpSeen;
-use crate::source::{Source, observables};
+use crate::source;
 use crate::table_files::open_beside;
 use crate::terminal;
 use model_core::names::listed;
 
 /// Say what no data can tell apart.
+///
+/// Where formulas for all values of the constants are too large, the answer is that at their declared values.
 ///
 /// Follows from the declaration alone, exactly: which errors are one, which have no influence, and which combinations
 /// data can determine, for each observable by itself and for all together; with --observable, for those together.
@@ -46,7 +50,7 @@ pub struct Arguments {
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let is_certified = arguments.certificate.is_wanted()?;
-    let source = Source::read(&arguments.chain)?;
+    let source = source::read(&arguments.chain)?;
     if arguments.chain.extension().is_some_and(|ending| ending == "toml") {
         if is_certified || !arguments.observable.is_empty() || arguments.candidate.is_some() {
             let why = "of a study, only --format can be asked for: name the declaration for --observable, --candidate and \
@@ -54,20 +58,20 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
             return Err(Failure::Input(why.to_owned()));
         }
         let seen = SetUpSeen::of_study(&source, &mut |path, from| open_beside(&source, path, from))?;
-        terminal::print(&match arguments.format {
-            TextOrJson::Text => seen.text(),
-            TextOrJson::Json => format!("{:#}\n", seen.json()),
-        })?;
+        match arguments.format {
+            TextOrJson::Text => terminal::print(seen.text())?,
+            TextOrJson::Json => terminal::print_json(&seen.json())?,
+        }
         return Ok(Answer::Done);
     }
-    let chain = source.symbolic_chain()?;
+    let chain = source.symbolic_chain(&terminal::warn)?;
     let Identified { texts, answers, found: certified } =
         identified(&chain, &arguments.observable, arguments.candidate.as_deref())?;
     let certificate = is_certified.then(|| certify(&source, &certified)).transpose()?;
     arguments.certificate.write(certificate.as_deref())?;
     match arguments.format {
-        TextOrJson::Text => terminal::print_text(&texts.join("\n"))?,
-        TextOrJson::Json => terminal::print(&format!("{:#}\n", json!({ "identifiability": answers })))?,
+        TextOrJson::Text => terminal::print_text(texts.join("\n"))?,
+        TextOrJson::Json => terminal::print_json(&json!({ "identifiability": answers }))?,
     }
     Ok(Answer::Done)
 }
@@ -95,7 +99,7 @@ pub fn identified(
     if names.is_empty() && chosen.len() > 1 {
         // Nobody asked for these in particular; the others still have an answer.
         chosen.retain(|&observable| match forms::derive(chain, observable, 1) {
-            Err(error) if error.is_of_no_closed_form() => {
+            Err(error @ FormError::NotSmooth { .. }) => {
                 let name = &chain.observable(observable).name;
                 terminal::warn(format_args!("{name} is left out: {error}"));
                 false
@@ -137,6 +141,11 @@ fn certify(source: &Source, certified: &[Identifiability]) -> Result<String, Fai
     let mut certificate = Certificate::new(&declared);
     let refused = |refusal: Refusal| Failure::Input(format!("no certificate: {refusal}; nothing is written"));
     for found in certified {
+        if found.holds != Holds::Everywhere {
+            let why = "the answer is at the declared values of the constants";
+            certificate.not_certified(&named(declared.chain(), &found.observables), why);
+            continue;
+        }
         for &observable in &found.observables {
             for &error in &found.invisible {
                 certificate.without_influence(observable, error).map_err(refused)?;
@@ -162,6 +171,11 @@ fn certify(source: &Source, certified: &[Identifiability]) -> Result<String, Fai
     Ok(certificate.finish(&source.path.display().to_string()))
 }
 
+/// `pointing and position`
+fn named(chain: &Chain, observables: &[ObservableId]) -> String {
+    observables.iter().map(|&id| chain.observable(id).name.as_str()).collect::<Vec<_>>().join(" and ")
+}
+
 /// Reads `middle Rx(x*cos(beta))`.
 fn candidate(chain: &Chain, text: &str) -> Result<Candidate, Failure> {
     let wrong = |why: String| Failure::Input(format!("--candidate: {why}"));
@@ -177,7 +191,7 @@ fn candidate(chain: &Chain, text: &str) -> Result<Candidate, Failure> {
     let body = u16::try_from(index).map(BodyId).map_err(|error| wrong(error.to_string()))?;
     let factor = factor.trim();
     Candidate::parse(chain, body, Role::MotionError, factor)
-        .map_err(|mistakes: Mistakes| Failure::mistakes("--candidate", factor, &mistakes))
+        .map_err(|mistakes: Mistakes| Source::of_text("--candidate", factor).mistakes(&mistakes).into())
 }
 
 fn as_json(chain: &Chain, set: &[ObservableId], found: &Identifiability) -> Value {
@@ -218,6 +232,10 @@ fn as_json(chain: &Chain, set: &[ObservableId], found: &Identifiability) -> Valu
         .collect();
     json!({
         "observables": set.iter().map(|&id| chain.observable(id).name.as_str()).collect::<Vec<_>>(),
+        "constants": match found.holds {
+            Holds::Everywhere => json!({"values": "any"}),
+            Holds::AtDeclaredValues { poses } => json!({"values": "declared", "poses": poses}),
+        },
         "declared": found.declared,
         "invisible": found.invisible.iter().map(name).collect::<Vec<_>>(),
         "alike": alike,

@@ -29,7 +29,7 @@ fn the_file_holds_the_declaration_the_box_and_the_bound() {
     let (folder, text) = generated("generate-rust", "rust", "lidar.rs", &options);
     assert!(text.contains("chain MobileLidar {"), "the declaration is quoted");
     assert!(text.contains(
-        "First order, pointing: off by at most 1.065e-7 while errors stay within box.toml, proven."
+        "First order, pointing: off by at most 1.007e-7 while errors stay within box.toml, proven."
     ));
     // 10 seconds of arc.
     assert!(text.contains("//     dtheta_y1 4.848136811095"), "the box is stated");

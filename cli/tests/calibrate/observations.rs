@@ -318,12 +318,11 @@ fn misread_data_are_told_before_all_else() {
         .replace("unit = \"deg\" }\n[fit]", "unit = \"rad\" }\n[fit]");
     folder.write("encoder.chain", ENCODER).write("measured.csv", data).write("study.toml", study);
     let run = folder.trueaxis(&["calibrate", "study.toml"]);
-    assert_eq!(run.code, 0, "{run}");
+    assert_eq!(run.code, 1, "{run}");
     let said = run.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
-    let (before, caution) = said.split_once("Caution: ").expect("a caution");
-    assert!(!before.contains("What to do next"), "{run}");
-    assert!(caution.contains("`reading` reaches 330 rad"), "{run}");
-    assert!(caution.contains("are these degrees taken for radians?"), "{run}");
+    assert!(said.starts_with("A COLUMN IS MISREAD Column `reading` is in deg, not rad."), "{run}");
+    assert!(said.contains("reading = { column = \"reading\", unit = \"deg\" }"), "{run}");
+    assert!(!folder.names().iter().any(|name| name.contains("amended")), "{run}");
 }
 
 #[test]

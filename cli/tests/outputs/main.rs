@@ -3,6 +3,9 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+#[cfg(target_os = "linux")]
+mod limited;
+
 use std::fs;
 
 use support::{Folder, Run};

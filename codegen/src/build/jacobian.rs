@@ -6,6 +6,8 @@
 //! a point's differs by the shifts between them, so that no turn need be applied to it. Without errors `a × s` has
 //! zeros and equal columns that products of the columns of `P` would hide.
 
+use std::collections::BTreeMap;
+
 use model_core::{Axis, Chain, SymbolId, TransformKind};
 
 use super::amount::{lower, small_turn, turn};
@@ -27,7 +29,23 @@ pub(super) enum At {
 /// A column for each symbol.
 pub(super) fn columns(b: &mut Builder, chain: &Chain, path: &Path, at: At, wrt: &[SymbolId]) -> Vec<Vector> {
     let places = places(b, path, at);
-    wrt.iter().map(|&symbol| column(b, chain, path, &places, at, symbol)).collect()
+    let uses = uses(path);
+    wrt.iter().map(|&symbol| column(b, chain, path, (&places, &uses), at, symbol)).collect()
+}
+
+/// The steps in whose amounts each symbol stands, in order: most symbols stand in one of many.
+fn uses(path: &Path) -> BTreeMap<SymbolId, Vec<usize>> {
+    let mut uses: BTreeMap<SymbolId, Vec<usize>> = BTreeMap::new();
+    for (at, step) in path.steps.iter().enumerate() {
+        let mut symbols = step.amount.nominal.symbols();
+        symbols.extend(step.amount.error.symbols());
+        symbols.sort_unstable();
+        symbols.dedup();
+        for symbol in symbols {
+            uses.entry(symbol).or_default().push(at);
+        }
+    }
+    uses
 }
 
 /// What lies below and above each step; the last is the device, with nothing above but the observable itself.
@@ -69,8 +87,25 @@ fn places(b: &mut Builder, path: &Path, at: At) -> Places {
     Places { below, above }
 }
 
-fn column(b: &mut Builder, chain: &Chain, path: &Path, places: &Places, at: At, symbol: SymbolId) -> Vector {
+fn column(
+    b: &mut Builder,
+    chain: &Chain,
+    path: &Path,
+    (places, uses): (&Places, &BTreeMap<SymbolId, Vec<usize>>),
+    at: At,
+    symbol: SymbolId,
+) -> Vector {
     let ramps = b.ramps_of(symbol);
+    let mut used: Vec<usize> = ramps
+        .iter()
+        .map(|ramp| ramp.symbol)
+        .chain([symbol])
+        .filter_map(|symbol| uses.get(&symbol))
+        .flatten()
+        .copied()
+        .collect();
+    used.sort_unstable();
+    used.dedup();
     let derivative = |b: &mut Builder, amount: &Split| {
         let amount = &amount.nominal + &amount.error;
         let partial = |b: &mut Builder, symbol| {
@@ -90,7 +125,8 @@ fn column(b: &mut Builder, chain: &Chain, path: &Path, places: &Places, at: At, 
         sum
     };
     let mut sum = NOTHING;
-    for ((step, below), above) in path.steps.iter().zip(&places.below).zip(&places.above) {
+    for index in used {
+        let (step, below, above) = (&path.steps[index], &places.below[index], &places.above[index]);
         let rate = derivative(b, &step.amount);
         let moved = match (step.kind, at) {
             (TransformKind::Rotation, At::Errors) => {

@@ -52,18 +52,39 @@ struct Lowering<'a> {
     program: &'a Program,
     /// How often each node is read, outputs included.
     readers: Vec<usize>,
-    kept: Vec<NodeId>,
+    /// By node: its place among what the prepared stage keeps.
+    kept: Vec<Option<usize>>,
+    /// The different values that come out.
+    distinct: Vec<NodeId>,
+    /// For each output, which of the different values it is.
+    places: Vec<usize>,
+    /// By node: which of the different values it is.
+    place_of: Vec<Option<usize>>,
     in_one_loop: bool,
 }
 
 impl<'a> Lowering<'a> {
     fn new(program: &'a Program) -> Self {
-        let mut readers = vec![0; program.nodes().len()];
+        let count = program.nodes().len();
+        let mut readers = vec![0; count];
         let operands = program.stage(Stage::Evaluated).flat_map(|(_, op)| op.operands());
         for node in operands.chain(program.outputs().iter().copied()) {
             readers[node.index()] += 1;
         }
-        Self { program, readers, kept: program.carried(), in_one_loop: false }
+        let mut kept = vec![None; count];
+        for (place, node) in program.carried().into_iter().enumerate() {
+            kept[node.index()] = Some(place);
+        }
+        let mut distinct = Vec::new();
+        let mut place_of = vec![None; count];
+        let places = program.outputs().iter().map(|&output| {
+            *place_of[output.index()].get_or_insert_with(|| {
+                distinct.push(output);
+                distinct.len() - 1
+            })
+        });
+        let places = places.collect();
+        Self { program, readers, kept, distinct, places, place_of, in_one_loop: false }
     }
 
     /// The nodes whose sine or cosine is read.
@@ -78,27 +99,12 @@ impl<'a> Lowering<'a> {
         angles
     }
 
-    /// The different values that come out, and for each output, which of them it is.
-    fn outputs(&self) -> (Vec<NodeId>, Vec<usize>) {
-        let mut distinct: Vec<NodeId> = Vec::new();
-        let mut places = Vec::new();
-        for &output in self.program.outputs() {
-            let place = distinct.iter().position(|&node| node == output).unwrap_or(distinct.len());
-            if place == distinct.len() {
-                distinct.push(output);
-            }
-            places.push(place);
-        }
-        (distinct, places)
-    }
-
     /// Whether the last loop stores nearly as much as it computes, and can take in sines and cosines.
     fn is_little_but_stores(&self) -> bool {
         let angles = self.angles();
-        let (distinct, _) = self.outputs();
-        let stores = distinct.iter().filter(|&&node| !matches!(self.op(node), Op::Constant(_))).count();
+        let stores = self.distinct.iter().filter(|&&node| !matches!(self.op(node), Op::Constant(_))).count();
         let is_operation = |node| !matches!(self.op(node), Op::Sin(_) | Op::Cos(_) | Op::Input(_));
-        let operations = self.statements(&distinct).filter(|&(node, _)| is_operation(node)).count();
+        let operations = self.statements(&self.distinct).filter(|&(node, _)| is_operation(node)).count();
         !angles.is_empty()
             && angles.iter().all(|&angle| matches!(self.op(angle), Op::Input(_)))
             && operations <= OPERATIONS_A_STORE * stores
@@ -133,20 +139,23 @@ impl<'a> Lowering<'a> {
             }
         }
 
-        let (distinct, places) = self.outputs();
+        let mut outputs_of = vec![Vec::new(); self.distinct.len()];
+        for (output, &place) in self.places.iter().enumerate() {
+            outputs_of[place].push(output);
+        }
         let is_jacobian = self.program.layout().forms.iter().any(|form| form.is_jacobian());
         let store = |node: NodeId| -> Vec<Statement> {
-            let Some(place) = distinct.iter().position(|&output| output == node) else { return Vec::new() };
+            let Some(place) = self.place_of[node.index()] else { return Vec::new() };
             let value = self.read(node);
             if is_jacobian {
                 return vec![Statement::Store(Target::Column(place), value)];
             }
-            let outputs = places.iter().enumerate().filter(|&(_, &at)| at == place);
-            outputs.map(|(output, _)| Statement::Store(Target::Output(output), value.clone())).collect()
+            let stores = outputs_of[place].iter();
+            stores.map(|&output| Statement::Store(Target::Output(output), value.clone())).collect()
         };
         let mut fixed = Vec::new();
         let mut prepared = Vec::new();
-        for (place, &node) in distinct.iter().enumerate() {
+        for (place, &node) in self.distinct.iter().enumerate() {
             match (self.op(node), self.program.stage_of(node)) {
                 (Op::Constant(literal), _) => {
                     fixed.push((place, literal.value()));
@@ -159,13 +168,13 @@ impl<'a> Lowering<'a> {
             }
         }
         in_loop.extend(prepared);
-        for (node, statement) in self.statements(&distinct) {
+        for (node, statement) in self.statements(&self.distinct) {
             in_loop.push(statement);
             // As soon as it is known, so that it need not be kept.
             in_loop.extend(store(node));
         }
         body.push(Statement::EachRow(in_loop));
-        let distinct = distinct.len();
+        let (distinct, places) = (self.distinct.len(), self.places.clone());
         Block { columns: columns.collect(), angles_in_loop, body, fixed, distinct, places }
     }
 
@@ -248,7 +257,7 @@ impl<'a> Lowering<'a> {
 
     /// A node as an operand.
     fn read(&self, node: NodeId) -> Expr {
-        match (self.op(node), self.kept.iter().position(|&kept| kept == node)) {
+        match (self.op(node), self.kept[node.index()]) {
             (Op::Constant(literal), _) => Expr::Number(literal.value()),
             (_, Some(place)) => Expr::Named(Name::Kept(place)),
             (_, None) => Expr::Named(Name::Node(node)),

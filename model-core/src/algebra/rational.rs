@@ -171,6 +171,24 @@ impl Rational {
         (residue(numerator), residue(IBig::from(denominator)))
     }
 
+    /// As a decimal, where fifteen digits behind the point are exact.
+    #[must_use]
+    pub fn to_decimal(&self) -> Option<String> {
+        /// More digits are no easier to read than a fraction.
+        const DIGITS: usize = 15;
+        if let Some(whole) = self.to_integer() {
+            return Some(whole.to_string());
+        }
+        let sign = if self.is_negative() { "-" } else { "" };
+        let mut scaled = self.abs();
+        (1..=DIGITS).find_map(|digits| {
+            scaled = &scaled * &Self::from(10);
+            let written = format!("{:0>width$}", scaled.to_integer()?, width = digits + 1);
+            let (whole, fraction) = written.split_at(written.len() - digits);
+            Some(format!("{sign}{whole}.{fraction}"))
+        })
+    }
+
     /// The numerator, as text.
     #[must_use]
     pub fn numerator(&self) -> impl fmt::Display + use<> {

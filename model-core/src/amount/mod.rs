@@ -1,11 +1,14 @@
 //! From an expression as written to the canonical form.
 
+mod angles;
 mod ramps;
 
 use crate::algebra::{AlgebraError, AngleSum, Budget, Poly};
 use crate::chain::Chain;
 use crate::expr::{Expr, Function, Node};
 use crate::symbol::{Quantity, SymbolId, SymbolKind};
+
+pub(crate) use angles::AngleNumber;
 
 /// Why an expression as written has no canonical form, and where.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -207,7 +210,12 @@ where
         whole: &Expr<S>,
     ) -> Result<Poly, LowerError<S>> {
         let place = || argument.place.clone();
-        let angle = self.value(argument)?;
+        let mut angle = self.value(argument)?;
+        if let Some(number) = AngleNumber::in_amount(&angle)
+            && let Some(symbol) = (self.resolve)(&number.name)
+        {
+            angle = number.replaced(symbol);
+        }
         let angle =
             AngleSum::from_poly(&angle).map_err(|error| LowerError::Algebra { error, place: place() })?;
         for &(symbol, _) in angle.multiples() {

@@ -65,9 +65,8 @@ impl Curves {
         let mut values = chain.nominal_values();
         for &parameter in &t {
             space.set(&[parameter], &mut values);
-            let nominal = probe.nominal(&values);
             for curve in &mut curves {
-                let influence = probe.influence(&mut values, curve.error, curve.size, &nominal);
+                let influence = probe.influence(&mut values, curve.error, curve.size);
                 if !influence.is_finite() {
                     return Err(BudgetError::NotFinite {
                         observable: chain.observable(observable).name.clone(),

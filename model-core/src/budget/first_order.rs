@@ -1,15 +1,15 @@
 //! The influences to first order: how fast they go with each joint, and their exact mean squares over full turns.
 
 use super::poses::Space;
-use crate::algebra::Poly;
+use crate::algebra::{AlgebraError, AngleSum, Poly};
 use crate::chain::{Chain, ObservableId, ObservableKind};
 use crate::forms::{self, FormError};
 use crate::symbol::{SymbolId, SymbolKind};
 
-/// The first-order columns of the errors that have a size.
+/// The first-order columns of the errors that have a size, where they are no longer than what is worth integrating.
 pub(super) struct FirstOrder {
     columns: Vec<(SymbolId, [Poly; 3])>,
-    /// Whether the columns are those of the form, not only what stands above a stroke in it.
+    /// Whether the columns are those of the form, not only what stands above a stroke in it, or none at all.
     is_whole: bool,
     /// The observable in its body, where its influence is an angle whatever its length.
     length: Option<[Poly; 3]>,
@@ -18,18 +18,34 @@ pub(super) struct FirstOrder {
     ramps: Vec<SymbolId>,
 }
 
+/// Terms of a form on its way beyond which means are taken over poses: with each joint there are twice as many.
+const TERMS: usize = 20_000;
+
 impl FirstOrder {
     pub fn new(
         chain: &Chain,
         observable: ObservableId,
         errors: &[(SymbolId, f64)],
     ) -> Result<Self, FormError> {
-        let (form, is_closed) = match forms::derive(chain, observable, 1) {
+        let derived = match forms::derive_within(chain, observable, 1, TERMS) {
             // What has no closed form has the waves of its vector, and is measured at nodes.
             Err(error) if error.is_of_no_closed_form() => {
-                (forms::derive_vector(chain, observable, 1)?, false)
+                forms::derive_vector_within(chain, observable, 1, TERMS).map(|form| (form, false))
             }
-            form => (form?, true),
+            form => form.map(|form| (form, true)),
+        };
+        let ramps = chain.ramps.iter().map(|ramp| ramp.symbol).collect();
+        let shown = chain.observable(observable);
+        // The components of a direction make an angle by its length.
+        let is_angle = shown.is_vector() && shown.kind == ObservableKind::Direction;
+        let length = is_angle.then(|| shown.components.clone());
+        let (form, is_closed) = match derived {
+            Ok(derived) => derived,
+            Err(FormError::Factor { error: AlgebraError::TooLarge, .. }) => {
+                let harmonics = fastest(chain, observable);
+                return Ok(Self { columns: Vec::new(), is_whole: false, length, harmonics, ramps });
+            }
+            Err(error) => return Err(error),
         };
         let is_whole = is_closed && form.is_whole();
         let mut columns = form.columns(chain);
@@ -41,11 +57,6 @@ impl FirstOrder {
             let waves = parts.chain(below).map(|part| part.highest_harmonic(symbol));
             harmonics[symbol.index()] = waves.max().unwrap_or(0);
         }
-        let ramps = chain.ramps.iter().map(|ramp| ramp.symbol).collect();
-        let observable = chain.observable(observable);
-        // The components of a direction make an angle by its length.
-        let is_angle = observable.is_vector() && observable.kind == ObservableKind::Direction;
-        let length = is_angle.then(|| observable.components.clone());
         Ok(Self { columns, is_whole, length, harmonics, ramps })
     }
 
@@ -54,8 +65,8 @@ impl FirstOrder {
         self.harmonics[symbol.index()]
     }
 
-    /// What a unit of an error adds to the observable in the ground frame; none if it adds nothing.
-    pub fn column(&self, error: SymbolId) -> Option<&[Poly; 3]> {
+    /// What a unit of an error adds to the observable in the ground frame; none if it adds nothing, or the form is too long.
+    fn column(&self, error: SymbolId) -> Option<&[Poly; 3]> {
         self.columns.iter().find(|(symbol, _)| *symbol == error).map(|(_, column)| column)
     }
 
@@ -80,4 +91,25 @@ impl FirstOrder {
         let rms = size.abs() * (sum / length_squared).sqrt();
         rms.is_finite().then_some(rms)
     }
+}
+
+/// By [`SymbolId`], the most that the multiple of a joint or input can be in a form, as every amount on the way adds to it.
+fn fastest(chain: &Chain, observable: ObservableId) -> Vec<u32> {
+    let mut harmonics = vec![0_u32; chain.symbols.len()];
+    let way = chain.way(observable);
+    for (factor, symbol) in way.iter().flat_map(|passed| {
+        let symbols = passed.factor.amount.symbols();
+        symbols.into_iter().map(move |symbol| (&passed.factor, symbol))
+    }) {
+        let turned = match AngleSum::from_poly(&factor.amount) {
+            Ok(angle) => {
+                angle.multiples().iter().filter(|(id, _)| *id == symbol).map(|(_, n)| n.unsigned_abs()).sum()
+            }
+            Err(_) => 0,
+        };
+        let waves = factor.amount.highest_harmonic(symbol);
+        let sum = &mut harmonics[symbol.index()];
+        *sum = sum.saturating_add(turned).saturating_add(waves);
+    }
+    harmonics
 }

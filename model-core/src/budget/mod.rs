@@ -141,9 +141,9 @@ impl Budget {
         let nodes = space.nodes();
         for node in &nodes {
             space.set(&node.parameters, &mut values);
-            let direction = probe.nominal(&values);
-            for ((error, size), influences) in errors.iter().zip(&mut single) {
-                influences.push(probe.influence(&mut values, *error, *size, &direction));
+            for (influence, influences) in probe.influences(&mut values, &errors).into_iter().zip(&mut single)
+            {
+                influences.push(influence);
             }
             if single.iter().any(|influences| influences.last().is_some_and(|value| !value.is_finite())) {
                 return Err(BudgetError::NotFinite {
@@ -157,13 +157,11 @@ impl Budget {
                 .map(|node| combine(&mut single.iter().map(|values| values[node])))
                 .collect::<Vec<f64>>()
         };
-        let all_at = |parameters: &[f64],
-                      values: &mut Vec<f64>,
-                      combine: fn(&mut dyn Iterator<Item = f64>) -> f64| {
-            space.set(parameters, values);
-            let direction = probe.nominal(values);
-            combine(&mut errors.iter().map(|&(error, size)| probe.influence(values, error, size, &direction)))
-        };
+        let all_at =
+            |parameters: &[f64], values: &mut Vec<f64>, combine: fn(&mut dyn Iterator<Item = f64>) -> f64| {
+                space.set(parameters, values);
+                combine(&mut probe.influences(values, &errors).into_iter())
+            };
         let mut is_sampled = false;
         let influences: Vec<Influence> = errors
             .iter()
@@ -171,8 +169,7 @@ impl Budget {
             .map(|(&(error, size), sampled)| {
                 let mut summary = summarise(&space, &nodes, sampled, |parameters| {
                     space.set(parameters, &mut values);
-                    let direction = probe.nominal(&values);
-                    probe.influence(&mut values, error, size, &direction)
+                    probe.influence(&mut values, error, size)
                 });
                 match first_order.rms(&space, error, size, &values) {
                     Some(rms) => summary.rms = rms,

@@ -30,9 +30,7 @@ pub fn influences_at(
     let mut found = Vec::with_capacity(count);
     for parameters in spread(&space.bounds, count) {
         space.set(&parameters, &mut values);
-        let nominal = probe.nominal(&values);
-        let influences: Vec<f64> =
-            errors.iter().map(|&(error, size)| probe.influence(&mut values, error, size, &nominal)).collect();
+        let influences = probe.influences(&mut values, &errors);
         if influences.iter().any(|value| !value.is_finite()) {
             return Err(BudgetError::NotFinite {
                 observable: chain.observable(observable).name.clone(),

@@ -56,7 +56,7 @@ impl Sensitivity {
         let mut values = chain.nominal_values();
         for parameters in &parameters {
             space.set(parameters, &mut values);
-            found.add(chain, (&first_order, &probe), &values, || space.describe(chain, &values))?;
+            found.add(chain, &probe, &values, || space.describe(chain, &values))?;
         }
         Ok(found)
     }
@@ -72,7 +72,6 @@ impl Sensitivity {
         readings: &[(SymbolId, Vec<f64>)],
     ) -> Result<Self, BudgetError> {
         whole_vector(chain, observable)?;
-        let first_order = FirstOrder::new(chain, observable, &sized(chain, sizes))?;
         let errors = domain_of(chain, &sized(chain, sizes))?;
         let probe = Probe::new(chain, observable);
         let mut found = Self::empty(chain, observable, sizes);
@@ -84,7 +83,7 @@ impl Sensitivity {
             }
             at_pose(chain, observable, &errors, &values)
                 .map_err(|why| BudgetError::AtPose { row: row + 1, why })?;
-            found.add(chain, (&first_order, &probe), &values, || format!("pose {}", row + 1))?;
+            found.add(chain, &probe, &values, || format!("pose {}", row + 1))?;
         }
         Ok(found)
     }
@@ -103,25 +102,16 @@ impl Sensitivity {
     fn add(
         &mut self,
         chain: &Chain,
-        (first_order, probe): (&FirstOrder, &Probe),
+        probe: &Probe,
         values: &[f64],
         pose: impl Fn() -> String,
     ) -> Result<(), BudgetError> {
-        let mut with_ramps = values.to_vec();
-        chain.set_ramps(&mut with_ramps);
-        let values = with_ramps.as_slice();
-        let place = probe.nominal(values);
+        let (place, slopes) = probe.slopes(values, &self.errors);
         let length = match self.kind {
             ObservableKind::Direction => place.norm(),
             ObservableKind::Point => 1.0,
         };
-        let columns = self.errors.iter().map(|&error| {
-            let Some(column) = first_order.column(error) else {
-                unreachable!("the first-order form has a column for every error that it was derived for")
-            };
-            [0, 1, 2].map(|axis: usize| column[axis].eval(values) / length)
-        });
-        self.columns.extend(columns);
+        self.columns.extend(slopes.into_iter().map(|slope| <[f64; 3]>::from(slope / length)));
         let place = [place.x / length, place.y / length, place.z / length];
         let last = &self.columns[self.columns.len() - self.errors.len()..];
         if last.iter().chain([&place]).flatten().any(|value| !value.is_finite()) {

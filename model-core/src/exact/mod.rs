@@ -4,7 +4,10 @@
 //! R − 1, so that it keeps full relative precision however small the errors are. Its first order and the rest are kept
 //! apart, so that the remainder keeps full relative precision too.
 
+mod each;
 mod reading;
+
+use std::borrow::Cow;
 
 use nalgebra::Vector3;
 
@@ -14,6 +17,8 @@ use crate::chain::{Axis, Chain, ObservableId, ObservableKind, TransformKind};
 use crate::forms::error_table;
 use crate::ramp::Ramp;
 use crate::symbol::{SymbolId, SymbolKind};
+
+pub use each::Each;
 
 /// The factors of one observable, with every amount split by degree in the errors.
 #[derive(Debug, Clone)]
@@ -202,21 +207,21 @@ impl Path {
         })
     }
 
+    /// The values with those of ramps, which follow from the others.
+    fn with_ramps<'v>(&self, values: &'v [f64]) -> Cow<'v, [f64]> {
+        let mut values = Cow::Borrowed(values);
+        for ramp in &self.ramps {
+            let value = ramp.value(&values);
+            if let Some(slot) = values.to_mut().get_mut(ramp.symbol.index()) {
+                *slot = value;
+            }
+        }
+        values
+    }
+
     /// A vector of the body in the frame that the observable is seen in.
     fn carried(&self, values: &[f64], start: impl Fn(&[f64]) -> Parts) -> Parts {
-        let mut with_ramps;
-        let values = if self.ramps.is_empty() {
-            values
-        } else {
-            with_ramps = values.to_vec();
-            for ramp in &self.ramps {
-                let value = ramp.value(values);
-                if let Some(slot) = with_ramps.get_mut(ramp.symbol.index()) {
-                    *slot = value;
-                }
-            }
-            &with_ramps
-        };
+        let values = &*self.with_ramps(values);
         let mut parts = start(values);
         for step in &self.steps {
             let [nominal, linear, beyond] = [&step.amount.nominal, &step.amount.linear, &step.amount.beyond]

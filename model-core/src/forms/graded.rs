@@ -7,30 +7,43 @@ use crate::chain::{Axis, Chain, ObservableId, ObservableKind, TransformKind};
 
 type Vector = [Poly; 3];
 
-/// Terms that a form may have on its way; far beyond what anybody reads, and still in memory.
-const TERMS_LIMIT: usize = 1_000_000;
-
-/// The vector of an observable in the frame that it is seen in, by degree in the errors, from 0 to `order`.
-pub(super) fn parts_up_to(chain: &Chain, id: ObservableId, order: u32) -> Result<Vec<Vector>, FormError> {
+/// The vector of an observable in the frame that it is seen in, by degree in the errors, from 0 to `order`;
+/// refused if it has more than so many terms on its way.
+pub(super) fn parts_up_to(
+    chain: &Chain,
+    id: ObservableId,
+    order: u32,
+    terms: usize,
+) -> Result<Vec<Vector>, FormError> {
     let is_error = error_table(chain);
     let grade = |poly: &Poly, degree| poly.graded_part(|symbol| is_error[symbol.index()], degree);
     let start = chain.observable(id).components.each_ref();
     let parts = (0..=order).map(|degree| start.map(|poly| grade(poly, degree))).collect();
-    carried(chain, id, parts)
+    carried(chain, id, parts, terms)
 }
 
 /// The three axes of the body that an observable belongs to in the frame that it is seen in, each as [`parts_up_to`] has it.
-pub(super) fn axes_up_to(chain: &Chain, id: ObservableId, order: u32) -> Result<[Vec<Vector>; 3], FormError> {
+pub(super) fn axes_up_to(
+    chain: &Chain,
+    id: ObservableId,
+    order: u32,
+    terms: usize,
+) -> Result<[Vec<Vector>; 3], FormError> {
     let axis = |axis: usize| {
         let mut parts = vec![Vector::default(); order as usize + 1];
         parts[0][axis] = Poly::one();
-        carried(chain, id, parts)
+        carried(chain, id, parts, terms)
     };
     Ok([axis(0)?, axis(1)?, axis(2)?])
 }
 
 /// A vector of the body that carries an observable, by degree in the errors, in the frame that the observable is seen in.
-fn carried(chain: &Chain, id: ObservableId, mut parts: Vec<Vector>) -> Result<Vec<Vector>, FormError> {
+fn carried(
+    chain: &Chain,
+    id: ObservableId,
+    mut parts: Vec<Vector>,
+    terms: usize,
+) -> Result<Vec<Vector>, FormError> {
     let is_error = error_table(chain);
     let grade = |poly: &Poly, degree| poly.graded_part(|symbol| is_error[symbol.index()], degree);
     let observable = chain.observable(id);
@@ -51,7 +64,7 @@ fn carried(chain: &Chain, id: ObservableId, mut parts: Vec<Vector>) -> Result<Ve
             }
             TransformKind::Rotation => {
                 rotate_by_error(&mut parts, factor.axis, &amount);
-                if parts.iter().flatten().map(Poly::len).sum::<usize>() > TERMS_LIMIT {
+                if parts.iter().flatten().map(Poly::len).sum::<usize>() > terms {
                     return Err(refuse(AlgebraError::TooLarge));
                 }
                 let angle = AngleSum::from_poly(&amount[0]).map_err(refuse)?;

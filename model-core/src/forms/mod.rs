@@ -5,6 +5,8 @@
 mod exact_symbolic;
 mod graded;
 mod reading;
+mod steps;
+mod table;
 
 use crate::algebra::{AlgebraError, Fraction, Poly};
 use crate::chain::reading::Reading;
@@ -14,6 +16,8 @@ use reading::NoSeries;
 
 pub use exact_symbolic::exact_symbolic;
 pub use reading::ReadSeries;
+pub use steps::{Elementary, Group, Steps, steps};
+pub use table::{Table, TableError, table};
 
 /// What the errors add to what an observable shows, up to an order in the errors. Components of a direction have no unit,
 /// those of a point and ranges are in metres, angles in radians.
@@ -41,6 +45,9 @@ fn instead(error: &AlgebraError) -> &'static str {
         _ => "",
     }
 }
+
+/// Terms that a form may have on its way; far beyond what anybody reads, and still in memory.
+const TERMS_LIMIT: usize = 1_000_000;
 
 /// What has no closed form.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -97,7 +104,7 @@ impl FormError {
         matches!(self, Self::Root { .. } | Self::NotSmooth { .. })
     }
 
-    fn new(body: &str, axis: Axis, error: AlgebraError) -> Self {
+    pub(crate) fn new(body: &str, axis: Axis, error: AlgebraError) -> Self {
         Self::Factor { body: body.to_owned(), axis, error }
     }
 
@@ -118,15 +125,25 @@ impl FormError {
 /// [`validate`](crate::validate) has none such), if the form would have more than a million terms, or if a reading has no closed
 /// form.
 pub fn derive(chain: &Chain, observable: ObservableId, order: u32) -> Result<Form, FormError> {
+    derive_within(chain, observable, order, TERMS_LIMIT)
+}
+
+/// The same for those who have no use for a form that has more than so many terms on its way.
+pub(crate) fn derive_within(
+    chain: &Chain,
+    observable: ObservableId,
+    order: u32,
+    terms: usize,
+) -> Result<Form, FormError> {
     if chain.observable(observable).is_orientation() {
-        let turned = reading::rotation(&graded::axes_up_to(chain, observable, order)?);
+        let turned = reading::rotation(&graded::axes_up_to(chain, observable, order, terms)?);
         let axes = chain.observable(observable).shown.iter().filter_map(Reading::rotation);
         let components: Vec<Fraction> =
             axes.map(|axis| Fraction::whole(turned[axis.index()].clone())).collect();
         let positive = vec![Vec::new(); components.len()];
         return Ok(Form { observable, order, components, positive });
     }
-    let parts = graded::parts_up_to(chain, observable, order)?;
+    let parts = graded::parts_up_to(chain, observable, order, terms)?;
     let (mut components, mut positive) = (Vec::new(), Vec::new());
     for reading in &chain.observable(observable).shown {
         let read = reading::read(reading, &parts);
@@ -143,16 +160,22 @@ pub fn derive(chain: &Chain, observable: ObservableId, order: u32) -> Result<For
 /// # Errors
 /// The chain has no closed form.
 pub fn nominal(chain: &Chain, observable: ObservableId) -> Result<[Poly; 3], FormError> {
-    let parts = graded::parts_up_to(chain, observable, 0)?;
+    let parts = graded::parts_up_to(chain, observable, 0, TERMS_LIMIT)?;
     match parts.into_iter().next() {
         Some(nominal) => Ok(nominal),
         None => unreachable!("the part of degree zero is always there"),
     }
 }
 
-/// What the errors add to the vector of an observable, whatever it shows of it.
-pub(crate) fn derive_vector(chain: &Chain, observable: ObservableId, order: u32) -> Result<Form, FormError> {
-    let parts = graded::parts_up_to(chain, observable, order)?;
+/// What the errors add to the vector of an observable, whatever it shows of it; refused if it has more than so many terms on
+/// its way.
+pub(crate) fn derive_vector_within(
+    chain: &Chain,
+    observable: ObservableId,
+    order: u32,
+    terms: usize,
+) -> Result<Form, FormError> {
+    let parts = graded::parts_up_to(chain, observable, order, terms)?;
     let component = |axis: usize| {
         let added = parts.iter().skip(1).map(|part| &part[axis]);
         Fraction::whole(added.fold(Poly::zero(), |sum, part| &sum + part))
@@ -171,7 +194,7 @@ pub fn derive_reading(
     order: u32,
     reading: &Reading,
 ) -> Result<ReadSeries, FormError> {
-    let parts = graded::parts_up_to(chain, observable, order)?;
+    let parts = graded::parts_up_to(chain, observable, order, TERMS_LIMIT)?;
     reading::read(reading, &parts).map_err(|why| FormError::of_reading(chain, observable, reading, why))
 }
 

@@ -2,8 +2,10 @@
 
 use std::ops::Range;
 
+use super::at_values::AtValues;
 use super::elimination::Echelon;
-use super::{Column, IdentifyError, Ratio, equations};
+use super::pair::Pair;
+use super::{Column, IdentifyError, OutOfReach, Quotient, Ratio, equations};
 use crate::algebra::Poly;
 use crate::chain::{Axis, BodyId, Chain, Factor, ObservableId, Role, TransformKind};
 use crate::expr::{Expr, Node};
@@ -118,40 +120,84 @@ pub fn mistaken_for(candidate: &Candidate, observables: &[ObservableId]) -> Resu
     let chain = &candidate.chain;
     let is_unknown = |id: &SymbolId| candidate.unknowns.contains(id);
     let declared: Vec<SymbolId> = chain.symbols_of(SymbolKind::Error).filter(|id| !is_unknown(id)).collect();
-    let alone = equations(chain, observables, &declared, Echelon::default())?;
-    let columns: Vec<Column> = (0..declared.len()).map(|index| Column::new(&alone, index)).collect();
+    let verdicts = match formulas(candidate, observables, &declared) {
+        Err(OutOfReach::ForFormulas) => at_values(candidate, observables, &declared)?,
+        Err(OutOfReach::For(error)) => return Err(error.into()),
+        Ok(verdicts) => verdicts,
+    };
+    let unknowns = candidate.unknowns.iter().copied().zip(verdicts).collect();
+    Ok(Mistaken { chain: chain.clone(), unknowns })
+}
+
+/// The verdicts on the unknowns, by formulas over all values of the constants.
+fn formulas(
+    candidate: &Candidate,
+    observables: &[ObservableId],
+    declared: &[SymbolId],
+) -> Result<Vec<Verdict>, OutOfReach> {
+    let chain = &candidate.chain;
+    let alone = equations(chain, observables, declared, Echelon::default())?;
+    let columns: Vec<Column<Ratio>> = (0..declared.len()).map(|index| Column::new(&alone, index)).collect();
     let verdict = |&unknown: &SymbolId| {
         let with: Vec<SymbolId> = declared.iter().copied().chain([unknown]).collect();
         let echelon = equations(chain, observables, &with, Echelon::with_last(declared.len()))?;
         let column = Column::new(&echelon, declared.len());
-        Ok((
-            unknown,
-            if column.is_zero() {
-                Verdict::Invisible
-            } else if echelon.rows().len() > alone.rows().len() {
-                Verdict::Separable
-            } else {
-                Verdict::MistakenFor(lookalikes(&column, &columns, &declared))
-            },
-        ))
+        Ok(verdict(&column, echelon.rows().len() > alone.rows().len(), &columns, declared))
     };
-    let unknowns = candidate.unknowns.iter().map(verdict).collect::<Result<_, IdentifyError>>()?;
-    Ok(Mistaken { chain: chain.clone(), unknowns })
+    candidate.unknowns.iter().map(verdict).collect()
+}
+
+/// The same at their declared values.
+fn at_values(
+    candidate: &Candidate,
+    observables: &[ObservableId],
+    declared: &[SymbolId],
+) -> Result<Vec<Verdict>, IdentifyError> {
+    let chain = &candidate.chain;
+    let alone = AtValues::new(chain, observables, declared)?;
+    let columns: Vec<Column<Pair>> =
+        (0..declared.len()).map(|index| Column::at_values(&alone, index)).collect();
+    let verdict = |&unknown: &SymbolId| {
+        let with: Vec<SymbolId> = declared.iter().copied().chain([unknown]).collect();
+        let found = AtValues::new(chain, observables, &with)?;
+        let column = Column::at_values(&found, declared.len());
+        Ok(verdict(&column, found.rows.len() > alone.rows.len(), &columns, declared))
+    };
+    candidate.unknowns.iter().map(verdict).collect()
+}
+
+fn verdict<Q: Quotient>(
+    column: &Column<Q>,
+    is_new: bool,
+    columns: &[Column<Q>],
+    declared: &[SymbolId],
+) -> Verdict {
+    if column.is_zero() {
+        Verdict::Invisible
+    } else if is_new {
+        Verdict::Separable
+    } else {
+        Verdict::MistakenFor(lookalikes(column, columns, declared))
+    }
 }
 
 /// The parts of a column: alone a declared error that it is a multiple of, or else the pivots; each with those alike.
-fn lookalikes(column: &Column, columns: &[Column], declared: &[SymbolId]) -> Vec<Lookalike> {
-    let alike = |other: &Column| -> Vec<SymbolId> {
+fn lookalikes<Q: Quotient>(
+    column: &Column<Q>,
+    columns: &[Column<Q>],
+    declared: &[SymbolId],
+) -> Vec<Lookalike> {
+    let alike = |other: &Column<Q>| -> Vec<SymbolId> {
         let rest = columns.iter().filter(|each| each.index != other.index && each.over(other).is_some());
         std::iter::once(other).chain(rest).map(|each| declared[each.index]).collect()
     };
     let single = columns.iter().find_map(|other| Some((other, column.over(other)?)));
     match single {
-        Some((other, ratio)) => vec![Lookalike { errors: alike(other), ratio }],
+        Some((other, ratio)) => vec![Lookalike { errors: alike(other), ratio: ratio.ratio() }],
         None => column
             .parts
             .iter()
-            .map(|(pivot, ratio)| Lookalike { errors: alike(&columns[*pivot]), ratio: ratio.clone() })
+            .map(|(pivot, ratio)| Lookalike { errors: alike(&columns[*pivot]), ratio: ratio.ratio() })
             .collect(),
     }
 }

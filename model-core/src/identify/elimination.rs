@@ -3,11 +3,15 @@
 //! The entries are polynomials in constants. Rows are multiplied across rather than divided, so everything stays a
 //! polynomial, and zero is decided by the canonical form. Factors that this brings in are divided out again.
 
+use std::cell::Cell;
+
 use super::modular::{Row, independent};
 use crate::algebra::{Poly, Rational};
 
 /// Terms that the entries of one equation may have together.
 const TERMS_LIMIT: usize = 20_000;
+/// Products of terms that all equations together may take: a second or two.
+const WORK_LIMIT: usize = 3_000_000;
 
 /// The entries of an equation grow beyond what can be worked with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,12 +24,24 @@ pub(super) struct Echelon {
     rows: Vec<(usize, Row)>,
     /// A column that becomes a pivot only if it must.
     last: Option<usize>,
+    /// What the equations took so far, in products of terms.
+    work: Work,
+}
+
+#[derive(Debug, Default)]
+struct Work(Cell<usize>);
+
+impl Work {
+    fn spend(&self, products: usize) -> Result<(), TooLarge> {
+        self.0.set(self.0.get().saturating_add(products));
+        if products > TERMS_LIMIT || self.0.get() > WORK_LIMIT { Err(TooLarge) } else { Ok(()) }
+    }
 }
 
 impl Echelon {
     /// An echelon in which a column is a pivot only if it depends on no other.
     pub(super) fn with_last(column: usize) -> Self {
-        Self { rows: Vec::new(), last: Some(column) }
+        Self { last: Some(column), ..Self::default() }
     }
 
     /// The rows with their pivots, in order of pivots.
@@ -78,9 +94,7 @@ impl Echelon {
                 continue;
             };
             let work = factor.len() * above.len() * denominator.len() + numerator.len() * below.len();
-            if work > TERMS_LIMIT {
-                return Err(TooLarge);
-            }
+            self.work.spend(work)?;
             // n/d − factor·above/below
             let part = &(factor * above) * &denominator;
             numerator = &(&numerator * below) - &part;
@@ -93,7 +107,7 @@ impl Echelon {
     fn insert(&mut self, mut row: Row) -> Result<(), TooLarge> {
         for (pivot, other) in &self.rows {
             if entry(&row, *pivot).is_some() {
-                row = without_factors(eliminated(&row, *pivot, other)?, &self.rows);
+                row = without_factors(eliminated(&row, *pivot, other, &self.work)?, &self.rows);
             }
         }
         // A number as pivot keeps the rest free of denominators; the first column reads best.
@@ -105,7 +119,7 @@ impl Echelon {
         let earlier = self.rows.clone();
         for (other_pivot, other) in &mut self.rows {
             if entry(other, pivot).is_some() {
-                let reduced = without_factors(eliminated(other, pivot, &row)?, &earlier);
+                let reduced = without_factors(eliminated(other, pivot, &row, &self.work)?, &earlier);
                 *other = simplified(reduced, *other_pivot);
             }
         }
@@ -121,12 +135,10 @@ pub(super) fn entry(row: &Row, column: usize) -> Option<&Poly> {
 }
 
 /// `row` times the pivot of `other`, less `other` times the entry of `row` there.
-fn eliminated(row: &Row, pivot: usize, other: &Row) -> Result<Row, TooLarge> {
+fn eliminated(row: &Row, pivot: usize, other: &Row, work: &Work) -> Result<Row, TooLarge> {
     let (Some(here), Some(there)) = (entry(row, pivot), entry(other, pivot)) else { return Ok(row.clone()) };
     let size = |row: &Row| row.iter().map(|(_, entry)| entry.len()).sum::<usize>();
-    if size(row) * there.len() + size(other) * here.len() > TERMS_LIMIT {
-        return Err(TooLarge);
-    }
+    work.spend(size(row) * there.len() + size(other) * here.len())?;
     let mut columns: Vec<usize> = row.iter().chain(other).map(|(column, _)| *column).collect();
     columns.sort_unstable();
     columns.dedup();

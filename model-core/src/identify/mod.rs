@@ -5,11 +5,17 @@
 //! function gives one exact linear equation between the errors and what is seen. Elimination then says which
 //! combinations of errors are determined. Constants do not vary while data are taken, so they are coefficients here, not
 //! functions: a shift and a tilt at the end of a constant arm are one. A constant declared as zero counts as zero, an angle
-//! declared as so many quarter turns as these, any other as a size that no special relation holds for.
+//! declared as so many quarter turns as these, any other as a size that no special relation holds for. Where formulas over all
+//! values of the constants are too large, the answer is that at their declared values (`at_values`).
 
+mod at_values;
+mod cancel;
 mod candidate;
+mod columns;
 mod elimination;
 mod modular;
+mod pair;
+mod place;
 mod words;
 
 use std::collections::BTreeMap;
@@ -19,14 +25,20 @@ use crate::algebra::{AlgebraError, BasisFunction, Poly, Rational};
 use crate::chain::{Chain, Factor, ObservableId};
 use crate::forms::{self, FormError};
 use crate::symbol::{Quantity, SymbolId, SymbolKind};
+use at_values::AtValues;
+use cancel::{cancelled, cancelled_row};
 use elimination::{Echelon, TooLarge, entry};
 use modular::Row;
+use pair::Pair;
 
 pub use candidate::{Candidate, Mistaken, Verdict, mistaken_for};
 pub use words::{mistaken_text, text};
 
 /// What a value is off its own number of quarter turns at most, as a share of it, where only rounding is between them.
 const ROUNDED: f64 = 4.0 * f64::EPSILON;
+
+/// Terms that a form may have on its way to equations; with more, their ratios are beyond use.
+const FORM_LIMIT: usize = 60_000;
 
 /// Quarter turns at most that count as such: beyond, any number is near some.
 const MOST_QUARTERS: f64 = 16.0;
@@ -36,6 +48,8 @@ const MOST_QUARTERS: f64 = 16.0;
 pub struct Identifiability {
     /// Seen together.
     pub observables: Vec<ObservableId>,
+    /// For which constants this holds.
+    pub holds: Holds,
     /// How many errors are declared.
     pub declared: usize,
     /// Errors without any influence.
@@ -46,6 +60,18 @@ pub struct Identifiability {
     pub combinations: Vec<Dependence>,
     /// The combinations of errors that data determine; as many as there are independent columns.
     pub estimable: Vec<Vec<(SymbolId, Poly)>>,
+}
+
+/// For which values of the constants an answer holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Holds {
+    /// For all but special ones; decided by formulas.
+    Everywhere,
+    /// For the declared ones; decided by exact arithmetic at so many random poses, with ratios rounded to six digits.
+    AtDeclaredValues {
+        /// At how many.
+        poses: usize,
+    },
 }
 
 /// A member of a group of errors that are alike.
@@ -81,18 +107,12 @@ pub enum IdentifyError {
     /// An observable has no first-order form.
     #[error(transparent)]
     Form(#[from] FormError),
-    /// The combinations of errors have ratios beyond any use.
+    /// There is a pole at the declared values of the constants.
     #[error(
-        "the ratios between errors are too large as formulas of the constants; write numbers in place of some constants, \
-         or declare them as 0"
+        "an amount has no value at any pose, because a sine or cosine of a constant in a denominator is zero; \
+         declare the constant with another value"
     )]
-    TooLarge,
-}
-
-impl From<TooLarge> for IdentifyError {
-    fn from(_: TooLarge) -> Self {
-        Self::TooLarge
-    }
+    Poles,
 }
 
 /// Computes what can be told apart from observables of a chain, seen together.
@@ -121,11 +141,43 @@ impl From<TooLarge> for IdentifyError {
 /// ```
 pub fn identify(chain: &Chain, observables: &[ObservableId]) -> Result<Identifiability, IdentifyError> {
     let errors: Vec<SymbolId> = chain.symbols_of(SymbolKind::Error).collect();
-    let echelon = equations(chain, observables, &errors, Echelon::default())?;
-    let columns: Vec<Column> = (0..errors.len()).map(|index| Column::new(&echelon, index)).collect();
+    let found = match equations(chain, observables, &errors, Echelon::default()) {
+        Ok(echelon) => {
+            let columns: Vec<Column<Ratio>> =
+                (0..errors.len()).map(|index| Column::new(&echelon, index)).collect();
+            let row = |(pivot, row): &(usize, Row)| {
+                let row = cancelled_row(row, *pivot);
+                row.into_iter().map(|(column, value)| (errors[column], value)).collect()
+            };
+            let estimable = echelon.rows().iter().map(row).collect();
+            answer(&errors, &columns, estimable, Holds::Everywhere)
+        }
+        Err(OutOfReach::ForFormulas) => {
+            let found = AtValues::new(chain, observables, &errors)?;
+            let columns: Vec<Column<Pair>> =
+                (0..errors.len()).map(|index| Column::at_values(&found, index)).collect();
+            let row = |(_, row): &(usize, Vec<Pair>)| {
+                let parts = errors.iter().zip(row).filter(|(_, value)| !value.is_zero());
+                parts.map(|(error, value)| (*error, value.ratio().numerator)).collect()
+            };
+            let estimable = found.rows.iter().map(row).collect();
+            answer(&errors, &columns, estimable, Holds::AtDeclaredValues { poses: found.poses })
+        }
+        Err(OutOfReach::For(error)) => return Err(error.into()),
+    };
+    Ok(Identifiability { observables: observables.to_vec(), ..found })
+}
+
+/// What columns and combinations say; the observables are still to be named.
+fn answer<Q: Quotient>(
+    errors: &[SymbolId],
+    columns: &[Column<Q>],
+    estimable: Vec<Vec<(SymbolId, Poly)>>,
+    holds: Holds,
+) -> Identifiability {
     let invisible =
         columns.iter().filter(|column| column.is_zero()).map(|column| errors[column.index]).collect();
-    let mut groups: Vec<Vec<(usize, Ratio)>> = Vec::new();
+    let mut groups: Vec<Vec<(usize, Q)>> = Vec::new();
     for column in columns.iter().filter(|column| !column.is_zero()) {
         let found = groups.iter_mut().find_map(|group| {
             let ratio = column.over(&columns[group[0].0])?;
@@ -133,7 +185,7 @@ pub fn identify(chain: &Chain, observables: &[ObservableId]) -> Result<Identifia
         });
         match found {
             Some((group, ratio)) => group.push((column.index, ratio)),
-            None => groups.push(vec![(column.index, Ratio::one())]),
+            None => groups.push(vec![(column.index, Q::one())]),
         }
     }
     // A group that is no multiple of one pivot is a combination of several.
@@ -143,27 +195,52 @@ pub fn identify(chain: &Chain, observables: &[ObservableId]) -> Result<Identifia
         .filter(|column| column.parts.len() > 1)
         .map(|column| Dependence {
             error: errors[column.index],
-            others: column.parts.iter().map(|(pivot, ratio)| (errors[*pivot], ratio.clone())).collect(),
+            others: column.parts.iter().map(|(pivot, ratio)| (errors[*pivot], ratio.ratio())).collect(),
         })
         .collect();
+    let member = |(index, ratio): (usize, Q)| Alike { error: errors[index], ratio: ratio.ratio() };
     let alike = groups
         .into_iter()
         .filter(|group| group.len() > 1)
-        .map(|group| group.into_iter().map(|(index, ratio)| Alike { error: errors[index], ratio }).collect())
+        .map(|group| group.into_iter().map(member).collect())
         .collect();
-    let estimable = echelon
-        .rows()
-        .iter()
-        .map(|(_, row)| row.iter().map(|(column, value)| (errors[*column], value.clone())).collect())
-        .collect();
-    Ok(Identifiability {
-        observables: observables.to_vec(),
+    Identifiability {
+        observables: Vec::new(),
+        holds,
         declared: errors.len(),
         invisible,
         alike,
         combinations,
         estimable,
-    })
+    }
+}
+
+/// Why there are no formulas over all values of the constants.
+#[derive(Debug)]
+enum OutOfReach {
+    /// They are too large, or what is shown has none.
+    ForFormulas,
+    /// Nothing can be said at all.
+    For(FormError),
+}
+
+impl From<TooLarge> for OutOfReach {
+    fn from(_: TooLarge) -> Self {
+        Self::ForFormulas
+    }
+}
+
+impl From<FormError> for OutOfReach {
+    fn from(error: FormError) -> Self {
+        match error {
+            FormError::Root { .. } | FormError::Factor { error: AlgebraError::TooLarge, .. } => {
+                Self::ForFormulas
+            }
+            FormError::Factor { .. } | FormError::NotSmooth { .. } | FormError::NotExact { .. } => {
+                Self::For(error)
+            }
+        }
+    }
 }
 
 /// One equation for each observable, axis and basis function, added to an echelon. Columns are indices into `errors`.
@@ -172,19 +249,20 @@ fn equations(
     observables: &[ObservableId],
     errors: &[SymbolId],
     mut echelon: Echelon,
-) -> Result<Echelon, IdentifyError> {
+) -> Result<Echelon, OutOfReach> {
     let mut equations: Vec<Row> = Vec::new();
     let special = special(chain);
     let varies = |symbol: SymbolId| {
         matches!(chain.symbol(symbol).kind, SymbolKind::Joint | SymbolKind::Input | SymbolKind::Ramp)
     };
     for &observable in observables {
-        let columns = forms::derive(&without_placement(chain, observable), observable, 1)?.columns(chain);
+        let form = forms::derive_within(&without_placement(chain, observable), observable, 1, FORM_LIMIT)?;
+        let columns = form.columns(chain);
         for axis in 0..3 {
             let mut rows: BTreeMap<BasisFunction, Row> = BTreeMap::new();
             for (index, error) in errors.iter().enumerate() {
-                let column = columns.iter().find(|(symbol, _)| symbol == error);
-                let Some((_, components)) = column else { continue };
+                let Ok(column) = columns.binary_search_by_key(error, |(symbol, _)| *symbol) else { continue };
+                let components = &columns[column].1;
                 for (function, coefficient) in
                     put_in_where_possible(&components[axis], &special).split_by(varies)
                 {
@@ -259,13 +337,22 @@ fn put_in_where_possible(formula: &Poly, values: &[(SymbolId, Poly)]) -> Poly {
     })
 }
 
-/// The influence of an error as a combination of the pivots' influences.
-struct Column {
-    index: usize,
-    parts: Vec<(usize, Ratio)>,
+/// Quotients of what errors do, as columns are compared by them.
+trait Quotient: Clone {
+    fn one() -> Self;
+    fn over(&self, other: &Self) -> Self;
+    fn equals(&self, other: &Self) -> bool;
+    /// As a formula of the constants.
+    fn ratio(&self) -> Ratio;
 }
 
-impl Column {
+/// The influence of an error as a combination of the pivots' influences.
+struct Column<Q> {
+    index: usize,
+    parts: Vec<(usize, Q)>,
+}
+
+impl Column<Ratio> {
     fn new(echelon: &Echelon, index: usize) -> Self {
         let part = |(pivot, row): &(usize, Row)| {
             let (numerator, denominator) = (entry(row, index)?.clone(), entry(row, *pivot)?.clone());
@@ -273,13 +360,25 @@ impl Column {
         };
         Self { index, parts: echelon.rows().iter().filter_map(part).collect() }
     }
+}
 
+impl Column<Pair> {
+    fn at_values(found: &AtValues, index: usize) -> Self {
+        let part = |(pivot, row): &(usize, Vec<Pair>)| {
+            let value = row[index];
+            (!value.is_zero()).then_some((*pivot, value))
+        };
+        Self { index, parts: found.rows.iter().filter_map(part).collect() }
+    }
+}
+
+impl<Q: Quotient> Column<Q> {
     fn is_zero(&self) -> bool {
         self.parts.is_empty()
     }
 
     /// This over another column, if it is a multiple of it.
-    fn over(&self, other: &Self) -> Option<Ratio> {
+    fn over(&self, other: &Self) -> Option<Q> {
         let ((pivot, first), (other_pivot, other_first)) = (self.parts.first()?, other.parts.first()?);
         let ratio = first.over(other_first);
         let same = pivot == other_pivot
@@ -294,10 +393,6 @@ impl Column {
 }
 
 impl Ratio {
-    fn one() -> Self {
-        Self { numerator: Poly::one(), denominator: Poly::one() }
-    }
-
     fn new(numerator: Poly, denominator: Poly) -> Self {
         if numerator == denominator {
             return Self::one();
@@ -307,6 +402,12 @@ impl Ratio {
             None => Self { numerator, denominator },
         }
     }
+}
+
+impl Quotient for Ratio {
+    fn one() -> Self {
+        Self { numerator: Poly::one(), denominator: Poly::one() }
+    }
 
     fn over(&self, other: &Self) -> Self {
         Self::new(&self.numerator * &other.denominator, &self.denominator * &other.numerator)
@@ -314,5 +415,9 @@ impl Ratio {
 
     fn equals(&self, other: &Self) -> bool {
         &self.numerator * &other.denominator == &other.numerator * &self.denominator
+    }
+
+    fn ratio(&self) -> Ratio {
+        cancelled(self)
     }
 }

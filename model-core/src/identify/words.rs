@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Identifiability, Mistaken, Ratio, Verdict};
+use super::{Holds, Identifiability, Mistaken, Ratio, Verdict};
 use crate::algebra::Poly;
 use crate::chain::{Chain, ObservableId};
 use crate::print;
@@ -18,6 +18,13 @@ pub fn text(found: &Identifiability, chain: &Chain) -> String {
         found.declared,
         found.estimable.len()
     );
+    if let Holds::AtDeclaredValues { poses } = found.holds {
+        lines.push_str("  at the declared values of the constants: formulas for all values are too large\n");
+        let _ = writeln!(
+            lines,
+            "  exact arithmetic at {poses} random poses decides; factors are rounded to six digits"
+        );
+    }
     if !found.invisible.is_empty() {
         let names: Vec<String> = found.invisible.iter().map(name).collect();
         let _ = writeln!(lines, "  without influence: {}", names.join(", "));

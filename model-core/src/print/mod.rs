@@ -8,6 +8,8 @@ mod collect;
 mod fraction;
 mod notation;
 mod pieces;
+mod steps;
+mod table;
 
 use crate::algebra::{Poly, Rational};
 use crate::chain::Chain;
@@ -18,6 +20,8 @@ use notation::{Latex, Notation, Text};
 use pieces::Piece;
 
 pub use pieces::Hand;
+pub use steps::steps;
+pub use table::table;
 
 /// How a formula is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -66,6 +70,14 @@ pub fn by_hand(poly: &Poly, chain: &Chain, style: Style, hand: &Hand) -> String 
         Style::Latex => write_sum(poly, chain, &Latex, hand),
         Style::Markdown => format!("${}$", write_sum(poly, chain, &Latex, hand)),
     }
+}
+
+/// Whether a formula is written in one product, or as zero.
+#[must_use]
+pub fn is_short(poly: &Poly) -> bool {
+    let groups = groups(poly);
+    let functions = |angular: &Poly| pieces::shortest(angular, &Hand::default()).len();
+    groups.iter().map(|group| group.monomials.len() * functions(&group.angular)).sum::<usize>() <= 1
 }
 
 /// The components of a form, one a line, each with its name; in LaTeX as an `aligned` block, in Markdown as a list.

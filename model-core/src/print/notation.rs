@@ -23,12 +23,20 @@ pub(super) trait Notation {
     fn product(&self, factors: &[String]) -> String;
 }
 
+/// A number that somebody wrote as a decimal: exact in a few digits, and no plain fraction such as 3/8.
+fn decimal(value: &Rational) -> Option<String> {
+    /// Halves and their like come from squares of sines, and are fractions.
+    const DYADIC: i64 = 64;
+    let is_dyadic = (value * &Rational::from(DYADIC)).to_integer().is_some();
+    if is_dyadic { None } else { value.to_decimal() }
+}
+
 /// The plain syntax of amounts.
 pub(super) struct Text;
 
 impl Notation for Text {
     fn number(&self, value: &Rational) -> String {
-        value.to_string()
+        decimal(value).unwrap_or_else(|| value.to_string())
     }
 
     fn power(&self, symbol: &Symbol, power: u32) -> String {
@@ -77,9 +85,10 @@ pub(super) struct Latex;
 
 impl Notation for Latex {
     fn number(&self, value: &Rational) -> String {
-        match value.to_integer() {
-            Some(whole) => whole.to_string(),
-            None => format!("\\frac{{{}}}{{{}}}", value.numerator(), value.denominator()),
+        match (value.to_integer(), decimal(value)) {
+            (Some(whole), _) => whole.to_string(),
+            (_, Some(decimal)) => decimal,
+            _ => format!("\\frac{{{}}}{{{}}}", value.numerator(), value.denominator()),
         }
     }
 

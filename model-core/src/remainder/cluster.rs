@@ -4,11 +4,14 @@
 //! as vectors there, and not as lengths. Between clusters stand rotations by joints and constants, which keep lengths.
 
 use super::domain::{Domain, DomainError};
+use super::interval::Interval;
 use super::quadratic::{Amount, Linear, Quadratic};
+use super::reach::Turn;
 use super::upper::Upper;
 use crate::algebra::{AngleSum, Poly};
 use crate::chain::{Chain, ObservableId, ObservableKind, TransformKind};
 use crate::forms::error_table;
+use crate::symbol::SymbolId;
 
 /// A rotation by a small amount, or a vector to be carried to the ground, along an axis of the cluster's frame.
 #[derive(Debug)]
@@ -21,6 +24,8 @@ pub(super) enum Element {
 #[derive(Debug, Default)]
 pub(super) struct Cluster {
     pub(super) elements: Vec<Element>,
+    /// How the next one is turned against it; the last has none.
+    pub(super) turn: Option<Turn>,
 }
 
 /// The clusters of an observable, from the ground up; its own vector ends the last one.
@@ -50,6 +55,10 @@ pub(super) fn clusters(
                         Some(true) => frame.swap((axis + 1) % 3, (axis + 2) % 3),
                         Some(false) => {}
                         None => {
+                            // What has no range turns freely.
+                            let free = |_| Interval::new(Interval::turn());
+                            let angle = domain.enclose(chain, &nominal).unwrap_or_else(free);
+                            cluster.turn = Some(Turn::new(frame, axis, angle));
                             clusters.push(std::mem::take(&mut cluster));
                             frame = [0, 1, 2];
                         }
@@ -78,7 +87,7 @@ fn odd_quarter_turns(nominal: &Poly) -> Option<bool> {
 }
 
 /// The axis across two different ones; `None` if they are the same: the cross product of coordinate axes.
-fn across(a: usize, b: usize) -> Option<usize> {
+pub(super) fn across(a: usize, b: usize) -> Option<usize> {
     (a != b).then(|| 3 - a - b)
 }
 
@@ -110,6 +119,26 @@ impl Cluster {
             sum[axis] = sum[axis] + amount.nominal;
         }
         sum
+    }
+
+    /// The amounts of its elements.
+    pub(super) fn amounts(&self) -> impl Iterator<Item = &Amount> {
+        self.elements.iter().map(|element| match element {
+            Element::Rotation(_, amount) | Element::Vector(_, amount) => amount,
+        })
+    }
+
+    /// The same with the parts of some errors only.
+    pub(super) fn only(&self, keep: impl Fn(SymbolId) -> bool + Copy) -> Self {
+        let elements = self.elements.iter().map(|element| match element {
+            Element::Rotation(axis, amount) => Element::Rotation(*axis, amount.only(keep)),
+            Element::Vector(axis, amount) => Element::Vector(*axis, amount.only(keep)),
+        });
+        let is_there = |element: &Element| match element {
+            Element::Rotation(_, amount) => !amount.is_zero(),
+            Element::Vector(_, amount) => !amount.is_zero(),
+        };
+        Self { elements: elements.filter(is_there).collect(), turn: self.turn }
     }
 
     /// The part of degree one of the vectors in the cluster's frame, by axis: θ × v₀ + v₁.

@@ -181,7 +181,14 @@ impl Domain {
         if size.is_zero() {
             return Ok(size);
         }
-        // Sines and cosines are at most one; over a pole, they go with it.
+        // Sines and cosines are at most one, and less in a range; over a pole, they go with it.
+        for wave in term.waves.iter().filter(|wave| term.poles.iter().all(|pole| pole.symbol != wave.symbol))
+        {
+            let Some(range) = self.range(wave.symbol) else { continue };
+            let angle = Interval::new(range) * Interval::exact(f64::from(wave.harmonic));
+            let value = if wave.wave == Wave::Sin { angle.sin() } else { angle.cos() };
+            size = size * Upper::exact(value.magnitude()).min(Upper::ONE);
+        }
         for pole in &term.poles {
             let wave = term.waves.iter().find(|wave| wave.symbol == pole.symbol).map(|wave| wave.wave);
             size = size * self.pole(chain, pole, wave)?;

@@ -11,12 +11,16 @@ mod cluster;
 mod domain;
 mod enclose;
 mod interval;
+mod isometry;
 mod majorant;
 mod parameter;
 mod poles;
 mod quadratic;
+mod reach;
 mod search;
+mod shares;
 mod sight;
+mod sums;
 mod turned;
 mod upper;
 mod vector;
@@ -50,13 +54,18 @@ pub struct Bound {
 /// What a bound is made of.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Parts {
-    /// Of components, of which the whole vector is bounded: the two numbers add up to the bound, rounded up.
+    /// Of components, of which the whole vector is bounded: the two numbers add up to the bound, rounded up, unless the
+    /// errors are so large that less than their sum is possible.
     Vector {
         /// For products of two errors.
         second_order: f64,
         /// For products of three errors and more.
         tail: f64,
-        /// What share of `second_order` each pair of errors has, largest first. They add up to one.
+        /// Whether the bound is their sum. If not, it is what turns and shifts by such errors can do at all.
+        is_sum: bool,
+        /// What share each pair of errors has in the products of two errors, as their lengths add up, largest first. All pairs
+        /// together have a share of one; of
+        /// more than 500 errors the pairs of the 500 largest are listed.
         shares: Vec<PairShare>,
     },
     /// The bound of each reading, in order.
@@ -103,11 +112,13 @@ pub fn bound(chain: &Chain, observable: ObservableId, domain: &Domain) -> Result
     let shown = chain.observable(observable);
     has_first_order(chain, observable)?;
     if shown.has_components_only() {
-        let whole = vector::bound(chain, observable, domain)?;
+        let clusters = cluster::clusters(chain, observable, domain)?;
+        let whole = vector::of_clusters(&clusters);
         let parts = Parts::Vector {
             second_order: whole.second_order.get(),
             tail: whole.tail.get(),
-            shares: whole.shares(),
+            is_sum: whole.is_by_degree(),
+            shares: shares::shares(&clusters),
         };
         return Ok(Bound { observable, value: whole.remainder().get(), parts });
     }

@@ -59,6 +59,21 @@ impl Amount {
         Ok(result)
     }
 
+    /// The parts of some errors only.
+    pub(super) fn only(&self, keep: impl Fn(SymbolId) -> bool) -> Self {
+        let mut first = Linear::default();
+        for &(error, size) in self.first.parts.iter().filter(|(error, _)| keep(*error)) {
+            first.push(error, size);
+        }
+        let second = self.second.iter().filter(|(one, other, _)| keep(*one) && keep(*other));
+        Self { first, second: second.copied().collect(), ..*self }
+    }
+
+    /// Whether nothing is there.
+    pub(super) fn is_zero(&self) -> bool {
+        self.nominal.is_zero() && self.first.parts.is_empty() && self.second.is_empty() && self.tail.is_zero()
+    }
+
     pub(super) fn second_sum(&self) -> Upper {
         self.second.iter().map(|&(_, _, size)| size).sum()
     }
@@ -76,30 +91,25 @@ impl Linear {
     }
 }
 
-impl Quadratic<'_> {
-    pub(super) fn size(&self) -> Upper {
-        match self {
-            Self::Product { scale, left, right } => *scale * left.sum * right.sum,
-            Self::Pairs { scale, pairs } => *scale * pairs.iter().map(|&(_, _, size)| size).sum(),
-        }
-    }
-}
-
-/// How much each unordered pair of errors contributes; for information, so without directed rounding.
+/// How much each unordered pair of some errors contributes; for information, so without directed rounding.
 #[derive(Debug, Clone)]
 pub(super) struct PairTable {
-    symbols: usize,
+    /// In order.
+    errors: Vec<SymbolId>,
+    /// A row for each error; of pairs the one with the earlier error first.
     values: Vec<f64>,
 }
 
 impl PairTable {
-    pub(super) fn new(symbols: usize) -> Self {
-        Self { symbols, values: vec![0.0; symbols * symbols] }
+    pub(super) fn new(errors: &[SymbolId]) -> Self {
+        Self { errors: errors.to_vec(), values: vec![0.0; errors.len() * errors.len()] }
     }
 
     fn add(&mut self, one: SymbolId, other: SymbolId, value: f64) {
-        let (low, high) = (one.min(other).index(), one.max(other).index());
-        self.values[low * self.symbols + high] += value;
+        let place = |error: SymbolId| self.errors.binary_search(&error).ok();
+        if let (Some(low), Some(high)) = (place(one.min(other)), place(one.max(other))) {
+            self.values[low * self.errors.len() + high] += value;
+        }
     }
 
     pub(super) fn add_table(&mut self, weight: f64, other: &Self) {
@@ -137,11 +147,8 @@ impl PairTable {
 
     /// The pairs that contribute.
     pub(super) fn entries(&self) -> impl Iterator<Item = (SymbolId, SymbolId, f64)> + '_ {
-        let id = |index: usize| SymbolId(u16::try_from(index).unwrap_or(u16::MAX));
-        self.values
-            .iter()
-            .enumerate()
-            .filter(|(_, value)| **value > 0.0)
-            .map(move |(index, &value)| (id(index / self.symbols), id(index % self.symbols), value))
+        let count = self.errors.len();
+        let places = self.values.iter().enumerate().filter(|(_, value)| **value > 0.0);
+        places.map(move |(index, &value)| (self.errors[index / count], self.errors[index % count], value))
     }
 }

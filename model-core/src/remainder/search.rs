@@ -1,9 +1,11 @@
 //! A search for the largest remainder in a domain: many starts, each climbing one symbol at a time.
 
+use nalgebra::Vector3;
+
 use super::domain::{Domain, DomainError};
 use super::has_first_order;
 use crate::chain::{Chain, ObservableId};
-use crate::exact::Path;
+use crate::exact::{Each, Path};
 use crate::symbol::{SymbolId, SymbolKind};
 
 /// The largest remainder that a search found, and where.
@@ -21,6 +23,10 @@ const GRID: u32 = 12;
 const REFINEMENTS: u32 = 12;
 /// Rounds over all symbols after which a climb ends in any case.
 const ROUNDS: u32 = 30;
+/// Errors in wider ranges may do most inside of them; of others only the ends are tried.
+const WIDE: f64 = 1.0;
+/// Evaluations times errors after which no more starts are made and no more rounds: seconds.
+const WORK: usize = 30_000_000;
 
 /// Searches a domain for the largest |exact − first order| of an observable. The same seed finds the same.
 ///
@@ -45,6 +51,7 @@ pub fn search(
         match (symbol.kind, domain.range(id)) {
             // The path gives ramps their values.
             (SymbolKind::Pi | SymbolKind::Constant | SymbolKind::Ramp, _) => {}
+            (SymbolKind::Error, Some([low, high])) if high - low > WIDE => climbed.push((id, [low, high])),
             (SymbolKind::Error, Some([low, high])) if low < high => cornered.push((id, [low, high])),
             (SymbolKind::Error, _) => {}
             (_, Some(range)) => climbed.push((id, range)),
@@ -54,36 +61,54 @@ pub fn search(
             }
         }
     }
+    let each = Each::new(chain, observable);
+    let size = path.symbols().len();
+    let mut work = 0;
     let mut random = Random(seed);
     // Without errors nothing remains.
     let mut best = Found { value: 0.0, values: nominal.clone() };
     for _ in 0..starts {
         let mut values = nominal.clone();
-        for &(id, [low, high]) in &cornered {
-            values[id.index()] = if random.uniform() < 0.5 { low } else { high };
-        }
         for &(id, [low, high]) in &climbed {
             values[id.index()] = low + (high - low) * random.uniform();
+        }
+        // What errors do together to second order is large where they add up to first: each at the end that moves the vector
+        // to the same side.
+        let side = Vector3::from_fn(|_, _| 2.0 * random.uniform() - 1.0);
+        chain.set_ramps(&mut values);
+        let (_, slopes) = each.slopes(&values);
+        for &(id, [low, high]) in &cornered {
+            let there = each.errors().binary_search(&id).map_or(0.0, |index| slopes[index].dot(&side));
+            let end = if there == 0.0 { 2.0 * random.uniform() - 1.0 } else { there };
+            values[id.index()] = if end < 0.0 { low } else { high };
         }
         let start = length(&values);
         // On a pole there is no value; the climb leads away from it.
         let mut found = Found { value: if start.is_finite() { start } else { 0.0 }, values };
         for _ in 0..ROUNDS {
             let before = found.value;
+            for &(id, range) in &climbed {
+                found.climb(id, range, length);
+            }
             for &(id, range) in &cornered {
                 for end in range {
                     found.try_value(id, end, length);
                 }
+                work += 2 * size;
+                if work > WORK {
+                    break;
+                }
             }
-            for &(id, range) in &climbed {
-                found.climb(id, range, length);
-            }
-            if found.value <= before * (1.0 + 1e-9) {
+            work += size * climbed.len() * (GRID + 2 * REFINEMENTS) as usize;
+            if found.value <= before * (1.0 + 1e-9) || work > WORK {
                 break;
             }
         }
         if found.value > best.value {
             best = found;
+        }
+        if work > WORK {
+            break;
         }
     }
     Ok(best)

@@ -40,6 +40,10 @@ impl Upper {
         Self(self.0.max(other.0))
     }
 
+    pub(super) fn min(self, other: Self) -> Self {
+        Self(self.0.min(other.0))
+    }
+
     /// This over a number that is known to be at least so large; `None` unless that is above zero.
     pub(super) fn over(self, least: f64) -> Option<Self> {
         if least > 0.0 {

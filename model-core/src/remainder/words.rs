@@ -26,6 +26,9 @@ pub fn text(bound: &Bound, found: Option<&Found>, chain: &Chain) -> String {
     let mut lines =
         format!("{}: |exact - first order| is never more than {:.4e}{unit}\n", observable.name, bound.value);
     match &bound.parts {
+        Parts::Vector { is_sum: false, .. } => {
+            lines.push_str("  errors this large: the bound is what turns and shifts by them can do at all\n");
+        }
         Parts::Vector { second_order, tail, .. } => {
             let _ = writeln!(
                 lines,
@@ -63,9 +66,9 @@ fn write_shares(lines: &mut String, shares: &[PairShare], chain: &Chain) {
         let (one, other) = (&chain.symbol(pair.one).name, &chain.symbol(pair.other).name);
         let _ = writeln!(lines, "    {:5.1} %  {one} * {other}", 100.0 * pair.share);
     }
-    let rest: f64 = shares.iter().skip(LISTED).map(|pair| pair.share).sum();
-    if rest > 0.0 {
-        let count = shares.len() - LISTED;
+    let rest = 1.0 - shares.iter().take(LISTED).map(|pair| pair.share).sum::<f64>();
+    let count = shares.len().saturating_sub(LISTED);
+    if count > 0 {
         let _ = writeln!(lines, "    {:5.1} %  {count} other pairs", 100.0 * rest);
     }
 }

@@ -5,7 +5,7 @@ use proc_macro2::Span;
 use super::scope::Scope;
 use super::words;
 use crate::algebra::{AlgebraError, Poly};
-use crate::amount::LowerError;
+use crate::amount::{AngleNumber, LowerError};
 use crate::chain::{Axis, Role, TransformKind};
 use crate::expr::Expr;
 use crate::mistake::Mistake;
@@ -54,7 +54,7 @@ pub fn collect<'a>(
     let mut amounts = Vec::new();
     let mut add = |written: Option<&'a Expr<Span>>, purpose| {
         if let Some(written) = written {
-            let value = canonical(written, scope, mistakes);
+            let value = canonical(written, scope, mistakes).map(|value| turned(value, &purpose, scope));
             amounts.push(Amount { written, purpose, value });
         }
     };
@@ -87,6 +87,21 @@ pub fn collect<'a>(
     amounts
 }
 
+/// An amount that turns by design, with the constant that a number in it stands for.
+fn turned(value: Poly, purpose: &Purpose<'_>, scope: &Scope) -> Poly {
+    let (role, TransformKind::Rotation) = (match purpose {
+        Purpose::Factor { role, kind, .. } => (*role, *kind),
+        Purpose::Component(_) | Purpose::Gravity => return value,
+    }) else {
+        return value;
+    };
+    if !matches!(role, Role::Position | Role::Motion) {
+        return value;
+    }
+    let named = AngleNumber::in_amount(&value).and_then(|number| Some((scope.find(&number.name)?, number)));
+    named.map_or(value, |(symbol, number)| number.replaced(symbol))
+}
+
 /// The canonical form of an amount. Unknown names and wrong arguments of functions have rules of their own.
 fn canonical(written: &Expr<Span>, scope: &Scope, mistakes: &mut Vec<Mistake<Span>>) -> Option<Poly> {
     let lowered = Poly::from_expr_with_ramps(
@@ -107,7 +122,7 @@ fn canonical(written: &Expr<Span>, scope: &Scope, mistakes: &mut Vec<Mistake<Spa
         LowerError::Algebra { error, place } => mistakes.push(match error {
             AlgebraError::NotAnAngle => Mistake::new(
                 place,
-                "a sine or cosine can be taken of whole multiples of angles and of pi/2 only",
+                "a sine or cosine can be taken of numbers and of whole multiples of angles only",
             )
             .with_help("declare any other angle: `const tilt: angle = pi/6;`, and write `tilt` here"),
             AlgebraError::NotDivisible => {

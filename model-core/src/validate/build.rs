@@ -179,7 +179,7 @@ fn symbols(subject: &Subject<'_>) -> Vec<Symbol> {
                 .map_or_else(|| printed_form::latex(&entry.name), |latex| (*latex).to_owned()),
             value: match entry.kind {
                 SymbolKind::Pi => Some(std::f64::consts::PI),
-                _ => values.get(&entry.name).copied(),
+                _ => entry.value.or_else(|| values.get(&entry.name).copied()),
             },
         })
         .collect()

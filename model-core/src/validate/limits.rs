@@ -10,7 +10,7 @@ const MOST_BODIES: usize = 3000;
 /// Observables of one chain.
 const MOST_OBSERVABLES: usize = 1000;
 /// Factors of one chain.
-const MOST_FACTORS: usize = 10_000;
+const MOST_FACTORS: usize = 20_000;
 
 /// The first of the bodies, observables or factors that are too many.
 pub fn beyond(declaration: &Declaration) -> Option<Mistake<Span>> {

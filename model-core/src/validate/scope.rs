@@ -11,7 +11,8 @@ use proc_macro2::Span;
 
 use super::words;
 use crate::algebra::Poly;
-use crate::chain::Role;
+use crate::amount::AngleNumber;
+use crate::chain::{Role, TransformKind};
 use crate::expr::{Expr, Node};
 use crate::ramp::Ramp;
 use crate::symbol::{Meaning, Quantity, SymbolId, SymbolKind};
@@ -30,6 +31,8 @@ pub struct Entry {
     pub meaning: Option<Meaning>,
     /// Documentation of its statement, else of the factor or list where it is first used.
     pub documentation: String,
+    /// The value of a constant that is written as a number where it is used, rad.
+    pub value: Option<f64>,
 }
 
 /// Every name that amounts may use.
@@ -52,6 +55,7 @@ impl Scope {
             quantity: Some(Quantity::Number),
             meaning: None,
             documentation: "The ratio of a circle's circumference to its diameter.".to_owned(),
+            value: None,
         });
         let fixed = fixed_kinds(declaration);
         for statement in &declaration.statements {
@@ -62,6 +66,7 @@ impl Scope {
                     quantity: Some(words::stated_quantity(constant.quantity.as_ref())),
                     meaning: None,
                     documentation: constant.documentation.clone(),
+                    value: None,
                 }),
                 Statement::Input(input) => {
                     let meaning =
@@ -72,6 +77,7 @@ impl Scope {
                         quantity: Some(meaning.map_or(Quantity::Number, Meaning::quantity)),
                         meaning,
                         documentation: input.documentation.clone(),
+                        value: None,
                     });
                 }
                 Statement::Body(body) => scope.declare_used(body, &fixed),
@@ -83,8 +89,36 @@ impl Scope {
                 scope.entries[id.index()].documentation.clone_from(&symbol.documentation);
             }
         }
+        scope.declare_angles(declaration);
         scope.declare_ramps(declaration);
         scope
+    }
+
+    /// The angles that are written as numbers, each a constant of its own.
+    fn declare_angles(&mut self, declaration: &Declaration) {
+        let mut amounts: Vec<&Expr<Span>> = Vec::new();
+        for group in declaration.bodies().flat_map(|body| &body.groups) {
+            let turns = |factor: &&FactorTerm| {
+                words::transform(&factor.axis).is_some_and(|(kind, _)| kind == TransformKind::Rotation)
+            };
+            if matches!(words::likely_role(&group.role), Some(Role::Position | Role::Motion)) {
+                amounts
+                    .extend(group.factors.iter().filter(turns).filter_map(|factor| factor.amount.as_ref()));
+            }
+        }
+        declaration.amounts().for_each(|amount| amount.arguments(&mut amounts));
+        for amount in amounts {
+            let Ok(value) = Poly::from_expr(amount, |name| self.find(name), |_| true) else { continue };
+            let Some(number) = AngleNumber::in_amount(&value) else { continue };
+            self.declare(Entry {
+                name: number.name,
+                kind: SymbolKind::Constant,
+                quantity: Some(Quantity::Angle),
+                meaning: None,
+                documentation: "An angle that is written as a number.".to_owned(),
+                value: Some(number.value_rad),
+            });
+        }
     }
 
     /// The joints that a body's motions and the errors that its factors use first.
@@ -110,6 +144,7 @@ impl Scope {
                         quantity: None,
                         meaning: None,
                         documentation: documentation.to_owned(),
+                        value: None,
                     });
                     if role == Role::Motion {
                         self.moved_by(name, factor, documentation);
@@ -135,6 +170,7 @@ impl Scope {
                 quantity: Some(Quantity::Number),
                 meaning: None,
                 documentation: String::new(),
+                value: None,
             });
             if let Some(symbol) = self.find(&name) {
                 self.ramps.push(Ramp { symbol, of, from, to });

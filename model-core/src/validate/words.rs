@@ -108,7 +108,12 @@ pub fn is_reserved(word: &str) -> bool {
         "Self", "static", "struct", "super", "trait", "true", "try", "type", "typeof", "unsafe", "unsized",
         "use", "virtual", "where", "while", "yield",
     ];
+    // As a constant is called whose angle is written as a number.
+    let is_of_number = word.strip_prefix("angle_").is_some_and(|rest| {
+        rest.starts_with(|c: char| c.is_ascii_digit()) && (rest.ends_with("_deg") || rest.ends_with("_rad"))
+    });
     word == "_"
+        || is_of_number
         || word == "pi"
         || word == GROUND
         || word == crate::syntax::RAMP

@@ -6,6 +6,7 @@
 mod columns;
 mod numbers;
 mod printed;
+mod steps;
 
 use model_core::Chain;
 

@@ -1,5 +1,6 @@
 //! The language: what texts mean, and what is said of texts that mean nothing.
 
+mod angles;
 mod constants;
 mod examples;
 mod inputs;

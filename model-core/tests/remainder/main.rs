@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod angles;
+mod large;
 mod limits;
 mod mobile_lidar;
 mod random_chains;

@@ -33,10 +33,11 @@ fn the_bound_is_within_twice_the_largest_difference_found() {
         let found = search(&chain, id, &domain, 60, 1).unwrap();
         let ratio = bound.value / found.value;
         assert!((1.0..=2.0).contains(&ratio), "{observable}: {ratio}");
-        let Parts::Vector { second_order, tail, shares } = &bound.parts else { unreachable!("a vector") };
+        let Parts::Vector { second_order, tail, shares, is_sum: true } = &bound.parts else {
+            unreachable!("a vector")
+        };
         let shares: f64 = shares.iter().map(|pair| pair.share).sum();
         assert!((shares - 1.0).abs() < 1e-12, "{observable}: {shares}");
-        // What the shares divide up is the bound of second order itself, not only something like it.
         assert!(bound.value <= (second_order + tail) * (1.0 + 1e-15));
     }
 }

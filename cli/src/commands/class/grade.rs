@@ -10,7 +10,7 @@ use serde_json::json;
 use crate::commands::Answer;
 use crate::failure::Failure;
 use crate::output::Folder;
-use crate::source::Source;
+use crate::source;
 use crate::terminal;
 
 /// The longest file of a student that is read, bytes: many times what an answer needs.
@@ -52,7 +52,7 @@ enum Format {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let source = Source::read(&arguments.key)?;
+    let source = source::read(&arguments.key)?;
     let told = |error: KeyError| Failure::Input(format!("`{}`: {error}", arguments.key.display()));
     let key = Key::of(&source.text).map_err(told)?;
     if !arguments.answers.is_dir() {
@@ -66,7 +66,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let progress = terminal::progress();
     let mut marked = Vec::new();
     for student in &key.students {
-        progress.set_message(format!("grading {}", student.folder));
+        progress.say(&format!("grading {}", student.folder));
         let folder = arguments.answers.join(&student.folder);
         let handed = Handed { answer: handed_in(&folder, ANSWER), declaration: handed_in(&folder, AMENDED) };
         marked.push(grade(&key, student, &handed).map_err(told)?);
@@ -75,11 +75,11 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     if let Some(out) = &arguments.out {
         write(out, &marked)?;
     }
-    terminal::print(&match arguments.format {
-        Format::Text => table(&marked),
-        Format::Csv => csv(&marked),
-        Format::Json => format!("{:#}\n", json!({ "full": full(), "students": marked })),
-    })?;
+    match arguments.format {
+        Format::Text => terminal::print(table(&marked))?,
+        Format::Csv => terminal::print(csv(&marked))?,
+        Format::Json => terminal::print_json(&json!({ "full": full(), "students": marked }))?,
+    }
     Ok(Answer::Done)
 }
 

@@ -9,7 +9,7 @@ use tables::formats::{self, Cells, Form, Options, Wanted};
 use crate::commands::Answer;
 use crate::failure::Failure;
 use crate::output::{self, Folder};
-use crate::source::Source;
+use crate::source;
 use crate::terminal;
 
 /// Shorter seeds can be found by trying.
@@ -104,7 +104,7 @@ fn require_new(out: &Path, key: &Path) -> Result<(), Failure> {
 
 /// The names of the list, in its order.
 fn names(path: &Path) -> Result<Vec<String>, Failure> {
-    let list = Source::read(path)?;
+    let list = source::read(path)?;
     let name = path.display().to_string();
     let told = |error: formats::DataError| Failure::Input(error.to_string());
     let mut reader = formats::open(list.text.as_bytes(), &name, &Options::default()).map_err(told)?;

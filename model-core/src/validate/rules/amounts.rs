@@ -10,7 +10,6 @@ use super::super::words::is_reserved;
 use super::names::unknown_name;
 use crate::algebra::{AngleSum, Poly};
 use crate::chain::{Role, TransformKind};
-use crate::expr::{Expr, Node};
 use crate::mistake::Mistake;
 use crate::names::nearest;
 use crate::symbol::{Quantity, SymbolId, SymbolKind};
@@ -18,7 +17,7 @@ use crate::symbol::{Quantity, SymbolId, SymbolKind};
 pub fn names_are_declared(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
     for amount in &subject.amounts {
         let mut arguments = Vec::new();
-        arguments_in(amount.written, &mut arguments);
+        amount.written.arguments(&mut arguments);
         let turned: BTreeSet<&str> =
             arguments.iter().flat_map(|argument| argument.names()).map(|(name, _)| name).collect();
         let turns = matches!(amount.purpose, Purpose::Factor { kind: TransformKind::Rotation, .. });
@@ -35,7 +34,7 @@ pub fn names_are_declared(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span
 pub fn functions_of_angles(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>) {
     for amount in &subject.amounts {
         let mut arguments = Vec::new();
-        arguments_in(amount.written, &mut arguments);
+        amount.written.arguments(&mut arguments);
         for argument in arguments {
             for (name, place) in argument.names() {
                 let Some(id) = subject.scope.find(name) else { continue };
@@ -74,18 +73,6 @@ fn no_angle(subject: &Subject<'_>, id: SymbolId, place: Span) -> Mistake<Span> {
         SymbolKind::Pi | SymbolKind::Input | SymbolKind::Ramp => {
             Mistake::new(place, format!("`{name}` is no angle, and stands inside a sine or cosine"))
                 .with_help(format!("declare it as an angle: `input {name}: angle;`"))
-        }
-    }
-}
-
-fn arguments_in<'a>(amount: &'a Expr<Span>, arguments: &mut Vec<&'a Expr<Span>>) {
-    match &amount.node {
-        Node::Number(_) | Node::Measured(..) | Node::Pi | Node::Symbol(_) | Node::Ramp(_) => {}
-        Node::Call(_, argument) => arguments.push(argument),
-        Node::Neg(inner) | Node::Pow(inner, _) => arguments_in(inner, arguments),
-        Node::Add(left, right) | Node::Mul(left, right) | Node::Div(left, right) => {
-            arguments_in(left, arguments);
-            arguments_in(right, arguments);
         }
     }
 }
@@ -147,7 +134,7 @@ pub fn position_turns_by_angles(subject: &Subject<'_>, mistakes: &mut Vec<Mistak
             mistakes.push(
                 Mistake::new(
                     amount.written.place,
-                    "a position turns by whole multiples of constant angles and of pi/2 only",
+                    "a position turns by numbers and by whole multiples of constant angles only",
                 )
                 .with_help("declare any other angle: `const tilt: angle = pi/6;`, and write `tilt` here"),
             );
@@ -204,7 +191,7 @@ pub fn motion_is_linear(subject: &Subject<'_>, mistakes: &mut Vec<Mistake<Span>>
         if !is_linear {
             let (what, help) = match kind {
                 TransformKind::Rotation => (
-                    "a motion turns by whole multiples of joints, constant angles and pi/2 only",
+                    "a motion turns by whole multiples of joints, by constant angles and by numbers only",
                     "write `Rz(alpha)`, `Rz(-alpha)` or `Rx(alpha - pi/2)`; what depends on a joint otherwise belongs in `motion_error`",
                 ),
                 TransformKind::Translation => (

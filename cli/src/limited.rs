@@ -1,0 +1,184 @@
+//! A run whose memory is limited (`ulimit -v`): where the limit is too low, the command says so and ends as for any bad input.
+//!
+//! Memory that is refused ends a process at once, and nothing in it can say why. Where a limit is set, the command therefore runs in
+//! a process of its own. This one passes on what that process says, and has the last word.
+
+use std::env;
+use std::io::{BufRead as _, BufReader, Read, Write as _};
+use std::os::unix::process::{CommandExt as _, ExitStatusExt as _};
+use std::process::{Child, Command, ExitCode, ExitStatus, Stdio};
+
+use rustix::process::{Pid, Resource, Signal, getrlimit, kill_process, set_parent_process_death_signal};
+
+use crate::failure::Failure;
+use crate::terminal;
+
+/// Set for the process that does the work.
+const INSIDE: &str = "TRUEAXIS_WITHIN_LIMIT";
+
+/// Below so many bytes, threads share what they allocate from: otherwise each reserves 64 MB for itself.
+const LITTLE: u64 = 1 << 30;
+
+/// How the runtime begins the line in which it says that memory was refused.
+const REFUSED: &str = "memory allocation of ";
+
+/// Parts of lines that say that the system had no memory for a thread.
+const NO_THREAD: [&str; 3] = ["failed to spawn thread", "ThreadPoolBuildError", "Cannot allocate memory"];
+
+/// Exit code of a process that panicked.
+const PANICKED: i32 = 101;
+
+/// Runs the command in a process of its own where memory is limited, and returns its exit code; `None` where this process is to do
+/// the work.
+pub fn run_apart() -> Option<ExitCode> {
+    if env::var_os(INSIDE).is_some() {
+        // Where nobody would have the last word, nothing is to go on. What cannot be asked for is not needed.
+        let _ = set_parent_process_death_signal(Some(Signal::TERM));
+        share_threads();
+        return None;
+    }
+    let limit = getrlimit(Resource::As).current?;
+    let mut words = env::args_os();
+    let mut command = Command::new(env::current_exe().ok()?);
+    if let Some(name) = words.next() {
+        command.arg0(name);
+    }
+    command.args(words).env(INSIDE, "1").stderr(Stdio::piped());
+    if limit < LITTLE {
+        command.env("MALLOC_ARENA_MAX", "1");
+    }
+    // Where no second process can be had, this one does what it can.
+    let mut child = command.spawn().ok()?;
+    pass_on_interruptions(&child);
+    let mut told = Told::default();
+    if let Some(errors) = child.stderr.take() {
+        told.pass_on(errors);
+    }
+    let status = child.wait().ok()?;
+    Some(ended(status, &told, limit))
+}
+
+/// Takes as few threads as the limit allows, at least this one.
+fn share_threads() {
+    if rayon::ThreadPoolBuilder::new().build_global().is_err() {
+        // A second failure shows at the first work for all processors.
+        let _ = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build_global();
+    }
+}
+
+/// Ctrl-C reaches both processes, a request to end only this one: the other one cleans up, and this one waits for it.
+fn pass_on_interruptions(child: &Child) {
+    let Some(id) = i32::try_from(child.id()).ok().and_then(Pid::from_raw) else { return };
+    let _ = ctrlc::set_handler(move || {
+        let _ = kill_process(id, Signal::TERM);
+    });
+}
+
+/// What the working process said of memory.
+#[derive(Default)]
+struct Told {
+    /// Bytes that were refused.
+    refused: Option<u64>,
+    /// Whether a thread was refused.
+    no_thread: bool,
+}
+
+impl Told {
+    /// Passes on every line but those of the runtime on memory.
+    fn pass_on(&mut self, errors: impl Read) {
+        let mut errors = BufReader::new(errors);
+        let mut line = Vec::new();
+        while errors.read_until(b'\n', &mut line).is_ok_and(|read| read > 0) {
+            let text = String::from_utf8_lossy(&line);
+            match text.strip_prefix(REFUSED).and_then(|rest| rest.split(' ').next()?.parse().ok()) {
+                Some(bytes) => self.refused = Some(bytes),
+                None => {
+                    self.no_thread |= NO_THREAD.iter().any(|part| text.contains(part));
+                    // Where standard error is closed there is nobody to tell.
+                    let _ = std::io::stderr().write_all(&line);
+                }
+            }
+            line.clear();
+        }
+    }
+}
+
+fn ended(status: ExitStatus, told: &Told, limit: u64) -> ExitCode {
+    let code = match (status.code(), status.signal()) {
+        (Some(PANICKED), _) if told.no_thread => None,
+        (Some(code), _) => Some(code),
+        // Nothing but refused memory ends a run of ours like this.
+        (None, Some(signal))
+            if [Signal::ABORT, Signal::SEGV, Signal::BUS].map(Signal::as_raw).contains(&signal) =>
+        {
+            None
+        }
+        // As shells have it.
+        (None, signal) => Some(128 + signal.unwrap_or_default()),
+    };
+    match code {
+        Some(code) => ExitCode::from(u8::try_from(code).unwrap_or(2)),
+        None => {
+            terminal::report_failure(&Failure::Input(too_little(limit, told.refused)));
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// `the limit of 300 MB is too low: the command wanted 25 MB beyond …`
+fn too_little(limit: u64, refused: Option<u64>) -> String {
+    let limit_mb = limit / 1_000_000;
+    let wanted = match refused {
+        Some(bytes) if bytes >= 1_000_000 => format!("another {} MB were refused", bytes.div_ceil(1_000_000)),
+        Some(bytes) => format!("another {bytes} bytes were refused"),
+        None => "the system refused more".to_owned(),
+    };
+    format!(
+        "a limit of {limit_mb} MB of memory is too low for this command: {wanted}. Raise the limit (`ulimit -v`), or ask for \
+         less: fewer rows, errors or observables"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use std::os::unix::process::ExitStatusExt as _;
+    use std::process::ExitStatus;
+
+    use super::*;
+
+    fn told(text: &str) -> Told {
+        let mut told = Told::default();
+        told.pass_on(text.as_bytes());
+        told
+    }
+
+    #[test]
+    fn what_the_runtime_says_of_memory_is_read() {
+        assert_eq!(told("memory allocation of 400000 bytes failed\n").refused, Some(400_000));
+        assert_eq!(told("").refused, None);
+        assert!(told("called `Result::unwrap()`: failed to spawn thread: Os\n").no_thread);
+    }
+
+    #[test]
+    fn exit_codes_stay_what_they_were() {
+        let code = |raw, told: &Told| format!("{:?}", ended(ExitStatus::from_raw(raw), told, 1 << 28));
+        let nothing = Told::default();
+        let of = |code: u8| format!("{:?}", ExitCode::from(code));
+        assert_eq!(code(0, &nothing), of(0));
+        assert_eq!(code(1 << 8, &nothing), of(1));
+        assert_eq!(code(130 << 8, &nothing), of(130));
+        assert_eq!(code(101 << 8, &nothing), of(101));
+        assert_eq!(code(101 << 8, &Told { no_thread: true, ..Told::default() }), of(2));
+        assert_eq!(code(9, &nothing), of(137));
+        assert_eq!(code(6, &nothing), of(2));
+    }
+
+    #[test]
+    fn the_sentence_says_how_much_was_wanted() {
+        assert!(
+            too_little(300_000_000, Some(24_500_000))
+                .contains("300 MB of memory is too low for this command: another 25 MB")
+        );
+        assert!(too_little(300_000_000, Some(100)).contains("another 100 bytes"));
+    }
+}

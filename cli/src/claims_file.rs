@@ -7,13 +7,14 @@ use claims::file::{Claims, Edge, File, declaration_of_dh, declaration_of_formula
 use claims::show::Paint;
 use model_core::budget::{self, JointRange};
 use model_core::{Chain, Mistake, Mistakes, Quantity};
+use report::style::{BAD, GOOD, HEADING};
+use service::Source;
 use tables::units;
 
 use crate::failure::Failure;
 use crate::poses;
 use crate::ranges::{self, RangeArgument};
-use crate::source::Source;
-use crate::terminal::{BAD, GOOD, HEADING};
+use crate::{source, terminal};
 
 /// A claims file that was read.
 #[derive(Debug)]
@@ -37,7 +38,7 @@ impl ClaimsFile {
         if mistakes.is_empty() {
             Ok(file)
         } else {
-            Err(file.source.mistakes(&Mistakes::locate(&file.source.text, mistakes)))
+            Err(file.source.mistakes(&Mistakes::locate(&file.source.text, mistakes)).into())
         }
     }
 
@@ -46,7 +47,7 @@ impl ClaimsFile {
     /// # Errors
     /// What stands in the way of reading either file.
     pub fn read_all(path: &Path) -> Result<Self, Failure> {
-        let source = Source::read(path)?;
+        let source = source::read(path)?;
         let file: File = source.toml()?;
         let declaration = Self::declaration(&source, &file)?;
         Self::of_file(source, declaration, &file)
@@ -62,7 +63,7 @@ impl ClaimsFile {
     }
 
     fn of_file(source: Source, declaration: Source, file: &File) -> Result<Self, Failure> {
-        let chain = declaration.symbolic_chain()?;
+        let chain = declaration.symbolic_chain(&terminal::warn)?;
         let said = Claims::read(&source.text, file, &chain, &Units);
         Ok(Self { source, declaration, said })
     }
@@ -70,18 +71,22 @@ impl ClaimsFile {
     /// The declaration that a file names, or the one that it writes as a table, or that of its formulas alone.
     fn declaration(source: &Source, file: &File) -> Result<Source, Failure> {
         match (&file.chain, &file.dh) {
-            (Some(_), Some(table)) => Err(source.mistake(
-                Mistake::new(table.span(), "`chain` and `dh` are both given").with_help("leave one out"),
-            )),
+            (Some(_), Some(table)) => Err(source
+                .mistake(
+                    Mistake::new(table.span(), "`chain` and `dh` are both given").with_help("leave one out"),
+                )
+                .into()),
             (Some(chain), None) => {
-                source.read_beside(Path::new(chain.get_ref())).map_err(|failure| match failure {
+                source::read_beside(source, Path::new(chain.get_ref())).map_err(|failure| match failure {
                     Failure::Read { why, .. } => {
                         let path = source.beside(Path::new(chain.get_ref()));
                         let message = format!("cannot read `{}`: {why}", path.display());
-                        source.mistake(
-                            Mistake::new(chain.span(), message)
-                                .with_help("name a declaration, relative to this file"),
-                        )
+                        source
+                            .mistake(
+                                Mistake::new(chain.span(), message)
+                                    .with_help("name a declaration, relative to this file"),
+                            )
+                            .into()
                     }
                     other => other,
                 })
@@ -93,9 +98,11 @@ impl ClaimsFile {
             (None, None) if file.has_equalities_only() => {
                 Ok(Source::of_text("the symbols of the formulas", &declaration_of_formulas(file)))
             }
-            (None, None) => Err(source.mistake(
-                Mistake::new(0..0, "this file names no chain").with_help("chain = \"instrument.chain\""),
-            )),
+            (None, None) => Err(source
+                .mistake(
+                    Mistake::new(0..0, "this file names no chain").with_help("chain = \"instrument.chain\""),
+                )
+                .into()),
         }
     }
 }

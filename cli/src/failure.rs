@@ -3,7 +3,10 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use init::NotBegun;
 use model_core::Mistakes;
+use report::NotJson;
+use service::Refusal;
 
 /// Why a command could not do its work. `Display` is what the user reads, without the leading `error: `.
 #[derive(Debug, thiserror::Error)]
@@ -41,11 +44,6 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// Mistakes in a text of a name.
-    pub fn mistakes(file: &str, text: &str, mistakes: &Mistakes) -> Self {
-        Self::Mistakes { rendered: mistakes.render(file, text), mistakes: mistakes.clone() }
-    }
-
     /// A file that could not be read, with the reason in plain words.
     pub fn read(path: &Path, error: &io::Error) -> Self {
         Self::Read { path: path.to_owned(), why: reason(error) }
@@ -61,6 +59,27 @@ impl Failure {
             _ => reason(error),
         };
         Self::Write { path: path.to_owned(), why }
+    }
+}
+
+impl From<Refusal> for Failure {
+    fn from(refusal: Refusal) -> Self {
+        match refusal {
+            Refusal::Mistakes { rendered, mistakes } => Self::Mistakes { rendered, mistakes },
+            Refusal::Input(why) => Self::Input(why),
+        }
+    }
+}
+
+impl From<NotJson> for Failure {
+    fn from(error: NotJson) -> Self {
+        Self::Input(error.to_string())
+    }
+}
+
+impl From<NotBegun> for Failure {
+    fn from(error: NotBegun) -> Self {
+        Self::Input(error.to_string())
     }
 }
 

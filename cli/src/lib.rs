@@ -1,6 +1,5 @@
 //! The `trueaxis` command as a library: arguments in, exit code out. What a command does stands in `commands`.
 
-mod apply;
 mod budget;
 mod calibrating;
 mod certificates;
@@ -8,26 +7,20 @@ mod claims_file;
 #[cfg(feature = "point-clouds")]
 mod cloud;
 mod commands;
-mod curves;
 mod date;
 mod draw;
-mod errors_file;
-mod evaluation;
 mod expected;
 mod failure;
-mod init;
-mod letters;
 pub mod library;
 #[cfg(target_os = "linux")]
 mod limited;
 mod many;
 mod output;
-mod over_memory;
 mod over_table;
 mod paper;
 mod poses;
 mod ranges;
-mod report;
+mod report_files;
 mod set_up;
 mod sizes;
 mod source;
@@ -35,7 +28,6 @@ mod streaming;
 mod table_files;
 mod terminal;
 mod waiting;
-mod wrap;
 
 use std::process::ExitCode;
 

@@ -10,31 +10,33 @@ use model_core::expr::Expr;
 use model_core::{Chain, ObservableId, SymbolKind, forms, print, syntax};
 use serde_json::{Value, json};
 use tables::formats::memory::Reader;
-use tables::formats::{ColumnName, TableReader, declared_columns};
+use tables::formats::{self, ColumnName, DataError, TableReader, declared_columns};
 
-use crate::budget::Measured;
 use crate::claims_file::ClaimsFile;
 use crate::commands::{bound, budget, check, derive, generate, identify, simulate};
-use crate::evaluation;
-use crate::over_memory::has_room;
 use crate::ranges::{self, Range, RangeArgument};
-use crate::source::observables;
-use crate::{errors_file, poses, report, table_files};
+use crate::table_files::{self, Files};
+use crate::{calibrating, poses, report_files, terminal};
 use claims::show::{Paint, as_json, as_text};
+use service::budget::Measured;
+use service::over_memory::{self, has_room};
+use service::source::observables;
+use service::{errors_file, evaluation};
 
-pub use crate::apply::Counted;
-pub use crate::calibrating::{Calibrated, Studied};
+pub use crate::calibrating::studied as read_study;
 pub use crate::draw::stretches;
-pub use crate::evaluation::{Exactness, Quantity};
 pub use crate::failure::Failure;
-pub use crate::over_memory::{Columns, Computed, Held, applied, evaluated, warn_of_outside};
-pub use crate::report::Cells;
-pub use crate::source::Source;
+pub use crate::source::read;
 pub use crate::streaming::{Foretold, Rows, Streaming, accumulated, validated};
 pub use crate::terminal::collecting;
 pub use calibration::calibrate::Stage;
 pub use codegen::Loadable;
 pub use fit::Validation;
+pub use report::Cells;
+pub use service::apply::Counted;
+pub use service::evaluation::{Exactness, Quantity};
+pub use service::over_memory::{Columns, Computed, Held};
+pub use service::{Calibrated, Source, Studied};
 pub use tables::formats::memory::Column;
 
 /// An answer for reading, and the same for programs.
@@ -46,12 +48,20 @@ pub struct Told {
     pub json: Value,
 }
 
+/// A text read as a declaration for formulas alone: constants need no value.
+///
+/// # Errors
+/// Every other mistake of the declaration, each with its place.
+pub fn symbolic_chain(source: &Source) -> Result<Chain, Failure> {
+    Ok(source.symbolic_chain(&terminal::warn)?)
+}
+
 /// Reads a file of errors, a box of largest sizes, or the same text from elsewhere.
 ///
 /// # Errors
 /// As the commands say of `--errors`.
 pub fn values(errors: &Source, chain: &Chain) -> Result<Vec<f64>, Failure> {
-    errors_file::values(errors, chain)
+    Ok(errors_file::values(errors, chain, &terminal::warn)?)
 }
 
 /// The observable of a name; without a name, the only one.
@@ -157,7 +167,8 @@ pub fn closed_form(chain: &Chain, observable: ObservableId, order: u32) -> Resul
         |style| form.components.iter().map(|component| component.show(chain, style)).collect::<Vec<_>>();
     let (text, latex) = (shown(print::Style::Text), shown(print::Style::Latex));
     let trees = text.iter().map(|text| {
-        syntax::parse_amount(text).map_err(|mistakes| Failure::mistakes("the closed form", text, &mistakes))
+        syntax::parse_amount(text)
+            .map_err(|mistakes| Source::of_text("the closed form", text).mistakes(&mistakes))
     });
     let trees = trees.collect::<Result<_, _>>()?;
     let shown = chain.observable(observable);
@@ -202,7 +213,7 @@ pub fn bounded(
     ranges: &[Range],
     seed: u64,
 ) -> Result<Told, Failure> {
-    let sizes = errors_file::largest_sizes(sizes, chain)?;
+    let sizes = errors_file::largest_sizes(sizes, chain, &terminal::warn)?;
     let answers = bound::bounds(chain, &sizes, ranges, names, seed)?;
     let texts = answers.iter().map(|(bound, found)| model_core::remainder::text(bound, Some(found), chain));
     let json: Vec<Value> = answers.iter().map(|(b, found)| bound::as_json(chain, b, found)).collect();
@@ -221,7 +232,7 @@ pub fn budgeted(
     ranges: &[Range],
 ) -> Result<Told, Failure> {
     use model_core::budget::Poses;
-    let sizes = errors_file::largest_sizes(sizes, chain)?;
+    let sizes = errors_file::largest_sizes(sizes, chain, &terminal::warn)?;
     let poses = match path {
         Some(text) => Poses::Path(
             poses::path(chain, text).map_err(|mistake| Source::of_text("--path", text).mistake(mistake))?,
@@ -231,8 +242,8 @@ pub fn budgeted(
     let budgets = budget::measured(chain, &sizes, &poses, names)?.into_iter();
     let budgets: Vec<Measured> =
         budgets.map(|budget| Measured { budget, designed: None, curves: None }).collect();
-    let texts = budgets.iter().map(|one| plain(&crate::budget::as_text(chain, one))).collect::<Vec<_>>();
-    let json: Vec<Value> = budgets.iter().map(|one| crate::budget::as_json(chain, one, &poses)).collect();
+    let texts = budgets.iter().map(|one| plain(&service::budget::as_text(chain, one))).collect::<Vec<_>>();
+    let json: Vec<Value> = budgets.iter().map(|one| service::budget::as_json(chain, one, &poses)).collect();
     Ok(Told { text: texts.join("\n"), json: json!({ "observables": json }) })
 }
 
@@ -259,7 +270,7 @@ pub fn simulated(
     ranges: &[Range],
     (poses, seed): (usize, u64),
 ) -> Result<Vec<(String, Vec<f64>)>, Failure> {
-    let values = errors_file::values(errors, chain)?;
+    let values = errors_file::values(errors, chain, &terminal::warn)?;
     let mut simulation = simulate::Simulation::new(chain, &values, noise, names, ranges, seed)?;
     if !poses.checked_mul(simulation.header.len()).is_some_and(has_room) {
         return Err(Failure::Input(format!(
@@ -270,6 +281,51 @@ pub fn simulated(
     }
     let columns = simulation.rows(poses)?;
     Ok(simulation.header.into_iter().zip(columns).collect())
+}
+
+/// A study with a declaration that came from elsewhere than the file that it names.
+///
+/// # Errors
+/// What is wrong with either, each with its place.
+pub fn studied(study: Source, chain: Source) -> Result<Studied, Failure> {
+    Ok(Studied::of(study, chain, &terminal::warn)?)
+}
+
+/// The observables over a table of readings, as `eval` computes them.
+///
+/// # Errors
+/// As the command says of `--data` and `--observable`.
+pub fn evaluated(
+    chain: &Chain,
+    errors: &Source,
+    table: Held<'_>,
+    names: &[String],
+    quantity: (Exactness, Quantity),
+) -> Result<Computed, Failure> {
+    Ok(over_memory::evaluated(chain, errors, table, names, quantity, &terminal::warn)?)
+}
+
+/// The observables with their errors over a table of readings, as `apply` computes them, and how many rows are outside of what the
+/// errors were found over.
+///
+/// # Errors
+/// As the command says of `--data` and `--observable`.
+pub fn applied(
+    chain: &Chain,
+    errors: &Source,
+    table: Held<'_>,
+    names: &[String],
+) -> Result<(Computed, Counted), Failure> {
+    Ok(over_memory::applied(chain, errors, table, names, &terminal::warn)?)
+}
+
+/// Warns as `apply` does of rows outside of what the errors were found over, which were counted table by table.
+///
+/// # Errors
+/// As the command says of `--errors`.
+pub fn warn_of_outside(chain: &Chain, errors: &Source, counted: &[Counted]) -> Result<(), Failure> {
+    over_memory::outside_of_found(chain, errors, counted)?.iter().for_each(terminal::warn);
+    Ok(())
 }
 
 /// A table of a name in memory.
@@ -294,13 +350,15 @@ pub fn calibrated(
     command: String,
     tell: &(dyn Fn(Stage) + Sync),
 ) -> Result<Calibrated, Failure> {
-    let files = studied.files.clone();
-    let measured =
-        studied.load(&mut |path, options| match in_memory.iter().find(|(name, _)| *name == path) {
+    let files = Files::of(&studied);
+    let mut open = |path: &str, options: &formats::Options| -> Result<Box<dyn TableReader + '_>, DataError> {
+        match in_memory.iter().find(|(name, _)| *name == path) {
             Some((name, columns)) => Ok(Box::new(Reader::new(name, columns.iter().copied())?)),
             None => files.open(path, options),
-        })?;
-    measured.calibrate(command, tell)
+        }
+    };
+    let measured = studied.load(&mut open, &terminal::warn)?;
+    calibrating::calibrate(measured, &files, command, tell)
 }
 
 /// A calibration as the terminal shows it, without its colours.
@@ -315,13 +373,13 @@ pub fn text(calibrated: &Calibrated, is_verbose: bool) -> String {
 /// # Errors
 /// A number in it is none.
 pub fn report_json(calibrated: &Calibrated) -> Result<String, Failure> {
-    report::json(&calibrated.reported(None))
+    Ok(report::json(&calibrated.reported(None))?)
 }
 
 /// `errors.toml`, if a usable model came out.
 #[must_use]
 pub fn errors_toml(calibrated: &Calibrated) -> Option<String> {
-    report::errors(&calibrated.reported(None))
+    errors_file::errors(&calibrated.reported(None))
 }
 
 /// The values of every error of the amended chain, and of constants that were fitted, in SI with its unit, if a usable model came out.
@@ -343,7 +401,7 @@ pub fn estimates(calibrated: &Calibrated) -> Option<Vec<(String, f64, &'static s
 /// The ranges of the readings that a calibration was found over, SI, if a usable model came out: `[found-over]` of `errors.toml`.
 #[must_use]
 pub fn found_over(calibrated: &Calibrated) -> Option<Vec<(String, f64, f64)>> {
-    let over = report::found_over(&calibrated.reported(None))?;
+    let over = errors_file::found_over_of(&calibrated.reported(None))?;
     let name = |id| calibrated.calibration.chain.symbol(id).name.clone();
     Some(over.iter().map(|range| (name(range.symbol), range.low, range.high)).collect())
 }
@@ -367,10 +425,10 @@ pub fn residuals<T>(calibrated: &Calibrated, visit: impl FnOnce(Vec<(String, Cel
 /// # Errors
 /// The folder or a file cannot be written, or is one that the study reads.
 pub fn write(calibrated: &Calibrated, folder: &Path, all_residuals: bool) -> Result<(), Failure> {
-    calibrated.studied().refuse_to_replace(folder)?;
+    calibrating::refuse_to_replace(calibrated.studied(), folder)?;
     let name = folder.display().to_string();
     let reported = calibrated.reported(Some(&name));
-    report::write_all(&reported, &report::rows_written(&reported, all_residuals), folder)
+    report_files::write_all(&reported, &report::rows_written(&reported, all_residuals), folder)
 }
 
 /// A text without the colours of a terminal.

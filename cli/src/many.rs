@@ -6,17 +6,16 @@ use std::ops::Range;
 use calibration::calibrate::OfEveryRow;
 use fit::{Foretelling, Next, Pass, Streamed, StreamedResult, Tally, Validation};
 use model_core::SymbolId;
-use observe::unknowns::Shape;
 use observe::{Observations, Poses, Series};
+use service::{Calibrated, Measured, Source, Studied};
 use study::{OpenTable, Plan, SourcePlan};
 use tables::formats::part::{Budget, Stretches, Within, count};
 
-use crate::calibrating::{Calibrated, Measured, Studied};
+use crate::calibrating;
 use crate::draw::stretches;
 use crate::failure::Failure;
-use crate::source::Source;
 use crate::streaming::{input, options};
-use crate::table_files;
+use crate::{table_files, terminal};
 
 /// Rows of a chunk.
 const CHUNK: u64 = 1 << 18;
@@ -44,15 +43,15 @@ pub fn read(
 ) -> Result<(Measured, Option<Others>), Failure> {
     let plan = &studied.plan;
     // A pipe can be read once only.
-    if !may_be_drawn(plan) || !studied.table_files().iter().all(|path| path.is_file()) {
-        return Ok((studied.load(open)?, None));
+    if !may_be_drawn(plan) || !calibrating::table_files(&studied).iter().all(|path| path.is_file()) {
+        return Ok((studied.load(open, &terminal::warn)?, None));
     }
     let budget = Budget::new(at_most);
     let loaded =
         plan.load_tables(&mut |path, options| Ok(Box::new(Within::new(open(path, options)?, &budget))));
     if !budget.is_exceeded() {
         let loaded = loaded.map_err(table_files::failure)?;
-        return Ok((studied.with_data(loaded.without_repeats()), None));
+        return Ok((studied.with_data(loaded.without_repeats(), &terminal::warn), None));
     }
     drop(loaded);
     let paths = plan.sources.iter().flat_map(|source| &source.paths);
@@ -68,13 +67,13 @@ pub fn read(
         Ok(Box::new(Stretches::new(open(path, options)?, 0, file.stretches.iter().cloned())))
     });
     let loaded = loaded.map_err(table_files::failure)?;
-    Ok((studied.with_data(loaded), Some(Others { files })))
+    Ok((studied.with_data(loaded, &terminal::warn), Some(Others { files })))
 }
 
 /// Whether a part of the rows can stand for all: not where they observe what nobody knows, or several things, or where readings are
 /// uncertain, which rows that are read chunk by chunk do not follow.
 fn may_be_drawn(plan: &Plan) -> bool {
-    let has_objects = |source: &SourcePlan| Shape::of(source.measure).is_some();
+    let has_objects = |source: &SourcePlan| source.measure.observes_object();
     plan.sources.len() == 1
         && plan.hold_out.file.is_none()
         && !plan.sources.iter().any(has_objects)
@@ -99,7 +98,8 @@ impl Others {
     ) -> Result<(), Failure> {
         let Some(amended) = &calibrated.calibration.amended else { return Ok(()) };
         let declared = calibrated.studied();
-        let amended = Studied::of(declared.study.clone(), Source::of_text("amended.chain", amended))?;
+        let amended =
+            Studied::of(declared.study.clone(), Source::of_text("amended.chain", amended), &terminal::warn)?;
         let drawn =
             [calibrated.observations().clone(), renamed(calibrated.observations(), declared, &amended)];
         let start = |studied: &Studied, drawn| {

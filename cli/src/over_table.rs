@@ -7,15 +7,13 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use model_core::Chain;
+use service::errors_file::{self, FoundOver};
+use service::evaluation::{Evaluator, Exactness, Quantity, column_names};
+use service::readings::{ReadingsTable, Rows};
 use tables::formats::Column;
 
-use crate::errors_file::{self, FoundOver};
-use crate::evaluation::{Evaluator, Exactness, Quantity, column_names};
 use crate::failure::Failure;
-use crate::source::Source;
-use crate::table_files::{self, ReadingsTable, Rows};
-use crate::{output, terminal};
-use model_core::names::listed;
+use crate::{output, source, table_files, terminal};
 
 /// What is evaluated over which table, and where to.
 #[derive(Debug, clap::Args)]
@@ -76,7 +74,7 @@ impl OverTable {
     pub fn open(&self) -> Result<Opened, Failure> {
         output::refuse_to_replace(&self.out, [self.data.as_path()])?;
         let Model { chain, values, found } = self.model()?;
-        let table = ReadingsTable::open(&self.data, &chain, self.comment)?;
+        let table = table_files::open_kept(&self.data, &chain, self.comment)?;
         Ok(Opened { chain, values, found, table })
     }
 
@@ -86,9 +84,9 @@ impl OverTable {
     /// One of them has a mistake, or the output would replace one.
     pub fn model(&self) -> Result<Model, Failure> {
         output::refuse_to_replace(&self.out, [self.chain.as_path(), &self.errors])?;
-        let chain = Source::read(&self.chain)?.chain()?;
-        let errors = Source::read(&self.errors)?;
-        let values = errors_file::values(&errors, &chain)?;
+        let chain = source::chain(&self.chain)?;
+        let errors = source::read(&self.errors)?;
+        let values = errors_file::values(&errors, &chain, &terminal::warn)?;
         let found = errors_file::found_over(&errors, &chain)?;
         Ok(Model { chain, values, found })
     }
@@ -106,7 +104,7 @@ impl OverTable {
         self.write(table, &added, |rows| {
             let readings: Vec<_> =
                 rows.readings.iter().map(|(id, values)| (*id, values.as_slice())).collect();
-            evaluator.columns(&readings, rows.count)
+            Ok(evaluator.columns(&readings, rows.count)?)
         })
     }
 
@@ -150,7 +148,7 @@ impl OverTable {
         })?;
         progress.finish_and_clear();
         table.doubtful().for_each(terminal::warn);
-        warn_of_replaced(&table, &is_replaced);
+        table.lost(&is_replaced).iter().for_each(terminal::warn);
         if not_finite > 0 {
             terminal::warn(format_args!(
                 "{not_finite} rows are not finite: the chain has a pole there, or a number too large"
@@ -168,7 +166,7 @@ fn read_ahead(
 ) -> Result<ReadingsTable<'static>, Failure> {
     let (ready, rows) = mpsc::sync_channel(0);
     let reader = thread::spawn(move || {
-        while let Some(next) = table.next().transpose() {
+        while let Some(next) = table.next_rows().transpose() {
             let is_last = next.is_err();
             // Who takes no more has failed.
             if ready.send(next.map(|rows| (rows, table.share_read()))).is_err() || is_last {
@@ -178,21 +176,11 @@ fn read_ahead(
         table
     });
     // Whoever fails does not wait for the reader, which may itself be waiting for rows that never come.
-    rows.into_iter().try_for_each(|next| next.and_then(|(rows, share_read)| take(rows, share_read)))?;
+    rows.into_iter().try_for_each(|next| {
+        let (rows, share_read) = next?;
+        take(rows, share_read)
+    })?;
     Ok(reader.join().unwrap_or_else(|panic| resume_unwind(panic)))
-}
-
-/// Warns of columns of the input that are not in the output, since what was computed has their names. Where readings are solved for, those
-/// of the input were read as starts.
-pub fn warn_of_replaced(table: &ReadingsTable<'_>, is_replaced: &[bool]) {
-    let is_lost = is_replaced.iter().enumerate().map(|(at, replaced)| *replaced && !table.reads(at));
-    let columns = table.names_of(&is_lost.collect::<Vec<_>>());
-    let names = listed(columns.iter().map(String::as_str));
-    match columns.len() {
-        0 => {}
-        1 => terminal::warn(format_args!("the input's own column {names} was replaced")),
-        _ => terminal::warn(format_args!("the input's own columns {names} were replaced")),
-    }
 }
 
 /// What is done, and how long the rest takes, as far as that is known.

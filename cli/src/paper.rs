@@ -4,12 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use claims::paper::{self, Draft, Kind, MARK};
+use service::Source;
 
 use crate::claims_file::ClaimsFile;
 use crate::failure::Failure;
-use crate::output;
-use crate::source::Source;
-use crate::terminal;
+use crate::{output, source, terminal};
 
 /// Equations without a claim: line, equation, reason.
 pub type Unread = Vec<(usize, String, String)>;
@@ -34,19 +33,19 @@ pub fn read(
     chain: Option<&Path>,
     claims_file: Option<&Path>,
 ) -> Result<(ClaimsFile, Unread), Failure> {
-    let source = Source::read(paper)?;
+    let source = source::read(paper)?;
     let declaration = match chain {
-        Some(path) => Source::read(path)?,
+        Some(path) => source::read(path)?,
         None => match Draft::chain_named(&source.text) {
-            Some(named) => source.read_beside(Path::new(&named))?,
-            None => Source::read(&only_chain_beside(paper)?)?,
+            Some(named) => source::read_beside(&source, Path::new(&named))?,
+            None => source::read(&only_chain_beside(paper)?)?,
         },
     };
     let written = claims_file.map_or_else(|| paper.with_extension("claims.toml"), Path::to_owned);
     let draft = paper::draft(
         &source.text,
         kind,
-        &declaration.symbolic_chain()?,
+        &declaration.symbolic_chain(&terminal::warn)?,
         &paper.display().to_string(),
         &from(&written, &declaration.path),
     );

@@ -3,15 +3,15 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use calibration::report::remedy_would_show;
 use model_core::{Chain, SymbolId};
 use network::{SetUp, Visible, identify};
+use report::words::remedy_would_show;
 use serde_json::{Value, json};
+use service::Source;
 use tables::formats::{DataError, Input};
 
 use crate::failure::Failure;
-use crate::source::Source;
-use crate::{table_files, terminal};
+use crate::{source, table_files, terminal};
 use model_core::names::listed;
 
 /// Opens a data file by its path, and by where it is to be had if it is not there.
@@ -28,10 +28,10 @@ impl SetUpSeen {
     ///
     /// # Errors
     /// What is wrong with one of them.
-    pub fn of_study(source: &Source, open: &mut OpenData<'_>) -> Result<Self, Failure> {
-        let study = source.study()?;
-        let chain = source.read_beside(Path::new(study.chain.get_ref()))?.chain()?;
-        let plan = study.plan(&chain).map_err(|mistakes| source.mistakes(&mistakes))?;
+    pub fn of_study(text: &Source, open: &mut OpenData<'_>) -> Result<Self, Failure> {
+        let study = text.study()?;
+        let chain = source::read_beside(text, Path::new(study.chain.get_ref()))?.chain(&terminal::warn)?;
+        let plan = study.plan(&chain).map_err(|mistakes| text.mistakes(&mistakes))?;
         let loaded =
             plan.load(&mut |path| open(path, plan.data_from.as_deref())).map_err(table_files::failure)?;
         let loaded = loaded.without_repeats();

@@ -5,15 +5,14 @@ use fit::{FitOptions, Foretelling, Next, Pass, Streamed, StreamedResult, Tally, 
 use model_core::SymbolKind;
 use observe::Observations;
 use serde_json::{Value, json};
+use service::{Calibrated, Source, Studied, errors_file};
 use study::{Loaded, Plan};
 use tables::formats::part::{Stretches, count};
 use tables::formats::{DataError, Options, TableReader, open};
 
-use crate::calibrating::{Calibrated, Studied};
 use crate::draw::stretches;
 use crate::failure::Failure;
-use crate::source::Source;
-use crate::{errors_file, table_files, terminal};
+use crate::{table_files, terminal};
 
 /// A fit between passes, or done.
 #[derive(Clone)]
@@ -143,7 +142,7 @@ pub fn validated(
 impl<'a> Foretold<'a> {
     /// Rows as this declaration reads them, and the values of its symbols.
     fn loaded(self, rows: Rows<'_>) -> Result<(Observations, Vec<f64>), Failure> {
-        let values = errors_file::values(self.errors, &self.studied.plan.chain)?;
+        let values = errors_file::values(self.errors, &self.studied.plan.chain, &terminal::warn)?;
         let Some(loaded) = load(self.studied, rows)? else {
             return Err(Failure::Input("there are no rows to judge".to_owned()));
         };

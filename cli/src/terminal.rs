@@ -7,21 +7,11 @@ use std::io::{IsTerminal as _, Write as _};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use anstyle::{AnsiColor, Style};
-use calibration::report::shell_word;
 use indicatif::ProgressBar;
+use report::style::{BAD, CAREFUL};
+use report::{shell_word, wrap};
 
 use crate::failure::Failure;
-use crate::wrap;
-
-/// Style of the word `error`.
-pub const BAD: Style = AnsiColor::Red.on_default().bold();
-/// Style of the word `warning`.
-pub const CAREFUL: Style = AnsiColor::Yellow.on_default().bold();
-/// Style of a good answer.
-pub const GOOD: Style = AnsiColor::Green.on_default().bold();
-/// Style of headings.
-pub const HEADING: Style = Style::new().bold();
 
 /// Letters that a line of text has: as many as the variable `COLUMNS` says, or the terminal has, within reason.
 #[must_use]

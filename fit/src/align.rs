@@ -14,7 +14,8 @@ use super::model::Model;
 use super::sweep::residuals;
 use super::{FitError, FitOptions, robust};
 use crate::noise::Layout;
-use observe::{Measure, Measured, Observations, Series};
+use observe::kinds::BaseShown;
+use observe::{Observations, Series};
 
 const AXES: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
 
@@ -42,7 +43,7 @@ pub fn starting_values(
     observations: &Observations,
     options: &FitOptions,
 ) -> Result<Vec<f64>, FitError> {
-    let is_point = |series: &&Series| series.measure == Measure::Point;
+    let is_point = |series: &&Series| series.measure.kind().base == BaseShown::Pose;
     let mut points = observations.poses.series.iter().filter(is_point);
     let pose = points.next().and_then(|series| BasePose::of(chain, series.observable, options));
     let Some(pose) = pose else { return turned_start(chain, observations, options) };
@@ -55,8 +56,8 @@ pub fn starting_values(
             continue;
         }
         for row in series.rows.clone() {
-            let Measured::Point(point) = observations.measured[row] else {
-                unreachable!("the series measures points")
+            let Some(&point) = observations.measured[row].vector() else {
+                unreachable!("what shows a pose measures points")
             };
             let first = layout.first(row);
             let difference = Vector3::new(residual[first], residual[first + 1], residual[first + 2]);
@@ -77,7 +78,7 @@ fn turned_start(
     observations: &Observations,
     options: &FitOptions,
 ) -> Result<Vec<f64>, FitError> {
-    let is_orientation = |series: &&Series| series.measure == Measure::Orientation;
+    let is_orientation = |series: &&Series| series.measure.kind().base == BaseShown::Turn;
     let orientations = || observations.poses.series.iter().filter(is_orientation);
     let of = |series: &Series| BaseTurn::of(chain, series.observable, options);
     let mut start = options.start.clone();

@@ -5,7 +5,8 @@ use model_core::{Chain, ObservableId, Quantity, SymbolId, SymbolKind};
 use nalgebra::Vector3;
 
 use super::FitError;
-use observe::{Measure, Poses, Series};
+use observe::kinds::BeamUse;
+use observe::{Poses, Series};
 
 /// What a beam's program says of a series.
 #[derive(Debug, Clone)]
@@ -19,8 +20,8 @@ pub(super) struct Beam {
 /// The beams of some rows.
 #[derive(Debug, Default)]
 pub(super) struct Along {
-    axes: Vec<f64>,
-    rows: usize,
+    /// The beam of each row: its way, or for a sight all of it, m; x of all rows, then y and z.
+    pub axes: Vec<f64>,
     /// How far each row's beam goes, where nobody measures that.
     pub ranges: Option<(SymbolId, Vec<f64>)>,
 }
@@ -47,10 +48,10 @@ impl Beam {
     /// The beam of each series whose rows are seen along one.
     pub fn of_all(chain: &Chain, poses: &Poses) -> Vec<Option<Self>> {
         let of = |series: &Series| {
-            let (forms, is_sight) = match series.measure {
-                Measure::Target => (&[Form::ExactJacobian][..], false),
-                Measure::Beam => (&[Form::ExactValue, Form::ExactJacobian][..], true),
-                _ => return None,
+            let (forms, is_sight) = match series.measure.kind().beam {
+                BeamUse::Direction => (&[Form::ExactJacobian][..], false),
+                BeamUse::Whole => (&[Form::ExactValue, Form::ExactJacobian][..], true),
+                BeamUse::Nothing => return None,
             };
             let range = range_of(chain, series.observable)?;
             let program = build_all(chain, &[series.observable], forms, &[range]);
@@ -77,9 +78,9 @@ impl Beam {
         interpreter
             .eval_batch(&columns, values, &mut arrays)
             .map_err(|error| FitError::WrongShape { why: error.to_string() })?;
-        let Some(range) = self.sighted else { return Ok(Along { axes: outputs, rows, ranges: None }) };
+        let Some(range) = self.sighted else { return Ok(Along { axes: outputs, ranges: None }) };
         let at = |first: usize, row: usize| Vector3::from_fn(|axis, _| outputs[(first + axis) * rows + row]);
-        let mut along = Along { axes: vec![0.0; 3 * rows], rows, ranges: None };
+        let mut along = Along { axes: vec![0.0; 3 * rows], ranges: None };
         let mut ranges = Vec::with_capacity(rows);
         for row in 0..rows {
             let (origin, by_range) = (at(0, row), at(3, row));
@@ -91,12 +92,5 @@ impl Beam {
         }
         along.ranges = Some((range, ranges));
         Ok(along)
-    }
-}
-
-impl Along {
-    /// The beam of a row: its way, or for a sight all of it, m.
-    pub fn of(&self, row: usize) -> Vector3<f64> {
-        Vector3::from_fn(|axis, _| self.axes[axis * self.rows + row])
     }
 }

@@ -1,11 +1,7 @@
 //! Residual components of some rows and their derivatives, as the fit's sums take them.
 
 use codegen::vector::{self, Arithmetic};
-use nalgebra::Matrix3;
 
-use super::FitError;
-use super::orientation;
-use observe::Measured;
 use observe::unknowns::WIDTH;
 
 /// Residuals of some rows of one series, before whitening. Arrays hold all rows of the first component, then all of the
@@ -48,34 +44,6 @@ impl Block {
             }
         }
         by_row
-    }
-
-    /// Residuals and gradients of rows that observe how a body is turned, from what the program has put out; nothing is
-    /// `measured` where poses alone are seen.
-    pub(super) fn compare_orientations(&mut self, measured: Option<&[Measured]>) -> Result<(), FitError> {
-        let Self { rows, residual, defined, gradient, outputs, .. } = self;
-        let count = *rows;
-        for row in 0..count {
-            let axes = Matrix3::from_fn(|component, axis| outputs[(3 * axis + component) * count + row]);
-            let measured = match measured.map(|measured| &measured[row]) {
-                None => None,
-                Some(Measured::Orientation(measured)) => Some(measured),
-                Some(_) => {
-                    let why = "a row of orientations measures something else".to_owned();
-                    return Err(FitError::WrongShape { why });
-                }
-            };
-            let components = orientation::components(measured, &axes);
-            let is_defined = components.iter().all(|(left, _)| left.is_finite());
-            defined.push(is_defined);
-            for (component, (left, by_axes)) in components.iter().enumerate() {
-                residual[component * count + row] = if is_defined { *left } else { 0.0 };
-                for (place, part) in by_axes.iter().flatten().enumerate() {
-                    gradient[(9 * component + place) * count + row] = *part;
-                }
-            }
-        }
-        Ok(())
     }
 
     /// Turns the derivatives that the program has put out into those of the components.

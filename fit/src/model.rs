@@ -9,12 +9,12 @@ use nalgebra::Vector3;
 use super::FitError;
 use super::beam::Beam;
 use super::block::Block;
-use super::objects::{self, TurnsBy};
-use super::residual::components;
 use super::shrinking::{self, Scales};
 use super::spare::Spare;
+use observe::kinds::{self, Compared, Predicted, TurnsBy, Unknown};
 use observe::orientation::{AXES, axes_of};
-use observe::{Measure, Measured, Observations, Poses, Series};
+use observe::unknowns::State;
+use observe::{Observations, Poses, Series};
 
 /// Rows evaluated at a time: what a block holds stays in the second-level cache.
 pub const BLOCK_ROWS: usize = 256;
@@ -287,7 +287,8 @@ impl Model {
         values: &[f64],
         block: &mut Block,
     ) -> Result<(), FitError> {
-        let (count, m) = (rows.len(), series.measure.components());
+        let (kind, count) = (series.measure.kind(), rows.len());
+        let m = kind.components.len();
         let mut columns: Vec<(SymbolId, &[f64])> = of
             .poses
             .columns
@@ -295,7 +296,7 @@ impl Model {
             .filter_map(|(id, column)| Some((*id, column.get(rows.clone())?)))
             .collect();
         (block.rows, block.components) = (count, m);
-        let width = 3 * vectors(series.measure);
+        let width = 3 * kind.predicted.vectors();
         block.outputs.resize(width * (1 + self.columns) * count, 0.0);
         block.residual.resize(m * count, 0.0);
         block.gradient.resize(width * m * count, 0.0);
@@ -306,13 +307,11 @@ impl Model {
             why: format!("{} values for {} symbols", values.len(), self.symbols),
         })?;
         let unknowns = of.observed.and_then(|observed| observed.unknowns.as_ref());
-        let first = unknowns.map(|unknowns| [unknowns.first_of_stations(), unknowns.first_of_objects()]);
+        let state = unknowns.map(|unknowns| State::new(unknowns, state));
         // Bare poses are seen as they are read: nothing stands at the end of a beam.
-        let along = match beam.zip(unknowns.zip(first.as_ref())) {
-            Some(((beam, interpreter), (unknowns, first))) => {
-                let far = |row: usize, origin: &Vector3<f64>| {
-                    objects::distance(unknowns, first, state, rows.start + row, origin)
-                };
+        let along = match beam.zip(state.as_ref()) {
+            Some(((beam, interpreter), state)) => {
+                let far = |row: usize, origin: &Vector3<f64>| state.distance_m(rows.start + row, origin);
                 Some(beam.along(interpreter, &columns, values, count, far)?)
             }
             None => None,
@@ -324,73 +323,33 @@ impl Model {
         interpreter
             .eval_batch(&columns, values, &mut outputs)
             .map_err(|error| FitError::WrongShape { why: error.to_string() })?;
-        if series.measure == Measure::Orientation {
-            drop(outputs);
-            block.compare_orientations(of.observed.map(|observed| &observed.measured[rows]))?;
-            if unknowns.is_some() {
-                block.unknown.resize(m * count, Default::default());
-            }
-            block.project();
-            return Ok(());
-        }
-        if series.measure == Measure::Direction && unknowns.is_none() {
-            drop(outputs);
-            block.compare_directions(of.observed.map(|observed| &observed.measured[rows]))?;
-            block.project();
-            return Ok(());
-        }
-        let predicted = |row: usize| Vector3::new(outputs[0][row], outputs[1][row], outputs[2][row]);
-        for row in 0..count {
-            let predicted = predicted(row);
-            let measured = match of.observed {
-                Some(observed) => observed.measured[rows.start + row],
-                None => Measured::exactly(series.measure, &predicted),
-            };
-            let seen = unknowns.zip(first.as_ref()).and_then(|(unknowns, first)| {
-                let beam = along.as_ref().map_or(predicted, |along| along.of(row));
-                let row = rows.start + row;
-                let measure = series.measure;
-                let by = self.turns_by;
-                objects::seen(unknowns, first, state, row, measure, &measured, &predicted, &beam, by)
-            });
-            let (components, unknown) = match seen {
-                Some(seen) => seen,
-                None => match components(&measured, &predicted) {
-                    Some(components) => (components, Default::default()),
-                    None => {
-                        return Err(FitError::WrongShape {
-                            why: "a row observes an object that is none".to_owned(),
-                        });
-                    }
-                },
-            };
-            if unknowns.is_some() {
-                block.unknown.extend(unknown.into_iter().take(m));
-            }
-            let defined = components.iter().take(m).all(|(residual, _)| residual.is_finite());
-            block.defined.push(defined);
-            for (component, (residual, gradient)) in components.iter().take(m).enumerate() {
-                block.residual[component * count + row] = if defined { *residual } else { 0.0 };
-                for axis in 0..3 {
-                    block.gradient[(3 * component + axis) * count + row] = gradient[axis];
-                }
-            }
-        }
+        let Block { residual, defined, gradient, unknown, outputs, .. } = block;
+        let of_block = kinds::Rows {
+            count,
+            predicted: outputs,
+            measured: of.observed.map(|observed| &observed.measured[rows.clone()]),
+            unknown: state.as_ref().map(|state| Unknown {
+                state,
+                start: rows.start,
+                turns_by: self.turns_by,
+            }),
+            beams: along.as_ref().map(|along| along.axes.as_slice()),
+        };
+        (kind.compare)(&of_block, &mut Compared { residual, defined, gradient, unknown }).map_err(
+            |mismatch| FitError::WrongShape {
+                why: format!("row {}: {mismatch}", rows.start + mismatch.row + 1),
+            },
+        )?;
         block.project();
         Ok(())
     }
 }
 
-/// How many vectors the chain predicts for one observation: that of the observable, or the axes of a body.
-fn vectors(measure: Measure) -> usize {
-    if measure == Measure::Orientation { AXES.len() } else { 1 }
-}
-
 /// The program of what a series observes.
 fn program(chain: &Chain, series: &Series, forms: &[Form], wrt: &[SymbolId]) -> Program {
-    match series.measure {
-        Measure::Orientation => build_all(&axes_of(chain, series.observable), &AXES, forms, wrt),
-        _ => build_all(chain, &[series.observable], forms, wrt),
+    match series.measure.kind().predicted {
+        Predicted::Axes => build_all(&axes_of(chain, series.observable), &AXES, forms, wrt),
+        Predicted::Vector => build_all(chain, &[series.observable], forms, wrt),
     }
 }
 

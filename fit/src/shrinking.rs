@@ -13,7 +13,8 @@ use nalgebra::Vector3;
 use super::beam::range_of;
 use super::block::Block;
 use observe::golden;
-use observe::{Measure, Poses, Series};
+use observe::kinds::GrowsWith;
+use observe::{Poses, Series};
 
 /// Poses at which a symbol has to move the point as a scale does.
 const POSES: usize = 5;
@@ -56,13 +57,11 @@ pub(super) fn of_series(
 ) -> Vec<Scales> {
     let nominal = chain.nominal_values();
     let of = |series: &Series| {
-        let factors = match (series.measure, range_of(chain, series.observable)) {
+        let factors = match (series.measure.kind().grows_with, range_of(chain, series.observable)) {
             _ if series.rows.is_empty() => Vec::new(),
-            (Measure::Target | Measure::Plane, Some(range)) => of_ranges(chain, poses, series, range),
-            (Measure::Target | Measure::Plane | Measure::Fixed | Measure::Circle, None) => {
-                of_arm(chain, poses, series)
-            }
-            _ => Vec::new(),
+            (GrowsWith::RangeOrArm, Some(range)) => of_ranges(chain, poses, series, range),
+            (GrowsWith::RangeOrArm | GrowsWith::Arm, None) => of_arm(chain, poses, series),
+            (GrowsWith::Arm, Some(_)) | (GrowsWith::Nothing, _) => Vec::new(),
         };
         let each = factors.into_iter().map(|(symbol, factor)| {
             let at = parameters.iter().position(|own| *own == symbol);

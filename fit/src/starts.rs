@@ -9,8 +9,7 @@ use rand_chacha::rand_core::SeedableRng;
 
 use super::solver::{Course, Solver};
 use super::{FitError, robust};
-use observe::unknowns::Shape;
-use observe::{Measure, SiUnit};
+use observe::SiUnit;
 
 /// How far off half of the directions are where something else than noise is the matter, rad: 11 degrees. As large a share of how far
 /// away objects are that nobody knows the places of.
@@ -60,7 +59,7 @@ impl Solver<'_> {
     /// it is.
     fn median_rad(&self, course: &Course) -> Option<f64> {
         let series = &self.observations.poses.series;
-        if series.iter().any(|series| series.measure != Measure::Direction) {
+        if !series.iter().all(|series| series.measure.kind().tells_far_off) {
             return None;
         }
         let mut norms: Vec<f64> = self.layout.norms(&course.point.sweep.residual).collect();
@@ -77,7 +76,7 @@ impl Solver<'_> {
         for ((norm, measure), &station) in
             norms.zip(self.observations.poses.measures()).zip(&unknowns.station)
         {
-            Shape::of(measure)?;
+            measure.shape()?;
             let away_m = if measure.unit() == SiUnit::METRE { away_m[station as usize] } else { 1.0 };
             shares.extend(Some(norm / away_m).filter(|share| share.is_finite()));
         }

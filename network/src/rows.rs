@@ -4,6 +4,7 @@ use model_core::{Chain, SymbolId, exact};
 use nalgebra::Vector3;
 
 use fit::range_of;
+use observe::kinds::{BeamUse, PlaceShown};
 use observe::unknowns::Unknowns;
 use observe::{Measure, Measured, Observations, Series};
 
@@ -57,10 +58,11 @@ pub fn rows(chain: &Chain, observations: &Observations, unknowns: &Unknowns, val
 
 /// The range of a series' sights, if they are from points of the chain: nobody measures it.
 pub(super) fn sighted(chain: &Chain, series: &Series) -> Option<SymbolId> {
-    if series.measure == Measure::Beam { range_of(chain, series.observable) } else { None }
+    let nobody_measures_it = series.measure.kind().beam == BeamUse::Whole;
+    if nobody_measures_it { range_of(chain, series.observable) } else { None }
 }
 
 /// Whether a row tells the place of its object from that of its station, and the other way round.
 pub fn tells(row: &Row) -> bool {
-    matches!(row.measure, Measure::Target | Measure::Fixed)
+    row.measure.kind().place == PlaceShown::There
 }

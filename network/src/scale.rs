@@ -10,8 +10,9 @@ use nalgebra::{DMatrix, DVector};
 use super::rows::sighted;
 use super::start::StartError;
 use fit::FitOptions;
+use observe::kinds::Scale;
 use observe::unknowns::{Freedom, Object, Shape, Unknowns};
-use observe::{Measure, Measured, Observations, Series};
+use observe::{Observations, Series};
 
 /// A part of the points this small is rounding.
 const ROUNDING: f64 = 1e-9;
@@ -68,17 +69,11 @@ fn could_shrink(
     named: impl Fn(&Symbol) -> bool,
 ) -> Vec<SymbolId> {
     let Some(unknowns) = &observations.unknowns else { return Vec::new() };
-    let of_points = |series: &&Series| match series.measure {
-        Measure::Plane | Measure::Target | Measure::Fixed | Measure::Circle | Measure::Beam => true,
-        // Of a sphere whose radius nobody knows no length is read.
-        Measure::Wire => observations.measured[series.rows.clone()].iter().all(reads_nothing),
-        _ => false,
-    };
-    let turns = |measure: Measure| matches!(measure.bare(), Measure::Direction | Measure::Orientation);
-    let shows_none = |series: &Series| of_points(&series) || turns(series.measure);
-    let mut points = observations.poses.series.iter().filter(of_points).peekable();
+    let scale = |series: &Series| (series.measure.kind().scale)(&observations.measured[series.rows.clone()]);
+    let series = || observations.poses.series.iter();
+    let mut points = series().filter(|series| scale(series) == Scale::Free).peekable();
     if points.peek().is_none()
-        || !observations.poses.series.iter().all(shows_none)
+        || series().any(|series| scale(series) == Scale::Held)
         || known_places(unknowns) >= 2
     {
         return Vec::new();
@@ -89,10 +84,6 @@ fn could_shrink(
     let is_free = !unheld.is_empty()
         && points.all(|series| is_sum_of(chain, observations, series, &lengths, &fit.start));
     if is_free { unheld } else { Vec::new() }
-}
-
-fn reads_nothing(measured: &Measured) -> bool {
-    *measured == Measured::Length { length_m: 0.0 }
 }
 
 /// How many stations and objects are where the study says, to within something.

@@ -4,8 +4,8 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::rows::Row;
 use fit::robust;
+use observe::tangent_frame;
 use observe::unknowns::Pose;
-use observe::{Measured, tangent_frame};
 
 /// Singular values below this share of the largest are none: points in a line or a plane.
 pub(super) const FLAT: f64 = 1e-6;
@@ -85,9 +85,9 @@ pub(super) fn circle(
 pub(super) fn trilaterated<const N: usize>(rows: &[&Row], poses: &[Pose]) -> Option<[f64; N]> {
     let lengths_m: Vec<f64> = rows
         .iter()
-        .map(|row| match row.measured {
-            Measured::Length { length_m } => length_m,
-            _ => unreachable!("the rows measure lengths"),
+        .map(|row| match row.measured.length_m() {
+            Some(length_m) => length_m,
+            None => unreachable!("the rows measure lengths"),
         })
         .collect();
     let points: Vec<Vector3<f64>> =

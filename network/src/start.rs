@@ -11,8 +11,9 @@ use super::rows::{Row, rows, sighted, tells};
 use super::solved::{FLAT, circle, flattest, is_in_a_line, middle, spread, trilaterated};
 use super::upright::{are_above_each_other, upright};
 use fit::{align_robustly, robust};
+use observe::kinds::PlaceShown;
 use observe::unknowns::{Freedom, Known, Object, Pose, Shape, Station, Unknowns};
-use observe::{Measure, Observations, Poses};
+use observe::{Observations, Poses};
 
 /// A rough pose is nowhere near where targets come to lie off by more than this share of their distance, while by those of others
 /// they lie off by less than that share of it.
@@ -361,7 +362,7 @@ fn place_object(object: &mut Object, rows: &[&Row], poses: &[Pose]) -> Result<()
             let telling = rows.iter().zip(points).filter(|(row, _)| tells(row)).map(|(_, point)| point);
             object.place = middle(&telling.collect::<Vec<_>>()).unwrap_or(centre);
         }
-        Shape::Point if rows.iter().all(|row| row.measure == Measure::Distance) => {
+        Shape::Point if rows.iter().all(|row| row.measure.kind().place == PlaceShown::Distance) => {
             object.place = Vector3::from(trilaterated::<3>(rows, poses).ok_or(
                 "observe its distance from four places at least that are not in a plane, or write where it is",
             )?);
@@ -369,7 +370,7 @@ fn place_object(object: &mut Object, rows: &[&Row], poses: &[Pose]) -> Result<()
         Shape::Point => {
             // Where the beams come nearest to each other.
             let sights = rows.iter().zip(poses);
-            let sights = sights.filter(|(row, _)| matches!(row.measure, Measure::Sight | Measure::Beam));
+            let sights = sights.filter(|(row, _)| row.measure.kind().place == PlaceShown::Beam);
             let beams = sights
                 .map(|(row, pose)| (pose.turn * (row.point - row.from).normalize(), pose.apply(&row.from)));
             let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());

@@ -5,7 +5,7 @@
 pub mod derive;
 pub mod golden;
 mod joined;
-mod measured;
+pub mod kinds;
 mod numbers;
 pub mod orientation;
 mod origin;
@@ -20,7 +20,7 @@ pub mod unknowns;
 pub mod waves;
 
 pub use derive::{DeriveError, Derived, parse_derived};
-pub use measured::{Measure, Measured, NoiseOf};
+pub use kinds::{Measure, Measured, NoiseOf};
 pub use numbers::Numbers;
 pub use origin::Places;
 pub use origin::{Origin, Origins};
@@ -108,7 +108,7 @@ impl Observations {
     #[must_use]
     pub fn noise_of_kinds(&self) -> Vec<NoiseOf> {
         let measures = self.poses.series.iter().map(|series| series.measure);
-        measures.flat_map(|measure| (0..measure.components()).map(move |at| measure.noise_of(at))).collect()
+        measures.flat_map(|measure| measure.kind().noise.into_iter().take(measure.components())).collect()
     }
 
     /// These rows, in the order given, with all that belongs to them. Every series is kept, though it may hold no rows.

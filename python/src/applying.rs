@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use trueaxis_cli::library::{self, Computed, Held, Source};
+use trueaxis_cli::library::{self, Computed, Held};
 
 use crate::chain::{Chain, Columns, Text, as_arrays, source};
 use crate::errors;
@@ -45,5 +45,5 @@ pub fn warn_of_outside(py: Python<'_>, chain: &Chain, errors: Text, counted: Vec
 /// A text that somebody wrote, from its file.
 #[pyfunction]
 pub fn read_text(py: Python<'_>, path: PathBuf) -> PyResult<String> {
-    errors::run(py, || Ok(Source::read(&path)?.text))
+    errors::run(py, || Ok(library::read(&path)?.text))
 }

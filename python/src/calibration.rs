@@ -28,11 +28,11 @@ impl Study {
         let studied = errors::run(py, || {
             let study = match text {
                 Some(text) => Source::of_text(path, text),
-                None => Source::read(&path)?,
+                None => library::read(&path)?,
             };
             match chain {
-                Some(chain) => Studied::of(study, chain),
-                None => Studied::read(study),
+                Some(chain) => library::studied(study, chain),
+                None => library::read_study(study),
             }
         })?;
         let tables = studied.tables().map(str::to_owned).collect();

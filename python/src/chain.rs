@@ -60,7 +60,7 @@ impl Chain {
     fn new(py: Python<'_>, read: impl FnOnce() -> Result<Source, Failure> + Send) -> PyResult<Self> {
         let (source, chain, open) = errors::run(py, || {
             let source = read()?;
-            let chain = source.symbolic_chain()?;
+            let chain = library::symbolic_chain(&source)?;
             let open = model_core::Chain::from_text(&source.text).err();
             Ok((source, chain, open))
         })?;
@@ -70,7 +70,7 @@ impl Chain {
     /// The chain for what calculates with numbers.
     pub fn with_numbers(&self) -> Result<&model_core::Chain, Failure> {
         match &self.open {
-            Some(mistakes) => Err(self.source.mistakes(mistakes)),
+            Some(mistakes) => Err(self.source.mistakes(mistakes).into()),
             None => Ok(&self.chain),
         }
     }
@@ -161,7 +161,7 @@ impl Chain {
     /// Reads a declaration from a file.
     #[staticmethod]
     fn from_file(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        Self::new(py, || Source::read(&path))
+        Self::new(py, || library::read(&path))
     }
 
     /// The chain's name.

@@ -52,11 +52,11 @@ fn studied(py: Python<'_>, study: (PathBuf, Option<String>), chain: Option<Text>
     errors::run(py, || {
         let study = match &text {
             Some(text) => Source::of_text(path, text),
-            None => Source::read(&path)?,
+            None => library::read(&path)?,
         };
         match chain {
-            Some(chain) => Studied::of(study, source(chain)),
-            None => Studied::read(study),
+            Some(chain) => library::studied(study, source(chain)),
+            None => library::read_study(study),
         }
     })
 }
@@ -185,7 +185,7 @@ pub fn validate(
     let columns = table.columns()?;
     let Validation { rows, kept, squares, squares_kept } = errors::run(py, || {
         let read = |(chain, errors): (Text, Text)| {
-            Ok((Studied::of(source(study.clone()), source(chain))?, source(errors)))
+            Ok((library::studied(source(study.clone()), source(chain))?, source(errors)))
         };
         let (before, after) = (read(before)?, read(after)?);
         let foretold = |(studied, errors)| Foretold { studied, errors };
@@ -209,7 +209,7 @@ pub fn accumulate<'py>(
     rows: Sample<'py>,
     pass: Vec<u8>,
 ) -> PyResult<Option<Bound<'py, PyBytes>>> {
-    let studied = errors::run(py, || Studied::of(source(study), source(chain)))?;
+    let studied = errors::run(py, || library::studied(source(study), source(chain)))?;
     let bytes = with_rows(py, rows, |rows| library::accumulated(&studied, rows, &pass))?;
     Ok(bytes.map(|bytes| PyBytes::new(py, &bytes)))
 }

@@ -5,6 +5,7 @@
 //! (`load`). Whatever is wrong with a study is told at once, each mistake with its place (`mistakes`, `syntax`).
 
 mod amount;
+mod cells;
 mod column_plan;
 mod columns;
 mod conversion;

@@ -1,23 +1,21 @@
 //! Data files of a plan, read into observations.
 
 use model_core::{SymbolId, exact};
-use nalgebra::Vector3;
 
+use super::cells::RowCells;
 use super::columns::Columns;
 use super::labels::{Numbered, number};
 use super::order::{not_understood, times};
-use super::orientation::UNIT_TOLERANCE;
 use super::plan::{Plan, Reading, SourcePlan};
 use super::ranges::check_ranges;
 use super::repeated::{fitted_as_well, without_repeats};
 use super::rows::Rows;
 use super::sample::Sample;
 use super::stated::{of_components, of_pairs, of_readings};
-use super::written::Kind;
 use network::{Remark, StartError, check_named, check_scale, place};
 use observe::orientation::Turned;
-use observe::unknowns::{Shape, Station, Unknowns};
-use observe::{Measured, Observations, Series, direction_from_offset, direction_from_spherical};
+use observe::unknowns::{Station, Unknowns};
+use observe::{Measured, Observations, Series};
 use tables::formats::{self, DataError, Input, TableReader, clipped};
 use tables::units::BareColumn;
 
@@ -219,7 +217,7 @@ impl Plan {
     /// The objects and stations of the rows of a source, those behind `start`.
     fn append_objects(&self, all: &mut Observations, source: &SourcePlan, rows: &Rows, start: usize) {
         let count = rows.row_numbers.len();
-        let Some(shape) = Shape::of(source.measure) else {
+        let Some(shape) = source.measure.shape() else {
             if let Some(unknowns) = &mut all.unknowns {
                 unknowns.object.extend(std::iter::repeat_n(None, count));
                 unknowns.station.extend(std::iter::repeat_n(0, count));
@@ -324,75 +322,26 @@ impl Plan {
     ) -> Result<Vec<Measured>, DataError> {
         let observed: Vec<&[f64]> =
             columns.observed.clone().filter_map(|at| rows.numbers.get(at).map(Vec::as_slice)).collect();
-        let at = |component: usize, row: usize| observed.get(component).map_or(0.0, |values| values[row]);
         let impossible = |row: usize, why: String| DataError::Impossible {
             file: file.to_string(),
             line: rows.places.line(row),
             row: rows.number(row),
             why,
         };
-        let mut values = self.chain.nominal_values();
-        let path = exact::Path::new(&self.chain, source.observable);
         let turned = source.orientation.map(|form| (form, Turned::new(&self.chain, source.observable)));
+        let mut cells = RowCells {
+            row: 0,
+            observed: &observed,
+            readings,
+            convention: source.convention,
+            path: exact::Path::new(&self.chain, source.observable),
+            turned,
+            values: self.chain.nominal_values(),
+        };
         (0..rows.row_numbers.len())
-            .map(|row| match source.kind {
-                Kind::Direction => {
-                    let vector = Vector3::new(at(0, row), at(1, row), at(2, row));
-                    let length = vector.norm();
-                    if (length - 1.0).abs() > UNIT_TOLERANCE {
-                        let why = format!("x, y, z is no unit vector: its length is {length:.6}");
-                        return Err(impossible(row, why));
-                    }
-                    Ok(Measured::Direction(vector / length))
-                }
-                Kind::Spherical if observed.len() == 1 => Ok(Measured::Azimuth { azimuth_rad: at(0, row) }),
-                Kind::Spherical => {
-                    let (azimuth, second) = (at(0, row), at(1, row));
-                    let (direction, elevation) = match &source.convention {
-                        Some(convention) => convention.direction(azimuth, second),
-                        None => (direction_from_spherical(azimuth, second), second),
-                    };
-                    if elevation.abs() > std::f64::consts::FRAC_PI_2 * (1.0 + 1e-9) {
-                        let why = format!(
-                            "an elevation of {:.1} deg is beyond the zenith: are the unit and the order of the columns right?",
-                            elevation.to_degrees()
-                        );
-                        return Err(impossible(row, why));
-                    }
-                    Ok(Measured::Direction(direction))
-                }
-                Kind::Offset => {
-                    for (id, readings) in readings {
-                        values[id.index()] = readings[row];
-                    }
-                    let nominal = path.value(&values).normalize();
-                    if !nominal.iter().all(|component| component.is_finite()) {
-                        return Err(impossible(row, "the chain has no direction at these readings".to_string()));
-                    }
-                    Ok(Measured::Direction(direction_from_offset(&nominal, at(0, row), at(1, row))))
-                }
-                Kind::Orientation => {
-                    let Some((form, turned)) = &turned else { unreachable!("an orientation has a form") };
-                    for (id, readings) in readings {
-                        values[id.index()] = readings[row];
-                    }
-                    let orientation = form.read(|place| at(place, row), || turned.at(&values));
-                    orientation.map(Measured::Orientation).map_err(|why| impossible(row, why))
-                }
-                Kind::Point => Ok(Measured::Point(Vector3::new(at(0, row), at(1, row), at(2, row)))),
-                Kind::Range if at(0, row) < 0.0 => {
-                    Err(impossible(row, format!("a range of {} m is negative", at(0, row))))
-                }
-                Kind::Wire | Kind::Distance | Kind::Circle | Kind::Sphere if at(0, row) < 0.0 => {
-                    Err(impossible(row, format!("a length of {} m is negative", at(0, row))))
-                }
-                Kind::Range => Ok(Measured::Range { range_m: at(0, row) }),
-                Kind::Circle if observed.is_empty() => Ok(Measured::Readings),
-                // Of a sphere whose radius nobody knows nothing is read.
-                Kind::Wire | Kind::Distance | Kind::Circle | Kind::Sphere => {
-                    Ok(Measured::Length { length_m: at(0, row) })
-                }
-                Kind::Plane | Kind::Target | Kind::Fixed | Kind::Sight => Ok(Measured::Readings),
+            .map(|row| {
+                cells.row = row;
+                (source.way.read)(&mut cells).map_err(|why| impossible(row, why))
             })
             .collect()
     }

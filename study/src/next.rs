@@ -62,8 +62,9 @@ impl Study {
         let observed = std::iter::once(&self.observed).chain(self.also.iter().map(|also| &also.observed));
         let seen: Vec<Seen> = observed
             .filter_map(|observed| {
-                let Observed { kind, station, radius, length, .. } = observed.get_ref();
-                let measure = kind.of_object(radius.is_some())?;
+                let own = observed.get_ref();
+                let Observed { kind, station, radius, length, .. } = own;
+                let measure = kind.of_object(&|key| own.names(key))?;
                 let reads_length = length.is_some() || radius.is_some();
                 Some(Seen { kind: *kind, measure, reads_length, named: !station.0.is_empty() })
             })

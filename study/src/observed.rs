@@ -1,18 +1,22 @@
 //! The columns of `[observed]`: which they are, what they measure, and what they are called where the study does not say.
 
-use model_core::{Axis, Chain, ObservableId, ObservableKind, Quantity};
+use model_core::{Axis, Chain, ObservableId, Quantity};
 use toml::Spanned;
 
 use super::column_plan::{ColumnPlan, column_plan};
+use super::kind::observes;
 use super::mistakes::{Outcome, every, mistake};
 use super::orientation::{self, Form};
 use super::shown;
-use super::written::{Column, Kind, Observed};
+use super::written::{Column, Observed};
 use observe::Measure;
+use observe::kinds::{Asked, Key, Observes, Written};
 
 /// What a source observes, and in which columns.
 pub(super) struct ObservedColumns {
     pub measure: Measure,
+    /// How that is written.
+    pub way: &'static Written,
     /// In their order.
     pub columns: Vec<ColumnPlan>,
     /// The key of each in `[observed]`.
@@ -29,45 +33,21 @@ pub(super) fn observed_columns(
 ) -> Outcome<ObservedColumns> {
     let (observed, place) = (written.get_ref(), written.span());
     let observable = chain.observable(id);
-    let xyz = [("x", &observed.x), ("y", &observed.y), ("z", &observed.z)];
-    let (azimuth, elevation) = if observed.ha.is_some() || observed.dec.is_some() {
-        (("ha", &observed.ha), ("dec", &observed.dec))
-    } else {
-        (("azimuth", &observed.azimuth), ("elevation", &observed.elevation))
-    };
     // An observable that shows an azimuth and an elevation has a column of its own name for each.
-    let has_pair = !observable.is_vector() && observable.shown.len() == 2;
-    let only_azimuth = azimuth.1.is_some() && elevation.1.is_none() && !has_pair;
-    let mut orientation = None;
-    let of_object = || match observed.kind.of_object(observed.radius.is_some()) {
-        Some(measure) => measure,
-        None => unreachable!("rows of this kind observe an object"),
+    let shows_two = !observable.is_vector() && observable.shown.len() == 2;
+    let asked = Asked { names: &|key| observed.names(key), shows_two };
+    let Some((measure, way)) = observed.kind.way(observes(observable), &asked) else {
+        unreachable!("the kind was held to the observable")
     };
-    let (measure, quantity, keys) = match observed.kind {
-        Kind::Direction => (Measure::Direction, Quantity::Number, xyz.to_vec()),
-        Kind::Point => (Measure::Point, Quantity::Length, xyz.to_vec()),
-        Kind::Spherical if only_azimuth => (Measure::Azimuth, Quantity::Angle, vec![azimuth]),
-        Kind::Spherical => (Measure::Direction, Quantity::Angle, vec![azimuth, elevation]),
-        Kind::Offset => {
-            let keys = vec![("cross", &observed.cross), ("along", &observed.along)];
-            (Measure::Direction, Quantity::Angle, keys)
-        }
-        Kind::Range => (Measure::Range, Quantity::Length, vec![("range", &observed.range)]),
-        Kind::Plane | Kind::Target | Kind::Fixed => (of_object(), Quantity::Length, Vec::new()),
-        Kind::Circle | Kind::Sphere => {
-            let radius = [("radius", &observed.radius)].into_iter().filter(|(_, own)| own.is_some());
-            (of_object(), Quantity::Length, radius.collect())
-        }
-        Kind::Wire | Kind::Distance => (of_object(), Quantity::Length, vec![("length", &observed.length)]),
-        Kind::Sight if observable.kind == ObservableKind::Point => {
-            (Measure::Beam, Quantity::Angle, Vec::new())
-        }
-        Kind::Sight => (of_object(), Quantity::Angle, Vec::new()),
-        Kind::Orientation => {
-            let (form, keys) = orientation::form(observed, &place)?;
-            orientation = Some(form);
-            (Measure::Orientation, form.quantity(), keys)
-        }
+    let mut orientation = None;
+    let (quantity, keys) = if way.of == Observes::Orientation {
+        let (form, keys) = orientation::form(observed, &place)?;
+        orientation = Some(form);
+        (form.quantity(), keys)
+    } else {
+        let all = observed.columns();
+        let column = |key: &Key| all.iter().copied().find(|(name, _)| *name == key.name);
+        (way.quantity, way.columns(&asked).iter().filter_map(column).collect())
     };
     let unread = observed
         .columns()
@@ -101,7 +81,7 @@ pub(super) fn observed_columns(
     };
     let written: Vec<&'static str> = keys.iter().map(|(key, _)| *key).collect();
     let columns = every(keys.into_iter().map(plan))?;
-    Ok(ObservedColumns { measure, columns, keys: written, orientation })
+    Ok(ObservedColumns { measure, way, columns, keys: written, orientation })
 }
 
 /// Whether a key is a component, whose column `simulate` and `eval` call by the observable and the key.

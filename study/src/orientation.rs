@@ -7,10 +7,8 @@ use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 use super::mistakes::{Outcome, mistake};
 use super::written::{Column, Observed};
+use observe::kinds::UNIT_TOLERANCE;
 use observe::orientation::of_axes;
-
-/// How far from one the length of a unit vector may be in a file: written with three digits.
-pub(super) const UNIT_TOLERANCE: f64 = 2e-3;
 
 /// What the columns of an orientation are. All of them say what takes vectors of the body into the frame that it is seen in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

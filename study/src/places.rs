@@ -6,11 +6,13 @@ use toml::Spanned;
 
 use super::amount::{si, si_with_unit};
 use super::estimated::matching;
+use super::kind::{Kind, names_of, observes};
 use super::mistakes::{Outcome, every, mistake};
 use super::plan::SourcePlan;
 use super::sights::check_sight;
-use super::written::{Kind, ObjectTable, Observed, StationTable, Study, Table};
+use super::written::{ObjectTable, Observed, StationTable, Study, Table};
 use fit::{BESIDE_OBJECTS, FitOptions};
+use observe::kinds::Observes;
 use observe::unknowns::{Freedom, Known, Object, Places, Pose, Shape, Station};
 use tables::units::Amount;
 
@@ -27,51 +29,27 @@ impl Study {
     ) -> Outcome<()> {
         let (observed, place) = (written.get_ref(), written.span());
         let observable = chain.observable(id);
-        let of_points = [
-            Kind::Point,
-            Kind::Range,
-            Kind::Plane,
-            Kind::Target,
-            Kind::Fixed,
-            Kind::Circle,
-            Kind::Sphere,
-            Kind::Wire,
-            Kind::Distance,
-            Kind::Sight,
-        ];
-        let of_directions = [Kind::Direction, Kind::Spherical, Kind::Offset, Kind::Sight];
-        let (what, kinds, help) = if observable.is_orientation() {
-            (
-                "an orientation",
-                &[Kind::Orientation][..],
-                "write kind = \"orientation\", or name another observable",
-            )
-        } else if observable.kind == model_core::ObservableKind::Point {
-            (
-                "a point",
-                &of_points[..],
-                "write kind = \"point\", \"range\", \"plane\", \"target\", \"fixed\", \"circle\", \"sphere\", \"wire\", \"distance\" or \"sight\", or name another observable",
-            )
-        } else {
-            (
-                "a direction",
-                &of_directions[..],
-                "write kind = \"direction\", \"spherical\", \"offset\" or \"sight\", or name another observable",
-            )
-        };
-        if !kinds.contains(&observed.kind) {
+        let of = observes(observable);
+        if !observed.kind.measures(of) {
+            let what = match of {
+                Observes::Orientation => "an orientation",
+                Observes::Point => "a point",
+                Observes::Direction => "a direction",
+            };
             let message = format!("`{}` is {what}, which this kind does not measure", observable.name);
-            return Err(mistake(place, message, help));
+            let names = names_of(|kind| kind.measures(of));
+            return Err(mistake(place, message, format!("write kind = {names}, or name another observable")));
         }
         check_sight(chain, id, written)?;
-        let of_objects = observed.kind.of_object(false).is_some();
+        let of_objects = observed.kind.observes_objects();
         if of_objects && observed.object.0.is_empty() {
             let help = "write `object = \"…\"`: the column that names the wall, the target or the socket of each row";
             return Err(mistake(place, "which object does each row observe?", help));
         }
         let names_places = !observed.object.0.is_empty() || !observed.station.0.is_empty();
         if names_places && !of_objects {
-            let help = "leave `object` and `station` out, or write kind = \"plane\", \"target\", \"fixed\", \"circle\", \"sphere\", \"wire\", \"distance\" or \"sight\"";
+            let names = names_of(Kind::observes_objects);
+            let help = format!("leave `object` and `station` out, or write kind = {names}");
             return Err(mistake(place, "what this kind observes is known row by row", help));
         }
         Ok(())
@@ -79,7 +57,7 @@ impl Study {
 
     /// What is different where objects are unknown.
     pub(super) fn with_objects(&self, sources: &[SourcePlan], fit: &mut FitOptions) -> Outcome<()> {
-        if sources.iter().all(|source| Shape::of(source.measure).is_none()) {
+        if !sources.iter().any(|source| source.measure.observes_object()) {
             return Ok(());
         }
         // Rows that follow each other belong to different objects: what they share is those.
@@ -94,11 +72,14 @@ impl Study {
     /// Where the study says that stations and objects are.
     pub(super) fn places(&self, sources: &[SourcePlan]) -> Outcome<Places> {
         let said = self.stations.keys().chain(self.objects.keys()).next();
-        if let (Some(name), true) = (said, sources.iter().all(|source| Shape::of(source.measure).is_none())) {
-            let help = "write `[observed] kind = \"target\"`, \"plane\", \"fixed\", \"circle\", \"sphere\", \"wire\", \"distance\" or \"sight\", or leave it out";
+        if let (Some(name), true) = (said, !sources.iter().any(|source| source.measure.observes_object())) {
+            let help = format!(
+                "write kind = {} under [observed], or leave it out",
+                names_of(Kind::observes_objects)
+            );
             return Err(mistake(name.span(), "no data of this study observe objects from stations", help));
         }
-        let mut shapes = sources.iter().filter_map(|source| Shape::of(source.measure));
+        let mut shapes = sources.iter().filter_map(|source| source.measure.shape());
         if let (Some(name), true) = (self.objects.keys().next(), shapes.all(|shape| shape == Shape::Plane)) {
             let message = format!("`{}` is a plane, of which a place says nothing", name.get_ref());
             let help = "leave [objects] out; where two stations stood ([stations]) or a known length shows the scale";
@@ -120,7 +101,7 @@ impl Study {
 
     /// How large errors may be that the data do not show, where objects are unknown or the study says so.
     pub(super) fn tolerances(&self, chain: &Chain, sources: &[SourcePlan]) -> Outcome<Vec<(SymbolId, f64)>> {
-        let of_objects = sources.iter().any(|source| Shape::of(source.measure).is_some());
+        let of_objects = sources.iter().any(|source| source.measure.observes_object());
         let errors = chain.symbols_of(SymbolKind::Error);
         let mut sizes: Vec<(SymbolId, f64)> =
             if of_objects { errors.map(|id| (id, BESIDE_OBJECTS)).collect() } else { Vec::new() };

@@ -16,10 +16,11 @@ use super::timeless::{Timeless, timeless};
 use super::uncertain_readings::{UncertainReadings, uncertain};
 use super::unsought::{Unsought, unsought};
 use super::unstated::{Unstated, unstated};
-use super::written::{Column, Kind, Study, Table};
+use super::written::{Column, Study, Table};
 use effects::candidate::Effect;
 use fit::FitOptions;
 use fit::noise::NoiseOptions;
+use observe::kinds::Written;
 use observe::unknowns::Places;
 use observe::{Measure, derive::Derived, derive::parse_derived};
 use tables::formats::Options;
@@ -115,9 +116,10 @@ pub struct SourcePlan {
     pub measure: Measure,
     pub(super) readings: Vec<(SymbolId, Reading)>,
     pub(super) observed: Vec<ColumnPlan>,
+    /// How it is written.
+    pub(super) way: &'static Written,
     /// The key of each in `[observed]`.
     observed_keys: Vec<&'static str>,
-    pub(super) kind: Kind,
     /// What the angles are that are observed, where the declaration says so.
     pub(super) convention: Option<Convention>,
     /// How an orientation is written, where one is observed.
@@ -289,7 +291,7 @@ impl Study {
                 Some(observable),
                 Some(readings),
                 Some(uncertain),
-                Some(ObservedColumns { measure, columns, keys, orientation }),
+                Some(ObservedColumns { measure, way, columns, keys, orientation }),
                 Some(convention),
                 Some(sigma),
             ) = (observable, readings, uncertain, shown, convention, sigma)
@@ -302,8 +304,8 @@ impl Study {
                 measure,
                 readings,
                 observed: columns,
+                way,
                 observed_keys: keys,
-                kind: observed.get_ref().kind,
                 convention,
                 orientation,
                 sigma,

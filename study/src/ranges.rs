@@ -5,7 +5,7 @@ use model_core::{Chain, SymbolId};
 use super::plan::SourcePlan;
 use super::rows::Rows;
 use fit::range_of;
-use observe::Measure;
+use observe::kinds::Ranges;
 use tables::formats::DataError;
 
 /// A sensor that reads to either side of its zero has a larger share of negative readings.
@@ -19,7 +19,8 @@ pub(super) fn check_ranges(
     rows: &Rows,
     file: &str,
 ) -> Result<(), DataError> {
-    let has_beam = matches!(source.measure, Measure::Target | Measure::Plane | Measure::Fixed);
+    let expected = source.measure.kind().ranges;
+    let has_beam = expected != Ranges::Any;
     let Some(range) = range_of(chain, source.observable).filter(|_| has_beam) else { return Ok(()) };
     // A slide of the chain may go either way.
     let components = &chain.observable(source.observable).components;
@@ -29,8 +30,7 @@ pub(super) fn check_ranges(
     let Some((_, values)) = readings.iter().find(|(id, _)| *id == range) else { return Ok(()) };
     let negative = values.iter().filter(|value| **value < 0.0).count();
     let all = values.len();
-    let is_signed =
-        negative as f64 > SIGNED * all as f64 && (negative < all || source.measure != Measure::Target);
+    let is_signed = negative as f64 > SIGNED * all as f64 && (negative < all || expected == Ranges::OfSensor);
     let Some(row) = values.iter().position(|value| *value < 0.0).filter(|_| !is_signed) else {
         return Ok(());
     };

@@ -9,7 +9,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use rayon::prelude::*;
 
 use network::Remark;
-use observe::{Measured, Observations};
+use observe::Observations;
 
 /// So many rows that follow each other and repeat others that do are no chance.
 const IN_ORDER: usize = 8;
@@ -82,15 +82,7 @@ impl<'a> Numbers<'a> {
         let readings = readings.filter(|&(at, _)| without != Some(at));
         key.extend(readings.map(|(_, (_, values))| values[row].to_bits()));
         if without != Some(own.poses.columns.len()) {
-            let mut add = |values: &[f64]| key.extend(values.iter().map(|value| value.to_bits()));
-            match &own.measured[row] {
-                Measured::Direction(vector) | Measured::Point(vector) => add(vector.as_slice()),
-                Measured::Orientation(turn) => add(turn.coords.as_slice()),
-                Measured::Range { range_m: value }
-                | Measured::Azimuth { azimuth_rad: value }
-                | Measured::Length { length_m: value } => add(&[*value]),
-                Measured::Readings => {}
-            }
+            key.extend(own.measured[row].numbers().iter().map(|value| value.to_bits()));
         }
         key
     }

@@ -12,6 +12,7 @@ use nalgebra::Vector3;
 use super::mistakes::{Outcome, mistake};
 use super::written::Kind;
 use observe::direction_from_spherical;
+use observe::kinds::OfReadings;
 
 /// Where two measured angles are zero, and which way they turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,13 +65,13 @@ pub(super) fn convention(
     }
     let shown: Vec<String> = observable.shown.iter().map(|reading| reading.written()).collect();
     let name = &observable.name;
-    match (measures.as_slice(), kind) {
+    match (measures.as_slice(), kind.of_readings()) {
         (
             &[
                 Measures::Azimuth { zero, through },
                 ref second @ (Measures::Elevation { up } | Measures::ZenithDistance { up }),
             ],
-            Kind::Spherical,
+            OfReadings::TwoAngles,
         ) => {
             if [zero, through].iter().any(|axis| axis.axis == up.axis) {
                 let message = format!("the two angles of `{name}` are not counted about one axis");
@@ -83,7 +84,7 @@ pub(super) fn convention(
             let from_zenith = matches!(second, Measures::ZenithDistance { .. });
             Ok(Some(Convention { zero, through, up, from_zenith }))
         }
-        ([Measures::Range], Kind::Range) => Ok(None),
+        ([Measures::Range], OfReadings::Range) => Ok(None),
         ([Measures::Azimuth { .. }, Measures::Elevation { .. } | Measures::ZenithDistance { .. }], _) => {
             let help = "write kind = \"spherical\", with `azimuth` and `elevation` for the two in this order";
             Err(mistake(place.clone(), format!("`{name}` shows {}", shown.join(" and ")), help))

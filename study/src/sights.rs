@@ -1,15 +1,17 @@
 //! Sights from points of the chain: their beams end where the objects are, and no column says how far that is.
 
-use model_core::{Chain, ObservableId, ObservableKind, SymbolId};
+use model_core::{Chain, ObservableId, SymbolId};
 use toml::Spanned;
 
+use super::kind::observes;
 use super::mistakes::{Outcome, Several, mistake};
 use super::written::{Kind, Observed};
 use fit::range_of;
+use observe::kinds::BeamUse;
 
 /// Whether the rows of an observation are sights from a point of the chain.
 fn is_from_a_point(chain: &Chain, id: ObservableId, kind: Kind) -> bool {
-    kind == Kind::Sight && chain.observable(id).kind == ObservableKind::Point
+    kind.ways_of(observes(chain.observable(id))).any(|measure| measure.kind().beam == BeamUse::Whole)
 }
 
 /// Holds a sight from a point of the chain to a point that lies on a beam.

@@ -195,6 +195,11 @@ pub(super) struct Observed {
 }
 
 impl Observed {
+    /// Whether a column is named by a key.
+    pub(super) fn names(&self, key: &str) -> bool {
+        self.columns().iter().any(|(own, column)| *own == key && column.is_some())
+    }
+
     /// Every column by its key.
     pub(super) fn columns(&self) -> [(&'static str, &Option<Column>); 28] {
         [

@@ -4,4 +4,5 @@ mod circles;
 mod dependencies;
 mod house_rules;
 mod registries;
+mod rooms;
 mod sources;

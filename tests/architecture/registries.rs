@@ -5,9 +5,10 @@ use crate::sources::below;
 /// The registries of the project.
 const REGISTRIES: &[&str] = &[
     "cli/src/commands",
-    "cli/src/init/templates",
     "codegen/src/backends",
     "effects/src/families",
+    "init/src/templates",
+    "observe/src/kinds",
     "tables/src/formats",
     "calibration/src/misread/hypotheses",
     "evidence/src/families",

@@ -20,6 +20,9 @@ pub const LIBRARIES: &[&str] = &[
     "study/src",
     "calibration/src",
     "evidence/src",
+    "report/src",
+    "service/src",
+    "init/src",
 ];
 
 /// One source file: its path from the root of the workspace, with `/`, and its text.

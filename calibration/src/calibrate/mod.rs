@@ -6,8 +6,9 @@
 //! search is repeated without each fold (`held_out`), effects that do not help there are left out (`confirm`), and shapes are taken
 //! up where they help (`choice`). Where rows beside unknown objects that follow each other are off alike even so, all of it is done
 //! once more with stretches of them for groups (`stretches`), and what nobody fitted is whole objects (`whole_objects`).
-//! [`crate::diagnose`] says what it means, [`crate::report`] in words.
+//! [`crate::diagnose`] says what it means; the crate `report` says it in words.
 
+mod amendment;
 mod choice;
 mod confirm;
 mod every_row;
@@ -29,7 +30,6 @@ use crate::amend::{AmendError, amend, with_quantities_of};
 use crate::diagnose::shown::{DRAWN, Shown};
 use crate::diagnose::{Confirmed, Diagnosis, Trace, Unsearched, diagnose, rounding, trace};
 use crate::misread::{Misread, implausible, misread};
-use crate::report::amendment;
 use crate::search::SearchError;
 use crate::search::context::Context;
 use crate::search::fitted::Fitted;

@@ -7,6 +7,7 @@ use super::rivals::{Winner, contest};
 use crate::search::context::Context;
 use crate::search::round::Round;
 use observe::Measure;
+use observe::kinds::MeasuredLengths;
 
 /// A zero of the lengths that explains the data better than what was found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -21,7 +22,8 @@ pub struct LengthsOff {
 pub(super) fn lengths_off(whole: &Context<'_>, last: &Round<'_>) -> Option<LengthsOff> {
     let rows = &last.search.rows;
     let measures: Vec<Measure> = rows.observations.poses.measures().collect();
-    let is_length = |&row: &u32| f64::from(u8::from(measures[row as usize] == Measure::Distance));
+    let of_points = Some(MeasuredLengths::Distances);
+    let is_length = |&row: &u32| f64::from(u8::from(measures[row as usize].kind().lengths == of_points));
     let column: Vec<f64> = rows.columns.row.iter().map(is_length).collect();
     if column.iter().all(|value| *value == 0.0) {
         return None;

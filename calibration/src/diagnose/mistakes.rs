@@ -6,8 +6,9 @@ use model_core::{Chain, Quantity, SymbolId, SymbolKind};
 use serde::Serialize;
 
 use fit::range_of;
+use observe::kinds::MeasuredLengths;
 use observe::unknowns::{Known, Places, Pose, Unknowns};
-use observe::{Measure, Measured, Observations};
+use observe::{Measure, Observations};
 
 /// Joints that are tried one by one at most.
 const JOINTS: usize = 8;
@@ -116,30 +117,6 @@ pub enum Misreading {
     },
 }
 
-/// Lengths that are measured beside the readings.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum MeasuredLengths {
-    /// Radii of circles.
-    Radii,
-    /// Distances of two points, radii of spheres among them.
-    Distances,
-    /// What is wound off of wires.
-    Wires,
-}
-
-impl MeasuredLengths {
-    /// What rows of a measure have beside their readings, if it is a length.
-    fn of(measure: Measure) -> Option<Self> {
-        match measure {
-            Measure::Ring => Some(Self::Radii),
-            Measure::Distance => Some(Self::Distances),
-            Measure::Wire => Some(Self::Wires),
-            _ => None,
-        }
-    }
-}
-
 impl Misreading {
     /// Whether everything would be as many times as large without it: residuals are too, and say nothing by their size alone.
     pub(super) fn changes_size(&self) -> bool {
@@ -172,10 +149,8 @@ impl Undo {
             Self::Lengths(of, factor) => {
                 let measures: Vec<Measure> = observations.poses.measures().collect();
                 let own = observations.measured.iter_mut().zip(measures);
-                for (measured, _) in own.filter(|(_, measure)| MeasuredLengths::of(*measure) == Some(*of)) {
-                    if let Measured::Length { length_m } = measured {
-                        *length_m *= factor;
-                    }
+                for (measured, _) in own.filter(|(_, measure)| measure.kind().lengths == Some(*of)) {
+                    measured.stretch_length(*factor);
                 }
             }
         }
@@ -193,7 +168,7 @@ pub(super) fn mistakes(chain: &Chain, places: &Places, sample: &Observations) ->
 
 fn of_lengths(sample: &Observations) -> Vec<(Misreading, Undo)> {
     let mut kinds: Vec<MeasuredLengths> = Vec::new();
-    for of in sample.poses.series.iter().filter_map(|series| MeasuredLengths::of(series.measure)) {
+    for of in sample.poses.series.iter().filter_map(|series| series.measure.kind().lengths) {
         if !kinds.contains(&of) {
             kinds.push(of);
         }

@@ -1,6 +1,6 @@
 //! What a calibration means, as data: the verdict and everything that decides it, without a sentence.
 //!
-//! English is made of it in [`crate::report`]; `report.json` is this data itself.
+//! English is made of it in the crate `report`; `report.json` is this data itself.
 
 mod at_zero;
 mod basis;
@@ -11,7 +11,7 @@ mod effects;
 mod ended;
 mod errors;
 mod every_row;
-pub(crate) mod few;
+pub mod few;
 mod foretold;
 mod function;
 mod harmonics;
@@ -78,10 +78,11 @@ pub use instrument::{
 };
 pub use lengths::LengthsOff;
 pub(crate) use misread::Unsearched;
-pub use mistakes::{MeasuredLengths, Misreading, StatedPlaces};
+pub use mistakes::{Misreading, StatedPlaces};
 pub use moved::Moved;
 pub(crate) use noise::expected_rms;
 pub use noise::{NoiseFound, SerialFound, SeriesNoise, UncertainReading, VarianceFound};
+pub use observe::kinds::MeasuredLengths;
 pub use of_data::{of_data, rounding};
 pub use otherwise::Otherwise;
 pub use precision::{Determined, NotSeparable, Precision, precision};

@@ -6,7 +6,7 @@ use super::caution::{Caution, SOME_FREEDOM};
 use super::two_places::two_places;
 use fit::noise::Layout;
 use fit::{FitResult, robust};
-use observe::{Grouping, Measure, Measured, Observations, Series, SiUnit};
+use observe::{Grouping, Observations, Series, SiUnit};
 
 /// Residuals of this share of what was measured (of a radian for directions) are no noise: something is read wrongly.
 const OUT_OF_PLACE: f64 = 0.2;
@@ -98,22 +98,12 @@ pub fn rounding(observations: &Observations, fit: &FitResult) -> Option<Caution>
     largest.map(|(rms, _, unit)| Caution::ResidualIsRounding { rms, unit })
 }
 
-/// The usual distance that a series measures, m; none for directions.
+/// The usual distance that a series measures, m; none for directions, nor where nobody knows how far away things are.
 fn distance_m(observations: &Observations, series: &Series) -> Option<f64> {
-    match series.measure {
-        Measure::Direction | Measure::Azimuth | Measure::Sight | Measure::Beam | Measure::Orientation => None,
-        // Nobody knows where these are.
-        Measure::Plane | Measure::Target | Measure::Fixed | Measure::Circle | Measure::Wire => None,
-        Measure::Point | Measure::Range | Measure::Ring | Measure::Distance => {
-            let distance = |row: usize| match observations.measured[row] {
-                Measured::Point(point) => point.norm(),
-                Measured::Range { range_m: length_m } | Measured::Length { length_m } => length_m.abs(),
-                _ => unreachable!("the series measures points or lengths"),
-            };
-            let usual = robust::median(series.rows.clone().map(distance).collect());
-            (usual > 0.0).then_some(usual)
-        }
-    }
+    let distance_m = series.measure.kind().distance_m;
+    let distances = observations.measured[series.rows.clone()].iter().map(distance_m);
+    let usual = distances.collect::<Option<Vec<f64>>>().map(robust::median)?;
+    (usual > 0.0).then_some(usual)
 }
 
 fn out_of_place(observations: &Observations, series: &Series, fit: &FitResult) -> Option<Caution> {

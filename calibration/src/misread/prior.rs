@@ -10,7 +10,7 @@ use super::policy::{
     LENGTH_SHARE, MOST_LENGTH_SHARE, MOST_RESIDUAL_SHARE, MOST_TILT_RAD, TILT_RAD, TOOL_SHARE,
 };
 use fit::FitResult;
-use observe::{Measured, Observations, SiUnit};
+use observe::{Observations, SiUnit};
 use study::Plan;
 
 /// What an error is of.
@@ -212,16 +212,15 @@ fn spread_m(observations: &Observations) -> f64 {
     let points: Vec<Vector3<f64>> = observations
         .measured
         .iter()
-        .filter_map(|measured| match measured {
-            Measured::Point(point) => Some(*point),
-            Measured::Range { range_m } => Some(Vector3::x() * *range_m),
-            _ => None,
+        .filter_map(|measured| {
+            let point = measured.point_m().copied();
+            point.or_else(|| measured.range_m().map(|range_m| Vector3::x() * range_m))
         })
         .collect();
     if points.is_empty() {
         return 0.0;
     }
-    let ranges = observations.measured.iter().all(|measured| matches!(measured, Measured::Range { .. }));
+    let ranges = observations.measured.iter().all(|measured| measured.range_m().is_some());
     let middle =
         if ranges { Vector3::zeros() } else { points.iter().sum::<Vector3<f64>>() / points.len() as f64 };
     (points.iter().map(|point| (point - middle).norm_squared()).sum::<f64>() / points.len() as f64).sqrt()

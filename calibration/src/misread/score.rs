@@ -2,7 +2,7 @@
 
 use fit::noise::Layout;
 use fit::{FitOptions, fit};
-use observe::{Measured, Observations};
+use observe::Observations;
 use statrs::function::gamma::ln_gamma;
 use study::{Plan, Read, SampledColumn};
 
@@ -97,10 +97,8 @@ fn jacobian(observations: &Observations, columns: &[SampledColumn], hypothesis: 
             let own = observations.measured.get(series.rows.clone()).unwrap_or_default();
             all += own
                 .iter()
-                .filter_map(|measured| match measured {
-                    Measured::Direction(direction) => Some(direction.x.hypot(direction.y).max(1e-3).ln()),
-                    _ => None,
-                })
+                .filter_map(|measured| measured.direction())
+                .map(|direction| direction.x.hypot(direction.y).max(1e-3).ln())
                 .sum::<f64>();
         }
     }

@@ -231,7 +231,7 @@ fn a_target_gives_what_it_promises_and_more_than_one_beside_an_old_one() {
     let proposals = proposals(next);
     assert_eq!(proposals.len(), 2);
     for proposal in proposals {
-        assert_eq!((proposal.adds, proposal.places.len()), (Addition::Target, 2));
+        assert_eq!((proposal.adds.name(), proposal.places.len()), ("target", 2));
         let new = proposal.places.iter().map(|place| Vector3::from(in_room(place.place_m)));
         let then: Vec<_> = targets.iter().copied().chain(new).collect();
         let more = aimed(&proposal, stands.len(), targets.len());

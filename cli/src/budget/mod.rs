@@ -1,71 +1,7 @@
-//! The error budget as users get it: what each error does, what its tolerances come to, in text, tables and a page.
+//! What a designer asks of a budget on the command line.
 
 mod designer;
 mod options;
-mod page;
-mod tables;
-mod text;
 
-use model_core::Chain;
-use model_core::budget::{Budget, Curves};
-
-use claims::file::Checked;
-
-use crate::claims_file::ClaimsFile;
-
-pub use designer::Designed;
+pub use designer::designed;
 pub use options::DesignerArguments;
-pub use page::page;
-pub use tables::{as_csv, as_json};
-pub use text::as_text;
-
-/// One observable with all that was found of it.
-pub struct Measured {
-    /// What each error alone does.
-    pub budget: Budget,
-    /// What tolerances come to, where somebody asked.
-    pub designed: Option<Designed>,
-    /// The influences along a path, where files are written.
-    pub curves: Option<Curves>,
-}
-
-/// What a page shows.
-pub struct Shown<'a> {
-    /// The declaration.
-    pub chain: &'a Chain,
-    /// The poses in words.
-    pub poses: String,
-    /// The command line.
-    pub command: String,
-    /// Every observable.
-    pub measured: &'a [Measured],
-    /// What somebody stated of the influences, with the verdicts.
-    pub claims: Option<(&'a ClaimsFile, &'a [Checked<'a>])>,
-}
-
-/// The unit that people read, and how many of it one SI unit makes.
-pub fn reading_unit(unit: &'static str) -> (&'static str, f64) {
-    match unit {
-        "rad" => ("arcsec", 3600.0 * 180.0 / std::f64::consts::PI),
-        "m" => ("mm", 1e3),
-        other => (other, 1.0),
-    }
-}
-
-/// Five digits; what is below any sense is nothing.
-pub fn short(value: f64) -> String {
-    match value.abs() {
-        size if size < 1e-12 => "0".to_owned(),
-        0.01..1e6 => {
-            let text = format!("{value:.4}");
-            text.trim_end_matches('0').trim_end_matches('.').to_owned()
-        }
-        _ => format!("{value:.3e}"),
-    }
-}
-
-/// A size of an error with its unit.
-pub fn size(value: f64, unit: &'static str) -> String {
-    let (unit, factor) = reading_unit(unit);
-    format!("{} {unit}", short(value * factor)).trim_end().to_owned()
-}

@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use calibration::tolerance::{Distribution, Shape, Tolerance, Written};
 use model_core::{Chain, ObservableKind, Quantity, SymbolId, SymbolKind, names};
+use service::errors_file;
+use service::tolerance::{Distribution, Shape, Tolerance, Written};
 use tables::units::{Amount, Unit};
 
-use crate::errors_file;
 use crate::failure::Failure;
-use crate::source::Source;
+use crate::source;
 use model_core::names::listed;
 
 /// What a designer asks.
@@ -181,7 +181,7 @@ fn by_error<T: Clone>(
 
 /// A distribution from a file: two numbers a line, and at most one line of names above.
 fn table(path: &Path) -> Result<Distribution, String> {
-    let source = Source::read(path).map_err(|failure| failure.to_string())?;
+    let source = source::read(path).map_err(|failure| failure.to_string())?;
     let mut rows: Vec<(f64, f64)> = Vec::new();
     for (at, line) in source.text.lines().enumerate() {
         let line = line.trim();

@@ -5,11 +5,12 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use model_core::{Chain, Quantity, SymbolId};
+use service::readings::ReadingsTable;
 use tables::formats::{ColumnName, DataError, Options};
 
 use super::dimensions::TIME;
 use crate::failure::Failure;
-use crate::table_files::{self, ReadingsTable};
+use crate::table_files;
 use model_core::names::listed;
 
 /// Steps of the table that are so many times longer than the usual one are gaps.
@@ -45,7 +46,7 @@ impl<'c> Opened<'c> {
         time: Option<&str>,
         comment: Option<u8>,
     ) -> Result<Self, Failure> {
-        let table = ReadingsTable::open_readings(path, chain, comment)?;
+        let table = table_files::open_readings(path, chain, comment)?;
         let wanted = time.map_or_else(|| vec![TIME, "time"], |time| vec![time]);
         let stands = |name: &&str| table.header().iter().any(|column| table.means(column, name));
         let there: Vec<&str> = wanted.into_iter().filter(stands).collect();
@@ -109,7 +110,7 @@ impl<'c> Opened<'c> {
         let quantity = |id: SymbolId| self.chain.symbol(id).quantity;
         let mut columns: Vec<_> = readings.iter().map(|&id| (id, quantity(id), Vec::new())).collect();
         let mut times: Vec<f64> = Vec::new();
-        while let Some(rows) = self.table.next()? {
+        while let Some(rows) = self.table.next_rows()? {
             let [more] = rows.others.as_slice() else { unreachable!("one column of times is wanted") };
             for time in more {
                 if let Some(before) = times.last().filter(|before| *before >= time) {

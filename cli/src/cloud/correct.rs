@@ -5,11 +5,11 @@
 
 use model_core::{Chain, ObservableId};
 use rayon::prelude::*;
+use service::evaluation::{Evaluator, Exactness, Quantity};
 
 use super::header::{Header, field};
 use super::points::{Cloud, Points};
 use super::readings::{Columns, Readings};
-use crate::evaluation::{Evaluator, Exactness, Quantity};
 use crate::failure::Failure;
 
 /// Points that one processor looks at or moves at a time.
@@ -218,7 +218,7 @@ fn is_corrected(header: &Header, stored: &[[f64; 3]], nominal: &Coordinates, ame
 
 fn evaluate(evaluator: &Evaluator, columns: &Columns, count: usize) -> Result<Coordinates, Failure> {
     let columns: Vec<_> = columns.iter().map(|(id, column)| (*id, column.as_slice())).collect();
-    evaluator.columns(&columns, count)
+    Ok(evaluator.columns(&columns, count)?)
 }
 
 fn at(coordinates: &Coordinates, row: usize) -> [f64; 3] {

@@ -17,13 +17,13 @@ use std::path::Path;
 use std::time::Instant;
 
 use model_core::{Chain, ObservableId, ObservableKind};
+use service::apply::Outside;
+use service::errors_file::FoundOver;
+use service::evaluation::readings_of;
+use service::source::observable;
 
-use crate::apply::Outside;
-use crate::errors_file::FoundOver;
-use crate::evaluation::readings_of;
 use crate::failure::Failure;
 use crate::over_table::so_far;
-use crate::source::observable;
 use crate::{output, table_files, terminal};
 use by_time::Opened;
 pub use chunks::is_decoding;
@@ -94,7 +94,7 @@ pub fn correct(correction: Correction<'_>) -> Result<(), Failure> {
         writer.finish(&mut cloud, corrector.bounds)
     })?;
     progress.finish_and_clear();
-    outside.warn(chain);
+    outside.warning(chain).iter().for_each(terminal::warn);
     Ok(())
 }
 

@@ -2,6 +2,7 @@
 
 use model_core::{Chain, Quantity, SymbolId};
 use rayon::prelude::*;
+use service::readings::factor_of;
 use tables::formats::{DataError, declared_columns, find_reading};
 use tables::units::Plausible;
 
@@ -9,7 +10,7 @@ use super::by_time::{Opened, Timetable};
 use super::dimensions::{Dimension, TIME};
 use super::points::{Cloud, Points};
 use crate::failure::Failure;
-use crate::table_files::{self, factor_of};
+use crate::table_files;
 use model_core::names::listed;
 
 /// Points whose readings one processor gathers at a time.

@@ -3,20 +3,20 @@
 use std::path::PathBuf;
 
 use model_core::{ObservableId, Quantity as Measures, SymbolId, SymbolKind};
+use service::apply::{self, Outside, Seen, Solver};
+use service::evaluation::{Evaluator, Exactness, Quantity, column_names, readings_of};
+use service::source::observables;
 use tables::units;
 
 use super::Answer;
-use crate::apply::{As, Outside, Seen, Solver};
 #[cfg(feature = "point-clouds")]
 use crate::cloud;
-use crate::evaluation::{Evaluator, Exactness, Quantity, column_names};
 use crate::failure::Failure;
 #[cfg(feature = "point-clouds")]
 use crate::output;
 #[cfg(feature = "point-clouds")]
 use crate::over_table::Model;
 use crate::over_table::{Opened, OverTable};
-use crate::source::observables;
 use crate::{table_files, terminal};
 use model_core::names::listed;
 
@@ -58,6 +58,27 @@ pub struct Arguments {
     /// coordinates, and what a step of the readings moves
     #[arg(long, value_name = "LENGTH", value_parser = distance)]
     tolerance: Option<f64>,
+}
+
+/// How a direction is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum As {
+    /// Components x, y and z; points are always written so
+    Vector,
+    /// Azimuth from y through x, and elevation above the xy plane
+    AzimuthElevation,
+    /// Hour angle and declination, for a chain whose x is west, y the meridian on the equator, z the pole
+    HaDec,
+}
+
+impl From<As> for apply::As {
+    fn from(form: As) -> Self {
+        match form {
+            As::Vector => Self::Vector,
+            As::AzimuthElevation => Self::AzimuthElevation,
+            As::HaDec => Self::HaDec,
+        }
+    }
 }
 
 /// A distance above zero, in m.
@@ -134,7 +155,7 @@ fn correct(arguments: &Arguments) -> Result<(), Failure> {
     let is_named = !arguments.table.observable.is_empty();
     let seen: Vec<Seen> = chosen
         .iter()
-        .map(|&observable| Seen::new(&chain, observable, arguments.form, is_named))
+        .map(|&observable| Seen::new(&chain, observable, arguments.form.into(), is_named))
         .collect::<Result<_, _>>()?;
     let evaluator = |quantity| Evaluator::new(&chain, chosen.clone(), Exactness::Exact, quantity, &values);
     let value = evaluator(Quantity::Value);
@@ -159,7 +180,7 @@ fn correct(arguments: &Arguments) -> Result<(), Failure> {
         }
         Ok(columns)
     })?;
-    outside.warn(&chain);
+    outside.warning(&chain).iter().for_each(terminal::warn);
     Ok(())
 }
 
@@ -178,8 +199,8 @@ fn solve(arguments: &Arguments) -> Result<(), Failure> {
             "`{name}` shows single readings; joints are solved for a whole direction or point: name one with --observable"
         )));
     }
-    let seen = Seen::new(&chain, observable, arguments.form, true)?;
-    let readings = crate::evaluation::readings_of(&chain, observable);
+    let seen = Seen::new(&chain, observable, arguments.form.into(), true)?;
+    let readings = readings_of(&chain, observable);
     let joints: Vec<SymbolId> =
         readings.into_iter().filter(|&id| chain.symbol(id).kind == SymbolKind::Joint).collect();
     let has_starts = table.has(&chain, &joints);
@@ -242,7 +263,7 @@ fn solve(arguments: &Arguments) -> Result<(), Failure> {
         out.push(solved.remaining);
         Ok(out)
     })?;
-    outside.warn(&chain);
+    outside.warning(&chain).iter().for_each(terminal::warn);
     if missed > 0 {
         let far = match quantity {
             "rad" => format!("{:.3e} arcsec", farthest * 648_000.0 / std::f64::consts::PI),

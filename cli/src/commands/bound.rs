@@ -5,15 +5,14 @@ use std::path::PathBuf;
 use model_core::remainder::{self, Bound, Domain, DomainError, Found, PairShare, Parts};
 use model_core::{Chain, SymbolKind};
 use serde_json::json;
+use service::source::observables;
 
 use super::{Answer, TextOrJson};
-use crate::errors_file;
 use crate::expected::{self, Work};
 use crate::failure::Failure;
 use crate::ranges::{self, Range, RangeArgument};
 use crate::sizes::SizesArgument;
-use crate::source::observables;
-use crate::terminal;
+use crate::{source, terminal};
 
 /// Bound what the first-order form leaves out.
 ///
@@ -48,7 +47,7 @@ const STARTS: u32 = 24;
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let (chain, sizes) = errors_file::chain_and_sizes(&arguments.chain, arguments.sizes.needed()?)?;
+    let (chain, sizes) = source::chain_and_sizes(&arguments.chain, arguments.sizes.needed()?)?;
     let ranges = ranges::of_chain(&chain, &arguments.range)?;
     let waiting = expected::announce(&chain, Work::Bound);
     let answers = bounds(&chain, &sizes, &ranges, &arguments.observable, arguments.seed)?;

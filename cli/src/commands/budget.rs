@@ -8,16 +8,18 @@ use model_core::budget::{Budget, BudgetError, Curves, Poses};
 use model_core::mistake::Mistake;
 use model_core::remainder::DomainError;
 use serde_json::{Value, json};
+use service::Source;
+use service::budget::{self, Measured, Shown, curves};
+use service::source::observables;
 
 use super::{Answer, TextOrJson};
-use crate::budget::{self, Designed, DesignerArguments, Measured, Shown};
+use crate::budget::{DesignerArguments, designed};
 use crate::claims_file::ClaimsFile;
 use crate::expected::{self, Work};
 use crate::failure::Failure;
 use crate::ranges::{self, RangeArgument};
 use crate::sizes::SizesArgument;
-use crate::source::{Source, observables};
-use crate::{curves, errors_file, output, poses, terminal};
+use crate::{output, poses, source, terminal};
 use claims::file::Checked;
 
 /// Measure what each error alone does, what all do together, and what tolerances come to.
@@ -68,10 +70,10 @@ const POINTS: usize = 361;
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let (chain, sizes) = errors_file::chain_and_sizes(&arguments.chain, arguments.sizes.needed()?)?;
+    let (chain, sizes) = source::chain_and_sizes(&arguments.chain, arguments.sizes.needed()?)?;
     let poses = match &arguments.path {
         Some(text) => Poses::Path(poses::path(&chain, text).map_err(|mistake| {
-            let source = Source { path: "--path".into(), text: text.clone() };
+            let source = Source::of_text("--path", text);
             source.mistake(mistake)
         })?),
         None => Poses::Ranges(poses::joint_ranges(&ranges::of_chain(&chain, &arguments.range)?)),
@@ -82,7 +84,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     for budget in measured(&chain, &sizes, &poses, &arguments.observable)? {
         let designer = &arguments.designer;
         let designed = match designer.is_asked() || arguments.out.is_some() {
-            true => Designed::new(&chain, budget.observable, &sizes, &poses, designer, is_named)?,
+            true => designed(&chain, budget.observable, &sizes, &poses, designer, is_named)?,
             false => None,
         };
         let curves = match (&poses, &arguments.out) {
@@ -174,7 +176,7 @@ fn write_files(
         poses: in_words(arguments),
         command: terminal::command_line(),
         measured,
-        claims: claims.as_ref().zip(checked.as_deref()),
+        claims: claims.as_ref().map(|file| file.source.path.display().to_string()).zip(checked.as_deref()),
     };
     let mut files = output::Folder::new(folder)?;
     files.write_text("budget.csv", &budget::as_csv(chain, measured))?;
@@ -214,7 +216,9 @@ fn comparisons(file: &ClaimsFile) -> Result<Vec<Checked<'_>>, Failure> {
     compared
         .map(|claim| match checker.check(&claim.claim) {
             Ok(verdict) => Ok(Checked { claim, verdict }),
-            Err(error) => Err(file.source.mistake(Mistake::new(claim.place.clone(), error.to_string()))),
+            Err(error) => {
+                Err(file.source.mistake(Mistake::new(claim.place.clone(), error.to_string())).into())
+            }
         })
         .collect()
 }

@@ -4,16 +4,15 @@ use std::io;
 use std::path::PathBuf;
 
 use calibration::calibrate::Calibration;
+use report::Layout;
 use study::Plan;
 use tables::formats;
 
 use super::{Answer, TextOrJson};
-use crate::calibrating::Studied;
 use crate::failure::Failure;
-use crate::report::{self, Layout};
-use crate::source::Source;
+use crate::table_files::Files;
 use crate::waiting::Waiting;
-use crate::{many, terminal};
+use crate::{calibrating, many, report_files, source, terminal};
 
 /// Fit the errors to measured data, and find what the declaration lacks.
 ///
@@ -51,19 +50,19 @@ pub struct Arguments {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let studied = Studied::read(Source::read(&arguments.study)?)?;
+    let studied = calibrating::studied(source::read(&arguments.study)?)?;
     if let Some(folder) = &arguments.out {
         if folder.is_file() {
             return Err(Failure::write(folder, &io::Error::other("a file has this name; name a folder")));
         }
-        studied.refuse_to_replace(folder)?;
+        calibrating::refuse_to_replace(&studied, folder)?;
     }
-    let files = studied.files.clone();
+    let files = Files::of(&studied);
     let progress = terminal::progress();
-    let reading = progress.clone();
+    let (reading, opened) = (progress.clone(), files.clone());
     let mut open = move |path: &str, options: &formats::Options| {
         reading.set_message(format!("reading {path}"));
-        files.open(path, options)
+        opened.open(path, options)
     };
     let read = many::read(studied, arguments.search_rows, &mut open);
     progress.finish_and_clear();
@@ -78,8 +77,9 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     terminal::note(format_args!("{}", what_is_done(&measured.studied.plan, rows)));
 
     let (progress, waiting) = (terminal::progress(), Waiting::default());
-    let calibrated =
-        measured.calibrate(terminal::command_line(), &|stage| progress.set_message(waiting.told(stage)));
+    let calibrated = calibrating::calibrate(measured, &files, terminal::command_line(), &|stage| {
+        progress.set_message(waiting.told(stage));
+    });
     let completed = calibrated.and_then(|mut calibrated| {
         if let Some(others) = others {
             others.complete(&mut calibrated, &mut open, &|told| progress.set_message(told))?;
@@ -103,7 +103,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     }
     if let Some(folder) = &arguments.out {
         let shown = report::rows_written(&reported, arguments.all_residuals);
-        report::write_all(&reported, &shown, folder)?;
+        report_files::write_all(&reported, &shown, folder)?;
         let rows = reported.observations.rows();
         if shown.is_part_of(rows) {
             terminal::note(format_args!(

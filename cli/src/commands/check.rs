@@ -131,7 +131,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         }
     }
     if !mistakes.is_empty() {
-        let failure = file.source.mistakes(&Mistakes::locate(&file.source.text, mistakes));
+        let failure = file.source.mistakes(&Mistakes::locate(&file.source.text, mistakes)).into();
         if checked.is_empty() || checked.iter().all(|checked| checked.verdict.holds()) {
             return Err(failure);
         }
@@ -155,7 +155,7 @@ pub fn checked(file: &ClaimsFile) -> Result<Vec<Checked<'_>>, Failure> {
     let (checked, undecided) = file.said.check();
     match undecided.into_iter().flat_map(|unread| unread.mistakes).next() {
         None => Ok(checked),
-        Some(mistake) => Err(file.source.mistake(mistake)),
+        Some(mistake) => Err(file.source.mistake(mistake).into()),
     }
 }
 

@@ -7,14 +7,16 @@ use model_core::algebra::{Fraction, Poly};
 use model_core::forms::{self, Form, TableError};
 use model_core::{Chain, ObservableId, ObservableKind, print};
 use proof::{Certificate, Declared};
+use report::style::HEADING;
 use serde_json::json;
+use service::Source;
+use service::source::observables;
 
 use super::Answer;
 use crate::certificates::CertificateArguments;
 use crate::expected::{self, Work};
 use crate::failure::Failure;
-use crate::source::{Source, observables};
-use crate::terminal::{self, HEADING};
+use crate::{source, terminal};
 
 /// Derive the closed form of the error of each observable.
 ///
@@ -64,8 +66,8 @@ enum Format {
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let is_certified = arguments.certificate.is_wanted()?;
-    let source = Source::read(&arguments.chain)?;
-    let chain = source.symbolic_chain()?;
+    let source = source::read(&arguments.chain)?;
+    let chain = source.symbolic_chain(&terminal::warn)?;
     let waiting = expected::announce(&chain, Work::Derive { order: arguments.order });
     let chosen = observables(&chain, &arguments.observable)?;
     if arguments.table || arguments.steps {

@@ -1,7 +1,8 @@
 //! `trueaxis eval`: the error, or the value, of observables over a table of readings.
 
+use service::evaluation;
+
 use super::Answer;
-use crate::evaluation::{Exactness, Quantity};
 use crate::failure::Failure;
 use crate::over_table::OverTable;
 
@@ -29,8 +30,34 @@ pub struct Arguments {
     quantity: Quantity,
 }
 
+/// The exact form, or the first-order one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Exactness {
+    /// The product of all transforms
+    Exact,
+    /// Products of two or more errors dropped
+    FirstOrder,
+}
+
+/// What of an observable is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Quantity {
+    /// What the errors add to it
+    Error,
+    /// The observable itself, with its errors
+    Value,
+}
+
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    arguments.table.evaluate(arguments.form, arguments.quantity)?;
+    let form = match arguments.form {
+        Exactness::Exact => evaluation::Exactness::Exact,
+        Exactness::FirstOrder => evaluation::Exactness::FirstOrder,
+    };
+    let quantity = match arguments.quantity {
+        Quantity::Error => evaluation::Quantity::Error,
+        Quantity::Value => evaluation::Quantity::Value,
+    };
+    arguments.table.evaluate(form, quantity)?;
     Ok(Answer::Done)
 }

@@ -6,14 +6,14 @@ use clap::ValueEnum as _;
 use codegen::{Form, GenerateError, Precision, Unit};
 use model_core::remainder::{self, Domain};
 use model_core::{Chain, ObservableId, SymbolKind};
+use service::source::observables;
+use service::{Source, errors_file};
 
 use super::Answer;
-use crate::errors_file;
 use crate::expected::{self, Work};
 use crate::failure::Failure;
-use crate::output;
 use crate::sizes::SizesArgument;
-use crate::source::{Source, observables};
+use crate::{output, source, terminal};
 use model_core::names::listed;
 
 /// Generate evaluators in another language.
@@ -128,8 +128,8 @@ impl From<FormName> for Form {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
-    let source = Source::read(&arguments.chain)?;
-    let chain = source.chain()?;
+    let source = source::read(&arguments.chain)?;
+    let chain = source.chain(&terminal::warn)?;
     let waiting = expected::announce(&chain, Work::Generate);
     let chosen = observables(&chain, &arguments.observable)?;
     let sizes = arguments.sizes.given();
@@ -138,7 +138,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         None => Vec::new(),
     };
     let values = match &arguments.values {
-        Some(path) => errors_file::named_values(&Source::read(path)?, &chain)?,
+        Some(path) => errors_file::named_values(&source::read(path)?, &chain, &terminal::warn)?,
         None => Vec::new(),
     };
     let forms = match arguments.only.as_slice() {
@@ -233,7 +233,7 @@ pub(crate) fn loadable(
 /// The box of errors that a generated file speaks of, and what is proven of the first order there; nothing for observables
 /// without a bound.
 fn remarks(chain: &Chain, chosen: &[ObservableId], sizes: &Path) -> Result<Vec<String>, Failure> {
-    let by_symbol = errors_file::largest_sizes(&Source::read(sizes)?, chain)?;
+    let by_symbol = errors_file::largest_sizes(&source::read(sizes)?, chain, &terminal::warn)?;
     let mut domain = Domain::new(chain);
     for error in chain.symbols_of(SymbolKind::Error) {
         domain

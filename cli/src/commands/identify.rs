@@ -7,12 +7,14 @@ use model_core::identify::{self, Candidate, Holds, Identifiability, Mistaken, Ra
 use model_core::{BodyId, Chain, Mistakes, ObservableId, Role, names, print};
 use proof::{Certificate, Declared, Refusal};
 use serde_json::{Value, json};
+use service::Source;
+use service::source::observables;
 
 use super::{Answer, TextOrJson};
 use crate::certificates::CertificateArguments;
 use crate::failure::Failure;
 use crate::set_up::SetUpSeen;
-use crate::source::{Source, observables};
+use crate::source;
 use crate::table_files::open_beside;
 use crate::terminal;
 use model_core::names::listed;
@@ -48,7 +50,7 @@ pub struct Arguments {
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let is_certified = arguments.certificate.is_wanted()?;
-    let source = Source::read(&arguments.chain)?;
+    let source = source::read(&arguments.chain)?;
     if arguments.chain.extension().is_some_and(|ending| ending == "toml") {
         if is_certified || !arguments.observable.is_empty() || arguments.candidate.is_some() {
             let why = "of a study, only --format can be asked for: name the declaration for --observable, --candidate and \
@@ -62,7 +64,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         })?;
         return Ok(Answer::Done);
     }
-    let chain = source.symbolic_chain()?;
+    let chain = source.symbolic_chain(&terminal::warn)?;
     let Identified { texts, answers, found: certified } =
         identified(&chain, &arguments.observable, arguments.candidate.as_deref())?;
     let certificate = is_certified.then(|| certify(&source, &certified)).transpose()?;
@@ -189,7 +191,7 @@ fn candidate(chain: &Chain, text: &str) -> Result<Candidate, Failure> {
     let body = u16::try_from(index).map(BodyId).map_err(|error| wrong(error.to_string()))?;
     let factor = factor.trim();
     Candidate::parse(chain, body, Role::MotionError, factor)
-        .map_err(|mistakes: Mistakes| Failure::mistakes("--candidate", factor, &mistakes))
+        .map_err(|mistakes: Mistakes| Source::of_text("--candidate", factor).mistakes(&mistakes).into())
 }
 
 fn as_json(chain: &Chain, set: &[ObservableId], found: &Identifiability) -> Value {

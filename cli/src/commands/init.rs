@@ -4,16 +4,14 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use calibration::report::shell_word;
-use model_core::Chain;
-use study::Study;
+use init::Look;
+use init::templates::{self, TEMPLATES};
+use report::shell_word;
+use report::wrap::paragraph;
 use tables::formats::{self, DataError, Input, Options};
 
 use super::Answer;
 use crate::failure::Failure;
-use crate::init::templates::{self, TEMPLATES};
-use crate::init::{self, Draft, Look};
-use crate::wrap::paragraph;
 use crate::{output, source, table_files, terminal};
 
 /// Begin: write a chain and a study for a table of data.
@@ -56,11 +54,8 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         ));
     }
     let look = look(data)?;
-    let template = match arguments.template.as_deref().and_then(templates::named) {
-        Some(template) => template,
-        None => init::choose(&look).map_err(Failure::Input)?,
-    };
-    let draft = (template.draft)(&look).map_err(Failure::Input)?;
+    let named = arguments.template.as_deref().and_then(templates::named);
+    let (template, draft) = init::draft(&look, named)?;
     let study_file = arguments.out.clone().unwrap_or_else(|| data.with_extension("toml"));
     let chain_file = study_file.with_extension("chain");
     let written = [&study_file, &chain_file];
@@ -77,9 +72,13 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
             there.display()
         )));
     }
-    let study =
-        init::study(&draft, &look, [&name(&chain_file)?, &beside(&study_file, data)?, &text(&study_file)?]);
-    hold(&draft, &study, data)?;
+    let names = init::Names {
+        chain: &name(&chain_file)?,
+        data: &beside(&study_file, data)?,
+        command: &format!("trueaxis calibrate {}", shell_word(&text(&study_file)?)),
+    };
+    let study = init::study(&draft, &look, names);
+    init::hold(&draft, &study, &mut |_| open(data))?.into_iter().for_each(terminal::warn);
     let mut batch = output::Batch::default();
     batch.write_text(&chain_file, &draft.chain)?;
     batch.write_text(&study_file, &study)?;
@@ -103,7 +102,7 @@ fn look(data: &Path) -> Result<Look, Failure> {
     let file = open(data).map_err(|error| Failure::Input(error.to_string()))?;
     let mut reader = formats::open(file, &data.display().to_string(), &Options::default())
         .map_err(|error| Failure::Input(error.to_string()))?;
-    Look::at(&mut *reader).map_err(Failure::Input)
+    Ok(Look::at(&mut *reader)?)
 }
 
 fn open(data: &Path) -> Result<Input<'static>, DataError> {
@@ -112,22 +111,6 @@ fn open(data: &Path) -> Result<Input<'static>, DataError> {
         why: source::not_readable(data, error).to_string(),
     };
     table_files::open(data).map_err(|error| unreadable(&error))
-}
-
-/// Holds what is to be written to what it is read with: the chain, the study, and every row of the data.
-fn hold(draft: &Draft, study: &str, data: &Path) -> Result<(), Failure> {
-    let ours = |what: &str, why: String| {
-        Failure::Input(format!("{what} cannot be read again, and nothing is written: {why}"))
-    };
-    let chain = Chain::from_text(&draft.chain).map_err(|mistakes| {
-        ours("the chain that was made of these data", mistakes.render("chain", &draft.chain))
-    })?;
-    let plan = Study::from_text(study)
-        .and_then(|study| study.plan(&chain))
-        .map_err(|mistakes| ours("the study that was made of these data", mistakes.render("study", study)))?;
-    let loaded = plan.load(&mut |_: &str| open(data)).map_err(|error| Failure::Input(error.to_string()))?;
-    loaded.doubtful.iter().for_each(terminal::warn);
-    Ok(())
 }
 
 /// A path as a study says it.

@@ -7,16 +7,16 @@ use model_core::{Chain, Observable, ObservableId, ObservableKind, Quantity as Me
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
+use service::errors_file;
+use service::evaluation::{Evaluator, Exactness, Quantity, column_names};
+use service::source::observables;
 use tables::formats::{Column, ColumnName};
 use tables::units::{Amount, Plausible};
 
 use super::Answer;
-use crate::errors_file;
-use crate::evaluation::{Evaluator, Exactness, Quantity, column_names};
 use crate::failure::Failure;
 use crate::ranges::{self, Range, RangeArgument};
-use crate::source::{Source, observables};
-use crate::{output, table_files, terminal};
+use crate::{output, source, table_files, terminal};
 use model_core::names::listed;
 
 /// Simulate measured data.
@@ -70,8 +70,8 @@ const CHUNK: usize = 4096;
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     output::refuse_to_replace(&arguments.out, [arguments.chain.as_path(), &arguments.errors])?;
-    let chain = Source::read(&arguments.chain)?.chain()?;
-    let values = errors_file::values(&Source::read(&arguments.errors)?, &chain)?;
+    let chain = source::chain(&arguments.chain)?;
+    let values = errors_file::values(&source::read(&arguments.errors)?, &chain, &terminal::warn)?;
     let given = ranges::of_chain(&chain, &arguments.range)?;
     let mut simulation =
         Simulation::new(&chain, &values, &arguments.noise, &arguments.observable, &given, arguments.seed)?;

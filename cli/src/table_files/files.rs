@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
 
+use service::{Source, Studied};
 use tables::formats::{self, DataError, Options, TableReader};
 
 use super::open_beside;
-use crate::source::Source;
 
 /// Opens the tables of a study; copies know of each other what was read.
 #[derive(Clone)]
@@ -38,7 +38,11 @@ impl Stamp {
 impl Files {
     /// Those of a study.
     #[must_use]
-    pub fn of(study: Source, from: Option<String>) -> Self {
+    pub fn of(studied: &Studied) -> Self {
+        Self::beside(studied.study.clone(), studied.plan.data_from.clone())
+    }
+
+    fn beside(study: Source, from: Option<String>) -> Self {
         Self { study, from, seen: Arc::default() }
     }
 
@@ -78,7 +82,7 @@ mod tests {
         let folder = std::env::temp_dir().join(format!("trueaxis-files-{}", std::process::id()));
         fs::create_dir_all(&folder).unwrap();
         let write = |text: &str| fs::write(folder.join("data.csv"), text).unwrap();
-        let files = Files::of(Source::of_text(folder.join("study.toml"), ""), None);
+        let files = Files::beside(Source::of_text(folder.join("study.toml"), ""), None);
         let open = || files.clone().open("data.csv", &Options::default()).map(|_| ());
         write("a\n1\n");
         assert_eq!([open(), open(), files.check("data.csv")], [Ok(()), Ok(()), Ok(())]);

@@ -8,18 +8,16 @@ use std::fs::File;
 use std::io;
 use std::path::Path;
 
+use service::Source;
 use tables::formats::{DataError, Input};
 
 use crate::failure::Failure;
-use crate::source::{self, Source};
+use crate::source;
 pub use files::Files;
+pub use readings::open_kept;
 #[cfg(feature = "point-clouds")]
-pub use readings::factor_of;
-pub use readings::{ReadingsTable, Rows};
-pub use write::{csv_row, csv_rows, write};
-
-/// Rows that are read, computed and written at a time.
-pub const CHUNK: usize = 1 << 16;
+pub use readings::open_readings;
+pub use write::write;
 
 /// Whether the name of a file is that of a point cloud.
 #[must_use]

@@ -1,308 +1,61 @@
-//! Tables that commands read: the readings of joints and inputs as numbers, and every column as it came.
+//! Tables of readings that are files.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use model_core::{Chain, ObservableId, Quantity, Symbol, SymbolId};
+use model_core::Chain;
+use service::readings::ReadingsTable;
 #[cfg(feature = "parquet")]
-use rayon::prelude::*;
-#[cfg(feature = "parquet")]
-use tables::formats::parquet::TextType;
-use tables::formats::{
-    self, Cells, ColumnName, DataError, Extent, Form, Kept, Options, ReadAs, TableReader, Wanted,
-    declared_columns, find_reading,
-};
-use tables::units::{BareColumn, Plausible};
+use service::{Refusal, readings::Again};
+use tables::formats::{self, Options};
 
-use super::{CHUNK, failure, known_format};
-use crate::evaluation::readings_of;
+use super::{failure, known_format};
 use crate::failure::Failure;
 use crate::source;
 
-/// Bytes of a file up to which its texts are held until the last is known.
-#[cfg(feature = "parquet")]
-const HELD: u64 = 1 << 26;
-
-/// A data file whose columns of readings are found by the names of joints and inputs.
-pub struct ReadingsTable<'t> {
-    reader: Box<dyn TableReader + 't>,
-    /// Names that a column can have beside that of a reading.
-    declared: Vec<String>,
-    readings: Vec<Reading>,
-    /// Every column as it came, if they are kept, then the readings as numbers.
-    wanted: Vec<Wanted>,
-    /// Whether a row has been read.
-    started: bool,
-    /// How far a file has been read; none of what is no regular file.
-    extent: Option<Extent>,
-    /// What opens it again, if it is a file.
-    file: Option<(PathBuf, Options)>,
-}
-
-/// Where the readings of a joint or input come from.
-struct Reading {
-    symbol: SymbolId,
-    /// Index of its column in the header.
-    column: usize,
-    /// What is watched where nothing says its unit.
-    bare: Option<BareColumn>,
-}
-
-/// Some rows of a [`ReadingsTable`].
-pub struct Rows {
-    /// Every column of the file as it came, if they are kept.
-    pub kept: Vec<Kept>,
-    /// The readings, in SI.
-    pub readings: Vec<(SymbolId, Vec<f64>)>,
-    /// Other columns that were asked for, in SI.
-    pub others: Vec<Vec<f64>>,
-    /// How many rows these are.
-    pub count: usize,
-}
-
-/// The factor that takes the numbers of a column, found by the name of a joint or input, to SI; and whether nothing says their unit.
+/// Opens a file with the readings of a chain; `-` is standard input. Every column is kept as it came.
 ///
 /// # Errors
-/// A unit that is none, or that measures something else.
-pub fn factor_of(column: &ColumnName, reading: &Symbol, source: &str) -> Result<(f64, bool), DataError> {
-    let read = ReadAs { quantity: reading.quantity, stated: None, declared: Some(&reading.name) };
-    Ok((column.factor(read, source)?, column.is_bare(read)))
+/// The file cannot be read.
+pub fn open_kept(path: &Path, chain: &Chain, comment: Option<u8>) -> Result<ReadingsTable<'static>, Failure> {
+    Ok(open_readings(path, chain, comment)?.keeping_all())
 }
 
-impl<'t> ReadingsTable<'t> {
-    /// Opens a file with the readings of a chain; `-` is standard input.
-    ///
-    /// # Errors
-    /// The file cannot be read.
-    pub fn open(path: &Path, chain: &Chain, comment: Option<u8>) -> Result<Self, Failure> {
-        let mut table = Self::open_readings(path, chain, comment)?;
-        let all = 0..table.header().len();
-        table.wanted = all.map(|column| Wanted { column, form: Form::Kept }).collect();
-        Ok(table)
+/// The same for a file of which nothing but readings is wanted.
+///
+/// # Errors
+/// The file cannot be read.
+pub fn open_readings(
+    path: &Path,
+    chain: &Chain,
+    comment: Option<u8>,
+) -> Result<ReadingsTable<'static>, Failure> {
+    known_format(path)?;
+    let options = Options { comment, ..Options::default() };
+    if path == Path::new("-") {
+        let reader = formats::open(io::stdin(), "standard input", &options).map_err(failure)?;
+        return Ok(ReadingsTable::of(reader, chain));
     }
-
-    /// The same for a file of which nothing but readings is wanted.
-    ///
-    /// # Errors
-    /// The file cannot be read.
-    pub fn open_readings(path: &Path, chain: &Chain, comment: Option<u8>) -> Result<Self, Failure> {
-        known_format(path)?;
-        let options = Options { comment, ..Options::default() };
-        let mut extent = None;
-        let reader = if path == Path::new("-") {
-            formats::open(io::stdin(), "standard input", &options)
-        } else {
-            let input = super::open(path).map_err(|error| source::not_readable(path, &error))?;
-            extent = input.extent();
-            formats::open(input, &path.display().to_string(), &options)
-        };
-        let mut table = Self::of(reader.map_err(failure)?, chain);
-        table.file = extent.is_some().then(|| (path.to_owned(), options));
-        table.extent = extent;
-        Ok(table)
-    }
-
-    /// The readings of a chain in an open table, of which nothing else is wanted.
-    pub fn of(reader: Box<dyn TableReader + 't>, chain: &Chain) -> Self {
-        let declared = declared_columns(chain);
-        let (readings, wanted) = (Vec::new(), Vec::new());
-        Self { reader, declared, readings, wanted, started: false, extent: None, file: None }
-    }
-
-    /// What the texts of each column are that is kept as it came, from reading the whole file once before, of which `tell` hears: with that, a large
-    /// table with types of its own is written as it is read. None where it is no such file, or has types itself.
-    ///
-    /// # Errors
-    /// The file cannot be read.
+    let input = super::open(path).map_err(|error| source::not_readable(path, &error))?;
+    let extent = input.extent();
+    let reader = formats::open(input, &path.display().to_string(), &options).map_err(failure)?;
     #[cfg(feature = "parquet")]
-    pub fn text_types(&self, tell: impl Fn(f64)) -> Result<Option<Vec<TextType>>, Failure> {
-        let Some((path, options)) = &self.file else { return Ok(None) };
-        if self.extent.as_ref().is_none_or(|extent| extent.length() <= HELD) {
-            return Ok(None);
-        }
-        let input = super::open(path).map_err(|error| source::not_readable(path, &error))?;
+    let is_file = extent.is_some();
+    let table = ReadingsTable::of(reader, chain).of_extent(extent);
+    #[cfg(feature = "parquet")]
+    let table = if is_file { table.opened_by(again(path, options)) } else { table };
+    Ok(table)
+}
+
+/// What opens a file again.
+#[cfg(feature = "parquet")]
+fn again(path: &Path, options: Options) -> Box<Again> {
+    let path = path.to_owned();
+    Box::new(move || {
+        let input = super::open(&path)
+            .map_err(|error| Refusal::Input(source::not_readable(&path, &error).to_string()))?;
         let extent = input.extent();
-        let reader = formats::open(input, &path.display().to_string(), options);
-        let is_kept = |wanted: &&Wanted| matches!(wanted.form, Form::Kept);
-        let wanted: Vec<Wanted> = self.wanted.iter().filter(is_kept).copied().collect();
-        let readings = self.readings.iter();
-        let readings = readings.map(|own| Reading { symbol: own.symbol, column: own.column, bare: None });
-        let mut scanned = Self {
-            reader: reader.map_err(failure)?,
-            declared: self.declared.clone(),
-            readings: readings.collect(),
-            started: false,
-            extent,
-            file: None,
-            wanted,
-        };
-        let mut types = vec![TextType::default(); scanned.wanted.len()];
-        while let Some(rows) = scanned.next()? {
-            if let Some(share) = scanned.share_read() {
-                tell(share);
-            }
-            if rows.kept.iter().any(|kept| matches!(kept, Kept::Typed(_))) {
-                return Ok(None);
-            }
-            types.par_iter_mut().zip(&rows.kept).for_each(|(seen, kept)| {
-                if let Kept::Texts(texts) = kept {
-                    seen.see(texts);
-                }
-            });
-        }
-        Ok(Some(types))
-    }
-
-    /// The share of the file that has been read, where that is known.
-    #[must_use]
-    pub fn share_read(&self) -> Option<f64> {
-        self.extent.as_ref().map(Extent::share)
-    }
-
-    /// The name of the file, for messages.
-    #[cfg(feature = "point-clouds")]
-    pub fn source(&self) -> &str {
-        self.reader.source()
-    }
-
-    /// The columns, as they stand in the header.
-    pub fn header(&self) -> &[ColumnName] {
-        self.reader.header()
-    }
-
-    /// Whether a name means a column.
-    #[must_use]
-    pub fn means(&self, column: &ColumnName, name: &str) -> bool {
-        column.means(name, &self.declared())
-    }
-
-    /// Which columns have a name of those that are added.
-    #[must_use]
-    pub fn replaced_by(&self, added: &[String]) -> Vec<bool> {
-        // A unit in brackets is not part of the name.
-        let bare = |name: &str| name.split(" [").next().map(str::to_owned);
-        let named: Vec<String> = added.iter().filter_map(|name| bare(name)).collect();
-        self.header().iter().map(|column| named.iter().any(|name| self.means(column, name))).collect()
-    }
-
-    /// The names of some columns.
-    #[must_use]
-    pub fn names_of(&self, is_one: &[bool]) -> Vec<String> {
-        let header = self.header().iter().zip(is_one);
-        header.filter(|(_, is_one)| **is_one).map(|(column, _)| column.full.clone()).collect()
-    }
-
-    /// Whether the readings of a joint or input come from a column.
-    #[must_use]
-    pub fn reads(&self, column: usize) -> bool {
-        self.readings.iter().any(|reading| reading.column == column)
-    }
-
-    /// Whether there is a column, or more, for each of these joints and inputs.
-    #[must_use]
-    pub fn has(&self, chain: &Chain, readings: &[SymbolId]) -> bool {
-        let missing = |&id: &SymbolId| matches!(self.find(chain, id), Err(DataError::MissingColumn { .. }));
-        !readings.iter().any(missing)
-    }
-
-    /// The observables of these names; if there is none, all that the table has the readings for.
-    ///
-    /// # Errors
-    /// A name that the chain does not declare.
-    pub fn with_readings(&self, chain: &Chain, names: &[String]) -> Result<Vec<ObservableId>, Failure> {
-        let mut chosen = source::observables(chain, names)?;
-        if names.is_empty() {
-            let all = chosen.clone();
-            chosen.retain(|&observable| self.has(chain, &readings_of(chain, observable)));
-            // If none can be evaluated, the first one's missing column is what to say.
-            chosen.extend(all.first().filter(|_| chosen.is_empty()));
-        }
-        Ok(chosen)
-    }
-
-    fn declared(&self) -> Vec<&str> {
-        self.declared.iter().map(String::as_str).collect()
-    }
-
-    fn find(&self, chain: &Chain, reading: SymbolId) -> Result<usize, DataError> {
-        let name = &chain.symbol(reading).name;
-        find_reading(self.reader.header(), name, &self.declared(), self.reader.source())
-    }
-
-    /// Finds the columns of joints and inputs by their declared names; an angle or length without a unit in the
-    /// header is in SI, as the command itself writes it.
-    ///
-    /// # Errors
-    /// A column that is not there or is there twice, or whose unit is none or measures something else.
-    pub fn want(&mut self, chain: &Chain, readings: &[SymbolId]) -> Result<(), Failure> {
-        for &id in readings {
-            let (column, source) = (self.find(chain, id).map_err(failure)?, self.reader.source());
-            let (name, symbol) = (&self.reader.header()[column], chain.symbol(id));
-            let (factor, is_bare) = factor_of(name, symbol, source).map_err(failure)?;
-            let plausible = Plausible::readings(chain, id);
-            let bare = || BareColumn::new(plausible, symbol.quantity, &name.full, source);
-            let bare = is_bare.then(bare);
-            self.readings.push(Reading { symbol: id, column, bare });
-            self.wanted.push(Wanted { column, form: Form::Number(factor) });
-        }
-        Ok(())
-    }
-
-    /// Asks for another column by its name, after all readings; without a unit in the header it is in SI.
-    ///
-    /// # Errors
-    /// As [`ReadingsTable::want`].
-    pub fn want_other(&mut self, name: &str, quantity: Quantity) -> Result<(), Failure> {
-        let source = self.reader.source();
-        let column = find_reading(self.reader.header(), name, &self.declared(), source).map_err(failure)?;
-        let read = ReadAs { quantity, stated: None, declared: Some(name) };
-        let factor = self.reader.header()[column].factor(read, source).map_err(failure)?;
-        self.wanted.push(Wanted { column, form: Form::Number(factor) });
-        Ok(())
-    }
-
-    /// The next rows; `None` at the end.
-    ///
-    /// # Errors
-    /// A cell that cannot be read, with its place; no rows at all.
-    pub fn next(&mut self) -> Result<Option<Rows>, Failure> {
-        let chunk = self.reader.read(&self.wanted, CHUNK).map_err(failure)?;
-        if chunk.rows.is_empty() {
-            let file = self.reader.source().to_owned();
-            return if self.started { Ok(None) } else { Err(failure(DataError::NoRows { file })) };
-        }
-        self.started = true;
-        let mut rows =
-            Rows { kept: Vec::new(), readings: Vec::new(), others: Vec::new(), count: chunk.rows.len() };
-        let mut readings = self.readings.iter_mut();
-        for column in chunk.columns {
-            match column {
-                Cells::Kept(kept) => rows.kept.push(kept),
-                Cells::Numbers(numbers) => {
-                    // Those of the readings come first.
-                    let Some(reading) = readings.next() else {
-                        rows.others.push(numbers);
-                        continue;
-                    };
-                    reading.bare.iter_mut().for_each(|bare| bare.see(&numbers));
-                    rows.readings.push((reading.symbol, numbers));
-                }
-                Cells::Labels(_) => unreachable!("no labels are wanted"),
-            }
-        }
-        for reading in &self.readings {
-            // What was read as a number with a decimal comma is no number between commas.
-            if let Some(Kept::Texts(texts)) = rows.kept.get_mut(reading.column)
-                && texts.contain(',')
-            {
-                *texts = texts.iter().map(|text| text.replace(',', ".")).collect();
-            }
-        }
-        Ok(Some(rows))
-    }
-
-    /// The columns whose numbers, as far as they were read, are hardly in SI, although nothing says another unit.
-    pub fn doubtful(&self) -> impl Iterator<Item = &BareColumn> {
-        self.readings.iter().filter_map(|reading| reading.bare.as_ref()).filter(|bare| bare.is_doubtful())
-    }
+        let reader = formats::open(input, &path.display().to_string(), &options).map_err(Refusal::of)?;
+        Ok((reader, extent))
+    })
 }

@@ -3,11 +3,12 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use service::readings::ReadingsTable;
 use tables::formats::{self, Column, Written};
 #[cfg(feature = "parquet")]
 use tables::formats::{Options, parquet};
 
-use super::{ReadingsTable, failure, known_format};
+use super::{failure, known_format};
 use crate::failure::Failure;
 use crate::output;
 
@@ -155,7 +156,7 @@ fn put<E: std::error::Error + Send + Sync + 'static>(
 ///
 /// # Errors
 /// The place cannot be written.
-pub fn csv_row<'c>(
+fn csv_row<'c>(
     file: &mut dyn Write,
     path: &Path,
     cells: impl IntoIterator<Item = &'c str>,
@@ -167,11 +168,6 @@ pub fn csv_row<'c>(
 ///
 /// # Errors
 /// The place cannot be written.
-pub fn csv_rows(
-    file: &mut dyn Write,
-    path: &Path,
-    columns: &[Written<'_>],
-    rows: usize,
-) -> Result<(), Failure> {
+fn csv_rows(file: &mut dyn Write, path: &Path, columns: &[Written<'_>], rows: usize) -> Result<(), Failure> {
     formats::write_rows(file, columns, rows).map_err(|error| Failure::write(path, &error))
 }

@@ -5,7 +5,8 @@
 //! of the filter are independent, and say everything.
 
 use super::{Carried, Run, Serial};
-use observe::{Measure, Measured, Observations, tangent_frame};
+use observe::Observations;
+use observe::kinds::SpaceAxes;
 
 /// A vector of space.
 type Vector = [f64; 3];
@@ -14,21 +15,15 @@ type Vector = [f64; 3];
 /// are no components of a vector.
 #[must_use]
 pub fn axes(observations: &Observations) -> Option<Vec<Vector>> {
-    let turns = |measure| measure == Measure::Direction;
-    let vectors = |measure| turns(measure) || measure == Measure::Point;
-    let mut series = observations.poses.series.iter();
-    if !series.clone().any(|own| turns(own.measure)) || !series.all(|own| vectors(own.measure)) {
+    let of_series = observations.poses.series.iter().map(|series| series.measure.kind().space_axes);
+    let of_series: Vec<SpaceAxes> = of_series.collect::<Option<_>>()?;
+    if !of_series.iter().any(|axes| axes.turn) {
         return None;
     }
-    let each = observations.poses.measures().zip(&observations.measured).flat_map(|(measure, measured)| {
-        let axes = match measured {
-            Measured::Direction(direction) => {
-                let [across, along] = tangent_frame(direction);
-                [across.into(), along.into(), Vector::default()]
-            }
-            _ => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-        };
-        axes.into_iter().take(measure.components())
+    let series = observations.poses.series.iter().zip(of_series);
+    let each = series.flat_map(|(series, axes)| {
+        let rows = observations.measured[series.rows.clone()].iter();
+        rows.flat_map(move |measured| (axes.of)(measured).into_iter().take(series.measure.components()))
     });
     Some(each.collect())
 }
@@ -172,7 +167,7 @@ mod tests {
     fn turning(rows: usize) -> Vec<Vector> {
         let of = |row: usize| {
             let (a, e) = (0.2 * row as f64, 0.7 * (0.13 * row as f64).sin());
-            let [across, along] = tangent_frame(&observe::direction_from_spherical(a, e));
+            let [across, along] = observe::tangent_frame(&observe::direction_from_spherical(a, e));
             [across.into(), along.into()]
         };
         (0..rows).flat_map(of).collect()

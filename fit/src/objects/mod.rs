@@ -4,7 +4,7 @@
 //! explain; the stations' after that, as columns that all objects share. What is left is an ordinary problem of the
 //! declared errors, and steps, uncertainties and the search for missing effects see no other.
 //!
-//! What one row shows stands in `seen`, the elimination in `eliminate`, its rotation of whole columns in `reduce`,
+//! What one row shows its kind of observation says. The elimination stands in `eliminate`, its rotation of whole columns in `reduce`,
 //! in `followed` what it leaves to each row, in `spread` how surely the numbers are known, and in `stated` what a study says of
 //! places, which `within` whitens columns by.
 
@@ -13,7 +13,6 @@ mod followed;
 mod gathered;
 mod lanes;
 mod reduce;
-mod seen;
 mod spread;
 mod stated;
 mod within;
@@ -21,6 +20,5 @@ mod within;
 pub use eliminate::{Collected, Eliminated, Starts};
 pub(crate) use followed::FollowedShare;
 pub use reduce::Reduction;
-pub(crate) use seen::{TurnsBy, distance, seen};
 pub use spread::Spread;
 pub(crate) use stated::Stated;

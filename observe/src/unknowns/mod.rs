@@ -4,15 +4,17 @@
 mod believed;
 mod frame;
 mod pose;
+mod state;
 
 use faer::Mat;
 use nalgebra::Vector3;
 
-use super::{Measure, tangent_frame};
+use super::tangent_frame;
 
 pub use believed::OfStation;
 pub use pose::Pose;
 pub use pose::right_jacobian;
+pub use state::State;
 
 /// The most numbers of one object.
 pub const OF_OBJECT: usize = 6;
@@ -39,25 +41,6 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// What an observed thing is by how it is measured; `None` if nothing unknown is.
-    #[must_use]
-    pub fn of(measure: Measure) -> Option<Self> {
-        match measure {
-            Measure::Plane => Some(Self::Plane),
-            Measure::Target | Measure::Fixed | Measure::Distance | Measure::Sight | Measure::Beam => {
-                Some(Self::Point)
-            }
-            Measure::Wire => Some(Self::Wire),
-            Measure::Circle => Some(Self::Circle),
-            Measure::Ring => Some(Self::Ring),
-            Measure::Direction
-            | Measure::Point
-            | Measure::Range
-            | Measure::Azimuth
-            | Measure::Orientation => None,
-        }
-    }
-
     /// How many numbers it has.
     #[must_use]
     pub fn numbers(self) -> usize {

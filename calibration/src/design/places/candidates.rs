@@ -12,6 +12,7 @@ use super::known::{Known, extent};
 use crate::design::generator;
 use fit::robust::median;
 use network::{Row, rows};
+use observe::kinds::AimedAt;
 use observe::unknowns::{Freedom, Known as Placed, Object, Pose, Shape, Station, Unknowns};
 use observe::{Measure, Measured, Observations, Series};
 use study::{NextPlaces, NextPoses};
@@ -123,7 +124,7 @@ impl<'a> Candidates<'a> {
     ) -> Self {
         let poses = &observations.poses;
         let aims = poses.series.iter().map(|series| {
-            let observes = Shape::of(series.measure).is_some() && !series.rows.is_empty();
+            let observes = series.measure.observes_object() && !series.rows.is_empty();
             observes.then(|| Aim::new(chain, series.observable, poses, &next.ranges, values))
         });
         let rows = rows(chain, observations, &unknowns, values);
@@ -159,7 +160,7 @@ impl<'a> Candidates<'a> {
 
     /// Where things are: stations, points, and where planes were hit.
     fn things(&self) -> impl Iterator<Item = Vector3<f64>> + Clone {
-        let hits = self.rows.iter().zip(&self.hits).filter(|(row, _)| row.measure != Measure::Sight);
+        let hits = self.rows.iter().zip(&self.hits).filter(|(row, _)| row.measure.kind().aim != AimedAt::Way);
         let points = self.unknowns.objects.iter().filter(|object| object.shape != Shape::Plane);
         self.stations()
             .map(|station| station.pose.shift)
@@ -230,15 +231,15 @@ impl<'a> Candidates<'a> {
         for (series, object) in aimed {
             let Some(aim) = &self.aims[series] else { continue };
             let thing = &self.unknowns.objects[object];
-            let goals: Vec<Goal> = match self.measures[series] {
-                Measure::Plane => {
-                    self.spots(series, object, each).iter().map(|spot| Goal::Point(pose.back(spot))).collect()
-                }
-                measure => vec![goal(measure, &pose, thing, self.radii_m[object])],
+            let on_board = self.measures[series].kind().aim == AimedAt::Board;
+            let goals: Vec<Goal> = if on_board {
+                self.spots(series, object, each).iter().map(|spot| Goal::Point(pose.back(spot))).collect()
+            } else {
+                vec![goal(self.measures[series], &pose, thing, self.radii_m[object])]
             };
             let ways = (each / goals.len().max(1)).clamp(WAYS[0], WAYS[1]);
             for goal in goals {
-                if let (Goal::Point(there), Measure::Plane) = (goal, self.measures[series])
+                if let (Goal::Point(there), true) = (goal, on_board)
                     && self.grazes(&(pose.turn * there), &thing.normal)
                 {
                     continue;
@@ -260,7 +261,7 @@ impl<'a> Candidates<'a> {
         let series = self.kinds.iter().position(|kind| *kind == Some(adds))?;
         let aim = self.aims[series].as_ref()?;
         let measure = self.measures[series];
-        let shape = Shape::of(measure)?;
+        let shape = measure.shape()?;
         let share = shares::<5>(number);
         let place = Vector3::from_fn(|axis, _| self.within(axis, share[axis], false));
         let mut object = Object::unknown(String::new(), shape);
@@ -285,12 +286,12 @@ impl<'a> Candidates<'a> {
         let mut pointings = Vec::new();
         for station in stations {
             let pose = self.unknowns.stations[station].pose;
-            let goal = match measure {
-                Measure::Plane if self.grazes(&(place - pose.shift), &object.normal) => continue,
-                Measure::Plane => {
+            let goal = match measure.kind().aim {
+                AimedAt::Board if self.grazes(&(place - pose.shift), &object.normal) => continue,
+                AimedAt::Board => {
                     Goal::Board(pose.back(&place), pose.turn.inverse() * object.normal, self.board_m)
                 }
-                measure => goal(measure, &pose, &object, radius_m),
+                _ => goal(measure, &pose, &object, radius_m),
             };
             let readings = aim.at(goal, ways);
             pointings.extend(readings.into_iter().map(|readings| Possible {
@@ -342,14 +343,14 @@ impl<'a> Candidates<'a> {
 /// Where to aim to observe an object that is no plane, from a pose.
 fn goal(measure: Measure, pose: &Pose, thing: &Object, radius_m: Option<f64>) -> Goal {
     let there = pose.back(&thing.place);
-    match (measure, radius_m) {
-        (Measure::Sight, _) => Goal::Way(there),
-        (Measure::Circle | Measure::Ring, Some(radius_m)) => {
+    match (measure.kind().aim, radius_m) {
+        (AimedAt::Way, _) => Goal::Way(there),
+        (AimedAt::Circle, Some(radius_m)) => {
             Goal::Circle(there, pose.turn.inverse() * thing.normal, radius_m)
         }
-        (Measure::Wire | Measure::Distance, Some(radius_m)) => Goal::Sphere(there, radius_m),
-        (Measure::Wire | Measure::Distance, None) => Goal::Anything,
-        _ => Goal::Point(there),
+        (AimedAt::Sphere, Some(radius_m)) => Goal::Sphere(there, radius_m),
+        (AimedAt::Sphere, None) => Goal::Anything,
+        (AimedAt::Point | AimedAt::Board, _) | (AimedAt::Circle, None) => Goal::Point(there),
     }
 }
 

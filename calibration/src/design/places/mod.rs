@@ -25,7 +25,7 @@ use fit::{FitError, FitResult, Model, variance_of};
 use known::{Known, OF_STATION, of_object, roots};
 use noise::Usual;
 use observe::unknowns::{Freedom, OF_OBJECT, Object, Shape, Station, Unknowns, WIDTH};
-use observe::{Measure, Measured, Observations, Poses, Series};
+use observe::{Observations, Poses, Series};
 pub use proposal::{Addition, Place, PlaceProposal, Pointing};
 use seen::Seen;
 use study::{NextPlaces, NextPoses, Plan};
@@ -233,11 +233,9 @@ impl Setting<'_> {
         unknowns.objects.extend(candidate.new.object().cloned());
         unknowns.object = order.iter().map(|&at| Some(candidate.pointings[at].object as u32)).collect();
         unknowns.station = order.iter().map(|&at| candidate.pointings[at].station as u32).collect();
-        let measured = order.iter().map(|&at| match poses.series[candidate.pointings[at].series].measure {
-            // How long it would be read plays no part in what it tells.
-            Measure::Wire | Measure::Distance | Measure::Ring => Measured::Length { length_m: 1.0 },
-            _ => Measured::Readings,
-        });
+        // How long it would be read plays no part in what it tells.
+        let measure = |at: usize| poses.series[candidate.pointings[at].series].measure;
+        let measured = order.iter().map(|&at| measure(at).kind().anything_of_object());
         let mut values = self.fit.values[..self.chain.symbols.len()].to_vec();
         values.resize(values.len() + unknowns.numbers(), 0.0);
         let there = Observations {

@@ -34,7 +34,7 @@ impl<'a> Usual<'a> {
         let own = |(component, &(row, [sigma, smallest])): (usize, &(usize, [f64; 2]))| {
             let there =
                 |id: SymbolId| self.observations.poses.column(id).map_or(f64::NAN, |column| column[row]);
-            let of = measure.noise_of(component);
+            let of = measure.kind().noise[component];
             let own = self.noise.variance.iter().filter(|variance| variance.of == of);
             let terms = own.flat_map(|variance| &variance.terms);
             let ln: f64 =

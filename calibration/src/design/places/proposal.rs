@@ -1,54 +1,47 @@
 //! Additions to a set-up, as they are proposed.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use crate::design::Criterion;
 use network::Remedy;
 use observe::Measure;
+use observe::kinds::Thing;
 
 /// What is added.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy)]
 pub enum Addition {
     /// A place to stand.
     Station,
-    /// A wall or a board.
-    Plane,
-    /// A target.
-    Target,
-    /// A socket.
-    Fixed,
-    /// A circle.
-    Circle,
-    /// A sphere of a radius that nobody knows.
-    Sphere,
-    /// A wire.
-    Wire,
-    /// A pivot.
-    Distance,
-    /// A point to be sighted.
-    Sight,
+    /// Something to observe.
+    Object(&'static Thing),
 }
 
 impl Addition {
     /// An object by how it is observed, and whether a length is read with it; `None` if no object is.
     #[must_use]
     pub fn of(measure: Measure, reads_length: bool) -> Option<Self> {
-        match measure {
-            Measure::Plane => Some(Self::Plane),
-            Measure::Target => Some(Self::Target),
-            Measure::Fixed => Some(Self::Fixed),
-            Measure::Circle | Measure::Ring => Some(Self::Circle),
-            Measure::Wire if reads_length => Some(Self::Wire),
-            Measure::Wire => Some(Self::Sphere),
-            Measure::Distance => Some(Self::Distance),
-            Measure::Sight | Measure::Beam => Some(Self::Sight),
-            Measure::Direction
-            | Measure::Point
-            | Measure::Range
-            | Measure::Azimuth
-            | Measure::Orientation => None,
+        (measure.kind().thing)(reads_length).map(Self::Object)
+    }
+
+    /// As a study calls it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Station => "station",
+            Self::Object(thing) => thing.name,
         }
+    }
+}
+
+impl PartialEq for Addition {
+    fn eq(&self, other: &Self) -> bool {
+        self.name() == other.name()
+    }
+}
+
+impl Serialize for Addition {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
     }
 }
 

@@ -1,0 +1,108 @@
+//! A chain and a study to start from, out of what a table of data shows: its header, and the numbers below it.
+//!
+//! What can be seen is not asked: which column is which joint (`words`), in which unit (`look`), how the truth was
+//! observed (`observed`), which way axes turn and from where angles count (`frame`). Each kind of instrument is one of the
+//! `templates`; what it makes of a table is a [`Draft`], and `study` writes it down.
+
+mod frame;
+mod look;
+mod observed;
+mod study;
+pub mod templates;
+mod words;
+
+pub use look::Look;
+pub use study::{Names, study};
+pub use templates::Template;
+
+use ::study::{Open, Study};
+use model_core::Chain;
+
+use frame::Frame;
+use look::Read;
+use observed::Observed;
+
+/// Why nothing can be begun, in words that say what to mend.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct NotBegun(String);
+
+/// What a template makes of a table.
+pub struct Draft {
+    /// The declaration.
+    pub chain: String,
+    /// Its observable.
+    pub observable: &'static str,
+    /// Joints and inputs with the columns that hold their readings.
+    columns: Vec<(String, Read)>,
+    /// What was observed.
+    observed: Observed,
+    /// What is estimated, where that is more than every error.
+    estimate: Vec<&'static str>,
+    /// Where the fit starts: an error, and its value as the study writes it.
+    start: Vec<(&'static str, String)>,
+    /// Side quantities that effects may use.
+    inputs: Vec<String>,
+    /// What the user should know of it.
+    pub remarks: Vec<String>,
+}
+
+/// A draft by a template, or by the one that the table plainly asks for.
+///
+/// # Errors
+/// The template does not fit the table; no template does, or several do.
+pub fn draft(
+    look: &Look,
+    template: Option<&'static Template>,
+) -> Result<(&'static Template, Draft), NotBegun> {
+    let template = template.map_or_else(|| choose(look), Ok).map_err(NotBegun)?;
+    Ok((template, (template.draft)(look).map_err(NotBegun)?))
+}
+
+/// Holds what was begun to what it is read with: the chain, the study, and every row of the data, which `open` gives. Says what is
+/// doubtful of them.
+///
+/// # Errors
+/// One of them cannot be read.
+pub fn hold(draft: &Draft, study: &str, open: &mut Open<'_>) -> Result<Vec<String>, NotBegun> {
+    let ours = |what: &str, why: String| {
+        NotBegun(format!("{what} cannot be read again, and nothing is written: {why}"))
+    };
+    let chain = Chain::from_text(&draft.chain).map_err(|mistakes| {
+        ours("the chain that was made of these data", mistakes.render("chain", &draft.chain))
+    })?;
+    let plan = Study::from_text(study)
+        .and_then(|study| study.plan(&chain))
+        .map_err(|mistakes| ours("the study that was made of these data", mistakes.render("study", study)))?;
+    let loaded = plan.load(open).map_err(|error| NotBegun(error.to_string()))?;
+    Ok(loaded.doubtful.iter().map(ToString::to_string).collect())
+}
+
+/// The template that a table plainly asks for.
+///
+/// # Errors
+/// None does, or several do; the message lists the templates.
+fn choose(look: &Look) -> Result<&'static Template, String> {
+    let fitting: Vec<_> = templates::TEMPLATES.iter().filter(|template| (template.fits)(look)).collect();
+    match fitting.as_slice() {
+        [one] => Ok(one),
+        several => {
+            let found = if several.is_empty() {
+                "the header does not say which kind of instrument this is"
+            } else {
+                "several kinds of instrument have columns of these names"
+            };
+            let offered =
+                if several.is_empty() { templates::TEMPLATES.iter().collect() } else { several.to_vec() };
+            let lines: Vec<String> = offered
+                .iter()
+                .map(|one| format!("\n  --template {:14} {}", one.name, one.looks_for))
+                .collect();
+            Err(format!(
+                "{}: {found}; say which, and name the columns as it looks for them:{}",
+                look.file,
+                lines.concat()
+            ))
+        }
+    }
+}

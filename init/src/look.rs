@@ -1,0 +1,337 @@
+//! A table as `init` looks at it: its columns with what their names and numbers say.
+
+use model_core::Quantity;
+use tables::formats::{Cells, ColumnName, DataError, Form, TableReader, Texts, Wanted};
+use tables::units::Unit;
+
+use crate::NotBegun;
+use crate::words::{self, Part, Side};
+
+/// Rows that are looked at.
+const ROWS: usize = 50_000;
+/// Angles without a unit that reach beyond this are no radians.
+const FARTHEST_RAD: f64 = 6.5;
+/// Angles between a turn in degrees and a turn in gon are gon.
+const GON: std::ops::RangeInclusive<f64> = 360.5..=400.5;
+
+/// What is called otherwise elsewhere.
+const SYNONYMS: &[(&str, &str)] = &[
+    ("degree", "deg"),
+    ("degrees", "deg"),
+    ("degs", "deg"),
+    ("radian", "rad"),
+    ("radians", "rad"),
+    ("rads", "rad"),
+    ("arcsecond", "arcsec"),
+    ("arcseconds", "arcsec"),
+    ("arcsecs", "arcsec"),
+    ("asec", "arcsec"),
+    ("as", "arcsec"),
+    ("″", "arcsec"),
+    ("arcminute", "arcmin"),
+    ("arcminutes", "arcmin"),
+    ("gons", "gon"),
+    ("grad", "gon"),
+    ("h", "hour"),
+    ("hr", "hour"),
+    ("hours", "hour"),
+    ("metre", "m"),
+    ("metres", "m"),
+    ("meter", "m"),
+    ("meters", "m"),
+    ("millimetre", "mm"),
+    ("millimetres", "mm"),
+    ("millimeter", "mm"),
+    ("millimeters", "mm"),
+    ("micron", "um"),
+    ("microns", "um"),
+    ("feet", "ft"),
+    ("in", "inch"),
+];
+
+/// A table as its header and its first rows show it.
+pub struct Look {
+    /// Its name, for messages.
+    pub(crate) file: String,
+    pub(crate) columns: Vec<Column>,
+}
+
+/// One of its columns.
+pub struct Column {
+    pub name: ColumnName,
+    words: Vec<String>,
+    /// The unit that the header says, by whatever name.
+    unit: Option<Unit>,
+    /// What stands in brackets and is no unit.
+    unknown: Option<String>,
+    /// Its cells, if all of them are numbers.
+    numbers: Option<Vec<f64>>,
+    /// The first row whose cell is no number.
+    no_number: Option<usize>,
+    /// How many different texts it holds.
+    pub different: usize,
+    rows: usize,
+}
+
+/// A column that is read, and as what.
+#[derive(Debug, Clone)]
+pub struct Read {
+    /// As the header names it.
+    pub column: String,
+    /// The unit that the study says; none for a plain number.
+    pub unit: Option<&'static str>,
+    /// Its numbers in SI.
+    pub si: Vec<f64>,
+}
+
+impl Look {
+    /// Looks at the first rows of a table.
+    ///
+    /// # Errors
+    /// A mistake in the file; no rows; numbers where a header was expected.
+    pub fn at(reader: &mut dyn TableReader) -> Result<Self, NotBegun> {
+        Self::seen(reader).map_err(NotBegun)
+    }
+
+    fn seen(reader: &mut dyn TableReader) -> Result<Self, String> {
+        let told = |error: DataError| error.to_string();
+        let header = reader.header().to_vec();
+        let file = reader.source().to_owned();
+        if header.iter().all(|name| number(&name.full).is_some()) {
+            return Err(format!(
+                "{file}: the first line holds numbers, and no names of columns: write a header above it, such as \
+                 `azimuth [deg],elevation [deg],x,y,z`"
+            ));
+        }
+        let wanted: Vec<Wanted> =
+            (0..header.len()).map(|column| Wanted { column, form: Form::Kept }).collect();
+        let chunk = reader.read(&wanted, ROWS).map_err(told)?;
+        if chunk.rows.is_empty() {
+            return Err(DataError::NoRows { file }.to_string());
+        }
+        let mut columns = Vec::new();
+        for (name, cells) in header.into_iter().zip(chunk.columns) {
+            let Cells::Kept(kept) = cells else { unreachable!("kept columns were wanted") };
+            let texts = kept.texts().map_err(told)?;
+            columns.push(Column::new(name, &texts));
+        }
+        Ok(Self { file, columns })
+    }
+
+    /// The columns of some parts: those that hold numbers, or else those that only their names speak for.
+    fn of(&self, parts: &[Part]) -> Vec<&Column> {
+        let of = |column: &&Column| column.part().is_some_and(|part| parts.contains(&part));
+        let all: Vec<&Column> = self.columns.iter().filter(of).collect();
+        let numbers: Vec<&Column> = all.iter().copied().filter(|column| column.numbers.is_some()).collect();
+        if numbers.is_empty() { all } else { numbers }
+    }
+
+    /// The column with the instrument's own reading of a part.
+    ///
+    /// # Errors
+    /// Several could be meant.
+    pub(crate) fn reading(&self, parts: &[Part]) -> Result<Option<&Column>, String> {
+        let on = |side| self.of(parts).into_iter().filter(|column| column.side() == side).collect::<Vec<_>>();
+        let said = on(Side::Reading);
+        self.one(if said.is_empty() { on(Side::Unsaid) } else { said })
+    }
+
+    /// The column with the truth of a part: said to be, or the other one beside a reading.
+    ///
+    /// # Errors
+    /// Several could be meant.
+    pub(crate) fn truth(&self, parts: &[Part]) -> Result<Option<&Column>, String> {
+        let on = |side| self.of(parts).into_iter().filter(|column| column.side() == side).collect::<Vec<_>>();
+        let said = on(Side::True);
+        let beside = || if on(Side::Reading).is_empty() { Vec::new() } else { on(Side::Unsaid) };
+        self.one(if said.is_empty() { beside() } else { said })
+    }
+
+    fn one<'a>(&self, found: Vec<&'a Column>) -> Result<Option<&'a Column>, String> {
+        match found.as_slice() {
+            [] => Ok(None),
+            [one] => Ok(Some(one)),
+            several => {
+                let names: Vec<String> =
+                    several.iter().map(|column| format!("`{}`", column.name.full)).collect();
+                Err(format!(
+                    "{}: {} could each be meant: call what the instrument said `encoder_…` and what was true `true_…`",
+                    self.file,
+                    names.join(" and ")
+                ))
+            }
+        }
+    }
+
+    /// The reading of a part that the template cannot do without.
+    ///
+    /// # Errors
+    /// It is not there, or there several times.
+    pub(crate) fn needed(&self, parts: &[Part], what: &str, names: &str) -> Result<&Column, String> {
+        self.reading(parts)?.ok_or_else(|| {
+            let there: Vec<String> =
+                self.columns.iter().map(|column| format!("`{}`", column.name.full)).collect();
+            format!("{}: no column for {what}: call it {names}; the file has {}", self.file, there.join(", "))
+        })
+    }
+
+    /// Some columns as angles. Where the header says no unit, their numbers together do.
+    ///
+    /// # Errors
+    /// A unit that is none, or of something else; hours that could be degrees.
+    pub(crate) fn angles(&self, columns: &[&Column], remarks: &mut Vec<String>) -> Result<Vec<Read>, String> {
+        let bare = || columns.iter().filter(|column| column.unit.is_none());
+        let farthest = |column: &Column| column.values().iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+        let reach = bare().map(|column| farthest(column)).fold(0.0, f64::max);
+        let likely = match reach {
+            reach if reach <= FARTHEST_RAD => "rad",
+            reach if GON.contains(&reach) => "gon",
+            _ => "deg",
+        };
+        columns
+            .iter()
+            .map(|column| {
+                let unit = column.said(Quantity::Angle, &self.file)?.map_or_else(
+                    || {
+                        if column.part() == Some(Part::HourAngle) && farthest(column) <= 24.0 && likely != "rad" {
+                            let name = &column.name.full;
+                            return Err(format!(
+                                "{}: are the numbers of `{name}` hours or degrees? write `{name} [hour]` or `{name} [deg]`",
+                                self.file
+                            ));
+                        }
+                        remarks.push(format!("`{}` says no unit; by its numbers it is in {likely}", column.name.full));
+                        Unit::find(likely).ok_or_else(|| unreachable!("{likely} is a unit"))
+                    },
+                    Ok,
+                )?;
+                column.read(unit, &self.file)
+            })
+            .collect()
+    }
+
+    /// Some columns as lengths; metres where the header says no unit.
+    ///
+    /// # Errors
+    /// A unit that is none, or of something else.
+    pub(crate) fn lengths(
+        &self,
+        columns: &[&Column],
+        remarks: &mut Vec<String>,
+    ) -> Result<Vec<Read>, String> {
+        columns
+            .iter()
+            .map(|column| {
+                let unit = column.said(Quantity::Length, &self.file)?.or_else(|| {
+                    remarks.push(format!(
+                        "`{}` says no unit; metres are assumed: mend it if not",
+                        column.name.full
+                    ));
+                    Unit::find("m")
+                });
+                column.read(unit.unwrap_or_else(|| unreachable!("m is a unit")), &self.file)
+            })
+            .collect()
+    }
+}
+
+impl Column {
+    fn new(name: ColumnName, texts: &Texts) -> Self {
+        let in_brackets =
+            name.full.strip_prefix(&name.stem).map(|rest| rest.trim().trim_matches(['[', ']', '(', ')']));
+        let text = in_brackets.map(str::trim).filter(|text| !text.is_empty() && !text.starts_with('_'));
+        let known = |text: &str| {
+            let small = text.to_lowercase();
+            let synonym = SYNONYMS.iter().find(|(word, _)| *word == small).map(|(_, unit)| *unit);
+            Unit::find(synonym.unwrap_or(&small)).or_else(|| Unit::find(text))
+        };
+        let unit = name.unit().or_else(|| known(text?));
+        let mut words = words::words(&name.stem);
+        let behind =
+            words.last().and_then(|last| SYNONYMS.iter().find(|(word, _)| word == last && word.len() > 2));
+        let unit = unit.or_else(|| Unit::find(behind?.1));
+        if behind.is_some() && words.len() > 1 {
+            words.pop();
+        }
+        let unknown = text.filter(|_| unit.is_none()).map(str::to_owned);
+        let numbers = texts.iter().map(number).collect();
+        let no_number = texts.iter().position(|text| number(text).is_none());
+        let different: std::collections::BTreeSet<&str> = texts.iter().map(str::trim).collect();
+        Self { name, words, unit, unknown, numbers, no_number, different: different.len(), rows: texts.len() }
+    }
+
+    /// What it is of.
+    pub fn part(&self) -> Option<Part> {
+        words::part(&self.words, self.unit.is_some_and(|unit| unit.quantity == Quantity::Angle))
+    }
+
+    fn side(&self) -> Side {
+        words::side(&self.words)
+    }
+
+    /// Its words without one.
+    pub fn words_without(&self, word: &str) -> Option<Vec<&str>> {
+        let at = self.words.iter().rposition(|own| own == word)?;
+        Some(
+            self.words
+                .iter()
+                .enumerate()
+                .filter(|(other, _)| *other != at)
+                .map(|(_, own)| own.as_str())
+                .collect(),
+        )
+    }
+
+    /// Whether its cells are labels, which come again in other rows: as often as twice on average.
+    pub fn labels_rows(&self) -> bool {
+        self.different > 1 && 2 * self.different <= self.rows
+    }
+
+    /// Whether each row has a value of its own.
+    pub fn tells_rows_apart(&self) -> bool {
+        self.different == self.rows
+    }
+
+    /// Its numbers as written; none if a cell is none.
+    pub fn values(&self) -> &[f64] {
+        self.numbers.as_deref().unwrap_or_default()
+    }
+
+    /// It as plain numbers.
+    pub fn plain(&self) -> Read {
+        Read { column: self.name.full.clone(), unit: None, si: self.values().to_vec() }
+    }
+
+    fn said(&self, quantity: Quantity, file: &str) -> Result<Option<Unit>, String> {
+        let name = &self.name.full;
+        match (self.unit, &self.unknown) {
+            (Some(unit), _) if unit.quantity == quantity => Ok(Some(unit)),
+            (Some(unit), _) => {
+                Err(format!("{file}: the unit of `{name}` is `{}`, which does not fit what it is", unit.name))
+            }
+            (None, Some(text)) => Err(format!(
+                "{file}: `{text}` in the header of `{name}` is no unit: write such as deg, arcsec, mm or m"
+            )),
+            (None, None) => Ok(None),
+        }
+    }
+
+    fn read(&self, unit: Unit, file: &str) -> Result<Read, String> {
+        let column = self.name.full.clone();
+        if let Some(row) = self.no_number {
+            return Err(format!(
+                "{file}: `{column}` has a cell that is no number in row {}: fill it in, or leave such rows out",
+                row + 1
+            ));
+        }
+        let si = self.values().iter().map(|number| number * unit.in_si).collect();
+        Ok(Read { column, unit: Some(unit.name), si })
+    }
+}
+
+/// A number as a table has it, with a decimal comma too.
+fn number(text: &str) -> Option<f64> {
+    let text = text.trim();
+    let dot = || text.replacen(',', ".", 1).parse().ok();
+    text.parse().ok().or_else(dot).filter(|number: &f64| number.is_finite())
+}

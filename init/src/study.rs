@@ -1,0 +1,119 @@
+//! The study that a draft stands for, as a text to read and to mend.
+
+use std::fmt::Write as _;
+
+use super::look::Read;
+use super::words::Part;
+use super::{Draft, Look, Observed};
+
+/// Groups are worth naming from so many on.
+const GROUPS: usize = 12;
+
+/// The paths of a study's chain and data as the study names them, and the command that runs the study.
+#[derive(Debug, Clone, Copy)]
+pub struct Names<'a> {
+    /// The chain.
+    pub chain: &'a str,
+    /// The data.
+    pub data: &'a str,
+    /// The command.
+    pub command: &'a str,
+}
+
+/// The study of a draft.
+#[must_use]
+pub fn study(draft: &Draft, look: &Look, names: Names<'_>) -> String {
+    let Names { chain, data, command } = names;
+    let mut text = format!("# Begun by trueaxis init: {}\n", one_line(command));
+    for remark in &draft.remarks {
+        let _ = writeln!(text, "# {}", one_line(remark));
+    }
+    let _ = writeln!(text, "\nchain      = {}\nobservable = {}", quoted(chain), quoted(draft.observable));
+    let _ = writeln!(text, "data       = {}", quoted(data));
+    if let Some(id) = named_rows(look) {
+        let _ = writeln!(text, "id         = {}", quoted(&id));
+    }
+    text.push_str("\n[columns]\n");
+    let width = draft.columns.iter().map(|(name, _)| name.len()).max().unwrap_or_default();
+    for (name, read) in &draft.columns {
+        let _ = writeln!(text, "{name:width$} = {}", column(read));
+    }
+    text.push_str("\n[observed]\n");
+    let (kind, columns): (&str, Vec<(&str, &Read)>) = match &draft.observed {
+        Observed::Spherical(keys, read) => ("spherical", keys.iter().copied().zip(read).collect()),
+        Observed::Azimuth(read) => ("spherical", vec![("azimuth", read)]),
+        Observed::Direction(read) => ("direction", ["x", "y", "z"].into_iter().zip(read).collect()),
+        Observed::Offset(read) => ("offset", ["cross", "along"].into_iter().zip(read).collect()),
+        Observed::Point(read) => ("point", ["x", "y", "z"].into_iter().zip(read).collect()),
+        Observed::Target(..) => ("target", Vec::new()),
+    };
+    let _ = writeln!(text, "kind = \"{kind}\"");
+    for (key, read) in columns {
+        let _ = writeln!(text, "{key} = {}", column(read));
+    }
+    if let Observed::Target(object, station) = &draft.observed {
+        let _ = writeln!(text, "object = {}", quoted(object));
+        if let Some(station) = station {
+            let _ = writeln!(text, "station = {}", quoted(station));
+        }
+    }
+    let groups = groups(look);
+    if !groups.is_empty() {
+        text.push_str(
+            "\n# Rows that have these in common are not independent: they are held out together.\n[noise]\n",
+        );
+        let _ = writeln!(text, "group = {}", list(groups.iter().map(String::as_str)));
+    }
+    if !draft.estimate.is_empty() || !draft.start.is_empty() {
+        text.push_str("\n[fit]\n");
+        if !draft.estimate.is_empty() {
+            let _ = writeln!(text, "estimate = {}", list(draft.estimate.iter().copied()));
+        }
+        let starts: Vec<String> =
+            draft.start.iter().map(|(name, value)| format!("{name} = {}", quoted(value))).collect();
+        if !starts.is_empty() {
+            let _ = writeln!(text, "start = {{ {} }}", starts.join(", "));
+        }
+    }
+    if !draft.inputs.is_empty() {
+        text.push_str("\n[search]\n");
+        let _ = writeln!(text, "inputs = {}", list(draft.inputs.iter().map(String::as_str)));
+    }
+    text
+}
+
+fn column(read: &Read) -> String {
+    let name = quoted(&read.column);
+    match read.unit {
+        Some(unit) => format!("{{ column = {name}, unit = {} }}", quoted(unit)),
+        None => format!("{{ column = {name} }}"),
+    }
+}
+
+fn list<'a>(texts: impl Iterator<Item = &'a str>) -> String {
+    format!("[{}]", texts.map(quoted).collect::<Vec<_>>().join(", "))
+}
+
+/// A text as TOML has it.
+fn quoted(text: &str) -> String {
+    toml::Value::String(text.to_owned()).to_string()
+}
+
+/// A text that ends no comment.
+fn one_line(text: &str) -> String {
+    text.replace(|letter: char| letter.is_control() || matches!(letter, '\u{2028}' | '\u{2029}'), " ")
+}
+
+/// The column whose cells are names of the rows.
+fn named_rows(look: &Look) -> Option<String> {
+    let names =
+        look.columns.iter().find(|column| column.part() == Some(Part::Name) && column.tells_rows_apart());
+    names.map(|column| column.name.full.clone())
+}
+
+/// The columns that say which rows belong together, where they make enough groups.
+fn groups(look: &Look) -> Vec<String> {
+    let named = look.columns.iter().filter(|column| column.part() == Some(Part::Group));
+    let enough = named.filter(|column| column.different >= GROUPS && !column.tells_rows_apart());
+    enough.map(|column| column.name.full.clone()).collect()
+}

@@ -1,0 +1,344 @@
+//! Which pictures the page has.
+
+use crate::words::{self, numbers};
+use calibration::diagnose::Harmonics;
+use maud::{Markup, PreEscaped, html};
+use rayon::prelude::*;
+
+use super::card::{CARD, card};
+use super::rows::{Column, Component, Rows, axis_size, trace_reading};
+use super::svg::{Axis, Mark, Picture};
+use super::{distribution, map};
+use crate::Reported;
+
+/// Size of a picture across the page.
+const BROAD: (f64, f64) = (1140.0, 250.0);
+
+/// Bins of means along a reading.
+const BINS: usize = 12;
+
+/// Effects whose pictures are not folded away.
+const OPEN: usize = 3;
+
+/// The section of residuals.
+pub fn residuals(reported: &Reported<'_>, rows: &Rows) -> Markup {
+    let drawn = rows.numbers.len();
+    let found = &reported.calibration.diagnosis.effects;
+    let mut effects: Vec<usize> = (0..reported.calibration.traces.len()).collect();
+    effects.sort_by(|&a, &b| found[b].standing.total_cmp(&found[a].standing));
+    let (maps, of_components) = rayon::join(
+        || map::maps(reported, rows),
+        || {
+            rows.components
+                .par_iter()
+                .map(|component| OfComponent::of(reported, rows, component))
+                .collect::<Vec<_>>()
+        },
+    );
+    html! {
+        section id="residuals" {
+            h2 { "Residuals" }
+            p.quiet {
+                "Measured minus what the fitted declaration says. What is left should scatter evenly around zero. Crosses: \
+                 rows set aside. Diamonds: means of what is left, with two standard errors."
+                @if drawn < rows.of {
+                    " " (drawn) " of " (rows.of) " rows are drawn"
+                    @if rows.of > reported.calibration.drawn.len() { ": those set aside, those with the largest residuals, and others by lot" }
+                    ". Figures, tables, histograms, quantiles, means and maps count all."
+                }
+            }
+            fieldset.toggle {
+                legend.quiet { @if rows.changed { "Show" } @else { "Rows" } }
+                @if rows.changed {
+                    input type="radio" name="show" id="show-before"; label for="show-before" { "△ Before" }
+                    input type="radio" name="show" id="show-both" checked; label for="show-both" { "Both" }
+                    input type="radio" name="show" id="show-after"; label for="show-after" { "● After" }
+                    span.key { "— fitted effect with two standard uncertainties" }
+                }
+                span id="state" role="status" {}
+                button id="zoom" type="button" hidden { "Zoom to them" }
+                button id="clear" type="button" hidden { "Clear" }
+            }
+            div.grid {
+                @for &at in effects.iter().take(OPEN) { (effect(reported, rows, at)) }
+                (maps)
+                @if let [across, along, ..] = rows.components.as_slice() { (against(rows, across, along)) }
+                @for own in &of_components { (own.histogram) (own.quantiles) }
+                @for own in &of_components { (own.order) }
+            }
+            @if effects.len() > OPEN {
+                details {
+                    summary { "The other " (effects.len() - OPEN) " effects" }
+                    div.grid { @for &at in &effects[OPEN..] { (effect(reported, rows, at)) } }
+                }
+            }
+            details open[rows.readings.len() * rows.components.len() <= 6] {
+                summary { "Every residual against every reading (" (rows.readings.len() * rows.components.len()) " pictures)" }
+                div.grid {
+                    @for over in of_components.iter().flat_map(|own| &own.over) { (over) }
+                }
+            }
+        }
+    }
+}
+
+/// The pictures of one residual component.
+struct OfComponent {
+    histogram: Markup,
+    quantiles: Markup,
+    order: Markup,
+    /// Over each reading.
+    over: Vec<Markup>,
+}
+
+impl OfComponent {
+    fn of(reported: &Reported<'_>, rows: &Rows, component: &Component) -> Self {
+        Self {
+            histogram: distribution::histogram(component, rows.changed),
+            quantiles: distribution::quantiles(component, rows.changed),
+            order: order(reported, rows, component),
+            over: rows.readings.par_iter().map(|reading| over(reported, rows, reading, component)).collect(),
+        }
+    }
+}
+
+/// Pairs of two columns where both have a value, of rows that were set aside or of the others.
+fn pairs<'a>(
+    rows: &'a Rows,
+    x: &'a [Option<f64>],
+    y: &'a [Option<f64>],
+    aside: bool,
+) -> impl Iterator<Item = (f64, f64)> + 'a {
+    let kept = move |&at: &usize| rows.aside[at] == aside;
+    (0..x.len()).filter(kept).filter_map(|at| Some((x[at]?, y[at]?)))
+}
+
+/// Before, after, and rows set aside, of a column against another.
+fn marks(
+    picture: &mut Picture,
+    rows: &Rows,
+    x: &[Option<f64>],
+    before: &[Option<f64>],
+    after: &[Option<f64>],
+) {
+    if rows.changed {
+        picture.marks("before", Mark::Triangle, pairs(rows, x, before, false));
+    }
+    picture.marks("after", Mark::Dot, pairs(rows, x, after, false));
+    picture.marks("after", Mark::Cross, pairs(rows, x, after, true));
+}
+
+fn axis_of(column: &Column, centred: bool) -> Axis {
+    Axis::around(&column.label, column.values.iter().flatten().copied(), centred)
+}
+
+/// Values of kept rows that fill a picture, before and after; those set aside must not squeeze the others.
+fn residual_axis(label: &str, rows: &Rows, columns: [&[Option<f64>]; 2]) -> Axis {
+    let kept = columns.into_iter().flat_map(|values| {
+        values.iter().zip(&rows.aside).filter(|&(_, &aside)| !aside).filter_map(|(value, _)| *value)
+    });
+    Axis::around(label, kept, true)
+}
+
+/// One effect against what drives it, with the fitted function drawn through.
+fn effect(reported: &Reported<'_>, rows: &Rows, at: usize) -> Markup {
+    let trace = &reported.calibration.traces[at];
+    let told = &reported.calibration.diagnosis.effects[at];
+    let [without, left] = &rows.effects[at];
+    let readings = &reported.calibration.diagnosis.instrument.readings;
+    let chain = &reported.calibration.chain;
+    let driver = trace.driver.map(|id| chain.symbol(id).name.clone());
+    let Some((number, shown)) =
+        readings.iter().enumerate().find(|(_, shown)| Some(&shown.name) == driver.as_ref())
+    else {
+        return html! {};
+    };
+    let reading = &rows.readings[number];
+    let (drawn, in_si) =
+        (trace_reading(trace), numbers::reading(shown.unit, axis_size(shown.unit, &shown.range)).in_si);
+    let label = format!("{} of {}, {}", told.dof, told.body, drawn.name);
+    let y = residual_axis(&label, rows, [&without.values, &left.values]);
+    // Of a function that repeats too often, every period lies on the first.
+    let first = trace.curve.first().map_or(0.0, |point| point[0] / in_si);
+    let folded: Option<Vec<Option<f64>>> = trace.period.map(|period| {
+        let within = |q: f64| first + (q - first).rem_euclid(period / in_si);
+        reading.values.iter().map(|value| value.map(within)).collect()
+    });
+    let mut picture = match &folded {
+        Some(folded) => {
+            let label = format!("{}, every period on the first", reading.label);
+            Picture::new(CARD.0, CARD.1, Axis::around(label, folded.iter().flatten().copied(), false), y)
+        }
+        None => Picture::new(CARD.0, CARD.1, axis_of(reading, false), y).of_rows(
+            &reading.key,
+            &without.key,
+            &left.key,
+        ),
+    };
+    marks(&mut picture, rows, folded.as_ref().unwrap_or(&reading.values), &without.values, &left.values);
+    let curve = trace.curve.iter().map(|[q, f, two]| [q / in_si, f / drawn.in_si, two / drawn.in_si]);
+    let curve: Vec<[f64; 3]> = curve.collect();
+    let band: Vec<[f64; 3]> = curve.iter().map(|[q, f, two]| [*q, f - two, f + two]).collect();
+    picture.band("band before", &band);
+    picture.line("curve before", curve.iter().map(|[q, f, _]| (*q, *f)));
+    let note = format!(
+        "Triangles: what each row says of {} of {}, without this effect. Dots: what is left with it.",
+        told.dof, told.body
+    );
+    let name = format!("{} against {}: {}", label, shown.name, words::headline(told));
+    card(&words::sentence_case(&told.names[0]), &note, &picture.finish(&name))
+}
+
+/// One component against another.
+fn against(rows: &Rows, x: &Component, y: &Component) -> Markup {
+    let mut picture = Picture::new(
+        CARD.0,
+        CARD.1,
+        residual_axis(&x.label, rows, [&x.before.values, &x.after.values]),
+        residual_axis(&y.label, rows, [&y.before.values, &y.after.values]),
+    );
+    if rows.changed {
+        picture.marks("before", Mark::Triangle, pairs(rows, &x.before.values, &y.before.values, false));
+    }
+    picture.marks("after", Mark::Dot, pairs(rows, &x.after.values, &y.after.values, false));
+    picture.marks("after", Mark::Cross, pairs(rows, &x.after.values, &y.after.values, true));
+    let title = format!("{} against {}", words::sentence_case(y.name), x.name);
+    let svg = picture.finish(&format!("{title}, before and after"));
+    card(&title, "", &svg)
+}
+
+/// A component against a reading, with means of what is left.
+fn over(reported: &Reported<'_>, rows: &Rows, reading: &Column, component: &Component) -> Markup {
+    let (before, after) = (&component.before, &component.after);
+    let number = rows.readings.iter().position(|one| one.key == reading.key);
+    let every = number.map(|number| reported.observations.poses.columns[number].1.as_slice());
+    let x = match every {
+        Some(every) => Axis::around(&reading.label, every.iter().map(|si| si / reading.in_si), false),
+        None => axis_of(reading, false),
+    };
+    let (low, high) = (x.low, x.high);
+    let y = residual_axis(&component.label, rows, [&before.values, &after.values]);
+    let mut picture = Picture::new(CARD.0, CARD.1, x, y).of_rows(&reading.key, &before.key, &after.key);
+    marks(&mut picture, rows, &reading.values, &before.values, &after.values);
+    if let Some(every) = every {
+        means(&mut picture, low, high, rows.kept(|row| every[row] / reading.in_si, component));
+    }
+    let title = format!("{} over {}", words::sentence_case(component.name), reading.key);
+    let svg = picture.finish(&format!("{title}, before and after, with means of what is left"));
+    card(&title, "", &svg)
+}
+
+/// Means of what is left in bins, each with two standard errors.
+fn means(picture: &mut Picture, low: f64, high: f64, points: impl Iterator<Item = (f64, f64)>) {
+    let mut sums = [[0.0; 4]; BINS];
+    for (x, y) in points {
+        let share = (x - low) / (high - low) * BINS as f64;
+        // Within the axis by its making, or at its end.
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let bin = (share.max(0.0) as usize).min(BINS - 1);
+        let [count, sum_x, sum, square] = &mut sums[bin];
+        (*count, *sum_x, *sum, *square) = (*count + 1.0, *sum_x + x, *sum + y, *square + y * y);
+    }
+    let mut marks = Vec::new();
+    for [count, sum_x, sum, square] in sums.into_iter().filter(|sums| sums[0] >= 4.0) {
+        let (x, mean) = (sum_x / count, sum / count);
+        let error = 2.0 * ((square / count - mean * mean).max(0.0) / (count - 1.0)).sqrt();
+        picture.line("normal", [(x, mean - error), (x, mean + error)].into_iter());
+        marks.push((x, mean));
+    }
+    picture.marks("after", Mark::Diamond, marks.into_iter());
+}
+
+/// A component of the residual row by row, in two drawings: one for a broad window, one for a narrow one.
+fn order(reported: &Reported<'_>, rows: &Rows, component: &Component) -> Markup {
+    let numbers: Vec<Option<f64>> = rows.numbers.iter().map(|&number| Some(number as f64)).collect();
+    html! {
+        section.card.wide {
+            h3 { "In the order of the file: " (component.name) }
+            @for (class, size) in [("broad", BROAD), ("narrow", CARD)] {
+                div class=(class) { (PreEscaped(in_order(reported, rows, component, &numbers, size))) }
+            }
+        }
+    }
+}
+
+fn in_order(
+    reported: &Reported<'_>,
+    rows: &Rows,
+    component: &Component,
+    numbers: &[Option<f64>],
+    (width, height): (f64, f64),
+) -> String {
+    let (before, after) = (&component.before, &component.after);
+    let x = Axis::around("row", numbers.iter().flatten().copied(), false);
+    let (low, high) = (x.low, x.high);
+    let y = residual_axis(&component.label, rows, [&before.values, &after.values]);
+    let mut picture = Picture::new(width, height, x, y).of_rows("order", &before.key, &after.key);
+    marks(&mut picture, rows, numbers, &before.values, &after.values);
+    let number = |row: usize| reported.observations.row_number(row) as f64;
+    means(&mut picture, low, high, rows.kept(number, component));
+    picture.finish(&format!("{} row by row, before and after", component.name))
+}
+
+/// What is left as what is left: in words, what was looked at, and the harmonics of each joint.
+pub fn left(reported: &Reported<'_>) -> Markup {
+    let diagnosis = &reported.calibration.diagnosis;
+    let joints: Vec<&Harmonics> = diagnosis.harmonics.iter().collect();
+    html! {
+        section id="left" {
+            h2 { "What is left" }
+            @for line in words::remaining(diagnosis) { p { (words::sentence_case(&line)) "." } }
+            @if diagnosis.remaining.is_none() { p { "No search was made." } }
+            @if let Some(offer) = diagnosis.remaining.as_ref().and_then(|left| left.offer.as_ref()) {
+                p { "To let the declaration have it, write into the study and calibrate again:" }
+                pre.copy tabindex="0" { (offer) }
+            }
+            @if !joints.is_empty() {
+                details open {
+                    summary { "Harmonics of each joint" }
+                    p.quiet { "Amplitude of each order in the residual; the dotted line is what noise alone exceeds once in twenty." }
+                    div.grid { @for harmonics in joints { (harmonic(harmonics, reported)) } }
+                }
+            }
+            @if let Some(left) = &diagnosis.remaining {
+                details {
+                    summary { "What was looked at" }
+                    div.scroll tabindex="0" role="region" aria-label="Statistics of what is left" {
+                        table {
+                            thead { tr { th scope="col" { "structure" } th scope="col" { "chance in noise, alone" } } }
+                            tbody { @for looked in &left.looked { tr { td { (looked.at) } td { (numbers::chance(looked.p_value)) } } } }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn harmonic(harmonics: &Harmonics, reported: &Reported<'_>) -> Markup {
+    let all = harmonics.before.iter().chain(&harmonics.after).chain(&harmonics.limit);
+    let largest = all.copied().fold(0.0, f64::max);
+    let reading = numbers::reading(reported.calibration.diagnosis.unit, largest);
+    let orders = harmonics.after.len() as f64;
+    let y = Axis {
+        label: format!("amplitude, {}", reading.name),
+        low: 0.0,
+        high: 1.08 * largest / reading.in_si,
+    };
+    let x = Axis { label: format!("times per turn of {}", harmonics.joint), low: 0.4, high: orders + 0.6 };
+    let mut picture = Picture::new(CARD.0, CARD.1, x, y);
+    let bars = |values: &[f64], from: f64, to: f64| -> Vec<(f64, f64, f64)> {
+        let at = values.iter().zip(1..);
+        at.map(|(v, order)| (f64::from(order) + from, f64::from(order) + to, v / reading.in_si)).collect()
+    };
+    if !reported.calibration.diagnosis.effects.is_empty() {
+        picture.bars("before hatch", bars(&harmonics.before, -0.32, -0.02).into_iter());
+    }
+    picture.bars("after fillbar", bars(&harmonics.after, 0.02, 0.32).into_iter());
+    let limit = harmonics.limit.iter().zip(1..).flat_map(|(v, order)| {
+        [(f64::from(order) - 0.5, v / reading.in_si), (f64::from(order) + 0.5, v / reading.in_si)]
+    });
+    picture.line("limit", limit);
+    let title = format!("{} over {}", words::sentence_case(harmonics.component), harmonics.joint);
+    card(&title, "", &picture.finish(&format!("Harmonics: {title}")))
+}

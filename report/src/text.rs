@@ -1,0 +1,285 @@
+//! A calibration for the terminal: the five answers first, then values; everything else with `--verbose`.
+
+use std::fmt::Write as _;
+
+use crate::words::{self, Answers, Tone, numbers, sentence_case};
+use calibration::diagnose::{Diagnosis, EffectFound, Rms};
+use observe::SiUnit;
+use similar::TextDiff;
+
+use crate::style::{BAD, CAREFUL, GOOD, HEADING};
+use crate::wrap::paragraph;
+use crate::{Reported, counted};
+
+/// Lines of a list that the terminal shows.
+const LINES: usize = 5;
+
+/// Rows that the terminal names of those that the estimates lean on.
+const LEANED_ON: usize = 12;
+
+/// How much to tell, and how wide.
+#[derive(Debug, Clone, Copy)]
+pub struct Layout {
+    /// Letters a line at most.
+    pub width: usize,
+    /// Whether to tell everything.
+    pub verbose: bool,
+}
+
+/// The whole summary.
+#[must_use]
+pub fn as_text(reported: &Reported<'_>, layout: Layout) -> String {
+    let diagnosis = &reported.calibration.diagnosis;
+    let answers = words::answers(diagnosis, reported.folder);
+    let mut page = Page { text: String::new(), layout };
+    page.answers(&answers, diagnosis);
+    page.residuals(diagnosis);
+    page.values(diagnosis);
+    if layout.verbose {
+        page.effects(diagnosis);
+        page.list("noise", &words::noise(diagnosis));
+        page.list("what is left", &words::remaining(diagnosis));
+        page.poses(diagnosis);
+        page.leverage(diagnosis);
+        page.set_aside(diagnosis, usize::MAX);
+        page.not_shown(diagnosis);
+        page.amended(reported);
+    } else {
+        page.set_aside(diagnosis, LINES);
+        page.amended(reported);
+        page.heading("");
+        paragraph(
+            &mut page.text,
+            "",
+            "`--verbose` tells the evidence, the noise, poses to measure and what these data could not have shown.",
+            layout.width,
+        );
+    }
+    page.text
+}
+
+/// The difference between the declaration and the amended one, as a unified diff; empty if there is none.
+#[must_use]
+pub fn diff(reported: &Reported<'_>) -> String {
+    let Some(amended) = &reported.calibration.amended else { return String::new() };
+    let file = reported.chain_file;
+    TextDiff::from_lines(reported.chain_text, amended.as_str())
+        .unified_diff()
+        .context_radius(2)
+        .header(file, &format!("{file} (amended)"))
+        .to_string()
+}
+
+/// Text that grows.
+struct Page {
+    text: String,
+    layout: Layout,
+}
+
+impl Page {
+    fn heading(&mut self, title: &str) {
+        self.text.push('\n');
+        if !title.is_empty() {
+            let _ = writeln!(self.text, "{HEADING}{title}{HEADING:#}");
+        }
+    }
+
+    fn say(&mut self, first: &str, sentence: &str) {
+        paragraph(&mut self.text, first, sentence, self.layout.width);
+    }
+
+    fn list(&mut self, title: &str, lines: &[String]) {
+        if !lines.is_empty() {
+            self.heading(title);
+            lines.iter().for_each(|line| self.say("  ", line));
+        }
+    }
+
+    fn answers(&mut self, answers: &Answers, diagnosis: &Diagnosis) {
+        let style = match answers.tone {
+            Tone::Good => GOOD,
+            Tone::Ambiguous | Tone::Careful => CAREFUL,
+            Tone::Bad => BAD,
+        };
+        let _ = writeln!(self.text, "{style}{}{style:#}", answers.badge.to_uppercase());
+        self.say("", &answers.happened);
+        if let Some(chance) = &answers.chance {
+            self.say("", &format!("{}.", sentence_case(chance)));
+        }
+        // What the verdict says already is no caution beside it.
+        let cautions = diagnosis.cautions.iter().map(words::caution).filter(|own| *own != answers.happened);
+        for caution in cautions {
+            let mut told = String::new();
+            paragraph(&mut told, "Caution: ", &caution, self.layout.width);
+            let styled = format!("{CAREFUL}Caution{CAREFUL:#}");
+            self.text.push_str(&told.replacen("Caution", &styled, 1));
+        }
+        if !answers.what.is_empty() {
+            self.heading("What it is");
+            answers.what.iter().for_each(|what| self.say("  ", what));
+            match answers.causes.as_slice() {
+                [] => {}
+                [one] => self.say("  ", &format!("Likely cause: {one}.")),
+                causes => {
+                    self.say("  ", "Causes that fit, each to be checked:");
+                    let most = if self.layout.verbose { usize::MAX } else { 2 * LINES };
+                    causes.iter().take(most).for_each(|cause| self.say("  - ", cause));
+                    if causes.len() > most {
+                        self.say("  - ", &format!("and {} more", causes.len() - most));
+                    }
+                }
+            }
+        }
+        if !answers.places.is_empty() {
+            self.heading("Where");
+            answers.places.iter().for_each(|place| self.say("  ", place));
+        }
+        self.heading("How much better");
+        self.say("  ", &answers.better);
+        self.heading("What to do next");
+        for (number, step) in (1..).zip(&answers.next) {
+            self.say(&format!("  {number}. "), &format!("{}. {}", step.title, step.text));
+            for line in step.command.iter().flat_map(|command| command.lines()) {
+                let _ = writeln!(self.text, "       {line}");
+            }
+        }
+    }
+
+    fn residuals(&mut self, diagnosis: &Diagnosis) {
+        let all = "Residual, RMS of its length".to_owned();
+        let of = |observed: &str| format!("Residual of {observed}, RMS of its length");
+        let first = diagnosis.instrument.observed.first().filter(|_| !diagnosis.beside.is_empty());
+        let title = first.map_or(all, |first| of(&first.name));
+        self.residuals_of(diagnosis, &title, diagnosis.unit, [diagnosis.before, diagnosis.after]);
+        for own in &diagnosis.beside {
+            self.residuals_of(diagnosis, &of(&own.observed.join(", ")), own.unit, [own.before, own.after]);
+        }
+    }
+
+    fn residuals_of(&mut self, diagnosis: &Diagnosis, title: &str, unit: SiUnit, [before, after]: [Rms; 2]) {
+        let told =
+            |si: Option<f64>| si.map_or_else(|| "not measured".to_owned(), |si| numbers::told(si, unit));
+        self.text.push('\n');
+        let _ = writeln!(self.text, "{HEADING}{title:38} {:>12} {:>12}{HEADING:#}", "before", "after");
+        let mut row = |name: &str, before: Option<f64>, after: Option<f64>| {
+            let _ = writeln!(self.text, "  {name:36} {:>12} {:>12}", told(before), told(after));
+        };
+        let aside = diagnosis.observations.set_aside.len();
+        row("on the data that were fitted", before.rms, after.rms);
+        if aside > 0 {
+            let name = format!("  without the {} set aside", counted(aside));
+            row(&name, before.rms_kept, after.rms_kept);
+        }
+        row("on data that nobody fitted", before.held_out_rms, after.held_out_rms);
+        let out = after.held_out_rows - after.held_out_rows_kept;
+        if out > 0 {
+            let name = format!("  without {} out of reach", counted(out));
+            row(&name, before.held_out_rms_kept, after.held_out_rms_kept);
+        }
+        if after.elsewhere_rms.is_some() {
+            row("elsewhere: regions left out", before.elsewhere_rms, after.elsewhere_rms);
+        }
+    }
+
+    fn values(&mut self, diagnosis: &Diagnosis) {
+        if !diagnosis.verdict.is_usable() {
+            return;
+        }
+        let estimates = words::estimates(diagnosis);
+        let width =
+            estimates.lines.iter().map(|line| line.what.chars().count()).max().unwrap_or_default().min(40);
+        self.heading("Errors, with standard uncertainties");
+        for line in &estimates.lines {
+            let found = if line.found { "  (found)" } else { "" };
+            let _ = writeln!(self.text, "  {:width$}  {}{found}", line.what, line.estimate);
+        }
+        estimates.notes.iter().for_each(|note| self.say("  ", &sentence_case(note)));
+    }
+
+    fn effects(&mut self, diagnosis: &Diagnosis) {
+        let mut effects: Vec<&EffectFound> = diagnosis.effects.iter().collect();
+        effects.sort_by(|a, b| b.standing.total_cmp(&a.standing));
+        for (number, effect) in (1..).zip(effects) {
+            self.heading(&format!("effect {number}: {}", effect.names[0]));
+            self.say("  ", &format!("{} in body {}", effect.text, effect.body));
+            if effect.names.len() > 1 {
+                self.say("  ", &format!("also called {}", effect.names[1..].join(", ")));
+            }
+            words::evidence(effect, diagnosis).iter().for_each(|line| self.say("  ", line));
+            for cause in &effect.causes {
+                self.say("  - ", &format!("{}: {}", words::cause(cause), cause.check));
+            }
+        }
+    }
+
+    /// Rows that carry more than their share, those that carry most first.
+    fn leverage(&mut self, diagnosis: &Diagnosis) {
+        let rows = &diagnosis.precision.leverage;
+        if rows.is_empty() {
+            return;
+        }
+        self.heading("rows that the estimates lean on");
+        let told = rows.iter().take(LEANED_ON).map(|(row, leverage)| format!("row {row} ({leverage:.2})"));
+        let more = rows.len().saturating_sub(LEANED_ON);
+        let more = if more > 0 { format!(", and {more} more in report.json") } else { String::new() };
+        self.say(
+            "  ",
+            &format!(
+                "by leverage, of as many as a row has components: {}{more}",
+                told.collect::<Vec<_>>().join(", ")
+            ),
+        );
+    }
+
+    fn poses(&mut self, diagnosis: &Diagnosis) {
+        for table in words::pose_tables(diagnosis) {
+            self.heading("measure next");
+            self.say("  ", &table.title);
+            if !table.poses.is_empty() {
+                let rows = || std::iter::once(&table.joints).chain(&table.poses);
+                let widths: Vec<usize> = (0..table.joints.len())
+                    .map(|at| 2 + rows().map(|row| row[at].chars().count()).max().unwrap_or(0))
+                    .collect();
+                for row in rows() {
+                    let cells = row.iter().zip(&widths).map(|(cell, width)| format!("{cell:>width$}"));
+                    let _ = writeln!(self.text, "{}", cells.collect::<String>());
+                }
+            }
+            table.notes.iter().for_each(|note| self.say("  ", note));
+        }
+    }
+
+    fn set_aside(&mut self, diagnosis: &Diagnosis, most: usize) {
+        let used = &diagnosis.observations;
+        if used.set_aside.is_empty() {
+            return;
+        }
+        self.heading(&format!("{} of {} observations set aside", used.set_aside.len(), used.rows));
+        for aside in used.set_aside.iter().take(most) {
+            self.say("  ", &format!("{}: {}", words::row(aside), aside.why));
+        }
+        if used.set_aside.len() > most {
+            self.say("  ", &format!("and {} more; report.json lists all", used.set_aside.len() - most));
+        }
+    }
+
+    /// The effects that these data could not have shown: first those that would show if they were large enough.
+    fn not_shown(&mut self, diagnosis: &Diagnosis) {
+        let mut hidden: Vec<_> = diagnosis.not_shown.iter().filter(|effect| effect.absorbed > 0.0).collect();
+        if hidden.is_empty() {
+            return;
+        }
+        hidden.sort_by_key(|effect| effect.smallest.is_none());
+        self.heading("what these data could not have shown");
+        for effect in &hidden {
+            self.say("  ", &format!("{} {}: {}", effect.name, words::size(effect), words::fate(effect)));
+        }
+    }
+
+    fn amended(&mut self, reported: &Reported<'_>) {
+        if !reported.calibration.diagnosis.effects.is_empty() && reported.calibration.amended.is_some() {
+            self.heading("The declaration, amended");
+            let _ = writeln!(self.text, "{}", diff(reported).trim_end());
+        }
+    }
+}

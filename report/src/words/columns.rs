@@ -1,0 +1,140 @@
+//! Misread columns and implausible values, in words.
+
+use super::numbers::short;
+use super::step::Step;
+use calibration::diagnose::{Caution, Diagnosis};
+use calibration::misread::{Implausible, Misread, Reading, Suspect};
+use observe::SiUnit;
+
+/// Readings that are shown where several explain the data alike.
+const SHOWN: usize = 3;
+
+/// The misread columns of a diagnosis.
+pub(super) fn misread(diagnosis: &Diagnosis) -> Option<&Misread> {
+    diagnosis.cautions.iter().find_map(|caution| match caution {
+        Caution::ColumnMisread(misread) => Some(misread),
+        _ => None,
+    })
+}
+
+/// The values that no small error has.
+pub(super) fn implausible_values(diagnosis: &Diagnosis) -> Option<&[Implausible]> {
+    diagnosis.cautions.iter().find_map(|caution| match caution {
+        Caution::Implausible { values } => Some(values.as_slice()),
+        _ => None,
+    })
+}
+
+/// What is misread, and what the residual is when it is read right.
+pub(super) fn told(misread: &Misread) -> String {
+    let Misread { readings, before, after, unit, .. } = misread;
+    let residual = format!("Residual {} → {}.", short(*before, *unit), short(*after, *unit));
+    match &readings[..] {
+        [] => unreachable!("a misread column has a reading that explains it"),
+        [one] => format!("{} {residual}", sentence(&one.reading)),
+        several => {
+            let each: Vec<String> = several.iter().take(SHOWN).map(|one| sentence(&one.reading)).collect();
+            format!("One of these explains the data. {} {residual}", each.join(" Or: "))
+        }
+    }
+}
+
+/// What to write into the study.
+pub(super) fn steps(misread: &Misread) -> Vec<Step> {
+    let step = |suspect: &Suspect| {
+        let mut text = String::new();
+        for table in ["columns", "observed"] {
+            let lines: Vec<&str> = suspect
+                .lines
+                .iter()
+                .filter(|line| line.table == table)
+                .map(|line| line.text.as_str())
+                .collect();
+            if !lines.is_empty() {
+                text.push_str(&format!("Write under [{table}]: {}. ", lines.join(", ")));
+            }
+        }
+        text.push_str("Then calibrate again.");
+        Step { title: title(&suspect.reading).to_owned(), text, command: None }
+    };
+    misread.readings.iter().take(SHOWN).map(step).collect()
+}
+
+/// Values that no small error has, and what to do.
+pub(super) fn implausible(values: &[Implausible]) -> String {
+    let each: Vec<String> = values.iter().take(SHOWN).map(value).collect();
+    format!(
+        "{} The model or a column is wrong. Compare the units, signs and order of the columns with the file. Where a value is right, raise its \
+         limit (`[fit] plausible`).",
+        each.join(" ")
+    )
+}
+
+fn value(value: &Implausible) -> String {
+    match value {
+        Implausible::Error { name, value, limit, unit } => {
+            format!("`{name}` is {}. At most {} is plausible.", short(*value, *unit), short(*limit, *unit))
+        }
+        Implausible::Residual { rms, size: _, unit } if *unit == SiUnit::RAD => {
+            format!("The residual is {}, which is no small error of a direction.", short(*rms, *unit))
+        }
+        Implausible::Residual { rms, size, unit } => format!(
+            "The residual is {}, {:.0} % of the size of what was measured.",
+            short(*rms, *unit),
+            100.0 * rms / size
+        ),
+    }
+}
+
+fn title(reading: &Reading) -> &'static str {
+    match reading {
+        Reading::Unit { .. } => "Correct the unit",
+        Reading::Packed { .. } => "State the notation",
+        Reading::Reversed { .. } => "Reverse the sign",
+        Reading::FromZenith { .. } => "Count from the horizon",
+        Reading::Exchanged { .. } => "Exchange the columns",
+        Reading::Shifted { .. } => "Shift the rows",
+    }
+}
+
+fn sentence(reading: &Reading) -> String {
+    match reading {
+        Reading::Unit { columns, is, read } => {
+            let not = read.map_or_else(String::new, |read| format!(", not {read}"));
+            format!("{} in {is}{not}.", are(columns))
+        }
+        Reading::Packed { columns, notation } => {
+            format!("{} in degrees, minutes and seconds ({notation}), not in decimal degrees.", are(columns))
+        }
+        Reading::Reversed { column } => format!("Column `{column}` counts the other way."),
+        Reading::FromZenith { column } => {
+            format!("Column `{column}` is the angle from the zenith, not from the horizon.")
+        }
+        Reading::Exchanged { columns: [one, other] } => {
+            format!("The columns `{one}` and `{other}` are exchanged.")
+        }
+        Reading::Shifted { columns, by } => {
+            let what = if columns.len() == 1 { "Column" } else { "Columns" };
+            let stand = if columns.len() == 1 { "is" } else { "are" };
+            // Where a row needs the reading of the row before it, readings stand one row too early.
+            let row = if *by > 0 { "one row too early" } else { "one row too late" };
+            format!("{what} {} {stand} {row} beside the observations.", listed(columns))
+        }
+    }
+}
+
+fn are(columns: &[String]) -> String {
+    match columns {
+        [one] => format!("Column `{one}` is"),
+        several => format!("Columns {} are", listed(several)),
+    }
+}
+
+fn listed(columns: &[String]) -> String {
+    let named: Vec<String> = columns.iter().map(|column| format!("`{column}`")).collect();
+    match named.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, others)) => format!("{} and {last}", others.join(", ")),
+        None => unreachable!("a reading is that of a column"),
+    }
+}

@@ -1,0 +1,30 @@
+//! What the data hide, in words: effects that they could not have shown, and the declared errors that would pass for them.
+
+use super::effects::largest;
+use super::numbers;
+use calibration::diagnose::NotShown;
+
+/// `below 3.20″`, or that no size would show.
+#[must_use]
+pub fn size(effect: &NotShown) -> String {
+    effect.smallest.map_or_else(
+        || "of any size".to_owned(),
+        |smallest| format!("below {}", numbers::told(smallest, effect.unit)),
+    )
+}
+
+/// What becomes of an effect that does not show: `invisible here: it would be counted as elevation_index`.
+#[must_use]
+pub fn fate(effect: &NotShown) -> String {
+    if effect.absorbed == 0.0 {
+        return "moves nothing that was observed".to_owned();
+    }
+    let names: Vec<&str> = largest(&effect.mistaken_for).into_iter().map(|(name, _)| name).collect();
+    let places = effect.by_places.then_some("the places of objects and stations");
+    let taken = names.into_iter().chain(places).collect::<Vec<_>>().join(", ");
+    let taken = if taken.is_empty() { "declared errors" } else { &taken };
+    match effect.smallest {
+        None => format!("invisible here: it would be counted as {taken}"),
+        Some(_) => format!("{:.0} % of it would be counted as {taken}", 100.0 * effect.absorbed),
+    }
+}

@@ -1,0 +1,37 @@
+//! The report in words: the one place where a [`Diagnosis`](calibration::diagnose::Diagnosis) becomes English.
+//!
+//! First the five [`Answers`] that a person acts on, then cautions, evidence, values, noise, what is left and what
+//! could not have shown. How words are set in type is for whoever prints them.
+
+mod answers;
+mod causes;
+mod cautions;
+mod columns;
+mod effects;
+mod errors;
+mod hidden;
+mod left;
+mod measure;
+mod misreadings;
+mod next;
+mod noise;
+pub mod numbers;
+mod places;
+mod rivals;
+mod rows;
+mod step;
+mod steps;
+
+pub use answers::{Answers, Tone, answers};
+pub use causes::{cause, form, sentence_case};
+pub use cautions::caution;
+pub use effects::{bias, chance_of, evidence, headline, place};
+pub use errors::{EstimateLine, Estimates, estimates, not_shown as errors_not_shown};
+pub use hidden::{fate, size};
+pub use left::{function_form, remaining};
+pub use measure::pose_tables;
+pub use next::PoseTable;
+pub use noise::noise;
+pub use places::remedy_would_show;
+pub use rows::row;
+pub use step::Step;

@@ -1,0 +1,272 @@
+//! Errors files (`E.toml`, `BOX.toml`): a value, or a largest size, for errors named plainly or by pattern; and, where a
+//! calibration wrote it, the ranges of joints and inputs that it was found over.
+
+mod written;
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::ops::Range;
+
+use model_core::mistake::Mistake;
+use model_core::{Chain, SymbolId, SymbolKind, names};
+use serde::de::{self, Deserialize, Deserializer, IntoDeserializer as _};
+use tables::units::{Amount, Plausible};
+use toml::Spanned;
+
+use crate::refusal::Refusal;
+use crate::source::Source;
+use crate::warn::Warn;
+
+pub use written::{errors, found_over as found_over_of};
+
+/// Names as written, with their quantities, each with its place.
+type Entries = BTreeMap<Spanned<String>, Spanned<Amount>>;
+
+/// The table of the ranges that a calibration was found over. No symbol of a chain has a name with a hyphen.
+pub const FOUND_OVER: &str = "found-over";
+
+/// What stands behind a key.
+enum Entry {
+    Amount(Amount),
+    Ranges(BTreeMap<Spanned<String>, Spanned<[Amount; 2]>>),
+}
+
+impl<'de> Deserialize<'de> for Entry {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Visitor;
+        impl<'de> de::Visitor<'de> for Visitor {
+            type Value = Entry;
+
+            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+                formatter.write_str("a number (SI) or a quantity with its unit, as in \"2 arcsec\"")
+            }
+
+            fn visit_f64<E: de::Error>(self, number: f64) -> Result<Entry, E> {
+                Amount::deserialize(number.into_deserializer()).map(Entry::Amount)
+            }
+
+            fn visit_i64<E: de::Error>(self, number: i64) -> Result<Entry, E> {
+                Amount::deserialize(number.into_deserializer()).map(Entry::Amount)
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<Entry, E> {
+                Amount::deserialize(text.into_deserializer()).map(Entry::Amount)
+            }
+
+            fn visit_map<A: de::MapAccess<'de>>(self, map: A) -> Result<Entry, A::Error> {
+                Deserialize::deserialize(de::value::MapAccessDeserializer::new(map)).map(Entry::Ranges)
+            }
+        }
+        deserializer.deserialize_any(Visitor)
+    }
+}
+
+/// A range that a calibration was found over, SI; `low <= high`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FoundOver {
+    /// The joint or input.
+    pub symbol: SymbolId,
+    /// The smallest reading.
+    pub low: f64,
+    /// The largest reading.
+    pub high: f64,
+}
+
+/// The ranges that the file says a calibration was found over; none if it says nothing of them.
+///
+/// # Errors
+/// A name that is no joint or input of the chain, or a range that is none; each with its place.
+pub fn found_over(source: &Source, chain: &Chain) -> Result<Vec<FoundOver>, Refusal> {
+    let entries: BTreeMap<Spanned<String>, Spanned<Entry>> = source.toml()?;
+    let mut found = Vec::new();
+    for (name, entry) in &entries {
+        let Entry::Ranges(ranges) = entry.get_ref() else { continue };
+        if name.get_ref() != FOUND_OVER {
+            let message = format!("`{}` is a table, and errors have values", name.get_ref());
+            let help = format!("write a quantity; the one table here is [{FOUND_OVER}]");
+            return Err(source.mistake(Mistake::new(name.span(), message).with_help(help)));
+        }
+        for (name, range) in ranges {
+            let movable = || chain.symbols_of(SymbolKind::Joint).chain(chain.symbols_of(SymbolKind::Input));
+            let Some(symbol) = movable().find(|&id| chain.symbol(id).name == *name.get_ref()) else {
+                let message = format!("chain {} has no joint or input `{}`", chain.name, name.get_ref());
+                let mistake = Mistake::new(name.span(), message);
+                let near = names::nearest(name.get_ref(), movable().map(|id| chain.symbol(id).name.as_str()));
+                return Err(source.mistake(match near {
+                    Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
+                    None => mistake.with_help("leave the line out"),
+                }));
+            };
+            let wrong = |why: String| source.mistake(Mistake::new(range.span(), why));
+            let quantity = chain.symbol(symbol).quantity;
+            let [low, high] = *range.get_ref();
+            let low = low.to_si(quantity).map_err(|why| wrong(why.to_string()))?;
+            let high = high.to_si(quantity).map_err(|why| wrong(why.to_string()))?;
+            if low > high {
+                return Err(wrong("the lower bound is above the upper one; swap them".to_owned()));
+            }
+            found.push(FoundOver { symbol, low, high });
+        }
+    }
+    Ok(found)
+}
+
+/// What the file sets: values in SI, each with the place of its quantity.
+type Settings = BTreeMap<SymbolId, (f64, Range<usize>)>;
+
+/// The values of all symbols in SI, indexed by [`SymbolId`]: constants at their nominal value unless the file
+/// sets them (a calibration may have freed them), errors at the file's value or zero.
+///
+/// # Errors
+/// A name that is no error or constant of the chain, a pattern that matches none, a quantity that cannot be
+/// read or that has another unit; each with its place.
+pub fn values(source: &Source, chain: &Chain, warn: Warn<'_>) -> Result<Vec<f64>, Refusal> {
+    let mut values = chain.nominal_values();
+    for (id, (value, _)) in read(source, chain, &[SymbolKind::Error, SymbolKind::Constant], warn)? {
+        values[id.index()] = value;
+    }
+    Ok(values)
+}
+
+/// The errors and constants that the file names, with their values in SI.
+///
+/// # Errors
+/// As [`values`].
+pub fn named_values(source: &Source, chain: &Chain, warn: Warn<'_>) -> Result<Vec<(SymbolId, f64)>, Refusal> {
+    let named = read(source, chain, &[SymbolKind::Error, SymbolKind::Constant], warn)?;
+    Ok(named.into_iter().map(|(id, (value, _))| (id, value)).collect())
+}
+
+/// The largest sizes of errors in SI, indexed by [`SymbolId`]; zero for errors that the file does not name.
+///
+/// # Errors
+/// As [`values`], and a negative size.
+pub fn largest_sizes(source: &Source, chain: &Chain, warn: Warn<'_>) -> Result<Vec<f64>, Refusal> {
+    let mut sizes = vec![0.0; chain.symbols.len()];
+    for (id, (size, place)) in read(source, chain, &[SymbolKind::Error], warn)? {
+        if size < 0.0 {
+            let mistake = Mistake::new(place, "a largest size cannot be negative");
+            return Err(source.mistake(mistake.with_help("write its absolute value")));
+        }
+        sizes[id.index()] = size;
+    }
+    Ok(sizes)
+}
+
+/// A plain name wins over a pattern, and a pattern with more letters over one with fewer.
+fn read(source: &Source, chain: &Chain, kinds: &[SymbolKind], warn: Warn<'_>) -> Result<Settings, Refusal> {
+    // What it was found over is read with everything else, so that no command takes a file that another refuses.
+    found_over(source, chain)?;
+    let all: BTreeMap<Spanned<String>, Spanned<Entry>> = source.toml()?;
+    let amount = |(name, entry): (Spanned<String>, Spanned<Entry>)| {
+        let place = entry.span();
+        match entry.into_inner() {
+            Entry::Amount(amount) => Some((name, Spanned::new(place, amount))),
+            Entry::Ranges(_) => None,
+        }
+    };
+    let entries: Entries = all.into_iter().filter_map(amount).collect();
+    let mut ranked: Vec<_> =
+        entries.iter().map(|(name, amount)| (rank(name.get_ref()), name, amount)).collect();
+    ranked.sort_by_key(|&(rank, ..)| rank);
+    let mut settings = Settings::new();
+    let mut set_by: BTreeMap<SymbolId, (usize, &str)> = BTreeMap::new();
+    let mut winners = BTreeMap::new();
+    for (rank, name, amount) in ranked {
+        for id in named(source, chain, kinds, name)? {
+            let symbol = chain.symbol(id);
+            if let Some((_, other)) =
+                set_by.insert(id, (rank, name.get_ref())).filter(|&(other, _)| other == rank)
+            {
+                let message = format!("`{}` and `{other}` both set `{}`", name.get_ref(), symbol.name);
+                let help = format!("write `{} = …` as well: a plain name wins", symbol.name);
+                return Err(source.mistake(Mistake::new(name.span(), message).with_help(help)));
+            }
+            winners.insert(id, amount);
+        }
+    }
+    // What is overruled need not fit: `"*" = "10 arcsec"` beside a plain name for a length.
+    for (id, amount) in winners {
+        let symbol = chain.symbol(id);
+        let value = amount
+            .get_ref()
+            .to_si(symbol.quantity)
+            .map_err(|why| source.mistake(Mistake::new(amount.span(), format!("{}: {why}", symbol.name))))?;
+        settings.insert(id, (value, amount.span()));
+    }
+    warn_of_missing_units(chain, &entries, &settings, warn);
+    Ok(settings)
+}
+
+/// How much a name says: more letters beside its stars say more, and a plain name says everything.
+pub fn rank(name: &str) -> usize {
+    if names::is_pattern(name) { name.chars().filter(|&letter| letter != '*').count() } else { usize::MAX }
+}
+
+/// Warns of bare numbers that are no small errors in radians, or longer than the chain itself in metres: arcseconds or
+/// millimetres were meant, most likely.
+fn warn_of_missing_units(chain: &Chain, entries: &Entries, settings: &Settings, warn: Warn<'_>) {
+    let plausible = Plausible::errors(chain);
+    for (&id, (value, place)) in settings {
+        let symbol = chain.symbol(id);
+        let Some(amount) = entries.values().find(|amount| amount.span() == *place) else { continue };
+        if symbol.kind == SymbolKind::Error {
+            let name = &symbol.name;
+            let meant = |unit: &str| format!("{name} = \"{value} {unit}\"");
+            let written = format!("{name} = {value}");
+            let doubt = plausible.doubt(symbol.quantity, &[*amount.get_ref()], &written, meant);
+            doubt.iter().for_each(|doubt| warn(doubt.to_string()));
+        }
+    }
+}
+
+/// The symbols that a name or pattern of the file means.
+fn named(
+    source: &Source,
+    chain: &Chain,
+    kinds: &[SymbolKind],
+    name: &Spanned<String>,
+) -> Result<Vec<SymbolId>, Refusal> {
+    let text = name.get_ref().as_str();
+    let wrong = |message: String, help: String| {
+        Err(source.mistake(Mistake::new(name.span(), message).with_help(help)))
+    };
+    if names::is_pattern(text) {
+        let errors = chain.symbols_of(SymbolKind::Error);
+        let matching: Vec<SymbolId> =
+            errors.filter(|&id| names::matches(text, &chain.symbol(id).name)).collect();
+        if matching.is_empty() {
+            let message = format!("the pattern `{text}` matches no error of chain {}", chain.name);
+            return wrong(message, "`*` stands for any letters, as in `da*` or `*_x2`".to_owned());
+        }
+        return Ok(matching);
+    }
+    match chain.find_symbol(text) {
+        Some(id) if kinds.contains(&chain.symbol(id).kind) => Ok(vec![id]),
+        Some(id) => {
+            let message = format!("`{text}` is {}, not an error", kind_in_words(chain.symbol(id).kind));
+            wrong(message, "name errors of the chain here".to_owned())
+        }
+        None => {
+            let settable = kinds.iter().flat_map(|&kind| chain.symbols_of(kind));
+            let near = names::nearest(text, settable.map(|id| chain.symbol(id).name.as_str()));
+            let help = near.map_or_else(
+                || format!("`trueaxis derive` shows the errors of {}", chain.name),
+                |near| format!("did you mean `{near}`?"),
+            );
+            wrong(format!("chain {} has no error `{text}`", chain.name), help)
+        }
+    }
+}
+
+/// A kind of symbol as a sentence names it.
+fn kind_in_words(kind: SymbolKind) -> &'static str {
+    match kind {
+        SymbolKind::Pi => "the number π",
+        SymbolKind::Ramp => "a ramp",
+        SymbolKind::Joint => "a joint",
+        SymbolKind::Error => "an error",
+        SymbolKind::Constant => "a constant",
+        SymbolKind::Input => "an input",
+    }
+}

@@ -1,0 +1,21 @@
+//! What one does with an instrument, calibrated or to be: calibrate it from texts, apply what was found to readings, plan what its
+//! tolerances come to.
+//!
+//! Texts and tables come in memory, and strings and columns go out: who has files, a clock and a terminal stands above.
+
+pub mod apply;
+pub mod budget;
+pub mod calibrating;
+pub mod errors_file;
+pub mod evaluation;
+pub mod over_memory;
+pub mod readings;
+mod refusal;
+pub mod source;
+pub mod tolerance;
+mod warn;
+
+pub use calibrating::{Calibrated, Made, Measured, Studied};
+pub use refusal::Refusal;
+pub use source::Source;
+pub use warn::Warn;

@@ -1,0 +1,149 @@
+//! Texts that the user wrote (declarations, TOML files) with their names, so that a mistake can be shown
+//! where it stands. Who reads a file gives its text.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use model_core::mistake::{Mistake, Mistakes};
+use model_core::{Chain, ObservableId, names};
+use serde::de::DeserializeOwned;
+use study::Study;
+
+use crate::refusal::Refusal;
+use crate::warn::Warn;
+
+/// A text and where it came from.
+#[derive(Debug, Clone)]
+pub struct Source {
+    /// The name that mistakes in it are shown with: the file as the user named it.
+    pub path: PathBuf,
+    /// What it says, without a byte-order mark.
+    pub text: String,
+}
+
+impl Source {
+    /// A text that came from elsewhere than a file, under the name that mistakes in it are shown with.
+    #[must_use]
+    pub fn of_text(name: impl Into<PathBuf>, text: &str) -> Self {
+        Self { path: name.into(), text: text.strip_prefix('\u{feff}').unwrap_or(text).to_owned() }
+    }
+
+    /// Where a path that stands in this file leads.
+    #[must_use]
+    pub fn beside(&self, path: &Path) -> PathBuf {
+        self.path.parent().unwrap_or(Path::new("")).join(path)
+    }
+
+    /// The text read as a declaration; warns of what is doubtful of it.
+    ///
+    /// # Errors
+    /// Every mistake of the declaration, each with its place.
+    pub fn chain(&self, warn: Warn<'_>) -> Result<Chain, Refusal> {
+        self.cautioned(Chain::from_text(&self.text), warn)
+    }
+
+    /// The same for formulas alone: constants need no value.
+    ///
+    /// # Errors
+    /// Every other mistake of the declaration, each with its place.
+    pub fn symbolic_chain(&self, warn: Warn<'_>) -> Result<Chain, Refusal> {
+        self.cautioned(Chain::symbolic_from_text(&self.text), warn)
+    }
+
+    fn cautioned(&self, chain: Result<Chain, Mistakes>, warn: Warn<'_>) -> Result<Chain, Refusal> {
+        let chain = chain.map_err(|mistakes| match self.declaration_named() {
+            Some(named) => Refusal::Input(format!(
+                "`{}` is no declaration, but names one: give `{}`",
+                self.path.display(),
+                self.beside(Path::new(&named)).display()
+            )),
+            None => self.mistakes(&mistakes),
+        })?;
+        for caution in model_core::caution::cautions(&chain) {
+            warn(format!("{}: {caution}", self.path.display()));
+        }
+        Ok(chain)
+    }
+
+    /// The text read as TOML.
+    ///
+    /// # Errors
+    /// The first mistake, with its place.
+    pub fn toml<T: DeserializeOwned>(&self) -> Result<T, Refusal> {
+        toml::from_str(&self.text).map_err(|error| {
+            let mistake = Mistake::new(error.span().unwrap_or_default(), error.message());
+            self.is_declaration().unwrap_or_else(|| self.mistake(mistake))
+        })
+    }
+
+    /// The text read as a study.
+    ///
+    /// # Errors
+    /// Every mistake of the study, each with its place.
+    pub fn study(&self) -> Result<Study, Refusal> {
+        Study::from_text(&self.text)
+            .map_err(|mistakes| self.is_declaration().unwrap_or_else(|| self.mistakes(&mistakes)))
+    }
+
+    /// What to say where a declaration was given for a file that names one.
+    fn is_declaration(&self) -> Option<Refusal> {
+        let opens = |line: &str| {
+            let rest = line.trim_start().strip_prefix("chain")?;
+            rest.starts_with(char::is_whitespace).then(|| !rest.contains('=') && rest.contains('{'))
+        };
+        if !self.text.lines().any(|line| opens(line) == Some(true)) {
+            return None;
+        }
+        let file = self.path.display();
+        let name = self.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        Some(Refusal::Input(format!(
+            "`{file}` is a declaration; needed here is a file in TOML: a study or claims, which name it by chain = {name:?}, or a \
+             file of errors or sizes"
+        )))
+    }
+
+    /// The declaration that a study or a file of claims names.
+    fn declaration_named(&self) -> Option<String> {
+        let table: toml::Table = toml::from_str(&self.text).ok()?;
+        Some(table.get("chain")?.as_str()?.to_owned())
+    }
+
+    /// Mistakes in this text, shown where they stand.
+    #[must_use]
+    pub fn mistakes(&self, mistakes: &Mistakes) -> Refusal {
+        let rendered = mistakes.render(&self.path.display().to_string(), &self.text);
+        Refusal::Mistakes { rendered, mistakes: mistakes.clone() }
+    }
+
+    /// One mistake in this text, shown where it stands.
+    #[must_use]
+    pub fn mistake(&self, mistake: Mistake<Range<usize>>) -> Refusal {
+        self.mistakes(&Mistakes::locate(&self.text, [mistake]))
+    }
+}
+
+/// The observables that the user asked for by name; all of the chain's if he named none.
+///
+/// # Errors
+/// A name that the chain does not declare.
+pub fn observables(chain: &Chain, names: &[String]) -> Result<Vec<ObservableId>, Refusal> {
+    if names.is_empty() {
+        return Ok((0u16..).zip(&chain.observables).map(|(index, _)| ObservableId(index)).collect());
+    }
+    names.iter().map(|name| observable(chain, name)).collect()
+}
+
+/// The observable of a name.
+///
+/// # Errors
+/// A name that the chain does not declare; the message names the nearest, or all.
+pub fn observable(chain: &Chain, name: &str) -> Result<ObservableId, Refusal> {
+    chain.find_observable(name).ok_or_else(|| {
+        let declared = || chain.observables.iter().map(|observable| observable.name.as_str());
+        let instead = names::nearest(name, declared()).map_or_else(
+            || format!("it declares {}", names::listed(declared())),
+            |near| format!("did you mean `{near}`?"),
+        );
+        Refusal::Input(format!("chain {} has no observable `{name}`; {instead}", chain.name))
+    })
+}

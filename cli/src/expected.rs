@@ -51,7 +51,7 @@ fn seconds(work: Work, errors: f64, joints: f64) -> f64 {
         Work::Derive { order: 2 } => 120.0 * thousands.powi(4),
         Work::Derive { .. } => 2e5 * thousands.powi(5),
         Work::Bound => thousands.min(1.0),
-        Work::Budget => 2.7 * thousands * (joints / 3.0).max(1.0),
+        Work::Budget => 3.5 * thousands * (joints / 3.0).max(1.0),
         Work::Generate => 0.13 * thousands,
     }
 }

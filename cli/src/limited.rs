@@ -80,26 +80,27 @@ struct Told {
     refused: Option<u64>,
     /// Whether it panicked for want of memory.
     is_of_memory: bool,
-    /// What it said from a panic on: nobody needs that where memory was too little.
-    panic: Vec<u8>,
+    /// What it said from a panic or refused memory on: nobody needs that where memory was too little.
+    held: Vec<u8>,
 }
 
 impl Told {
-    /// Passes on every line before a panic, but for the one of the runtime on memory.
+    /// Passes on every line before a panic or the runtime's on refused memory.
     fn pass_on(&mut self, errors: impl Read) {
         let mut errors = BufReader::new(errors);
         let mut line = Vec::new();
         while errors.read_until(b'\n', &mut line).is_ok_and(|read| read > 0) {
             let text = String::from_utf8_lossy(&line);
+            let is_panic = text.starts_with("thread '") && text.contains(" panicked at ");
             if let Some(bytes) = text.strip_prefix(REFUSED).and_then(first_number) {
                 self.refused = Some(bytes);
-            } else if !self.panic.is_empty() || text.starts_with("thread '") && text.contains(" panicked at ")
-            {
+                self.held.extend_from_slice(&line);
+            } else if is_panic || !self.held.is_empty() {
                 if OF_MEMORY.iter().any(|part| text.contains(part)) {
                     self.is_of_memory = true;
                     self.refused = text.split_once("size: ").and_then(|(_, rest)| first_number(rest));
                 }
-                self.panic.extend_from_slice(&line);
+                self.held.extend_from_slice(&line);
             } else {
                 tell(&line);
             }
@@ -132,7 +133,7 @@ fn ended(status: ExitStatus, told: &Told, limit: u64) -> ExitCode {
     };
     match code {
         Some(code) => {
-            tell(&told.panic);
+            tell(&told.held);
             ExitCode::from(u8::try_from(code).unwrap_or(2))
         }
         None => refused(limit, told.refused),
@@ -183,7 +184,7 @@ mod tests {
             told(&format!("{panic}AllocError {{ layout: Layout {{ size: 5011200, align: 64 }} }}\n"));
         assert_eq!((of_matrix.is_of_memory, of_matrix.refused), (true, Some(5_011_200)));
         let other = told(&format!("{panic}index out of bounds\n"));
-        assert!(!other.is_of_memory && !other.panic.is_empty());
+        assert!(!other.is_of_memory && !other.held.is_empty());
     }
 
     #[test]

@@ -7,13 +7,16 @@ use crate::terminal::{self, Progress};
 /// What is done with a chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Work {
-    /// `derive`: forms grow as the errors, and are merged as many times.
-    Derive,
+    /// `derive`: forms have terms by products of so many errors, and are merged as many times as there are errors.
+    Derive {
+        /// The order in the errors.
+        order: u32,
+    },
     /// `bound`: the search has a limit of its own, and evaluates the whole way.
     Bound,
-    /// `budget`: each error climbs along each joint, and each step evaluates the way.
+    /// `budget`: each error is evaluated at every pose, and climbs along each joint.
     Budget,
-    /// `generate`: the program grows as the errors, its parts meet each other.
+    /// `generate`: the program grows as the errors.
     Generate,
 }
 
@@ -42,10 +45,12 @@ pub fn announce(chain: &Chain, work: Work) -> Option<Progress> {
 fn seconds(work: Work, errors: f64, joints: f64) -> f64 {
     let thousands = errors / 1000.0;
     match work {
-        Work::Derive => 0.012 * thousands * thousands,
-        Work::Bound => 1.0 * thousands.min(1.0),
-        Work::Budget => 1e-5 * errors * (errors + joints) * joints,
-        Work::Generate => 0.1 * thousands * thousands,
+        Work::Derive { order: 0 | 1 } => 0.012 * thousands.powi(2),
+        Work::Derive { order: 2 } => 120.0 * thousands.powi(4),
+        Work::Derive { .. } => 2e5 * thousands.powi(5),
+        Work::Bound => thousands.min(1.0),
+        Work::Budget => 3.5 * thousands * (joints / 3.0).max(1.0),
+        Work::Generate => 0.13 * thousands,
     }
 }
 
@@ -64,7 +69,9 @@ mod tests {
     #[test]
     fn small_chains_are_not_announced_and_large_ones_are() {
         assert!(seconds(Work::Budget, 84.0, 14.0) < 5.0);
-        assert!(seconds(Work::Budget, 1000.0, 3.0) > 5.0);
+        assert!(seconds(Work::Budget, 5000.0, 3.0) > 5.0);
+        assert!(seconds(Work::Derive { order: 1 }, 10_000.0, 3.0) < 5.0);
+        assert!(seconds(Work::Derive { order: 2 }, 1000.0, 3.0) > 5.0);
         assert_eq!(in_words(30.0), "30 seconds");
         assert_eq!(in_words(600.0), "10 minutes");
         assert_eq!(in_words(7200.0), "2 hours");

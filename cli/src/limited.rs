@@ -22,8 +22,9 @@ const LITTLE: u64 = 1 << 30;
 /// How the runtime begins the line in which it says that memory was refused.
 const REFUSED: &str = "memory allocation of ";
 
-/// Parts of lines that say that the system had no memory for a thread.
-const NO_THREAD: [&str; 3] = ["failed to spawn thread", "ThreadPoolBuildError", "Cannot allocate memory"];
+/// What a panic says for want of memory: of a thread, or of a matrix, whose bytes stand behind `size: `.
+const OF_MEMORY: [&str; 4] =
+    ["failed to spawn thread", "ThreadPoolBuildError", "Cannot allocate memory", "AllocError"];
 
 /// Exit code of a process that panicked.
 const PANICKED: i32 = 101;
@@ -31,13 +32,12 @@ const PANICKED: i32 = 101;
 /// Runs the command in a process of its own where memory is limited, and returns its exit code; `None` where this process is to do
 /// the work.
 pub fn run_apart() -> Option<ExitCode> {
+    let limit = getrlimit(Resource::As).current?;
     if env::var_os(INSIDE).is_some() {
         // Where nobody would have the last word, nothing is to go on. What cannot be asked for is not needed.
         let _ = set_parent_process_death_signal(Some(Signal::TERM));
-        share_threads();
-        return None;
+        return if has_threads() { None } else { Some(refused(limit, None)) };
     }
-    let limit = getrlimit(Resource::As).current?;
     let mut words = env::args_os();
     let mut command = Command::new(env::current_exe().ok()?);
     if let Some(name) = words.next() {
@@ -58,12 +58,11 @@ pub fn run_apart() -> Option<ExitCode> {
     Some(ended(status, &told, limit))
 }
 
-/// Takes as few threads as the limit allows, at least this one.
-fn share_threads() {
-    if rayon::ThreadPoolBuilder::new().build_global().is_err() {
-        // A second failure shows at the first work for all processors.
-        let _ = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build_global();
-    }
+/// Takes threads for all processors, or a single one; whether there is memory for that.
+fn has_threads() -> bool {
+    let all_or_one = [0, 1].map(|count| move || rayon::ThreadPoolBuilder::new().num_threads(count));
+    // A pool for everybody is asked for once only, so one that is thrown away is asked for before.
+    all_or_one.iter().any(|pool| pool().build().is_ok() && pool().build_global().is_ok())
 }
 
 /// Ctrl-C reaches both processes, a request to end only this one: the other one cleans up, and this one waits for it.
@@ -79,33 +78,49 @@ fn pass_on_interruptions(child: &Child) {
 struct Told {
     /// Bytes that were refused.
     refused: Option<u64>,
-    /// Whether a thread was refused.
-    no_thread: bool,
+    /// Whether it panicked for want of memory.
+    is_of_memory: bool,
+    /// What it said from a panic or refused memory on: nobody needs that where memory was too little.
+    held: Vec<u8>,
 }
 
 impl Told {
-    /// Passes on every line but those of the runtime on memory.
+    /// Passes on every line before a panic or the runtime's on refused memory.
     fn pass_on(&mut self, errors: impl Read) {
         let mut errors = BufReader::new(errors);
         let mut line = Vec::new();
         while errors.read_until(b'\n', &mut line).is_ok_and(|read| read > 0) {
             let text = String::from_utf8_lossy(&line);
-            match text.strip_prefix(REFUSED).and_then(|rest| rest.split(' ').next()?.parse().ok()) {
-                Some(bytes) => self.refused = Some(bytes),
-                None => {
-                    self.no_thread |= NO_THREAD.iter().any(|part| text.contains(part));
-                    // Where standard error is closed there is nobody to tell.
-                    let _ = std::io::stderr().write_all(&line);
+            let is_panic = text.starts_with("thread '") && text.contains(" panicked at ");
+            if let Some(bytes) = text.strip_prefix(REFUSED).and_then(first_number) {
+                self.refused = Some(bytes);
+                self.held.extend_from_slice(&line);
+            } else if is_panic || !self.held.is_empty() {
+                if OF_MEMORY.iter().any(|part| text.contains(part)) {
+                    self.is_of_memory = true;
+                    self.refused = text.split_once("size: ").and_then(|(_, rest)| first_number(rest));
                 }
+                self.held.extend_from_slice(&line);
+            } else {
+                tell(&line);
             }
             line.clear();
         }
     }
 }
 
+fn first_number(text: &str) -> Option<u64> {
+    text.split(|letter: char| !letter.is_ascii_digit()).next()?.parse().ok()
+}
+
+/// Where standard error is closed there is nobody to tell.
+fn tell(text: &[u8]) {
+    let _ = std::io::stderr().write_all(text);
+}
+
 fn ended(status: ExitStatus, told: &Told, limit: u64) -> ExitCode {
     let code = match (status.code(), status.signal()) {
-        (Some(PANICKED), _) if told.no_thread => None,
+        (Some(PANICKED), _) if told.is_of_memory => None,
         (Some(code), _) => Some(code),
         // Nothing but refused memory ends a run of ours like this.
         (None, Some(signal))
@@ -117,12 +132,18 @@ fn ended(status: ExitStatus, told: &Told, limit: u64) -> ExitCode {
         (None, signal) => Some(128 + signal.unwrap_or_default()),
     };
     match code {
-        Some(code) => ExitCode::from(u8::try_from(code).unwrap_or(2)),
-        None => {
-            terminal::report_failure(&Failure::Input(too_little(limit, told.refused)));
-            ExitCode::from(2)
+        Some(code) => {
+            tell(&told.held);
+            ExitCode::from(u8::try_from(code).unwrap_or(2))
         }
+        None => refused(limit, told.refused),
     }
+}
+
+/// Says that the limit is too low.
+fn refused(limit: u64, bytes: Option<u64>) -> ExitCode {
+    terminal::report_failure(&Failure::Input(too_little(limit, bytes)));
+    ExitCode::from(2)
 }
 
 /// `the limit of 300 MB is too low: the command wanted 25 MB beyond …`
@@ -156,7 +177,14 @@ mod tests {
     fn what_the_runtime_says_of_memory_is_read() {
         assert_eq!(told("memory allocation of 400000 bytes failed\n").refused, Some(400_000));
         assert_eq!(told("").refused, None);
-        assert!(told("called `Result::unwrap()`: failed to spawn thread: Os\n").no_thread);
+        let panic = "thread 'main' (7) panicked at a.rs:1:2:\n";
+        let of_thread = told(&format!("{panic}called `Result::unwrap()`: failed to spawn thread: Os\n"));
+        assert!(of_thread.is_of_memory && of_thread.refused.is_none());
+        let of_matrix =
+            told(&format!("{panic}AllocError {{ layout: Layout {{ size: 5011200, align: 64 }} }}\n"));
+        assert_eq!((of_matrix.is_of_memory, of_matrix.refused), (true, Some(5_011_200)));
+        let other = told(&format!("{panic}index out of bounds\n"));
+        assert!(!other.is_of_memory && !other.held.is_empty());
     }
 
     #[test]
@@ -168,7 +196,7 @@ mod tests {
         assert_eq!(code(1 << 8, &nothing), of(1));
         assert_eq!(code(130 << 8, &nothing), of(130));
         assert_eq!(code(101 << 8, &nothing), of(101));
-        assert_eq!(code(101 << 8, &Told { no_thread: true, ..Told::default() }), of(2));
+        assert_eq!(code(101 << 8, &Told { is_of_memory: true, ..Told::default() }), of(2));
         assert_eq!(code(9, &nothing), of(137));
         assert_eq!(code(6, &nothing), of(2));
     }

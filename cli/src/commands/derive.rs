@@ -68,7 +68,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let is_certified = arguments.certificate.is_wanted()?;
     let source = source::read(&arguments.chain)?;
     let chain = source.symbolic_chain(&terminal::warn)?;
-    let waiting = expected::announce(&chain, Work::Derive);
+    let waiting = expected::announce(&chain, Work::Derive { order: arguments.order });
     let chosen = observables(&chain, &arguments.observable)?;
     if arguments.table || arguments.steps {
         if is_certified {

@@ -29,7 +29,7 @@ use crate::symbol::SymbolId;
 use first_order::FirstOrder;
 use poses::Space;
 use probe::Probe;
-use summary::summarise;
+use summary::Sampled;
 
 pub use curves::{Curve, Curves};
 pub use poses::{JointRange, Path, PathError, Poses, spread};
@@ -136,38 +136,31 @@ impl Budget {
         let space = Space::new(chain, observable, poses, |symbol| first_order.harmonic(symbol))?;
         space.keeps_from_poles(chain, observable, &errors)?;
         let probe = Probe::new(chain, observable);
-        let mut single: Vec<Vec<f64>> = errors.iter().map(|_| Vec::new()).collect();
+        let mut single = vec![Sampled::default(); errors.len()];
+        let (mut summed, mut rooted) = (Sampled::default(), Sampled::default());
         let mut values = chain.nominal_values();
         let nodes = space.nodes();
-        for node in &nodes {
+        for (number, node) in nodes.iter().enumerate() {
             space.set(&node.parameters, &mut values);
-            for (influence, influences) in probe.influences(&mut values, &errors).into_iter().zip(&mut single)
-            {
-                influences.push(influence);
+            let influences = probe.influences(&mut values, &errors);
+            for (&influence, sampled) in influences.iter().zip(&mut single) {
+                sampled.add(number, node, influence);
             }
-            if single.iter().any(|influences| influences.last().is_some_and(|value| !value.is_finite())) {
+            summed.add(number, node, sum(&influences));
+            rooted.add(number, node, in_quadrature(&influences));
+            if influences.iter().any(|value| !value.is_finite()) {
                 return Err(BudgetError::NotFinite {
                     observable: chain.observable(observable).name.clone(),
                     pose: space.describe(chain, &values),
                 });
             }
         }
-        let combined = |combine: fn(&mut dyn Iterator<Item = f64>) -> f64| {
-            (0..nodes.len())
-                .map(|node| combine(&mut single.iter().map(|values| values[node])))
-                .collect::<Vec<f64>>()
-        };
-        let all_at =
-            |parameters: &[f64], values: &mut Vec<f64>, combine: fn(&mut dyn Iterator<Item = f64>) -> f64| {
-                space.set(parameters, values);
-                combine(&mut probe.influences(values, &errors).into_iter())
-            };
         let mut is_sampled = false;
         let influences: Vec<Influence> = errors
             .iter()
             .zip(&single)
             .map(|(&(error, size), sampled)| {
-                let mut summary = summarise(&space, &nodes, sampled, |parameters| {
+                let mut summary = sampled.summarise(&space, &nodes, |parameters| {
                     space.set(parameters, &mut values);
                     probe.influence(&mut values, error, size)
                 });
@@ -179,22 +172,20 @@ impl Budget {
             })
             .collect();
         let sum_of_squares: f64 = influences.iter().map(|one| one.summary.rms * one.summary.rms).sum();
-        let together = |combine: fn(&mut dyn Iterator<Item = f64>) -> f64| {
+        let together = |sampled: &Sampled, combine: fn(&[f64]) -> f64| {
             let mut values = chain.nominal_values();
-            summarise(&space, &nodes, &combined(combine), |parameters| {
-                all_at(parameters, &mut values, combine)
+            sampled.summarise(&space, &nodes, |parameters| {
+                space.set(parameters, &mut values);
+                combine(&probe.influences(&mut values, &errors))
             })
         };
         // The mean of a sum of squares is the sum of their means.
-        let root_sum_square = Summary {
-            rms: sum_of_squares.sqrt(),
-            ..together(|influences| influences.map(|value| value * value).sum::<f64>().sqrt())
-        };
+        let root_sum_square = Summary { rms: sum_of_squares.sqrt(), ..together(&rooted, in_quadrature) };
         Ok(Self {
             observable,
             parameters: space.symbols().to_vec(),
             influences,
-            worst_case: together(|influences| influences.sum()),
+            worst_case: together(&summed, sum),
             root_sum_square,
             is_sampled,
         })
@@ -231,6 +222,14 @@ pub fn one_unit(chain: &Chain, id: ObservableId) -> Result<(), BudgetError> {
             other: other.word,
         }),
     }
+}
+
+fn sum(influences: &[f64]) -> f64 {
+    influences.iter().sum()
+}
+
+fn in_quadrature(influences: &[f64]) -> f64 {
+    influences.iter().map(|value| value * value).sum::<f64>().sqrt()
 }
 
 /// The errors with a size, in order.

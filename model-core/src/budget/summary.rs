@@ -39,24 +39,41 @@ const STARTS: usize = 4;
 /// about the square of this.
 const RESOLUTION: f64 = 1e-7;
 
-/// Sums up a function that was sampled at the nodes of the space.
-pub(super) fn summarise(
-    space: &Space<'_>,
-    nodes: &[Pose],
-    sampled: &[f64],
-    mut function: impl FnMut(&[f64]) -> f64,
-) -> Summary {
-    let mean_square: f64 = nodes.iter().zip(sampled).map(|(node, value)| node.weight * value * value).sum();
-    let mut order: Vec<usize> = (0..sampled.len()).collect();
-    order.sort_by(|&a, &b| sampled[b].total_cmp(&sampled[a]).then(a.cmp(&b)));
-    let mut best = (0.0, nodes.first().map_or_else(Vec::new, |node| node.parameters.clone()));
-    for &start in order.iter().take(STARTS) {
-        let (value, at) = climb(space, &nodes[start].parameters, sampled[start], &mut function);
-        if value > best.0 {
-            best = (value, at);
+/// What is kept of a function that is sampled node by node: of many functions at many nodes the values would not fit memory.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Sampled {
+    mean_square: f64,
+    /// The largest values with their nodes, the largest first.
+    largest: Vec<(f64, usize)>,
+}
+
+impl Sampled {
+    /// Takes the value at a node, whose number is higher than those before.
+    pub fn add(&mut self, number: usize, node: &Pose, value: f64) {
+        self.mean_square += node.weight * value * value;
+        let place = self.largest.partition_point(|(larger, _)| *larger >= value);
+        if place < STARTS {
+            self.largest.truncate(STARTS - 1);
+            self.largest.insert(place, (value, number));
         }
     }
-    Summary { sup: best.0, at: best.1, rms: mean_square.sqrt() }
+
+    /// Sums up the function, which climbs on from its largest values.
+    pub fn summarise(
+        &self,
+        space: &Space<'_>,
+        nodes: &[Pose],
+        mut function: impl FnMut(&[f64]) -> f64,
+    ) -> Summary {
+        let mut best = (0.0, nodes.first().map_or_else(Vec::new, |node| node.parameters.clone()));
+        for &(value, start) in &self.largest {
+            let (value, at) = climb(space, &nodes[start].parameters, value, &mut function);
+            if value > best.0 {
+                best = (value, at);
+            }
+        }
+        Summary { sup: best.0, at: best.1, rms: self.mean_square.sqrt() }
+    }
 }
 
 /// Compass search: a step along each parameter while it leads uphill, then half the step.

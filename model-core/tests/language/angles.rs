@@ -1,4 +1,5 @@
 //! Angles that are written as numbers are constants of their own.
+#![allow(clippy::unwrap_used)]
 
 use model_core::{Chain, SymbolKind, exact, print, syntax};
 

@@ -10,7 +10,6 @@ use std::io::{IsTerminal as _, Write as _};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use anstyle::Style;
 use indicatif::{ProgressBar, ProgressStyle};
 use model_core::escape::{self, Screen};
 use report::style::{BAD, CAREFUL};

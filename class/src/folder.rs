@@ -9,6 +9,7 @@ use crate::level::Level;
 use crate::misread::Reading;
 use crate::model::OBSERVABLE;
 use crate::policy::DECLARED_ARCSEC;
+use crate::refit::KIND;
 use crate::sentence::SENTENCES;
 use crate::task::Task;
 
@@ -92,7 +93,7 @@ data       = \"{DATA}\"
 second = {{ derive = \"is(set_up, 2)\" }}
 
 [observed]
-kind = \"direction\"
+kind = \"{KIND}\"
 x = \"x\"
 y = \"y\"
 z = \"z\"

@@ -2,6 +2,7 @@
 
 pub mod amend;
 pub mod calibrate;
+pub(crate) mod contest;
 pub mod design;
 pub mod diagnose;
 pub mod misread;

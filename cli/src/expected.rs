@@ -1,9 +1,8 @@
 //! What a command will take, said before it starts where that is long.
 
-use indicatif::{ProgressBar, ProgressStyle};
 use model_core::{Chain, SymbolKind};
 
-use crate::terminal;
+use crate::terminal::{self, Progress};
 
 /// What is done with a chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,7 +28,7 @@ const SHORT_S: f64 = 5.0;
 ///
 /// The times are those of `benches/growth/costs.py` on one processor, see the page "What it costs".
 #[must_use]
-pub fn announce(chain: &Chain, work: Work) -> Option<ProgressBar> {
+pub fn announce(chain: &Chain, work: Work) -> Option<Progress> {
     let errors = chain.symbols_of(SymbolKind::Error).count();
     let joints = chain.symbols_of(SymbolKind::Joint).count();
     let seconds = seconds(work, errors as f64, joints as f64);
@@ -40,8 +39,7 @@ pub fn announce(chain: &Chain, work: Work) -> Option<ProgressBar> {
     terminal::note(format_args!(
         "{errors} errors and {joints} joints: this takes some {expected} on one processor"
     ));
-    let style = ProgressStyle::with_template("{spinner} {elapsed} of some {msg}").ok()?;
-    Some(terminal::progress().with_style(style).with_message(expected))
+    Some(terminal::progress().with_elapsed(&expected))
 }
 
 fn seconds(work: Work, errors: f64, joints: f64) -> f64 {

@@ -5,14 +5,16 @@ use std::path::{Path, PathBuf};
 
 use init::NotBegun;
 use model_core::Mistakes;
+use model_core::escape::message;
 use report::NotJson;
 use service::Refusal;
 
-/// Why a command could not do its work. `Display` is what the user reads, without the leading `error: `.
+/// Why a command could not do its work. `Display` is what the user reads, without the leading
+/// `error: `: one line, but for mistakes shown with theirs, in which every letter is seen.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
     /// A file could not be read.
-    #[error("cannot read `{}`: {why}", path.display())]
+    #[error("cannot read `{}`: {}", message(&path.to_string_lossy()), message(why))]
     Read {
         /// The file as the user named it.
         path: PathBuf,
@@ -20,7 +22,7 @@ pub enum Failure {
         why: String,
     },
     /// A file could not be written.
-    #[error("cannot write `{}`: {why}", path.display())]
+    #[error("cannot write `{}`: {}", message(&path.to_string_lossy()), message(why))]
     Write {
         /// The file as the user named it.
         path: PathBuf,
@@ -39,8 +41,16 @@ pub enum Failure {
     #[error("standard output is closed")]
     ReaderGone,
     /// Anything else, in words that say what to write instead.
-    #[error("{0}")]
+    #[error("{}", message(.0))]
     Input(String),
+    /// The same with a list below, a line each.
+    #[error("{}{}", message(why), below.iter().map(|line| format!("\n  {}", message(line))).collect::<String>())]
+    Listed {
+        /// What is wrong.
+        why: String,
+        /// The lines of the list.
+        below: Vec<String>,
+    },
 }
 
 impl Failure {
@@ -78,8 +88,8 @@ impl From<NotJson> for Failure {
 }
 
 impl From<NotBegun> for Failure {
-    fn from(error: NotBegun) -> Self {
-        Self::Input(error.to_string())
+    fn from(NotBegun { why, offered }: NotBegun) -> Self {
+        Self::Listed { why, below: offered }
     }
 }
 

@@ -32,6 +32,7 @@ mod waiting;
 use std::process::ExitCode;
 
 use clap::Parser as _;
+use model_core::escape;
 
 /// Declare an instrument as a chain of bodies with small errors; get everything that follows from it.
 ///
@@ -69,6 +70,19 @@ fn tell_panics_of_readers_as_errors() {
     }));
 }
 
+/// Says what is wrong with the arguments, or helps, and ends. An argument may hold anything, as the name of a file does.
+fn refused(error: &clap::Error) -> ! {
+    let seen = || std::env::args_os().map(|word| escape::line(&word.to_string_lossy()).into_owned());
+    match Arguments::try_parse_from(seen()) {
+        Err(error) => error.exit(),
+        // Escaped, they would do; as they are, they do not.
+        Ok(_) => {
+            terminal::report_failure(&failure::Failure::Input(error.kind().to_string()));
+            std::process::exit(2)
+        }
+    }
+}
+
 /// Runs the command that the process was started with.
 #[must_use]
 pub fn main() -> ExitCode {
@@ -79,7 +93,7 @@ pub fn main() -> ExitCode {
     #[cfg(any(feature = "parquet", feature = "point-clouds"))]
     tell_panics_of_readers_as_errors();
     output::clean_up_when_interrupted();
-    let arguments = Arguments::parse();
+    let arguments = Arguments::try_parse().unwrap_or_else(|error| refused(&error));
     if arguments.quiet {
         terminal::be_quiet();
     }

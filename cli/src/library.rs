@@ -6,6 +6,7 @@
 use std::path::Path;
 
 use codegen::Form;
+use model_core::escape::Screen;
 use model_core::expr::Expr;
 use model_core::{Chain, ObservableId, SymbolKind, forms, print, syntax};
 use serde_json::{Value, json};
@@ -255,7 +256,10 @@ pub fn checked(claims: &Path) -> Result<Told, Failure> {
     let file = ClaimsFile::read(claims)?;
     let checked = check::checked(&file)?;
     let json: Vec<Value> = checked.iter().map(|checked| as_json(&file.said, checked)).collect();
-    Ok(Told { text: as_text(&file.said, &checked, &Paint::default()), json: json!({ "claims": json }) })
+    Ok(Told {
+        text: plain(&as_text(&file.said, &checked, &Paint::default())),
+        json: json!({ "claims": json }),
+    })
 }
 
 /// Measured data that are made up; as `simulate`: names of columns, and the columns in SI.
@@ -432,6 +436,6 @@ pub fn write(calibrated: &Calibrated, folder: &Path, all_residuals: bool) -> Res
 }
 
 /// A text without the colours of a terminal.
-fn plain(text: &str) -> String {
-    anstream::adapter::strip_str(text).to_string()
+fn plain(text: &Screen) -> String {
+    anstream::adapter::strip_str(text.as_str()).to_string()
 }

@@ -124,14 +124,12 @@ impl OverTable {
         let mut not_finite = 0;
         let mut done = 0_usize;
         let progress = terminal::progress();
-        progress.set_message("reading the header");
+        progress.say("reading the header");
         let table = table_files::write(&self.out, |writer| {
             // A large table is read once for the types of its texts.
             writer.header_beside(&header, &table, &is_kept, |share| {
-                progress.set_message(format!(
-                    "{:.0} % of the file read for the types of its columns",
-                    100.0 * share
-                ));
+                progress
+                    .say(&format!("{:.0} % of the file read for the types of its columns", 100.0 * share));
             })?;
             let began = Instant::now();
             read_ahead(table, |rows, share_read| {
@@ -142,7 +140,7 @@ impl OverTable {
                 let kept = kept.map(|(kept, _)| Column::Kept(kept));
                 writer.rows(kept.chain(computed.into_iter().map(Column::Numbers)).collect(), rows.count)?;
                 done += rows.count;
-                progress.set_message(so_far(done as u64, share_read, began.elapsed()));
+                progress.say(&so_far(done as u64, share_read, began.elapsed()));
                 Ok(())
             })
         })?;

@@ -61,11 +61,10 @@ pub fn read(
     terminal::note(format_args!("{} claims written to {}", draft.claims, written.display()));
     let source = Source::of_text(written, &draft.text);
     if draft.claims == 0 {
-        let mut why = format!("`{}` states nothing about the chain that was recognised", paper.display());
-        for (line, _, reason) in draft.unread.iter().take(20) {
-            why.push_str(&format!("\n  line {line}: {reason}"));
-        }
-        return Err(Failure::Input(why));
+        let why = format!("`{}` states nothing about the chain that was recognised", paper.display());
+        let told = draft.unread.iter().take(20);
+        let below = told.map(|(line, _, reason)| format!("line {line}: {reason}")).collect();
+        return Err(Failure::Listed { why, below });
     }
     Ok((ClaimsFile::of_source(source, declaration)?, draft.unread))
 }

@@ -1,15 +1,20 @@
 //! What goes to the terminal: results to standard output, everything else to standard error, with colours
 //! only where a person looks.
+//!
+//! Nothing else writes there. A [`Screen`] shows every letter that would command a terminal, and a message is one line, so that
+//! what a file holds can neither act nor pass for a message.
 
 use std::cell::RefCell;
-use std::fmt::Display;
+use std::fmt::{Display, Write as _};
 use std::io::{IsTerminal as _, Write as _};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use indicatif::ProgressBar;
+use indicatif::{ProgressBar, ProgressStyle};
+use model_core::escape::{self, Screen};
 use report::style::{BAD, CAREFUL};
 use report::{shell_word, wrap};
+use serde_json::Value;
 
 use crate::failure::Failure;
 
@@ -32,23 +37,35 @@ const WIDEST: usize = 100;
 ///
 /// # Errors
 /// As [`print`].
-pub fn print_text(text: &str) -> Result<(), Failure> {
-    print(&wrap::text(text, width()))
+pub fn print_text(text: impl Into<Screen>) -> Result<(), Failure> {
+    write(&text.into().laid_out(|text| wrap::text(text, width())))
 }
 
 /// Writes formulas to standard output: their lines are broken only where a person looks.
 ///
 /// # Errors
 /// As [`print`].
-pub fn print_formulas(text: &str) -> Result<(), Failure> {
+pub fn print_formulas(text: impl Into<Screen>) -> Result<(), Failure> {
     if std::io::stdout().is_terminal() { print_text(text) } else { print(text) }
+}
+
+/// Writes an answer for programs to standard output.
+///
+/// # Errors
+/// As [`print`].
+pub fn print_json(value: &Value) -> Result<(), Failure> {
+    print(escape::json(&format!("{value:#}\n")))
 }
 
 /// Writes a result to standard output.
 ///
 /// # Errors
 /// Standard output cannot be written, a full disk say.
-pub fn print(text: &str) -> Result<(), Failure> {
+pub fn print(text: impl Into<Screen>) -> Result<(), Failure> {
+    write(text.into().as_str())
+}
+
+fn write(text: &str) -> Result<(), Failure> {
     let mut out = anstream::stdout().lock();
     out.write_all(text.as_bytes())
         .and_then(|()| out.flush())
@@ -79,44 +96,86 @@ pub fn collecting<T>(work: impl FnOnce() -> T) -> (T, Vec<String>) {
 /// Says on standard error what the user should know although the command goes on.
 pub fn warn(message: impl Display) {
     let is_collected = COLLECTED.with_borrow_mut(|warnings| {
-        warnings.as_mut().map(|warnings| warnings.push(message.to_string())).is_some()
+        let message = message.to_string();
+        warnings.as_mut().map(|warnings| warnings.push(escape::message(&message).into_owned())).is_some()
     });
     if is_collected {
         return;
     }
-    say(format_args!("{CAREFUL}warning{CAREFUL:#}: {message}"));
+    say_styled(CAREFUL, "warning", &escape::message(&message.to_string()));
 }
 
 /// Says on standard error what the command is doing.
 pub fn note(message: impl Display) {
     if !QUIET.load(Ordering::Relaxed) && COLLECTED.with_borrow(Option::is_none) {
-        say(message);
+        say(&escape::message(&message.to_string()).as_ref().into());
     }
 }
 
-fn say(message: impl Display) {
-    let message = message.to_string();
-    let message =
-        if std::io::stderr().is_terminal() { wrap::text(&message, width()) } else { message + "\n" };
+/// A message behind the word that says what it is.
+fn say_styled(style: impl Display, word: &str, message: &str) {
+    let mut said = Screen::default();
+    said.styled([&style, &format_args!("{style:#}")], word);
+    let _ = write!(said, ": {message}");
+    say(&said);
+}
+
+fn say(message: &Screen) {
+    let message = if std::io::stderr().is_terminal() {
+        message.laid_out(|text| wrap::text(text, width()))
+    } else {
+        format!("{}\n", message.as_str())
+    };
     // Where standard error is closed there is nobody to tell.
     let _ = anstream::stderr().write_all(message.as_bytes());
 }
 
+/// Passes on what a process of this command has said on standard error, which has been through [`say`] there.
+pub fn pass_on(said: &[u8]) {
+    // Where standard error is closed there is nobody to tell.
+    let _ = std::io::stderr().write_all(said);
+}
+
 /// A line on standard error that says where a long run is, where a person looks; drop it to take it away.
-pub fn progress() -> ProgressBar {
+pub fn progress() -> Progress {
     if QUIET.load(Ordering::Relaxed) {
-        return ProgressBar::hidden();
+        return Progress(ProgressBar::hidden());
     }
     let bar = ProgressBar::new_spinner();
     bar.enable_steady_tick(Duration::from_millis(100));
-    bar
+    Progress(bar)
+}
+
+/// A line that says where a long run is.
+#[derive(Clone)]
+pub struct Progress(ProgressBar);
+
+impl Progress {
+    /// What is being done now.
+    pub fn say(&self, message: &str) {
+        self.0.set_message(escape::message(message).into_owned());
+    }
+
+    /// The same line with how long it has taken so far.
+    #[must_use]
+    pub fn with_elapsed(self, expected: &str) -> Self {
+        match ProgressStyle::with_template("{spinner} {elapsed} of some {msg}") {
+            Ok(style) => Self(self.0.with_style(style).with_message(escape::message(expected).into_owned())),
+            Err(_) => self,
+        }
+    }
+
+    /// Takes the line away.
+    pub fn finish_and_clear(&self) {
+        self.0.finish_and_clear();
+    }
 }
 
 /// Says on standard error why the command stopped.
 pub fn report_failure(failure: &Failure) {
     match failure {
-        Failure::Mistakes { rendered, .. } => say(rendered.trim_end()),
-        _ => say(format_args!("{BAD}error{BAD:#}: {failure}")),
+        Failure::Mistakes { rendered, .. } => say(&rendered.trim_end().into()),
+        _ => say_styled(BAD, "error", &failure.to_string()),
     }
 }
 

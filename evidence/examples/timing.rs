@@ -119,6 +119,7 @@ fn problem(joints: usize, rows: usize, amplitude: f64, seed: u64) -> Problem {
             inputs: Vec::new(),
             labels: None,
             in_order: true,
+            given: Vec::new(),
         },
         components,
         residual,
@@ -126,5 +127,6 @@ fn problem(joints: usize, rows: usize, amplitude: f64, seed: u64) -> Problem {
         declared,
         frames,
         places,
+        offered: Vec::new(),
     }
 }

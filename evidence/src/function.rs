@@ -72,6 +72,8 @@ pub enum Function {
     ShapeMoved(usize, Shape, f64),
     /// Change of a shape by its width.
     ShapeWidened(usize, Shape),
+    /// A function that came with the rows, times a factor.
+    Given(usize, f64),
 }
 
 impl Function {
@@ -143,6 +145,10 @@ impl Function {
             Self::Torque(load) => {
                 place.loads.get(*load).map_or_else(|| vec![0.0; rows.count], |load| load.torque.clone())
             }
+            Self::Given(number, factor) => match rows.given.get(*number) {
+                Some(values) => values.iter().map(|value| factor * value).collect(),
+                None => vec![0.0; rows.count],
+            },
             Self::Shape(joint, shape) => over(*joint, &|at| shape.at(at)),
             Self::ShapeMoved(joint, shape, step) => {
                 let (ahead, behind) = (shape.moved(*step), shape.moved(-step));

@@ -169,6 +169,9 @@ impl<'a> Outcome<'a> {
             Where::Place(place) => problem.places[self.run.bench.places.distinct[place].place].name.clone(),
             Where::Tilts(frame) => format!("{}.tilt", problem.frames[frame].name),
         };
+        if let Law::Offered(number) = family.law {
+            return problem.offered[number].name.clone();
+        }
         format!("{}|{driver}|{place}", law(family.law))
     }
 
@@ -340,6 +343,7 @@ fn law(law: Law) -> String {
         Law::Walk => "walk".into(),
         Law::Sessions => "sessions".into(),
         Law::Setups(count) => format!("{count} set-ups"),
+        Law::Offered(number) => format!("offered {number}"),
         Law::Shape(shape) => format!("{:?} at {:.3} wide {:.3}", shape.kind, shape.position, shape.width),
     }
 }

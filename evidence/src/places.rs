@@ -10,6 +10,8 @@ pub struct Places {
     pub distinct: Vec<Distinct>,
     /// For each place given the number in `distinct`; none where the place moves nothing.
     pub stands_for: Vec<Option<usize>>,
+    /// By what the column of the place that stands for it is to be multiplied to get its own.
+    pub factor: Vec<f64>,
     /// The frames whose pairs of places both move something.
     pub frames: Vec<PlacedFrame>,
 }
@@ -60,18 +62,20 @@ impl Places {
         };
         let mut distinct: Vec<Distinct> = Vec::new();
         let mut stands_for = Vec::with_capacity(problem.places.len());
+        let mut factor = Vec::with_capacity(problem.places.len());
         for (index, place) in problem.places.iter().enumerate() {
             if norms[index] <= policy.same_place * largest(index) || norms[index] == 0.0 {
                 stands_for.push(None);
+                factor.push(0.0);
                 continue;
             }
-            let same = distinct.iter().position(|other| {
+            let same = distinct.iter().enumerate().find_map(|(number, other)| {
                 let (a, b) = (place.compared(), problem.places[other.place].compared());
                 let scale = a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() / norms[other.place].powi(2);
                 let apart: f64 = a.iter().zip(b).map(|(a, b)| (a - scale * b).powi(2)).sum();
-                apart.sqrt() <= policy.same_place * norms[index]
+                (apart.sqrt() <= policy.same_place * norms[index]).then_some((number, scale))
             });
-            let number = same.unwrap_or_else(|| {
+            let (number, scale) = same.unwrap_or_else(|| {
                 distinct.push(Distinct {
                     place: index,
                     members: Vec::new(),
@@ -81,13 +85,14 @@ impl Places {
                     is_range: place.freedom == Freedom::Range,
                     at_base: place.frame == 0,
                 });
-                distinct.len() - 1
+                (distinct.len() - 1, 1.0)
             });
             let merged = &mut distinct[number];
             merged.members.push(index);
             add_new(&mut merged.own, place.own.as_slice());
             add_new(&mut merged.beside, &place.beside);
             stands_for.push(Some(number));
+            factor.push(scale);
         }
         let pair =
             |pair: [usize; 2]| Some([stands_for[pair[0]]?, stands_for[pair[1]]?]).filter(|[a, b]| a != b);
@@ -97,7 +102,7 @@ impl Places {
             whirl: given.whirl.and_then(|(joint, places)| Some((joint, pair(places)?))),
         };
         let frames = problem.frames.iter().enumerate().map(placed).collect();
-        Self { distinct, stands_for, frames }
+        Self { distinct, stands_for, factor, frames }
     }
 }
 

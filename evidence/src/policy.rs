@@ -27,6 +27,13 @@ macro_rules! policy {
         }
 
         impl Policy {
+            /// What a harmonic pays for its order, nats.
+            #[must_use]
+            pub fn of_order(&self, order: usize) -> f64 {
+                let power = if order < 3 { self.harmonic_low } else { self.harmonic_high };
+                power * (order as f64).ln()
+            }
+
             /// The table, in the order of the list.
             #[must_use]
             pub fn table(&self) -> Vec<Threshold> {

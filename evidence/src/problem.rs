@@ -1,6 +1,7 @@
 //! What a contest is asked about: rows, what moves, the places of the chain, the declared errors, the residual.
 
 use crate::error::Error;
+use crate::families::Driver;
 
 /// A variable that moves the chain, with its value in each row.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,6 +40,23 @@ pub struct Rows {
     pub labels: Option<Vec<usize>>,
     /// Whether the rows are in the order in which they were measured.
     pub in_order: bool,
+    /// Functions of a row that offered effects multiply the columns of places with: values of each row.
+    pub given: Vec<Vec<f64>>,
+}
+
+/// An effect of the caller's catalogue, which may be told by its name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Offered {
+    /// Its name.
+    pub name: String,
+    /// Number of the place in [`Problem::places`] that it is told at.
+    pub place: usize,
+    /// What it follows.
+    pub driver: Driver,
+    /// Periods a turn, of a harmonic.
+    pub order: Option<usize>,
+    /// For each coefficient the places that it moves, each with the number of its function in [`Rows::given`].
+    pub columns: Vec<Vec<(usize, usize)>>,
 }
 
 /// A degree of freedom.
@@ -132,6 +150,8 @@ pub struct Problem {
     pub frames: Vec<Frame>,
     /// The places.
     pub places: Vec<Place>,
+    /// Effects that are told by these names. Where there are any, no others are.
+    pub offered: Vec<Offered>,
 }
 
 impl Problem {
@@ -180,6 +200,22 @@ impl Problem {
                 check_list(&name(&format!("the torque of `{}`", load.body)), &load.torque, rows)?;
             }
         }
+        for effect in &self.offered {
+            let name = format!("effect `{}`", effect.name);
+            check_index(&name, effect.place, "places", self.places.len())?;
+            for &(place, function) in effect.columns.iter().flatten() {
+                check_index(&name, place, "places", self.places.len())?;
+                check_index(&name, function, "functions", self.rows.given.len())?;
+            }
+            match effect.driver {
+                Driver::Joint(joint) => check_index(&name, joint, "joints", self.rows.joints.len())?,
+                Driver::Joints(first, second) => {
+                    check_index(&name, first.max(second), "joints", self.rows.joints.len())?;
+                }
+                Driver::Input(input) => check_index(&name, input, "inputs", self.rows.inputs.len())?,
+                Driver::Nothing | Driver::Gravity | Driver::Order => {}
+            }
+        }
         for frame in &self.frames {
             let name = format!("frame `{}`", frame.name);
             for place in frame.tilts.iter().chain(frame.whirl.iter().map(|(_, pair)| pair)).flatten() {
@@ -208,6 +244,9 @@ impl Rows {
         }
         for input in &self.inputs {
             check_list(&format!("input `{}`", input.name), &input.values, self.count)?;
+        }
+        for (number, values) in self.given.iter().enumerate() {
+            check_list(&format!("function {number}"), values, self.count)?;
         }
         match &self.labels {
             Some(labels) if labels.len() != self.count => {

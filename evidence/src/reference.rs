@@ -53,6 +53,7 @@ fn problem(numbers: &BTreeMap<&'static str, Vec<f64>>) -> Problem {
             inputs: Vec::new(),
             labels: None,
             in_order: true,
+            given: Vec::new(),
         },
         components: 2,
         residual: numbers["y"].clone(),
@@ -60,6 +61,7 @@ fn problem(numbers: &BTreeMap<&'static str, Vec<f64>>) -> Problem {
         declared: (0..3).map(declared).collect(),
         frames: vec![Frame { name: "frame".into(), tilts: Some([0, 1]), whirl: Some((0, [0, 1])) }],
         places: (0..4).map(place).collect(),
+        offered: Vec::new(),
     }
 }
 

@@ -68,6 +68,7 @@ impl Arms {
             }],
             frames: vec![Frame { name: "base".into(), ..Frame::default() }],
             places: vec![place(0), place(1)],
+            offered: Vec::new(),
         }
     }
 }

@@ -17,6 +17,7 @@ pub use templates::Template;
 
 use ::study::{Open, Study};
 use model_core::Chain;
+use model_core::escape::message;
 
 use frame::Frame;
 use look::Read;
@@ -24,8 +25,19 @@ use observed::Observed;
 
 /// Why nothing can be begun, in words that say what to mend.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{0}")]
-pub struct NotBegun(String);
+#[error("{}{}", message(why), offered.iter().map(|one| format!("\n  {}", message(one))).collect::<String>())]
+pub struct NotBegun {
+    /// Why, in words that say what to do instead.
+    pub why: String,
+    /// What is offered instead, a line each.
+    pub offered: Vec<String>,
+}
+
+impl From<String> for NotBegun {
+    fn from(why: String) -> Self {
+        Self { why, offered: Vec::new() }
+    }
+}
 
 /// What a template makes of a table.
 pub struct Draft {
@@ -55,8 +67,8 @@ pub fn draft(
     look: &Look,
     template: Option<&'static Template>,
 ) -> Result<(&'static Template, Draft), NotBegun> {
-    let template = template.map_or_else(|| choose(look), Ok).map_err(NotBegun)?;
-    Ok((template, (template.draft)(look).map_err(NotBegun)?))
+    let template = template.map_or_else(|| choose(look), Ok)?;
+    Ok((template, (template.draft)(look).map_err(NotBegun::from)?))
 }
 
 /// Holds what was begun to what it is read with: the chain, the study, and every row of the data, which `open` gives. Says what is
@@ -66,15 +78,14 @@ pub fn draft(
 /// One of them cannot be read.
 pub fn hold(draft: &Draft, study: &str, open: &mut Open<'_>) -> Result<Vec<String>, NotBegun> {
     let ours = |what: &str, why: String| {
-        NotBegun(format!("{what} cannot be read again, and nothing is written: {why}"))
+        NotBegun::from(format!("{what} cannot be read again, and nothing is written: {why}"))
     };
-    let chain = Chain::from_text(&draft.chain).map_err(|mistakes| {
-        ours("the chain that was made of these data", mistakes.render("chain", &draft.chain))
-    })?;
+    let chain = Chain::from_text(&draft.chain)
+        .map_err(|mistakes| ours("the chain that was made of these data", mistakes.to_string()))?;
     let plan = Study::from_text(study)
         .and_then(|study| study.plan(&chain))
-        .map_err(|mistakes| ours("the study that was made of these data", mistakes.render("study", study)))?;
-    let loaded = plan.load(open).map_err(|error| NotBegun(error.to_string()))?;
+        .map_err(|mistakes| ours("the study that was made of these data", mistakes.to_string()))?;
+    let loaded = plan.load(open).map_err(|error| NotBegun::from(error.to_string()))?;
     Ok(loaded.doubtful.iter().map(ToString::to_string).collect())
 }
 
@@ -82,7 +93,7 @@ pub fn hold(draft: &Draft, study: &str, open: &mut Open<'_>) -> Result<Vec<Strin
 ///
 /// # Errors
 /// None does, or several do; the message lists the templates.
-fn choose(look: &Look) -> Result<&'static Template, String> {
+fn choose(look: &Look) -> Result<&'static Template, NotBegun> {
     let fitting: Vec<_> = templates::TEMPLATES.iter().filter(|template| (template.fits)(look)).collect();
     match fitting.as_slice() {
         [one] => Ok(one),
@@ -94,15 +105,11 @@ fn choose(look: &Look) -> Result<&'static Template, String> {
             };
             let offered =
                 if several.is_empty() { templates::TEMPLATES.iter().collect() } else { several.to_vec() };
-            let lines: Vec<String> = offered
-                .iter()
-                .map(|one| format!("\n  --template {:14} {}", one.name, one.looks_for))
-                .collect();
-            Err(format!(
-                "{}: {found}; say which, and name the columns as it looks for them:{}",
-                look.file,
-                lines.concat()
-            ))
+            let lines = offered.iter().map(|one| format!("--template {:14} {}", one.name, one.looks_for));
+            Err(NotBegun {
+                why: format!("{}: {found}; say which, and name the columns as it looks for them:", look.file),
+                offered: lines.collect(),
+            })
         }
     }
 }

@@ -90,7 +90,7 @@ impl Look {
     /// # Errors
     /// A mistake in the file; no rows; numbers where a header was expected.
     pub fn at(reader: &mut dyn TableReader) -> Result<Self, NotBegun> {
-        Self::seen(reader).map_err(NotBegun)
+        Self::seen(reader).map_err(NotBegun::from)
     }
 
     fn seen(reader: &mut dyn TableReader) -> Result<Self, String> {

@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use model_core::escape::comments;
+
 use super::look::Read;
 use super::words::Part;
 use super::{Draft, Look, Observed};
@@ -24,9 +26,9 @@ pub struct Names<'a> {
 #[must_use]
 pub fn study(draft: &Draft, look: &Look, names: Names<'_>) -> String {
     let Names { chain, data, command } = names;
-    let mut text = format!("# Begun by trueaxis init: {}\n", one_line(command));
+    let mut text = format!("# Begun by trueaxis init: {}\n", comments::line(command));
     for remark in &draft.remarks {
-        let _ = writeln!(text, "# {}", one_line(remark));
+        let _ = writeln!(text, "# {}", comments::line(remark));
     }
     let _ = writeln!(text, "\nchain      = {}\nobservable = {}", quoted(chain), quoted(draft.observable));
     let _ = writeln!(text, "data       = {}", quoted(data));
@@ -97,11 +99,6 @@ fn list<'a>(texts: impl Iterator<Item = &'a str>) -> String {
 /// A text as TOML has it.
 fn quoted(text: &str) -> String {
     toml::Value::String(text.to_owned()).to_string()
-}
-
-/// A text that ends no comment.
-fn one_line(text: &str) -> String {
-    text.replace(|letter: char| letter.is_control() || matches!(letter, '\u{2028}' | '\u{2029}'), " ")
 }
 
 /// The column whose cells are names of the rows.

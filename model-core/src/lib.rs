@@ -7,6 +7,7 @@ pub mod amount;
 pub mod budget;
 pub mod caution;
 pub mod chain;
+pub mod escape;
 pub mod exact;
 pub mod expr;
 pub mod forms;

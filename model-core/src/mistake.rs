@@ -6,6 +6,8 @@
 use std::fmt;
 use std::ops::Range;
 
+use crate::escape::message as shown;
+
 /// One thing that is wrong, where, and what to write instead.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mistake<S = Place> {
@@ -95,9 +97,9 @@ impl fmt::Display for Mistakes {
             if index > 0 {
                 writeln!(f)?;
             }
-            write!(f, "{}:{}: {message}", place.line, place.column)?;
+            write!(f, "{}:{}: {}", place.line, place.column, shown(message))?;
             if let Some(help) = help {
-                write!(f, "; {help}")?;
+                write!(f, "; {}", shown(help))?;
             }
         }
         Ok(())
@@ -109,19 +111,20 @@ impl Mistake<Place> {
     #[must_use]
     pub fn render(&self, file: &str, text: &str) -> String {
         let Self { place: Place { bytes, line, column }, message, help } = self;
+        let (message, file) = (shown(message), shown(file));
         let source = text.lines().nth(line - 1).unwrap_or_default();
         let margin = " ".repeat(line.to_string().len());
         let fault = text.get(bytes.clone()).unwrap_or_default().lines().next().unwrap_or_default();
         let Excerpt { shown: source, padding, width } =
             Excerpt::new(source, column - 1, fault.chars().count());
         let carets = "^".repeat(width);
-        let mut shown = format!(
+        let mut rendered = format!(
             "error: {message}\n{margin}--> {file}:{line}:{column}\n{margin} |\n{line} | {source}\n{margin} | {padding}{carets}\n"
         );
         if let Some(help) = help {
-            shown.push_str(&format!("{margin} = help: {help}\n"));
+            rendered.push_str(&format!("{margin} = help: {}\n", shown(help)));
         }
-        shown
+        rendered
     }
 }
 
@@ -133,7 +136,7 @@ pub struct Excerpt {
     /// Blanks as wide as what stands in front of the place; a tab stays a tab, so that a caret below them stands below
     /// its character in any terminal.
     pub padding: String,
-    /// How many characters the place takes of the stretch, at least one.
+    /// How many characters the place takes of the stretch as it is shown, at least one.
     pub width: usize,
 }
 
@@ -150,10 +153,20 @@ impl Excerpt {
         let fits = line.chars().take(Self::WIDEST + 1).count() <= Self::WIDEST;
         let (skipped, taken) =
             if fits { (0, Self::WIDEST) } else { (before.saturating_sub(Self::BEFORE), Self::WIDEST) };
-        let mut shown: String = line.chars().skip(skipped).take(taken).collect();
-        let mut padding: String =
-            line.chars().take(before).skip(skipped).map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
-        let width = width.min(shown.chars().count().saturating_sub(before - skipped).max(1));
+        // Letters that nobody sees are written by their number, which takes more room than one letter.
+        let seen = |letter: char| match letter {
+            '\t' => "\t".to_owned(),
+            letter => crate::escape::line(letter.encode_utf8(&mut [0; 4])).into_owned(),
+        };
+        let stretch: Vec<String> = line.chars().skip(skipped).take(taken).map(seen).collect();
+        let room = |letters: &[String]| letters.iter().map(|letters| letters.chars().count()).sum::<usize>();
+        let (front, place) = stretch.split_at((before - skipped).min(stretch.len()));
+        let width = room(&place[..width.min(place.len())]).max(1);
+        let mut shown = stretch.concat();
+        let blank = |letters: &String| {
+            if letters == "\t" { letters.clone() } else { " ".repeat(letters.chars().count()) }
+        };
+        let mut padding: String = front.iter().map(blank).collect();
         if skipped > 0 {
             shown.insert_str(0, "… ");
             padding.insert_str(0, "  ");
@@ -199,6 +212,26 @@ mod tests {
             assert_eq!(excerpt.width, 1);
             assert!(excerpt.padding.chars().count() <= excerpt.shown.chars().count());
         }
+    }
+
+    #[test]
+    fn what_nobody_sees_is_shown_and_pointed_at() {
+        let line = "a\u{1b}[31m \u{202e}\tWRO\u{200b}NG \r";
+        let before = line.find("WRO").map_or(0, |at| line[..at].chars().count());
+        let Excerpt { shown, padding, width } = Excerpt::new(line, before, 6);
+        assert_eq!(shown, "a\\u{1b}[31m \\u{202e}\tWRO\\u{200b}NG \\r");
+        let below: String = shown.chars().skip(padding.chars().count()).take(width).collect();
+        assert_eq!((below.as_str(), padding.matches('\t').count()), ("WRO\\u{200b}NG", 1));
+        let mistakes = Mistakes::locate(
+            "a\nb\u{9b}c",
+            [Mistake::new(5..6, "no \u{1b}[2J\nerror: forged").with_help("x\ry")],
+        );
+        let rendered = mistakes.render("f\n\u{202e}", "a\nb\u{9b}c");
+        assert_eq!(
+            rendered,
+            "error: no \\u{1b}[2J\\nerror: forged\n --> f\\n\\u{202e}:2:3\n  |\n2 | b\\u{9b}c\n  |        ^\n  = help: x\\ry\n"
+        );
+        assert_eq!(mistakes.to_string(), "2:3: no \\u{1b}[2J\\nerror: forged; x\\ry");
     }
 
     #[test]

@@ -31,12 +31,13 @@ use expression::Term;
 use influence::Influence;
 use model_core::algebra::{AlgebraError, Fraction, Poly};
 use model_core::chain::{Axis, BodyId, Chain, ObservableId, Role, TransformKind};
+use model_core::escape::comments::coq as comment;
 use model_core::expr::Expr;
 use model_core::forms::{self, FormError};
 use model_core::print;
 use model_core::symbol::{SymbolId, SymbolKind};
 use model_core::syntax;
-use names::{Names, comment};
+use names::Names;
 use section::{Question, Section};
 
 pub use declared::Declared;

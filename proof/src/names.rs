@@ -84,9 +84,3 @@ fn identifier(text: &str) -> String {
     let name = name.trim_end_matches('_');
     if name.starts_with(|c: char| c.is_alphabetic()) { name.to_owned() } else { format!("n{name}") }
 }
-
-/// A text within a comment: nothing in it ends the comment or begins another.
-pub(super) fn comment(text: &str) -> String {
-    let text: Vec<&str> = text.split_whitespace().collect();
-    text.join(" ").replace('"', "'").replace("(*", "( *").replace("*)", "* )")
-}

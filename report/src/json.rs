@@ -1,6 +1,7 @@
 //! `report.json`: the diagnosis, and what it was made with.
 
 use calibration::diagnose::Diagnosis;
+use model_core::escape;
 use network::Placed;
 use serde::Serialize;
 
@@ -45,5 +46,5 @@ pub fn json(reported: &Reported<'_>) -> Result<String, NotJson> {
         diff: diff(reported),
         provenance: reported.provenance,
     };
-    Ok(serde_json::to_string_pretty(&json)? + "\n")
+    Ok(escape::json(&serde_json::to_string_pretty(&json)?).into_owned() + "\n")
 }

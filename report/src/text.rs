@@ -3,7 +3,9 @@
 use std::fmt::Write as _;
 
 use crate::words::{self, Answers, Tone, numbers, sentence_case};
+use anstyle::Style;
 use calibration::diagnose::{Diagnosis, EffectFound, Rms};
+use model_core::escape::{Screen, line};
 use observe::SiUnit;
 use similar::TextDiff;
 
@@ -28,10 +30,10 @@ pub struct Layout {
 
 /// The whole summary.
 #[must_use]
-pub fn as_text(reported: &Reported<'_>, layout: Layout) -> String {
+pub fn as_text(reported: &Reported<'_>, layout: Layout) -> Screen {
     let diagnosis = &reported.calibration.diagnosis;
     let answers = words::answers(diagnosis, reported.folder);
-    let mut page = Page { text: String::new(), layout };
+    let mut page = Page { text: Screen::default(), layout };
     page.answers(&answers, diagnosis);
     page.residuals(diagnosis);
     page.values(diagnosis);
@@ -62,26 +64,31 @@ pub fn as_text(reported: &Reported<'_>, layout: Layout) -> String {
 #[must_use]
 pub fn diff(reported: &Reported<'_>) -> String {
     let Some(amended) = &reported.calibration.amended else { return String::new() };
-    let file = reported.chain_file;
+    let file = line(reported.chain_file);
     TextDiff::from_lines(reported.chain_text, amended.as_str())
         .unified_diff()
         .context_radius(2)
-        .header(file, &format!("{file} (amended)"))
+        .header(&file, &format!("{file} (amended)"))
         .to_string()
 }
 
 /// Text that grows.
 struct Page {
-    text: String,
+    text: Screen,
     layout: Layout,
 }
 
 impl Page {
     fn heading(&mut self, title: &str) {
-        self.text.push('\n');
+        let _ = writeln!(self.text);
         if !title.is_empty() {
-            let _ = writeln!(self.text, "{HEADING}{title}{HEADING:#}");
+            self.styled(HEADING, title);
+            let _ = writeln!(self.text);
         }
+    }
+
+    fn styled(&mut self, style: Style, words: &str) {
+        self.text.styled([&style, &format_args!("{style:#}")], words);
     }
 
     fn say(&mut self, first: &str, sentence: &str) {
@@ -101,7 +108,8 @@ impl Page {
             Tone::Ambiguous | Tone::Careful => CAREFUL,
             Tone::Bad => BAD,
         };
-        let _ = writeln!(self.text, "{style}{}{style:#}", answers.badge.to_uppercase());
+        self.styled(style, &answers.badge.to_uppercase());
+        let _ = writeln!(self.text);
         self.say("", &answers.happened);
         if let Some(chance) = &answers.chance {
             self.say("", &format!("{}.", sentence_case(chance)));
@@ -111,8 +119,8 @@ impl Page {
         for caution in cautions {
             let mut told = String::new();
             paragraph(&mut told, "Caution: ", &caution, self.layout.width);
-            let styled = format!("{CAREFUL}Caution{CAREFUL:#}");
-            self.text.push_str(&told.replacen("Caution", &styled, 1));
+            self.styled(CAREFUL, "Caution");
+            let _ = write!(self.text, "{}", told.strip_prefix("Caution").unwrap_or(&told));
         }
         if !answers.what.is_empty() {
             self.heading("What it is");
@@ -159,8 +167,9 @@ impl Page {
     fn residuals_of(&mut self, diagnosis: &Diagnosis, title: &str, unit: SiUnit, [before, after]: [Rms; 2]) {
         let told =
             |si: Option<f64>| si.map_or_else(|| "not measured".to_owned(), |si| numbers::told(si, unit));
-        self.text.push('\n');
-        let _ = writeln!(self.text, "{HEADING}{title:38} {:>12} {:>12}{HEADING:#}", "before", "after");
+        let _ = writeln!(self.text);
+        self.styled(HEADING, &format!("{title:38} {:>12} {:>12}", "before", "after"));
+        let _ = writeln!(self.text);
         let mut row = |name: &str, before: Option<f64>, after: Option<f64>| {
             let _ = writeln!(self.text, "  {name:36} {:>12} {:>12}", told(before), told(after));
         };

@@ -2,13 +2,13 @@
 //!
 //! Not `textwrap` 0.16, which counts `″` as two letters unless it brings the tables of `unicode-width`.
 
-use std::fmt::Write as _;
+use std::fmt::Write;
 
 /// How far what is left of a broken line hangs behind its start.
 const HANGING: usize = 2;
 
 /// Appends a paragraph: the first line after `first`, the others after as many blanks; `width` letters at most.
-pub fn paragraph(text: &mut String, first: &str, words: &str, width: usize) {
+pub fn paragraph(text: &mut impl Write, first: &str, words: &str, width: usize) {
     set(text, first, first.chars().count(), words, width);
 }
 
@@ -41,7 +41,7 @@ fn letters(text: &str) -> usize {
     anstream::adapter::strip_str(text).to_string().chars().count()
 }
 
-fn set(text: &mut String, first: &str, indent: usize, words: &str, width: usize) {
+fn set(text: &mut impl Write, first: &str, indent: usize, words: &str, width: usize) {
     let mut line = first.to_owned();
     let mut empty = true;
     for word in words.split_whitespace() {

@@ -1,6 +1,7 @@
 //! Why something could not be done: always something that the user can mend.
 
 use model_core::Mistakes;
+use model_core::escape::message;
 
 /// Why something could not be done. `Display` is what the user reads.
 #[derive(Debug, Clone, thiserror::Error)]
@@ -14,7 +15,7 @@ pub enum Refusal {
         mistakes: Mistakes,
     },
     /// Anything else, in words that say what to write instead.
-    #[error("{0}")]
+    #[error("{}", message(.0))]
     Input(String),
 }
 

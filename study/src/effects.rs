@@ -1,5 +1,6 @@
 //! What a study says of effects: its own ones, which of the catalogue's may be found, and what they may follow.
 
+use model_core::escape::is_unseen;
 use model_core::{BodyId, Chain, ObservableId, Role, SymbolId, SymbolKind};
 use toml::Spanned;
 
@@ -22,11 +23,6 @@ const MOST_LINES: u64 = 10_000_000;
 const MOST_FUNCTIONS: usize = 100;
 /// Letters of an effect's name at most.
 const LONGEST_NAME: usize = 200;
-
-/// What would end the line that a name is printed on.
-fn breaks(letter: char) -> bool {
-    letter.is_control() || matches!(letter, '\u{2028}' | '\u{2029}')
-}
 
 impl Study {
     /// What the search is asked for; `observables` only if all of them could be read.
@@ -105,7 +101,7 @@ impl Search {
 
 fn own_effect(chain: &Chain, written: &OwnEffect) -> Outcome<Effect> {
     let name = written.name.get_ref();
-    let prints = !name.trim().is_empty() && name.chars().count() <= LONGEST_NAME && !name.contains(breaks);
+    let prints = !name.trim().is_empty() && name.chars().count() <= LONGEST_NAME && !name.contains(is_unseen);
     if !prints {
         let message = "the name of an effect is a few words on one line";
         return Err(mistake(written.name.span(), message, "write name = \"ball screw of elevation\""));

@@ -5,8 +5,9 @@ use super::conversion::Conversion;
 use super::labels::says_nothing;
 use super::order::order_of;
 use super::plan::{Plan, SourcePlan};
+use super::undeclared::Labelled;
 use observe::{Numbers, Places};
-use tables::formats::{Cell, Cells, DataError, Form, TableReader};
+use tables::formats::{Cell, Cells, DataError, Form, TableReader, Wanted};
 use tables::units::BareColumn;
 
 /// Rows that are read at a time.
@@ -30,6 +31,8 @@ pub(super) struct Rows {
     pub factors: Vec<Option<f64>>,
     /// Of each column of numbers whether the header of some file says its unit.
     pub headed: Vec<bool>,
+    /// Columns that the study does not name.
+    pub undeclared: Labelled,
     /// Memory that these take, in bytes.
     bytes: usize,
 }
@@ -46,6 +49,7 @@ impl Rows {
             in_si: vec![true; columns.plans.len()],
             factors: vec![None; columns.plans.len()],
             headed: vec![false; columns.plans.len()],
+            undeclared: Labelled::default(),
             bytes: 0,
         }
     }
@@ -71,10 +75,19 @@ impl Rows {
             *headed |= reader.header()[column.column].unit().is_some();
         }
         let before = self.row_numbers.last().unwrap_or_default();
+        let mut beside = Labelled::beside(&wanted, reader);
         loop {
-            let chunk = reader.read(&wanted, CHUNK)?;
+            let asked: Vec<Wanted> =
+                wanted.iter().copied().chain(beside.iter().map(|(_, want)| *want)).collect();
+            let mut chunk = reader.read(&asked, CHUNK)?;
             if chunk.rows.is_empty() {
                 break;
+            }
+            let labelled = chunk.columns.split_off(wanted.len());
+            self.undeclared.take(&beside, chunk.rows.iter().map(|row| before + row), labelled);
+            if chunk.rows.len() == CHUNK {
+                beside.clear();
+                self.undeclared.forget();
             }
             self.row_numbers.extend(chunk.rows.iter().map(|row| before + row));
             let lines = chunk.lines.iter().copied().chain(std::iter::repeat(0));
@@ -178,6 +191,7 @@ impl Rows {
             in_si: self.in_si.clone(),
             factors: self.factors.clone(),
             headed: self.headed.clone(),
+            undeclared: Labelled::default(),
             bytes: 0,
         }
     }

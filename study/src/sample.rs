@@ -7,6 +7,7 @@ use super::conversion::{Conversion, Notation};
 use super::labels::Numbered;
 use super::plan::Plan;
 use super::rows::Rows;
+use super::undeclared::{Labelled, Undeclared};
 use observe::Observations;
 use tables::formats::DataError;
 
@@ -21,6 +22,8 @@ const DIGITS: i32 = 14;
 #[derive(Debug, Clone, Default)]
 pub struct Sample {
     sources: Vec<Sampled>,
+    /// Of each source the columns that the study does not name.
+    undeclared: Vec<Labelled>,
 }
 
 #[derive(Debug, Clone)]
@@ -107,9 +110,20 @@ impl Sample {
             let block = |block: usize| (start(block)..start(block) + length).map(move |row| (block, row));
             (0..BLOCKS).flat_map(block).collect()
         };
+        let undeclared = rows.undeclared.clone();
         let rows = rows.select(&kept.iter().map(|(_, row)| *row).collect::<Vec<_>>());
         let block = kept.iter().map(|(block, _)| *block).collect();
+        self.undeclared.push(undeclared);
         self.sources.push(Sampled { columns: columns.clone(), rows, block });
+    }
+
+    /// Columns that the study does not name and of which a few values come back in all rows of some observations of one source.
+    #[must_use]
+    pub fn undeclared(&self, observations: &Observations) -> Vec<Undeclared> {
+        match self.undeclared.as_slice() {
+            [only] => only.of(observations),
+            _ => Vec::new(),
+        }
     }
 
     /// Every column of joints, inputs and observed components whose numbers stand in the file as the study reads them.

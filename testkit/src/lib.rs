@@ -1,9 +1,10 @@
-//! What tests share: tools that they need, measured data, random numbers, rotations, simulated instruments.
+//! What tests share: tools that they need, measured data, random numbers, rotations, simulated instruments, hostile strings.
 //!
 //! It depends on nothing of the workspace, so that no simulator shares code with what it tests.
 #![allow(clippy::expect_used, reason = "a test may fail loudly")]
 
 mod data;
+mod hostile;
 pub mod mount;
 mod random;
 mod rotations;
@@ -12,6 +13,7 @@ mod skipped;
 mod tools;
 
 pub use data::{measured, root};
+pub use hostile::{acts_on_a_screen, hostile};
 pub use random::{Random, Xorshift};
 pub use rotations::{rotation, turned};
 pub use scanner::Stand;

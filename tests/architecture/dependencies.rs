@@ -61,6 +61,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "trueaxis-fit",
             "trueaxis-network",
             "trueaxis-study",
+            "trueaxis-evidence",
         ],
     ),
     (

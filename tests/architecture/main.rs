@@ -2,6 +2,7 @@
 
 mod circles;
 mod dependencies;
+mod escaping;
 mod house_rules;
 mod registries;
 mod rooms;

@@ -8,6 +8,7 @@ mod verify;
 
 use std::ops::Range;
 
+use model_core::escape::comments;
 use model_core::syntax::declaration::{BodyStatement, Declaration, FactorGroup, Statement};
 use model_core::{BodyId, Chain, Mistakes, Role, Symbol, SymbolKind, validate};
 
@@ -91,14 +92,14 @@ pub fn amend(
         let mut lines: String = addition
             .documentation
             .iter()
-            .map(|line| format!("{end}{indent}/// {}", on_one_line(line)))
+            .map(|line| format!("{end}{indent}/// {}", comments::line(line)))
             .collect();
         lines.push_str(&format!("{end}{indent}{word}: {};", addition.factor));
         insertions.push((at, addition.role, lines));
     }
     for input in inputs {
         let (at, indent) = input_place(text, &declaration);
-        let (end, documentation) = (line_end(text, at), on_one_line(&input.documentation));
+        let (end, documentation) = (line_end(text, at), comments::line(&input.documentation));
         let lines = format!("{end}{indent}/// {documentation}{end}{indent}{}", input.statement());
         insertions.push((at, Role::Position, lines));
     }
@@ -133,12 +134,6 @@ pub fn with_quantities_of(mut chain: Chain, text: &str) -> Result<Chain, Mistake
         }
     }
     Ok(chain)
-}
-
-/// A text without line breaks, or anything else that could end a comment.
-fn on_one_line(text: &str) -> String {
-    let breaks = |letter: char| letter.is_control() || matches!(letter, '\u{2028}' | '\u{2029}');
-    text.split(breaks).filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
 /// How the line around a byte ends.

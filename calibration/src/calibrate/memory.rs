@@ -23,16 +23,21 @@ pub(super) fn settled<'a>(
     if !plan.fit.noise.serial || !explains(&round) {
         return Ok((whole, round));
     }
-    let plan = place.get_or_init(|| {
-        let mut remembering = plan.clone();
-        remembering.fit.noise = NoiseOptions { beside_effects: false, ..remembering.fit.noise };
-        remembering
-    });
-    let whole = Context { request: Request { plan, ..whole.request }, ..whole };
+    let whole = remembering(whole, place);
     let first = Fitted::first(&whole)?;
     let mut round = rounds(&whole, Round::at(&whole, first)?)?;
     if explains(&round) {
         round = Round::at(&whole, Fitted::first(&whole)?)?;
     }
     Ok((whole, round))
+}
+
+/// The calibration in which rows may remember; `place` is where the study that says so lives.
+pub(super) fn remembering<'a>(whole: Context<'a>, place: &'a OnceCell<Plan>) -> Context<'a> {
+    let plan = place.get_or_init(|| {
+        let mut remembering = whole.request.plan.clone();
+        remembering.fit.noise = NoiseOptions { beside_effects: false, ..remembering.fit.noise };
+        remembering
+    });
+    Context { request: Request { plan, ..whole.request }, ..whole }
 }

@@ -20,6 +20,7 @@ mod outliers;
 mod places;
 mod rounds;
 mod stretches;
+mod weighed;
 mod whole_objects;
 
 use std::cell::OnceCell;
@@ -42,6 +43,7 @@ use rounds::rounds;
 use study::{Loaded, Open, Plan, Study};
 use tables::formats::DataError;
 use tables::units::BareColumn;
+use weighed::Weighed;
 
 pub use crate::search::{Request, Stage};
 pub use every_row::OfEveryRow;
@@ -212,9 +214,17 @@ fn searched<'a>(
     first: Round<'a>,
     own: &'a Loop,
 ) -> Result<Chosen<'a>, CalibrateError> {
+    let weighed = weighed::weighed(whole, &first)?;
     let round = outliers::reconsidered(whole, rounds(whole, first)?)?;
-    let (whole, round) = memory::settled(whole.clone(), &own.remembering, round)?;
-    Ok(chosen(&whole, before, round, &own.studies)?)
+    let Some(told) = weighed else {
+        let (whole, round) = memory::settled(whole.clone(), &own.remembering, round)?;
+        return Ok(chosen(&whole, before, round, &own.studies)?);
+    };
+    let Weighed { whole, round, left_out } = weighed::settled(whole.clone(), &own.remembering, round, &told)?;
+    let Some(left_out) = left_out else { return Ok(chosen(&whole, before, round, &own.studies)?) };
+    let mut judged = judged(&whole, before, round)?;
+    judged.left_out.push(left_out);
+    Ok(Chosen { whole, judged, as_good: Vec::new() })
 }
 
 /// What a first fit that cannot be gone on with comes to.

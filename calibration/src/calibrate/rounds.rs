@@ -36,7 +36,7 @@ pub(crate) fn names(found: &[Found]) -> Vec<EffectId> {
 
 /// The next round; with the later half of the effects left out, again and again, while the exact form cannot hold what
 /// the linear search likes. `None` if it can hold nothing new.
-fn taken_up<'a>(
+pub(super) fn taken_up<'a>(
     whole: &Context<'a>,
     mut found: Vec<Found>,
     last: &Round<'a>,

@@ -67,6 +67,19 @@ pub enum Caution {
         /// Their unit.
         unit: SiUnit,
     },
+    /// Effects passed the test of a search, but what hangs together along the rows explains the data as well: they were left out.
+    #[serde(rename = "follows the order of the rows")]
+    FollowsOrder {
+        /// Their names.
+        effects: Vec<String>,
+        /// Whether rows remember the row before, or wander.
+        remembers: bool,
+        /// Set-ups that the rows fall into; one where they show no more.
+        setups: usize,
+        /// A column that the study does not name, whose values say which rows belong together.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        column: Option<String>,
+    },
     /// Effects make it worse in regions of the joints that no stage saw.
     #[serde(rename = "worse elsewhere")]
     WorseElsewhere {

@@ -292,11 +292,14 @@ pub(crate) fn diagnose(
         .effects
         .iter()
         .all(|effect| effect.confounded_with.is_empty() && effect.competing_with.is_empty());
+    let follows_order = cautions.iter().any(|caution| matches!(caution, Caution::FollowsOrder { .. }));
     let verdict = verdict::verdict(Evidence {
         ended: &ended,
-        unnamed: remaining.is_some_and(|remaining| remaining.place.is_some())
+        unnamed: !follows_order && remaining.is_some_and(|remaining| remaining.place.is_some())
             || effects::has_unnamed(whole, last),
-        structure: remaining.is_some_and(|remaining| remaining.p_value <= whole.options.false_alarm),
+        // Where rows hang together along their order, that is the structure.
+        structure: !follows_order
+            && remaining.is_some_and(|remaining| remaining.p_value <= whole.options.false_alarm),
         effects: !found.effects.is_empty(),
         alone,
         form_open: found.effects.iter().any(|effect| !effect.form_determined),

@@ -19,6 +19,8 @@ pub enum Stage {
     },
     /// The search for effects.
     Search,
+    /// The contest of causes with what hangs together along the rows.
+    Weigh,
     /// The search without each fold, and what it leaves there.
     HeldOut,
     /// The look for structure that no effect explains.
@@ -33,6 +35,7 @@ impl fmt::Display for Stage {
             Self::Fit { effects } => write!(out, "fitting the declaration with {effects} effects"),
             Self::Columns { rows, of } => write!(out, "what effects would do: row {rows} of {of}"),
             Self::Search => write!(out, "searching for what the declaration lacks"),
+            Self::Weigh => write!(out, "weighing causes against what hangs together along the rows"),
             Self::HeldOut => write!(out, "repeating the search without each fold"),
             Self::Remaining => write!(out, "looking for structure that remains"),
         }

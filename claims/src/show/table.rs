@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use model_core::print;
+use model_core::{escape, print};
 
 use crate::checker::{Claim, Outcome, Verdict};
 use crate::file::{Checked, Claims, Unread};
@@ -177,14 +177,24 @@ pub fn as_table(title: &str, lines: &[Line], format: Format) -> String {
     }
 }
 
+fn on_one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 fn markdown(title: &str, lines: &[Line], total: &str) -> String {
-    let words =
-        |text: &str| text.replace('\\', r"\\").replace('|', r"\|").replace('<', "&lt;").replace('\n', " ");
+    let words = |text: &str| {
+        let blank = |is: bool| if is { " " } else { "" };
+        let shown = escape::markdown(&escape::line(text));
+        format!("{}{shown}{}", blank(text.starts_with(' ')), blank(text.ends_with(' ')))
+    };
     let cell = |pieces: &[Piece]| -> String {
         let written = pieces.iter().map(|piece| match piece {
             Piece::Words(text) => words(text),
-            Piece::Formula(text) => format!("${}$", text.replace('|', r"\vert ").replace('\n', " ")),
-            Piece::Code(text) => format!("`{}`", text.replace('|', r"\|").replace('`', "'")),
+            Piece::Formula(text) => match escape::latex_formula(&on_one_line(text)) {
+                None => format!("${}$", on_one_line(text).replace('|', r"\vert ").replace('<', r"\lt ")),
+                Some(_) => format!("`{}`", escape::markdown_code(text)),
+            },
+            Piece::Code(text) => format!("`{}`", escape::markdown_code(text)),
         });
         written.collect()
     };
@@ -206,33 +216,21 @@ fn markdown(title: &str, lines: &[Line], total: &str) -> String {
 }
 
 fn latex(title: &str, lines: &[Line], total: &str) -> String {
-    let words = |text: &str| -> String {
-        let mut out = String::new();
-        for c in text.chars() {
-            match c {
-                '\\' => out.push_str(r"\textbackslash{}"),
-                '~' => out.push_str(r"\textasciitilde{}"),
-                '^' => out.push_str(r"\textasciicircum{}"),
-                '&' | '%' | '$' | '#' | '_' | '{' | '}' => {
-                    out.push('\\');
-                    out.push(c);
-                }
-                c => out.push(c),
-            }
-        }
-        out
-    };
+    let words = escape::latex;
     let cell = |pieces: &[Piece]| -> String {
         let written = pieces.iter().map(|piece| match piece {
-            Piece::Words(text) => words(text),
-            Piece::Formula(text) => format!("${text}$"),
+            Piece::Words(text) => words(text).into_owned(),
+            Piece::Formula(text) => match escape::latex_formula(&on_one_line(text)) {
+                None => format!("${}$", on_one_line(text)),
+                Some(_) => format!(r"\texttt{{{}}}", words(text)),
+            },
             Piece::Code(text) => format!(r"\texttt{{{}}}", words(text)),
         });
         written.collect()
     };
     let mut out = format!(
-        "% {}\n% needs \\usepackage{{longtable,amsmath}}\n\\begin{{longtable}}{{p{{0.15\\textwidth}}p{{0.35\\textwidth}}p{{0.1\\textwidth}}p{{0.3\\textwidth}}}}\nclaim & equation & verdict & what differs \\\\ \\hline\n",
-        title.replace('\n', " ")
+        "{}% needs \\usepackage{{longtable,amsmath}}\n\\begin{{longtable}}{{p{{0.15\\textwidth}}p{{0.35\\textwidth}}p{{0.1\\textwidth}}p{{0.3\\textwidth}}}}\nclaim & equation & verdict & what differs \\\\ \\hline\n",
+        escape::comments::latex(&escape::line(title))
     );
     for line in lines {
         let remarks: Vec<String> = line.remarks.iter().map(|remark| cell(remark)).collect();
@@ -250,12 +248,10 @@ fn latex(title: &str, lines: &[Line], total: &str) -> String {
 }
 
 fn html(title: &str, lines: &[Line], total: &str) -> String {
-    let words = |text: &str| {
-        text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
-    };
+    let words = escape::markup;
     let cell = |pieces: &[Piece]| -> String {
         let written = pieces.iter().map(|piece| match piece {
-            Piece::Words(text) => words(text),
+            Piece::Words(text) => words(text).into_owned(),
             Piece::Formula(text) | Piece::Code(text) => format!("<code>{}</code>", words(text)),
         });
         written.collect()

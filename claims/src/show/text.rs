@@ -7,6 +7,7 @@ use crate::checker::{
     BoundVerdict, Claim, Counted, Difference, FormVerdict, Means, Measured, Outcome, RankSaid, RankVerdict,
     SizeVerdict, TotalVerdict, ValueVerdict, Verdict, hand,
 };
+use model_core::escape::{Screen, line};
 use model_core::mistake::Excerpt;
 use model_core::print::Hand;
 use model_core::{Chain, budget, print};
@@ -25,14 +26,13 @@ pub struct Paint {
 }
 
 /// All verdicts of a file.
-pub fn as_text(file: &Claims, checked: &[Checked<'_>], paint: &Paint) -> String {
-    let mut out = String::new();
-    let Paint { good: [good, plain], bad: [bad, unmarked], heading: [heading, body] } = paint;
+pub fn as_text(file: &Claims, checked: &[Checked<'_>], paint: &Paint) -> Screen {
+    let mut out = Screen::default();
     for Checked { claim, verdict } in checked {
-        let word = match verdict.outcome() {
-            Outcome::Holds => format!("{good}holds{plain}  "),
-            Outcome::Differs => format!("{bad}differs{unmarked}"),
-            Outcome::Undecided => format!("{bad}open{unmarked}   "),
+        let (style, word) = match verdict.outcome() {
+            Outcome::Holds => (&paint.good, "holds"),
+            Outcome::Differs => (&paint.bad, "differs"),
+            Outcome::Undecided => (&paint.bad, "open"),
         };
         let means = match verdict.means() {
             Means::Decided => "",
@@ -41,7 +41,10 @@ pub fn as_text(file: &Claims, checked: &[Checked<'_>], paint: &Paint) -> String 
             Means::Proven => " (proven)",
         };
         let means = if verdict.outcome() == Outcome::Undecided { "" } else { means };
-        let _ = writeln!(out, "{word}  {heading}{}{body}{means}", claim.name);
+        painted(&mut out, style, word);
+        let _ = write!(out, "{}  ", " ".repeat("differs".len() - word.len()));
+        painted(&mut out, &paint.heading, &line(&claim.name));
+        let _ = writeln!(out, "{means}");
         let style = if claim.is_plain { print::Style::Text } else { print::Style::Latex };
         match verdict {
             Verdict::ClosedForm(form) => {
@@ -74,6 +77,11 @@ pub fn as_text(file: &Claims, checked: &[Checked<'_>], paint: &Paint) -> String 
     out
 }
 
+/// Words in a paint.
+fn painted(out: &mut Screen, [on, off]: &[String; 2], words: &str) {
+    out.styled([on, off], words);
+}
+
 /// How formulas are written.
 struct Written<'a> {
     paint: &'a Paint,
@@ -83,8 +91,8 @@ struct Written<'a> {
 }
 
 /// The differences of a formula, in the symbols of the print.
-fn write_form(out: &mut String, written: &Written<'_>, claim: &NamedClaim, form: &FormVerdict) {
-    let Written { paint: Paint { bad: [bad, unmarked], .. }, chain, style, hand } = *written;
+fn write_form(out: &mut Screen, written: &Written<'_>, claim: &NamedClaim, form: &FormVerdict) {
+    let Written { paint, chain, style, hand } = *written;
     if form.differences.is_empty() {
         return;
     }
@@ -103,7 +111,9 @@ fn write_form(out: &mut String, written: &Written<'_>, claim: &NamedClaim, form:
         );
         if let Some((text, before, width)) = place_in_text(claim, difference) {
             let Excerpt { shown, padding, width } = Excerpt::new(text, before, width);
-            let _ = writeln!(out, "        {shown}\n        {padding}{bad}{}{unmarked}", "^".repeat(width));
+            let _ = write!(out, "        {shown}\n        {padding}");
+            painted(out, &paint.bad, &"^".repeat(width));
+            let _ = writeln!(out);
         }
         if let Some(slip) = &difference.slip {
             let _ = writeln!(out, "        {}", slip.describe(chain, observable, style));
@@ -156,7 +166,7 @@ pub(super) fn place_in_text<'a>(
     Some((line, before, inside.chars().count().max(1)))
 }
 
-fn write_total(out: &mut String, chain: &Chain, total: &TotalVerdict, style: print::Style) {
+fn write_total(out: &mut Screen, chain: &Chain, total: &TotalVerdict, style: print::Style) {
     for (error, printed, derived) in &total.differences {
         let _ = writeln!(
             out,
@@ -179,7 +189,7 @@ pub(super) fn product(error: &[(model_core::SymbolId, u32)]) -> model_core::alge
     })
 }
 
-fn write_entries(out: &mut String, chain: &Chain, verdict: &EntriesVerdict, style: print::Style) {
+fn write_entries(out: &mut Screen, chain: &Chain, verdict: &EntriesVerdict, style: print::Style) {
     for difference in &verdict.differences {
         let _ = writeln!(
             out,
@@ -191,7 +201,7 @@ fn write_entries(out: &mut String, chain: &Chain, verdict: &EntriesVerdict, styl
     }
 }
 
-fn write_values(out: &mut String, chain: &Chain, claim: &Claim, verdict: &[ValueVerdict]) {
+fn write_values(out: &mut Screen, chain: &Chain, claim: &Claim, verdict: &[ValueVerdict]) {
     let Claim::Values(values) = claim else { return };
     let shown = chain.observable(values.observable);
     for (value, reading) in verdict.iter().zip(&shown.shown) {
@@ -206,7 +216,7 @@ fn write_values(out: &mut String, chain: &Chain, claim: &Claim, verdict: &[Value
     }
 }
 
-fn write_measured(out: &mut String, chain: &Chain, claim: &Claim, measured: &Measured) {
+fn write_measured(out: &mut Screen, chain: &Chain, claim: &Claim, measured: &Measured) {
     let Claim::Comparison(comparison) = claim else { return };
     let unit = budget::unit(chain, comparison.observable);
     let name = |id| &chain.symbol(id).name;
@@ -222,7 +232,7 @@ fn write_measured(out: &mut String, chain: &Chain, claim: &Claim, measured: &Mea
     );
 }
 
-fn write_counted(out: &mut String, counted: &Counted) {
+fn write_counted(out: &mut Screen, counted: &Counted) {
     if counted.found != counted.claimed {
         let _ = writeln!(
             out,
@@ -234,7 +244,7 @@ fn write_counted(out: &mut String, counted: &Counted) {
     }
 }
 
-fn write_rank(out: &mut String, chain: &Chain, claim: &Claim, verdict: &RankVerdict) {
+fn write_rank(out: &mut Screen, chain: &Chain, claim: &Claim, verdict: &RankVerdict) {
     let Claim::Rank(rank) = claim else { return };
     let names: Vec<&str> = verdict.exceptions.iter().map(|&id| chain.symbol(id).name.as_str()).collect();
     let names = names.join(", ");
@@ -252,7 +262,7 @@ fn write_rank(out: &mut String, chain: &Chain, claim: &Claim, verdict: &RankVerd
     };
 }
 
-fn write_size(out: &mut String, chain: &Chain, claim: &Claim, verdict: &SizeVerdict) {
+fn write_size(out: &mut Screen, chain: &Chain, claim: &Claim, verdict: &SizeVerdict) {
     let Claim::Size(size) = claim else { return };
     let unit = budget::unit(chain, size.observable);
     let mut said = format!("found {} {unit}", short(verdict.found));
@@ -268,7 +278,7 @@ fn write_size(out: &mut String, chain: &Chain, claim: &Claim, verdict: &SizeVerd
     let _ = writeln!(out, "    {said}");
 }
 
-fn write_bound(out: &mut String, chain: &Chain, claim: &Claim, verdict: &BoundVerdict) {
+fn write_bound(out: &mut Screen, chain: &Chain, claim: &Claim, verdict: &BoundVerdict) {
     let Claim::Bound(bound) = claim else { return };
     let unit = budget::unit(chain, bound.observable);
     let found = verdict.found.map_or(String::new(), |found| format!(", found {} {unit}", short(found)));

@@ -85,7 +85,7 @@ pub fn correct(correction: Correction<'_>) -> Result<(), Failure> {
             outside.see(chain, &slices, &corrector.amended)?;
             corrector.correct(&cloud, &mut points, &columns)?;
             writer.points(&points)?;
-            progress.set_message(so_far(
+            progress.say(&so_far(
                 points.first + points.counts.iter().sum::<usize>() as u64 - 1,
                 Some(cloud.share_read()),
                 began.elapsed(),

@@ -138,8 +138,25 @@ impl<'f> Writer<'f> {
 /// How points are compressed that were not.
 fn how(header: &Header) -> Result<LazVlr, LasZipError> {
     let extra = u16::try_from(header.extra().len()).map_err(io::Error::other)?;
-    Ok(LazVlrBuilder::default().with_point_format(header.format, extra)?.build())
+    let how = LazVlrBuilder::default().with_point_format(header.format, extra)?.build();
+    let mut record = Vec::new();
+    how.write_to(&mut record)?;
+    // LASzip opens wave packets of version 1 alone; the library says version 2 of the same bytes.
+    for item in record.get_mut(ITEMS_AT..).unwrap_or_default().chunks_exact_mut(ITEM) {
+        if item.starts_with(&WAVE_PACKET_13.to_le_bytes()) {
+            item[4..].copy_from_slice(&1_u16.to_le_bytes());
+        }
+    }
+    LazVlr::from_buffer(record)
 }
+
+/// Where the items of LASzip's record begin, and the bytes of one: type, size and version.
+///
+/// Source: LASzip, `laszip.cpp`, `LASzip::pack` and `LASzip::check_item`.
+const ITEMS_AT: usize = 34;
+const ITEM: usize = 6;
+/// The type of wave packets of the formats 4 and 5.
+const WAVE_PACKET_13: u16 = 9;
 
 fn failed(path: &Path, error: LasZipError) -> Failure {
     match error {

@@ -131,9 +131,8 @@ fn correct_cloud(arguments: &Arguments) -> Result<(), Failure> {
             "{option} is for tables, and the points of a cloud keep the dimensions that they have: leave it out"
         )));
     }
-    if let Some(readings) = &arguments.readings {
-        output::refuse_to_replace(&table.out, [readings.as_path()])?;
-    }
+    let read = [&table.data].into_iter().chain(&arguments.readings);
+    output::refuse_to_replace(&table.out, read.map(PathBuf::as_path))?;
     let Model { chain, values, found } = table.model()?;
     cloud::correct(cloud::Correction {
         chain: &chain,

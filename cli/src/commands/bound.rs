@@ -56,11 +56,11 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         TextOrJson::Text => {
             let texts: Vec<String> =
                 answers.iter().map(|(bound, found)| remainder::text(bound, Some(found), &chain)).collect();
-            terminal::print_text(&texts.join("\n"))?;
+            terminal::print_text(texts.join("\n"))?;
         }
         TextOrJson::Json => {
             let bounds: Vec<_> = answers.iter().map(|(bound, found)| as_json(&chain, bound, found)).collect();
-            terminal::print(&format!("{:#}\n", json!({ "bounds": bounds })))?;
+            terminal::print_json(&json!({ "bounds": bounds }))?;
         }
     }
     Ok(Answer::Done)

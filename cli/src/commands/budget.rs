@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use claims::checker::{Checker, Claim};
 use model_core::Chain;
 use model_core::budget::{Budget, BudgetError, Curves, Poses};
+use model_core::escape::{self, Screen};
 use model_core::mistake::Mistake;
 use model_core::remainder::DomainError;
 use serde_json::{Value, json};
@@ -110,13 +111,17 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     }
     match arguments.format {
         TextOrJson::Text => {
-            let tables: Vec<String> = measured.iter().map(|one| budget::as_text(&chain, one)).collect();
-            terminal::print_text(&tables.join("\n"))?;
+            let mut tables = Screen::default();
+            for (at, one) in measured.iter().enumerate() {
+                tables.append(&if at > 0 { "\n".into() } else { Screen::default() });
+                tables.append(&budget::as_text(&chain, one));
+            }
+            terminal::print_text(tables)?;
         }
         TextOrJson::Json => {
             let budgets: Vec<Value> =
                 measured.iter().map(|one| budget::as_json(&chain, one, &poses)).collect();
-            terminal::print(&format!("{:#}\n", json!({ "observables": budgets })))?;
+            terminal::print_json(&json!({ "observables": budgets }))?;
         }
     }
     Ok(Answer::Done)
@@ -189,7 +194,7 @@ fn write_files(
         };
         files.write_text(&format!("{name}.csv"), &curves::csv(chain, curves))?;
         match curves::svg(chain, budget.observable, curves) {
-            Some(figure) => files.write_text(&format!("{name}.svg"), &figure)?,
+            Some(figure) => files.write_text(&format!("{name}.svg"), &escape::page(&figure))?,
             // An earlier run's would speak of other sizes.
             None => files.remove(&format!("{name}.svg")),
         }

@@ -61,7 +61,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let progress = terminal::progress();
     let (reading, opened) = (progress.clone(), files.clone());
     let mut open = move |path: &str, options: &formats::Options| {
-        reading.set_message(format!("reading {path}"));
+        reading.say(&format!("reading {path}"));
         opened.open(path, options)
     };
     let read = many::read(studied, arguments.search_rows, &mut open);
@@ -78,11 +78,11 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
 
     let (progress, waiting) = (terminal::progress(), Waiting::default());
     let calibrated = calibrating::calibrate(measured, &files, terminal::command_line(), &|stage| {
-        progress.set_message(waiting.told(stage));
+        progress.say(&waiting.told(stage));
     });
     let completed = calibrated.and_then(|mut calibrated| {
         if let Some(others) = others {
-            others.complete(&mut calibrated, &mut open, &|told| progress.set_message(told))?;
+            others.complete(&mut calibrated, &mut open, &|told| progress.say(&told))?;
         }
         Ok(calibrated)
     });
@@ -95,7 +95,7 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         if change.is_empty() {
             terminal::note(format_args!("the declaration would not change"));
         }
-        terminal::print(&match arguments.format {
+        terminal::print(match arguments.format {
             TextOrJson::Text => change,
             TextOrJson::Json => report::json(&reported)?,
         })?;
@@ -115,9 +115,9 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         terminal::note(format_args!("the report is in {}", folder.join("report.html").display()));
     }
     let layout = Layout { width: terminal::width(), verbose: arguments.verbose };
-    terminal::print(&match arguments.format {
+    terminal::print(match arguments.format {
         TextOrJson::Text => report::as_text(&reported, layout),
-        TextOrJson::Json => report::json(&reported)?,
+        TextOrJson::Json => report::json(&reported)?.into(),
     })?;
     Ok(answer(reported.calibration))
 }

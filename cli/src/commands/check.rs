@@ -6,6 +6,7 @@ use claims::checker::{Claim, Verdict};
 use claims::file::{Checked, Unread};
 use claims::show::{self, as_json, as_text, unread_as_json};
 use model_core::Mistakes;
+use model_core::escape::{self, Screen};
 use proof::{Certificate, Declared, Refusal};
 use serde_json::{Value, json};
 
@@ -98,12 +99,12 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         }));
         show::as_table(&arguments.claims.display().to_string(), &lines, format)
     };
-    let output = match arguments.format {
-        Shape::Text if checked.is_empty() => String::new(),
+    let output: Screen = match arguments.format {
+        Shape::Text if checked.is_empty() => Screen::default(),
         Shape::Text => as_text(&file.said, &checked, &claims_file::paint()),
-        Shape::Markdown => table(show::Format::Markdown),
-        Shape::Latex => table(show::Format::Latex),
-        Shape::Html => table(show::Format::Html),
+        Shape::Markdown => table(show::Format::Markdown).into(),
+        Shape::Latex => table(show::Format::Latex).into(),
+        Shape::Html => table(show::Format::Html).into(),
         Shape::Json => {
             let verdicts = checked.iter().map(|checked| as_json(&file.said, checked));
             let claims: Vec<Value> =
@@ -116,18 +117,20 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
             if kind.is_some() {
                 said["unread"] = equations.into();
             }
-            format!("{said:#}\n")
+            escape::json(&format!("{said:#}\n")).into()
         }
     };
     let certificate = if is_certified { Some(certify(&file, &checked)?) } else { None };
     arguments.certificate.write(certificate.as_deref())?;
     match arguments.format {
-        Shape::Text => terminal::print_formulas(&output)?,
-        _ => terminal::print(&output)?,
+        Shape::Text => terminal::print_formulas(output)?,
+        _ => terminal::print(output)?,
     }
     if arguments.format == Shape::Text {
         for (line, equation, reason) in notes.drain(..) {
-            terminal::print_formulas(&format!("unread   line {line}: {reason}\n    {equation}\n"))?;
+            let equation = equation.lines().collect::<Vec<_>>().join("\n    ");
+            let reason = escape::line(&reason);
+            terminal::print_formulas(format!("unread   line {line}: {reason}\n    {equation}\n"))?;
         }
     }
     if !mistakes.is_empty() {

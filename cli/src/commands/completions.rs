@@ -23,6 +23,6 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut crate::Arguments::command(), "trueaxis", &mut script);
-    terminal::print(&String::from_utf8_lossy(&script))?;
+    terminal::print(String::from_utf8_lossy(&script))?;
     Ok(Answer::Done)
 }

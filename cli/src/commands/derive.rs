@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use indicatif::ProgressBar;
 use model_core::algebra::{Fraction, Poly};
+use model_core::escape::{self, Screen};
 use model_core::forms::{self, Form, TableError};
 use model_core::{Chain, ObservableId, ObservableKind, print};
 use proof::{Certificate, Declared};
@@ -94,20 +94,25 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     if forms.is_empty() {
         return Err(Failure::Input("no observable of this chain has a closed form".to_owned()));
     }
+    let plainly = |screen: &mut Screen, title: String| screen.append(&title.into());
     let printed = match arguments.format {
-        Format::Json => format!("{:#}\n", as_json(&chain, &forms, arguments.order)),
-        Format::Text => {
-            sections(&chain, &forms, print::Style::Text, |title| format!("{HEADING}{title}{HEADING:#}"))
-        }
-        Format::Latex => sections(&chain, &forms, print::Style::Latex, |title| format!("% {title}")),
-        Format::Markdown => sections(&chain, &forms, print::Style::Markdown, |title| format!("## {title}\n")),
+        Format::Json => escape::json(&format!("{:#}\n", as_json(&chain, &forms, arguments.order))).into(),
+        Format::Text => sections(&chain, &forms, print::Style::Text, |screen, title| {
+            screen.styled([&HEADING, &format_args!("{HEADING:#}")], title);
+        }),
+        Format::Latex => sections(&chain, &forms, print::Style::Latex, |screen, title| {
+            plainly(screen, format!("% {title}"));
+        }),
+        Format::Markdown => sections(&chain, &forms, print::Style::Markdown, |screen, title| {
+            plainly(screen, format!("## {}\n", escape::markdown(title)));
+        }),
     };
     let certificate = is_certified.then(|| certify(&source, &chosen, arguments.order)).transpose()?;
     arguments.certificate.write(certificate.as_deref())?;
     drop(waiting);
     match arguments.format {
-        Format::Text => terminal::print_formulas(&printed)?,
-        Format::Latex | Format::Markdown | Format::Json => terminal::print(&printed)?,
+        Format::Text => terminal::print_formulas(printed)?,
+        Format::Latex | Format::Markdown | Format::Json => terminal::print(printed)?,
     }
     Ok(Answer::Done)
 }
@@ -117,7 +122,7 @@ fn show_parts(
     arguments: &Arguments,
     chain: &Chain,
     chosen: &[ObservableId],
-    waiting: Option<ProgressBar>,
+    waiting: Option<terminal::Progress>,
 ) -> Result<Answer, Failure> {
     let style = match arguments.format {
         Format::Text => print::Style::Text,
@@ -180,12 +185,21 @@ fn certify(source: &Source, chosen: &[ObservableId], order: u32) -> Result<Strin
 }
 
 /// The forms one after the other, each below its title.
-fn sections(chain: &Chain, forms: &[Form], style: print::Style, title: impl Fn(&str) -> String) -> String {
-    let sections: Vec<String> = forms
-        .iter()
-        .map(|form| format!("{}\n{}", title(&title_of(chain, form)), print::form(form, chain, style)))
-        .collect();
-    sections.join("\n")
+fn sections(
+    chain: &Chain,
+    forms: &[Form],
+    style: print::Style,
+    write_title: impl Fn(&mut Screen, &str),
+) -> Screen {
+    let mut screen = Screen::default();
+    for (at, form) in forms.iter().enumerate() {
+        if at > 0 {
+            screen.append(&"\n".into());
+        }
+        write_title(&mut screen, &title_of(chain, form));
+        screen.append(&format!("\n{}", print::form(form, chain, style)).into());
+    }
+    screen
 }
 
 /// `pointing: error of the direction of device, to first order in the errors`

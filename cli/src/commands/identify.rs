@@ -58,10 +58,10 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
             return Err(Failure::Input(why.to_owned()));
         }
         let seen = SetUpSeen::of_study(&source, &mut |path, from| open_beside(&source, path, from))?;
-        terminal::print(&match arguments.format {
-            TextOrJson::Text => seen.text(),
-            TextOrJson::Json => format!("{:#}\n", seen.json()),
-        })?;
+        match arguments.format {
+            TextOrJson::Text => terminal::print(seen.text())?,
+            TextOrJson::Json => terminal::print_json(&seen.json())?,
+        }
         return Ok(Answer::Done);
     }
     let chain = source.symbolic_chain(&terminal::warn)?;
@@ -70,8 +70,8 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let certificate = is_certified.then(|| certify(&source, &certified)).transpose()?;
     arguments.certificate.write(certificate.as_deref())?;
     match arguments.format {
-        TextOrJson::Text => terminal::print_text(&texts.join("\n"))?,
-        TextOrJson::Json => terminal::print(&format!("{:#}\n", json!({ "identifiability": answers })))?,
+        TextOrJson::Text => terminal::print_text(texts.join("\n"))?,
+        TextOrJson::Json => terminal::print_json(&json!({ "identifiability": answers }))?,
     }
     Ok(Answer::Done)
 }

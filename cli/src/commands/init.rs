@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use init::Look;
 use init::templates::{self, TEMPLATES};
+use model_core::escape::line;
 use report::shell_word;
 use report::wrap::paragraph;
 use tables::formats::{self, DataError, Input, Options};
@@ -86,12 +87,12 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     for remark in &draft.remarks {
         terminal::note(format_args!("note: {remark}"));
     }
-    terminal::print_text(&format!(
+    terminal::print_text(format!(
         "{}: {}\n  the declaration: {}\n  the study: {}\nnext: trueaxis calibrate {}\n",
         template.name,
         template.what,
-        chain_file.display(),
-        study_file.display(),
+        line(&chain_file.to_string_lossy()),
+        line(&study_file.to_string_lossy()),
         shell_word(&study_file.display().to_string())
     ))?;
     Ok(Answer::Done)

@@ -4,6 +4,7 @@ mod folder;
 mod interrupted;
 mod partial;
 mod place;
+mod seen;
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -17,6 +18,7 @@ pub use interrupted::clean_up_when_interrupted;
 use partial::Partial;
 use place::Place;
 pub use place::refuse_to_replace;
+use seen::Seen;
 
 /// Writes a whole text; `-` prints it.
 ///
@@ -93,14 +95,14 @@ impl Batch {
         let fail = |error: io::Error| Failure::write(path, &error);
         match Place::of(path).map_err(fail)? {
             Place::StandardOutput => {
-                let mut out = BufWriter::new(io::stdout().lock());
+                let mut out = BufWriter::new(Seen::new(io::stdout().lock()));
                 let written = write(&mut out)?;
                 out.flush().map_err(fail)?;
                 Ok(written)
             }
             Place::Stream(stream) => {
                 let file = File::options().append(true).open(stream).map_err(fail)?;
-                let mut file = BufWriter::new(file);
+                let mut file = BufWriter::new(Seen::new(file));
                 let written = write(&mut file)?;
                 file.flush().map_err(fail)?;
                 Ok(written)

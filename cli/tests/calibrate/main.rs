@@ -40,6 +40,7 @@ mod together;
 mod unexpected;
 mod unheld;
 mod unusable;
+mod weighed;
 
 use serde_json::Value;
 use support::{Folder, trueaxis};

@@ -62,6 +62,20 @@ fn an_uncompressed_file_keeps_its_length_and_its_places() {
     }
 }
 
+/// LASzip refuses wave packets of the older formats that say version 2.
+#[test]
+fn wave_packets_say_the_version_that_laszip_opens() {
+    let folder = folder("cloud_wave_packets", &["v13f4.las"]);
+    let file = applied(&folder, "v13f4.las", "out.laz", &[]);
+    let name = b"laszip encoded";
+    let at = file.windows(name.len()).position(|bytes| bytes == name).expect("LASzip's record");
+    // Behind the name, the number and the length of the record, and a description, as the format has them.
+    let record = &file[at + 16 + 2 + 2 + 32..];
+    let count = usize::from(u16::from_le_bytes([record[32], record[33]]));
+    let items: Vec<_> = record[34..].chunks_exact(6).take(count).map(|item| (item[0], item[4])).collect();
+    assert_eq!(items[..3], [(6, 2), (7, 2), (9, 1)], "{items:?}");
+}
+
 /// Without errors nothing moves: through compression and back a file is the same, byte for byte.
 #[test]
 fn compressed_and_decompressed_a_file_is_what_it_was() {

@@ -1,5 +1,7 @@
 //! What cannot be corrected is refused in words that say what is wrong, where, and what to do; and nothing is written.
 
+use std::fs;
+
 use crate::support::Folder;
 use crate::whole::Whole;
 use crate::{applied, apply, bytes, folder, refused, steps};
@@ -257,6 +259,73 @@ fn a_point_that_the_file_has_no_number_for_is_refused() {
     }
 }
 
+/// Steps, offsets and counts as large or as small as numbers go: refused with a sentence, or read as they are.
+#[test]
+fn extreme_numbers_of_a_header_are_refused_or_read() {
+    let folder = folder("cloud_extreme", &[]);
+    let file = bytes("v12f1.las");
+    let (scale, offset, count) = (131, 155, 107);
+    for (at, number) in [
+        (scale, 5e-324),
+        (scale, 1e-300),
+        (scale, 1e300),
+        (scale, f64::MAX),
+        (scale, f64::NAN),
+        (scale, f64::INFINITY),
+        (scale, -1e-3),
+        (offset, 1e300),
+        (offset, f64::MAX),
+        (offset, f64::NEG_INFINITY),
+        (scale + 16, f64::MAX),
+        (offset + 16, -f64::MAX),
+    ] {
+        folder.write("extreme.las", with("v12f1.las", at, &number.to_le_bytes()));
+        for out in ["out.las", "out.laz"] {
+            let said = refused(&folder, "extreme.las", out, &["--tolerance", "1000 km"]);
+            assert!(said.starts_with("error: extreme.las: "), "{number}: {said}");
+        }
+    }
+    // More points than there are, up to more than any file has; fewer, and none.
+    for (points, is_refused) in [(u32::MAX, true), (81, true), (79, false), (1, false), (0, false)] {
+        folder.write("counted.las", with("v12f1.las", count, &points.to_le_bytes()));
+        let run = apply(&folder, "counted.las", "out.las", &[]);
+        assert_eq!(run.code == 2, is_refused, "{points}: {run}");
+        if !is_refused {
+            assert_eq!(
+                fs::read(folder.0.join("out.las")).expect("written").len(),
+                file.len(),
+                "{points}: every byte stays"
+            );
+            fs::remove_file(folder.0.join("out.las")).expect("written");
+        }
+    }
+    let mut many = bytes("v14f6.las");
+    many[247..255].copy_from_slice(&u64::MAX.to_le_bytes());
+    many[107..111].fill(0);
+    folder.write("many.las", many);
+    assert!(refused(&folder, "many.las", "out.las", &[]).contains("points, and it ends after"));
+}
+
+/// A cloud is never written over itself, by whatever name.
+#[cfg(unix)]
+#[test]
+fn what_is_read_is_not_written_over() {
+    let folder = folder("cloud_itself", &["v12f1.las"]);
+    std::os::unix::fs::symlink("v12f1.las", folder.0.join("linked.las")).expect("a link");
+    fs::hard_link(folder.0.join("v12f1.las"), folder.0.join("second.las")).expect("a second name");
+    for (data, out) in [
+        ("v12f1.las", "v12f1.las"),
+        ("v12f1.las", "./v12f1.las"),
+        ("v12f1.las", "linked.las"),
+        ("linked.las", "v12f1.las"),
+        ("v12f1.las", "second.las"),
+    ] {
+        let said = refused(&folder, data, out, &[]);
+        assert!(said.contains("would be written over"), "{data} {out}: {said}");
+    }
+    assert_eq!(fs::read(folder.0.join("v12f1.las")).expect("there"), bytes("v12f1.las"));
+}
+
 #[test]
 fn what_is_asked_of_a_cloud_and_cannot_be_is_told() {
     let folder = folder("cloud_asked", &["v12f1.las"]);
@@ -285,7 +354,7 @@ fn what_is_asked_of_a_cloud_and_cannot_be_is_told() {
     assert!(
         said("table.csv", "out.csv", &["--readings", "t.csv"]).contains("--readings is for point clouds")
     );
-    std::fs::create_dir(folder.0.join("folder.las")).expect("a folder");
+    fs::create_dir(folder.0.join("folder.las")).expect("a folder");
     assert!(said("folder.las", "out.las", &[]).contains("it is a folder"));
     let run = folder.trueaxis(&[
         "eval",

@@ -8,6 +8,7 @@ mod apply;
 mod doubts;
 mod kept;
 mod many;
+mod orders;
 mod round_trip;
 
 use support::{Folder, Run};

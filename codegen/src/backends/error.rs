@@ -68,7 +68,10 @@ pub enum GenerateError {
         name: String,
     },
     /// The name of the file cannot stand in an include.
-    #[error("the file name `{}` cannot stand in an `#include`: take letters, digits, `_`, `-` and `.`", name.escape_debug())]
+    #[error(
+        "the file name `{}` cannot stand in an `#include`: take letters, digits, `_`, `-` and `.`",
+        model_core::escape::line(name)
+    )]
     FileName {
         /// The name.
         name: String,

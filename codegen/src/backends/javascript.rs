@@ -2,13 +2,13 @@
 
 use model_core::{Chain, SymbolId, SymbolKind};
 
-use super::comments;
 use super::names::{Names, Rules, camel_case};
 use super::notation::{Notation, Scope};
 use super::unit::{self, Group, Shared, describe_form, form_name};
 use crate::lower::tree::{Function, Name, Statement};
 use crate::lower::{Pose, pose};
 use crate::program::{Form, Op};
+use model_core::escape::comments;
 
 /// Any word can be a property, but one is no ordinary one.
 const RULES: Rules = Rules { words: &["__proto__"], starts: &[], takes_letters: true };

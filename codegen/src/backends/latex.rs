@@ -2,12 +2,12 @@
 
 use model_core::{Chain, SymbolId};
 
-use super::comments;
 use super::notation::Notation;
 use super::unit::{self, Shared, describe_form};
 use crate::lower::pose;
 use crate::lower::tree::{Angle, Function, Name, Statement, Wave};
 use crate::program::Form;
+use model_core::escape::comments;
 
 /// The text of the file: a fragment to be included in a document that uses `amsmath`.
 pub(crate) fn write(shared: &Shared<'_>) -> String {

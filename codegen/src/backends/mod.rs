@@ -4,7 +4,6 @@
 //! are called, `notation` how expressions are put into text, `comments` how the declaration's words stay in comments.
 
 mod c;
-mod comments;
 mod error;
 mod javascript;
 mod latex;

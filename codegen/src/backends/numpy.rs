@@ -2,12 +2,12 @@
 
 use model_core::{Chain, SymbolId, SymbolKind};
 
-use super::comments;
 use super::names::{Names, Rules};
 use super::notation::{Notation, Scope};
 use super::unit::{self, Group, Shared, describe_form, form_name};
 use crate::lower::pose;
 use crate::lower::tree::{Function, Name, Statement};
+use model_core::escape::comments;
 
 /// Python gives names with two underscores in front a meaning of their own.
 const RULES: Rules = Rules { words: &RESERVED, starts: &["__"], takes_letters: true };

@@ -2,10 +2,10 @@
 
 use model_core::{Chain, ObservableId, Quantity, SymbolId, SymbolKind};
 
-use super::comments;
 use super::names::{Names, camel_case};
 use crate::build::Builds;
 use crate::program::{Form, Program};
+use model_core::escape::comments;
 
 /// What a generated file is made from.
 #[derive(Debug, Clone)]

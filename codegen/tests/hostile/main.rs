@@ -52,6 +52,12 @@ fn compiles(unit: &Unit<'_>, folder: &Path) {
                     &rustc,
                     &["--edition=2024", "-Dwarnings", "--crate-type=lib", "--emit=metadata", "lib.rs"],
                 );
+                // No word of a declaration is a test.
+                let rustdoc = PathBuf::from(std::env::var_os("RUSTDOC").unwrap_or_else(|| "rustdoc".into()));
+                let arguments = ["--test", "--edition=2024", "--crate-name=words", "lib.rs"];
+                let tests = Command::new(rustdoc).current_dir(folder).args(arguments).output().unwrap();
+                let said = String::from_utf8_lossy(&tests.stdout).into_owned();
+                assert!(tests.status.success() && said.contains("running 0 tests"), "{said}");
             }
             Language::C => {
                 let cc = PathBuf::from(std::env::var_os("CC").unwrap_or_else(|| "cc".into()));

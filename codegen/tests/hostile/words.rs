@@ -19,7 +19,7 @@ const DECLARATION: &str = "chain Words {
 }";
 
 /// What ends a comment, a line or a text in some language, and what does something once it is outside.
-const PIECES: [&str; 36] = [
+const PIECES: [&str; 42] = [
     "*/",
     "/*",
     "//",
@@ -56,6 +56,12 @@ const PIECES: [&str; 36] = [
     "${injected}",
     "é words ",
     "   ",
+    "```\npanic!(\"injected\");\n```\n",
+    "\n    panic!(\"injected\");\n",
+    "\n-      panic!(\"injected\");\n",
+    "> ~~~\n",
+    "<img src=x onerror=injected> [injected](x)",
+    "`code",
 ];
 
 fn words() -> impl Strategy<Value = String> {

@@ -117,6 +117,7 @@ fn rows(data: &Data) -> Rows {
         inputs: Vec::new(),
         labels: data.labels.clone(),
         in_order: true,
+        given: Vec::new(),
     }
 }
 
@@ -182,6 +183,7 @@ pub fn problem(data: &Data) -> Problem {
             .collect(),
         frames: frames.collect(),
         places: places(&given, Some(&columns(data, &[0.0; 6], &vec![[0.0; 12]; data.poses.len()]))),
+        offered: Vec::new(),
     }
 }
 

@@ -3,6 +3,7 @@
 mod direction;
 mod gravity;
 mod input;
+mod offered;
 mod order;
 mod pair;
 mod session;
@@ -132,6 +133,8 @@ pub enum Law {
     Setups(usize),
     /// A shape.
     Shape(Shape),
+    /// An effect of the caller's catalogue, by its number in [`Problem::offered`].
+    Offered(usize),
 }
 
 /// A hypothesis: columns with one variance.
@@ -252,6 +255,11 @@ impl Dictionary {
         let mut dictionary = Self::default();
         for offer in FAMILIES {
             offer(&setting, &mut dictionary);
+        }
+        if !problem.offered.is_empty() {
+            // What is told has to have a name that the caller knows.
+            dictionary.families.retain(|family| !family.is_named());
+            offered::offer(problem, places, policy, &mut dictionary);
         }
         dictionary.set_prices(&problem.rows, policy);
         dictionary

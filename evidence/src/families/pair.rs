@@ -14,7 +14,8 @@ pub(super) fn offer(setting: &Setting, dictionary: &mut Dictionary) {
             for order in 1..=orders(setting, place, joint) {
                 let functions = waves(joint, order).map(|wave| (Function::Wave(wave), 1.0)).to_vec();
                 let law = (Class::Pair, Law::Harmonic(order));
-                dictionary.add(law, place, Driver::Joint(joint), functions, extra(setting, order));
+                let extra = setting.policy.of_order(order);
+                dictionary.add(law, place, Driver::Joint(joint), functions, extra);
             }
         }
     }
@@ -33,11 +34,6 @@ fn orders(setting: &Setting, place: usize, joint: usize) -> usize {
     } else {
         0
     }
-}
-
-fn extra(setting: &Setting, order: usize) -> f64 {
-    let power = if order < 3 { setting.policy.harmonic_low } else { setting.policy.harmonic_high };
-    power * (order as f64).ln()
 }
 
 fn whirls(setting: &Setting, dictionary: &mut Dictionary) {

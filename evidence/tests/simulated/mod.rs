@@ -83,6 +83,7 @@ pub fn problem(plan: &Plan) -> Problem {
             inputs: Vec::new(),
             labels: None,
             in_order: true,
+            given: Vec::new(),
         },
         components: 2,
         residual,
@@ -95,5 +96,6 @@ pub fn problem(plan: &Plan) -> Problem {
             Frame { name: "tube".into(), tilts: Some([3, 4]), whirl: None },
         ],
         places: places.collect(),
+        offered: Vec::new(),
     }
 }

@@ -247,7 +247,13 @@ fn symbol(reader: &mut Reader<'_, '_>, documentation: String) -> Read<SymbolStat
     let Some(latex) = text else {
         return Err(reader.expected("the printed form in quotes").with_help(SYMBOL_HELP));
     };
-    reader.literal();
+    let place = reader.literal().map_or(reader.last, |literal| literal.span());
+    if let Some(fault) = crate::escape::latex_formula(&latex) {
+        let message = format!("the printed form has {fault}");
+        reader
+            .mistakes
+            .push(Mistake::new(place, message).with_help("write a formula that can stand within others"));
+    }
     reader.end_of_statement()?;
     Ok(SymbolStatement { documentation, name, latex })
 }

@@ -13,6 +13,7 @@ mod tokens;
 
 use codegen::Program;
 use codegen::backends::rust::{Pieces, Stages};
+use model_core::escape::markdown;
 use model_core::{Chain, Mistake, ObservableId, SymbolKind};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
@@ -104,7 +105,7 @@ pub fn module(chain: &Chain, names: &Names) -> Result<TokenStream, Vec<Mistake<S
     let documentation = doc(&if chain.documentation.is_empty() {
         format!("The chain `{}`.", chain.name)
     } else {
-        chain.documentation.clone()
+        markdown(&chain.documentation)
     });
     let instrument = instrument(&context, &documentation);
     let structures: String = KINDS.iter().map(|&kind| context.pieces.structure(kind)).collect();

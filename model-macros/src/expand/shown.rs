@@ -1,5 +1,6 @@
 //! What an observable shows, as the methods of every form say it: in words, as a type, into slices.
 
+use model_core::escape::markdown;
 use model_core::readings::Reading;
 use model_core::{ObservableId, ObservableKind};
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -13,7 +14,7 @@ pub fn meaning(context: &Context<'_>, id: ObservableId) -> (String, String) {
     let observable = context.chain.observable(id);
     let first = match observable.documentation.as_str() {
         "" => format!("The observable `{}`.", observable.name),
-        documentation => documentation.to_owned(),
+        documentation => markdown(documentation),
     };
     let frame = match observable.frame {
         None => "in the ground frame".to_owned(),

@@ -3,6 +3,7 @@
 use crate::words::{self, Answers, Tone, numbers};
 use calibration::diagnose::{Diagnosis, Rms};
 use maud::{Markup, PreEscaped, html};
+use model_core::escape::markup;
 use observe::SiUnit;
 
 use super::chain;
@@ -216,14 +217,14 @@ fn bars(name: &str, [before, after]: [(f64, String); 2], noise: f64, changed: bo
         format!(
             "<path class=\"bar {class}\" d=\"M1 {y}h{end:.1}v18h-{end:.1}z\"/><text x=\"{text:.1}\" y=\"{}\" class=\"label\">{}</text>",
             y + 14,
-            super::svg::escaped(told)
+            markup(told)
         )
     };
     let (height, bars) =
         if changed { (50, bar("b", 4, &before) + &bar("a", 27, &after)) } else { (26, bar("a", 4, &after)) };
     let svg = format!(
         "<svg viewBox=\"0 0 310 {height}\" role=\"img\" aria-label=\"{}\">{bars}<path class=\"tick\" d=\"M{tick:.1} 0V{height}\"/></svg>",
-        super::svg::escaped(&label)
+        markup(&label)
     );
     html! {
         p.quiet style="margin:10px 0 2px" { (name) }

@@ -3,6 +3,7 @@
 use crate::words::{self, numbers};
 use calibration::diagnose::{BodyShown, Diagnosis, EffectFound, ErrorState};
 use maud::{Markup, PreEscaped, html};
+use model_core::escape::markup;
 
 /// Effects of one body that the drawing names.
 const NAMED: usize = 3;
@@ -130,6 +131,6 @@ fn glyph(body: &BodyShown, marked: bool) -> String {
     let mark = if marked { "<path class=\"solid\" d=\"M36 1l6 6-6 6-6-6z\"/>" } else { "" };
     format!(
         "<svg viewBox=\"0 0 44 40\" aria-hidden=\"true\">{shape}<text x=\"23\" y=\"27\" text-anchor=\"middle\">{}</text>{mark}</svg>",
-        super::svg::escaped(&letter)
+        markup(&letter)
     )
 }

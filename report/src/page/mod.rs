@@ -13,6 +13,7 @@ mod tables;
 
 use crate::words;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+use model_core::escape;
 
 use crate::Reported;
 use rows::Rows;
@@ -87,7 +88,7 @@ pub fn excerpt(reported: &Reported<'_>) -> String {
 
 /// A page around what it shows.
 fn document(reported: &Reported<'_>, answers: &words::Answers, rows: &Rows, body: Markup) -> String {
-    html! {
+    let page = html! {
         (DOCTYPE)
         html lang="en" {
             head {
@@ -103,8 +104,9 @@ fn document(reported: &Reported<'_>, answers: &words::Answers, rows: &Rows, body
                 script { (PreEscaped(include_str!("script.js"))) }
             }
         }
-    }
-    .into_string()
+    };
+    // What the page's script reads has no such letter left, and its markup has none of its own.
+    escape::page(&page.0).into_owned()
 }
 
 /// What it takes to make the page again.

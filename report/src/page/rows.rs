@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::words::numbers::{self, Reading};
+use model_core::escape::json_in_script;
 use observe::SiUnit;
 
 use crate::Reported;
@@ -236,7 +237,7 @@ fn thinned(drawn: &[usize], aside: &[bool], bytes: usize) -> Vec<usize> {
 
 /// Text as JSON has it, and as markup lets it stand in a script.
 fn quoted(text: &str) -> String {
-    serde_json::Value::from(text).to_string().replace('<', "\\u003c")
+    json_in_script(&serde_json::Value::from(text).to_string())
 }
 
 /// Four significant digits: finer than a picture shows.

@@ -1,5 +1,6 @@
 //! Pictures as SVG: axes with round numbers, one path for each layer of marks.
 
+use model_core::escape::markup;
 use std::fmt::Write as _;
 
 /// A shape that marks are drawn as, so that colour is never all that tells.
@@ -172,7 +173,7 @@ impl Picture {
             TOP + 8.0,
             right - length - 5.0,
             TOP + 12.0,
-            escaped(told)
+            markup(told)
         );
     }
 
@@ -192,16 +193,16 @@ impl Picture {
             "<svg viewBox=\"0 0 {:.0} {:.0}\" role=\"img\" aria-label=\"{}\"",
             self.width,
             self.height,
-            escaped(name)
+            markup(name)
         );
         if !self.columns[0].is_empty() {
             let _ = write!(
                 svg,
                 " class=\"rows\" data-x=\"{}\" data-before=\"{}\" data-after=\"{}\" data-range=\"{:e},{:e},{:e},{:e}\" \
                  data-box=\"{LEFT},{TOP},{:.1},{:.1}\"",
-                escaped(&self.columns[0]),
-                escaped(&self.columns[1]),
-                escaped(&self.columns[2]),
+                markup(&self.columns[0]),
+                markup(&self.columns[1]),
+                markup(&self.columns[2]),
                 self.x.low,
                 self.x.high,
                 self.y.low,
@@ -250,9 +251,9 @@ impl Picture {
              <text transform=\"translate(11 {:.1}) rotate(-90)\" text-anchor=\"middle\" class=\"label\">{}</text>",
             f64::midpoint(LEFT, right),
             self.height - 6.0,
-            escaped(&self.x.label),
+            markup(&self.x.label),
             f64::midpoint(TOP, bottom),
-            escaped(&self.y.label)
+            markup(&self.y.label)
         );
     }
 }
@@ -265,11 +266,6 @@ fn number(tick: f64) -> String {
     let rounded = format!("{tick:.6}");
     let short = rounded.trim_end_matches('0').trim_end_matches('.');
     if short == "-0" || short.is_empty() { "0".to_owned() } else { short.replace('-', "−") }
-}
-
-/// Text as markup has it.
-pub fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 #[cfg(test)]

@@ -31,6 +31,27 @@ pub fn caution(caution: &Caution) -> String {
             short(*before, *unit),
             short(*after, *unit)
         ),
+        Caution::FollowsOrder { effects, remembers, setups, column } => {
+            let why = match (column, setups, remembers) {
+                (Some(column), ..) => format!("the rows differ by their `{column}`, and that"),
+                (None, 2.., _) => {
+                    format!("the rows fall into about {setups} set-ups, and differences between them")
+                }
+                (None, _, true) => "each row is off like the row before it, and that".to_owned(),
+                (None, ..) => "noise".to_owned(),
+            };
+            let explain = if column.is_none() && *setups > 1 { "explain" } else { "explains" };
+            let next = match column {
+                Some(_) => "Rows with one value of it belong together.".to_owned(),
+                None => "If the rows were measured in sessions, name their column: `group = \"…\"` in the study. To decide, measure the \
+                         same poses again in another order."
+                    .to_owned(),
+            };
+            format!(
+                "{} stood out, but {why} {explain} these data as well. It was left out. {next}",
+                effects.join("; ")
+            )
+        }
         Caution::WorseElsewhere { before, after, unit } => format!(
             "In regions of the joints that were left out it is worse with the effects: {} before, {} after. Correct only \
              where these data lie.",

@@ -59,6 +59,12 @@ pub(super) fn steps(diagnosis: &Diagnosis, folder: Option<&str>) -> Vec<Step> {
                 .to_owned(),
         ));
     }
+    if let Some(column) = session_column(diagnosis) {
+        steps.push(step(
+            "Say which rows belong together",
+            format!("Write in the study: `group = {column:?}`. Then calibrate again: the errors and their ± change."),
+        ));
+    }
     if is_misread(diagnosis) {
         steps.push(step(
             "Do not correct with it yet",
@@ -127,6 +133,14 @@ fn missing(diagnosis: &Diagnosis, numbers: usize) -> usize {
 fn observations_more(count: usize) -> String {
     let observations = if count == 1 { "observation" } else { "observations" };
     format!("{count} {observations} more, at poses spread over the joints")
+}
+
+/// A column that the study does not name, whose values say which rows belong together.
+fn session_column(diagnosis: &Diagnosis) -> Option<&str> {
+    diagnosis.cautions.iter().find_map(|caution| match caution {
+        Caution::FollowsOrder { column, .. } => column.as_deref(),
+        _ => None,
+    })
 }
 
 /// What to measure where nothing confirms what was estimated: hardly any number is left over, or data that nobody fitted are foretold

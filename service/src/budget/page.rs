@@ -3,6 +3,7 @@
 use claims::checker::Verdict;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use model_core::budget::Curves;
+use model_core::escape;
 use model_core::{Chain, Symbol};
 use observe::SiUnit;
 use report::letters;
@@ -26,7 +27,7 @@ const EVERY: usize = 3;
 #[must_use]
 pub fn page(shown: &Shown<'_>) -> String {
     let chain = shown.chain;
-    html! {
+    let page = html! {
         (DOCTYPE)
         html lang="en" {
             head {
@@ -52,8 +53,8 @@ pub fn page(shown: &Shown<'_>) -> String {
                 footer.quiet { p { "trueaxis " (env!("CARGO_PKG_VERSION")) ": " code { (shown.command) } } }
             }
         }
-    }
-    .into_string()
+    };
+    escape::page(&page.0).into_owned()
 }
 
 fn name<'a>(chain: &'a Chain, one: &Measured) -> &'a str {

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use model_core::Chain;
 use model_core::budget::{Budget, Summary};
+use model_core::escape::Screen;
 
 use super::tables::{PARTS, samples};
 use super::{Designed, Measured, reading_unit, short, size};
@@ -13,21 +14,29 @@ use report::style::HEADING;
 const FIRST: usize = 5;
 
 /// One observable.
-pub fn as_text(chain: &Chain, measured: &Measured) -> String {
+pub fn as_text(chain: &Chain, measured: &Measured) -> Screen {
     let mut out = influences(chain, &measured.budget);
     if let Some(designed) = &measured.designed {
-        out.push('\n');
-        out.push_str(&tolerances(chain, &measured.budget, designed));
+        out.append(&"\n".into());
+        out.append(&tolerances(chain, &measured.budget, designed));
     }
     out
 }
 
-fn influences(chain: &Chain, budget: &Budget) -> String {
+/// Lines below their heading.
+fn below(heading: &str, lines: &str) -> Screen {
+    let mut out = Screen::default();
+    out.styled([&HEADING, &format_args!("{HEADING:#}")], heading);
+    out.append(&format!("\n{lines}").into());
+    out
+}
+
+fn influences(chain: &Chain, budget: &Budget) -> Screen {
     let (unit, factor) = reading_unit(budget.unit(chain));
     let name = &chain.observable(budget.observable).name;
     let width = budget.influences.iter().map(|influence| chain.symbol(influence.error).name.len());
     let width = width.max().unwrap_or(0).max("root sum square".len());
-    let mut out = format!("{HEADING}{name}, influences in {unit}{HEADING:#}\n");
+    let mut out = format!("  {:width$}  {:>14}  {:>12}  {:>12}\n", "error", "size", "largest", "rms");
     let mut row = |name: &str, size: String, summary: &Summary| {
         let [sup, rms] = [summary.sup, summary.rms].map(|value| short(value * factor));
         let _ = writeln!(out, "  {name:width$}  {size:>14}  {sup:>12}  {rms:>12}");
@@ -38,21 +47,18 @@ fn influences(chain: &Chain, budget: &Budget) -> String {
     }
     row("worst case", String::new(), &budget.worst_case);
     row("root sum square", String::new(), &budget.root_sum_square);
-    let heading = format!("  {:width$}  {:>14}  {:>12}  {:>12}\n", "error", "size", "largest", "rms");
-    let title_end = out.find('\n').map_or(0, |end| end + 1);
-    out.insert_str(title_end, &heading);
     if budget.is_sampled {
         out.push_str("  some rms comes from scattered poses and is right to about a percent\n");
     }
-    out
+    below(&format!("{name}, influences in {unit}"), &out)
 }
 
-fn tolerances(chain: &Chain, budget: &Budget, designed: &Designed) -> String {
+fn tolerances(chain: &Chain, budget: &Budget, designed: &Designed) -> Screen {
     let (unit, factor) = reading_unit(budget.unit(chain));
     let name = &chain.observable(budget.observable).name;
     let told = |value: f64| format!("{:.4}", value * factor);
     let registered = if designed.registered { ", after registration" } else { "" };
-    let mut out = format!("{HEADING}{name}, what the tolerances come to, in {unit}{registered}{HEADING:#}\n");
+    let mut out = String::new();
     let mut line = |label: &str, cells: &[String]| {
         let _ = write!(out, "  {label:22}");
         cells.iter().for_each(|cell| {
@@ -124,5 +130,5 @@ fn tolerances(chain: &Chain, budget: &Budget, designed: &Designed) -> String {
             let _ = writeln!(out, "    {:20}  {:>16}  now {}", symbol.name, then, size(tolerance.size, unit));
         }
     }
-    out
+    below(&format!("{name}, what the tolerances come to, in {unit}{registered}"), &out)
 }

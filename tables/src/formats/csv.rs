@@ -277,6 +277,10 @@ impl<R: Read + Send> TableReader for Reader<R> {
         &self.table.header
     }
 
+    fn gives_any_label(&self) -> bool {
+        true
+    }
+
     fn read(&mut self, wanted: &[Wanted], at_most: usize) -> Result<Chunk, DataError> {
         let mut chunk = Chunk { columns: super::no_cells(wanted), ..Chunk::default() };
         let mut bytes = 0;

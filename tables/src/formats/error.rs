@@ -2,18 +2,8 @@
 
 use std::fmt;
 
+pub use model_core::escape::clipped;
 use thiserror::Error;
-
-/// Letters of a cell that a message shows at most.
-const SHOWN: usize = 60;
-
-/// The start of a text, as a message shows it.
-pub fn clipped(text: &str) -> String {
-    match text.char_indices().nth(SHOWN) {
-        Some((end, _)) => format!("{}…", text.get(..end).unwrap_or_default()),
-        None => text.to_owned(),
-    }
-}
 
 /// The place of one cell.
 #[derive(Debug, Clone, PartialEq, Eq)]

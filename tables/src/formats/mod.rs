@@ -153,6 +153,11 @@ pub trait TableReader: Send {
     /// The columns there are.
     fn header(&self) -> &[ColumnName];
 
+    /// Whether every column can be had as labels, whatever its cells hold.
+    fn gives_any_label(&self) -> bool {
+        false
+    }
+
     /// The next rows, at most so many, and fewer where they are long; no rows at the end.
     ///
     /// # Errors

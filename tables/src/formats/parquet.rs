@@ -4,6 +4,9 @@
 //! what comes as a stream is held in memory as it is; of a file, pages are read as they are needed. Cells are unpacked chunk by
 //! chunk, the columns of a chunk on all processors.
 
+#[cfg(test)]
+#[allow(clippy::expect_used)]
+mod attacks;
 mod bounded;
 mod cells;
 mod header;
@@ -30,6 +33,7 @@ pub use write::{TextType, Writer};
 use super::header::{ColumnName, unique};
 use super::{
     Cell, Cells, Chunk, DataError, Extent, Form, Input, Kept, Options, Ranged, TableReader, Texts, Wanted,
+    clipped,
 };
 use bounded::BoundedFile;
 use open::Open;
@@ -147,15 +151,25 @@ impl Reader {
 
     /// Refuses times where numbers are wanted: those that a file holds as nanoseconds would be whole numbers of a thousand million.
     fn check_times(&self, wanted: &[Wanted]) -> Result<(), DataError> {
-        let is_time = |want: &&Wanted| {
-            matches!(want.form, Form::Number(_)) && Time::of(&self.types[want.column]).is_some()
+        let why = |want: &Wanted| {
+            let of_type = &self.types[want.column];
+            if Time::of(of_type).is_some() {
+                Some("holds times, which are no numbers: write seconds since some instant")
+            } else if times::is_interval(of_type) {
+                Some("holds intervals of months, days and milliseconds, which are no numbers: write seconds")
+            } else {
+                None
+            }
         };
-        let Some(want) = wanted.iter().find(is_time) else { return Ok(()) };
-        Err(DataError::UnusableColumn {
-            file: self.source.clone(),
-            column: self.header[want.column].full.clone(),
-            why: "holds times, which are no numbers: write seconds since some instant".to_owned(),
-        })
+        let of_numbers = wanted.iter().filter(|want| matches!(want.form, Form::Number(_)));
+        match of_numbers.filter_map(|want| Some((want, why(want)?))).next() {
+            None => Ok(()),
+            Some((want, why)) => Err(DataError::UnusableColumn {
+                file: self.source.clone(),
+                column: self.header[want.column].full.clone(),
+                why: why.to_owned(),
+            }),
+        }
     }
 
     /// The place of a cell of this row, counted from 0.
@@ -189,13 +203,14 @@ impl Reader {
         let number = match field {
             Field::Double(number) => Some(number),
             Field::Float(number) => Some(f64::from(number)),
+            Field::Float16(number) => Some(number.to_f64()),
             Field::Null => return Err(DataError::EmptyCell { cell: self.cell(column, row) }),
             _ => text.trim().parse().ok(),
         };
         match number {
             Some(number) if number.is_finite() => Ok(number),
-            Some(_) => Err(DataError::NotFinite { cell: self.cell(column, row), text }),
-            None => Err(DataError::NotANumber { cell: self.cell(column, row), text }),
+            Some(_) => Err(DataError::NotFinite { cell: self.cell(column, row), text: clipped(&text) }),
+            None => Err(DataError::NotANumber { cell: self.cell(column, row), text: clipped(&text) }),
         }
     }
 }
@@ -207,6 +222,8 @@ fn text(field: &Field) -> String {
         Field::Str(text) => text.clone(),
         Field::Double(number) => format!("{number:?}"),
         Field::Float(number) => format!("{number:?}"),
+        // Of half precision the shortest digits are those of another number in any other precision.
+        Field::Float16(number) => format!("{:?}", number.to_f64()),
         // Without digits behind the point there is none.
         Field::Decimal(_) => field.to_string().trim_end_matches('.').to_owned(),
         other => other.to_string(),
@@ -225,6 +242,12 @@ impl TypedCells {
                     let count = place.and_then(|at| Time::count(&self.values, at));
                     count.map_or_else(String::new, |count| time.text(count))
                 });
+                return Ok(texts.collect());
+            }
+            if times::is_interval(&self.of_type) {
+                let texts = self
+                    .places()
+                    .map(|place| place.map_or_else(String::new, |at| times::interval(&self.values, at)));
                 return Ok(texts.collect());
             }
             self.fields().map(|field| Ok(text(&field?))).collect()
@@ -392,6 +415,24 @@ mod tests {
             message(b"az_deg,note\n1,Mars\n"),
             message(&SNAPPY[..SNAPPY.len() - 20]),
         ]);
+    }
+
+    #[test]
+    fn half_precision_is_exact_and_intervals_are_no_numbers() {
+        let (half, interval): (&[u8], &[u8]) = (
+            include_bytes!("../../tests/reference/half.parquet"),
+            include_bytes!("../../tests/reference/interval.parquet"),
+        );
+        let read = |bytes: &[u8], form, rows| {
+            let chunk = open(bytes).and_then(|mut reader| reader.read(&[Wanted { column: 0, form }], rows));
+            chunk.map(|chunk| chunk.columns).map_err(|error| error.to_string())
+        };
+        let labels = |of: [&str; 3]| Ok(vec![Cells::Labels(of.map(str::to_owned).to_vec())]);
+        assert_eq!(read(half, Form::Number(1.0), 1), Ok(vec![Cells::Numbers(vec![0.099_975_585_937_5])]));
+        assert_eq!(read(half, Form::Label, 3), labels(["0.0999755859375", "", "-5.960464477539063e-8"]));
+        assert_eq!(read(interval, Form::Label, 3), labels(["P2M3DT1.500S", "", "P0M0DT0.000S"]));
+        let why = "run.parquet: column `interval` holds intervals of months, days and milliseconds, which are no numbers: write seconds";
+        assert_eq!(read(interval, Form::Number(1.0), 3), Err(why.to_owned()));
     }
 
     /// Every byte of a good file, spoiled: an error or other numbers, no panic.

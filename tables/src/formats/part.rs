@@ -34,6 +34,10 @@ impl<R: DerefMut<Target: TableReader> + Send> TableReader for Stretches<R> {
         self.reader.header()
     }
 
+    fn gives_any_label(&self) -> bool {
+        self.reader.gives_any_label()
+    }
+
     fn read(&mut self, wanted: &[Wanted], at_most: usize) -> Result<Chunk, DataError> {
         while let Some(next) = self.left.front() {
             if self.at >= next.end {
@@ -116,6 +120,10 @@ impl<R: DerefMut<Target: TableReader> + Send> TableReader for Within<'_, R> {
 
     fn header(&self) -> &[ColumnName] {
         self.reader.header()
+    }
+
+    fn gives_any_label(&self) -> bool {
+        self.reader.gives_any_label()
     }
 
     fn read(&mut self, wanted: &[Wanted], at_most: usize) -> Result<Chunk, DataError> {

@@ -63,3 +63,12 @@ with open("claims.parquet", "r+b") as file:
     # The page is longer by what the claim is longer; the table of contents points to pages by their places, so the padding
     # before the dictionary's data would move them: the data page is read through the dictionary's offset alone.
     file.write(head[:at] + claim + head[at + 1 :])
+
+# half.parquet: half precision. interval.parquet: months, days and milliseconds, which DuckDB writes.
+import duckdb
+import numpy as np
+
+half = pa.array(np.array([0.1, 0, -6e-8], np.float16), mask=np.array([False, True, False]))
+pq.write_table(pa.table({"half": half}), "half.parquet")
+intervals = "(INTERVAL '2 months 3 days 1.5 seconds'), (NULL), (INTERVAL '0 seconds')"
+duckdb.sql(f"COPY (SELECT * FROM (VALUES {intervals}) t(\"interval\")) TO 'interval.parquet' (FORMAT parquet)")

@@ -171,6 +171,11 @@ impl Columns {
         Probed::new(chain, &observations.poses, parameters, values, places)?.columns(observations)
     }
 
+    /// Every place with the derivative by a unit there.
+    pub(crate) fn probes(&self) -> impl Iterator<Item = (Place, &[f64])> {
+        self.places.iter().enumerate().map(|(number, place)| (*place, self.probes.col_as_slice(number)))
+    }
+
     /// The derivative by a unit at a place; `None` where these observations hardly see it.
     #[must_use]
     pub fn probe(&self, place: Place) -> Option<&[f64]> {

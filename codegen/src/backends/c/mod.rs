@@ -11,13 +11,13 @@ mod words;
 use self::code::{C, real};
 pub(crate) use self::entries::REPEATED;
 use self::words::RULES;
-use super::comments;
 use super::names::{Names, snake_case};
 use super::notation::{Notation, Scope};
 use super::unit::{Function, Group, Precision, Shared, describe_form, form_name};
 use crate::lower::pose;
 use crate::program::Form;
 use crate::vector;
+use model_core::escape::comments;
 
 /// How the files are used.
 const USE: &str = "

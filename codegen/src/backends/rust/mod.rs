@@ -10,12 +10,12 @@ mod types;
 
 use self::code::{Constants, RULES, Rust};
 use self::types::ALLOW;
-use super::comments;
 use super::names::{Names, camel_case};
 use super::notation::Scope;
 use super::unit::{Function, Group, Shared, describe_form, form_name};
 use crate::lower::pose;
 use crate::program::Form;
+use model_core::escape::comments;
 
 pub use self::code::Stages;
 pub use self::pieces::Pieces;

@@ -3,9 +3,9 @@
 use model_core::{Chain, Quantity, SymbolId, SymbolKind};
 
 use super::code::real;
-use crate::backends::comments;
 use crate::backends::names::Names;
 use crate::backends::unit::{Group, Precision};
+use model_core::escape::comments;
 
 /// What stands before items, so that nobody is warned of what he does not use.
 pub(super) const ALLOW: &str = "#[allow(dead_code, non_snake_case)]";

@@ -65,6 +65,22 @@ impl Time {
     }
 }
 
+/// Whether a column holds intervals: months, days and milliseconds, which have no common unit.
+pub(super) fn is_interval(column: &Type) -> bool {
+    column.get_basic_info().converted_type() == ConvertedType::INTERVAL
+}
+
+/// The interval at a place as ISO 8601 writes it: `P2M3DT1.500S`; nothing where the file holds fewer bytes than one has.
+///
+/// Source: Parquet, Logical Types, INTERVAL: three unsigned whole numbers of 32 bits, the lowest byte first.
+pub(super) fn interval(values: &Values, at: usize) -> String {
+    let Values::Fixed(values) = values else { return String::new() };
+    let parts = values.get(at).map(|value| value.data().as_chunks::<4>().0).unwrap_or_default();
+    let &[months, days, milliseconds] = parts else { return String::new() };
+    let [months, days, milliseconds] = [months, days, milliseconds].map(u32::from_le_bytes);
+    format!("P{months}M{days}DT{}.{:03}S", milliseconds / 1000, milliseconds % 1000)
+}
+
 /// A time of day, with as many digits as there are parts.
 fn of_day(count: i64, parts: i64) -> String {
     let (seconds, rest) = (count.div_euclid(parts), count.rem_euclid(parts));

@@ -1,0 +1,151 @@
+//! Causes against what hangs together along the rows, through the whole command: sessions that nobody declared, and an effect along
+//! a slow path. The instrument is simulated here, by turns written out, and by nothing of the product.
+
+use std::f64::consts::PI;
+
+use serde_json::Value;
+
+use crate::support::Folder;
+
+const ARCSEC: f64 = PI / 648_000.0;
+
+const MOUNT: &str = "chain Mount {
+    body fork on ground {
+        position_error: Rx(tilt_east), Ry(tilt_north);
+        motion: Rz(-azimuth);
+        motion_error: Rz(-azimuth_index);
+    }
+    body tube on fork {
+        position_error: Ry(askew);
+        motion: Rx(elevation);
+        motion_error: Rx(elevation_index), Rz(collimation);
+    }
+    observe sight: direction(0, 1, 0) of tube;
+}
+";
+
+const STUDY: &str = "chain = \"mount.chain\"
+data = \"measured.csv\"
+[observed]
+kind = \"direction\"
+x = \"x\"
+y = \"y\"
+z = \"z\"
+";
+
+/// Numbers that look drawn: a linear congruence, and the sum of twelve for a normal one.
+struct Drawn(u64);
+
+impl Drawn {
+    fn even(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn normal(&mut self) -> f64 {
+        (0..12).map(|_| self.even()).sum::<f64>() - 6.0
+    }
+}
+
+fn about_x([x, y, z]: [f64; 3], by: f64) -> [f64; 3] {
+    [x, y * by.cos() - z * by.sin(), y * by.sin() + z * by.cos()]
+}
+
+fn about_y([x, y, z]: [f64; 3], by: f64) -> [f64; 3] {
+    [x * by.cos() + z * by.sin(), y, z * by.cos() - x * by.sin()]
+}
+
+fn about_z([x, y, z]: [f64; 3], by: f64) -> [f64; 3] {
+    [x * by.cos() - y * by.sin(), x * by.sin() + y * by.cos(), z]
+}
+
+/// Where the mount points, with the tilts of its base and what bends its fork about x.
+fn sight(azimuth: f64, elevation: f64, base: [f64; 2], fork: f64) -> [f64; 3] {
+    let tube = about_x(about_z([0.0, 1.0, 0.0], -30.0 * ARCSEC), elevation + 12.0 * ARCSEC);
+    let on_fork = about_x(about_y(tube, 8.0 * ARCSEC), fork);
+    about_x(about_y(about_z(on_fork, -azimuth - 20.0 * ARCSEC), base[1]), base[0])
+}
+
+/// A line of the data: readings, what was seen with 2″ of noise a component, and another cell.
+fn line(drawn: &mut Drawn, [azimuth, elevation]: [f64; 2], seen: [f64; 3], cell: &str) -> String {
+    let (right, up) = ([azimuth.cos(), -azimuth.sin(), 0.0], [0.0, 0.0, 1.0]);
+    let (along, across) = (2.0 * ARCSEC * drawn.normal() / elevation.cos(), 2.0 * ARCSEC * drawn.normal());
+    let mut noisy = [0.0; 3];
+    for axis in 0..3 {
+        noisy[axis] = seen[axis] + across * right[axis] + along * (up[axis] - seen[2] * seen[axis]);
+    }
+    let length = noisy.iter().map(|part| part * part).sum::<f64>().sqrt();
+    let [x, y, z] = noisy.map(|part| part / length);
+    format!("{azimuth:.12},{elevation:.12},{x:.15},{y:.15},{z:.15},{cell}\n")
+}
+
+fn report(folder: &Folder) -> Value {
+    let run = folder.trueaxis(&["calibrate", "study.toml", "--format", "json"]);
+    assert_eq!(run.code, 0, "{run}");
+    serde_json::from_str(&run.stdout).expect("JSON")
+}
+
+fn causes(report: &Value) -> Vec<String> {
+    let effects = report["effects"].as_array().expect("a list").iter();
+    effects.map(|effect| format!("{} {}", effect["driver"], effect["dof"])).collect()
+}
+
+/// Six sessions, each levelled anew by some 5″ and in its own band of azimuth.
+fn sessions(seed: u64) -> String {
+    let mut drawn = Drawn(seed);
+    let mut data = String::from("azimuth,elevation,x,y,z,night\n");
+    for session in 0..6 {
+        let base = [5.0 * ARCSEC * drawn.normal(), 5.0 * ARCSEC * drawn.normal()];
+        for _ in 0..33 {
+            let azimuth = (40.0 * f64::from(session) + 40.0 * drawn.even()).to_radians();
+            let elevation = (20.0 + 60.0 * drawn.even()).to_radians();
+            let seen = sight(azimuth, elevation, base, 0.0);
+            data += &line(&mut drawn, [azimuth, elevation], seen, &format!("n{session}"));
+        }
+    }
+    data
+}
+
+#[test]
+fn sessions_that_nobody_declared_are_no_cause_and_their_column_is_told() {
+    let folder = Folder::new("weighed-sessions");
+    let mut told = 0;
+    for seed in [11, 12, 13] {
+        folder.write("mount.chain", MOUNT).write("study.toml", STUDY).write("measured.csv", sessions(seed));
+        let report = report(&folder);
+        assert_eq!(causes(&report), Vec::<String>::new(), "seed {seed}: {:?}", report["cautions"]);
+        let cautions = report["cautions"].as_array().expect("a list");
+        let of_order = cautions.iter().find(|caution| caution["kind"] == "follows the order of the rows");
+        if let Some(caution) = of_order {
+            told += 1;
+            assert!(caution["column"].is_null() || caution["column"] == "night", "{caution}");
+        }
+    }
+    assert!(told > 0, "a search that takes rows for independent finds causes in such data");
+    // Declared, as the answer asks for, they are no cause either.
+    folder.write("study.toml", STUDY.replacen('\n', "\ngroup = \"night\"\n", 1));
+    assert_eq!(causes(&report(&folder)), Vec::<String>::new());
+}
+
+#[test]
+fn an_effect_along_a_slow_path_is_found_and_not_taken_for_memory() {
+    let mut drawn = Drawn(5);
+    let mut data = String::from("azimuth,elevation,x,y,z,temperature\n");
+    for row in 0..240 {
+        let part = f64::from(row) / 240.0;
+        let wave = |turns: f64| 1.0 - (2.0 * ((turns * part).fract()) - 1.0).abs();
+        let [azimuth, elevation] = [360.0 * wave(2.0), 20.0 + 60.0 * wave(3.4)].map(f64::to_radians);
+        let temperature = 20.0 + 5.0 * (2.0 * PI * 1.3 * part).sin();
+        let seen =
+            sight(azimuth, elevation, [15.0 * ARCSEC, -9.0 * ARCSEC], 3.0 * ARCSEC * (temperature - 20.0));
+        data += &line(&mut drawn, [azimuth, elevation], seen, &format!("{temperature:.4}"));
+    }
+    let folder = Folder::new("weighed-path");
+    let search = "[search]\ninputs = [\"temperature\"]\n";
+    folder
+        .write("mount.chain", MOUNT)
+        .write("study.toml", format!("{STUDY}{search}"))
+        .write("measured.csv", data);
+    let report = report(&folder);
+    assert_eq!(causes(&report), ["\"temperature\" \"Rx\""], "{:?}", report["cautions"]);
+}

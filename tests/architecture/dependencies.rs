@@ -65,6 +65,10 @@ const MAY_USE: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "trueaxis-class",
+        &["trueaxis-core", "trueaxis-codegen", "trueaxis-tables", "trueaxis-observe", "trueaxis-fit"],
+    ),
+    (
         "trueaxis-report",
         &[
             "trueaxis-core",
@@ -137,6 +141,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "trueaxis-network",
             "trueaxis-study",
             "trueaxis-calibration",
+            "trueaxis-class",
             "trueaxis-report",
             "trueaxis-service",
             "trueaxis-init",

@@ -12,6 +12,7 @@ const REGISTRIES: &[&str] = &[
     "tables/src/formats",
     "calibration/src/misread/hypotheses",
     "evidence/src/families",
+    "class/src/instruments",
 ];
 
 #[test]

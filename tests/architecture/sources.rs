@@ -20,6 +20,7 @@ pub const LIBRARIES: &[&str] = &[
     "study/src",
     "calibration/src",
     "evidence/src",
+    "class/src",
     "report/src",
     "service/src",
     "init/src",

@@ -33,9 +33,12 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         pages.write(&file, |mut out| Man::new(command).render(&mut out).map_err(fail))
     };
     page("trueaxis", whole.clone())?;
-    for command in whole.get_subcommands() {
-        let name = format!("trueaxis-{}", command.get_name());
-        let typed = format!("trueaxis {}", command.get_name());
+    let mut left: Vec<(String, &clap::Command)> =
+        whole.get_subcommands().map(|command| ("trueaxis".to_owned(), command)).collect();
+    while let Some((above, command)) = left.pop() {
+        let typed = format!("{above} {}", command.get_name());
+        left.extend(command.get_subcommands().map(|own| (typed.clone(), own)));
+        let name = typed.replace(' ', "-");
         page(&name, command.clone().display_name(name.clone()).bin_name(typed))?;
     }
     pages.finish()?;

@@ -5,6 +5,7 @@ pub mod bound;
 pub mod budget;
 pub mod calibrate;
 pub mod check;
+mod class;
 mod completions;
 pub mod derive;
 mod eval;
@@ -68,6 +69,7 @@ commands! {
     Eval => eval,
     Calibrate => calibrate,
     Apply => apply,
+    Class => class,
     Completions => completions,
     Manual => manual,
 }

@@ -1,6 +1,7 @@
 //! The pages to play with: their code is what `generate` writes, and a browser shows the numbers that `eval` computes.
 
 use std::fs;
+use std::path::Path;
 use std::process::Command;
 
 use crate::support::{Folder, root};
@@ -51,14 +52,20 @@ fn the_pages_run_what_generate_writes() {
 
 /// A page as a browser leaves it, and what it wrote to its console; `None` where no browser is.
 fn browse(page: &str) -> Option<(String, String)> {
+    browse_file(&root().join("docs/src/interactive"), page)
+}
+
+/// The same of a page of any folder.
+pub fn browse_file(folder: &Path, page: &str) -> Option<(String, String)> {
     let browser = testkit::tool(testkit::BROWSER)?;
     let profile = Folder::new(&format!("book-browser-{}", page.replace(|c: char| !c.is_alphanumeric(), "-")));
-    let address = format!("file://{}/docs/src/interactive/{page}", root().display());
+    let address = format!("file://{}/{page}", folder.display());
     let output = Command::new(browser)
         .args([
             "--headless",
             "--no-sandbox",
             "--disable-gpu",
+            "--window-size=1280,720",
             "--no-first-run",
             "--disable-background-networking",
         ])

@@ -6,7 +6,9 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod decks;
 mod interactive;
+mod lessons;
 mod links;
 mod page;
 mod signatures;

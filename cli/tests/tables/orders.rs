@@ -35,11 +35,10 @@ fn files_whose_columns_differ_in_order_are_read_by_their_own_headers() {
         .write("b.csv", table(second))
         .write("c.csv", turned(header, "free") + &other);
     let answer = |second: &str| {
+        folder.write("second.csv", folder.read(second));
         folder.write(
             "s.toml",
-            format!(
-                "chain = \"shaft.chain\"\ndata = [\"a.csv\", \"{second}\"]\n[observed]\nkind = \"direction\"\n[hold_out]\nfolds = 3\n"
-            ),
+            "chain = \"shaft.chain\"\ndata = [\"a.csv\", \"second.csv\"]\n[observed]\nkind = \"direction\"\n[hold_out]\nfolds = 3\n",
         );
         let run = words(&folder, "calibrate s.toml --dry-run --format json");
         done(&run);

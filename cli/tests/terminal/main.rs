@@ -60,6 +60,7 @@ fn every_command_has_a_manual_page() {
         let page = read(&format!("trueaxis-{command}"));
         assert!(page.contains(".SH NAME") && page.contains(".SH SYNOPSIS"), "{command}: {page}");
     }
+    assert!(read("trueaxis-class-grade").contains("KEY.toml"));
     // Flags that are kept for those who know them are not offered.
     assert!(!read("trueaxis-bound").contains("former name"));
 }

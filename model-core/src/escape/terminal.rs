@@ -116,7 +116,8 @@ mod tests {
     fn a_screen_has_no_style_but_ours() {
         let mut screen = Screen::default();
         screen.styled([&"\u{1b}[1m", &"\u{1b}[0m"], "a \u{1b}[31mheading");
-        let _ = write!(screen, "\n\t{}", "cell\u{1b}[2J\r");
+        let cell = "cell\u{1b}[2J\r";
+        let _ = write!(screen, "\n\t{cell}");
         assert_eq!(screen.as_str(), "\u{1b}[1ma \\u{1b}[31mheading\u{1b}[0m\n\tcell\\u{1b}[2J\\r");
     }
 }

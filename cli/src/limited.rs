@@ -4,7 +4,7 @@
 //! a process of its own. This one passes on what that process says, and has the last word.
 
 use std::env;
-use std::io::{BufRead as _, BufReader, Read, Write as _};
+use std::io::{BufRead as _, BufReader, Read};
 use std::os::unix::process::{CommandExt as _, ExitStatusExt as _};
 use std::process::{Child, Command, ExitCode, ExitStatus, Stdio};
 
@@ -102,7 +102,7 @@ impl Told {
                 }
                 self.held.extend_from_slice(&line);
             } else {
-                tell(&line);
+                terminal::pass_on(&line);
             }
             line.clear();
         }
@@ -111,11 +111,6 @@ impl Told {
 
 fn first_number(text: &str) -> Option<u64> {
     text.split(|letter: char| !letter.is_ascii_digit()).next()?.parse().ok()
-}
-
-/// Where standard error is closed there is nobody to tell.
-fn tell(text: &[u8]) {
-    let _ = std::io::stderr().write_all(text);
 }
 
 fn ended(status: ExitStatus, told: &Told, limit: u64) -> ExitCode {
@@ -133,7 +128,7 @@ fn ended(status: ExitStatus, told: &Told, limit: u64) -> ExitCode {
     };
     match code {
         Some(code) => {
-            tell(&told.held);
+            terminal::pass_on(&told.held);
             ExitCode::from(u8::try_from(code).unwrap_or(2))
         }
         None => refused(limit, told.refused),

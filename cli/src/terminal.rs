@@ -130,6 +130,12 @@ fn say(message: &Screen) {
     let _ = anstream::stderr().write_all(message.as_bytes());
 }
 
+/// Passes on what a process of this command has said on standard error, which has been through [`say`] there.
+pub fn pass_on(said: &[u8]) {
+    // Where standard error is closed there is nobody to tell.
+    let _ = std::io::stderr().write_all(said);
+}
+
 /// A line on standard error that says where a long run is, where a person looks; drop it to take it away.
 pub fn progress() -> Progress {
     if QUIET.load(Ordering::Relaxed) {

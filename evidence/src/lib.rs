@@ -14,6 +14,7 @@ mod average;
 mod bench;
 mod contest;
 mod design;
+mod driver;
 mod error;
 pub mod families;
 mod function;
@@ -42,6 +43,7 @@ mod unpack;
 mod weigh;
 
 pub use contest::{contest, contest_among};
+pub use driver::Driver;
 pub use error::Error;
 pub use function::{Function, Span, Wave};
 pub use linearise::{Amount, Linearisation, Linearise};

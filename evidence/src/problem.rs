@@ -1,7 +1,7 @@
 //! What a contest is asked about: rows, what moves, the places of the chain, the declared errors, the residual.
 
+use crate::driver::Driver;
 use crate::error::Error;
-use crate::families::Driver;
 
 /// A variable that moves the chain, with its value in each row.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,9 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use evidence::Problem;
-use evidence::families::Driver;
 use evidence::problem::{Declared, Frame, Freedom as Moves, Input, Joint, Offered, Place as Point, Rows};
+use evidence::{Driver, Problem};
 use model_core::algebra::Poly;
 use model_core::{BodyId, Meaning, Role, SymbolId, SymbolKind, TransformKind};
 

@@ -11,6 +11,7 @@ mod simple;
 mod smooth;
 mod surface;
 
+pub use crate::driver::Driver;
 pub(crate) use session::add as add_setups;
 
 use crate::function::{Function, Wave};
@@ -69,23 +70,6 @@ pub enum Where {
     Place(usize),
     /// At both tilts of a frame.
     Tilts(usize),
-}
-
-/// What a family is a function of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Driver {
-    /// Nothing: a constant.
-    Nothing,
-    /// A joint.
-    Joint(usize),
-    /// Two joints.
-    Joints(usize, usize),
-    /// An input.
-    Input(usize),
-    /// Gravity.
-    Gravity,
-    /// The order of the rows.
-    Order,
 }
 
 /// The function of a family.

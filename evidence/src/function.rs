@@ -58,9 +58,9 @@ pub enum Function {
     InputStep(Span, f64),
     /// One behind a part of the order of the rows, with mean zero over the rows.
     OrderStep(f64),
-    /// One in the rows of a session.
+    /// One in the rows of a session, less the mean over all rows.
     Label(usize),
-    /// One in the rows of a stretch of the order: from, to.
+    /// One in the rows of a stretch of the order (from, to), less the mean over all rows.
     Stretch(usize, usize),
     /// A component of gravity in the place's frame.
     Gravity(usize),
@@ -132,12 +132,13 @@ impl Function {
                 let mean = step.iter().sum::<f64>() / count;
                 step.iter().map(|value| value - mean).collect()
             }
+            // About their mean: what all rows share is no difference between set-ups.
             Self::Label(label) => match &rows.labels {
-                Some(labels) => labels.iter().map(|own| f64::from(own == label)).collect(),
+                Some(labels) => about_mean(labels.iter().map(|own| own == label).collect()),
                 None => vec![0.0; rows.count],
             },
             Self::Stretch(from, to) => {
-                (0..rows.count).map(|row| f64::from((*from..*to).contains(&row))).collect()
+                about_mean((0..rows.count).map(|row| (*from..*to).contains(&row)).collect())
             }
             Self::Gravity(component) => {
                 place.gravity.as_ref().map_or_else(|| vec![0.0; rows.count], |down| down[*component].clone())
@@ -160,6 +161,12 @@ impl Function {
             }
         }
     }
+}
+
+/// One where it holds and zero elsewhere, less the mean.
+fn about_mean(holds: Vec<bool>) -> Vec<f64> {
+    let share = holds.iter().filter(|own| **own).count() as f64 / holds.len().max(1) as f64;
+    holds.into_iter().map(|own| f64::from(own) - share).collect()
 }
 
 impl Wave {

@@ -43,7 +43,6 @@ use rounds::rounds;
 use study::{Loaded, Open, Plan, Study};
 use tables::formats::DataError;
 use tables::units::BareColumn;
-use weighed::Weighed;
 
 pub use crate::search::{Request, Stage};
 pub use every_row::OfEveryRow;
@@ -216,12 +215,14 @@ fn searched<'a>(
 ) -> Result<Chosen<'a>, CalibrateError> {
     let weighed = weighed::weighed(whole, &first)?;
     let round = outliers::reconsidered(whole, rounds(whole, first)?)?;
-    let Some(told) = weighed else {
-        let (whole, round) = memory::settled(whole.clone(), &own.remembering, round)?;
+    let (whole, round, left_out) = match &weighed {
+        None => (whole.clone(), round, None),
+        Some(told) => weighed::settled(whole.clone(), &own.remembering, round, told)?,
+    };
+    let Some(left_out) = left_out else {
+        let (whole, round) = memory::settled(whole, &own.remembering, round)?;
         return Ok(chosen(&whole, before, round, &own.studies)?);
     };
-    let Weighed { whole, round, left_out } = weighed::settled(whole.clone(), &own.remembering, round, &told)?;
-    let Some(left_out) = left_out else { return Ok(chosen(&whole, before, round, &own.studies)?) };
     let mut judged = judged(&whole, before, round)?;
     judged.left_out.push(left_out);
     Ok(Chosen { whole, judged, as_good: Vec::new() })

@@ -12,13 +12,8 @@ use crate::search::round::Round;
 use crate::search::{SearchError, Stage};
 use study::Plan;
 
-/// What the contest leaves of a search.
-pub(super) struct Weighed<'a> {
-    pub whole: Context<'a>,
-    pub round: Round<'a>,
-    /// Effects that were left out again.
-    pub left_out: Option<Caution>,
-}
+/// What the contest leaves of a search: the calibration, its last round, and what is said of effects that were left out again.
+type Left<'a> = (Context<'a>, Round<'a>, Option<Caution>);
 
 /// What the contest tells of the declaration's own fit; `None` where none is asked.
 pub(super) fn weighed(whole: &Context<'_>, first: &Round<'_>) -> Result<Option<Told>, SearchError> {
@@ -38,14 +33,14 @@ pub(super) fn settled<'a>(
     place: &'a OnceCell<Plan>,
     round: Round<'a>,
     told: &Told,
-) -> Result<Weighed<'a>, SearchError> {
+) -> Result<Left<'a>, SearchError> {
     let found = &round.fitted.found;
     if found.is_empty() && !told.is_open {
         let next = taken_up(&whole, told.causes.clone(), &round)?;
-        return Ok(Weighed { whole, round: next.unwrap_or(round), left_out: None });
+        return Ok((whole, next.unwrap_or(round), None));
     }
-    if found.is_empty() || !told.is_nothing() {
-        return Ok(Weighed { whole, round, left_out: None });
+    if found.is_empty() || !told.is_nothing() || !told.hangs_together() {
+        return Ok((whole, round, None));
     }
     let names = found.iter().map(|found| whole.catalogue[found.effect].name.clone()).collect();
     let Told { remembers, setups, ref column, .. } = *told;
@@ -53,5 +48,5 @@ pub(super) fn settled<'a>(
     let may_remember = told.remembers && whole.request.plan.fit.noise.serial;
     let whole = if may_remember { remembering(whole, place) } else { whole };
     let round = Round::at(&whole, Fitted::with(&whole, Vec::new(), &round.fitted)?)?;
-    Ok(Weighed { whole, round, left_out })
+    Ok((whole, round, left_out))
 }

@@ -42,6 +42,11 @@ impl Told {
     pub fn is_nothing(&self) -> bool {
         self.causes.is_empty() && !self.is_open
     }
+
+    /// Whether rows hang together along their order, or by a column.
+    pub fn hangs_together(&self) -> bool {
+        self.remembers || self.setups > 1 || self.column.is_some()
+    }
 }
 
 /// Whether a contest is asked: rows of one kind at exact readings, with nothing unknown behind them.

@@ -94,18 +94,11 @@ pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     if forms.is_empty() {
         return Err(Failure::Input("no observable of this chain has a closed form".to_owned()));
     }
-    let plainly = |screen: &mut Screen, title: String| screen.append(&title.into());
     let printed = match arguments.format {
         Format::Json => escape::json(&format!("{:#}\n", as_json(&chain, &forms, arguments.order))).into(),
-        Format::Text => sections(&chain, &forms, print::Style::Text, |screen, title| {
-            screen.styled([&HEADING, &format_args!("{HEADING:#}")], title);
-        }),
-        Format::Latex => sections(&chain, &forms, print::Style::Latex, |screen, title| {
-            plainly(screen, format!("% {title}"));
-        }),
-        Format::Markdown => sections(&chain, &forms, print::Style::Markdown, |screen, title| {
-            plainly(screen, format!("## {}\n", escape::markdown(title)));
-        }),
+        Format::Text => sections(&chain, &forms, print::Style::Text),
+        Format::Latex => sections(&chain, &forms, print::Style::Latex),
+        Format::Markdown => sections(&chain, &forms, print::Style::Markdown),
     };
     let certificate = is_certified.then(|| certify(&source, &chosen, arguments.order)).transpose()?;
     arguments.certificate.write(certificate.as_deref())?;
@@ -134,7 +127,7 @@ fn show_parts(
         }
     };
     let what = if arguments.table { "what a unit of each error adds" } else { "its error in steps" };
-    let mut sections = Vec::new();
+    let mut screen = Screen::default();
     for &observable in chosen {
         let name = &chain.observable(observable).name;
         let printed = if arguments.table {
@@ -143,11 +136,7 @@ fn show_parts(
             forms::steps(chain, observable).map(|steps| print::steps(&steps, chain, style))
         };
         match printed {
-            Ok(printed) => sections.push(match style {
-                print::Style::Text => format!("{HEADING}{name}: {what}{HEADING:#}\n{printed}"),
-                print::Style::Latex => format!("% {name}: {what}\n{printed}"),
-                print::Style::Markdown => format!("## {name}: {what}\n\n{printed}"),
-            }),
+            Ok(printed) => add_section(&mut screen, style, &format!("{name}: {what}"), &printed),
             // Nobody asked for this observable in particular; the others still have an answer.
             Err(error @ TableError::Readings(_)) if arguments.observable.is_empty() && chosen.len() > 1 => {
                 terminal::warn(format_args!("{name} is left out: {error}"));
@@ -155,11 +144,10 @@ fn show_parts(
             Err(error) => return Err(Failure::Input(error.to_string())),
         }
     }
-    let text = sections.join("\n");
     drop(waiting);
     match style {
-        print::Style::Text => terminal::print_formulas(&text)?,
-        print::Style::Latex | print::Style::Markdown => terminal::print(&text)?,
+        print::Style::Text => terminal::print_formulas(screen)?,
+        print::Style::Latex | print::Style::Markdown => terminal::print(screen)?,
     }
     Ok(Answer::Done)
 }
@@ -185,21 +173,25 @@ fn certify(source: &Source, chosen: &[ObservableId], order: u32) -> Result<Strin
 }
 
 /// The forms one after the other, each below its title.
-fn sections(
-    chain: &Chain,
-    forms: &[Form],
-    style: print::Style,
-    write_title: impl Fn(&mut Screen, &str),
-) -> Screen {
+fn sections(chain: &Chain, forms: &[Form], style: print::Style) -> Screen {
     let mut screen = Screen::default();
-    for (at, form) in forms.iter().enumerate() {
-        if at > 0 {
-            screen.append(&"\n".into());
-        }
-        write_title(&mut screen, &title_of(chain, form));
-        screen.append(&format!("\n{}", print::form(form, chain, style)).into());
+    for form in forms {
+        add_section(&mut screen, style, &title_of(chain, form), &print::form(form, chain, style));
     }
     screen
+}
+
+/// Adds what was printed below its title.
+fn add_section(screen: &mut Screen, style: print::Style, title: &str, printed: &str) {
+    if !screen.as_str().is_empty() {
+        screen.append(&"\n".into());
+    }
+    match style {
+        print::Style::Text => screen.styled([&HEADING, &format_args!("{HEADING:#}")], title),
+        print::Style::Latex => screen.append(&format!("% {title}").into()),
+        print::Style::Markdown => screen.append(&format!("## {}\n", escape::markdown(title)).into()),
+    }
+    screen.append(&format!("\n{printed}").into());
 }
 
 /// `pointing: error of the direction of device, to first order in the errors`

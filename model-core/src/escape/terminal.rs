@@ -18,7 +18,7 @@ pub fn line(text: &str) -> Cow<'_, str> {
     replaced(text, is_unseen, by_number)
 }
 
-/// A whole message on one line, as [`line`]; the middle of a very long one is left out.
+/// A whole message on one line, as [`line()`]; the middle of a very long one is left out.
 #[must_use]
 pub fn message(text: &str) -> Cow<'_, str> {
     // No more is read than may be shown, however long the text.

@@ -1,5 +1,4 @@
-//! Causes against what hangs together along the rows, through the whole command: sessions that nobody declared, and an effect along
-//! a slow path. The instrument is simulated here, by turns written out, and by nothing of the product.
+//! Causes against what hangs together along the rows, through the whole command: an effect along a slow path. The instrument is simulated here, by turns written out, and by nothing of the product.
 
 use std::f64::consts::PI;
 
@@ -88,43 +87,6 @@ fn report(folder: &Folder) -> Value {
 fn causes(report: &Value) -> Vec<String> {
     let effects = report["effects"].as_array().expect("a list").iter();
     effects.map(|effect| format!("{} {}", effect["driver"], effect["dof"])).collect()
-}
-
-/// Six sessions, each levelled anew by some 5″ and in its own band of azimuth.
-fn sessions(seed: u64) -> String {
-    let mut drawn = Drawn(seed);
-    let mut data = String::from("azimuth,elevation,x,y,z,night\n");
-    for session in 0..6 {
-        let base = [5.0 * ARCSEC * drawn.normal(), 5.0 * ARCSEC * drawn.normal()];
-        for _ in 0..33 {
-            let azimuth = (40.0 * f64::from(session) + 40.0 * drawn.even()).to_radians();
-            let elevation = (20.0 + 60.0 * drawn.even()).to_radians();
-            let seen = sight(azimuth, elevation, base, 0.0);
-            data += &line(&mut drawn, [azimuth, elevation], seen, &format!("n{session}"));
-        }
-    }
-    data
-}
-
-#[test]
-fn sessions_that_nobody_declared_are_no_cause_and_their_column_is_told() {
-    let folder = Folder::new("weighed-sessions");
-    let mut told = 0;
-    for seed in [11, 12, 13] {
-        folder.write("mount.chain", MOUNT).write("study.toml", STUDY).write("measured.csv", sessions(seed));
-        let report = report(&folder);
-        assert_eq!(causes(&report), Vec::<String>::new(), "seed {seed}: {:?}", report["cautions"]);
-        let cautions = report["cautions"].as_array().expect("a list");
-        let of_order = cautions.iter().find(|caution| caution["kind"] == "follows the order of the rows");
-        if let Some(caution) = of_order {
-            told += 1;
-            assert!(caution["column"].is_null() || caution["column"] == "night", "{caution}");
-        }
-    }
-    assert!(told > 0, "a search that takes rows for independent finds causes in such data");
-    // Declared, as the answer asks for, they are no cause either.
-    folder.write("study.toml", STUDY.replacen('\n', "\ngroup = \"night\"\n", 1));
-    assert_eq!(causes(&report(&folder)), Vec::<String>::new());
 }
 
 #[test]

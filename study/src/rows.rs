@@ -84,11 +84,11 @@ impl Rows {
                 break;
             }
             let labelled = chunk.columns.split_off(wanted.len());
-            self.undeclared.take(&beside, chunk.rows.iter().map(|row| before + row), labelled);
             if chunk.rows.len() == CHUNK {
                 beside.clear();
                 self.undeclared.forget();
             }
+            self.undeclared.take(&beside, chunk.rows.iter().map(|row| before + row), labelled);
             self.row_numbers.extend(chunk.rows.iter().map(|row| before + row));
             let lines = chunk.lines.iter().copied().chain(std::iter::repeat(0));
             self.places.extend(file, lines.take(chunk.rows.len()));

@@ -12,7 +12,6 @@ use evidence::{Policy, contest};
 use crate::search::SearchError;
 use crate::search::context::{Context, Found};
 use crate::search::fitted::Fitted;
-use effects::candidate::EffectId;
 use problem::Asked;
 use study::Undeclared;
 
@@ -98,14 +97,11 @@ fn of(asked: &Asked) -> Option<(f64, Told)> {
         ..Told::default()
     };
     for finding in named {
-        let offered = |margin: f64| {
-            let best = finding.set.iter().filter(|(family, _)| effect(*family).is_some());
-            let best = best.map(|&(_, score)| score).fold(f64::NEG_INFINITY, f64::max);
-            let near = finding.set.iter().filter(move |&&(_, score)| score >= best - margin);
-            near.filter_map(|&(family, _)| effect(family)).collect::<Vec<EffectId>>()
-        };
+        let offered = || finding.set.iter().filter_map(|&(family, score)| Some((effect(family)?, score)));
+        let best = offered().map(|(_, score)| score).fold(f64::NEG_INFINITY, f64::max);
         // Of causes that are one to the data the first of the catalogue stands for all.
-        let Some(first) = offered(EVEN).into_iter().min() else {
+        let even = offered().filter(|(_, score)| *score >= best - EVEN);
+        let Some(first) = even.map(|(effect, _)| effect).min() else {
             told.is_open = true;
             continue;
         };

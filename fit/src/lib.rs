@@ -90,6 +90,8 @@ pub struct FitOptions {
     /// Whether a combination counts as shown only where the data say more of it than the sizes do. Where nobody knows where
     /// anything is, an arm could else shrink until its residuals vanish.
     pub anchored: bool,
+    /// Whether a fit that ends far off starts from other values as well.
+    pub other_starts: bool,
 }
 
 impl FitOptions {
@@ -104,6 +106,7 @@ impl FitOptions {
             max_iterations: 50,
             sizes: Vec::new(),
             anchored: false,
+            other_starts: true,
         }
     }
 

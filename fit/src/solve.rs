@@ -85,10 +85,12 @@ impl Solver<'_> {
                 self.course(&start, weighting)?
             }
         };
-        if self.doubtful(&course)? {
-            course = self.elsewhere(course)?;
+        if self.options.other_starts {
+            if self.doubtful(&course)? {
+                course = self.elsewhere(course)?;
+            }
+            course = self.nearest(course)?;
         }
-        course = self.nearest(course)?;
         course = self.freed(course)?;
         if self.counts_in_full(&course) {
             course = self.of_few(course)?;

@@ -15,7 +15,7 @@ use serde::Serialize;
 use fit::FitOptions;
 use fit::noise::NoiseOptions;
 use observe::{Observations, SiUnit};
-use study::{Plan, Sample};
+use study::{Changed, Plan, Sample};
 
 use hypotheses::Hypothesis;
 pub use hypotheses::{Line, Reading};
@@ -56,15 +56,26 @@ pub struct Suspect {
 /// Rows that observe unknown objects are not judged here: where a fit of those is far off, `diagnose` tries readings of theirs.
 pub(crate) fn misread(plan: &Plan, sample: &Sample) -> Option<Misread> {
     let columns = sample.columns();
-    let own = sample.observations(plan, &[]).ok()?;
+    // A score asks for no uncertainties: which rows belong together is of no account.
+    let read = |changes: &[Changed]| {
+        let observations = sample.observations(plan, changes).ok()?;
+        Some(Observations { groups: Vec::new(), crossed: Vec::new(), ..observations })
+    };
+    let own = read(&[])?;
     if own.unknowns.is_some() || own.rows() == 0 {
         return None;
     }
     let priors = Priors::of(plan, &own);
     let options = options(plan);
+    // Most other readings are wrong and end far off: only the study's own is worth other starts.
     let fitted =
         |observations: &Observations, start: &[f64], steps: usize, hypothesis: Option<&Hypothesis>| {
-            let options = FitOptions { start: start.to_vec(), max_iterations: steps, ..options.clone() };
+            let options = FitOptions {
+                start: start.to_vec(),
+                max_iterations: steps,
+                other_starts: hypothesis.is_none(),
+                ..options.clone()
+            };
             score(plan, observations, &options, &priors, &columns, hypothesis)
         };
     let start = &plan.fit.start;
@@ -73,7 +84,7 @@ pub(crate) fn misread(plan: &Plan, sample: &Sample) -> Option<Misread> {
     let all = hypotheses::all(plan, &columns);
     let mut screened: Vec<(usize, Observations, Score)> = Vec::new();
     for (number, hypothesis) in all.iter().enumerate() {
-        let Ok(observations) = sample.observations(plan, &hypothesis.changes) else { continue };
+        let Some(observations) = read(&hypothesis.changes) else { continue };
         let from = |start| fitted(&observations, start, SCREENED_STEPS, Some(hypothesis));
         // The errors found so far are a start as good as none.
         let scores = [from(start.as_slice()), from(&as_read.values)];

@@ -1,7 +1,7 @@
 //! How large the declared errors may be: by where they stand, a tilt, a length, a placement or an index.
 
 use model_core::algebra::Poly;
-use model_core::{Chain, ObservableId, Quantity, Role, SymbolId, SymbolKind, TransformKind};
+use model_core::{Chain, ObservableId, Role, SymbolId, SymbolKind, TransformKind};
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -187,7 +187,7 @@ fn is_direction(chain: &Chain, observable: ObservableId) -> bool {
     chain.observable(observable).kind == model_core::ObservableKind::Direction
 }
 
-/// How far the instrument reaches, m: its constant lengths on the way, or how far the points lie apart where there are none.
+/// How far the instrument reaches, m: its constant lengths on the way, how far the points lie apart where there are none, or one.
 fn reach_m(chain: &Chain, observations: &Observations) -> f64 {
     let nominal = chain.nominal_values();
     let observables = observations.poses.series.iter().map(|series| series.observable);
@@ -199,12 +199,8 @@ fn reach_m(chain: &Chain, observations: &Observations) -> f64 {
         lengths.map(|passed| passed.factor.amount.eval(&nominal).abs()).sum()
     };
     let reach = observables.map(of_way).fold(0.0, f64::max);
-    let of_points = chain.symbols.iter().any(|symbol| symbol.quantity == Quantity::Length);
-    match reach {
-        reach if reach > 0.0 => reach,
-        _ if of_points => spread_m(observations),
-        _ => 1.0,
-    }
+    // Directions alone say nothing of any length.
+    [reach, spread_m(observations), 1.0].into_iter().find(|size| *size > 0.0).unwrap_or(1.0)
 }
 
 /// How far measured points usually lie from their middle, or how long ranges are, m.

@@ -69,11 +69,13 @@ pub(super) fn score(
     }
     let penalty = priors.penalty(&fit.values);
     let free = (numbers as f64 - fit.rank as f64).max(1.0);
+    let (_, _, rows_of_first) = units.into_iter().next()?;
     let (price, digits) = hypothesis.map_or((0.0, 0.0), |own| (own.price, own.digits));
-    Some(Score {
-        total: free / numbers as f64 * log - price + digits - penalty,
+    let total = free / numbers as f64 * log - price + digits - penalty;
+    total.is_finite().then(|| Score {
+        total,
         scale: scale.exp(),
-        rms: trimmed(&units.first()?.2),
+        rms: trimmed(&rows_of_first),
         penalty,
         values: fit.values,
     })

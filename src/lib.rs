@@ -88,11 +88,14 @@ pub use model_macros::chain_file;
 ///
 /// ```
 /// trueaxis::chain! {
-///     chain Turntable { body table on ground { motion: Rz(alpha); } observe arm: direction(1, 0, 0) of table; }
+///     chain Turntable {
+///         body table on ground { motion: Rz(alpha); motion_error: Rz(zero); }
+///         observe arm: direction(1, 0, 0) of table;
+///     }
 /// }
 ///
-/// let arm: trueaxis::nalgebra::Vector3<f64> =
-///     turntable::Turntable::new(turntable::Errors {}).arm(&turntable::Joints { alpha: 0.5 });
+/// let table = turntable::Turntable::new(turntable::Errors { zero: 1e-5 });
+/// let arm: trueaxis::nalgebra::Vector3<f64> = table.arm(&turntable::Joints { alpha: 0.5 });
 /// assert!((arm.norm() - 1.0).abs() < 1e-15);
 /// ```
 pub use nalgebra;
@@ -102,7 +105,6 @@ pub use nalgebra;
 /// # Example
 ///
 /// ```
-/// use trueaxis::tables::formats::Input;
 /// use trueaxis::{Calibration, Study};
 ///
 /// let chain = "chain Table { body top on ground { motion: Rz(turn); motion_error: Rz(index); }
@@ -110,7 +112,7 @@ pub use nalgebra;
 /// let study = "chain = 'table.chain'\ndata = 'rows.csv'\n[observed]\nkind = 'direction'\nx = 'x'\ny = 'y'\nz = 'z'";
 /// let study = Study::from_text(study)?;
 /// // A table without rows is an error that says so.
-/// let mut open = |_: &str| Ok(Input::from(b"turn,x,y,z\n".to_vec()));
+/// let mut open = |_: &str| Ok(b"turn,x,y,z\n".to_vec().into());
 /// let error = Calibration::of(chain, &study, &mut open, "2026-11-22").unwrap_err();
 /// assert!(error.to_string().contains("rows.csv"), "{error}");
 /// # Ok::<(), Box<dyn std::error::Error>>(())

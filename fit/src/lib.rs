@@ -61,7 +61,7 @@ pub use partial::{Partial, PartialError, Rows};
 pub use readings::{correlated, pulled, pulls};
 pub use size::BESIDE_OBJECTS;
 pub use size::{Size, SizeOrigin};
-pub use solve::fit;
+pub use solve::{fit, fit_by};
 pub use stated::{Agreement, Stated};
 pub use stream::{Next, Pass, Streamed, StreamedResult};
 pub use subspace::Subspace;

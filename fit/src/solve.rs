@@ -30,12 +30,25 @@ const DOUBTFUL: f64 = 0.25;
 /// # Errors
 /// What the caller did wrong: nothing to estimate, a parameter that is neither error nor constant, missing readings.
 pub fn fit(chain: &Chain, observations: &Observations, options: &FitOptions) -> Result<FitResult, FitError> {
+    fit_by(Model::new(chain, &observations.poses, &options.estimate)?, chain, observations, options)
+}
+
+/// The same by a model that was built before, of what the options estimate and of series as these observations have.
+///
+/// # Errors
+/// As [`fit`].
+pub fn fit_by(
+    model: Model,
+    chain: &Chain,
+    observations: &Observations,
+    options: &FitOptions,
+) -> Result<FitResult, FitError> {
     let unknown = observations.unknowns.as_ref().map_or(0, Unknowns::numbers);
     if ![0, unknown].map(|more| chain.symbols.len() + more).contains(&options.start.len()) {
         let why = format!("{} starting values for {} symbols", options.start.len(), chain.symbols.len());
         return Err(FitError::WrongShape { why });
     }
-    let mut solver = Solver::new(chain, observations, options)?;
+    let mut solver = Solver::new(model, chain, observations, options);
     let mut course = solver.arrived()?;
     solver.take_as_they_are(&mut course)?;
     solver.release(&mut course)?;
@@ -49,24 +62,19 @@ pub fn fit(chain: &Chain, observations: &Observations, options: &FitOptions) -> 
 }
 
 impl<'a> Solver<'a> {
-    fn new(
-        chain: &'a Chain,
-        observations: &'a Observations,
-        options: &'a FitOptions,
-    ) -> Result<Self, FitError> {
-        Ok(Solver {
+    fn new(model: Model, chain: &'a Chain, observations: &'a Observations, options: &'a FitOptions) -> Self {
+        Solver {
             chain,
             observations,
             options,
-            model: Model::new(chain, &observations.poses, &options.estimate)?
-                .for_steps(chain, &observations.poses),
+            model: model.for_steps(chain, &observations.poses),
             plain: OnceCell::new(),
             layout: Layout::of(observations),
             aside: Vec::new(),
             brought: Vec::new(),
             prior_sizes: Vec::new(),
             iterations: 0,
-        })
+        }
     }
 }
 
@@ -113,7 +121,8 @@ impl Solver<'_> {
         let sample = self.observations.sample(SAMPLE);
         let noise = NoiseOptions { variance: false, serial: false, ..self.options.noise.clone() };
         let options = FitOptions { noise, ..self.options.clone() };
-        let mut of_sample = Solver::new(self.chain, &sample, &options)?;
+        let model = Model::new(self.chain, &sample.poses, &options.estimate)?;
+        let mut of_sample = Solver::new(model, self.chain, &sample, &options);
         let course = of_sample.arrived()?;
         let has_arrived = of_sample.has_arrived(&course);
         Ok(has_arrived.then_some(course.point.values))

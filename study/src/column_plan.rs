@@ -44,6 +44,7 @@ pub(super) fn column_plan(
 ) -> Outcome<ColumnPlan> {
     let unit = column.unit.as_deref().map(Unit::parse).transpose();
     let unit = unit.map_err(|error| plain(place.clone(), error.to_string()))?;
+    let unit = unit.or(counts(column, quantity)?);
     if let (Some(meaning), false) = (&column.meaning, of_input) {
         return Err(mistake(
             meaning.span(),
@@ -72,4 +73,21 @@ pub(super) fn column_plan(
         }
         None => Err(mistake(place.clone(), "this column is measured, not derived", "write `column = \"…\"`")),
     }
+}
+
+/// The unit of a column of an encoder's counts.
+fn counts(column: &Column, quantity: Quantity) -> Outcome<Option<Unit>> {
+    let Some(counts) = &column.counts_per_turn else { return Ok(None) };
+    let wrong = |why: &str, help: &str| Err(mistake(counts.span(), why.to_owned(), help.to_owned()));
+    if quantity != Quantity::Angle {
+        return wrong("only an angle has turns", "leave `counts_per_turn` out");
+    }
+    if column.unit.is_some() || column.notation.is_some() {
+        return wrong("`counts_per_turn` is a unit already", "leave `unit` and `notation` out");
+    }
+    let per_turn = *counts.get_ref();
+    if !(per_turn.is_finite() && per_turn >= 1.0) {
+        return wrong("an encoder has at least one count a turn", "write a number such as 65536");
+    }
+    Ok(Some(Unit { name: "count", quantity, in_si: std::f64::consts::TAU / per_turn }))
 }

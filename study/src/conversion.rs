@@ -12,6 +12,19 @@ use super::written::Column;
 /// The largest shift by rows that a study may ask for.
 const MOST_SHIFT: i64 = 1000;
 
+/// Decimal digits that binary holds.
+const DIGITS: i32 = 15;
+
+/// A number with so many decimal digits.
+pub(super) fn to_digits(number: f64, digits: i32) -> f64 {
+    if number == 0.0 || !number.is_finite() {
+        return number;
+    }
+    let scale = 10_f64.powi(digits - number.abs().log10().ceil() as i32);
+    let rounded = (number * scale).round() / scale;
+    if rounded.is_finite() { rounded } else { number }
+}
+
 /// Sexagesimal digits in one number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Notation {
@@ -35,11 +48,12 @@ impl Notation {
     #[must_use]
     pub fn unpack(self, number: f64) -> (f64, bool) {
         // Sexagesimal digits are decimal ones: what binary cannot hold is rounded away before they are cut apart.
+        let decimal = to_digits(number.abs(), DIGITS);
         let whole = match self {
-            Self::Degrees => (number.abs() * 1e12).round() / 1e8,
-            Self::Hours => (number.abs() * 1e8).round() / 1e8,
+            Self::Degrees => decimal * 1e4,
+            Self::Hours => decimal,
         };
-        let large = (whole / 1e4).floor();
+        let large = (whole / 1e4 + 1e-12).floor();
         let rest = whole - large * 1e4;
         let minutes = (rest / 100.0 + 1e-10).floor();
         let seconds = (rest - minutes * 100.0).max(0.0);

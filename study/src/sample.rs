@@ -1,9 +1,11 @@
 //! Some of the rows of a study as its files have them, so that a column can be read otherwise than the study says.
 
+use std::ops::Range;
+
 use model_core::{Quantity, SymbolId};
 
 use super::columns::Columns;
-use super::conversion::{Conversion, Notation};
+use super::conversion::{Conversion, Notation, to_digits};
 use super::labels::Numbered;
 use super::plan::Plan;
 use super::rows::Rows;
@@ -89,6 +91,8 @@ pub enum Change {
     Notation(Notation),
     /// It counts the other way, from here, rad or m.
     Reversed(f64),
+    /// It counts from elsewhere: this is added, rad or m.
+    Moved(f64),
     /// The other column stands there.
     Exchanged(Place),
     /// Rows take the number of the row that stands so many before.
@@ -96,7 +100,23 @@ pub enum Change {
 }
 
 /// A column with how it is read otherwise.
-pub type Changed = (Place, Change);
+#[derive(Debug, Clone, PartialEq)]
+pub struct Changed {
+    /// Which column.
+    pub place: Place,
+    /// How it is read.
+    pub change: Change,
+    /// The rows of the sample that are read so.
+    pub rows: Range<usize>,
+}
+
+impl Changed {
+    /// A change of all rows.
+    #[must_use]
+    pub fn all(place: Place, change: Change) -> Self {
+        Self { place, change, rows: 0..usize::MAX }
+    }
+}
 
 impl Sample {
     /// Takes some rows of a source.
@@ -162,7 +182,7 @@ impl Sample {
         let mut numbered = Numbered::default();
         for (number, (source, sampled)) in plan.sources.iter().zip(&self.sources).enumerate() {
             let own: Vec<Changed> =
-                changes.iter().filter(|(place, _)| place.source == number).copied().collect();
+                changes.iter().filter(|own| own.place.source == number).cloned().collect();
             for path in &source.paths {
                 all.origins.file(path);
             }
@@ -177,15 +197,16 @@ impl Sampled {
     fn changed(&self, changes: &[Changed]) -> Rows {
         let mut rows = self.rows.clone();
         let mut kept = vec![true; self.block.len()];
-        for (place, change) in changes {
+        for Changed { place, change, rows: those } in changes {
             let own = &self.rows.numbers[place.column];
             let factor = self.rows.factors[place.column].unwrap_or(1.0);
-            rows.numbers[place.column] = match *change {
+            let read: Vec<f64> = match *change {
                 Change::Factor(other) => own.iter().map(|si| as_written(*si, factor) * other).collect(),
                 Change::Notation(notation) => {
                     own.iter().map(|si| notation.unpack(as_written(*si, factor)).0).collect()
                 }
                 Change::Reversed(from) => own.iter().map(|si| from - si).collect(),
+                Change::Moved(by) => own.iter().map(|si| si + by).collect(),
                 Change::Exchanged(other) => self.rows.numbers[other.column].clone(),
                 Change::Shift(by) => {
                     let from = |row: usize| {
@@ -198,6 +219,8 @@ impl Sampled {
                     (0..own.len()).map(|row| from(row).map_or(own[row], |other| own[other])).collect()
                 }
             };
+            let those = those.start..those.end.min(read.len());
+            rows.numbers[place.column][those.clone()].copy_from_slice(&read[those]);
         }
         let kept: Vec<usize> = (0..kept.len()).filter(|&row| kept[row]).collect();
         if kept.len() == self.block.len() { rows } else { rows.select(&kept) }
@@ -206,11 +229,5 @@ impl Sampled {
 
 /// The number that was multiplied by a factor, as it was written.
 fn as_written(si: f64, factor: f64) -> f64 {
-    let number = si / factor;
-    if number == 0.0 || !number.is_finite() {
-        return number;
-    }
-    let scale = 10_f64.powi(DIGITS - number.abs().log10().ceil() as i32);
-    let rounded = (number * scale).round() / scale;
-    if rounded.is_finite() { rounded } else { number }
+    to_digits(si / factor, DIGITS)
 }

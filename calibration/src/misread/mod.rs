@@ -1,4 +1,4 @@
-//! Misread columns: units, packed notation, signs, exchanged columns and shifted rows compete with the study's own reading of the data,
+//! Misread columns: units, packed notation, signs, zeros, exchanged columns and shifted rows compete with the study's own reading of the data,
 //! before any effect does.
 //!
 //! Each hypothesis (`hypotheses`, one file a kind) reads some rows otherwise. All are compared by one likelihood of the numbers as the
@@ -8,22 +8,20 @@ mod hypotheses;
 mod policy;
 mod prior;
 mod score;
+mod trial;
 
 use model_core::SymbolId;
 use serde::Serialize;
 
-use fit::FitOptions;
-use fit::noise::NoiseOptions;
-use observe::{Observations, SiUnit};
-use study::{Changed, Plan, Sample};
+use observe::SiUnit;
+use study::{Plan, Sample};
 
-use hypotheses::Hypothesis;
 pub use hypotheses::{Line, Reading};
 pub use policy::THRESHOLDS;
-use policy::{CLEARED, FITTED, MARGIN, ONE_OF, RATIO, RATIO_ROWS, SAME, SCREENED_STEPS};
-use prior::Priors;
+use policy::{CLEARED, MARGIN, ONE_OF, RATIO, RATIO_ROWS, SAME};
 pub use prior::{Implausible, implausible};
-use score::{Score, score};
+use score::Score;
+use trial::{Trial, Tried};
 
 /// A column that is not what the study says.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -54,89 +52,48 @@ pub struct Suspect {
 /// The misread columns of a study, judged on some of its rows; `None` where the study's own reading is not beaten.
 ///
 /// Rows that observe unknown objects are not judged here: where a fit of those is far off, `diagnose` tries readings of theirs.
-pub(crate) fn misread(plan: &Plan, sample: &Sample) -> Option<Misread> {
-    let columns = sample.columns();
-    // A score asks for no uncertainties: which rows belong together is of no account.
-    let read = |changes: &[Changed]| {
-        let observations = sample.observations(plan, changes).ok()?;
-        Some(Observations { groups: Vec::new(), crossed: Vec::new(), ..observations })
-    };
-    let own = read(&[])?;
-    if own.unknowns.is_some() || own.rows() == 0 {
-        return None;
-    }
-    let priors = Priors::of(plan, &own);
-    let options = options(plan);
-    // Most other readings are wrong and end far off: only the study's own is worth other starts.
-    let fitted =
-        |observations: &Observations, start: &[f64], steps: usize, hypothesis: Option<&Hypothesis>| {
-            let options = FitOptions {
-                start: start.to_vec(),
-                max_iterations: steps,
-                other_starts: hypothesis.is_none(),
-                ..options.clone()
-            };
-            score(plan, observations, &options, &priors, &columns, hypothesis)
-        };
-    let start = &plan.fit.start;
-    let as_read = fitted(&own, start, plan.fit.max_iterations, None)?;
-
-    let all = hypotheses::all(plan, &columns);
-    let mut screened: Vec<(usize, Observations, Score)> = Vec::new();
-    for (number, hypothesis) in all.iter().enumerate() {
-        let Some(observations) = read(&hypothesis.changes) else { continue };
-        let from = |start| fitted(&observations, start, SCREENED_STEPS, Some(hypothesis));
-        // The errors found so far are a start as good as none.
-        let scores = [from(start.as_slice()), from(&as_read.values)];
-        let best = scores.into_iter().flatten().max_by(|a, b| a.total.total_cmp(&b.total));
-        screened.extend(best.map(|score| (number, observations, score)));
-    }
-    screened.sort_by(|a, b| b.2.total.total_cmp(&a.2.total));
-    screened.truncate(FITTED);
-    let mut finalists: Vec<(usize, Score)> = Vec::new();
-    for (number, observations, score) in &screened {
-        let full = fitted(observations, &score.values, plan.fit.max_iterations, Some(&all[*number]));
-        finalists.extend(full.map(|full| (*number, full)));
-    }
-    finalists.sort_by(|a, b| b.1.total.total_cmp(&a.1.total));
-    let best = &finalists.first()?.1;
+#[must_use]
+pub fn misread(plan: &Plan, sample: &Sample) -> Option<Misread> {
+    let trial = Trial::new(plan, sample)?;
+    let as_read = trial.as_read(&plan.fit.start)?;
+    let mut readings = trial.others(&as_read);
+    let best = &readings.first()?.score;
+    let margin = best.total - as_read.total;
     // A wrong minimum of the study's own reading is no misread column: it starts once more from the best rival's errors.
-    let again = fitted(&own, &best.values, plan.fit.max_iterations, None);
+    let again = (margin >= MARGIN).then(|| trial.as_read(&best.values)).flatten();
     let as_read =
         again.into_iter().fold(as_read, |one, other| if other.total > one.total { other } else { one });
-
-    let explains = |number: usize, score: &Score| {
-        let ratio = score.scale / as_read.scale;
-        let gross = match &all[number].reading {
-            Reading::Shifted { .. } => ratio <= RATIO_ROWS,
-            Reading::Packed { .. } => ratio <= SAME && all[number].digits > 0.0,
-            _ => ratio <= RATIO || (as_read.penalty - score.penalty > CLEARED && ratio <= SAME),
-        };
-        score.total - as_read.total >= MARGIN && gross
-    };
-    let margin = finalists.first().map(|(_, score)| score.total - as_read.total)?;
-    finalists.retain(|(number, score)| explains(*number, score));
-    let top = finalists.first()?.1.total;
-    finalists.retain(|(_, score)| top - score.total <= ONE_OF);
-    let after = finalists.first()?.1.rms;
-    let suspects = finalists.iter().map(|(number, score)| Suspect {
-        reading: all[*number].reading.clone(),
-        lines: all[*number].lines.clone(),
+    let margin = best.total - as_read.total;
+    readings.retain(|tried| explains(tried, &as_read));
+    let top = readings.first()?.score.total;
+    readings.retain(|tried| top - tried.score.total <= ONE_OF);
+    let after = readings.first()?.score.rms;
+    let suspects = readings.into_iter().map(|Tried { hypothesis, score, .. }| Suspect {
+        reading: hypothesis.reading,
+        lines: hypothesis.lines,
         score: score.total - as_read.total,
     });
     Some(Misread {
         readings: suspects.collect(),
         before: as_read.rms,
         after,
-        unit: own.poses.series.first()?.measure.unit(),
+        unit: trial.own.poses.series.first()?.measure.unit(),
         margin,
     })
 }
 
-/// Few steps, and no model of the noise.
-fn options(plan: &Plan) -> FitOptions {
-    let noise = NoiseOptions { variance: false, serial: false, ..plan.fit.noise.by_residuals() };
-    FitOptions { noise, ..plan.fit.clone() }
+/// Whether a reading explains what the study's own does not.
+fn explains(tried: &Tried, as_read: &Score) -> bool {
+    let Tried { hypothesis, score, .. } = tried;
+    let ratio = score.scale / as_read.scale;
+    let is_gross = match &hypothesis.reading {
+        Reading::Shifted { .. } => ratio <= RATIO_ROWS,
+        Reading::Packed { .. } => ratio <= SAME && hypothesis.digits > 0.0,
+        // A robust scale hides a minority of rows.
+        Reading::FromRow { .. } => ratio.min(score.rms / as_read.rms) <= RATIO,
+        _ => ratio <= RATIO || (as_read.penalty - score.penalty > CLEARED && ratio <= SAME),
+    };
+    score.total - as_read.total >= MARGIN && is_gross
 }
 
 /// The errors of a plan that are estimated.

@@ -20,6 +20,10 @@ pub(super) const EXCHANGED_PRICE: f64 = 0.5;
 pub(super) const PACKED_PRICE: f64 = 1.0;
 pub(super) const ZENITH_PRICE: f64 = 1.0;
 pub(super) const SHIFTED_PRICE: f64 = 1.5;
+pub(super) const COUNTS_PRICE: f64 = 2.0;
+pub(super) const TURNED_PRICE: f64 = 1.0;
+/// And that it holds of some rows alone.
+pub(super) const FROM_ROW_PRICE: f64 = 3.0;
 /// An axis is about so far from where the declaration puts it, rad; lengths and tools, as shares of the reach.
 pub(super) const TILT_RAD: f64 = PI / 180.0;
 pub(super) const LENGTH_SHARE: f64 = 0.02;
@@ -29,8 +33,10 @@ pub(super) const MOST_TILT_RAD: f64 = PI / 36.0;
 pub(super) const MOST_LENGTH_SHARE: f64 = 0.1;
 pub(super) const MOST_RESIDUAL_SHARE: f64 = 0.03;
 
-/// Hypotheses that are fitted to the end; the steps that all others are fitted by. They bound work.
+/// Hypotheses that are fitted to the end, hypotheses of some rows that are fitted at all, and the steps that all others are fitted by.
+/// They bound work.
 pub(super) const FITTED: usize = 9;
+pub(super) const PARTS: usize = 3;
 pub(super) const SCREENED_STEPS: usize = 4;
 
 /// A number that decides: its name, value, meaning and source.
@@ -78,6 +84,13 @@ pub const THRESHOLDS: &[Threshold] = &[
         TRIALS,
     ),
     row("misread.shifted", SHIFTED_PRICE, "nats that slipped rows are rarer than a wrong unit", TRIALS),
+    row(
+        "misread.turned",
+        TURNED_PRICE,
+        "nats that a zero a quarter turn off is rarer than a wrong unit",
+        TRIALS,
+    ),
+    row("misread.from_row", FROM_ROW_PRICE, "nats that a mistake of some rows alone is rarer", TRIALS),
     row("prior.tilt_rad", TILT_RAD, "size of a tilt, scale of its prior", TRIALS),
     row(
         "prior.length_share",

@@ -1,7 +1,7 @@
 //! How large the declared errors may be: by where they stand, a tilt, a length, a placement or an index.
 
 use model_core::algebra::Poly;
-use model_core::{Chain, ObservableId, Role, SymbolId, SymbolKind, TransformKind};
+use model_core::{Chain, ObservableId, Passed, Role, SymbolId, SymbolKind, TransformKind};
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -137,11 +137,7 @@ fn part(chain: &Chain, observations: &Observations, id: SymbolId) -> Part {
 /// The same on the way to one observable.
 fn part_of_way(chain: &Chain, observable: ObservableId, id: SymbolId) -> Part {
     let way = chain.way(observable);
-    let is_motion =
-        |amount: &Poly| amount.symbols().iter().any(|symbol| chain.symbol(*symbol).kind == SymbolKind::Joint);
-    let moves: Vec<usize> = (0..way.len())
-        .filter(|&at| way[at].factor.role == Role::Motion && is_motion(&way[at].factor.amount))
-        .collect();
+    let moves = motions(chain, &way);
     let (Some(&first), Some(&last)) = (moves.first(), moves.last()) else { return Part::Free };
     let own: Vec<usize> =
         (0..way.len()).filter(|&at| way[at].factor.amount.symbols().contains(&id)).collect();
@@ -157,20 +153,7 @@ fn part_of_way(chain: &Chain, observable: ObservableId, id: SymbolId) -> Part {
         return Part::Free;
     }
     let shows_direction = chain.observable(observable).is_vector() && factor.kind == TransformKind::Rotation;
-    let beside = |other: usize| {
-        let near = &way[other].factor;
-        near.kind == factor.kind
-            && near.axis == factor.axis
-            && (other.min(at)..=other.max(at)).all(|between| {
-                way[between].factor.axis == factor.axis && way[between].factor.kind == factor.kind
-            })
-    };
-    let is_index = moves.iter().any(|&motion| {
-        beside(motion)
-            || (way[motion].body == way[at].body
-                && way[motion].factor.axis == factor.axis
-                && way[motion].factor.kind == factor.kind)
-    });
+    let is_index = moves.iter().any(|&motion| is_index_of(&way, at, motion));
     match factor.kind {
         _ if is_index => Part::Free,
         TransformKind::Rotation if at < first && !(shows_direction && is_direction(chain, observable)) => {
@@ -181,6 +164,44 @@ fn part_of_way(chain: &Chain, observable: ObservableId, id: SymbolId) -> Part {
         TransformKind::Translation if at > last && way[at].body != way[last].body => Part::Tool,
         TransformKind::Translation => Part::Length,
     }
+}
+
+/// Where joints move on a way.
+fn motions(chain: &Chain, way: &[Passed<'_>]) -> Vec<usize> {
+    let is_motion =
+        |amount: &Poly| amount.symbols().iter().any(|symbol| chain.symbol(*symbol).kind == SymbolKind::Joint);
+    (0..way.len())
+        .filter(|&at| way[at].factor.role == Role::Motion && is_motion(&way[at].factor.amount))
+        .collect()
+}
+
+/// Whether what stands at a place of a way says where a motion is zero.
+fn is_index_of(way: &[Passed<'_>], at: usize, motion: usize) -> bool {
+    let is_alike = |other: usize| {
+        let (one, other) = (&way[at].factor, &way[other].factor);
+        one.axis == other.axis && one.kind == other.kind
+    };
+    let is_beside = (motion.min(at)..=motion.max(at)).all(is_alike);
+    is_beside || (way[motion].body == way[at].body && is_alike(motion))
+}
+
+/// The joints whose zero is an error that is estimated.
+pub(super) fn indexed(plan: &Plan, observations: &Observations) -> Vec<SymbolId> {
+    let mut joints = Vec::new();
+    for series in &observations.poses.series {
+        let way = plan.chain.way(series.observable);
+        for motion in motions(&plan.chain, &way) {
+            let is_index = |at: &usize| {
+                let amount = &way[*at].factor.amount;
+                is_index_of(&way, *at, motion)
+                    && amount.symbols().iter().any(|id| estimated(plan).any(|own| own == *id))
+            };
+            if (0..way.len()).any(|at| is_index(&at)) {
+                joints.extend(way[motion].factor.amount.symbols());
+            }
+        }
+    }
+    joints
 }
 
 fn is_direction(chain: &Chain, observable: ObservableId) -> bool {

@@ -1,7 +1,7 @@
 //! One likelihood for every reading of the data: of the numbers as the file has them, with a prior on the errors.
 
 use fit::noise::Layout;
-use fit::{FitOptions, fit};
+use fit::{FitOptions, Model, fit_by};
 use observe::Observations;
 use statrs::function::gamma::ln_gamma;
 use study::{Plan, Read, SampledColumn};
@@ -33,13 +33,14 @@ pub(super) struct Score {
 /// The score of the data as they are read, fitted; `None` where there is no fit.
 pub(super) fn score(
     plan: &Plan,
+    model: &Model,
     observations: &Observations,
     options: &FitOptions,
     priors: &Priors,
     columns: &[SampledColumn],
     hypothesis: Option<&Hypothesis>,
 ) -> Option<Score> {
-    let fit = fit(&plan.chain, observations, options).ok()?;
+    let fit = fit_by(model.clone(), &plan.chain, observations, options).ok()?;
     let layout = Layout::of(observations);
     let mut units: Vec<(observe::SiUnit, Vec<f64>, Vec<f64>)> = Vec::new();
     let mut at = 0;

@@ -2,6 +2,7 @@
 
 use calibration::diagnose::{Caution, of_data, precision};
 use fit::{FitOptions, FitResult, Outcome, Reason, Why, fit};
+use nalgebra::{Rotation3, Vector3};
 use observe::{Measured, Observations};
 use rand::RngExt;
 
@@ -123,6 +124,30 @@ fn directions_of_other_rows_are_no_fit() {
     let result = fitted(&simulation, &observations);
     let Outcome::NotConverged { reason, .. } = result.outcome else { panic!("{:?}", result.outcome) };
     assert_eq!(reason, Reason::FarOff);
+}
+
+/// Directions in a plane: half of the components are zero and say nothing of the noise of the others.
+#[test]
+fn an_instrument_that_moves_in_a_plane_is_fitted() {
+    let text = "chain Table { body top on ground { motion: Rz(angle); motion_error: Rz(zero); } \
+                observe mark: direction(1, 0, 0) of top; }";
+    for rows in [12, 40, 200] {
+        let mut simulation = Simulation::new(text, 11);
+        simulation.column("angle", rows, -3.1..3.1);
+        let zero = simulation.chain.find_symbol("zero").unwrap();
+        simulation.values[zero.index()] = 30.0 * ARCSEC;
+        let mut observations = simulation.directions("mark", 0.0);
+        for measured in &mut observations.measured {
+            let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), ARCSEC * simulation.normal());
+            *measured = Measured::Direction(turn * measured.vector().unwrap());
+        }
+        let result = fitted(&simulation, &observations);
+        assert!(matches!(result.outcome, Outcome::Converged { .. }), "{rows}: {:?}", result.outcome);
+        let uncertainty = result.standard_uncertainty(zero).unwrap();
+        let expected = ARCSEC / f64::from(rows as u32).sqrt();
+        assert!((0.5..2.0).contains(&(uncertainty / expected)), "{rows}: {}", uncertainty / expected);
+        assert!((result.values[zero.index()] - 30.0 * ARCSEC).abs() < 4.0 * expected, "{rows}");
+    }
 }
 
 #[test]

@@ -4,7 +4,7 @@ use model_core::Chain;
 use rayon::prelude::*;
 
 use super::brought::{self, Component};
-use super::{Layout, Noise, NoiseOptions, Pools, variance};
+use super::{Layout, Mute, Noise, NoiseOptions, Pools, variance};
 use crate::robust;
 use observe::Observations;
 
@@ -25,13 +25,14 @@ pub fn from_medians(
         Some(sigma) => vec![sigma; layout.kinds],
         None => {
             let pools = Pools::of(observations, layout, 0.0);
-            let mut floors = medians(&pools, layout, residual, &stated);
+            let mute = Mute::of(observations, layout, residual, resolution(observations));
+            let mut floors = medians(&pools, layout, residual, &stated, &mute);
             if !brought.is_empty() {
                 let of_pools = of_pools(layout, &pools, residual, &stated, brought, |_, _, _| [1.0; 2]);
                 let pairs = of_pools.iter().zip(floors);
                 floors = pairs.map(|(own, alone)| brought::floor_of_median(own, alone)).collect();
             }
-            pools.by_kind(layout, floors, &stated)
+            mute.lent(pools.by_kind(layout, floors, &stated))
         }
     };
     finish(Noise { floor, of_readings: 1.0, ..Noise::default() }, observations, layout, &stated, brought)
@@ -57,12 +58,12 @@ fn of_pools(
 }
 
 /// Per pool the standard deviation that the median of its residuals suggests.
-fn medians(pools: &Pools, layout: &Layout, residual: &[f64], stated: &[f64]) -> Vec<f64> {
+fn medians(pools: &Pools, layout: &Layout, residual: &[f64], stated: &[f64], mute: &Mute) -> Vec<f64> {
     let median = |pool: usize| {
         let own = layout
             .kind_of_each()
             .zip(residual.iter().zip(each(stated)))
-            .filter(|(kind, _)| pools.of_kind[*kind] == pool);
+            .filter(|(kind, _)| pools.of_kind[*kind] == pool && !mute.is(*kind));
         let scaled = own.map(|(_, (residual, stated))| (residual / stated).abs()).collect();
         robust::median(scaled) / robust::median_norm(1)
     };
@@ -73,8 +74,9 @@ fn medians(pools: &Pools, layout: &Layout, residual: &[f64], stated: &[f64]) -> 
 #[must_use]
 pub fn ln_scale(observations: &Observations, layout: &Layout, residual: &[f64]) -> f64 {
     let pools = Pools::of(observations, layout, 0.0);
-    let medians = medians(&pools, layout, residual, &[]);
     let least = resolution(observations);
+    let mute = Mute::of(observations, layout, residual, least);
+    let medians = medians(&pools, layout, residual, &[], &mute);
     let sum: f64 = layout.kind_of_each().map(|kind| medians[pools.of_kind[kind]].max(least).ln()).sum();
     sum / (layout.components() as f64).max(1.0)
 }
@@ -128,6 +130,7 @@ pub fn estimate(
         }
     };
     let pools = Pools::of(observations, layout, used);
+    let mute = Mute::of(observations, layout, residual, resolution(observations));
     let strides = layout.runs.iter().flat_map(|run| std::iter::repeat_n(run.stride, run.stride));
     let consistency: Vec<f64> =
         strides.map(|stride| if robust_weights { robust::consistency(stride) } else { 1.0 }).collect();
@@ -136,6 +139,9 @@ pub fn estimate(
         let of_each = layout.row_of_each().zip(layout.kind_of_each());
         let residuals = residual.iter().zip(each(spread)).zip(left.iter().cycle());
         for ((row, kind), ((residual, spread), left)) in of_each.zip(residuals) {
+            if mute.is(kind) {
+                continue;
+            }
             let [weights, squares] = &mut sums[pools.of_kind[kind]];
             *weights += weight[row] * left;
             *squares += weight[row] * consistency[kind] * (residual / spread).powi(2);
@@ -145,14 +151,14 @@ pub fn estimate(
         };
         let alone: Vec<f64> = sums.into_iter().map(floor).collect();
         if brought.is_empty() {
-            return (pools.by_kind(layout, alone, spread), 1.0);
+            return (mute.lent(pools.by_kind(layout, alone, spread)), 1.0);
         }
         let weights = |at: usize, row: usize, kind: usize| {
             [weight[row] * consistency[kind], weight[row] * left[at % left.len()]]
         };
         let of_pools = of_pools(layout, &pools, residual, spread, brought, weights);
         let (floors, factor) = brought::floors(&of_pools, &alone);
-        (pools.by_kind(layout, floors, spread), factor)
+        (mute.lent(pools.by_kind(layout, floors, spread)), factor)
     };
     let (floor, of_readings) =
         options.known().map_or_else(|| floors(&stated, brought), |sigma| (vec![sigma; layout.kinds], 1.0));

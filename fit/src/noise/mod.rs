@@ -7,6 +7,7 @@
 mod brought;
 mod estimate;
 mod layout;
+mod mute;
 mod pool;
 pub mod serial;
 pub(super) mod session;
@@ -24,6 +25,7 @@ use observe::{NoiseOf, Observations};
 pub use estimate::{Followed, estimate, from_medians, of_floors, resolution};
 pub(super) use estimate::{each, ln_scale, stated};
 pub use layout::{Layout, Run};
+pub use mute::Mute;
 pub use pool::Pools;
 pub use session::Offsets;
 pub use space::Filter;

@@ -54,6 +54,9 @@ pub(super) fn steps(misread: &Misread) -> Vec<Step> {
                 text.push_str(&format!("Write under [{table}]: {}. ", lines.join(", ")));
             }
         }
+        if suspect.lines.is_empty() {
+            text.push_str("Correct these rows in the file. ");
+        }
         text.push_str("Then calibrate again.");
         Step { title: title(&suspect.reading).to_owned(), text, command: None }
     };
@@ -88,10 +91,12 @@ fn value(value: &Implausible) -> String {
 
 fn title(reading: &Reading) -> &'static str {
     match reading {
-        Reading::Unit { .. } => "Correct the unit",
+        Reading::Unit { .. } | Reading::Counts { .. } => "Correct the unit",
         Reading::Packed { .. } => "State the notation",
         Reading::Reversed { .. } => "Reverse the sign",
         Reading::FromZenith { .. } => "Count from the horizon",
+        Reading::Turned { .. } => "Move the zero",
+        Reading::FromRow { .. } => "Correct these rows",
         Reading::Exchanged { .. } => "Exchange the columns",
         Reading::Shifted { .. } => "Shift the rows",
     }
@@ -103,12 +108,23 @@ fn sentence(reading: &Reading) -> String {
             let not = read.map_or_else(String::new, |read| format!(", not {read}"));
             format!("{} in {is}{not}.", are(columns))
         }
+        Reading::Counts { column, per_turn } => {
+            format!("Column `{column}` is in counts of its encoder, {per_turn} a turn.")
+        }
         Reading::Packed { columns, notation } => {
             format!("{} in degrees, minutes and seconds ({notation}), not in decimal degrees.", are(columns))
         }
         Reading::Reversed { column } => format!("Column `{column}` counts the other way."),
         Reading::FromZenith { column } => {
             format!("Column `{column}` is the angle from the zenith, not from the horizon.")
+        }
+        Reading::Turned { column, by_deg } => {
+            format!("Column `{column}` counts from elsewhere: the joint reads {by_deg}° more.")
+        }
+        Reading::FromRow { reading, row, before } => {
+            let which = if *before { "before" } else { "from" };
+            let on = if *before { "" } else { " on" };
+            format!("{} Only the rows {which} row {row}{on} are so.", sentence(reading))
         }
         Reading::Exchanged { columns: [one, other] } => {
             format!("The columns `{one}` and `{other}` are exchanged.")

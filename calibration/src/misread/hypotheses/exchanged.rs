@@ -2,7 +2,7 @@
 
 use super::{Hypothesis, Line, Reading, Tried, line, unit_of};
 use crate::misread::policy::EXCHANGED_PRICE;
-use study::{Change, SampledColumn};
+use study::{Change, Changed, SampledColumn};
 
 pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
     let mut all = Vec::new();
@@ -25,11 +25,12 @@ fn hypothesis(tried: &Tried<'_>, one: &SampledColumn, other: &SampledColumn) -> 
     Hypothesis {
         reading: Reading::Exchanged { columns: [one.name.clone(), other.name.clone()] },
         changes: vec![
-            (one.place, Change::Exchanged(other.place)),
-            (other.place, Change::Exchanged(one.place)),
+            Changed::all(one.place, Change::Exchanged(other.place)),
+            Changed::all(other.place, Change::Exchanged(one.place)),
         ],
         lines: vec![reads(one, other), reads(other, one)],
         price: EXCHANGED_PRICE,
         digits: 0.0,
+        of_joints: false,
     }
 }

@@ -1,20 +1,30 @@
 //! What a study may misread: a registry, one file a kind of mistake, each with the readings that it tries.
 
+mod counts;
 mod exchanged;
+pub(super) mod from_row;
 mod packed;
 mod sense;
 mod shifted;
+mod turned;
 mod unit;
 
-use model_core::SymbolKind;
+use model_core::{SymbolId, SymbolKind};
 use serde::Serialize;
 
 use super::policy::RARE;
 use study::{Change, Changed, Notation, Plan, Read, SampledColumn};
 
 /// Every kind of mistake.
-const KINDS: &[fn(&Tried<'_>) -> Vec<Hypothesis>] =
-    &[unit::tried, packed::tried, sense::tried, exchanged::tried, shifted::tried];
+const KINDS: &[fn(&Tried<'_>) -> Vec<Hypothesis>] = &[
+    unit::tried,
+    counts::tried,
+    packed::tried,
+    sense::tried,
+    turned::tried,
+    exchanged::tried,
+    shifted::tried,
+];
 
 /// What the kinds of mistake are tried on.
 pub(super) struct Tried<'a> {
@@ -23,6 +33,8 @@ pub(super) struct Tried<'a> {
     pub joints: Vec<&'a SampledColumn>,
     /// Columns of what was observed.
     pub observed: Vec<&'a SampledColumn>,
+    /// Joints whose zero is estimated.
+    pub indexed: Vec<SymbolId>,
 }
 
 /// One way to read the data otherwise.
@@ -35,13 +47,15 @@ pub(super) struct Hypothesis {
     pub price: f64,
     /// What the digits alone say for it, nats.
     pub digits: f64,
+    /// Whether it changes joints alone.
+    pub of_joints: bool,
 }
 
 impl Hypothesis {
     /// How much a reading of a column changes with the number as it is written.
     pub fn factor(&self, column: &SampledColumn) -> f64 {
-        let own = self.changes.iter().find(|(place, _)| *place == column.place);
-        match own.map(|(_, change)| *change) {
+        let own = self.changes.iter().find(|own| own.place == column.place);
+        match own.map(|own| own.change) {
             Some(Change::Factor(factor)) => factor,
             Some(Change::Notation(Notation::Degrees)) => 1.0_f64.to_radians(),
             Some(Change::Notation(Notation::Hours)) => 15e-4_f64.to_radians(),
@@ -63,6 +77,13 @@ pub enum Reading {
         /// The same as the study reads it; none where it is no unit of the table.
         read: Option<&'static str>,
     },
+    /// A column is in counts of an encoder.
+    Counts {
+        /// The column of the file.
+        column: String,
+        /// Counts a turn.
+        per_turn: u32,
+    },
     /// Digits of columns are degrees, minutes and seconds.
     Packed {
         /// The columns of the file.
@@ -79,6 +100,22 @@ pub enum Reading {
     FromZenith {
         /// The column of the file.
         column: String,
+    },
+    /// A column counts from elsewhere.
+    Turned {
+        /// The column of the file.
+        column: String,
+        /// What is to be added, deg.
+        by_deg: i16,
+    },
+    /// Some rows alone are read otherwise.
+    FromRow {
+        /// How they are read.
+        reading: Box<Reading>,
+        /// The first row of them, or the first behind them.
+        row: u64,
+        /// Whether it is the rows before that one.
+        before: bool,
     },
     /// Two columns are exchanged.
     Exchanged {
@@ -104,7 +141,7 @@ pub struct Line {
 }
 
 /// Every hypothesis about the columns of a study. Of one kind each is as likely as the others.
-pub(super) fn all(plan: &Plan, columns: &[SampledColumn]) -> Vec<Hypothesis> {
+pub(super) fn all(plan: &Plan, columns: &[SampledColumn], indexed: Vec<SymbolId>) -> Vec<Hypothesis> {
     let of = |is: &dyn Fn(&SampledColumn) -> bool| columns.iter().filter(|column| is(column)).collect();
     let is_joint = |column: &SampledColumn| match column.read {
         Read::Reading(id) => plan.chain.symbol(id).kind == SymbolKind::Joint,
@@ -112,12 +149,16 @@ pub(super) fn all(plan: &Plan, columns: &[SampledColumn]) -> Vec<Hypothesis> {
     };
     let joints: Vec<&SampledColumn> = of(&is_joint);
     let observed: Vec<&SampledColumn> = of(&|column| matches!(column.read, Read::Observed(_)));
-    let tried = Tried { plan, joints, observed };
+    let tried = Tried { plan, joints, observed, indexed };
     let mut all = Vec::new();
     for kind in KINDS {
         let mut own = kind(&tried);
         let alternatives = (own.len().max(1) as f64).ln();
-        own.iter_mut().for_each(|hypothesis| hypothesis.price += alternatives - RARE.ln());
+        for hypothesis in &mut own {
+            hypothesis.price += alternatives - RARE.ln();
+            let is_joint = |changed: &Changed| tried.joints.iter().any(|joint| joint.place == changed.place);
+            hypothesis.of_joints = hypothesis.changes.iter().all(is_joint);
+        }
         all.extend(own);
     }
     all

@@ -4,7 +4,7 @@ use model_core::Quantity;
 
 use super::{Hypothesis, Reading, Tried, line, names, sets};
 use crate::misread::policy::PACKED_PRICE;
-use study::{Change, Notation, SampledColumn};
+use study::{Change, Changed, Notation, SampledColumn};
 
 /// Digit pairs behind the point of a packed number: minutes and seconds.
 const PAIRS: f64 = 2.0;
@@ -13,7 +13,7 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
     let notation = Notation::Degrees;
     let hypothesis = |set: Vec<&SampledColumn>| Hypothesis {
         reading: Reading::Packed { columns: names(&set), notation: notation.name() },
-        changes: set.iter().map(|column| (column.place, Change::Notation(notation))).collect(),
+        changes: set.iter().map(|column| Changed::all(column.place, Change::Notation(notation))).collect(),
         lines: set
             .iter()
             .map(|column| {
@@ -23,6 +23,7 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
         price: PACKED_PRICE,
         // Of a hundred pairs of digits sixty are below 60.
         digits: set.iter().map(|column| -0.6_f64.ln() * PAIRS * column.written.len() as f64).sum(),
+        of_joints: false,
     };
     sets(tried, is_packed).into_iter().map(hypothesis).collect()
 }

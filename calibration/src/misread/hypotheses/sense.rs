@@ -6,16 +6,17 @@ use model_core::Quantity;
 
 use super::{Hypothesis, Reading, Tried, line, unit_of};
 use crate::misread::policy::ZENITH_PRICE;
-use study::{Change, SampledColumn};
+use study::{Change, Changed, SampledColumn};
 
 pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
     let of_column = |column: &&SampledColumn| {
         let own = |reading: Reading, change: Change, how: String, price: f64| Hypothesis {
             reading,
-            changes: vec![(column.place, change)],
+            changes: vec![Changed::all(column.place, change)],
             lines: vec![line(tried.plan, column, &column.name, &format!("{}{how}", unit_of(column)))],
             price,
             digits: 0.0,
+            of_joints: false,
         };
         let name = || column.name.clone();
         let reversed =

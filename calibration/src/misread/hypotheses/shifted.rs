@@ -2,7 +2,7 @@
 
 use super::{Hypothesis, Reading, Tried, line, names, unit_of};
 use crate::misread::policy::SHIFTED_PRICE;
-use study::{Change, SampledColumn};
+use study::{Change, Changed, SampledColumn};
 
 pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
     let mut sets: Vec<Vec<&SampledColumn>> = vec![tried.joints.clone()];
@@ -15,13 +15,14 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
             let how = |column: &SampledColumn| format!("{}, shift = {by}", unit_of(column));
             all.push(Hypothesis {
                 reading: Reading::Shifted { columns: names(set), by },
-                changes: set.iter().map(|column| (column.place, Change::Shift(by))).collect(),
+                changes: set.iter().map(|column| Changed::all(column.place, Change::Shift(by))).collect(),
                 lines: set
                     .iter()
                     .map(|column| line(tried.plan, column, &column.name, &how(column)))
                     .collect(),
                 price: SHIFTED_PRICE,
                 digits: 0.0,
+                of_joints: false,
             });
         }
     }

@@ -4,7 +4,7 @@ use model_core::Quantity;
 use tables::units::Unit;
 
 use super::{Hypothesis, Line, Reading, Tried, line, named, names, sets};
-use study::{Change, SampledColumn};
+use study::{Change, Changed, SampledColumn};
 
 /// Units that files are written in.
 const ANGLES: &[&str] = &["deg", "rad", "gon", "hour", "arcmin", "arcsec", "mrad", "mas", "turn"];
@@ -33,9 +33,13 @@ fn hypothesis(tried: &Tried<'_>, columns: &[&SampledColumn], unit: &str) -> Opti
     let read = columns.first().and_then(|column| named(column));
     Some(Hypothesis {
         reading: Reading::Unit { columns: names(columns), is: unit.name, read },
-        changes: columns.iter().map(|column| (column.place, Change::Factor(unit.in_si))).collect(),
+        changes: columns
+            .iter()
+            .map(|column| Changed::all(column.place, Change::Factor(unit.in_si)))
+            .collect(),
         lines,
         price: 0.0,
         digits: 0.0,
+        of_joints: false,
     })
 }

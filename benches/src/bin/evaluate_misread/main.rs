@@ -1,0 +1,171 @@
+//! How often misread columns are told, and how often something is told of files in which nothing is wrong.
+//!
+//! `cargo run --release -p trueaxis-benches --bin evaluate_misread -- [--runs N] [--clean N] [--seed S] [--page FILE] [TRAP…]`: N runs
+//! of each trap, instrument and number of rows (default 4), of clean files (default 3000); the seed of the first run (default 1; seeds
+//! below 1,000,000 were used while the readings were made); FILE the page of the book; traps by a part of their names.
+#![allow(clippy::print_stdout)]
+
+mod data;
+mod instruments;
+mod judge;
+mod traps;
+
+use std::fmt::Write as _;
+
+use rayon::prelude::*;
+use testkit::Random;
+
+use data::{Data, HABITS};
+use instruments::INSTRUMENTS;
+use judge::{Answer, Failure, of_clean, of_spoiled};
+use traps::TRAPS;
+
+const ROWS: [usize; 3] = [12, 50, 300];
+
+/// Rows of clean files: few as well.
+const CLEAN_ROWS: [usize; 4] = [8, 12, 50, 300];
+
+struct Asked {
+    runs: usize,
+    clean: usize,
+    seed: u64,
+    page: Option<String>,
+    traps: Vec<String>,
+}
+
+fn main() -> Result<(), Failure> {
+    let mut asked = Asked { runs: 4, clean: 3000, seed: 1, page: None, traps: Vec::new() };
+    let mut arguments = std::env::args().skip(1);
+    while let Some(argument) = arguments.next() {
+        let mut value = || arguments.next().ok_or(format!("{argument} needs a value"));
+        match argument.as_str() {
+            "--runs" => asked.runs = value()?.parse()?,
+            "--clean" => asked.clean = value()?.parse()?,
+            "--seed" => asked.seed = value()?.parse()?,
+            "--page" => asked.page = Some(value()?),
+            _ => asked.traps.push(argument),
+        }
+    }
+    let mut text = spoiled(&asked)?;
+    text += &clean(&asked)?;
+    if let Some(file) = &asked.page {
+        std::fs::write(file, page(&asked, &text))?;
+    }
+    Ok(())
+}
+
+/// Numbers that belong to one run of one case.
+fn numbers(seed: u64, case: usize, run: usize) -> Random {
+    let mut random = Random::new(
+        seed.wrapping_add(run as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ ((case as u64) << 40),
+    );
+    (0..8).for_each(|_| {
+        random.even();
+    });
+    random
+}
+
+fn spoiled(asked: &Asked) -> Result<String, Failure> {
+    let mut text =
+        "| mistake | instrument | rows | runs | named first | among those named | another named | refused | withheld | silent | cannot be seen |\n\
+         |---|---|---|---|---|---|---|---|---|---|---|\n"
+            .to_owned();
+    let mut sums = [0_usize; 7];
+    for (case, trap) in TRAPS.iter().enumerate() {
+        let is_asked =
+            asked.traps.is_empty() || asked.traps.iter().any(|part| trap.name.contains(part.as_str()));
+        for instrument in INSTRUMENTS.iter().filter(|own| is_asked && (trap.on)(own)) {
+            for rows in ROWS {
+                let run = |run: usize| {
+                    let random = &mut numbers(asked.seed, case * 1000 + rows, run);
+                    let clean = Data::simulated(instrument, rows, HABITS[0].0, random);
+                    let mut data = clean.clone();
+                    let right = (trap.spoil)(&mut data, random);
+                    of_spoiled(&data, &clean, &right).map(|(answer, said)| (answer, said, right))
+                };
+                let answers: Vec<_> =
+                    (0..asked.runs).into_par_iter().map(run).collect::<Result<_, Failure>>()?;
+                let kinds = [
+                    Answer::First,
+                    Answer::Among,
+                    Answer::Other,
+                    Answer::Refused,
+                    Answer::Withheld,
+                    Answer::Silent,
+                    Answer::Hidden,
+                ];
+                let counts = kinds.map(|kind| answers.iter().filter(|(answer, ..)| *answer == kind).count());
+                for (answer, said, right) in &answers {
+                    if matches!(answer, Answer::Other | Answer::Silent) {
+                        println!(
+                            "  {answer:?}: {} · {} · {rows}: {said:?} for {:?}",
+                            trap.name,
+                            instrument.name,
+                            right.first()
+                        );
+                    }
+                }
+                sums.iter_mut().zip(counts).for_each(|(sum, count)| *sum += count);
+                let cells = counts.map(|count| count.to_string()).join(" | ");
+                let line =
+                    format!("| {} | {} | {rows} | {} | {cells} |", trap.name, instrument.name, asked.runs);
+                println!("{line}");
+                let _ = writeln!(text, "{line}");
+            }
+        }
+    }
+    let all: usize = sums.iter().sum();
+    let _ = writeln!(text, "| **all** | | | {all} | {} |", sums.map(|sum| format!("**{sum}**")).join(" | "));
+    println!("{}", text.lines().last().unwrap_or_default());
+    Ok(text)
+}
+
+fn clean(asked: &Asked) -> Result<String, Failure> {
+    let mut text =
+        "\n| nothing is wrong | runs | something named | withheld |\n|---|---|---|---|\n".to_owned();
+    for (case, (habit, words)) in HABITS.iter().enumerate() {
+        let runs = asked.clean / HABITS.len();
+        let run = |run: usize| {
+            let random = &mut numbers(asked.seed, 100_000 + case, run);
+            let instrument = &INSTRUMENTS[run % INSTRUMENTS.len()];
+            let rows = CLEAN_ROWS[run / INSTRUMENTS.len() % CLEAN_ROWS.len()];
+            let data = Data::simulated(instrument, rows, *habit, random);
+            of_clean(&data).map(|(named, withheld)| (named, withheld, instrument.name, rows))
+        };
+        let answers: Vec<_> = (0..runs).into_par_iter().map(run).collect::<Result<_, Failure>>()?;
+        for (named, _, instrument, rows) in answers.iter().filter(|(named, ..)| !named.is_empty()) {
+            println!("  named: {words} · {instrument} · {rows}: {named:?}");
+        }
+        let named = answers.iter().filter(|(named, ..)| !named.is_empty()).count();
+        let withheld = answers.iter().filter(|(_, withheld, ..)| *withheld).count();
+        let line = format!("| {words} | {runs} | {named} | {withheld} |");
+        println!("{line}");
+        let _ = writeln!(text, "{line}");
+    }
+    Ok(text)
+}
+
+fn page(asked: &Asked, text: &str) -> String {
+    format!(
+        "\
+# How often misread columns are told
+
+<!-- Written by `cargo run --release -p trueaxis-benches --bin evaluate_misread -- --runs {} --clean {} --seed {} --page FILE` -->
+
+Files of six instruments are simulated, and one mistake is made in each. `calibrate` is asked what it says of the columns, before
+it looks for any effect. The simulators share no code with the program.
+
+- *named first*: the mistake is the first reading that is told. *among those named*: several explain the data alike, and it is one.
+- *another named*: what is told is no mistake that was made.
+- *refused*: a number of the file is impossible, and `calibrate` says in which row.
+- *withheld*: nothing is named, and the correction is withheld, because an error or the residual is too large to be one.
+- *silent*: nothing is said, though the file without the mistake fits better by a likelihood ratio of more than 20.
+- *cannot be seen*: nothing is said, and the file fits as well as without the mistake.
+
+The second table has files in which nothing is wrong; whatever is named there is a false alarm. Seeds below 1,000,000 were used while
+the readings were made; this page is of seeds from {} on.
+
+{text}",
+        asked.runs, asked.clean, asked.seed, asked.seed
+    )
+}

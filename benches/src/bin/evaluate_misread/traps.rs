@@ -1,0 +1,254 @@
+//! Mistakes that people make with the columns of a file, each with the answers that name it.
+
+use testkit::Random;
+
+use crate::data::{Column, Data, unit_si};
+use crate::instruments::{Instrument, Observed};
+
+/// The words that name a mistake: any of them is right.
+pub type Names = Vec<String>;
+
+pub struct Trap {
+    pub name: &'static str,
+    pub on: fn(&Instrument) -> bool,
+    pub spoil: fn(&mut Data, &mut Random) -> Names,
+}
+
+fn angles(data: &mut Data) -> Vec<&mut Column> {
+    data.joints.iter_mut().filter(|column| column.unit != Some("m")).collect()
+}
+
+fn scaled(column: &mut Column, factor: f64) {
+    column.numbers.iter_mut().for_each(|number| *number *= factor);
+}
+
+/// Columns whose numbers are in another unit than the study says.
+fn written_in(columns: Vec<&mut Column>, unit: &'static str) -> Names {
+    let mut names = Vec::new();
+    for column in columns {
+        let own = column.unit.unwrap_or("rad");
+        scaled(column, unit_si(own) / unit_si(unit));
+        names.push(column.name.clone());
+    }
+    vec![format!("{unit}: {}", names.join(" "))]
+}
+
+/// Columns of which the study says another unit than they are in.
+fn said_to_be(columns: Vec<&mut Column>, unit: &'static str) -> Names {
+    let mut names = Vec::new();
+    let mut is = "";
+    for column in columns {
+        is = column.unit.unwrap_or("rad");
+        column.unit = Some(unit);
+        names.push(column.name.clone());
+    }
+    vec![format!("{is}: {}", names.join(" "))]
+}
+
+fn packed(columns: Vec<&mut Column>) -> Names {
+    let mut names = Vec::new();
+    for column in columns {
+        for number in &mut column.numbers {
+            let tenths = (number.abs() * 36_000.0).round() as u64;
+            let (whole, minutes, left) = (tenths / 36_000, tenths / 600 % 60, tenths % 600);
+            let digits = whole as f64 + minutes as f64 / 100.0 + left as f64 / 100_000.0;
+            *number = digits.copysign(*number);
+        }
+        names.push(column.name.clone());
+    }
+    vec![format!("ddd.mmss: {}", names.join(" "))]
+}
+
+fn exchanged(columns: &mut [Column], random: &mut Random) -> Names {
+    let one = random.below(columns.len());
+    let other = (one + 1 + random.below(columns.len() - 1)) % columns.len();
+    let (one, other) = (one.min(other), one.max(other));
+    let numbers = columns[one].numbers.clone();
+    columns[one].numbers = std::mem::replace(&mut columns[other].numbers, numbers);
+    vec![format!("exchanged: {} {}", columns[one].name, columns[other].name)]
+}
+
+/// What a column that counts the other way may be called: a declared index hides where it counts from, and of two angles either may turn.
+fn reversed(data: &Data, name: &str) -> Names {
+    let mut names = vec![format!("reversed: {name}"), format!("zenith: {name}")];
+    if data.instrument.observed == Observed::Spherical {
+        for column in data.joints.iter().chain(&data.observed) {
+            names.extend(["reversed", "zenith"].map(|how| format!("{how}: {}", column.name)));
+        }
+    }
+    names
+}
+
+fn shifted(columns: &mut [Column], by: usize) -> Names {
+    for column in columns.iter_mut() {
+        column.numbers.rotate_left(by);
+    }
+    vec![format!(
+        "rows 1: {}",
+        columns.iter().map(|column| column.name.as_str()).collect::<Vec<_>>().join(" ")
+    )]
+}
+
+fn any(_: &Instrument) -> bool {
+    true
+}
+
+fn spherical(instrument: &Instrument) -> bool {
+    instrument.observed == Observed::Spherical
+}
+
+fn point(instrument: &Instrument) -> bool {
+    instrument.observed == Observed::Point
+}
+
+fn several(instrument: &Instrument) -> bool {
+    instrument.joints.len() > 1
+}
+
+/// Two joints that measure the same.
+fn two_angles(instrument: &Instrument) -> bool {
+    several(instrument) && !(0..instrument.joints.len()).any(|joint| instrument.slides(joint))
+}
+
+pub const TRAPS: &[Trap] = &[
+    Trap { name: "joints in gon", on: any, spoil: |data, _| written_in(angles(data), "gon") },
+    Trap {
+        name: "one joint in rad",
+        on: any,
+        spoil: |data, random| {
+            let mut all = angles(data);
+            let at = random.below(all.len());
+            written_in(vec![all.swap_remove(at)], "rad")
+        },
+    },
+    Trap {
+        name: "degrees said to be rad, joints",
+        on: any,
+        spoil: |data, _| said_to_be(angles(data), "rad"),
+    },
+    Trap {
+        name: "observed angles in gon",
+        on: spherical,
+        spoil: |data, _| written_in(data.observed.iter_mut().collect(), "gon"),
+    },
+    Trap {
+        name: "observed degrees said to be gon",
+        on: spherical,
+        spoil: |data, _| said_to_be(data.observed.iter_mut().collect(), "gon"),
+    },
+    Trap {
+        name: "all angles in gon",
+        on: spherical,
+        spoil: |data, _| {
+            let all = data.joints.iter_mut().chain(&mut data.observed).collect();
+            written_in(all, "gon")
+        },
+    },
+    Trap {
+        name: "one angle in hours",
+        on: spherical,
+        spoil: |data, random| {
+            let first = if random.even() < 0.5 { &mut data.joints[0] } else { &mut data.observed[0] };
+            written_in(vec![first], "hour")
+        },
+    },
+    Trap {
+        name: "points in mm",
+        on: point,
+        spoil: |data, _| written_in(data.observed.iter_mut().collect(), "mm"),
+    },
+    Trap {
+        name: "points in m said to be mm",
+        on: point,
+        spoil: |data, _| said_to_be(data.observed.iter_mut().collect(), "mm"),
+    },
+    Trap {
+        name: "points in inches",
+        on: point,
+        spoil: |data, _| written_in(data.observed.iter_mut().collect(), "inch"),
+    },
+    Trap {
+        name: "x in mm",
+        on: point,
+        spoil: |data, _| written_in(data.observed.iter_mut().take(1).collect(), "mm"),
+    },
+    Trap { name: "joints in degrees, minutes, seconds", on: any, spoil: |data, _| packed(angles(data)) },
+    Trap {
+        name: "observed in degrees, minutes, seconds",
+        on: spherical,
+        spoil: |data, _| packed(data.observed.iter_mut().collect()),
+    },
+    Trap {
+        name: "joints exchanged",
+        on: two_angles,
+        spoil: |data, random| exchanged(&mut data.joints, random),
+    },
+    Trap {
+        name: "observed columns exchanged",
+        on: any,
+        spoil: |data, random| exchanged(&mut data.observed, random),
+    },
+    Trap {
+        name: "a joint counts the other way",
+        on: any,
+        spoil: |data, random| {
+            let at = random.below(angles(data).len());
+            scaled(&mut data.joints[at], -1.0);
+            reversed(data, &data.joints[at].name)
+        },
+    },
+    Trap {
+        name: "an observed column with the other sign",
+        on: any,
+        spoil: |data, random| {
+            let at = random.below(data.observed.len());
+            scaled(&mut data.observed[at], -1.0);
+            reversed(data, &data.observed[at].name)
+        },
+    },
+    Trap {
+        name: "an angle from the zenith",
+        on: several,
+        spoil: |data, _| {
+            data.joints[1].numbers.iter_mut().for_each(|number| *number = 90.0 - *number);
+            reversed(data, &data.joints[1].name)
+        },
+    },
+    Trap {
+        name: "a joint a quarter turn off, without an index",
+        on: |instrument| !instrument.indexed,
+        spoil: |data, random| {
+            let at = [0, 2][random.below(2)];
+            let by = [90.0, -90.0][random.below(2)];
+            data.joints[at].numbers.iter_mut().for_each(|number| *number += by);
+            vec![format!("turned: {}", data.joints[at].name)]
+        },
+    },
+    Trap { name: "joints one row off", on: any, spoil: |data, _| shifted(&mut data.joints, 1) },
+    Trap {
+        name: "one joint one row off",
+        on: several,
+        spoil: |data, random| {
+            let at = random.below(data.joints.len());
+            shifted(&mut data.joints[at..=at], 1)
+        },
+    },
+    Trap {
+        name: "a joint in encoder counts",
+        on: any,
+        spoil: |data, random| {
+            let counts = 2_f64.powi(14 + 2 * random.below(5) as i32);
+            data.joints[0].numbers.iter_mut().for_each(|number| *number = (*number / 360.0 * counts).round());
+            vec![format!("counts: {}", data.joints[0].name)]
+        },
+    },
+    Trap {
+        name: "a joint in gon from a row on",
+        on: any,
+        spoil: |data, random| {
+            let from = (data.rows as f64 * (0.3 + 0.5 * random.even())) as usize;
+            data.joints[0].numbers[from..].iter_mut().for_each(|number| *number /= 0.9);
+            vec![format!("from a row, gon: {}", data.joints[0].name)]
+        },
+    },
+];

@@ -1,0 +1,135 @@
+//! Every reading of the data, fitted: all by a few steps, the best to the end.
+
+use fit::noise::{Layout, NoiseOptions};
+use fit::{FitOptions, Model, residuals};
+use observe::Observations;
+use study::{Changed, Plan, Sample, SampledColumn};
+
+use super::hypotheses::{self, Hypothesis, from_row};
+use super::policy::{FITTED, PARTS, SCREENED_STEPS};
+use super::prior::{Priors, indexed};
+use super::score::{Score, score};
+
+/// A reading of the data, and what it comes to.
+pub(super) struct Tried {
+    pub hypothesis: Hypothesis,
+    pub score: Score,
+    observations: Observations,
+}
+
+/// The rows of a sample, and what their fits go by.
+pub(super) struct Trial<'a> {
+    plan: &'a Plan,
+    sample: &'a Sample,
+    columns: Vec<SampledColumn>,
+    priors: Priors,
+    options: FitOptions,
+    model: Model,
+    /// The rows as the study reads them.
+    pub own: Observations,
+}
+
+impl<'a> Trial<'a> {
+    /// `None` where the rows observe unknown objects, or there are none.
+    pub fn new(plan: &'a Plan, sample: &'a Sample) -> Option<Self> {
+        let own = read(plan, sample, &[])?;
+        if own.unknowns.is_some() || own.rows() == 0 {
+            return None;
+        }
+        // No model of the noise.
+        let noise = NoiseOptions { variance: false, serial: false, ..plan.fit.noise.by_residuals() };
+        let options = FitOptions { noise, ..plan.fit.clone() };
+        let model = Model::new(&plan.chain, &own.poses, &plan.fit.estimate).ok()?;
+        let priors = Priors::of(plan, &own);
+        Some(Self { plan, sample, columns: sample.columns(), priors, options, model, own })
+    }
+
+    /// The score of the study's own reading, from some errors.
+    pub fn as_read(&self, start: &[f64]) -> Option<Score> {
+        self.score(&self.own, start, self.plan.fit.max_iterations, None)
+    }
+
+    /// The other readings that come out best, fitted to the end, the best first.
+    pub fn others(&self, as_read: &Score) -> Vec<Tried> {
+        let all = hypotheses::all(self.plan, &self.columns, indexed(self.plan, &self.own));
+        let mut screened: Vec<Tried> =
+            all.into_iter().filter_map(|hypothesis| self.screened(hypothesis, as_read)).collect();
+        screened.extend(self.of_rows(&screened, as_read));
+        best_first(&mut screened);
+        screened.truncate(FITTED);
+        let to_the_end = |tried: Tried| {
+            let Tried { hypothesis, score, observations } = tried;
+            let steps = self.plan.fit.max_iterations;
+            let score = self.score(&observations, &score.values, steps, Some(&hypothesis))?;
+            Some(Tried { hypothesis, score, observations })
+        };
+        let mut finalists: Vec<Tried> = screened.into_iter().filter_map(to_the_end).collect();
+        best_first(&mut finalists);
+        finalists
+    }
+
+    /// A reading after a few steps, from the errors that the study starts from or from those found so far.
+    fn screened(&self, hypothesis: Hypothesis, as_read: &Score) -> Option<Tried> {
+        let observations = read(self.plan, self.sample, &hypothesis.changes)?;
+        let from = |start| self.score(&observations, start, SCREENED_STEPS, Some(&hypothesis));
+        let scores = [from(self.plan.fit.start.as_slice()), from(&as_read.values)];
+        let score = scores.into_iter().flatten().max_by(|a, b| a.total.total_cmp(&b.total))?;
+        Some(Tried { hypothesis, score, observations })
+    }
+
+    /// Readings of some rows alone: those that gain most.
+    fn of_rows(&self, whole: &[Tried], as_read: &Score) -> Vec<Tried> {
+        let row_number = |row: usize| self.own.row_numbers.get(row).unwrap_or_default();
+        let mut parts: Vec<(Hypothesis, f64)> = Vec::new();
+        let own = self.norms(&self.own, &as_read.values);
+        for tried in whole.iter().filter(|tried| from_row::may_change(&tried.hypothesis)) {
+            let of = |as_read: &[f64], values: &[f64]| {
+                let otherwise = &self.norms(&tried.observations, values)?;
+                from_row::of_rows(&tried.hypothesis, &from_row::Off { as_read, otherwise }, row_number)
+            };
+            // Most rows may be as the study reads them, or most otherwise.
+            let most = own.as_ref().and_then(|own| of(own, &as_read.values));
+            let few =
+                self.norms(&self.own, &tried.score.values).and_then(|own| of(&own, &tried.score.values));
+            parts.extend([most, few].into_iter().flatten().filter(|(_, gain)| *gain > 0.0));
+        }
+        parts.sort_by(|one, other| other.1.total_cmp(&one.1));
+        parts.truncate(PARTS);
+        parts.into_iter().filter_map(|(hypothesis, _)| self.screened(hypothesis, as_read)).collect()
+    }
+
+    fn score(
+        &self,
+        observations: &Observations,
+        start: &[f64],
+        steps: usize,
+        hypothesis: Option<&Hypothesis>,
+    ) -> Option<Score> {
+        let options = FitOptions {
+            start: start.to_vec(),
+            max_iterations: steps,
+            // Most other readings are wrong and end far off: only the study's own is worth other starts.
+            other_starts: hypothesis.is_none(),
+            ..self.options.clone()
+        };
+        score(self.plan, &self.model, observations, &options, &self.priors, &self.columns, hypothesis)
+    }
+
+    /// How far off each row is, SI; `None` where the rows are not those of the sample.
+    fn norms(&self, observations: &Observations, values: &[f64]) -> Option<Vec<f64>> {
+        let is_whole = self.plan.sources.len() == 1 && observations.rows() == self.own.rows();
+        let off = is_whole.then(|| residuals(&self.model, observations, values).ok()).flatten()?;
+        Some(Layout::of(observations).norms(&off).collect())
+    }
+}
+
+/// What the rows observe with some columns read otherwise. A score asks for no uncertainties: which rows belong together is of no
+/// account.
+fn read(plan: &Plan, sample: &Sample, changes: &[Changed]) -> Option<Observations> {
+    let observations = sample.observations(plan, changes).ok()?;
+    Some(Observations { groups: Vec::new(), crossed: Vec::new(), ..observations })
+}
+
+fn best_first(all: &mut [Tried]) {
+    all.sort_by(|one, other| other.score.total.total_cmp(&one.score.total));
+}

@@ -7,6 +7,8 @@ use evidence::{Driver, Problem};
 use model_core::algebra::Poly;
 use model_core::{BodyId, Meaning, Role, SymbolId, SymbolKind, TransformKind};
 
+use fit::noise::{Layout, Mute, resolution};
+
 use crate::search::SearchError;
 use crate::search::columns::functions::Functions;
 use crate::search::columns::{Columns, Probed, places};
@@ -49,7 +51,7 @@ pub(super) fn asked(whole: &Context<'_>, fitted: &Fitted) -> Result<Asked, Searc
         estimate: fitted.fit.values[id.index()],
         column: columns.declared.col_as_slice(at).to_vec(),
     });
-    let problem = Problem {
+    let mut problem = Problem {
         components: columns.residual.len() / poses.rows().max(1),
         residual: columns.residual.clone(),
         sigma: sigma(whole),
@@ -67,7 +69,35 @@ pub(super) fn asked(whole: &Context<'_>, fitted: &Fitted) -> Result<Asked, Searc
             given: building.given,
         },
     };
+    keep_what_speaks(&mut problem, whole, fitted);
     Ok(Asked { problem, effects })
+}
+
+/// Leaves out components of a row that show nothing but rounding: under any noise they would seem to explain themselves.
+fn keep_what_speaks(problem: &mut Problem, whole: &Context<'_>, fitted: &Fitted) {
+    let observations = whole.request.observations;
+    let layout = Layout::of(observations);
+    let mute = Mute::of(observations, &layout, &fitted.fit.residuals.raw, resolution(observations));
+    let count = problem.components;
+    let speaks: Vec<bool> = (0..count).map(|component| !mute.is(component)).collect();
+    if speaks.iter().all(|speaks| *speaks) {
+        return;
+    }
+    let keep = |values: &mut Vec<f64>| {
+        let mut at = 0;
+        values.retain(|_| {
+            at += 1;
+            speaks[(at - 1) % count]
+        });
+    };
+    keep(&mut problem.residual);
+    problem.sigma.iter_mut().for_each(keep);
+    problem.declared.iter_mut().for_each(|declared| keep(&mut declared.column));
+    for place in &mut problem.places {
+        keep(&mut place.column);
+        place.nominal.iter_mut().for_each(keep);
+    }
+    problem.components = speaks.iter().filter(|speaks| **speaks).count();
 }
 
 /// Stated uncertainties of each value, where every row states them.

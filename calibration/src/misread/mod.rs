@@ -59,8 +59,7 @@ pub fn misread(plan: &Plan, sample: &Sample) -> Option<Misread> {
     let mut readings = trial.others(&as_read);
     let best = &readings.first()?.score;
     let margin = best.total - as_read.total;
-    // A wrong minimum of the study's own reading is no misread column: it starts once more from the best rival's errors.
-    let again = (margin >= MARGIN).then(|| trial.as_read(&best.values)).flatten();
+    let again = (margin >= MARGIN).then(|| trial.as_read_elsewhere(&best.values)).flatten();
     let as_read =
         again.into_iter().fold(as_read, |one, other| if other.total > one.total { other } else { one });
     let margin = best.total - as_read.total;

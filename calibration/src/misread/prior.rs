@@ -185,23 +185,23 @@ fn is_index_of(way: &[Passed<'_>], at: usize, motion: usize) -> bool {
     is_beside || (way[motion].body == way[at].body && is_alike(motion))
 }
 
-/// The joints whose zero is an error that is estimated.
-pub(super) fn indexed(plan: &Plan, observations: &Observations) -> Vec<SymbolId> {
-    let mut joints = Vec::new();
+/// The joints whose zero is an error that is estimated, each with that error.
+pub(super) fn indexed(plan: &Plan, observations: &Observations) -> Vec<(SymbolId, SymbolId)> {
+    let mut found = Vec::new();
     for series in &observations.poses.series {
         let way = plan.chain.way(series.observable);
         for motion in motions(&plan.chain, &way) {
-            let is_index = |at: &usize| {
-                let amount = &way[*at].factor.amount;
-                is_index_of(&way, *at, motion)
-                    && amount.symbols().iter().any(|id| estimated(plan).any(|own| own == *id))
-            };
-            if (0..way.len()).any(|at| is_index(&at)) {
-                joints.extend(way[motion].factor.amount.symbols());
+            let joints = way[motion].factor.amount.symbols();
+            for at in (0..way.len()).filter(|&at| is_index_of(&way, at, motion)) {
+                let own = way[at].factor.amount.symbols();
+                let errors = own.into_iter().filter(|id| estimated(plan).any(|other| other == *id));
+                found.extend(errors.flat_map(|error| joints.iter().map(move |joint| (*joint, error))));
             }
         }
     }
-    joints
+    found.sort_unstable();
+    found.dedup();
+    found
 }
 
 fn is_direction(chain: &Chain, observable: ObservableId) -> bool {

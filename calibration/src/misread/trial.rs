@@ -1,11 +1,13 @@
 //! Every reading of the data, fitted: all by a few steps, the best to the end.
 
+use std::f64::consts::FRAC_PI_2;
+
 use fit::noise::{Layout, NoiseOptions};
 use fit::{FitOptions, Model, residuals};
 use observe::Observations;
 use study::{Changed, Plan, Sample, SampledColumn};
 
-use super::hypotheses::{self, Hypothesis, from_row};
+use super::hypotheses::{self, Hypothesis, QUARTERS, from_row};
 use super::policy::{FITTED, PARTS, SCREENED_STEPS};
 use super::prior::{Priors, indexed};
 use super::score::{Score, score};
@@ -49,9 +51,24 @@ impl<'a> Trial<'a> {
         self.score(&self.own, start, self.plan.fit.max_iterations, None)
     }
 
+    /// The same from another reading's errors, and from homes a quarter or half turn away: a wrong minimum is no misread column.
+    pub fn as_read_elsewhere(&self, errors: &[f64]) -> Option<Score> {
+        let mut starts = vec![errors.to_vec()];
+        for (_, index) in indexed(self.plan, &self.own) {
+            for quarters in QUARTERS {
+                let mut start = self.plan.fit.start.clone();
+                start[index.index()] += FRAC_PI_2 * f64::from(quarters);
+                starts.push(start);
+            }
+        }
+        let scores = starts.iter().filter_map(|start| self.as_read(start));
+        scores.max_by(|one, other| one.total.total_cmp(&other.total))
+    }
+
     /// The other readings that come out best, fitted to the end, the best first.
     pub fn others(&self, as_read: &Score) -> Vec<Tried> {
-        let all = hypotheses::all(self.plan, &self.columns, indexed(self.plan, &self.own));
+        let indexed = indexed(self.plan, &self.own).into_iter().map(|(joint, _)| joint).collect();
+        let all = hypotheses::all(self.plan, &self.columns, indexed);
         let mut screened: Vec<Tried> =
             all.into_iter().filter_map(|hypothesis| self.screened(hypothesis, as_read)).collect();
         screened.extend(self.of_rows(&screened, as_read));

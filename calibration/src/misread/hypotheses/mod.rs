@@ -15,6 +15,8 @@ use serde::Serialize;
 use super::policy::RARE;
 use study::{Change, Changed, Notation, Plan, Read, SampledColumn};
 
+pub(super) use turned::QUARTERS;
+
 /// Every kind of mistake.
 const KINDS: &[fn(&Tried<'_>) -> Vec<Hypothesis>] = &[
     unit::tried,

@@ -9,7 +9,7 @@ use crate::misread::policy::TURNED_PRICE;
 use study::{Change, Changed, Read, SampledColumn};
 
 /// Quarter turns that are tried.
-const QUARTERS: [i16; 3] = [1, -1, 2];
+pub(in crate::misread) const QUARTERS: [i16; 3] = [1, -1, 2];
 
 pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
     let may_be = |column: &&&SampledColumn| {

@@ -55,7 +55,7 @@ pub struct Suspect {
 #[must_use]
 pub fn misread(plan: &Plan, sample: &Sample) -> Option<Misread> {
     let trial = Trial::new(plan, sample)?;
-    let as_read = trial.as_read(&plan.fit.start)?;
+    let as_read = trial.as_read()?;
     let mut readings = trial.others(&as_read);
     let best = &readings.first()?.score;
     let margin = best.total - as_read.total;

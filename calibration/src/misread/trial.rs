@@ -40,15 +40,16 @@ impl<'a> Trial<'a> {
         }
         // No model of the noise.
         let noise = NoiseOptions { variance: false, serial: false, ..plan.fit.noise.by_residuals() };
-        let options = FitOptions { noise, ..plan.fit.clone() };
+        let options = FitOptions { noise, other_starts: false, ..plan.fit.clone() };
         let model = Model::new(&plan.chain, &own.poses, &plan.fit.estimate).ok()?;
         let priors = Priors::of(plan, &own);
         Some(Self { plan, sample, columns: sample.columns(), priors, options, model, own })
     }
 
-    /// The score of the study's own reading, from some errors.
-    pub fn as_read(&self, start: &[f64]) -> Option<Score> {
-        self.score(&self.own, start, self.plan.fit.max_iterations, None)
+    /// The score of the study's own reading. It alone is worth other starts: most other readings are wrong and end far off.
+    pub fn as_read(&self) -> Option<Score> {
+        let options = FitOptions { other_starts: true, ..self.options.clone() };
+        self.score_by(&self.own, &options, None)
     }
 
     /// The same from another reading's errors, and from homes a quarter or half turn away: a wrong minimum is no misread column.
@@ -61,7 +62,8 @@ impl<'a> Trial<'a> {
                 starts.push(start);
             }
         }
-        let scores = starts.iter().filter_map(|start| self.as_read(start));
+        let steps = self.plan.fit.max_iterations;
+        let scores = starts.iter().filter_map(|start| self.score(&self.own, start, steps, None));
         scores.max_by(|one, other| one.total.total_cmp(&other.total))
     }
 
@@ -122,14 +124,17 @@ impl<'a> Trial<'a> {
         steps: usize,
         hypothesis: Option<&Hypothesis>,
     ) -> Option<Score> {
-        let options = FitOptions {
-            start: start.to_vec(),
-            max_iterations: steps,
-            // Most other readings are wrong and end far off: only the study's own is worth other starts.
-            other_starts: hypothesis.is_none(),
-            ..self.options.clone()
-        };
-        score(self.plan, &self.model, observations, &options, &self.priors, &self.columns, hypothesis)
+        let options = FitOptions { start: start.to_vec(), max_iterations: steps, ..self.options.clone() };
+        self.score_by(observations, &options, hypothesis)
+    }
+
+    fn score_by(
+        &self,
+        observations: &Observations,
+        options: &FitOptions,
+        hypothesis: Option<&Hypothesis>,
+    ) -> Option<Score> {
+        score(self.plan, &self.model, observations, options, &self.priors, &self.columns, hypothesis)
     }
 
     /// How far off each row is, SI; `None` where the rows are not those of the sample.

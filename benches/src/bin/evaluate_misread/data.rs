@@ -70,7 +70,8 @@ impl Data {
         let mut joints: Vec<Vec<f64>> = vec![Vec::new(); instrument.joints.len()];
         for row in 0..rows {
             for (at, (_, low, high)) in instrument.joints.iter().enumerate() {
-                let along = if in_order && at == 0 { row as f64 / rows as f64 } else { random.even() };
+                let even = random.even();
+                let along = if in_order && at == 0 { (row as f64 + even) / rows as f64 } else { even };
                 let value = low + (high - low) * along;
                 joints[at].push(if instrument.slides(at) { value } else { value.to_radians() });
             }

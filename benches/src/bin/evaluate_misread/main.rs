@@ -15,7 +15,7 @@ use std::fmt::Write as _;
 use rayon::prelude::*;
 use testkit::Random;
 
-use data::{Data, HABITS};
+use data::{Data, HABITS, Habit};
 use instruments::INSTRUMENTS;
 use judge::{Answer, Failure, of_clean, of_spoiled};
 use traps::TRAPS;
@@ -127,8 +127,11 @@ fn clean(asked: &Asked) -> Result<String, Failure> {
         let runs = asked.clean / HABITS.len();
         let run = |run: usize| {
             let random = &mut numbers(asked.seed, 100_000 + case, run);
-            let instrument = &INSTRUMENTS[run % INSTRUMENTS.len()];
-            let rows = CLEAN_ROWS[run / INSTRUMENTS.len() % CLEAN_ROWS.len()];
+            // A home that no declared index takes up is a mistake.
+            let may_be: Vec<_> =
+                INSTRUMENTS.iter().filter(|own| *habit != Habit::Home || own.indexed).collect();
+            let instrument = may_be[run % may_be.len()];
+            let rows = CLEAN_ROWS[run / may_be.len() % CLEAN_ROWS.len()];
             let data = Data::simulated(instrument, rows, *habit, random);
             of_clean(&data).map(|(named, withheld)| (named, withheld, instrument.name, rows))
         };

@@ -20,7 +20,8 @@ const FURTHEST: f64 = 0.02;
 pub(super) struct Score {
     /// Logarithm of the likelihood with all prices.
     pub total: f64,
-    /// The scale of the residual: the geometric mean over its units, SI.
+    /// The scale of the residual, the geometric mean over its units, against the numbers as they are written: what only shrinks the
+    /// data explains nothing.
     pub scale: f64,
     /// RMS of the residual of the first unit without the rows furthest off, SI.
     pub rms: f64,
@@ -62,7 +63,8 @@ pub(super) fn score(
         return None;
     }
     let numbers: usize = units.iter().map(|(_, own, _)| own.len()).sum();
-    let (mut log, mut scale) = (jacobian(observations, columns, hypothesis), 0.0);
+    let jacobian = jacobian(observations, columns, hypothesis);
+    let (mut log, mut scale) = (jacobian, -jacobian / numbers as f64);
     for (_, own, _) in &units {
         let width = width(own);
         log += log_density(own, width);

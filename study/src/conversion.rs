@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use model_core::Quantity;
+use model_core::unit::Measures;
 use toml::Spanned;
 
 use super::amount::si;
@@ -70,7 +70,7 @@ impl Conversion {
     pub const NONE: Self = Self { notation: None, negated: false, offset_si: 0.0, shift: 0 };
 
     /// What a study writes of a column.
-    pub(super) fn of(column: &Column, quantity: Quantity) -> Outcome<Self> {
+    pub(super) fn of(column: &Column, measures: Measures) -> Outcome<Self> {
         let negated = match column.sign.as_ref().map(|sign| (*sign.get_ref(), sign.span())) {
             None | Some((1, _)) => false,
             Some((-1, _)) => true,
@@ -80,9 +80,9 @@ impl Conversion {
         };
         let offset_si = match &column.offset {
             None => 0.0,
-            Some(offset) => si(offset.get_ref(), quantity, &offset.span())?,
+            Some(offset) => si(offset.get_ref(), measures, &offset.span())?,
         };
-        let notation = column.notation.as_ref().map(|word| notation(word, column, quantity)).transpose()?;
+        let notation = column.notation.as_ref().map(|word| notation(word, column, measures)).transpose()?;
         let shift = match &column.shift {
             None => 0,
             Some(shift) if shift.get_ref().abs() <= MOST_SHIFT => *shift.get_ref(),
@@ -102,13 +102,13 @@ impl Conversion {
     }
 }
 
-fn notation(word: &Spanned<String>, column: &Column, quantity: Quantity) -> Outcome<Notation> {
+fn notation(word: &Spanned<String>, column: &Column, measures: Measures) -> Outcome<Notation> {
     let known = [Notation::Degrees, Notation::Hours];
     let Some(notation) = known.into_iter().find(|own| own.name() == word.get_ref().to_lowercase()) else {
         let why = format!("`{}` is an unknown notation", word.get_ref());
         return Err(mistake(word.span(), why, "write \"ddd.mmss\" or \"hhmmss\""));
     };
-    if quantity != Quantity::Angle {
+    if measures != Measures::Angle {
         return Err(mistake(word.span(), "only an angle has minutes and seconds", "leave `notation` out"));
     }
     if column.unit.is_some() {

@@ -183,14 +183,14 @@ fn refused(study: &str) -> Vec<String> {
 #[test]
 fn every_mistake_of_a_study_is_told_at_once() {
     let study = STUDY
-        .replace("unit = \"deg\"", "unit = \"degs\"")
+        .replace("unit = \"deg\"", "unit = \"degz\"")
         .replace("direction(azimuth)", "directed(azimuth)")
         .replace("\"collimation\"]", "\"colimation\", \"nothing*\"]")
         .replace("\"1 arcmin\"", "\"1 mm\"")
         + "false_alarm = 2.0\nharmonics = 4294967296\n[hold_out]\nfolds = 0\n[next]\nposes = 1000000000\n";
     let told = refused(&study);
     for part in [
-        "degs",
+        "degz",
         "directed(azimuth)",
         "colimation",
         "nothing*",

@@ -4,7 +4,7 @@
 //! Source: LAS Specification 1.4, revision 15, ASPRS (2019), "Extra Bytes", tables 24 and 25.
 
 use tables::formats::ColumnName;
-use tables::units::Unit;
+use model_core::unit::Unit;
 
 use super::header::{Header, field};
 use super::records::text;
@@ -205,7 +205,7 @@ fn name(description: &[u8]) -> String {
     let unit =
         [Some(more.as_str()), in_brackets()].into_iter().flatten().find_map(|unit| Unit::find(unit.trim()));
     match unit {
-        Some(unit) => format!("{name} [{}]", unit.name),
+        Some(unit) => format!("{name} [{}]", unit.name()),
         None => name,
     }
 }

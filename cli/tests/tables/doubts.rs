@@ -33,13 +33,10 @@ const COMMANDS: [&str; 3] = [
 #[test]
 fn a_unit_that_is_none_is_refused_by_every_command() {
     for (at, header) in [
-        "q [degs],u",
-        "q [degrees],u",
-        "q [Deg],u",
-        "q [mil],u",
-        "q (grad),u",
+        "q [degz],u",
+        "q [furlong],u",
         "q [],u",
-        "q,u [feet]",
+        "q,u [furlong]",
         "q,u [MM]",
     ]
     .into_iter()

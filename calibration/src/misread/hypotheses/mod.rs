@@ -6,6 +6,7 @@ mod sense;
 mod shifted;
 mod unit;
 
+use model_core::unit::Unit;
 use model_core::SymbolKind;
 use serde::Serialize;
 
@@ -164,6 +165,6 @@ fn unit_of(column: &SampledColumn) -> String {
 
 /// The unit that a column is read in.
 fn named(column: &SampledColumn) -> Option<&'static str> {
-    let is = |unit: &tables::units::Unit| unit.quantity == column.quantity && unit.in_si == column.factor;
-    tables::units::Unit::all().find(is).map(|unit| unit.name)
+    let is = |unit: &Unit| unit.measures().quantity() == column.quantity && unit.in_si() == column.factor;
+    Unit::all().find(is).map(Unit::name)
 }

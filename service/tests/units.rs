@@ -91,7 +91,10 @@ fn what_has_two_meanings_is_refused_alike_everywhere() {
                 ("errors file", in_errors_file(spelling, measures)),
                 ("chain", if is_word(spelling) { in_chain(spelling, measures) } else { Err(why.clone()) }),
             ] {
-                assert!(read.as_ref().is_err_and(|said| said.contains(&why)), "{place}, {spelling}: {read:?}");
+                assert!(
+                    read.as_ref().is_err_and(|said| said.contains(&why)),
+                    "{place}, {spelling}: {read:?}"
+                );
             }
         }
     }

@@ -49,8 +49,16 @@ pub(super) fn column_plan(
     let unit = column.unit.as_deref().map(|unit| Unit::read(unit, Some(measures))).transpose();
     let unit = unit.map_err(|error| plain(place.clone(), error.to_string()))?;
     if let Some(other) = unit.filter(|unit| measures == Measures::Number && unit.measures().needs_meaning()) {
-        let message = format!("`{}` measures {}, and nothing says that the column does", other.name(), other.measures().noun());
-        return Err(mistake(place.clone(), message, "write its `meaning` beside the unit, or leave the unit out"));
+        let message = format!(
+            "`{}` measures {}, and nothing says that the column does",
+            other.name(),
+            other.measures().noun()
+        );
+        return Err(mistake(
+            place.clone(),
+            message,
+            "write its `meaning` beside the unit, or leave the unit out",
+        ));
     }
     if let (Some(meaning), false) = (&column.meaning, of_input) {
         return Err(mistake(

@@ -94,7 +94,9 @@ impl Study {
         let Some((_, column)) = column else { return Quantity::Number };
         match (&column.get_ref().derive, &column.get_ref().unit) {
             (Some(text), _) => parse_derived(text).map_or(Quantity::Number, |derived| derived.quantity()),
-            (None, Some(unit)) => Unit::find(unit).map_or(Quantity::Number, |unit| unit.measures().quantity()),
+            (None, Some(unit)) => {
+                Unit::find(unit).map_or(Quantity::Number, |unit| unit.measures().quantity())
+            }
             (None, None) => Quantity::Number,
         }
     }

@@ -344,15 +344,17 @@ mod tests {
 
     #[test]
     fn an_hour_that_comes_twice_is_seen() {
-        let of = |labels: &[&str]| {
-            set_back(&labels.iter().map(|label| (*label).to_owned()).collect::<Vec<_>>())
-        };
+        let of =
+            |labels: &[&str]| set_back(&labels.iter().map(|label| (*label).to_owned()).collect::<Vec<_>>());
         let summer = ["2026-10-25T02:30", "2026-10-25T02:59", "2026-10-25T02:01", "2026-10-25T02:30"];
         assert_eq!(of(&summer), Some((2, 3_480.0)));
         assert_eq!(of(&summer.map(|label| [label, "+02:00"].concat()).each_ref().map(String::as_str)), None);
         assert_eq!(of(&["2026-10-25T02:30", "2026-10-25T02:31", "2026-10-25T02:30"]), None);
         // Rows in no order, and those of another night.
-        assert_eq!(of(&["2026-10-25T02:30", "2026-10-25T01:31", "2026-10-25T01:45", "2026-10-25T01:40"]), None);
+        assert_eq!(
+            of(&["2026-10-25T02:30", "2026-10-25T01:31", "2026-10-25T01:45", "2026-10-25T01:40"]),
+            None
+        );
         assert_eq!(of(&["2026-10-25T02:30", "2026-10-24T01:31"]), None);
         assert_eq!(of(&["7200", "3600"]), None);
         assert_eq!(of(&["IMG_2", "IMG_1"]), None);

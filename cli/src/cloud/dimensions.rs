@@ -3,8 +3,8 @@
 //!
 //! Source: LAS Specification 1.4, revision 15, ASPRS (2019), "Extra Bytes", tables 24 and 25.
 
-use tables::formats::ColumnName;
 use model_core::unit::Unit;
+use tables::formats::ColumnName;
 
 use super::header::{Header, field};
 use super::records::text;

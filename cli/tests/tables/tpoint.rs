@@ -29,7 +29,11 @@ fn alt_azimuth_records_in_degrees_minutes_seconds_are_read() {
 fn malformed_files_are_refused_with_line_and_reason() {
     for (name, data, why) in [
         ("nosite", "Caption\n:ALTAZ\n10.5 40.25 10.51 40.26\n", "line 3: the site stands before the records"),
-        ("mixed", "Caption\n:ALTAZ\n48 0 0\n1 2 3 4\n:EQUAT\n", "line 5: `:EQUAT`, while line 2 says `:ALTAZ`"),
+        (
+            "mixed",
+            "Caption\n:ALTAZ\n48 0 0\n1 2 3 4\n:EQUAT\n",
+            "line 5: `:EQUAT`, while line 2 says `:ALTAZ`",
+        ),
         ("minutes", "Caption\n:ALTAZ\n48 75 0\n1 2 3 4\n", "line 3: `75` minutes"),
     ] {
         let run = evaluated(&format!("tpoint-{name}"), data);
@@ -56,7 +60,11 @@ fn init_takes_the_latitude_of_the_file_and_asks_for_the_side_of_the_pier() {
     assert_eq!(run.code, 0, "{run}");
     assert!(run.stderr.contains("no row is on the far side of the pier"), "{run}");
     assert!(!run.stderr.contains("guess"), "{run}");
-    assert!(folder.read("run.chain").contains("const latitude: angle = -33.5 deg;"), "{}", folder.read("run.chain"));
+    assert!(
+        folder.read("run.chain").contains("const latitude: angle = -33.5 deg;"),
+        "{}",
+        folder.read("run.chain")
+    );
     let run = words(&folder, "calibrate run.toml");
     assert!(run.stderr.contains("no row is on the far side of the pier"), "{run}");
 }
@@ -76,7 +84,8 @@ fn an_hour_that_comes_twice_is_told_and_no_day_of_the_calendar_is_refused() {
     };
     let clock = |minutes: [&'static str; 12]| minutes.map(|clock| format!("2026-10-25T{clock}"));
     let night = [
-        "01:40", "01:50", "02:10", "02:30", "02:50", "02:58", "02:05", "02:15", "02:30", "02:50", "03:10", "03:20",
+        "01:40", "01:50", "02:10", "02:30", "02:50", "02:58", "02:05", "02:15", "02:30", "02:50", "03:10",
+        "03:20",
     ];
     let folder = Folder::new("summer-time");
     folder.write("alt.chain", ALT_AZIMUTH).write("study.toml", study);

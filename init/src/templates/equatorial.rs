@@ -38,7 +38,8 @@ fn draft(look: &Look) -> Result<Draft, String> {
     remarks.extend(look.remarks.iter().cloned());
     if pier.is_none() {
         remarks.push(
-            "no column says the side of the pier: if the mount changed sides, add `pier_side` with 1 and -1".to_owned(),
+            "no column says the side of the pier: if the mount changed sides, add `pier_side` with 1 and -1"
+                .to_owned(),
         );
     }
     if look.latitude_deg.is_none() {

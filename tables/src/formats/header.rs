@@ -115,9 +115,7 @@ impl ColumnName {
         let is_declared = declared.is_some_and(|declared| declared == self.bare);
         let header = match (&self.said, measures) {
             // A plain number is in the unit of the data, whatever the header calls it.
-            (Said::InBrackets(_), Measures::Number) => {
-                self.unit().filter(|unit| unit.measures() == measures)
-            }
+            (Said::InBrackets(_), Measures::Number) => self.unit().filter(|unit| unit.measures() == measures),
             (Said::InBrackets(_), _) if stated.is_some() => self.said(Some(measures)).ok().flatten(),
             (Said::InBrackets(_), _) => self.said(Some(measures)).map_err(unknown)?,
             (_, measures) if measures.needs_meaning() => {

@@ -45,7 +45,10 @@ impl Reader {
         let (first, caption) = lines.next().ok_or_else(|| DataError::Empty { file: file() })?;
         let bad = |line: u64, why: String| DataError::BadLine { file: file(), line, why };
         if caption.starts_with(':') {
-            return Err(bad(first, "the first line is the caption, and this is an option: write a caption above it".into()));
+            return Err(bad(
+                first,
+                "the first line is the caption, and this is an option: write a caption above it".into(),
+            ));
         }
         // The line that says it, if one does.
         let mut mount: Option<(Mount, Option<u64>)> = None;
@@ -59,7 +62,8 @@ impl Reader {
                             || "the records above are equatorial".to_owned(),
                             |said| format!("line {said} says `:{}`", other.option()),
                         );
-                        let why = format!("`:{}`, while {where_said}: write a file for each mount", own.option());
+                        let why =
+                            format!("`:{}`, while {where_said}: write a file for each mount", own.option());
                         return Err(bad(line, why));
                     }
                     Some(_) => {}
@@ -241,7 +245,10 @@ mod tests {
             (String::new(), "is empty"),
             (":ALTAZ\n48 0 0\n".to_owned(), "line 1: the first line is the caption"),
             // No site.
-            ("Caption\n:ALTAZ\n10.5 40.25 10.51 40.26\n".to_owned(), "line 3: the site stands before the records"),
+            (
+                "Caption\n:ALTAZ\n10.5 40.25 10.51 40.26\n".to_owned(),
+                "line 3: the site stands before the records",
+            ),
             ("Caption\n:ALTAZ\n12 42 12.01 42.01\n".to_owned(), "line 3: the site stands before the records"),
             ("Caption\n:ALTAZ\n10 30 00 40 15 00 10 30 36 40 15 36\n".to_owned(), "line 3: `40 15 00`"),
             (format!("Caption\n:EQUAT\n{RECORD}"), "line 3: `+20 30 00`"),
@@ -256,16 +263,37 @@ mod tests {
             (equatorial("04 00 00 +20 30 -1 04 00 04 +20 30 36 06 00.00"), "line 5: `-1` seconds"),
             (equatorial("04 00 61 +20 30 00 04 00 04 +20 30 36 06 00.00"), "line 5: `61` seconds"),
             (equatorial("04 00 nan +20 30 00 04 00 04 +20 30 36 06 00.00"), "line 5: `nan` seconds"),
-            (equatorial("4.5 00 00 +20 30 00 04 00 04 +20 30 36 06 00.00"), "line 5: `4.5` is no whole number"),
+            (
+                equatorial("4.5 00 00 +20 30 00 04 00 04 +20 30 36 06 00.00"),
+                "line 5: `4.5` is no whole number",
+            ),
             // What no sky has.
-            (equatorial("40 00 00 +20 30 00 04 00 04 +20 30 36 06 00.00"), "line 5: the right ascension is 40"),
-            (equatorial("04 00 00 +20 30 00 204 00 04 +20 30 36 06 00.00"), "line 5: the right ascension as read is 204"),
-            (equatorial("-4 00 00 +20 30 00 04 00 04 +20 30 36 06 00.00"), "line 5: the right ascension is -4"),
+            (
+                equatorial("40 00 00 +20 30 00 04 00 04 +20 30 36 06 00.00"),
+                "line 5: the right ascension is 40",
+            ),
+            (
+                equatorial("04 00 00 +20 30 00 204 00 04 +20 30 36 06 00.00"),
+                "line 5: the right ascension as read is 204",
+            ),
+            (
+                equatorial("-4 00 00 +20 30 00 04 00 04 +20 30 36 06 00.00"),
+                "line 5: the right ascension is -4",
+            ),
             (equatorial("04 00 00 +99 30 00 04 00 04 +20 30 36 06 00.00"), "line 5: the declination is 99"),
-            (equatorial("04 00 00 +20 30 00 04 00 04 +181 0 0 06 00.00"), "line 5: the declination as read is 181"),
+            (
+                equatorial("04 00 00 +20 30 00 04 00 04 +181 0 0 06 00.00"),
+                "line 5: the declination as read is 181",
+            ),
             // The sidereal time.
-            (equatorial("04 00 00 +20 30 00 04 00 04 +20 30 36"), "line 5: a record of `:EQUAT` has 14 numbers"),
-            (equatorial("04 00 00 +20 30 00 04 00 04 +20 30 36 06 36 12"), "line 5: the sidereal time `06 36 12` has seconds"),
+            (
+                equatorial("04 00 00 +20 30 00 04 00 04 +20 30 36"),
+                "line 5: a record of `:EQUAT` has 14 numbers",
+            ),
+            (
+                equatorial("04 00 00 +20 30 00 04 00 04 +20 30 36 06 36 12"),
+                "line 5: the sidereal time `06 36 12` has seconds",
+            ),
             (equatorial("04 00 00 +20 30 00 04 00 04 +20 30 36 26 36.2"), "line 5: the sidereal time is 26"),
             (equatorial("04 00 00 +20 30 00 04 00 04 +20 30 36 06 60.0"), "line 5: `60.0` minutes"),
             (equatorial("04 00 00 +20 30 00 04 00 04 +20 30 36 06 -1.0"), "line 5: `-1.0` minutes"),
@@ -278,9 +306,18 @@ mod tests {
             (alt_azimuth("10 61 00 40 15 00 10 30 36 40 15 36"), "line 4: `61` minutes"),
             (alt_azimuth(RECORD.trim()), "line 4: a record of `:ALTAZ` has 4 numbers"),
             // Both mounts.
-            (format!("Caption\n:EQUAT\n:ALTAZ\n{SITE}1 2 3 4\n"), "line 3: `:ALTAZ`, while line 2 says `:EQUAT`"),
-            (format!("Caption\n:ALTAZ\n{SITE}1 2 3 4\n:EQUAT\n{RECORD}"), "line 5: `:EQUAT`, while line 2 says"),
-            (format!("Caption\n{SITE}{RECORD}:ALTAZ\n1 2 3 4\n"), "line 4: `:ALTAZ`, while the records above are"),
+            (
+                format!("Caption\n:EQUAT\n:ALTAZ\n{SITE}1 2 3 4\n"),
+                "line 3: `:ALTAZ`, while line 2 says `:EQUAT`",
+            ),
+            (
+                format!("Caption\n:ALTAZ\n{SITE}1 2 3 4\n:EQUAT\n{RECORD}"),
+                "line 5: `:EQUAT`, while line 2 says",
+            ),
+            (
+                format!("Caption\n{SITE}{RECORD}:ALTAZ\n1 2 3 4\n"),
+                "line 4: `:ALTAZ`, while the records above are",
+            ),
         ];
         for (text, said) in cases {
             let refused = read(&text).map_err(|error| error.to_string());

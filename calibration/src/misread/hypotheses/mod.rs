@@ -6,8 +6,8 @@ mod sense;
 mod shifted;
 mod unit;
 
-use model_core::unit::Unit;
 use model_core::SymbolKind;
+use model_core::unit::Unit;
 use serde::Serialize;
 
 use super::policy::RARE;

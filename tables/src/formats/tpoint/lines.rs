@@ -40,9 +40,11 @@ impl Mount {
 /// The line is none of a site: a record, say, where the site was left out.
 pub(super) fn latitude_deg(words: &[&str]) -> Result<f64, String> {
     let (Some(latitude), false) = (words.get(..3), matches!(words.len(), 4 | 5)) else {
-        return Err("the site stands before the records: write its latitude (48 30 00), and the date if it is known \
+        return Err(
+            "the site stands before the records: write its latitude (48 30 00), and the date if it is known \
                     (2026 03 14)"
-            .to_owned());
+                .to_owned(),
+        );
     };
     if let Some(date) = words.get(3..6) {
         let part = |at: usize| date.get(at).and_then(|word: &&str| word.parse::<u32>().ok());
@@ -104,7 +106,8 @@ fn equatorial(words: &[&str]) -> Result<Vec<f64>, String> {
 
 /// Whole minutes with a third number that could be seconds are ambiguous: readings of other instruments may follow too.
 fn sidereal_hours(hours: &str, minutes: &str, next: Option<&str>) -> Result<f64, String> {
-    let seconds = next.and_then(|word| word.parse::<f64>().ok()).filter(|number| (0.0..60.0).contains(number));
+    let seconds =
+        next.and_then(|word| word.parse::<f64>().ok()).filter(|number| (0.0..60.0).contains(number));
     if let (Some(seconds), false, Some(next)) = (seconds, minutes.contains('.'), next) {
         let decimal = minutes_of(minutes)? + seconds / 60.0;
         return Err(format!(
@@ -152,7 +155,9 @@ fn whole(word: &str) -> Result<f64, String> {
     let digits = word.strip_prefix(['+', '-']).unwrap_or(word);
     let is_whole = !digits.is_empty() && digits.bytes().all(|digit| digit.is_ascii_digit());
     let value = word.parse::<f64>().ok().filter(|_| is_whole);
-    value.ok_or_else(|| format!("`{word}` is no whole number of degrees or hours before minutes: write it as 48 30 00"))
+    value.ok_or_else(|| {
+        format!("`{word}` is no whole number of degrees or hours before minutes: write it as 48 30 00")
+    })
 }
 
 fn minutes_of(word: &str) -> Result<f64, String> {

@@ -321,7 +321,7 @@ impl Plan {
         if !source.readings.iter().any(follows) {
             return Ok(None);
         }
-        times(labels).map(Some).map_err(|row| DataError::Impossible {
+        let times = times(labels).map_err(|row| DataError::Impossible {
             file: file.to_owned(),
             line: rows.places.line(row),
             row: rows.number(row),
@@ -330,7 +330,12 @@ impl Plan {
                  time (2026-01-31T18:01:00), in every row, or leave `sequence` out",
                 clipped(&labels[row])
             ),
-        })
+        })?;
+        if formats::numbers(labels).is_none() {
+            return Ok(Some(times));
+        }
+        let seconds = rows.seconds.clone()?;
+        Ok(Some(times.into_iter().map(|time| time * seconds).collect()))
     }
 
     fn measured(

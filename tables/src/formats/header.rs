@@ -240,7 +240,7 @@ mod tests {
             ("delta_x", "delta_x", None),
             ("pos_m", "pos_m", None),
             ("pos [m]", "pos", Some("m")),
-            ("ambient [K]", "ambient", None),
+            ("ambient [K]", "ambient", Some("K")),
             ("ambient_celsius", "ambient_celsius", None),
         ] {
             let name = ColumnName::parse(text);

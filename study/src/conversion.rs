@@ -36,7 +36,7 @@ impl Notation {
     pub fn unpack(self, number: f64) -> (f64, bool) {
         // Sexagesimal digits are decimal ones: what binary cannot hold is rounded away before they are cut apart.
         let whole = match self {
-            Self::Degrees => (number.abs() * 1e12).round() / 1e8,
+            Self::Degrees => (number.abs() * 1e13).round() / 1e9,
             Self::Hours => (number.abs() * 1e8).round() / 1e8,
         };
         let large = (whole / 1e4).floor();

@@ -385,7 +385,7 @@ mod tests {
             let sign = if zone < 0 { '-' } else { '+' };
             let label = format!("{year}-{month:02}-{day:02}T{hour:02}:{minute:02}{sign}{:02}:30", zone.abs());
             let exists = (1..=12).contains(&month)
-                && (1..=length(year, month.max(1).min(12) as usize - 1)).contains(&day)
+                && (1..=length(year, month.clamp(1, 12) as usize - 1)).contains(&day)
                 && hour < 24
                 && minute < 60;
             let read = moment(&label).map(|moment| moment.seconds);

@@ -5,6 +5,7 @@ use std::ops::Range;
 use model_core::algebra::Rational;
 use model_core::budget::{JointRange, Path, PathError};
 use model_core::expr::{Expr, Node};
+use model_core::unit::Measures;
 use model_core::{Chain, Mistake, Quantity, SymbolKind, names, syntax};
 use tables::units::{Amount, Plausible};
 
@@ -53,8 +54,9 @@ fn amount_in_t(
         let meant = |unit: &str| format!("{name}={amount} {unit}");
         let doubt = plausible.doubt(quantity, &[written], &format!("{name}={amount}"), meant);
         doubt.iter().for_each(terminal::warn);
-        let value =
-            written.to_si(quantity).map_err(|error| Mistake::new(place.clone(), error.to_string()))?;
+        let value = written
+            .to_si(Measures::of(chain.symbol(symbol)))
+            .map_err(|error| Mistake::new(place.clone(), error.to_string()))?;
         let size = Rational::parse_decimal(&format!("{:e}", value.abs()));
         if let Ok(size) = size {
             let value = if value < 0.0 { -&size } else { size };

@@ -1,5 +1,6 @@
 //! Ranges of joints and inputs on the command line: `--range "elevation=10 deg..80 deg"`.
 
+use model_core::unit::Measures;
 use model_core::{Chain, SymbolId, SymbolKind, names};
 use tables::units::{Amount, Plausible};
 
@@ -79,18 +80,18 @@ pub fn read(chain: &Chain, argument: &RangeArgument) -> Result<Range, String> {
         );
         format!("chain {} has no joint or input `{name}`; {instead}", chain.name)
     })?;
-    let quantity = chain.symbol(symbol).quantity;
-    let wrong = |text: &str, why| format!("`{text}`: {why}");
-    let upper = Amount::parse(high).map_err(|why| wrong(high, why))?;
-    let mut lower = Amount::parse(low).map_err(|why| wrong(low, why))?;
+    let (quantity, measures) = (chain.symbol(symbol).quantity, Measures::of(chain.symbol(symbol)));
+    let wrong = |text: &str, why: &dyn std::fmt::Display| format!("`{text}`: {why}");
+    let upper = Amount::parse(high).map_err(|why| wrong(high, &why))?;
+    let mut lower = Amount::parse(low).map_err(|why| wrong(low, &why))?;
     // `-30..30 deg`: the unit of the upper bound holds for both.
     lower.unit = lower.unit.or(upper.unit);
     let plausible = Plausible::readings(chain, symbol);
     let written = format!("--range {name}={low}..{high}");
     let meant = |unit: &str| format!("\"{name}={low}..{high} {unit}\"");
     plausible.doubt(quantity, &[lower, upper], &written, meant).iter().for_each(terminal::warn);
-    let high = upper.to_si(quantity).map_err(|why| wrong(high, why))?;
-    let low = lower.to_si(quantity).map_err(|why| wrong(low, why))?;
+    let high = upper.to_si(measures).map_err(|why| wrong(high, &why))?;
+    let low = lower.to_si(measures).map_err(|why| wrong(low, &why))?;
     if low > high {
         return Err("the lower bound is above the upper one; swap them".to_owned());
     }

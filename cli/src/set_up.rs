@@ -37,6 +37,7 @@ impl SetUpSeen {
         let loaded = loaded.without_repeats();
         loaded.doubtful.iter().for_each(terminal::warn);
         loaded.remarks.iter().for_each(terminal::warn);
+        loaded.of_files.iter().for_each(terminal::warn);
         let set_up = identify(&plan.chain, &loaded.observations, &plan.fit)
             .map_err(|error| Failure::Input(error.to_string()))?;
         Ok(Self { chain: plan.chain, set_up })

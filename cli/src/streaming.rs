@@ -39,6 +39,7 @@ impl Streaming {
     pub fn new(studied: Studied, sample: Rows<'_>) -> Result<Option<Self>, Failure> {
         let Some(loaded) = load(&studied, sample)? else { return Ok(None) };
         loaded.doubtful.iter().for_each(terminal::warn);
+        loaded.of_files.iter().for_each(terminal::warn);
         let plan = &studied.plan;
         let streamed =
             Streamed::from_sample(&plan.chain, &loaded.observations, &options(plan)).map_err(input)?;

@@ -1,8 +1,8 @@
 //! A table as `init` looks at it: its columns with what their names and numbers say.
 
 use model_core::Quantity;
+use model_core::unit::{Measures, Unit};
 use tables::formats::{Cells, ColumnName, DataError, Form, TableReader, Texts, Wanted};
-use tables::units::Unit;
 
 use crate::NotBegun;
 use crate::words::{self, Part, Side};
@@ -14,56 +14,23 @@ const FARTHEST_RAD: f64 = 6.5;
 /// Angles between a turn in degrees and a turn in gon are gon.
 const GON: std::ops::RangeInclusive<f64> = 360.5..=400.5;
 
-/// What is called otherwise elsewhere.
-const SYNONYMS: &[(&str, &str)] = &[
-    ("degree", "deg"),
-    ("degrees", "deg"),
-    ("degs", "deg"),
-    ("radian", "rad"),
-    ("radians", "rad"),
-    ("rads", "rad"),
-    ("arcsecond", "arcsec"),
-    ("arcseconds", "arcsec"),
-    ("arcsecs", "arcsec"),
-    ("asec", "arcsec"),
-    ("as", "arcsec"),
-    ("″", "arcsec"),
-    ("arcminute", "arcmin"),
-    ("arcminutes", "arcmin"),
-    ("gons", "gon"),
-    ("grad", "gon"),
-    ("h", "hour"),
-    ("hr", "hour"),
-    ("hours", "hour"),
-    ("metre", "m"),
-    ("metres", "m"),
-    ("meter", "m"),
-    ("meters", "m"),
-    ("millimetre", "mm"),
-    ("millimetres", "mm"),
-    ("millimeter", "mm"),
-    ("millimeters", "mm"),
-    ("micron", "um"),
-    ("microns", "um"),
-    ("feet", "ft"),
-    ("in", "inch"),
-];
-
 /// A table as its header and its first rows show it.
 pub struct Look {
     /// Its name, for messages.
     pub(crate) file: String,
     pub(crate) columns: Vec<Column>,
+    /// The latitude of the site, degrees, where the file says it.
+    pub(crate) latitude_deg: Option<f64>,
+    /// What the file itself asks to be told of it.
+    pub(crate) remarks: Vec<String>,
 }
 
 /// One of its columns.
 pub struct Column {
     pub name: ColumnName,
     words: Vec<String>,
-    /// The unit that the header says, by whatever name.
+    /// The unit that the header says.
     unit: Option<Unit>,
-    /// What stands in brackets and is no unit.
-    unknown: Option<String>,
     /// Its cells, if all of them are numbers.
     numbers: Option<Vec<f64>>,
     /// The first row whose cell is no number.
@@ -115,7 +82,7 @@ impl Look {
             let texts = kept.texts().map_err(told)?;
             columns.push(Column::new(name, &texts));
         }
-        Ok(Self { file, columns })
+        Ok(Self { file, columns, latitude_deg: reader.latitude_deg(), remarks: reader.remarks() })
     }
 
     /// The columns of some parts: those that hold numbers, or else those that only their names speak for.
@@ -237,32 +204,16 @@ impl Look {
 
 impl Column {
     fn new(name: ColumnName, texts: &Texts) -> Self {
-        let in_brackets =
-            name.full.strip_prefix(&name.stem).map(|rest| rest.trim().trim_matches(['[', ']', '(', ')']));
-        let text = in_brackets.map(str::trim).filter(|text| !text.is_empty() && !text.starts_with('_'));
-        let known = |text: &str| {
-            let small = text.to_lowercase();
-            let synonym = SYNONYMS.iter().find(|(word, _)| *word == small).map(|(_, unit)| *unit);
-            Unit::find(synonym.unwrap_or(&small)).or_else(|| Unit::find(text))
-        };
-        let unit = name.unit().or_else(|| known(text?));
-        let mut words = words::words(&name.stem);
-        let behind =
-            words.last().and_then(|last| SYNONYMS.iter().find(|(word, _)| word == last && word.len() > 2));
-        let unit = unit.or_else(|| Unit::find(behind?.1));
-        if behind.is_some() && words.len() > 1 {
-            words.pop();
-        }
-        let unknown = text.filter(|_| unit.is_none()).map(str::to_owned);
+        let (words, unit) = (words::words(&name.stem), name.unit());
         let numbers = texts.iter().map(number).collect();
         let no_number = texts.iter().position(|text| number(text).is_none());
         let different: std::collections::BTreeSet<&str> = texts.iter().map(str::trim).collect();
-        Self { name, words, unit, unknown, numbers, no_number, different: different.len(), rows: texts.len() }
+        Self { name, words, unit, numbers, no_number, different: different.len(), rows: texts.len() }
     }
 
     /// What it is of.
     pub fn part(&self) -> Option<Part> {
-        words::part(&self.words, self.unit.is_some_and(|unit| unit.quantity == Quantity::Angle))
+        words::part(&self.words, self.unit.is_some_and(|unit| unit.measures() == Measures::Angle))
     }
 
     fn side(&self) -> Side {
@@ -304,15 +255,13 @@ impl Column {
 
     fn said(&self, quantity: Quantity, file: &str) -> Result<Option<Unit>, String> {
         let name = &self.name.full;
-        match (self.unit, &self.unknown) {
-            (Some(unit), _) if unit.quantity == quantity => Ok(Some(unit)),
-            (Some(unit), _) => {
-                Err(format!("{file}: the unit of `{name}` is `{}`, which does not fit what it is", unit.name))
-            }
-            (None, Some(text)) => Err(format!(
-                "{file}: `{text}` in the header of `{name}` is no unit: write such as deg, arcsec, mm or m"
+        let unit = self.name.said(Some(quantity.into())).map_err(|why| format!("{file}: `{name}`: {why}"))?;
+        match unit {
+            Some(unit) if unit.measures() != Measures::from(quantity) => Err(format!(
+                "{file}: the unit of `{name}` is `{}`, which does not fit what it is",
+                unit.name()
             )),
-            (None, None) => Ok(None),
+            unit => Ok(unit),
         }
     }
 
@@ -324,8 +273,8 @@ impl Column {
                 row + 1
             ));
         }
-        let si = self.values().iter().map(|number| number * unit.in_si).collect();
-        Ok(Read { column, unit: Some(unit.name), si })
+        let si = self.values().iter().map(|number| number * unit.in_si()).collect();
+        Ok(Read { column, unit: Some(unit.name()), si })
     }
 }
 

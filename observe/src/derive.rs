@@ -115,6 +115,15 @@ impl Derived {
         }
     }
 
+    /// The one among them that says when a row was taken.
+    #[must_use]
+    pub fn time(&self) -> Option<&str> {
+        match self {
+            Self::Rate { time, .. } | Self::Elapsed { time } => Some(time),
+            _ => None,
+        }
+    }
+
     /// What it measures.
     #[must_use]
     pub fn quantity(&self) -> Quantity {

@@ -113,7 +113,7 @@ impl Studied {
         let Plan { doubts, unstated, unsought, timeless, .. } = &self.plan;
         let mut warnings = texts(doubts);
         warnings.extend([texts(unstated), texts(unsought), texts(timeless)].concat());
-        warnings.extend([texts(&loaded.doubtful), texts(&loaded.remarks)].concat());
+        warnings.extend([texts(&loaded.doubtful), texts(&loaded.remarks), loaded.of_files.clone()].concat());
         warnings.iter().cloned().for_each(warn);
         Measured { studied: self, loaded, warnings }
     }

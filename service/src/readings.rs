@@ -1,6 +1,7 @@
 //! Tables that commands read: the readings of joints and inputs as numbers, and every column as it came.
 
 use model_core::names::listed;
+use model_core::unit::Measures;
 use model_core::{Chain, ObservableId, Quantity, Symbol, SymbolId};
 #[cfg(feature = "parquet")]
 use rayon::prelude::*;
@@ -70,7 +71,7 @@ pub struct Rows {
 /// # Errors
 /// A unit that is none, or that measures something else.
 pub fn factor_of(column: &ColumnName, reading: &Symbol, source: &str) -> Result<(f64, bool), DataError> {
-    let read = ReadAs { quantity: reading.quantity, stated: None, declared: Some(&reading.name) };
+    let read = ReadAs { measures: Measures::of(reading), stated: None, declared: Some(&reading.name) };
     Ok((column.factor(read, source)?, column.is_bare(read)))
 }
 
@@ -258,7 +259,7 @@ impl<'t> ReadingsTable<'t> {
         let source = self.reader.source();
         let column =
             find_reading(self.reader.header(), name, &self.declared(), source).map_err(Refusal::of)?;
-        let read = ReadAs { quantity, stated: None, declared: Some(name) };
+        let read = ReadAs { measures: quantity.into(), stated: None, declared: Some(name) };
         let factor = self.reader.header()[column].factor(read, source).map_err(Refusal::of)?;
         self.wanted.push(Wanted { column, form: Form::Number(factor) });
         Ok(())

@@ -3,13 +3,14 @@
 use std::ops::Range;
 
 use model_core::Quantity;
+use model_core::unit::Measures;
 
 use super::mistakes::{Outcome, mistake, plain};
 use tables::units::Amount;
 
-/// In rad, m, or as it is.
-pub(super) fn si(amount: &Amount, quantity: Quantity, place: &Range<usize>) -> Outcome<f64> {
-    amount.to_si(quantity).map_err(|error| plain(place.clone(), error.to_string()))
+/// In SI.
+pub(super) fn si(amount: &Amount, measures: impl Into<Measures>, place: &Range<usize>) -> Outcome<f64> {
+    amount.to_si(measures).map_err(|error| plain(place.clone(), error.to_string()))
 }
 
 /// The same of an amount that says its unit: of where things stand no number tells metres from millimetres, or radians from gon.

@@ -46,12 +46,12 @@ impl Columns {
         let correlated = placed(&source.uncertain.correlated, &mut plans);
         // Names in derivations that are no joint or input of the chain are columns of the file: a time.
         let mut times = Vec::new();
-        for (_, reading) in &source.readings {
-            let names = match reading {
-                Reading::Derived(derived) => derived.columns(),
-                Reading::Column(_) | Reading::Sighted => Vec::new(),
-            };
-            for name in names {
+        let derived = source.readings.iter().filter_map(|(_, reading)| match reading {
+            Reading::Derived(derived) => Some(derived),
+            Reading::Column(_) | Reading::Sighted => None,
+        });
+        for derived in derived {
+            for name in derived.columns() {
                 let of_symbol = plan
                     .chain
                     .find_symbol(name)
@@ -60,7 +60,9 @@ impl Columns {
                 let is_order = plan.order.as_deref() == Some(name);
                 if !of_symbol && !is_order && !times.iter().any(|(known, _)| known == name) {
                     times.push((name.to_owned(), plans.len()));
-                    plans.push(ColumnPlan::of_numbers(name));
+                    let is_time = derived.time() == Some(name);
+                    let plan = if is_time { ColumnPlan::of_times } else { ColumnPlan::of_numbers };
+                    plans.push(plan(name));
                 }
             }
         }
@@ -83,14 +85,14 @@ impl Columns {
         let mut bare = Vec::new();
         let mut wanted = Vec::new();
         for (at, column) in self.plans.iter().enumerate() {
-            let ColumnPlan { name, unit, quantity, .. } = column;
+            let ColumnPlan { name, unit, measures, .. } = column;
             let found = if column.named {
                 find_column(header, name, file)?
             } else {
                 find_reading(header, name, &declared, file)?
             };
             let own = column.declared.then_some(name.as_str());
-            let read = ReadAs { quantity: *quantity, stated: *unit, declared: own };
+            let read = ReadAs { measures: *measures, stated: *unit, declared: own };
             let factor = match column.conversion.notation {
                 // Its digits are degrees or hours whatever the header says.
                 Some(_) => 1.0,
@@ -105,7 +107,7 @@ impl Columns {
                 Plausible::measured(&plan.chain, source.observable)
             };
             if column.conversion.notation.is_none() && header[found].is_bare(read) {
-                bare.push((at, BareColumn::new(plausible, *quantity, &header[found].full, file)));
+                bare.push((at, BareColumn::new(plausible, measures.quantity(), &header[found].full, file)));
             }
             wanted.push(Wanted { column: found, form: Form::Number(factor) });
         }

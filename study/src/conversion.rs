@@ -1,8 +1,8 @@
 //! How the numbers of a column become readings: packed notation, sign, offset and a shift by rows.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
-use model_core::Quantity;
+use model_core::unit::Measures;
 use toml::Spanned;
 
 use super::amount::si;
@@ -25,13 +25,15 @@ pub(super) fn to_digits(number: f64, digits: i32) -> f64 {
     if rounded.is_finite() { rounded } else { number }
 }
 
-/// Sexagesimal digits in one number.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// How digits stand for an angle where that is no unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Notation {
     /// Degrees before the point, then two digits of minutes, then seconds: 12.3456 is 12° 34′ 56″.
     Degrees,
     /// Hours, minutes and seconds as one number: 123456.7 is 12 h 34 min 56.7 s.
     Hours,
+    /// Counts of an encoder, so many a turn.
+    Counts(f64),
 }
 
 impl Notation {
@@ -41,6 +43,7 @@ impl Notation {
         match self {
             Self::Degrees => "ddd.mmss",
             Self::Hours => "hhmmss",
+            Self::Counts(_) => "counts",
         }
     }
 
@@ -49,18 +52,15 @@ impl Notation {
     pub fn unpack(self, number: f64) -> (f64, bool) {
         // Sexagesimal digits are decimal ones: what binary cannot hold is rounded away before they are cut apart.
         let decimal = to_digits(number.abs(), DIGITS);
-        let whole = match self {
-            Self::Degrees => decimal * 1e4,
-            Self::Hours => decimal,
+        let (whole, unit) = match self {
+            Self::Degrees => (decimal * 1e4, PI / 180.0),
+            Self::Hours => (decimal, PI / 12.0),
+            Self::Counts(per_turn) => return (number / per_turn * TAU, true),
         };
         let large = (whole / 1e4 + 1e-12).floor();
         let rest = whole - large * 1e4;
         let minutes = (rest / 100.0 + 1e-10).floor();
         let seconds = (rest - minutes * 100.0).max(0.0);
-        let unit = match self {
-            Self::Degrees => PI / 180.0,
-            Self::Hours => PI / 12.0,
-        };
         let angle_rad = (large + minutes / 60.0 + seconds / 3600.0) * unit;
         (angle_rad.copysign(number), minutes < 60.0 && seconds < 60.0)
     }
@@ -84,7 +84,7 @@ impl Conversion {
     pub const NONE: Self = Self { notation: None, negated: false, offset_si: 0.0, shift: 0 };
 
     /// What a study writes of a column.
-    pub(super) fn of(column: &Column, quantity: Quantity) -> Outcome<Self> {
+    pub(super) fn of(column: &Column, measures: Measures) -> Outcome<Self> {
         let negated = match column.sign.as_ref().map(|sign| (*sign.get_ref(), sign.span())) {
             None | Some((1, _)) => false,
             Some((-1, _)) => true,
@@ -94,9 +94,11 @@ impl Conversion {
         };
         let offset_si = match &column.offset {
             None => 0.0,
-            Some(offset) => si(offset.get_ref(), quantity, &offset.span())?,
+            Some(offset) => si(offset.get_ref(), measures, &offset.span())?,
         };
-        let notation = column.notation.as_ref().map(|word| notation(word, column, quantity)).transpose()?;
+        let notation = column.notation.as_ref().map(|word| notation(word, column, measures)).transpose()?;
+        let counts = column.counts_per_turn.as_ref().map(|per_turn| counts(per_turn, column, measures));
+        let notation = notation.or(counts.transpose()?);
         let shift = match &column.shift {
             None => 0,
             Some(shift) if shift.get_ref().abs() <= MOST_SHIFT => *shift.get_ref(),
@@ -116,13 +118,13 @@ impl Conversion {
     }
 }
 
-fn notation(word: &Spanned<String>, column: &Column, quantity: Quantity) -> Outcome<Notation> {
+fn notation(word: &Spanned<String>, column: &Column, measures: Measures) -> Outcome<Notation> {
     let known = [Notation::Degrees, Notation::Hours];
     let Some(notation) = known.into_iter().find(|own| own.name() == word.get_ref().to_lowercase()) else {
         let why = format!("`{}` is an unknown notation", word.get_ref());
         return Err(mistake(word.span(), why, "write \"ddd.mmss\" or \"hhmmss\""));
     };
-    if quantity != Quantity::Angle {
+    if measures != Measures::Angle {
         return Err(mistake(word.span(), "only an angle has minutes and seconds", "leave `notation` out"));
     }
     if column.unit.is_some() {
@@ -130,6 +132,20 @@ fn notation(word: &Spanned<String>, column: &Column, quantity: Quantity) -> Outc
         return Err(mistake(word.span(), why, "leave `unit` out"));
     }
     Ok(notation)
+}
+
+fn counts(per_turn: &Spanned<f64>, column: &Column, measures: Measures) -> Outcome<Notation> {
+    let wrong = |why: &str, help: &str| Err(mistake(per_turn.span(), why, help));
+    if measures != Measures::Angle {
+        return wrong("only an angle has turns", "leave `counts_per_turn` out");
+    }
+    if column.unit.is_some() || column.notation.is_some() {
+        return wrong("`counts_per_turn` is a unit already", "leave `unit` and `notation` out");
+    }
+    if !(per_turn.get_ref().is_finite() && *per_turn.get_ref() >= 1.0) {
+        return wrong("an encoder has at least one count a turn", "write a number such as 65536");
+    }
+    Ok(Notation::Counts(*per_turn.get_ref()))
 }
 
 #[cfg(test)]

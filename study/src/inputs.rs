@@ -1,13 +1,13 @@
 //! Inputs that a study brings with it: side quantities that the chain does not declare, and what follows from the
 //! sequence of the rows.
 
+use model_core::unit::Unit;
 use model_core::{Chain, Meaning, Quantity, Symbol, SymbolId, SymbolKind, names, validate};
 use toml::Spanned;
 
 use super::mistakes::{Outcome, every, mistake};
 use super::written::{Column, Study};
 use observe::{Derived, parse_derived};
-use tables::units::Unit;
 
 impl Study {
     /// The chain with an input for each side quantity that it does not declare.
@@ -94,7 +94,9 @@ impl Study {
         let Some((_, column)) = column else { return Quantity::Number };
         match (&column.get_ref().derive, &column.get_ref().unit) {
             (Some(text), _) => parse_derived(text).map_or(Quantity::Number, |derived| derived.quantity()),
-            (None, Some(unit)) => Unit::find(unit).map_or(Quantity::Number, |unit| unit.quantity),
+            (None, Some(unit)) => {
+                Unit::find(unit).map_or(Quantity::Number, |unit| unit.measures().quantity())
+            }
             (None, None) => Quantity::Number,
         }
     }

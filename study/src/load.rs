@@ -5,7 +5,7 @@ use model_core::{SymbolId, exact};
 use super::cells::RowCells;
 use super::columns::Columns;
 use super::labels::{Numbered, number};
-use super::order::{not_understood, times};
+use super::order::{not_understood, set_back, times};
 use super::plan::{Plan, Reading, SourcePlan};
 use super::ranges::check_ranges;
 use super::repeated::{fitted_as_well, without_repeats};
@@ -37,6 +37,8 @@ pub struct Loaded {
     pub doubtful: Vec<BareColumn>,
     /// What is doubtful of rows.
     pub remarks: Vec<Remark>,
+    /// What is doubtful of whole files.
+    pub of_files: Vec<String>,
     /// Some of the rows as the files have them, to be read otherwise.
     pub sample: Sample,
 }
@@ -49,6 +51,13 @@ impl Loaded {
         let remarks = repeated.into_iter().chain(self.remarks).collect();
         Self { observations, remarks, ..self }
     }
+}
+
+/// What is doubtful of the files while they are read.
+#[derive(Default)]
+struct Doubtful {
+    columns: Vec<BareColumn>,
+    of_files: Vec<String>,
 }
 
 /// Appends values; to nothing without a copy.
@@ -73,7 +82,7 @@ impl Plan {
     /// # Errors
     /// What is wrong with a table, with its place.
     pub fn load_tables(&self, open: &mut OpenTable<'_>) -> Result<Loaded, DataError> {
-        let (mut doubtful, mut sample) = (Vec::new(), Sample::default());
+        let (mut doubtful, mut sample) = (Doubtful::default(), Sample::default());
         let mut observations = self.no_observations();
         let mut groups = Numbered::default();
         for source in &self.sources {
@@ -102,7 +111,8 @@ impl Plan {
         let remarks = self
             .place_objects(&mut observations)
             .map_err(|error| DataError::NotPlaced { why: error.to_string() })?;
-        Ok(Loaded { observations, held_out, doubtful, remarks, sample })
+        let Doubtful { columns: doubtful, of_files } = doubtful;
+        Ok(Loaded { observations, held_out, doubtful, remarks, of_files, sample })
     }
 
     pub(super) fn no_observations(&self) -> Observations {
@@ -118,12 +128,14 @@ impl Plan {
         paths: &[String],
         open: &mut OpenTable<'_>,
         columns: &Columns,
-        doubtful: &mut Vec<BareColumn>,
+        doubtful: &mut Doubtful,
     ) -> Result<Rows, DataError> {
         let mut rows = Rows::of(columns, paths);
         for path in paths {
             let file = all.origins.file(path);
-            rows.append((self, source), &mut *open(path, &self.format)?, file, columns, doubtful)?;
+            let mut reader = open(path, &self.format)?;
+            doubtful.of_files.extend(reader.remarks());
+            rows.append((self, source), &mut *reader, file, columns, &mut doubtful.columns)?;
         }
         if rows.row_numbers.is_empty() {
             return Err(DataError::NoRows { file: rows.file });
@@ -135,6 +147,15 @@ impl Plan {
                 let (line, row_number) = (rows.places.line(row), rows.number(row));
                 let why = format!("column `{order}`: `{}` {why}", clipped(&rows.labels[at][row]));
                 return Err(DataError::Impossible { file: rows.file, line, row: row_number, why });
+            }
+            if let Some((row, seconds)) = set_back(&rows.labels[at]) {
+                doubtful.of_files.push(format!(
+                    "{}: row {}: `{order}` goes back by {:.0} min, as clocks do where summer time ends, and no zone is stated. Write the zone \
+                     behind each time: `+02:00` before that row, `+01:00` from it on.",
+                    rows.file,
+                    rows.number(row),
+                    seconds / 60.0
+                ));
             }
             rows.sort_by_label(at);
         }
@@ -300,7 +321,7 @@ impl Plan {
         if !source.readings.iter().any(follows) {
             return Ok(None);
         }
-        times(labels).map(Some).map_err(|row| DataError::Impossible {
+        let times = times(labels).map_err(|row| DataError::Impossible {
             file: file.to_owned(),
             line: rows.places.line(row),
             row: rows.number(row),
@@ -309,7 +330,12 @@ impl Plan {
                  time (2026-01-31T18:01:00), in every row, or leave `sequence` out",
                 clipped(&labels[row])
             ),
-        })
+        })?;
+        if formats::numbers(labels).is_none() {
+            return Ok(Some(times));
+        }
+        let seconds = rows.seconds.clone()?;
+        Ok(Some(times.into_iter().map(|time| time * seconds).collect()))
     }
 
     fn measured(

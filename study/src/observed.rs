@@ -63,9 +63,9 @@ pub(super) fn observed_columns(
         return Err(mistake(place, format!("`{key}` is no column of this kind"), help));
     }
     // What `simulate` and `eval` write needs no naming.
-    let of_its_own = |name: String| ColumnPlan::declared(name, quantity);
+    let of_its_own = |name: String| ColumnPlan::declared(name, quantity.into());
     let plan = |(key, column): (&str, &Option<Column>)| match column {
-        Some(column) => column_plan(column, quantity, &place, false),
+        Some(column) => column_plan(column, quantity.into(), &place, false),
         None if matches!(orientation, None | Some(Form::FromDesign)) && is_of_vector(key) => {
             Ok(of_its_own(format!("{}_{key}", observable.name)))
         }

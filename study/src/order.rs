@@ -64,6 +64,19 @@ pub(super) fn not_understood(labels: &[String]) -> Option<(usize, &'static str)>
     Some((row, "is a point in time that is not understood: write it as 2026-01-31T18:01:00"))
 }
 
+/// Seconds by which a clock goes back where summer time ends: an hour, less the time between two rows.
+const SET_BACK: std::ops::RangeInclusive<f64> = 1_800.0..=3_660.0;
+
+/// The row at which local times go back by about an hour, once and without a zone, and by how many seconds: the end of summer time,
+/// most likely, so that one hour comes twice.
+pub(super) fn set_back(labels: &[String]) -> Option<(usize, f64)> {
+    let moments = moments(labels).filter(|moments| moments.iter().all(|moment| !moment.has_zone))?;
+    let back = moments.windows(2).map(|pair| pair[0].seconds - pair[1].seconds).enumerate();
+    let mut back = back.filter(|(_, seconds)| *seconds > 0.0 && seconds <= SET_BACK.end());
+    let (at, seconds) = back.next().filter(|(_, seconds)| SET_BACK.contains(seconds))?;
+    back.next().is_none().then_some((at + 1, seconds))
+}
+
 /// Whether a text has a date that does not begin with the year, a month by its name, or a clock of twelve hours.
 fn looks_like_time(label: &str) -> bool {
     const MONTHS: [&str; 12] =
@@ -330,6 +343,25 @@ mod tests {
     }
 
     #[test]
+    fn an_hour_that_comes_twice_is_seen() {
+        let of =
+            |labels: &[&str]| set_back(&labels.iter().map(|label| (*label).to_owned()).collect::<Vec<_>>());
+        let summer = ["2026-10-25T02:30", "2026-10-25T02:59", "2026-10-25T02:01", "2026-10-25T02:30"];
+        assert_eq!(of(&summer), Some((2, 3_480.0)));
+        assert_eq!(of(&summer.map(|label| [label, "+02:00"].concat()).each_ref().map(String::as_str)), None);
+        assert_eq!(of(&["2026-10-25T02:30", "2026-10-25T02:31", "2026-10-25T02:30"]), None);
+        // Rows in no order, and those of another night.
+        assert_eq!(
+            of(&["2026-10-25T02:30", "2026-10-25T01:31", "2026-10-25T01:45", "2026-10-25T01:40"]),
+            None
+        );
+        assert_eq!(of(&["2026-10-25T02:30", "2026-10-24T01:31"]), None);
+        assert_eq!(of(&["7200", "3600"]), None);
+        assert_eq!(of(&["IMG_2", "IMG_1"]), None);
+        assert_eq!(of(&[]), None);
+    }
+
+    #[test]
     fn names_are_counted_on() {
         assert_eq!(
             ordered(&["IMG_10", "IMG_9", "IMG_2b", "IMG_2", "IMG"]),
@@ -342,6 +374,35 @@ mod tests {
     }
 
     proptest! {
+        /// What a calendar and a clock have is the instant that they say, and what they do not have is refused.
+        #[test]
+        fn any_date_is_an_instant_or_is_refused(
+            year in 1900_i32..2100, month in 0_u32..15, day in 0_u32..34, hour in 0_u32..27, minute in 0_u32..70, zone in -15_i32..16
+        ) {
+            const LENGTHS: [u32; 12] = [31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31];
+            let is_leap = |year: i32| year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+            let length = |year: i32, month: usize| LENGTHS[month] + u32::from(month == 1 && is_leap(year));
+            let sign = if zone < 0 { '-' } else { '+' };
+            let label = format!("{year}-{month:02}-{day:02}T{hour:02}:{minute:02}{sign}{:02}:30", zone.abs());
+            let exists = (1..=12).contains(&month)
+                && (1..=length(year, month.clamp(1, 12) as usize - 1)).contains(&day)
+                && hour < 24
+                && minute < 60;
+            let read = moment(&label).map(|moment| moment.seconds);
+            prop_assert_eq!(read.is_ok(), exists, "{}", label);
+            if let Ok(seconds) = read {
+                // Days counted one year and one month at a time.
+                let years = if year < 1970 { year..1970 } else { 1970..year };
+                let of_years: i64 = years.map(|year| if is_leap(year) { 366 } else { 365 }).sum();
+                let of_years = if year < 1970 { -of_years } else { of_years };
+                let of_months: u32 = (0..month as usize - 1).map(|month| length(year, month)).sum();
+                let days = of_years + i64::from(of_months + day - 1);
+                let ahead = i64::from(zone.abs() * 60 + 30) * if zone < 0 { -60 } else { 60 };
+                let expected = days * 86_400 + i64::from(hour * 3600 + minute * 60) - ahead;
+                prop_assert_eq!(seconds, expected as f64, "{}", label);
+            }
+        }
+
         /// Any texts have one order: sorting fails on what is none.
         #[test]
         fn whatever_is_written_has_an_order(labels in prop::collection::vec("[0-9aé._ :TZ+-]{0,8}", 0..60)) {

@@ -1,5 +1,6 @@
 //! A study with every name resolved against its chain.
 
+use model_core::unit::Measures;
 use model_core::{Chain, Mistakes, ObservableId, SymbolId, SymbolKind};
 use toml::Spanned;
 
@@ -370,15 +371,15 @@ impl Study {
                 if let Some((_, derived)) = implied.iter().find(|(name, _)| *name == symbol.name) {
                     return Ok(Reading::Derived(derived.clone()));
                 }
-                let (name, quantity) = (symbol.name.clone(), symbol.quantity);
-                return Ok(Reading::Column(ColumnPlan::declared(name, quantity)));
+                let name = symbol.name.clone();
+                return Ok(Reading::Column(ColumnPlan::declared(name, Measures::of(symbol))));
             };
             match &column.get_ref().derive {
                 Some(text) => parse_derived(text)
                     .map(Reading::Derived)
                     .map_err(|error| plain(column.span(), error.to_string())),
                 None => {
-                    let mut plan = column_plan(column.get_ref(), symbol.quantity, &column.span(), true)?;
+                    let mut plan = column_plan(column.get_ref(), Measures::of(symbol), &column.span(), true)?;
                     plan.declared = plan.name == symbol.name;
                     Ok(Reading::Column(plan))
                 }

@@ -1,5 +1,7 @@
 //! The rows of one source on their way from its files.
 
+use model_core::unit::Measures;
+
 use super::columns::Columns;
 use super::conversion::Conversion;
 use super::labels::says_nothing;
@@ -7,7 +9,7 @@ use super::order::order_of;
 use super::plan::{Plan, SourcePlan};
 use super::undeclared::Labelled;
 use observe::{Numbers, Places};
-use tables::formats::{Cell, Cells, DataError, Form, TableReader, Wanted};
+use tables::formats::{Cell, Cells, DataError, Form, ReadAs, TableReader, Wanted, find_column};
 use tables::units::BareColumn;
 
 /// Rows that are read at a time.
@@ -31,6 +33,8 @@ pub(super) struct Rows {
     pub factors: Vec<Option<f64>>,
     /// Of each column of numbers whether the header of some file says its unit.
     pub headed: Vec<bool>,
+    /// What takes the numbers of the column of the order to seconds, by the headers; or why nothing does.
+    pub seconds: Result<f64, DataError>,
     /// Columns that the study does not name.
     pub undeclared: Labelled,
     /// Memory that these take, in bytes.
@@ -49,6 +53,7 @@ impl Rows {
             in_si: vec![true; columns.plans.len()],
             factors: vec![None; columns.plans.len()],
             headed: vec![false; columns.plans.len()],
+            seconds: Ok(1.0),
             undeclared: Labelled::default(),
             bytes: 0,
         }
@@ -73,6 +78,11 @@ impl Rows {
         }
         for (headed, column) in self.headed.iter_mut().zip(&wanted) {
             *headed |= reader.header()[column.column].unit().is_some();
+        }
+        if let (Some(order), Ok(_)) = (&plan.order, &self.seconds) {
+            let read = ReadAs { measures: Measures::Time, stated: None, declared: None };
+            let found = find_column(reader.header(), order, reader.source())?;
+            self.seconds = reader.header()[found].factor(read, reader.source());
         }
         let before = self.row_numbers.last().unwrap_or_default();
         let mut beside = Labelled::beside(&wanted, reader);
@@ -191,6 +201,7 @@ impl Rows {
             in_si: self.in_si.clone(),
             factors: self.factors.clone(),
             headed: self.headed.clone(),
+            seconds: self.seconds.clone(),
             undeclared: Labelled::default(),
             bytes: 0,
         }

@@ -161,7 +161,7 @@ impl Sample {
                     place: Place { source, column },
                     read,
                     name: plan.name.clone(),
-                    quantity: plan.quantity,
+                    quantity: plan.measures.quantity(),
                     factor,
                     unit_is_of_study: plan.unit.is_some(),
                     unit_is_open: !rows.headed[column],

@@ -77,5 +77,5 @@ fn planned(columns: &[Column], place: &Range<usize>, measure: Measure) -> Outcom
         let message = format!("{} columns for {} residual components", columns.len(), measure.components());
         return Err(mistake(place.clone(), message, "name one column for all, or one for each"));
     }
-    every(columns.iter().map(|column| column_plan(column, quantity(measure), place, false)))
+    every(columns.iter().map(|column| column_plan(column, quantity(measure).into(), place, false)))
 }

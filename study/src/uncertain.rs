@@ -1,5 +1,6 @@
 //! How uncertain readings are: a joint or an input says it where it says in which column they stand.
 
+use model_core::unit::Measures;
 use model_core::{Chain, SymbolId};
 use toml::Spanned;
 
@@ -25,9 +26,9 @@ pub(super) fn sigma(chain: &Chain, columns: &Table<Column>) -> Outcome<Vec<(Symb
         Some((id, column.get_ref().sigma.as_ref()?))
     });
     let planned = |id: SymbolId, sigma: &Spanned<Sigma>| {
-        let (quantity, place) = (chain.symbol(id).quantity, sigma.span());
+        let (measures, place) = (Measures::of(chain.symbol(id)), sigma.span());
         match sigma.get_ref() {
-            Sigma::Amount(amount) => match si(amount, quantity, &place)? {
+            Sigma::Amount(amount) => match si(amount, measures, &place)? {
                 sigma if sigma > 0.0 && sigma.is_finite() => Ok(Uncertain::Evenly(sigma)),
                 _ => Err(mistake(
                     place,
@@ -36,7 +37,7 @@ pub(super) fn sigma(chain: &Chain, columns: &Table<Column>) -> Outcome<Vec<(Symb
                 )),
             },
             Sigma::Columns(columns) => match columns.as_slice() {
-                [column] => column_plan(column, quantity, &place, false).map(Uncertain::Column),
+                [column] => column_plan(column, measures, &place, false).map(Uncertain::Column),
                 _ => Err(mistake(place, "a reading has one standard deviation", "name one column")),
             },
         }

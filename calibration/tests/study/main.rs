@@ -114,6 +114,27 @@ az;el [deg];dx_arcsec;dy_arcsec;day;time;temperature
 }
 
 #[test]
+fn times_are_in_the_unit_that_the_header_says() {
+    const HOURS: &str = "az;el [deg];dx_arcsec;dy_arcsec;day;time [h];temperature\n20;30;0;0;b;1,5;7,5\n10;30;1;-2;a;0,5;8,5\n";
+    const DAYS: &str =
+        "az;el [deg];dx_arcsec;dy_arcsec;day;time [MJD];temperature\n20;30;0;0;b;2;7,5\n10;30;1;-2;a;1;8,5\n";
+    let of_rows = STUDY.replace("order = \"time\"\n", "");
+    let elapsed = |study: &str, data| {
+        let plan = Study::from_text(study).unwrap().plan(&Chain::from_text(MOUNT).unwrap()).unwrap();
+        let drift = plan.chain.find_symbol("drift").unwrap();
+        observations(study, data).map(|read| read.poses.column(drift).unwrap().to_vec())
+    };
+    assert_eq!(elapsed(STUDY, HOURS), Ok(vec![0.0, 3600.0]));
+    assert_eq!(elapsed(&of_rows, HOURS), Ok(vec![0.0, -3600.0]));
+    for study in [STUDY, &of_rows] {
+        assert!(
+            elapsed(study, DAYS)
+                .is_err_and(|why| why.contains("`MJD` is no unit: the units of a time are s, ms"))
+        );
+    }
+}
+
+#[test]
 fn mistakes_are_named_with_their_place_and_what_to_write() {
     let with = |from: &str, to: &str| {
         assert!(STUDY.contains(from), "{from}");
@@ -124,7 +145,7 @@ fn mistakes_are_named_with_their_place_and_what_to_write() {
         with("kind  = \"offset\"", "kind = \"ofset\""),
         with("kind  = \"offset\"", "kind = \"point\""),
         with("azimuth   = {", "azimut = {"),
-        with("unit = \"deg\"", "unit = \"degree\""),
+        with("unit = \"deg\"", "unit = \"degr\""),
         with("column = \"az\", unit = \"deg\"", "column = \"az\""),
         with("column = \"az\", unit = \"deg\"", "column = \"azi\", unit = \"deg\""),
         with("column = \"dx_arcsec\"", "column = \"dx_arcsec\", unit = \"deg\""),
@@ -183,14 +204,14 @@ fn refused(study: &str) -> Vec<String> {
 #[test]
 fn every_mistake_of_a_study_is_told_at_once() {
     let study = STUDY
-        .replace("unit = \"deg\"", "unit = \"degs\"")
+        .replace("unit = \"deg\"", "unit = \"degz\"")
         .replace("direction(azimuth)", "directed(azimuth)")
         .replace("\"collimation\"]", "\"colimation\", \"nothing*\"]")
         .replace("\"1 arcmin\"", "\"1 mm\"")
         + "false_alarm = 2.0\nharmonics = 4294967296\n[hold_out]\nfolds = 0\n[next]\nposes = 1000000000\n";
     let told = refused(&study);
     for part in [
-        "degs",
+        "degz",
         "directed(azimuth)",
         "colimation",
         "nothing*",

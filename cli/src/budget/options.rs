@@ -5,7 +5,7 @@ use std::path::Path;
 use model_core::{Chain, ObservableKind, Quantity, SymbolId, SymbolKind, names};
 use service::errors_file;
 use service::tolerance::{Distribution, Shape, Tolerance, Written};
-use tables::units::{Amount, Unit};
+use tables::units::Amount;
 
 use crate::failure::Failure;
 use crate::source;
@@ -207,9 +207,9 @@ fn table(path: &Path) -> Result<Distribution, String> {
 
 /// Whether a text is a unit of what an observable shows.
 pub fn is_meant_for(text: &str, kind: ObservableKind) -> bool {
-    let unit: Option<Unit> = Amount::parse(text).ok().and_then(|amount| amount.unit);
+    let unit = Amount::parse(text).ok().and_then(|amount| amount.unit);
     !matches!(
-        (unit.map(|unit| unit.quantity), kind),
+        (unit.map(|unit| unit.measures().quantity()), kind),
         (Some(Quantity::Angle), ObservableKind::Point) | (Some(Quantity::Length), ObservableKind::Direction)
     )
 }

@@ -3,8 +3,8 @@
 //!
 //! Source: LAS Specification 1.4, revision 15, ASPRS (2019), "Extra Bytes", tables 24 and 25.
 
+use model_core::unit::Unit;
 use tables::formats::ColumnName;
-use tables::units::Unit;
 
 use super::header::{Header, field};
 use super::records::text;
@@ -205,7 +205,7 @@ fn name(description: &[u8]) -> String {
     let unit =
         [Some(more.as_str()), in_brackets()].into_iter().flatten().find_map(|unit| Unit::find(unit.trim()));
     match unit {
-        Some(unit) => format!("{name} [{}]", unit.name),
+        Some(unit) => format!("{name} [{}]", unit.name()),
         None => name,
     }
 }

@@ -234,7 +234,7 @@ impl Noise {
             if amount.number < 0.0 {
                 return Err(wrong(format!("`{text}` is negative: write the standard deviation")));
             }
-            let measures = amount.unit.map(|unit| unit.quantity);
+            let measures = amount.unit.map(|unit| unit.measures().quantity());
             if measures == Some(Measures::Number) {
                 return Err(wrong(format!("`{text}` is neither an angle nor a length")));
             }

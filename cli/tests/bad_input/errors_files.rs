@@ -36,7 +36,7 @@ fn two_patterns_for_one_name() {
 
 #[test]
 fn unknown_unit() {
-    assert_snapshot!(of_errors("e-unit", "tilt_x = \"1 arcsecs\"\n"));
+    assert_snapshot!(of_errors("e-unit", "tilt_x = \"1 arcsecz\"\n"));
 }
 
 #[test]

@@ -156,7 +156,7 @@ fn readings_that_are_not_there_or_are_none_are_told() {
             "no dimension `elevation`: did you mean `Elevation [rad]`?",
         ),
         ("other", with("v12f1.las", elevation + 4, b"tangential"), listed),
-        ("unit", with("v12f1.las", named + 4, b"azimuth [rod]"), "`rod` is no unit; did you mean `rad`?"),
+        ("unit", with("v12f1.las", named + 4, b"azimuth [rod]"), "`rod` is no unit: did you mean `rad`?"),
         ("length", with("v12f1.las", named + 4, b"azimuth [mm] "), "`mm` measures a length"),
         ("untyped", untyped, "`azimuth` cannot be read of dimension"),
         (

@@ -47,7 +47,12 @@ fn what_cannot_be_begun_is_refused_with_words_and_nothing_is_written() {
         ("numbers", "1,2,3,4,5", &[][..], "no names of columns"),
         ("twice", "az,az,x,y,z", &[], "is there twice"),
         ("unknown", "a,b,c,d,e", &[], "--template alt-azimuth"),
-        ("unit", "az [mil],el [deg],x,y,z", &[], "`mil` in the header of `az [mil]` is no unit"),
+        (
+            "unit",
+            "az [mil],el [deg],x,y,z",
+            &[],
+            "`az [mil]`: `mil` is an angle, of which a turn has 6400 or 6000, or a thousandth of an inch",
+        ),
         ("length", "az [mm],el [deg],x,y,z", &[], "does not fit what it is"),
         ("no-truth", "az,el,p,q,r", &[], "nothing says where the instrument truly pointed"),
         ("two", "az_1,az_2,el,y,z", &["--template", "alt-azimuth"], "could each be meant"),

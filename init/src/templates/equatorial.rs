@@ -35,14 +35,23 @@ fn draft(look: &Look) -> Result<Draft, String> {
         beside.columns.push(("pier".to_owned(), pier.plain()));
         beside.names.push("pier".to_owned());
     }
-    remarks.push(
-        "the latitude in the chain is a guess, on which only flexure under gravity depends: write yours"
-            .to_owned(),
-    );
+    remarks.extend(look.remarks.iter().cloned());
+    if pier.is_none() {
+        remarks.push(
+            "no column says the side of the pier: if the mount changed sides, add `pier_side` with 1 and -1"
+                .to_owned(),
+        );
+    }
+    if look.latitude_deg.is_none() {
+        remarks.push(
+            "the latitude in the chain is a guess, on which only flexure under gravity depends: write yours"
+                .to_owned(),
+        );
+    }
     let names = ["ha".to_owned(), "dec".to_owned()];
     let start = frame.starts(["ha_index", if pier.is_some() { "" } else { "dec_index" }]);
     Ok(Draft {
-        chain: chain(&frame, &beside.statements, if pier.is_some() { "pier*" } else { "" }),
+        chain: chain(&frame, &latitude(look), &beside.statements, if pier.is_some() { "pier*" } else { "" }),
         observable: "sight",
         columns: names.into_iter().zip(joints).chain(beside.columns).collect(),
         observed,
@@ -53,7 +62,26 @@ fn draft(look: &Look) -> Result<Draft, String> {
     })
 }
 
-fn chain(frame: &Frame, statements: &str, pier: &str) -> String {
+/// The statement of the latitude: what the file says of it, else a guess.
+fn latitude(look: &Look) -> String {
+    look.latitude_deg.map_or_else(
+        || {
+            "    /// Latitude of the observer: a guess, on which only flexure under gravity depends.
+    const latitude: angle = pi/4;"
+                .to_owned()
+        },
+        |degrees| {
+            // A millionth of a degree is a tenth of a metre on the ground.
+            format!(
+                "    /// Latitude of the observer, as the data say it.
+    const latitude: angle = {} deg;",
+                (degrees * 1e6).round() / 1e6
+            )
+        },
+    )
+}
+
+fn chain(frame: &Frame, latitude: &str, statements: &str, pier: &str) -> String {
     let scales = frame.scales(&["ha", "dec"]);
     let (turn, tilt, turn_index) = (frame.turns("ha"), frame.tilts("dec"), frame.turn("ha_index"));
     let tilt_index = frame.tilt(&format!("{pier}dec_index"));
@@ -62,8 +90,7 @@ fn chain(frame: &Frame, statements: &str, pier: &str) -> String {
     format!(
         "/// An equatorial mount: hour angle, then declination. z points to the pole.
 chain Equatorial {{
-    /// Latitude of the observer: a guess, on which only flexure under gravity depends.
-    const latitude: angle = pi/4;
+{latitude}
 {scales}{statements}    /// What turns in hour angle.
     body fork on ground {{
         position_error:

@@ -10,7 +10,7 @@ use super::tokens::{Reader, join};
 use crate::expr::{Expr, Function, Node};
 use crate::mistake::Mistake;
 use crate::names::nearest;
-use crate::unit::Unit;
+use crate::unit::{Measures, Unit, UnitError};
 
 /// Powers above this are refused: an exact polynomial with them would not fit in memory.
 const MAX_POWER: i32 = 32;
@@ -167,7 +167,10 @@ fn atom(reader: &mut Reader<'_, '_>) -> Read {
         return Ok(Expr { node, place });
     }
     match reader.literal() {
-        Some(literal) => Ok(measured(reader, number::read(&literal)?)),
+        Some(literal) => {
+            let number = number::read(&literal)?;
+            measured(reader, number)
+        }
         None if reader.mark('+').is_some() => {
             Err(Mistake::new(reader.last, "a `+` without a term before it").with_help("leave the `+` out"))
         }
@@ -178,12 +181,24 @@ fn atom(reader: &mut Reader<'_, '_>) -> Read {
 }
 
 /// A number with the unit that follows it, if one does.
-fn measured(reader: &mut Reader<'_, '_>, number: Amount) -> Amount {
-    let unit = reader.peek_word().and_then(|word| Unit::find(&word.to_string()));
-    let (Some(unit), Node::Number(value)) = (unit, &number.node) else { return number };
-    let node = Node::Measured(value.clone(), unit);
-    reader.word();
-    Expr { node, place: join(number.place, reader.last) }
+fn measured(reader: &mut Reader<'_, '_>, number: Amount) -> Read {
+    let (Some(word), Node::Number(value)) = (reader.peek_word(), &number.node) else { return Ok(number) };
+    let text = word.to_string();
+    let refused = |why: String| {
+        Mistake::new(word.span(), why)
+            .with_help(format!("write a unit of an angle or a length, or `*{text}` for a product"))
+    };
+    match Unit::read(&text, None) {
+        Ok(unit) if matches!(unit.measures(), Measures::Angle | Measures::Length) => {
+            let node = Node::Measured(value.clone(), unit);
+            reader.word();
+            Ok(Expr { node, place: join(number.place, reader.last) })
+        }
+        Ok(unit) => Err(refused(format!("`{text}` measures {}", unit.measures().noun()))),
+        Err(error @ UnitError::TwoMeanings { .. }) => Err(refused(error.to_string())),
+        // Whoever reads on misses the mark between them.
+        Err(_) => Ok(number),
+    }
 }
 
 /// The variable and the thresholds of a ramp.

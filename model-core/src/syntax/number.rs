@@ -5,6 +5,7 @@ use proc_macro2::{Literal, Span};
 use crate::algebra::Rational;
 use crate::expr::{Expr, Node};
 use crate::mistake::Mistake;
+use crate::unit::Unit;
 
 /// A number, from its token.
 pub fn read(literal: &Literal) -> Result<Expr<Span>, Mistake<Span>> {
@@ -16,8 +17,11 @@ pub fn read(literal: &Literal) -> Result<Expr<Span>, Mistake<Span>> {
             .with_help("write a number, a name, `pi`, or `sin(…)` and so on"));
     }
     if !rest.is_empty() {
-        return Err(Mistake::new(place, "a number directly followed by letters")
-            .with_help(format!("write `{number}*{rest}` for a product")));
+        let help = match Unit::find(rest) {
+            Some(_) => format!("write `{number} {rest}` for a number with its unit"),
+            None => format!("write `{number}*{rest}` for a product"),
+        };
+        return Err(Mistake::new(place, "a number directly followed by letters").with_help(help));
     }
     match Rational::parse_decimal(number) {
         Ok(value) => Ok(Expr { node: Node::Number(value), place }),

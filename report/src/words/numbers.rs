@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use model_core::unit::Unit;
 use observe::SiUnit;
 
 /// A unit for reading, with its size in SI.
@@ -18,15 +19,16 @@ pub struct Reading {
 pub fn reading(unit: SiUnit, largest: f64) -> Reading {
     let (base, per) = unit.split();
     let largest = largest.abs();
-    let (name, in_si) = match base {
-        SiUnit::RAD if largest < PI / 180.0 => ("″", PI / 648_000.0),
-        SiUnit::RAD => ("°", PI / 180.0),
-        SiUnit::METRE if largest < 1e-4 => ("µm", 1e-6),
-        SiUnit::METRE if largest < 1.0 => ("mm", 1e-3),
-        SiUnit::METRE => ("m", 1.0),
-        _ if per == SiUnit::ONE && largest < 1e-3 && largest > 0.0 => ("ppm", 1e-6),
-        _ => ("", 1.0),
+    let name = match base {
+        SiUnit::RAD if largest < PI / 180.0 => "″",
+        SiUnit::RAD => "°",
+        SiUnit::METRE if largest < 1e-4 => "µm",
+        SiUnit::METRE if largest < 1.0 => "mm",
+        SiUnit::METRE => "m",
+        _ if per == SiUnit::ONE && largest < 1e-3 && largest > 0.0 => "ppm",
+        _ => "",
     };
+    let in_si = Unit::find(name).map_or(1.0, Unit::in_si);
     let per = match per {
         SiUnit::ONE => String::new(),
         per if name.is_empty() => per.to_string(),

@@ -10,6 +10,7 @@ use kuva::render::plots::Plot;
 use model_core::budget::{self, Curve, Curves};
 use model_core::{Chain, ObservableId, SymbolId};
 
+use super::reading_unit;
 use report::letters;
 
 /// Panels side by side.
@@ -55,10 +56,7 @@ pub fn svg(chain: &Chain, observable: ObservableId, curves: &Curves) -> Option<S
     if errors.is_empty() {
         return None;
     }
-    let (unit, factor) = match budget::unit(chain, observable) {
-        "rad" => ("arcsec", 3600.0 * 180.0 / std::f64::consts::PI),
-        _ => ("mm", 1e3),
-    };
+    let (unit, factor) = reading_unit(budget::unit(chain, observable));
     let mut panels = Vec::new();
     let mut layouts = Vec::new();
     for &error in &errors {

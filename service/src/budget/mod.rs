@@ -8,6 +8,7 @@ mod text;
 
 use model_core::Chain;
 use model_core::budget::{Budget, Curves};
+use model_core::unit::Unit;
 
 use claims::file::Checked;
 
@@ -42,11 +43,12 @@ pub struct Shown<'a> {
 
 /// The unit that people read, and how many of it one SI unit makes.
 pub fn reading_unit(unit: &'static str) -> (&'static str, f64) {
-    match unit {
-        "rad" => ("arcsec", 3600.0 * 180.0 / std::f64::consts::PI),
-        "m" => ("mm", 1e3),
-        other => (other, 1.0),
-    }
+    let name = match unit {
+        "rad" => "arcsec",
+        "m" => "mm",
+        other => other,
+    };
+    (name, Unit::find(name).map_or(1.0, |unit| unit.in_si().recip()))
 }
 
 /// Five digits; what is below any sense is nothing.

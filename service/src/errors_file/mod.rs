@@ -8,6 +8,7 @@ use std::fmt;
 use std::ops::Range;
 
 use model_core::mistake::Mistake;
+use model_core::unit::Measures;
 use model_core::{Chain, SymbolId, SymbolKind, names};
 use serde::de::{self, Deserialize, Deserializer, IntoDeserializer as _};
 use tables::units::{Amount, Plausible};
@@ -98,10 +99,10 @@ pub fn found_over(source: &Source, chain: &Chain) -> Result<Vec<FoundOver>, Refu
                 }));
             };
             let wrong = |why: String| source.mistake(Mistake::new(range.span(), why));
-            let quantity = chain.symbol(symbol).quantity;
+            let measures = Measures::of(chain.symbol(symbol));
             let [low, high] = *range.get_ref();
-            let low = low.to_si(quantity).map_err(|why| wrong(why.to_string()))?;
-            let high = high.to_si(quantity).map_err(|why| wrong(why.to_string()))?;
+            let low = low.to_si(measures).map_err(|why| wrong(why.to_string()))?;
+            let high = high.to_si(measures).map_err(|why| wrong(why.to_string()))?;
             if low > high {
                 return Err(wrong("the lower bound is above the upper one; swap them".to_owned()));
             }

@@ -1,9 +1,9 @@
 //! Names of columns, and the units that headers carry: `az [deg]`, `az (deg)`, `az_deg`.
 
+use model_core::unit::{Measures, Unit, UnitError};
 use model_core::{Chain, Quantity, SymbolKind, names};
 
 use super::DataError;
-use crate::units::{Amount, Unit};
 
 /// The name of one column.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,19 +22,17 @@ pub struct ColumnName {
 #[derive(Debug, Clone, PartialEq)]
 enum Said {
     Nothing,
-    /// `az [deg]`, `az (deg)`
-    InBrackets(Unit),
+    /// `az [deg]`, `az (deg)`, or something else in brackets.
+    InBrackets(String),
     /// `az_deg`: a unit, or part of the name.
     BehindName(Unit),
-    /// `az [degs]`: brackets with something else in them.
-    Unknown(String),
 }
 
 /// How the numbers of a column are to be read.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReadAs<'a> {
     /// What they measure.
-    pub quantity: Quantity,
+    pub measures: Measures,
     /// The unit that the study gives.
     pub stated: Option<Unit>,
     /// The declared name by which the column was found, if it was: what has no unit is then in SI, as the commands write it.
@@ -49,18 +47,12 @@ impl ColumnName {
         let in_brackets = [('[', ']'), ('(', ')')].into_iter().find_map(|(open, close)| {
             let (name, rest) = full.split_once(open)?;
             let unit = rest.strip_suffix(close)?.trim();
-            Some((
-                name.trim_end(),
-                Unit::find(unit).map_or_else(|| Said::Unknown(unit.to_owned()), Said::InBrackets),
-            ))
+            Some((name.trim_end(), Said::InBrackets(unit.to_owned())))
         });
         if let Some((name, said)) = in_brackets {
             return Self { full: full.to_owned(), bare: name.to_owned(), stem: name.to_owned(), said };
         }
-        let behind_name = full.rsplit_once('_').and_then(|(stem, unit)| {
-            // One letter is more often part of the name (`pos_m`, the m-th position) than a unit.
-            Some((stem, Unit::find(unit).filter(|unit| unit.name.len() > 1)?))
-        });
+        let behind_name = Unit::behind_name(full);
         let (stem, said) =
             behind_name.map_or((full, Said::Nothing), |(stem, unit)| (stem, Said::BehindName(unit)));
         Self { full: full.to_owned(), bare: full.to_owned(), stem: stem.to_owned(), said }
@@ -86,9 +78,18 @@ impl ColumnName {
     /// The unit that the header gives, if it is one.
     #[must_use]
     pub fn unit(&self) -> Option<Unit> {
-        match self.said {
-            Said::InBrackets(unit) | Said::BehindName(unit) => Some(unit),
-            Said::Nothing | Said::Unknown(_) => None,
+        self.said(None).ok().flatten()
+    }
+
+    /// The unit that the header gives of what is measured, if it gives one.
+    ///
+    /// # Errors
+    /// Something in brackets that is no unit, or could be two.
+    pub fn said(&self, measures: Option<Measures>) -> Result<Option<Unit>, UnitError> {
+        match &self.said {
+            Said::Nothing => Ok(None),
+            Said::InBrackets(text) => Unit::read(text, measures).map(Some),
+            Said::BehindName(unit) => Ok(Some(*unit)),
         }
     }
 
@@ -104,59 +105,50 @@ impl ColumnName {
     /// An angle without a unit, a unit of something else, brackets with something that is none, a name that ends like one
     /// and says no more, or two units that differ.
     pub fn factor(&self, read: ReadAs<'_>, file: &str) -> Result<f64, DataError> {
-        let ReadAs { quantity, stated, declared } = read;
+        let ReadAs { measures, stated, declared } = read;
         let (file, column) = (file.to_owned(), self.full.clone());
+        let unknown = |why: UnitError| DataError::UnknownUnit {
+            file: file.clone(),
+            column: column.clone(),
+            why: why.to_string(),
+        };
         let is_declared = declared.is_some_and(|declared| declared == self.bare);
-        let header = match &self.said {
-            Said::Nothing => None,
+        let header = match (&self.said, measures) {
             // A plain number is in the unit of the data, whatever the header calls it.
-            Said::InBrackets(unit) | Said::BehindName(unit)
-                if quantity == Quantity::Number && unit.quantity != quantity =>
-            {
-                None
+            (Said::InBrackets(_), Measures::Number) => self.unit().filter(|unit| unit.measures() == measures),
+            (Said::InBrackets(_), _) if stated.is_some() => self.said(Some(measures)).ok().flatten(),
+            (Said::InBrackets(_), _) => self.said(Some(measures)).map_err(unknown)?,
+            (_, measures) if measures.needs_meaning() => {
+                let behind = self.full.rsplit_once('_').filter(|_| !is_declared);
+                let unit = behind.and_then(|(_, text)| Unit::read(text, Some(measures)).ok());
+                unit.filter(|unit| unit.measures() == measures)
             }
-            Said::InBrackets(unit) => Some(*unit),
-            Said::BehindName(unit) if is_declared => match (stated, quantity) {
-                (None, Quantity::Angle | Quantity::Length) => {
-                    let (unit, si) = (unit.name, quantity.unit());
+            (Said::Nothing, _) => None,
+            (Said::BehindName(unit), Measures::Angle | Measures::Length) if is_declared => {
+                if stated.is_none() {
+                    let (unit, si) = (unit.name(), measures.quantity().unit());
                     return Err(DataError::NameOrUnit { file, column, unit, si });
                 }
-                _ => None,
-            },
-            Said::BehindName(unit) => Some(*unit),
-            Said::Unknown(text) => match (stated, quantity) {
-                (None, Quantity::Angle | Quantity::Length) => {
-                    return Err(DataError::UnknownUnit { file, column, why: unknown(text, quantity) });
-                }
-                _ => None,
-            },
+                None
+            }
+            (Said::BehindName(unit), Measures::Angle | Measures::Length) => Some(*unit),
+            (Said::BehindName(unit), _) => {
+                Some(*unit).filter(|unit| unit.measures() == measures && !is_declared)
+            }
         };
         let unit = match (stated, header) {
-            (Some(stated), Some(header)) if stated.in_si != header.in_si => {
-                let (header, study) = (header.name, stated.name);
+            (Some(stated), Some(header)) if stated.in_si().to_bits() != header.in_si().to_bits() => {
+                let (header, study) = (header.name(), stated.name());
                 return Err(DataError::UnitConflict { file, column, header, study });
             }
             (stated, header) => stated.or(header),
         };
-        if unit.is_none() && quantity == Quantity::Angle && declared.is_none() {
+        if unit.is_none() && measures == Measures::Angle && declared.is_none() {
             return Err(DataError::NoUnit { file, column });
         }
-        Amount { number: 1.0, unit }.to_si(quantity).map_err(|error| DataError::WrongUnit {
-            file,
-            column,
-            why: error.to_string(),
-        })
+        let wrong = |error: UnitError| DataError::WrongUnit { file, column, why: error.to_string() };
+        unit.map_or(Ok(1.0), |unit| unit.factor(measures).map_err(wrong))
     }
-}
-
-/// `` `degs` is no unit: did you mean `deg`? Angles are in rad, mrad, … ``
-fn unknown(text: &str, quantity: Quantity) -> String {
-    let units =
-        Unit::all().filter(|unit| unit.quantity == quantity).map(|unit| unit.name).collect::<Vec<_>>();
-    let near = names::nearest(text, units.iter().copied());
-    let near = near.map_or_else(String::new, |near| format!("did you mean `{near}`? "));
-    let what = if quantity == Quantity::Angle { "an angle" } else { "a length" };
-    format!("`{text}` is no unit; {near}the units of {what} are {}", units.join(", "))
 }
 
 /// The columns that the names of a chain mean: those of joints and inputs, and of what observables show.
@@ -235,7 +227,7 @@ pub(super) fn unique(header: &[ColumnName], file: &str) -> Result<(), DataError>
 mod tests {
     use super::*;
 
-    const ANGLE: ReadAs<'_> = ReadAs { quantity: Quantity::Angle, stated: None, declared: None };
+    const ANGLE: ReadAs<'_> = ReadAs { measures: Measures::Angle, stated: None, declared: None };
 
     #[test]
     fn units_stand_in_brackets_or_behind_the_name() {
@@ -248,11 +240,11 @@ mod tests {
             ("delta_x", "delta_x", None),
             ("pos_m", "pos_m", None),
             ("pos [m]", "pos", Some("m")),
-            ("ambient [K]", "ambient", None),
+            ("ambient [K]", "ambient", Some("K")),
             ("ambient_celsius", "ambient_celsius", None),
         ] {
             let name = ColumnName::parse(text);
-            assert_eq!((name.stem.as_str(), name.unit().map(|unit| unit.name)), (stem, unit), "{text}");
+            assert_eq!((name.stem.as_str(), name.unit().map(Unit::name)), (stem, unit), "{text}");
         }
     }
 
@@ -260,38 +252,76 @@ mod tests {
     fn what_stands_in_brackets_and_is_no_unit_is_refused_with_the_units_there_are() {
         let factor =
             |text: &str, read| ColumnName::parse(text).factor(read, "f.csv").map_err(|e| e.to_string());
-        let declared = |quantity| ReadAs { quantity, stated: None, declared: Some("q") };
-        for text in ["q [degs]", "q [degrees]", "q [Deg]", "q (mil)", "q [feet]", "q []", "q [DEG]"] {
+        let declared = |measures| ReadAs { measures, stated: None, declared: Some("q") };
+        for text in ["q [degz]", "q [furlong]", "q []", "q (encoder)"] {
             for quantity in [Quantity::Angle, Quantity::Length] {
-                let message = factor(text, declared(quantity)).err().unwrap_or_default();
+                let message = factor(text, declared(quantity.into())).err().unwrap_or_default();
                 assert!(
                     message.contains("is no unit") && message.contains(quantity.unit()),
                     "{text}: {message}"
                 );
             }
-            assert_eq!(factor(text, declared(Quantity::Number)), Ok(1.0), "{text}");
+            assert_eq!(factor(text, declared(Measures::Number)), Ok(1.0), "{text}");
+            // Of what a time is counted in, nothing is taken for granted.
+            assert!(factor(text, declared(Measures::Time)).is_err(), "{text}");
+        }
+        for text in ["q [h]", "q [s]", "q [grad]", "q (mil)", "q [']", "q [\"]", "q [d]"] {
+            let message = factor(text, declared(Measures::Angle)).err().unwrap_or_default();
+            assert!(message.contains(" or ") && message.contains("write `"), "{text}: {message}");
         }
         // A study that says the unit settles it.
-        let stated = ReadAs { stated: Unit::find("deg"), ..declared(Quantity::Angle) };
-        assert_eq!(factor("q [degrees]", stated), Ok(1_f64.to_radians()));
+        let stated = ReadAs { stated: Unit::find("deg"), ..declared(Measures::Angle) };
+        assert_eq!(factor("q [grad]", stated), Ok(1_f64.to_radians()));
+    }
+
+    #[test]
+    fn temperatures_times_and_pressures_have_units_where_they_are_declared() {
+        let factor = |text: &str, measures| {
+            let read = ReadAs { measures, stated: None, declared: Some("q") };
+            ColumnName::parse(text).factor(read, "f.csv").map_err(|error| error.to_string())
+        };
+        for (text, measures, expected) in [
+            ("q [K]", Measures::Temperature, 1.0),
+            ("q [°C]", Measures::Temperature, 1.0),
+            ("q [s]", Measures::Time, 1.0),
+            ("q [h]", Measures::Time, 3_600.0),
+            ("q [min]", Measures::Time, 60.0),
+            ("clock_ms", Measures::Time, 1e-3),
+            ("clock_hours", Measures::Time, 3_600.0),
+            ("q", Measures::Time, 1.0),
+            ("q [hPa]", Measures::Pressure, 100.0),
+            ("q [K]", Measures::Number, 1.0),
+            ("q [h]", Measures::Number, 1.0),
+            ("q [%]", Measures::Number, 0.01),
+        ] {
+            assert_eq!(factor(text, measures), Ok(expected), "{text}");
+        }
+        for (text, measures, why) in [
+            ("q [°F]", Measures::Temperature, "another zero"),
+            ("ambient_F", Measures::Temperature, "another zero"),
+            ("q [MJD]", Measures::Time, "the units of a time are s, ms"),
+            ("q [deg]", Measures::Temperature, "`deg` measures an angle, but a temperature is wanted"),
+        ] {
+            assert!(factor(text, measures).is_err_and(|said| said.contains(why)), "{text}");
+        }
     }
 
     #[test]
     fn a_declared_name_that_ends_like_a_unit_asks_what_is_meant() {
-        let factor = |text: &str, quantity, stated| {
-            let read = ReadAs { quantity, stated, declared: Some("az_deg") };
+        let factor = |text: &str, measures, stated| {
+            let read = ReadAs { measures, stated, declared: Some("az_deg") };
             ColumnName::parse(text).factor(read, "f.csv").map_err(|error| error.to_string())
         };
-        let angle = Quantity::Angle;
+        let angle = Measures::Angle;
         assert!(
             factor("az_deg", angle, None).is_err_and(|why| why.contains("`az_deg [deg]` or `az_deg [rad]`"))
         );
         assert_eq!(factor("az_deg [rad]", angle, None), Ok(1.0));
         assert_eq!(factor("az_deg [deg]", angle, None), Ok(1_f64.to_radians()));
         assert_eq!(factor("az_deg", angle, Unit::find("rad")), Ok(1.0));
-        let arcsec = Unit::find("arcsec").map_or(0.0, |unit| unit.in_si);
+        let arcsec = Unit::find("arcsec").map_or(0.0, Unit::in_si);
         assert_eq!(factor("az_deg_arcsec", angle, None), Ok(arcsec));
-        assert_eq!(factor("az_deg", Quantity::Number, None), Ok(1.0));
+        assert_eq!(factor("az_deg", Measures::Number, None), Ok(1.0));
         // Another column of that name does say its unit.
         assert_eq!(ColumnName::parse("az_deg").factor(ANGLE, "f.csv"), Ok(1_f64.to_radians()));
     }
@@ -301,7 +331,7 @@ mod tests {
         for name in ["alpha", "table_turn", "az_deg", "u_mm", "humidity_ppm", "a_b_hour", "x_um"] {
             for quantity in [Quantity::Angle, Quantity::Length, Quantity::Number] {
                 let written = ColumnName::parse(&ColumnName::of_si(name, quantity));
-                let read = ReadAs { quantity, stated: None, declared: Some(name) };
+                let read = ReadAs { measures: quantity.into(), stated: None, declared: Some(name) };
                 assert_eq!(written.factor(read, "f.csv"), Ok(1.0), "{name}");
                 assert_eq!(find_reading(&[written], name, &[name], "f.csv"), Ok(0), "{name}");
             }

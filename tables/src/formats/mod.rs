@@ -158,6 +158,16 @@ pub trait TableReader: Send {
         false
     }
 
+    /// The latitude of the site, degrees, where the file says it.
+    fn latitude_deg(&self) -> Option<f64> {
+        None
+    }
+
+    /// What the user should know of the file.
+    fn remarks(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// The next rows, at most so many, and fewer where they are long; no rows at the end.
     ///
     /// # Errors

@@ -394,7 +394,7 @@ mod tests {
         for bytes in [SNAPPY, ZSTD] {
             assert_eq!(read(bytes).as_ref(), Ok(&expected));
             let header = open(bytes).map(|reader| reader.header().to_vec());
-            assert_eq!(header.map(|header| header[0].unit().map(|unit| unit.name)), Ok(Some("deg")));
+            assert_eq!(header.map(|header| header[0].unit().map(|unit| unit.name())), Ok(Some("deg")));
         }
     }
 

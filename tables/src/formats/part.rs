@@ -38,6 +38,14 @@ impl<R: DerefMut<Target: TableReader> + Send> TableReader for Stretches<R> {
         self.reader.gives_any_label()
     }
 
+    fn latitude_deg(&self) -> Option<f64> {
+        self.reader.latitude_deg()
+    }
+
+    fn remarks(&self) -> Vec<String> {
+        self.reader.remarks()
+    }
+
     fn read(&mut self, wanted: &[Wanted], at_most: usize) -> Result<Chunk, DataError> {
         while let Some(next) = self.left.front() {
             if self.at >= next.end {
@@ -124,6 +132,14 @@ impl<R: DerefMut<Target: TableReader> + Send> TableReader for Within<'_, R> {
 
     fn gives_any_label(&self) -> bool {
         self.reader.gives_any_label()
+    }
+
+    fn latitude_deg(&self) -> Option<f64> {
+        self.reader.latitude_deg()
+    }
+
+    fn remarks(&self) -> Vec<String> {
+        self.reader.remarks()
     }
 
     fn read(&mut self, wanted: &[Wanted], at_most: usize) -> Result<Chunk, DataError> {

@@ -1,20 +1,19 @@
 //! TPOINT's observation files: a caption, options (`:ALTAZ`, `:EQUAT`, …), the site, and a record an observation.
 //!
-//! Equatorial records: right ascension and declination of the star, the same as the telescope read them, and the local
-//! sidereal time (h m); alt-azimuth records: azimuth and elevation, true and as read, in degrees. A declination read
-//! beyond 90° is through the pole. The columns are those of the table below, as if a header had named them.
+//! What a line says is [`lines`]' business. A declination read beyond 90° is through the pole. The columns are those of the table
+//! below, as if a header had named them.
 //!
 //! | option | columns |
 //! |---|---|
 //! | `:EQUAT` | `true_ha_deg`, `true_dec_deg`, `encoder_ha_deg`, `encoder_dec_deg`, `pier_side` |
 //! | `:ALTAZ` | `true_az_deg`, `true_el_deg`, `encoder_az_deg`, `encoder_el_deg` |
-//!
-//! Source: the format as the manual of TPOINT describes it (P. T. Wallace, TPOINT, a telescope pointing analysis system,
-//! 2011), and as mount-control programs write it.
+
+mod lines;
 
 use std::io::Read;
 
 use super::{Cell, Cells, Chunk, ColumnName, DataError, Form, Kept, Options, TableReader, Wanted};
+use lines::{Mount, latitude_deg, record};
 
 const EQUATORIAL: &[&str] =
     &["true_ha_deg", "true_dec_deg", "encoder_ha_deg", "encoder_dec_deg", "pier_side"];
@@ -24,6 +23,7 @@ const ALT_AZIMUTH: &[&str] = &["true_az_deg", "true_el_deg", "encoder_az_deg", "
 pub struct Reader {
     source: String,
     header: Vec<ColumnName>,
+    latitude_deg: Option<f64>,
     /// Line and values of each record.
     records: Vec<(u64, Vec<f64>)>,
     next: usize,
@@ -42,41 +42,63 @@ impl Reader {
         let lines = text.trim_start_matches('\u{feff}').lines();
         let mut lines =
             (1..).zip(lines.map(str::trim)).filter(|(_, line)| !line.is_empty() && !line.starts_with('!'));
-        let (_, _caption) = lines.next().ok_or_else(|| DataError::Empty { file: file() })?;
-        let mut equatorial = true;
-        let mut site = None;
-        let mut records = Vec::new();
+        let (first, caption) = lines.next().ok_or_else(|| DataError::Empty { file: file() })?;
+        let bad = |line: u64, why: String| DataError::BadLine { file: file(), line, why };
+        if caption.starts_with(':') {
+            return Err(bad(
+                first,
+                "the first line is the caption, and this is an option: write a caption above it".into(),
+            ));
+        }
+        // The line that says it, if one does.
+        let mut mount: Option<(Mount, Option<u64>)> = None;
+        let (mut site, mut records) = (None, Vec::new());
         for (line, text) in lines {
             if let Some(option) = text.strip_prefix(':') {
-                match option.trim().to_ascii_uppercase().as_str() {
-                    "EQUAT" => equatorial = true,
-                    "ALTAZ" => equatorial = false,
-                    _ => {}
+                let Some(own) = Mount::of_option(option.trim()) else { continue };
+                match mount {
+                    Some((other, said)) if other != own => {
+                        let where_said = said.map_or_else(
+                            || "the records above are equatorial".to_owned(),
+                            |said| format!("line {said} says `:{}`", other.option()),
+                        );
+                        let why =
+                            format!("`:{}`, while {where_said}: write a file for each mount", own.option());
+                        return Err(bad(line, why));
+                    }
+                    Some(_) => {}
+                    None => mount = Some((own, Some(line))),
                 }
                 continue;
             }
             if text.eq_ignore_ascii_case("END") {
                 break;
             }
-            let bad = |why: &str| DataError::BadLine { file: file(), line, why: why.to_string() };
+            let words: Vec<&str> = text.split_whitespace().collect();
             if site.is_none() {
-                site = Some(
-                    sexagesimal(text, 0)
-                        .ok_or_else(|| bad("expected the latitude: degrees, minutes, seconds"))?,
-                );
+                site = Some(latitude_deg(&words).map_err(|why| bad(line, why))?);
                 continue;
             }
-            let record = if equatorial { equatorial_record(text) } else { alt_azimuth_record(text) };
-            let expected = if equatorial {
-                "expected right ascension and declination of the star (h m s, d m s), the same as read, and the sidereal time (h m)"
-            } else {
-                "expected azimuth and elevation, true and as read, in degrees"
-            };
-            records.push((line, record.ok_or_else(|| bad(expected))?));
+            let (own, _) = *mount.get_or_insert((Mount::Equatorial, None));
+            records.push((line, record(own, &words).map_err(|why| bad(line, why))?));
         }
-        let names = if equatorial { EQUATORIAL } else { ALT_AZIMUTH };
+        let names = match mount {
+            Some((Mount::AltAzimuth, _)) => ALT_AZIMUTH,
+            _ => EQUATORIAL,
+        };
         let header = names.iter().map(|name| ColumnName::parse(name)).collect();
-        Ok(Self { source: source.to_string(), header, records, next: 0 })
+        Ok(Self { source: source.to_string(), header, latitude_deg: site, records, next: 0 })
+    }
+
+    /// Whether hour angles are on both sides of the meridian, and no declination is read through the pole: a mount that changes sides
+    /// there would have done so.
+    fn never_changes_sides(&self) -> bool {
+        let column = |at: usize| self.records.iter().filter_map(move |(_, values)| values.get(at).copied());
+        let is_equatorial = self.header.len() == EQUATORIAL.len();
+        is_equatorial
+            && column(4).all(|side| side > 0.0)
+            && column(2).any(|ha| ha < 0.0)
+            && column(2).any(|ha| ha > 0.0)
     }
 }
 
@@ -87,6 +109,21 @@ impl TableReader for Reader {
 
     fn header(&self) -> &[ColumnName] {
         &self.header
+    }
+
+    fn latitude_deg(&self) -> Option<f64> {
+        self.latitude_deg
+    }
+
+    fn remarks(&self) -> Vec<String> {
+        let remark = || {
+            format!(
+                "{}: no row is on the far side of the pier, as no declination is read beyond the pole. If the mount changed sides at the \
+                 meridian, give the rows as a table with a column for the side.",
+                self.source
+            )
+        };
+        self.never_changes_sides().then(remark).into_iter().collect()
     }
 
     fn read(&mut self, wanted: &[Wanted], at_most: usize) -> Result<Chunk, DataError> {
@@ -124,43 +161,6 @@ impl TableReader for Reader {
         let lines = records.iter().map(|(line, _)| *line).collect();
         Ok(Chunk { columns, rows: (start + 1..=end).map(|row| row as u64).collect(), lines })
     }
-}
-
-/// Three words from `first` on as degrees (or hours), minutes and seconds; the sign is the first word's, of zero too.
-fn sexagesimal(text: &str, first: usize) -> Option<f64> {
-    let mut words = text.split_whitespace().skip(first);
-    let whole = words.next()?;
-    let minutes: f64 = words.next()?.parse().ok()?;
-    let seconds: f64 = words.next()?.parse().ok()?;
-    let size = whole.parse::<f64>().ok()?.abs() + minutes / 60.0 + seconds / 3600.0;
-    Some(if whole.starts_with('-') { -size } else { size })
-}
-
-fn equatorial_record(text: &str) -> Option<Vec<f64>> {
-    let mut time = text.split_whitespace().skip(12);
-    let hours: f64 = time.next()?.parse().ok()?;
-    let minutes: f64 = time.next()?.parse().ok()?;
-    let sidereal_hours = hours + minutes / 60.0;
-    let ha = |right_ascension_hours: f64| 15.0 * (sidereal_hours - right_ascension_hours);
-    let (true_ha, true_dec) = (ha(sexagesimal(text, 0)?), sexagesimal(text, 3)?);
-    let (read_ha, read_dec) = (ha(sexagesimal(text, 6)?), sexagesimal(text, 9)?);
-    let through_pole = read_dec.abs() > 90.0;
-    let (read_ha, read_dec) = if through_pole {
-        (read_ha + 180.0, 180f64.copysign(read_dec) - read_dec)
-    } else {
-        (read_ha, read_dec)
-    };
-    Some(vec![folded(true_ha), true_dec, folded(read_ha), read_dec, if through_pole { -1.0 } else { 1.0 }])
-}
-
-fn alt_azimuth_record(text: &str) -> Option<Vec<f64>> {
-    let values: Vec<f64> = text.split_whitespace().take(4).map_while(|word| word.parse().ok()).collect();
-    (values.len() == 4).then_some(values)
-}
-
-/// An angle in degrees, between −180 and 180.
-fn folded(degrees: f64) -> f64 {
-    degrees - 360.0 * (degrees / 360.0).round()
 }
 
 #[cfg(test)]
@@ -204,21 +204,155 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_named_with_its_line() {
-        let message = |text| read(text).map_err(|error| error.to_string());
-        insta::assert_debug_snapshot!([
-            message(""),
-            message("Caption\n:EQUAT\nlatitude 48\n"),
-            message("Caption\n:ALTAZ\n48 0 0\n1 2 3\n"),
-            message("Caption\n48 0 0\n04 00 00 +20 30 00  04 00 04 +20 30 36\n"),
-            message("Caption\n:ALTAZ\n48 0 0\n1 2 3 nan\n"),
-        ]);
+    fn alt_azimuth_records_may_be_degrees_minutes_seconds() {
+        let columns = read("Caption\n:ALTAZ\n31 41 19.6\n10 30 00 40 15 00 10 30 36 -40 15 36\n");
+        assert_eq!(columns, Ok(vec![vec![10.5], vec![40.25], vec![10.51], vec![-40.26]]));
+    }
+
+    #[test]
+    fn the_site_is_kept_and_what_stands_behind_the_sidereal_time_is_not_read() {
+        let text = "Caption\n:EQUAT\n-19 49 30.0 2009 01 29 -2.25 621.00 4120.00 0.827 866.963\n\
+                    09 48 29.174 +13 14 02.63 09 48 35.756 +13 15 09.01 08 12.04958 4.760 108.775 HARPB 0.00\n";
+        let reader = Reader::new(text.as_bytes(), "run.dat", &Options::default());
+        assert_eq!(reader.map(|reader| reader.latitude_deg()), Ok(Some(-19.825)));
+        assert!(read(text).is_ok());
+    }
+
+    #[test]
+    fn a_side_of_the_pier_that_nothing_says_is_remarked_on() {
+        let remarks = |records: &str| {
+            let text = format!("Caption\n48 0 0\n{records}");
+            let reader = Reader::new(text.as_bytes(), "run.dat", &Options::default());
+            reader.map_or(0, |reader| reader.remarks().len())
+        };
+        let east = "08 00 00 +20 00 00 08 00 00 +20 00 00 06 00.0\n";
+        let west = "04 00 00 +20 00 00 04 00 00 +20 00 00 06 00.0\n";
+        let through = "16 00 00 +20 00 00 04 00 00 +160 00 00 06 00.0\n";
+        assert_eq!(remarks(&format!("{east}{west}")), 1);
+        assert_eq!(remarks(&format!("{east}{west}{through}")), 0);
+        assert_eq!(remarks(east), 0);
+        assert_eq!(remarks(""), 0);
+    }
+
+    #[test]
+    fn each_malformed_file_is_refused_with_line_and_reason() {
+        const SITE: &str = "48 30 00 2026 03 14\n";
+        const RECORD: &str = "04 00 00 +20 30 00 04 00 04 +20 30 36 06 00.00\n";
+        let equatorial = |record: &str| format!("Caption\n:EQUAT\n{SITE}{RECORD}{record}\n");
+        let alt_azimuth = |record: &str| format!("Caption\n:ALTAZ\n{SITE}{record}\n");
+        let site = |site: &str| format!("Caption\n:EQUAT\n{site}\n{RECORD}");
+        let cases = [
+            (String::new(), "is empty"),
+            (":ALTAZ\n48 0 0\n".to_owned(), "line 1: the first line is the caption"),
+            // No site.
+            (
+                "Caption\n:ALTAZ\n10.5 40.25 10.51 40.26\n".to_owned(),
+                "line 3: the site stands before the records",
+            ),
+            ("Caption\n:ALTAZ\n12 42 12.01 42.01\n".to_owned(), "line 3: the site stands before the records"),
+            ("Caption\n:ALTAZ\n10 30 00 40 15 00 10 30 36 40 15 36\n".to_owned(), "line 3: `40 15 00`"),
+            (format!("Caption\n:EQUAT\n{RECORD}"), "line 3: `+20 30 00`"),
+            (site("latitude 48"), "line 3: the site stands before the records"),
+            (site("48.5 0 0"), "line 3: `48.5` is no whole number"),
+            (site("98 0 0"), "line 3: the latitude is 98"),
+            (site("48 75 0"), "line 3: `75` minutes"),
+            (site("48 30 0 2026 02 30"), "line 3: `2026 02 30`"),
+            // Sexagesimal numbers.
+            (equatorial("04 60 00 +20 30 00 04 00 04 +20 30 36 06 00.00"), "line 5: `60` minutes"),
+            (equatorial("04 00 00 +20 -30 00 04 00 04 +20 30 36 06 00.00"), "line 5: `-30` minutes"),
+            (equatorial("04 00 00 +20 30 -1 04 00 04 +20 30 36 06 00.00"), "line 5: `-1` seconds"),
+            (equatorial("04 00 61 +20 30 00 04 00 04 +20 30 36 06 00.00"), "line 5: `61` seconds"),
+            (equatorial("04 00 nan +20 30 00 04 00 04 +20 30 36 06 00.00"), "line 5: `nan` seconds"),
+            (
+                equatorial("4.5 00 00 +20 30 00 04 00 04 +20 30 36 06 00.00"),
+                "line 5: `4.5` is no whole number",
+            ),
+            // What no sky has.
+            (
+                equatorial("40 00 00 +20 30 00 04 00 04 +20 30 36 06 00.00"),
+                "line 5: the right ascension is 40",
+            ),
+            (
+                equatorial("04 00 00 +20 30 00 204 00 04 +20 30 36 06 00.00"),
+                "line 5: the right ascension as read is 204",
+            ),
+            (
+                equatorial("-4 00 00 +20 30 00 04 00 04 +20 30 36 06 00.00"),
+                "line 5: the right ascension is -4",
+            ),
+            (equatorial("04 00 00 +99 30 00 04 00 04 +20 30 36 06 00.00"), "line 5: the declination is 99"),
+            (
+                equatorial("04 00 00 +20 30 00 04 00 04 +181 0 0 06 00.00"),
+                "line 5: the declination as read is 181",
+            ),
+            // The sidereal time.
+            (
+                equatorial("04 00 00 +20 30 00 04 00 04 +20 30 36"),
+                "line 5: a record of `:EQUAT` has 14 numbers",
+            ),
+            (
+                equatorial("04 00 00 +20 30 00 04 00 04 +20 30 36 06 36 12"),
+                "line 5: the sidereal time `06 36 12` has seconds",
+            ),
+            (equatorial("04 00 00 +20 30 00 04 00 04 +20 30 36 26 36.2"), "line 5: the sidereal time is 26"),
+            (equatorial("04 00 00 +20 30 00 04 00 04 +20 30 36 06 60.0"), "line 5: `60.0` minutes"),
+            (equatorial("04 00 00 +20 30 00 04 00 04 +20 30 36 06 -1.0"), "line 5: `-1.0` minutes"),
+            // Azimuth and elevation.
+            (alt_azimuth("1 2 3"), "line 4: a record of `:ALTAZ` has 4 numbers"),
+            (alt_azimuth("1 2 3 4 5"), "line 4: a record of `:ALTAZ` has 4 numbers"),
+            (alt_azimuth("1 2 3 nan"), "line 4: `nan` is no number"),
+            (alt_azimuth("1 95 3 4"), "line 4: the elevation is 95"),
+            (alt_azimuth("1 2 400 4"), "line 4: the azimuth as read is 400"),
+            (alt_azimuth("10 61 00 40 15 00 10 30 36 40 15 36"), "line 4: `61` minutes"),
+            (alt_azimuth(RECORD.trim()), "line 4: a record of `:ALTAZ` has 4 numbers"),
+            // Both mounts.
+            (
+                format!("Caption\n:EQUAT\n:ALTAZ\n{SITE}1 2 3 4\n"),
+                "line 3: `:ALTAZ`, while line 2 says `:EQUAT`",
+            ),
+            (
+                format!("Caption\n:ALTAZ\n{SITE}1 2 3 4\n:EQUAT\n{RECORD}"),
+                "line 5: `:EQUAT`, while line 2 says",
+            ),
+            (
+                format!("Caption\n{SITE}{RECORD}:ALTAZ\n1 2 3 4\n"),
+                "line 4: `:ALTAZ`, while the records above are",
+            ),
+        ];
+        for (text, said) in cases {
+            let refused = read(&text).map_err(|error| error.to_string());
+            assert!(refused.as_ref().is_err_and(|why| why.contains(said)), "{text}{said}: {refused:?}");
+        }
     }
 
     proptest::proptest! {
         #[test]
         fn no_bytes_panic(bytes in proptest::collection::vec(proptest::num::u8::ANY, 0..200)) {
             let _ = Reader::new(bytes.as_slice(), "run.dat", &Options::default());
+        }
+
+        /// Written out and read back, angles are what they were, and rows with other words are refused.
+        #[test]
+        fn degrees_minutes_seconds_are_read_as_written(
+            azimuth in 0_u32..360 * 3600, elevation in -90 * 3600_i32..90 * 3600, spoiled in 0_usize..24, by in "[-a-z]{1,3}"
+        ) {
+            let dms = |seconds: i64| {
+                let (sign, size) = (if seconds < 0 { "-" } else { "" }, seconds.abs());
+                format!("{sign}{:02} {:02} {:02}", size / 3600, size / 60 % 60, size % 60)
+            };
+            let (azimuth, elevation) = (i64::from(azimuth), i64::from(elevation));
+            let record = format!("{0} {1} {0} {1}", dms(azimuth), dms(elevation));
+            let file = |record: &str| format!("Caption\n:ALTAZ\n48 0 0\n{record}\n");
+            let columns = read(&file(&record)).unwrap_or_default();
+            proptest::prop_assert_eq!(columns.len(), 4);
+            for (column, seconds) in columns.iter().zip([azimuth, elevation, azimuth, elevation]) {
+                proptest::prop_assert!((column[0] - seconds as f64 / 3600.0).abs() < 1e-12);
+            }
+            let mut words: Vec<&str> = record.split(' ').collect();
+            if let Some(word) = words.get_mut(spoiled) {
+                *word = &by;
+                proptest::prop_assert!(read(&file(&words.join(" "))).is_err());
+            }
         }
     }
 }

@@ -9,6 +9,7 @@ mod shifted;
 mod turned;
 mod unit;
 
+use model_core::unit::Unit;
 use model_core::{SymbolId, SymbolKind};
 use serde::Serialize;
 
@@ -61,6 +62,7 @@ impl Hypothesis {
             Some(Change::Factor(factor)) => factor,
             Some(Change::Notation(Notation::Degrees)) => 1.0_f64.to_radians(),
             Some(Change::Notation(Notation::Hours)) => 15e-4_f64.to_radians(),
+            Some(Change::Notation(Notation::Counts(per_turn))) => std::f64::consts::TAU / per_turn,
             _ => column.factor,
         }
     }
@@ -207,6 +209,6 @@ fn unit_of(column: &SampledColumn) -> String {
 
 /// The unit that a column is read in.
 fn named(column: &SampledColumn) -> Option<&'static str> {
-    let is = |unit: &tables::units::Unit| unit.quantity == column.quantity && unit.in_si == column.factor;
-    tables::units::Unit::all().find(is).map(|unit| unit.name)
+    let is = |unit: &Unit| unit.measures().quantity() == column.quantity && unit.in_si() == column.factor;
+    Unit::all().find(is).map(Unit::name)
 }

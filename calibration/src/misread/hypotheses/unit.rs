@@ -1,7 +1,7 @@
 //! Another unit: of one column, of all joints, of all that was observed, or of all that measures the same.
 
 use model_core::Quantity;
-use tables::units::Unit;
+use model_core::unit::Unit;
 
 use super::{Hypothesis, Line, Reading, Tried, line, named, names, sets};
 use study::{Change, Changed, SampledColumn};
@@ -23,19 +23,19 @@ pub(super) fn tried(tried: &Tried<'_>) -> Vec<Hypothesis> {
 /// Columns in a unit that none of them is read in. Where a header says the unit, the study cannot say another.
 fn hypothesis(tried: &Tried<'_>, columns: &[&SampledColumn], unit: &str) -> Option<Hypothesis> {
     let unit = Unit::find(unit)?;
-    let is_open = |column: &&SampledColumn| column.factor != unit.in_si && column.unit_is_open;
+    let is_open = |column: &&SampledColumn| column.factor != unit.in_si() && column.unit_is_open;
     if !columns.iter().all(is_open) {
         return None;
     }
-    let how = format!(", unit = \"{}\"", unit.name);
+    let how = format!(", unit = \"{}\"", unit.name());
     let lines: Vec<Line> =
         columns.iter().map(|column| line(tried.plan, column, &column.name, &how)).collect();
     let read = columns.first().and_then(|column| named(column));
     Some(Hypothesis {
-        reading: Reading::Unit { columns: names(columns), is: unit.name, read },
+        reading: Reading::Unit { columns: names(columns), is: unit.name(), read },
         changes: columns
             .iter()
-            .map(|column| Changed::all(column.place, Change::Factor(unit.in_si)))
+            .map(|column| Changed::all(column.place, Change::Factor(unit.in_si())))
             .collect(),
         lines,
         price: 0.0,

@@ -4,11 +4,12 @@ use std::fs::{self, File};
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
-use model_core::{Chain, names};
-use service::{Source, errors_file};
+use model_core::{Chain, SymbolId, SymbolKind, names};
+use service::{Instrument, Source, errors_file};
 
 use crate::failure::Failure;
-use crate::terminal;
+use crate::sizes::SizesArgument;
+use crate::{date, terminal};
 
 /// Reads a file; `-` is standard input.
 ///
@@ -39,14 +40,57 @@ pub fn chain(path: &Path) -> Result<Chain, Failure> {
     Ok(read(path)?.chain(&terminal::warn)?)
 }
 
-/// Reads a declaration and the largest sizes of its errors.
-///
-/// # Errors
-/// A file cannot be read, or has a mistake.
-pub fn chain_and_sizes(declaration: &Path, sizes: &Path) -> Result<(Chain, Vec<f64>), Failure> {
-    let declared = chain(declaration)?;
-    let sizes = errors_file::largest_sizes(&read(sizes)?, &declared, &terminal::warn)?;
-    Ok((declared, sizes))
+/// A declaration, or an instrument file in its place.
+pub struct Declared {
+    /// The text of the declaration.
+    pub source: Source,
+    /// The declaration; of an instrument with the constants of its calibration.
+    pub chain: Chain,
+    /// The instrument, if its file was given.
+    pub instrument: Option<Instrument>,
+}
+
+impl Declared {
+    /// Reads it; warns of what is doubtful of it, and of an instrument whose date is over.
+    ///
+    /// # Errors
+    /// As [`read`]; and the mistakes of the file, each with its place.
+    pub fn read(path: &Path) -> Result<Self, Failure> {
+        let source = read(path)?;
+        if !source.is_instrument() {
+            let chain = source.chain(&terminal::warn)?;
+            return Ok(Self { source, chain, instrument: None });
+        }
+        let instrument = Instrument::of(&source, &terminal::warn)?;
+        instrument.expired(&date::today()).iter().for_each(terminal::warn);
+        let (source, chain) = (instrument.declaration.clone(), instrument.chain.clone());
+        Ok(Self { source, chain, instrument: Some(instrument) })
+    }
+
+    /// The largest sizes of its errors, SI: those of the file that is named, or what an instrument knows of them.
+    ///
+    /// # Errors
+    /// The file cannot be read or has a mistake; none is named beside a declaration.
+    pub fn sizes(&self, argument: &SizesArgument) -> Result<Vec<f64>, Failure> {
+        let Some(instrument) = self.instrument.as_ref().filter(|_| argument.given().is_none()) else {
+            let file = read(argument.needed()?)?;
+            return Ok(errors_file::largest_sizes(&file, &self.chain, &terminal::warn)?);
+        };
+        let (sizes, uncertain) = (instrument.sizes(), instrument.covariance.as_ref());
+        let is_alone = |id: &SymbolId| uncertain.and_then(|own| own.standard_uncertainty(*id)).is_none();
+        let alone = self.chain.symbols_of(SymbolKind::Error).filter(is_alone).count();
+        let of_alone = match alone {
+            0 => String::new(),
+            1 => "; of the one error that its data do not determine by itself the value alone".to_owned(),
+            count => format!(
+                "; of the {count} errors that its data do not determine by themselves the value alone"
+            ),
+        };
+        terminal::note(format_args!(
+            "the size of each error is its value and two standard uncertainties{of_alone} (--sizes BOX.toml for others)"
+        ));
+        Ok(sizes)
+    }
 }
 
 /// The longest declaration, claims, errors or study file, in bytes: beyond any that a person writes.

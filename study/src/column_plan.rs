@@ -7,6 +7,7 @@ use model_core::Quantity;
 use super::conversion::Conversion;
 use super::mistakes::{Outcome, mistake, plain};
 use super::written::Column;
+use tables::formats::{ColumnName, DataError, ReadAs, find_column, find_reading};
 use tables::units::Unit;
 
 /// A column that is to be found in a file.
@@ -32,6 +33,39 @@ impl ColumnPlan {
     /// A column that a study names, of numbers without a unit.
     pub fn of_numbers(name: &str) -> Self {
         Self { named: true, ..Self::declared(name.to_owned(), Quantity::Number) }
+    }
+}
+
+/// Where a column stands in a file, and how its numbers are read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ColumnAt {
+    /// Its index in the header.
+    pub at: usize,
+    /// What takes its numbers to SI; 1 where they are packed.
+    pub factor: f64,
+    /// Whether nothing says their unit.
+    pub is_bare: bool,
+    /// How they become readings then.
+    pub conversion: Conversion,
+}
+
+impl ColumnPlan {
+    /// Finds it among the columns of a file; `declared` are the names of the chain.
+    pub fn find(&self, header: &[ColumnName], declared: &[&str], file: &str) -> Result<ColumnAt, DataError> {
+        let Self { name, unit, quantity, conversion, .. } = self;
+        let at = if self.named {
+            find_column(header, name, file)?
+        } else {
+            find_reading(header, name, declared, file)?
+        };
+        let own = self.declared.then_some(name.as_str());
+        let read = ReadAs { quantity: *quantity, stated: *unit, declared: own };
+        let (factor, is_bare) = match conversion.notation {
+            // Its digits are degrees or hours whatever the header says.
+            Some(_) => (1.0, false),
+            None => (header[at].factor(read, file)?, header[at].is_bare(read)),
+        };
+        Ok(ColumnAt { at, factor, is_bare, conversion: *conversion })
     }
 }
 

@@ -31,6 +31,8 @@ pub(super) struct Rows {
     pub factors: Vec<Option<f64>>,
     /// Of each column of numbers whether the header of some file says its unit.
     pub headed: Vec<bool>,
+    /// Of each column of numbers its heading in the first file.
+    pub headings: Vec<String>,
     /// Columns that the study does not name.
     pub undeclared: Labelled,
     /// Memory that these take, in bytes.
@@ -49,6 +51,7 @@ impl Rows {
             in_si: vec![true; columns.plans.len()],
             factors: vec![None; columns.plans.len()],
             headed: vec![false; columns.plans.len()],
+            headings: Vec::new(),
             undeclared: Labelled::default(),
             bytes: 0,
         }
@@ -73,6 +76,10 @@ impl Rows {
         }
         for (headed, column) in self.headed.iter_mut().zip(&wanted) {
             *headed |= reader.header()[column.column].unit().is_some();
+        }
+        if self.headings.is_empty() {
+            let numbers = wanted.iter().take(columns.plans.len());
+            self.headings = numbers.map(|column| reader.header()[column.column].full.clone()).collect();
         }
         let before = self.row_numbers.last().unwrap_or_default();
         let mut beside = Labelled::beside(&wanted, reader);
@@ -191,6 +198,7 @@ impl Rows {
             in_si: self.in_si.clone(),
             factors: self.factors.clone(),
             headed: self.headed.clone(),
+            headings: self.headings.clone(),
             undeclared: Labelled::default(),
             bytes: 0,
         }

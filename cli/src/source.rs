@@ -4,10 +4,11 @@ use std::fs::{self, File};
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
-use model_core::{Chain, SymbolId, SymbolKind, names};
+use model_core::{Chain, Quantity, SymbolId, SymbolKind, names};
 use service::{Instrument, Source, errors_file};
 
 use crate::failure::Failure;
+use crate::ranges::{self, Range, RangeArgument};
 use crate::sizes::SizesArgument;
 use crate::{date, terminal};
 
@@ -90,6 +91,22 @@ impl Declared {
             "the size of each error is its value and two standard uncertainties{of_alone} (--sizes BOX.toml for others)"
         ));
         Ok(sizes)
+    }
+
+    /// The ranges of its joints and inputs that were typed; what has no full turn takes that which an instrument was measured over.
+    ///
+    /// # Errors
+    /// As [`ranges::of_chain`].
+    pub fn ranges(&self, arguments: &[RangeArgument]) -> Result<Vec<Range>, Failure> {
+        let mut all = ranges::of_chain(&self.chain, arguments)?;
+        for found in self.instrument.iter().flat_map(|instrument| &instrument.found) {
+            let symbol = self.chain.symbol(found.symbol);
+            let turns = symbol.kind == SymbolKind::Joint && symbol.quantity == Quantity::Angle;
+            if !turns && !all.iter().any(|range| range.symbol == found.symbol) {
+                all.push(Range { symbol: found.symbol, low: found.low, high: found.high });
+            }
+        }
+        Ok(all)
     }
 }
 

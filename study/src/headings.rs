@@ -4,7 +4,7 @@ use model_core::{Chain, Mistakes, SymbolId};
 use nalgebra::Vector3;
 
 use super::column_plan::{ColumnAt, ColumnPlan};
-use super::mistakes::{Gathered, Outcome, Several};
+use super::mistakes::{Gathered, Outcome, Several, every, mistake};
 use super::order::{order_of, times};
 use super::plan::{Reading, SourcePlan};
 use super::shown;
@@ -93,6 +93,16 @@ impl Study {
         let (Some(sources), Some(format)) = (sources, format) else {
             unreachable!("what is missing comes with a mistake")
         };
+        // What is written in a unit is not read first, which would refuse a unit of something else.
+        let places = std::iter::once(&self.observed).chain(self.also.iter().map(|also| &also.observed));
+        every(sources.iter().zip(places).flat_map(|(source, observed)| {
+            let other = |plan: &&ColumnPlan| plan.unit.is_some_and(|unit| unit.quantity != plan.quantity);
+            source.observed.iter().filter(other).map(|plan| {
+                let message = format!("column `{}` is stated in a unit of something else", plan.name);
+                let help = format!("write a unit such as {}", plan.quantity.unit());
+                Err::<(), _>(mistake(observed.span(), message, help))
+            })
+        }))?;
         Ok(Headings { chain: shown::vectors(chain), sources, order: self.noise.order.clone(), format })
     }
 }

@@ -31,10 +31,10 @@ use model_core::names::listed;
 /// With a declaration and --errors it reads columns named like the chain's joints and inputs, and writes the corrected
 /// `<observable>_x`, `_y`, `_z`.
 ///
-/// With --solve it goes the other way: it reads where the instrument is to point, in the columns that it would write
-/// without, and writes the readings of the joints that do so, with the angle or distance that remains. Columns of the
-/// joints in the input are where the search starts; without any it starts from the nearest of poses spread over the ranges
-/// that the model was found over.
+/// With --solve it goes the other way: it reads where the instrument is to point, in columns `<observable>_x` and so on, and
+/// writes the readings of the joints that do so, with the angle or distance that remains. Columns of the joints in the input
+/// are where the search starts; without any it starts from the nearest of poses spread over the ranges that the model was
+/// found over.
 ///
 /// With a point cloud, a .las or .laz file whose coordinates were computed without the errors, it moves every point to where the
 /// errors have it and keeps every other byte. Readings stand in extra dimensions of the points, or in a table by GPS time.

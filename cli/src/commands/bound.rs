@@ -10,7 +10,7 @@ use service::source::observables;
 use super::{Answer, TextOrJson};
 use crate::expected::{self, Work};
 use crate::failure::Failure;
-use crate::ranges::{self, Range, RangeArgument};
+use crate::ranges::{Range, RangeArgument};
 use crate::sizes::SizesArgument;
 use crate::source::Declared;
 use crate::terminal;
@@ -50,8 +50,8 @@ const STARTS: u32 = 24;
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let declared = Declared::read(&arguments.chain)?;
     let sizes = declared.sizes(&arguments.sizes)?;
+    let ranges = declared.ranges(&arguments.range)?;
     let chain = declared.chain;
-    let ranges = ranges::of_chain(&chain, &arguments.range)?;
     let waiting = expected::announce(&chain, Work::Bound);
     let answers = bounds(&chain, &sizes, &ranges, &arguments.observable, arguments.seed)?;
     drop(waiting);

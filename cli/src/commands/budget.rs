@@ -18,7 +18,7 @@ use crate::budget::{DesignerArguments, designed};
 use crate::claims_file::ClaimsFile;
 use crate::expected::{self, Work};
 use crate::failure::Failure;
-use crate::ranges::{self, RangeArgument};
+use crate::ranges::RangeArgument;
 use crate::sizes::SizesArgument;
 use crate::source::Declared;
 use crate::{output, poses, terminal};
@@ -74,13 +74,14 @@ const POINTS: usize = 361;
 pub fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let declared = Declared::read(&arguments.chain)?;
     let sizes = declared.sizes(&arguments.sizes)?;
+    let ranges = declared.ranges(&arguments.range)?;
     let chain = declared.chain;
     let poses = match &arguments.path {
         Some(text) => Poses::Path(poses::path(&chain, text).map_err(|mistake| {
             let source = Source::of_text("--path", text);
             source.mistake(mistake)
         })?),
-        None => Poses::Ranges(poses::joint_ranges(&ranges::of_chain(&chain, &arguments.range)?)),
+        None => Poses::Ranges(poses::joint_ranges(&ranges)),
     };
     let waiting = expected::announce(&chain, Work::Budget);
     let is_named = !arguments.observable.is_empty();

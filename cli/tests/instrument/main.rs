@@ -61,19 +61,23 @@ fn stars() -> String {
         let azimuth = f64::from((star * 47) % 360) - 180.0;
         let elevation = 15.0 + f64::from((star * 31) % 60);
         let side = if star % 2 == 0 { 1 } else { -1 };
-        // A hundredth of an arc second of noise, in a fixed order.
-        let noise = f64::from((star * 7) % 5 - 2) * 0.01 / 3600.0;
-        let seen = elevation + 40.0 / 3600.0 + noise;
+        let seen = elevation + (40.0 + noise(2 * star)) / 3600.0;
         let row = format!(
             "s{star},{},{},{side},{:.9},{}\n",
             azimuth / 0.9,
             packed(90.0 - elevation),
-            azimuth + noise,
+            azimuth + noise(2 * star + 1) / 3600.0 / elevation.to_radians().cos(),
             packed(seen)
         );
         text.push_str(&row);
     }
     text
+}
+
+/// Noise without a pattern, of 0.06″.
+fn noise(number: i32) -> f64 {
+    let scattered = (f64::from(number) * 12.9898).sin() * 43_758.545_3;
+    (scattered - scattered.floor() - 0.5) * 0.2
 }
 
 /// A folder with the mount, its study and its data.

@@ -116,4 +116,6 @@ fn every_command_takes_it_in_place_of_a_declaration() {
     assert!(!folder.read("m.h").contains("collimation;"), "{}", folder.read("m.h"));
     let bound = folder.trueaxis(&["bound", file]);
     assert!(bound.stderr.contains("value and two standard uncertainties"), "{bound}");
+    // The side of the pier has the range that was measured.
+    assert!(bound.stdout.contains("pointing"), "{bound}");
 }

@@ -72,7 +72,7 @@ fn a_covariance_that_is_not_symmetric() {
 #[test]
 fn values_that_are_not_finite() {
     for value in ["inf", "nan", "\"1e999 rad\""] {
-        let said = with("value", "[errors]\n", &format!("[errors]\ncollimation = {value}\n#"));
+        let said = with("value", "[errors]\ntilt_x ", &format!("[errors]\ntilt_x = {value}\n#"));
         assert!(said.contains("instrument.toml:") && said.contains("finite"), "{value}: {said}");
     }
 }
@@ -84,7 +84,10 @@ fn a_column_that_the_study_lacks() {
 
 #[test]
 fn a_unit_of_something_else() {
-    assert_snapshot!(with("unit", "unit = \"deg\"\n", "unit = \"mm\"\n"));
+    let of_study = "column = \"true az (deg)\"\nunit = ";
+    assert_snapshot!(with("unit-of-study", &format!("{of_study}\"deg\""), &format!("{of_study}\"mm\"")));
+    let of_data = "heading = \"true az (deg)\"\nunit = ";
+    assert_snapshot!(with("unit-of-data", &format!("{of_data}\"deg\""), &format!("{of_data}\"mm\"")));
 }
 
 #[test]

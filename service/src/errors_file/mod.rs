@@ -260,10 +260,12 @@ fn named(
     name: &Spanned<String>,
 ) -> Result<Vec<SymbolId>, Refusal> {
     let text = name.get_ref().as_str();
+    // Where errors may stand, constants may beside them.
+    let wanted = if kinds.contains(&SymbolKind::Error) { SymbolKind::Error } else { SymbolKind::Constant };
     let wrong = |message: String, help: String| {
         Err(source.mistake(Mistake::new(name.span(), message).with_help(help)))
     };
-    if names::is_pattern(text) {
+    if kinds.contains(&SymbolKind::Error) && names::is_pattern(text) {
         let errors = chain.symbols_of(SymbolKind::Error);
         let matching: Vec<SymbolId> =
             errors.filter(|&id| names::matches(text, &chain.symbol(id).name)).collect();
@@ -276,19 +278,28 @@ fn named(
     match chain.find_symbol(text) {
         Some(id) if kinds.contains(&chain.symbol(id).kind) => Ok(vec![id]),
         Some(id) => {
-            let message = format!("`{text}` is {}, not an error", kind_in_words(chain.symbol(id).kind));
-            wrong(message, "name errors of the chain here".to_owned())
+            let message = format!(
+                "`{text}` is {}, not {}",
+                kind_in_words(chain.symbol(id).kind),
+                kind_in_words(wanted)
+            );
+            wrong(message, format!("name {}s of the chain here", word(wanted)))
         }
         None => {
             let settable = kinds.iter().flat_map(|&kind| chain.symbols_of(kind));
             let near = names::nearest(text, settable.map(|id| chain.symbol(id).name.as_str()));
             let help = near.map_or_else(
-                || format!("`trueaxis derive` shows the errors of {}", chain.name),
+                || format!("`trueaxis derive` shows the {}s of {}", word(wanted), chain.name),
                 |near| format!("did you mean `{near}`?"),
             );
-            wrong(format!("chain {} has no error `{text}`", chain.name), help)
+            wrong(format!("chain {} has no {} `{text}`", chain.name, word(wanted)), help)
         }
     }
+}
+
+/// The same without its article.
+fn word(kind: SymbolKind) -> &'static str {
+    kind_in_words(kind).split_once(' ').map_or("", |(_, word)| word)
 }
 
 /// A kind of symbol as a sentence names it.

@@ -76,7 +76,7 @@ fn covariance(reported: &Reported<'_>) -> String {
             let found = calibration.diagnosis.errors.iter().find(|error| error.name == *name(at));
             let told = found.and_then(|error| error.standard_uncertainty);
             let own = fit.covariance[(at, at)].sqrt();
-            told.map_or(1.0, |told| told / own)
+            told.filter(|_| own > 0.0).map_or(1.0, |told| told / own)
         })
         .collect();
     let entry = |row: usize, column: usize| fit.covariance[(row, column)] * factor[row] * factor[column];

@@ -187,7 +187,10 @@ impl<'t> ReadingsTable<'t> {
         // A unit in brackets is not part of the name.
         let bare = |name: &str| name.split(" [").next().map(str::to_owned);
         let named: Vec<String> = added.iter().filter_map(|name| bare(name)).collect();
-        self.header().iter().map(|column| named.iter().any(|name| self.means(column, name))).collect()
+        let is_named = |column: &ColumnName| {
+            added.contains(&column.full) || named.iter().any(|name| self.means(column, name))
+        };
+        self.header().iter().map(is_named).collect()
     }
 
     /// The names of some columns.

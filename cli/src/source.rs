@@ -73,24 +73,22 @@ impl Declared {
     /// # Errors
     /// The file cannot be read or has a mistake; none is named beside a declaration.
     pub fn sizes(&self, argument: &SizesArgument) -> Result<Vec<f64>, Failure> {
-        let Some(instrument) = self.instrument.as_ref().filter(|_| argument.given().is_none()) else {
-            let file = read(argument.needed()?)?;
+        let named = argument.given();
+        let (None, Some(instrument)) = (named, &self.instrument) else {
+            let file = read(named.map_or_else(|| argument.needed(), Ok)?)?;
             return Ok(errors_file::largest_sizes(&file, &self.chain, &terminal::warn)?);
         };
-        let (sizes, uncertain) = (instrument.sizes(), instrument.covariance.as_ref());
+        let uncertain = instrument.covariance.as_ref();
         let is_alone = |id: &SymbolId| uncertain.and_then(|own| own.standard_uncertainty(*id)).is_none();
-        let alone = self.chain.symbols_of(SymbolKind::Error).filter(is_alone).count();
-        let of_alone = match alone {
+        let of_alone = match self.chain.symbols_of(SymbolKind::Error).filter(is_alone).count() {
             0 => String::new(),
-            1 => "; of the one error that its data do not determine by itself the value alone".to_owned(),
-            count => format!(
-                "; of the {count} errors that its data do not determine by themselves the value alone"
-            ),
+            1 => "; the value alone of 1 error that the data do not determine by itself".to_owned(),
+            count => format!("; the value alone of {count} errors that the data do not determine one by one"),
         };
         terminal::note(format_args!(
-            "the size of each error is its value and two standard uncertainties{of_alone} (--sizes BOX.toml for others)"
+            "sizes of errors: the value plus two standard uncertainties{of_alone}. Give others with --sizes BOX.toml"
         ));
-        Ok(sizes)
+        Ok(instrument.sizes())
     }
 
     /// The ranges of its joints and inputs that were typed; what has no full turn takes that which an instrument was measured over.

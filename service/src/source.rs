@@ -94,13 +94,14 @@ impl Source {
             .map_err(|mistakes| self.is_declaration().unwrap_or_else(|| self.mistakes(&mistakes)))
     }
 
-    /// Whether it is an instrument file, whole or damaged: it says so with its first key, before any line of a declaration.
+    /// Whether it is an instrument file: it says so with its first key, damaged or not; where it is whole, with any key.
     #[must_use]
     pub fn is_instrument(&self) -> bool {
         let mut lines = self.text.lines().map(str::trim_start);
         let first = lines.find(|line| !line.is_empty() && !line.starts_with('#'));
         let behind = first.and_then(|line| line.strip_prefix(INSTRUMENT));
-        behind.is_some_and(|behind| behind.trim_start().starts_with('='))
+        let has_key = || toml::from_str(&self.text).is_ok_and(|table: toml::Table| table.contains_key(INSTRUMENT));
+        behind.is_some_and(|behind| behind.trim_start().starts_with('=')) || has_key()
     }
 
     /// What to say where a declaration was given for a file that names one.

@@ -115,7 +115,7 @@ fn every_command_takes_it_in_place_of_a_declaration() {
     // The errors stand in the code: no field is left for them.
     assert!(!folder.read("m.h").contains("collimation;"), "{}", folder.read("m.h"));
     let bound = folder.trueaxis(&["bound", file]);
-    assert!(bound.stderr.contains("value and two standard uncertainties"), "{bound}");
+    assert!(bound.stderr.contains("the value plus two standard uncertainties"), "{bound}");
     // The side of the pier has the range that was measured.
     assert!(bound.stdout.contains("pointing"), "{bound}");
 }

@@ -89,10 +89,13 @@ pub(crate) struct Given<'s> {
 impl<'s> Given<'s> {
     /// A file of errors.
     pub fn of(source: &'s Source) -> Result<Self, Refusal> {
-        if source.is_instrument() {
+        let is_chain = |line: &str| {
+            line.strip_prefix("chain").is_some_and(|behind| behind.trim_start().starts_with('='))
+        };
+        // An error may be called as the first key of an instrument file is.
+        if source.is_instrument() && source.text.lines().any(is_chain) {
             return Err(Refusal::Input(format!(
-                "`{}` is an instrument file, which has the errors of its own declaration: give it in place of the declaration, without a \
-                 file of errors",
+                "`{}` is an instrument file: give it in place of the declaration, and leave the file of errors out",
                 source.path.display()
             )));
         }

@@ -31,8 +31,8 @@ pub fn instrument(
     let over = errors_file::found_over_of(reported)?;
     let made = reported.provenance;
     let mut text = format!(
-        "# The instrument {}, calibrated on {} with trueaxis {}: trueaxis apply, eval, generate, identify, bound and budget take this file in \
-         place of a declaration.\n{} = {VERSION}\n",
+        "# Instrument {}, calibrated on {} with trueaxis {}.\n# `trueaxis apply`, `eval`, `generate`, `identify`, `bound` and `budget` take \
+         this file in place of a declaration.\n{} = {VERSION}\n",
         calibration.chain.name,
         made.date,
         made.version,

@@ -17,11 +17,13 @@ impl Greedy<'_, '_> {
     pub fn from(&self, start: &[(usize, f64)], record: &mut Recorder) -> Active {
         let mut active = start.to_vec();
         let mut judged = Vec::new();
+        let mut reached = f64::NEG_INFINITY;
         while active.len() < self.most {
             let Some((family, gain, score)) = self.best(&active) else { break };
             if score <= self.view.policy.enter {
                 break;
             }
+            let before = active.clone();
             active.push((family, gain.variance));
             record.note(family, true, Reason::Best, score);
             active = tune(self.view, &active, 2, record);
@@ -30,6 +32,13 @@ impl Greedy<'_, '_> {
                     break;
                 }
             }
+            // Of families that are nearly one to the data each may push the other out, without end.
+            let odds = self.odds(&active);
+            if odds <= reached {
+                active = before;
+                break;
+            }
+            reached = odds;
         }
         self.one_for_two(&mut active, record);
         tune(self.view, &active, 3, record)

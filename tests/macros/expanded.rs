@@ -83,14 +83,14 @@ pub mod thermal {
         }
         /// The first-order error of `spot` as text: x, y and z.
         pub const SPOT_FIRST_ORDER: [&'static str; 3] = [
-            "-1/100*temperature^2*range*bend*sin(pan)*sin(tilt) - temperature*range*lean*cos(pan)*sin(tilt) - (temperature*range*drift + range*reversal*backlash)*sin(pan)*cos(tilt) - 1/2*range*sag*cos(pan)*sin(2*tilt)",
-            "1/100*temperature^2*range*bend*cos(pan)*sin(tilt) + (temperature*range*drift + range*reversal*backlash)*cos(pan)*cos(tilt) - temperature*range*lean*sin(pan)*sin(tilt) - 1/2*range*sag*sin(pan)*sin(2*tilt)",
+            "-0.01*temperature^2*range*bend*sin(pan)*sin(tilt) - temperature*range*lean*cos(pan)*sin(tilt) - (temperature*range*drift + range*reversal*backlash)*sin(pan)*cos(tilt) - 1/2*range*sag*cos(pan)*sin(2*tilt)",
+            "0.01*temperature^2*range*bend*cos(pan)*sin(tilt) + (temperature*range*drift + range*reversal*backlash)*cos(pan)*cos(tilt) - temperature*range*lean*sin(pan)*sin(tilt) - 1/2*range*sag*sin(pan)*sin(2*tilt)",
             "-temperature*range*lean*cos(tilt) + temperature*growth*column - range*sag*cos(tilt)^2",
         ];
         /// The first-order error of `spot` in LaTeX: x, y and z.
         pub const SPOT_FIRST_ORDER_LATEX: [&'static str; 3] = [
-            "-\\frac{1}{100} \\mathrm{temperature}^{2} \\mathrm{range} \\mathrm{bend} \\sin \\mathrm{pan} \\sin \\mathrm{tilt} - \\mathrm{temperature} \\mathrm{range} \\mathrm{lean} \\cos \\mathrm{pan} \\sin \\mathrm{tilt} - \\left(\\mathrm{temperature} \\mathrm{range} \\mathrm{drift} + \\mathrm{range} \\mathrm{reversal} \\mathrm{backlash}\\right) \\sin \\mathrm{pan} \\cos \\mathrm{tilt} - \\frac{1}{2} \\mathrm{range} \\mathrm{sag} \\cos \\mathrm{pan} \\sin 2 \\mathrm{tilt}",
-            "\\frac{1}{100} \\mathrm{temperature}^{2} \\mathrm{range} \\mathrm{bend} \\cos \\mathrm{pan} \\sin \\mathrm{tilt} + \\left(\\mathrm{temperature} \\mathrm{range} \\mathrm{drift} + \\mathrm{range} \\mathrm{reversal} \\mathrm{backlash}\\right) \\cos \\mathrm{pan} \\cos \\mathrm{tilt} - \\mathrm{temperature} \\mathrm{range} \\mathrm{lean} \\sin \\mathrm{pan} \\sin \\mathrm{tilt} - \\frac{1}{2} \\mathrm{range} \\mathrm{sag} \\sin \\mathrm{pan} \\sin 2 \\mathrm{tilt}",
+            "-0.01 \\mathrm{temperature}^{2} \\mathrm{range} \\mathrm{bend} \\sin \\mathrm{pan} \\sin \\mathrm{tilt} - \\mathrm{temperature} \\mathrm{range} \\mathrm{lean} \\cos \\mathrm{pan} \\sin \\mathrm{tilt} - \\left(\\mathrm{temperature} \\mathrm{range} \\mathrm{drift} + \\mathrm{range} \\mathrm{reversal} \\mathrm{backlash}\\right) \\sin \\mathrm{pan} \\cos \\mathrm{tilt} - \\frac{1}{2} \\mathrm{range} \\mathrm{sag} \\cos \\mathrm{pan} \\sin 2 \\mathrm{tilt}",
+            "0.01 \\mathrm{temperature}^{2} \\mathrm{range} \\mathrm{bend} \\cos \\mathrm{pan} \\sin \\mathrm{tilt} + \\left(\\mathrm{temperature} \\mathrm{range} \\mathrm{drift} + \\mathrm{range} \\mathrm{reversal} \\mathrm{backlash}\\right) \\cos \\mathrm{pan} \\cos \\mathrm{tilt} - \\mathrm{temperature} \\mathrm{range} \\mathrm{lean} \\sin \\mathrm{pan} \\sin \\mathrm{tilt} - \\frac{1}{2} \\mathrm{range} \\mathrm{sag} \\sin \\mathrm{pan} \\sin 2 \\mathrm{tilt}",
             "-\\mathrm{temperature} \\mathrm{range} \\mathrm{lean} \\cos \\mathrm{tilt} + \\mathrm{temperature} \\mathrm{growth} \\mathrm{column} - \\mathrm{range} \\mathrm{sag} \\cos^{2} \\mathrm{tilt}",
         ];
         /// The observable `spot`.
@@ -286,14 +286,14 @@ pub mod thermal {
         }
         /// The first-order error of `line` as text: x, y and z.
         pub const LINE_FIRST_ORDER: [&'static str; 3] = [
-            "-1/100*temperature^2*bend*sin(pan)*sin(tilt) - temperature*lean*cos(pan)*sin(tilt) - (temperature*drift + reversal*backlash)*sin(pan)*cos(tilt) - 1/2*sag*cos(pan)*sin(2*tilt)",
-            "1/100*temperature^2*bend*cos(pan)*sin(tilt) + (temperature*drift + reversal*backlash)*cos(pan)*cos(tilt) - temperature*lean*sin(pan)*sin(tilt) - 1/2*sag*sin(pan)*sin(2*tilt)",
+            "-0.01*temperature^2*bend*sin(pan)*sin(tilt) - temperature*lean*cos(pan)*sin(tilt) - (temperature*drift + reversal*backlash)*sin(pan)*cos(tilt) - 1/2*sag*cos(pan)*sin(2*tilt)",
+            "0.01*temperature^2*bend*cos(pan)*sin(tilt) + (temperature*drift + reversal*backlash)*cos(pan)*cos(tilt) - temperature*lean*sin(pan)*sin(tilt) - 1/2*sag*sin(pan)*sin(2*tilt)",
             "-temperature*lean*cos(tilt) - sag*cos(tilt)^2",
         ];
         /// The first-order error of `line` in LaTeX: x, y and z.
         pub const LINE_FIRST_ORDER_LATEX: [&'static str; 3] = [
-            "-\\frac{1}{100} \\mathrm{temperature}^{2} \\mathrm{bend} \\sin \\mathrm{pan} \\sin \\mathrm{tilt} - \\mathrm{temperature} \\mathrm{lean} \\cos \\mathrm{pan} \\sin \\mathrm{tilt} - \\left(\\mathrm{temperature} \\mathrm{drift} + \\mathrm{reversal} \\mathrm{backlash}\\right) \\sin \\mathrm{pan} \\cos \\mathrm{tilt} - \\frac{1}{2} \\mathrm{sag} \\cos \\mathrm{pan} \\sin 2 \\mathrm{tilt}",
-            "\\frac{1}{100} \\mathrm{temperature}^{2} \\mathrm{bend} \\cos \\mathrm{pan} \\sin \\mathrm{tilt} + \\left(\\mathrm{temperature} \\mathrm{drift} + \\mathrm{reversal} \\mathrm{backlash}\\right) \\cos \\mathrm{pan} \\cos \\mathrm{tilt} - \\mathrm{temperature} \\mathrm{lean} \\sin \\mathrm{pan} \\sin \\mathrm{tilt} - \\frac{1}{2} \\mathrm{sag} \\sin \\mathrm{pan} \\sin 2 \\mathrm{tilt}",
+            "-0.01 \\mathrm{temperature}^{2} \\mathrm{bend} \\sin \\mathrm{pan} \\sin \\mathrm{tilt} - \\mathrm{temperature} \\mathrm{lean} \\cos \\mathrm{pan} \\sin \\mathrm{tilt} - \\left(\\mathrm{temperature} \\mathrm{drift} + \\mathrm{reversal} \\mathrm{backlash}\\right) \\sin \\mathrm{pan} \\cos \\mathrm{tilt} - \\frac{1}{2} \\mathrm{sag} \\cos \\mathrm{pan} \\sin 2 \\mathrm{tilt}",
+            "0.01 \\mathrm{temperature}^{2} \\mathrm{bend} \\cos \\mathrm{pan} \\sin \\mathrm{tilt} + \\left(\\mathrm{temperature} \\mathrm{drift} + \\mathrm{reversal} \\mathrm{backlash}\\right) \\cos \\mathrm{pan} \\cos \\mathrm{tilt} - \\mathrm{temperature} \\mathrm{lean} \\sin \\mathrm{pan} \\sin \\mathrm{tilt} - \\frac{1}{2} \\mathrm{sag} \\sin \\mathrm{pan} \\sin 2 \\mathrm{tilt}",
             "-\\mathrm{temperature} \\mathrm{lean} \\cos \\mathrm{tilt} - \\mathrm{sag} \\cos^{2} \\mathrm{tilt}",
         ];
         /// The observable `line`.

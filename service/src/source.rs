@@ -100,7 +100,8 @@ impl Source {
         let mut lines = self.text.lines().map(str::trim_start);
         let first = lines.find(|line| !line.is_empty() && !line.starts_with('#'));
         let behind = first.and_then(|line| line.strip_prefix(INSTRUMENT));
-        let has_key = || toml::from_str(&self.text).is_ok_and(|table: toml::Table| table.contains_key(INSTRUMENT));
+        let has_key =
+            || toml::from_str(&self.text).is_ok_and(|table: toml::Table| table.contains_key(INSTRUMENT));
         behind.is_some_and(|behind| behind.trim_start().starts_with('=')) || has_key()
     }
 

@@ -383,19 +383,19 @@ impl<'t> ReadingsTable<'t> {
             let derived = self.headed.as_ref().and_then(|headed| headed.derived(*id));
             derived.is_some_and(Derived::follows_rows)
         };
-        let is_whole = self.followed.iter().any(follows);
+        let mut is_left = self.followed.iter().any(follows);
         let chunk = self.reader.read(&self.wanted, CHUNK).map_err(Refusal::of)?;
         if chunk.rows.is_empty() {
             return Ok(None);
         }
         let (mut cells, mut count) = (chunk.columns, chunk.rows.len());
-        while is_whole {
+        while is_left {
             let chunk = self.reader.read(&self.wanted, CHUNK).map_err(Refusal::of)?;
-            if chunk.rows.is_empty() {
-                break;
+            is_left = !chunk.rows.is_empty();
+            if is_left {
+                count += chunk.rows.len();
+                cells.iter_mut().zip(chunk.columns).for_each(|(all, more)| all.append(more));
             }
-            count += chunk.rows.len();
-            cells.iter_mut().zip(chunk.columns).for_each(|(all, more)| all.append(more));
         }
         Ok(Some((cells, count)))
     }

@@ -19,7 +19,7 @@ pub const VERSION: i64 = 1;
 /// An instrument file of version 1.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub(super) struct File {
+pub(super) struct Contents {
     #[serde(rename = "instrument")]
     _version: i64,
     /// The text of the declaration.
@@ -78,7 +78,7 @@ struct Version {
     instrument: Spanned<toml::Value>,
 }
 
-impl File {
+impl Contents {
     /// Reads it.
     pub fn of(source: &Source) -> Result<Self, Refusal> {
         let Version { instrument } = source.toml()?;

@@ -60,7 +60,7 @@ impl Instrument {
     /// # Errors
     /// A later version than [`VERSION`], and every mistake of its parts, with its place in the file.
     pub fn of(source: &Source, warn: Warn<'_>) -> Result<Self, Refusal> {
-        let file = file::File::of(source)?;
+        let file = file::Contents::of(source)?;
         let declaration = Source { path: source.path.clone(), text: file.chain.get_ref().clone() };
         let mut chain = declared(source, &file, &declaration)?;
         for caution in model_core::caution::cautions(&chain) {
@@ -113,7 +113,7 @@ impl Instrument {
 }
 
 /// The declaration in the file; a mistake of it is shown in the line of the file.
-fn declared(source: &Source, file: &file::File, declaration: &Source) -> Result<Chain, Refusal> {
+fn declared(source: &Source, file: &file::Contents, declaration: &Source) -> Result<Chain, Refusal> {
     Chain::from_text(&declaration.text).map_err(|mistakes| {
         let Some(within) = file.place_of_chain(source) else {
             let name = format!("chain in {}", source.path.display());
@@ -131,7 +131,7 @@ fn declared(source: &Source, file: &file::File, declaration: &Source) -> Result<
 /// How what is observed is written, source by source.
 fn corrected(
     source: &Source,
-    file: &file::File,
+    file: &file::Contents,
     headings: Option<&Headings>,
 ) -> Result<Vec<BTreeMap<String, Heading>>, Refusal> {
     let sources = headings.map_or(&[][..], |headings| &headings.sources);

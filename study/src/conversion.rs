@@ -51,19 +51,19 @@ impl Notation {
         (angle_rad.copysign(number), minutes < 60.0 && seconds < 60.0)
     }
 
-    /// The number that says an angle, rad, to a billionth of a second.
+    /// The number that says an angle, rad, to the hundred-millionth of a second that [`Self::unpack`] reads.
     #[must_use]
     pub fn pack(self, angle_rad: f64) -> f64 {
         let (unit, step) = match self {
             Self::Degrees => (PI / 180.0, 1e-4),
             Self::Hours => (PI / 12.0, 1.0),
         };
-        let seconds = (angle_rad.abs() / unit * 3600.0 * 1e9).round() / 1e9;
+        let seconds = (angle_rad.abs() / unit * 3600.0 * 1e8).round() / 1e8;
         let (large, rest) = ((seconds / 3600.0).floor(), seconds.rem_euclid(3600.0));
         let minutes = (rest / 60.0).floor();
         let packed = large * 1e4 + minutes * 100.0 + (rest - minutes * 60.0);
         // To the digits that are known, so that no binary fraction is written out.
-        let digits = 1e9 / step;
+        let digits = 1e8 / step;
         ((packed * step * digits).round() / digits).copysign(angle_rad)
     }
 }
@@ -172,7 +172,8 @@ mod tests {
             for angle_deg in [0.0, 12.582_5, -53.1, 359.999_999_999_9, 29.999_999_999_99, 1e-7] {
                 let angle_rad = f64::to_radians(angle_deg);
                 let (back, is_sexagesimal) = notation.unpack(notation.pack(angle_rad));
-                approx::assert_abs_diff_eq!(back, angle_rad, epsilon = 1e-13);
+                // Half of a hundred-millionth of a second of time.
+                approx::assert_abs_diff_eq!(back, angle_rad, epsilon = 4e-13);
                 assert!(is_sexagesimal, "{angle_deg}");
             }
         }

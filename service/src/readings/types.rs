@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use tables::formats::parquet::TextType;
-use tables::formats::{Extent, Form, Kept, Wanted};
+use tables::formats::{Form, Kept, Wanted};
 
 use super::{Reading, ReadingsTable, Use};
 use crate::refusal::Refusal;
